@@ -1,0 +1,68 @@
+/// How strongly a speed is felt.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+#include "core/wrench.h"
+
+namespace spidar {
+
+enum class ControllerKind { kLinear, kNonlinear };
+
+struct ControllerSettings {
+  ControllerKind kind = ControllerKind::kNonlinear;
+  double max_force_N = 3.0;   ///< Fmax of eq. 12 and 15
+  double alpha_s_px = 0.01;   ///< α of eq. 15, per px/s of the reference frame
+};
+
+/// Gain from speed to force. The paper's equations are one-dimensional; here they act on the speed
+/// and the direction is kept, which is the isotropic reading of them.
+class SPIDAR_API GainController {
+ public:
+  virtual ~GainController() = default;
+
+  /// Force for a speed ≥ 0 in px/s of the reference frame; 0 … max_force_N. May learn from the
+  /// speed, so call it once a frame, in the order of the frames.
+  virtual double force_N(double speed_px_s) = 0;
+
+  /// Forgets what was learnt: after a flush or a discontinuity.
+  virtual void reset() = 0;
+};
+
+/// F = k v, k = Fmax / Vmax(T), Vmax(T) the largest speed since reset() (eq. 11–13).
+class SPIDAR_API LinearController final : public GainController {
+ public:
+  explicit LinearController(double max_force_N) : max_force_N_(max_force_N) {}
+  double force_N(double speed_px_s) override;
+  void reset() override { max_speed_px_s_ = 0; }
+  /// k of eq. 12, N per px/s; 0 while nothing has moved.
+  double gain_N_s_px() const;
+
+ private:
+  double max_force_N_;
+  double max_speed_px_s_ = 0;
+};
+
+/// F = (2 Fmax / π) atan(α V) (eq. 14–15).
+class SPIDAR_API NonlinearController final : public GainController {
+ public:
+  NonlinearController(double max_force_N, double alpha_s_px)
+      : max_force_N_(max_force_N), alpha_s_px_(alpha_s_px) {}
+  double force_N(double speed_px_s) override;
+  void reset() override {}
+
+ private:
+  double max_force_N_;
+  double alpha_s_px_;
+};
+
+SPIDAR_API std::unique_ptr<GainController> make_controller(const ControllerSettings& settings);
+
+/// Force of an image velocity in the reference frame's px/s (I: y down) on the grip (D: y up).
+SPIDAR_API Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s);
+
+}  // namespace spidar

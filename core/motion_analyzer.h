@@ -1,0 +1,52 @@
+/// One frame of video in, one wrench out: the streaming thread's work.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/api.h"
+#include "core/gain_controller.h"
+#include "core/image_motion.h"
+#include "core/image_view.h"
+#include "core/tracker.h"
+#include "core/wrench.h"
+
+namespace spidar {
+
+struct AnalyzerSettings {
+  TrackerSettings tracker;
+  ControllerSettings controller;
+};
+
+/// What was found in one frame.
+struct FrameAnalysis {
+  int features = 0;     ///< points looked for in the next frame
+  ImageMotion motion;   ///< unscaled px/s of the frame given
+  Wrench wrench;        ///< what the controller wants, before any safety step
+  bool restarted = false;  ///< nothing to compare with: motion and wrench are zero
+  /// Since the frame that this one was compared with; 0 after a restart.
+  int64_t interval_ns = 0;
+};
+
+/// image → features → tracks → motion → gain controller → wrench. One thread at a time.
+class SPIDAR_API MotionAnalyzer {
+ public:
+  explicit MotionAnalyzer(const AnalyzerSettings& settings = {});
+  ~MotionAnalyzer();
+
+  /// Takes effect with the next frame; what the controller has learnt stays unless its kind changes.
+  void configure(const AnalyzerSettings& settings);
+
+  /// Frames in the order in which they are shown. A running time that does not rise restarts, for
+  /// there is no Δt to divide by.
+  FrameAnalysis analyze(const ImageView& frame, int64_t running_time_ns);
+
+  /// A flush, a seek, a discontinuity: the next frame shows no motion, the controller starts anew.
+  void restart();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,58 @@
+/// String tensions for a wanted wrench.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+#include "core/string_geometry.h"
+#include "core/wrench.h"
+
+namespace spidar {
+
+/// Minimise ½‖S(W t − f)‖² + ½ε‖t − t_ref‖² subject to t_min ≤ t ≤ t_max,
+/// with S = diag(1, 1, 1, 1/ℓ, 1/ℓ, 1/ℓ). Strictly convex, so there is exactly one solution.
+struct TensionProblem {
+  int count = kMaxStrings;  ///< strings in use, 1 … kMaxStrings; entries beyond are ignored
+  StructureMatrix W = StructureMatrix::Zero();
+  Wrench wrench;                              ///< f
+  StringVector t_min_N = StringVector::Zero();
+  StringVector t_max_N = StringVector::Zero();
+  StringVector t_ref_N = StringVector::Zero();
+  double epsilon = 1e-4;         ///< > 0
+  double torque_length_m = 0.0225;  ///< ℓ > 0
+};
+
+enum class TensionStatus {
+  kSolved,
+  kIterationLimit,  ///< tensions are within bounds but not optimal
+  kBadInput,        ///< NaN, infinity, t_min > t_max, ε or ℓ not positive, no strings
+};
+
+struct TensionResult {
+  /// Within bounds always; on bad input the lower bounds where they are finite, else zero.
+  StringVector tension_N = StringVector::Zero();
+  Wrench delivered;        ///< W t
+  double residual_N = 0;   ///< ‖S(W t − f)‖
+  /// Largest violation of the optimality conditions, relative to |Q||t| + |c|.
+  double kkt_residual = 0;
+  int iterations = 0;
+  TensionStatus status = TensionStatus::kBadInput;
+};
+
+/// Exact active-set solver, started from the strings that were at a bound the last time.
+/// No allocation, no exceptions.
+class SPIDAR_API TensionSolver {
+ public:
+  TensionResult solve(const TensionProblem& problem) noexcept;
+
+  /// Forgets the last solution.
+  void reset() noexcept { warm_ = false; }
+
+ private:
+  std::array<signed char, kMaxStrings> bound_{};  ///< −1 at t_min, 0 free, +1 at t_max
+  bool warm_ = false;
+};
+
+}  // namespace spidar

@@ -1,0 +1,66 @@
+/// Points followed from one frame to the next.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/api.h"
+#include "core/image_view.h"
+
+namespace spidar {
+
+/// Height of the reference frame: lengths in settings are pixels of a frame 480 lines high, so that
+/// one setting means the same at 360p and at 2160p.
+constexpr double kReferenceHeight_px = 480.0;
+
+struct TrackerSettings {
+  int max_features = 200;         ///< 1 … 10000 points followed at once
+  double quality_level = 0.01;    ///< Shi–Tomasi: share of the strongest corner's eigenvalue, 0 … 1
+  double min_distance_px = 10.0;  ///< between two features, in pixels of the reference frame
+
+  bool operator==(const TrackerSettings& o) const {
+    return max_features == o.max_features && quality_level == o.quality_level &&
+           min_distance_px == o.min_distance_px;
+  }
+  bool operator!=(const TrackerSettings& o) const { return !(*this == o); }
+};
+
+/// Position in the image frame I, pixels of the frame given to track(); x right, y down, the centre
+/// of the first pixel is (0, 0).
+struct ImagePoint {
+  float x_px = 0;
+  float y_px = 0;
+};
+
+/// One point seen in the frame before and in this one.
+struct Track {
+  uint32_t id = 0;  ///< the same for as long as the point is followed
+  ImagePoint from;
+  ImagePoint to;
+};
+
+struct TrackedFrame {
+  std::vector<Track> tracks;  ///< points found in both frames; empty after a restart
+  int features = 0;           ///< points that will be looked for in the next frame
+  bool restarted = false;     ///< first frame, new size, or a cut: nothing to compare with
+};
+
+/// Follows points through a sequence of frames of one size.
+class SPIDAR_API Tracker {
+ public:
+  virtual ~Tracker() = default;
+
+  /// Compares `frame` with the one given before. A frame of another size restarts the tracks, and so
+  /// does a cut, that is, a frame in which hardly any point is found again.
+  /// The result is valid until the next call.
+  virtual const TrackedFrame& track(const ImageView& frame) = 0;
+
+  /// Forgets the frame before: the next one starts anew and shows no motion.
+  virtual void restart() = 0;
+
+  /// Takes effect with the next frame.
+  virtual void configure(const TrackerSettings& settings) = 0;
+};
+
+}  // namespace spidar

@@ -1,0 +1,56 @@
+/// The seam between the haptic loop and a board: volts out, counts in.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "core/api.h"
+#include "core/string_geometry.h"
+
+namespace spidar {
+
+/// A device that cannot be opened. what() says which, why, and what to do.
+class SPIDAR_API DeviceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct MotorVolts {
+  std::array<double, kMaxStrings> volt{};  ///< signed as the D/A puts it out
+};
+
+struct DeviceReading {
+  std::array<int32_t, kMaxStrings> count{};  ///< encoder counts, signed as the board gives them
+  uint32_t inputs = 0;                       ///< digital inputs, bit 0 first
+};
+
+enum class ExchangeStatus {
+  kOk,
+  kTimeout,     ///< no answer in time; may come back
+  kBadReply,    ///< short, garbled or mismatched answer; may come back
+  kLost,        ///< unplugged or closed: open() again
+};
+
+/// One controller board with its motors. One thread at a time.
+class SPIDAR_API Device {
+ public:
+  virtual ~Device() = default;
+
+  /// Claims the board and reads it once; motors stay at zero. Throws DeviceError. After kLost or
+  /// close() it may be called again.
+  virtual void open() = 0;
+
+  /// One cycle: puts out volts, reads counts. Called at 1 kHz: no allocation, no lock, no exception.
+  /// `reading` is only written with kOk.
+  virtual ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept = 0;
+
+  /// Motors to zero, then releases the board. Safe to call twice, and after kLost.
+  virtual void close() noexcept = 0;
+
+  /// For messages: "sim", "usb:3", …
+  virtual const std::string& name() const noexcept = 0;
+};
+
+}  // namespace spidar

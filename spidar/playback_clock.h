@@ -1,0 +1,21 @@
+/// Which moment of the video is on the screen.
+#pragma once
+
+#include <cstdint>
+
+namespace spidar {
+
+/// Line through one observation: running time presented = running_ns + (t − monotonic_ns) · rate,
+/// t on CLOCK_MONOTONIC. The streaming thread refreshes it, the haptic thread reads it.
+struct PlaybackClock {
+  int64_t monotonic_ns = 0;
+  int64_t running_ns = 0;
+  double rate = 1.0;     ///< pipeline clock seconds per monotonic second, near 1
+  bool playing = false;  ///< false: preroll, paused, no clock: nothing is to be felt
+
+  int64_t running_at(int64_t t_ns) const noexcept {
+    return running_ns + static_cast<int64_t>(static_cast<double>(t_ns - monotonic_ns) * rate);
+  }
+};
+
+}  // namespace spidar

@@ -1,0 +1,53 @@
+/// A value that one thread writes and others read without ever holding each other up.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace spidar {
+
+/// Readers repeat while a write is under way; the writer never waits. Several writers need a lock of
+/// their own. Words are atomics, so there is no data race for the sanitizer to overlook (Boehm, "Can
+/// seqlocks get along with programming language memory models?", 2012).
+template <typename T>
+class Seqlock {
+  // Eigen's fixed-size types are plain memory but not formally trivially copyable.
+  static_assert(std::is_trivially_destructible_v<T>);
+  static constexpr size_t kWords = (sizeof(T) + 7) / 8;
+
+ public:
+  Seqlock() { store(T{}); }
+  explicit Seqlock(const T& value) { store(value); }
+
+  void store(const T& value) noexcept {
+    std::array<uint64_t, kWords> words{};
+    std::memcpy(words.data(), static_cast<const void*>(&value), sizeof(T));
+    const uint64_t sequence = sequence_.load(std::memory_order_relaxed);
+    sequence_.store(sequence + 1, std::memory_order_relaxed);
+    // Release: a reader that sees a new word also sees the odd number.
+    for (size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
+    sequence_.store(sequence + 2, std::memory_order_release);
+  }
+
+  T load() const noexcept {
+    std::array<uint64_t, kWords> words;
+    for (;;) {
+      const uint64_t before = sequence_.load(std::memory_order_acquire);
+      for (size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
+      if ((before & 1) == 0 && sequence_.load(std::memory_order_relaxed) == before) break;
+    }
+    T value;
+    std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
+    return value;
+  }
+
+ private:
+  std::atomic<uint64_t> sequence_{0};
+  std::array<std::atomic<uint64_t>, kWords> words_{};
+};
+
+}  // namespace spidar

@@ -1,0 +1,40 @@
+/// A queue between one thread that writes and one that reads.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+
+namespace spidar {
+
+/// Fixed size, wait-free. Holds N entries; N is a power of two.
+template <typename T, size_t N>
+class SpscRing {
+  static_assert(N > 0 && (N & (N - 1)) == 0);
+
+ public:
+  /// False when full; the entry is not taken.
+  bool push(const T& entry) noexcept {
+    const size_t tail = tail_.load(std::memory_order_relaxed);
+    if (tail - head_.load(std::memory_order_acquire) == N) return false;
+    entries_[tail & (N - 1)] = entry;
+    tail_.store(tail + 1, std::memory_order_release);
+    return true;
+  }
+
+  /// False when empty.
+  bool pop(T& entry) noexcept {
+    const size_t head = head_.load(std::memory_order_relaxed);
+    if (head == tail_.load(std::memory_order_acquire)) return false;
+    entry = entries_[head & (N - 1)];
+    head_.store(head + 1, std::memory_order_release);
+    return true;
+  }
+
+ private:
+  alignas(64) std::atomic<size_t> head_{0};
+  alignas(64) std::atomic<size_t> tail_{0};
+  std::array<T, N> entries_{};
+};
+
+}  // namespace spidar
