@@ -10,9 +10,9 @@
 
 namespace spidar {
 
-/// Readers repeat while a write is under way; the writer never waits. Several writers need a lock of
-/// their own. Words are atomics, so there is no data race for the sanitizer to overlook (Boehm, "Can
-/// seqlocks get along with programming language memory models?", 2012).
+/// Readers repeat while a write is under way; the writer never waits. Several writers need a lock
+/// of their own. Words are atomics, so there is no data race for the sanitizer to overlook (Boehm,
+/// "Can seqlocks get along with programming language memory models?", 2012).
 template <typename T>
 class Seqlock {
   // Eigen's fixed-size types are plain memory but not formally trivially copyable.
@@ -34,15 +34,21 @@ class Seqlock {
   }
 
   T load() const noexcept {
-    std::array<uint64_t, kWords> words;
-    for (;;) {
-      const uint64_t before = sequence_.load(std::memory_order_acquire);
-      for (size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
-      if ((before & 1) == 0 && sequence_.load(std::memory_order_relaxed) == before) break;
-    }
     T value;
-    std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
+    while (!try_load(value)) {
+    }
     return value;
+  }
+
+  /// For a reader that must not wait, not even for a writer that is suspended half-way: false, and
+  /// `value` as it was, while a write is under way.
+  bool try_load(T& value) const noexcept {
+    std::array<uint64_t, kWords> words;
+    const uint64_t before = sequence_.load(std::memory_order_acquire);
+    for (size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
+    if ((before & 1) != 0 || sequence_.load(std::memory_order_relaxed) != before) return false;
+    std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
+    return true;
   }
 
  private:
