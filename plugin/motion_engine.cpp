@@ -172,6 +172,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
 
   const ImageView luma = luma_.view(frame);
   if (!luma.data) {
+    restart();
     report.problem = FrameProblem::kNotShown;
     return report;
   }
