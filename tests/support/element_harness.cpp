@@ -7,6 +7,8 @@ namespace spidar::test {
 
 void init_gstreamer() {
   static const bool done = [] {
+    // So that a test can be run by hand, too.
+    g_setenv("SPIDAR_PROFILE_PATH", SPIDAR_SOURCE_PROFILES, FALSE);
     gst_init(nullptr, nullptr);
     return GST_ELEMENT_REGISTER(spidarmotion, nullptr) != FALSE;
   }();
