@@ -11,7 +11,9 @@ namespace spidar::test {
 
 constexpr int64_t kMs = 1'000'000;
 
-inline Wrench push_right(double force_N) { return {{force_N, 0, 0}, {0, 0, 0}}; }
+inline Wrench push_right(double force_N) {
+  return {{force_N, 0, 0}, {0, 0, 0}};
+}
 
 struct LoopDriver {
   explicit LoopDriver(const SafetyLimits& limits = {})

@@ -1,10 +1,10 @@
-#include "spidar/safety.h"
-
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "spidar/safety.h"
 
 namespace spidar {
 namespace {
@@ -15,7 +15,9 @@ constexpr double kTick_s = 1e-3;
 // A length scaled to its limit is exact up to the roundings of norm, quotient and products.
 constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
 
-Wrench force(double x, double y, double z) { return {{x, y, z}, {0, 0, 0}}; }
+Wrench force(double x, double y, double z) {
+  return {{x, y, z}, {0, 0, 0}};
+}
 
 Profile two_strings() {
   Profile profile;
@@ -28,7 +30,8 @@ Profile two_strings() {
 
 TEST(FiniteCheck, PassesWhatIsFinite) {
   FiniteCheck check;
-  EXPECT_EQ(check.apply({{1, 2, 3}, {4, 5, 6}}).stacked(), (Wrench{{1, 2, 3}, {4, 5, 6}}.stacked()));
+  EXPECT_EQ(check.apply({{1, 2, 3}, {4, 5, 6}}).stacked(),
+            (Wrench{{1, 2, 3}, {4, 5, 6}}.stacked()));
   EXPECT_EQ(check.rejected(), 0u);
 }
 
