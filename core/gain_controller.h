@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string_view>
 
 #include <Eigen/Core>
 
@@ -15,8 +14,8 @@ enum class ControllerKind { kLinear, kNonlinear };
 
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::kNonlinear;
-  double max_force_N = 3.0;   ///< Fmax of eq. 12 and 15
-  double alpha_s_px = 0.01;   ///< α of eq. 15, per px/s of the reference frame
+  double max_force_N = 3.0;  ///< Fmax of eq. 12 and 15, finite and ≥ 0
+  double alpha_s_px = 0.01;  ///< α of eq. 15, per px/s of the reference frame, finite and ≥ 0
 };
 
 /// Gain from speed to force. The paper's equations are one-dimensional; here they act on the speed
@@ -29,15 +28,21 @@ class SPIDAR_API GainController {
   /// speed, so call it once a frame, in the order of the frames.
   virtual double force_N(double speed_px_s) = 0;
 
-  /// Forgets what was learnt: after a flush or a discontinuity.
+  /// Other limits from now on; what was learnt stays. `settings.kind` does not matter here.
+  virtual void configure(const ControllerSettings& settings) = 0;
+
+  /// Forgets what was learnt: after a flush or a discontinuity of the stream.
   virtual void reset() = 0;
 };
 
-/// F = k v, k = Fmax / Vmax(T), Vmax(T) the largest speed since reset() (eq. 11–13).
+/// F = k v, k = Fmax / Vmax(T), Vmax(T) the largest speed since reset() (eq. 11–13): k never rises.
 class SPIDAR_API LinearController final : public GainController {
  public:
   explicit LinearController(double max_force_N) : max_force_N_(max_force_N) {}
   double force_N(double speed_px_s) override;
+  void configure(const ControllerSettings& settings) override {
+    max_force_N_ = settings.max_force_N;
+  }
   void reset() override { max_speed_px_s_ = 0; }
   /// k of eq. 12, N per px/s; 0 while nothing has moved.
   double gain_N_s_px() const;
@@ -53,6 +58,10 @@ class SPIDAR_API NonlinearController final : public GainController {
   NonlinearController(double max_force_N, double alpha_s_px)
       : max_force_N_(max_force_N), alpha_s_px_(alpha_s_px) {}
   double force_N(double speed_px_s) override;
+  void configure(const ControllerSettings& settings) override {
+    max_force_N_ = settings.max_force_N;
+    alpha_s_px_ = settings.alpha_s_px;
+  }
   void reset() override {}
 
  private:
@@ -60,6 +69,10 @@ class SPIDAR_API NonlinearController final : public GainController {
   double alpha_s_px_;
 };
 
+/// Throws std::invalid_argument when a value is out of the range given in ControllerSettings.
+SPIDAR_API void validate(const ControllerSettings& settings);
+
+/// The controller of `settings.kind`. Throws as validate() does.
 SPIDAR_API std::unique_ptr<GainController> make_controller(const ControllerSettings& settings);
 
 /// Force of an image velocity in the reference frame's px/s (I: y down) on the grip (D: y up).

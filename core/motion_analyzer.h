@@ -20,9 +20,9 @@ struct AnalyzerSettings {
 
 /// What was found in one frame.
 struct FrameAnalysis {
-  int features = 0;     ///< points looked for in the next frame
-  ImageMotion motion;   ///< unscaled px/s of the frame given
-  Wrench wrench;        ///< what the controller wants, before any safety step
+  int features = 0;        ///< points looked for in the next frame
+  ImageMotion motion;      ///< unscaled px/s of the frame given
+  Wrench wrench;           ///< what the controller wants, before any safety step
   bool restarted = false;  ///< nothing to compare with: motion and wrench are zero
   /// Since the frame that this one was compared with; 0 after a restart.
   int64_t interval_ns = 0;
@@ -31,14 +31,19 @@ struct FrameAnalysis {
 /// image → features → tracks → motion → gain controller → wrench. One thread at a time.
 class SPIDAR_API MotionAnalyzer {
  public:
+  /// Throws std::invalid_argument when a setting is out of range, as configure() does.
   explicit MotionAnalyzer(const AnalyzerSettings& settings = {});
   ~MotionAnalyzer();
 
-  /// Takes effect with the next frame; what the controller has learnt stays unless its kind changes.
+  /// Takes effect with the next frame; what the controller has learnt stays unless its kind
+  /// changes. Throws std::invalid_argument when a setting is out of range, and then changes
+  /// nothing.
   void configure(const AnalyzerSettings& settings);
 
   /// Frames in the order in which they are shown. A running time that does not rise restarts, for
-  /// there is no Δt to divide by.
+  /// there is no Δt to divide by. A cut in the picture or a new size restarts the tracks only: the
+  /// largest speed of eq. 13 is one over the whole video, whatever its scenes.
+  /// Throws std::invalid_argument for a frame that Tracker::track() refuses.
   FrameAnalysis analyze(const ImageView& frame, int64_t running_time_ns);
 
   /// A flush, a seek, a discontinuity: the next frame shows no motion, the controller starts anew.

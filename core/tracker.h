@@ -15,9 +15,10 @@ namespace spidar {
 constexpr double kReferenceHeight_px = 480.0;
 
 struct TrackerSettings {
-  int max_features = 200;         ///< 1 … 10000 points followed at once
-  double quality_level = 0.01;    ///< Shi–Tomasi: share of the strongest corner's eigenvalue, 0 … 1
-  double min_distance_px = 10.0;  ///< between two features, in pixels of the reference frame
+  int max_features = 200;       ///< 1 … 10000 points followed at once
+  double quality_level = 0.01;  ///< Shi–Tomasi: share of the strongest corner's eigenvalue, 0 … 1
+  /// Between two features when they are selected, in pixels of the reference frame; finite and ≥ 0.
+  double min_distance_px = 10.0;
 
   bool operator==(const TrackerSettings& o) const {
     return max_features == o.max_features && quality_level == o.quality_level &&
@@ -25,6 +26,9 @@ struct TrackerSettings {
   }
   bool operator!=(const TrackerSettings& o) const { return !(*this == o); }
 };
+
+/// Throws std::invalid_argument when a value is out of the range given in TrackerSettings.
+SPIDAR_API void validate(const TrackerSettings& settings);
 
 /// Position in the image frame I, pixels of the frame given to track(); x right, y down, the centre
 /// of the first pixel is (0, 0).
@@ -51,15 +55,16 @@ class SPIDAR_API Tracker {
  public:
   virtual ~Tracker() = default;
 
-  /// Compares `frame` with the one given before. A frame of another size restarts the tracks, and so
-  /// does a cut, that is, a frame in which hardly any point is found again.
-  /// The result is valid until the next call.
+  /// Compares `frame` with the one given before. A frame of another size restarts the tracks, and
+  /// so does a cut, that is, a frame in which hardly any point is found again. The result is valid
+  /// until the next call. Throws std::invalid_argument when the frame has no pixels, less than 16 a
+  /// side, or a stride below its width.
   virtual const TrackedFrame& track(const ImageView& frame) = 0;
 
   /// Forgets the frame before: the next one starts anew and shows no motion.
   virtual void restart() = 0;
 
-  /// Takes effect with the next frame.
+  /// Takes effect with the next frame. Throws as validate() does, and then changes nothing.
   virtual void configure(const TrackerSettings& settings) = 0;
 };
 

@@ -1,0 +1,31 @@
+/// A small picture to look for motion in.
+#pragma once
+
+#include "core/image_view.h"
+
+namespace cv {
+class Mat;
+}
+
+namespace spidar {
+
+/// Width and height that the tracker accepts at least, px.
+constexpr int kMinSide_px = 16;
+
+/// Whole number of frame pixels to one pixel of the reduced picture, so that its longer side is
+/// about 480 px: motion is found as well as at full size in a fraction of the time. At least 1, and
+/// small enough to leave kMinSide_px of the shorter side.
+int reduction_factor(int width, int height);
+
+/// Mean of each factor × factor block. Columns and rows at the right and bottom that do not fill a
+/// block are left out, so that the scale is exactly `factor`. With factor 1 `reduced` refers to the
+/// memory of `frame`.
+void reduce_luma(const ImageView& frame, int factor, cv::Mat& reduced);
+
+/// Coordinate in the frame of a coordinate in the reduced picture. Both count from the centre of
+/// the first pixel, which is why the scale alone is not enough.
+inline float to_frame_px(float reduced_px, int factor) {
+  return (reduced_px + 0.5f) * static_cast<float>(factor) - 0.5f;
+}
+
+}  // namespace spidar

@@ -1,0 +1,60 @@
+#include "core/motion_analyzer.h"
+
+#include <optional>
+
+#include "core/opencv_tracker.h"
+
+namespace spidar {
+
+struct MotionAnalyzer::Impl {
+  explicit Impl(const AnalyzerSettings& given)
+      : settings(given), tracker(given.tracker), controller(make_controller(given.controller)) {}
+
+  AnalyzerSettings settings;
+  OpenCvTracker tracker;
+  std::unique_ptr<GainController> controller;
+  std::optional<int64_t> last_running_time_ns;
+};
+
+MotionAnalyzer::MotionAnalyzer(const AnalyzerSettings& settings)
+    : impl_(std::make_unique<Impl>(settings)) {}
+
+MotionAnalyzer::~MotionAnalyzer() = default;
+
+void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
+  validate(settings.tracker);
+  validate(settings.controller);
+  impl_->tracker.configure(settings.tracker);
+  if (settings.controller.kind == impl_->settings.controller.kind) {
+    impl_->controller->configure(settings.controller);
+  } else {
+    impl_->controller = make_controller(settings.controller);
+  }
+  impl_->settings = settings;
+}
+
+FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_time_ns) {
+  if (impl_->last_running_time_ns && running_time_ns <= *impl_->last_running_time_ns) restart();
+  const std::optional<int64_t> last_ns = impl_->last_running_time_ns;
+  const TrackedFrame& tracked = impl_->tracker.track(frame);
+  impl_->last_running_time_ns = running_time_ns;
+
+  FrameAnalysis analysis;
+  analysis.features = tracked.features;
+  analysis.restarted = tracked.restarted || !last_ns;
+  if (analysis.restarted) return analysis;
+
+  analysis.interval_ns = running_time_ns - *last_ns;
+  analysis.motion = mean_motion(tracked.tracks, analysis.interval_ns);
+  const double to_reference = kReferenceHeight_px / frame.height;
+  analysis.wrench = render_motion(*impl_->controller, to_reference * analysis.motion.velocity_px_s);
+  return analysis;
+}
+
+void MotionAnalyzer::restart() {
+  impl_->tracker.restart();
+  impl_->controller->reset();
+  impl_->last_running_time_ns.reset();
+}
+
+}  // namespace spidar

@@ -1,0 +1,167 @@
+#include "core/opencv_tracker.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <opencv2/core.hpp>
+
+#include "core/luma_reduce.h"
+#include "core/point_flow.h"
+#include "core/point_selection.h"
+#include "core/serial_opencv.h"
+
+namespace spidar {
+namespace {
+
+/// New points are selected when fewer than this share of those selected last are left …
+constexpr double kThinnedOut = 0.7;
+/// … and after this many frames in any case: something may have entered.
+constexpr int kSelectionInterval = 5;
+
+/// A cut: at least kMinForCut points were looked for and fewer than this share was found. With few
+/// points it is rather a small object that was lost.
+constexpr double kFoundAfterCut = 0.1;
+constexpr size_t kMinForCut = 10;
+
+void require_usable(const ImageView& frame) {
+  if (frame.data && frame.width >= kMinSide_px && frame.height >= kMinSide_px &&
+      frame.stride_bytes >= frame.width) {
+    return;
+  }
+  throw std::invalid_argument(
+      "a frame needs data, at least " + std::to_string(kMinSide_px) + "x" +
+      std::to_string(kMinSide_px) + " pixels and a stride of at least its width; got " +
+      (frame.data ? "" : "no data, ") + std::to_string(frame.width) + "x" +
+      std::to_string(frame.height) + " with stride " + std::to_string(frame.stride_bytes));
+}
+
+}  // namespace
+
+void validate(const TrackerSettings& settings) {
+  constexpr int kMostFeatures = 10000;
+  if (settings.max_features < 1 || settings.max_features > kMostFeatures) {
+    throw std::invalid_argument("max_features must be 1 to " + std::to_string(kMostFeatures) +
+                                ", got " + std::to_string(settings.max_features));
+  }
+  if (!(settings.quality_level >= 0 && settings.quality_level <= 1)) {
+    throw std::invalid_argument("quality_level must be 0 to 1, got " +
+                                std::to_string(settings.quality_level));
+  }
+  if (!std::isfinite(settings.min_distance_px) || settings.min_distance_px < 0) {
+    throw std::invalid_argument("min_distance_px must be finite and not negative, got " +
+                                std::to_string(settings.min_distance_px));
+  }
+}
+
+struct OpenCvTracker::Impl {
+  TrackerSettings settings;
+  bool settings_changed = false;
+
+  int width = 0;  // of the frame before; 0: there is none
+  int height = 0;
+  cv::Mat reduced;
+  FlowPyramid before;
+  FlowPyramid now;
+  std::vector<Feature> features;  // in the reduced picture
+  uint32_t next_id = 0;
+  size_t selected = 0;  // points after the last selection
+  int frames_since_selection = 0;
+
+  TrackedFrame result;
+
+  void track(const ImageView& frame);
+  bool follow(int factor);
+  bool selection_is_due() const;
+  void select(int factor);
+};
+
+void OpenCvTracker::Impl::track(const ImageView& frame) {
+  const int factor = reduction_factor(frame.width, frame.height);
+  const bool comparable = frame.width == width && frame.height == height;
+  if (!comparable) features.clear();
+  width = frame.width;
+  height = frame.height;
+
+  std::swap(before, now);
+  reduce_luma(frame, factor, reduced);
+  build_pyramid(reduced, now);
+
+  result.tracks.clear();
+  result.restarted = !comparable || !follow(factor);
+  ++frames_since_selection;
+  if (result.restarted || settings_changed || selection_is_due()) select(factor);
+  result.features = static_cast<int>(features.size());
+}
+
+/// Moves the features to the new picture and drops what is lost. False at a cut.
+bool OpenCvTracker::Impl::follow(int factor) {
+  std::vector<ImagePoint> from;
+  for (const Feature& feature : features) from.push_back(feature.at);
+  std::vector<ImagePoint> to;
+  std::vector<bool> found;
+  follow_points(before, now, from, to, found);
+
+  const auto in_frame = [factor](const ImagePoint& p) {
+    return ImagePoint{to_frame_px(p.x_px, factor), to_frame_px(p.y_px, factor)};
+  };
+  const size_t looked_for = features.size();
+  size_t kept = 0;
+  for (size_t i = 0; i < looked_for; ++i) {
+    if (!found[i]) continue;
+    result.tracks.push_back({features[i].id, in_frame(from[i]), in_frame(to[i])});
+    features[kept++] = {features[i].id, to[i]};
+  }
+  features.resize(kept);
+
+  const bool cut = looked_for >= kMinForCut &&
+                   static_cast<double>(kept) < kFoundAfterCut * static_cast<double>(looked_for);
+  if (cut) {
+    result.tracks.clear();
+    features.clear();
+  }
+  return !cut;
+}
+
+bool OpenCvTracker::Impl::selection_is_due() const {
+  return static_cast<double>(features.size()) < kThinnedOut * static_cast<double>(selected) ||
+         frames_since_selection >= kSelectionInterval;
+}
+
+void OpenCvTracker::Impl::select(int factor) {
+  SelectionSettings selection;
+  selection.max_features = settings.max_features;
+  selection.quality_level = settings.quality_level;
+  selection.min_distance_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
+  select_features(now[0], selection, features, next_id);
+  selected = features.size();
+  frames_since_selection = 0;
+  settings_changed = false;
+}
+
+OpenCvTracker::OpenCvTracker(const TrackerSettings& settings) : impl_(std::make_unique<Impl>()) {
+  configure(settings);
+}
+
+OpenCvTracker::~OpenCvTracker() = default;
+
+const TrackedFrame& OpenCvTracker::track(const ImageView& frame) {
+  require_usable(frame);
+  run_on_this_thread([&] { impl_->track(frame); });
+  return impl_->result;
+}
+
+void OpenCvTracker::restart() {
+  impl_->width = 0;
+  impl_->height = 0;
+}
+
+void OpenCvTracker::configure(const TrackerSettings& settings) {
+  validate(settings);
+  if (settings == impl_->settings) return;
+  impl_->settings = settings;
+  impl_->settings_changed = true;
+}
+
+}  // namespace spidar
