@@ -157,6 +157,9 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   record.found = result.found;
   record.frame_ns = result.frame_time_ns;
   record.wanted = result.wrench;
+  if (result.found == Found::kNothing || result.frame_time_ns == reached_ns_) return;
+  reached_ns_ = result.frame_time_ns;
+  skew_.add(record.running_ns - reached_ns_);
 }
 
 void HapticLoop::command(TickRecord& record, double dt_s) noexcept {

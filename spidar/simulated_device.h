@@ -18,19 +18,19 @@ namespace spidar {
 /// Rigid grip on strings, held by a hand. The hand carries the grip's weight.
 struct GripModel {
   double mass_kg = 0.10;
-  double inertia_kg_m2 = 4e-5;             ///< solid sphere of that mass and 32 mm radius
-  double hand_stiffness_N_m = 300.0;       ///< relaxed grasp
+  double inertia_kg_m2 = 4e-5;        ///< solid sphere of that mass and 32 mm radius
+  double hand_stiffness_N_m = 300.0;  ///< relaxed grasp
   double hand_damping_N_s_m = 8.0;
   double hand_stiffness_Nm_rad = 1.5;
   double hand_damping_Nm_s_rad = 0.02;
-  double motor_time_constant_s = 0.002;    ///< first-order lag from volts to tension
+  double motor_time_constant_s = 0.002;  ///< first-order lag from volts to tension
 };
 
 /// What the hand and the motors really got.
 struct FeltState {
-  int64_t time_ns = 0;        ///< simulated time since open()
+  int64_t time_ns = 0;  ///< simulated time since open()
   StringVector tension_N = StringVector::Zero();
-  Wrench wrench;              ///< of the strings on the grip
+  Wrench wrench;  ///< of the strings on the grip
   Pose pose;
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
 };
