@@ -30,13 +30,18 @@ struct StringDrive {
 };
 
 /// How sure a number is.
-enum class Evidence { kPublished, kInferred };
+enum class Evidence {
+  kPublished,     ///< read in the source
+  kInferred,      ///< derived or plausible; check on the unit
+  kContradicted,  ///< read in the source, and another source says something else
+};
 
 /// Where a group of numbers comes from.
 struct Provenance {
   std::string field;   ///< e.g. "geometry", "newtons_per_volt"
-  std::string source;  ///< e.g. "Springhead 1, HISpidarG6C.cpp"
+  std::string source;  ///< e.g. "haselab-net/SpringheadOne src/HIS/HISpidarG6C.cpp"
   Evidence evidence = Evidence::kPublished;
+  std::string note;  ///< how it was derived, or what contradicts it; may be empty
 };
 
 struct Profile {
@@ -49,8 +54,8 @@ struct Profile {
   double dac_max_V = 10.0;                        ///< D/A range is 0 … this, times motor_sign
   std::vector<Provenance> provenance;
 
-  StringVector min_tension_N() const;
-  StringVector max_tension_N() const;
+  SPIDAR_API StringVector min_tension_N() const;
+  SPIDAR_API StringVector max_tension_N() const;
 };
 
 /// `name_or_path`: a name as of list_profiles(), or a path (has a '/' or ends in .toml).
