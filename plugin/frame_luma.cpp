@@ -71,7 +71,7 @@ ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
 
 ImageView FrameLuma::view(const GstVideoFrame& frame) {
   const Rectangle shown = visible(frame);
-  if (shown.width <= 0 || shown.height <= 0) return {};
+  if (shown.width < kSmallestSide || shown.height < kSmallestSide) return {};
   const ptrdiff_t stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
   const uint8_t* data = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)) +
                         shown.y * stride + shown.x * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, 0);

@@ -19,8 +19,11 @@ namespace spidar {
 /// are two moments.
 class FrameLuma {
  public:
+  /// In pixels; the caps allow no less, a crop may leave less.
+  static constexpr int kSmallestSide = 16;
+
   /// The view is valid until the next call and for as long as the frame is mapped. Empty (no data)
-  /// when the crop leaves nothing.
+  /// when the crop leaves too little.
   ImageView view(const GstVideoFrame& frame);
 
  private:

@@ -91,6 +91,16 @@ void MotionEngine::flush() {
   if (session_) session_->loop().cancel_scheduled();
 }
 
+void MotionEngine::expect_base_time() {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (follower_) follower_->expect_base_time();
+}
+
+void MotionEngine::refresh_clock() {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (follower_) follower_->refresh();
+}
+
 GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
@@ -172,6 +182,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
 
   const ImageView luma = luma_.view(frame);
   if (!luma.data) {
+    restart();
     report.problem = FrameProblem::kNotShown;
     return report;
   }

@@ -63,6 +63,10 @@ class MotionEngine {
   void set_offset(GstClockTimeDiff offset_ns);
   /// What was scheduled is forgotten at once.
   void flush();
+  /// The pipeline will distribute a new base time: nothing is on the screen until then.
+  void expect_base_time();
+  /// Looks at the pipeline's clock now; a thread does that by itself.
+  void refresh_clock();
   GstStructure* stats() const;
   /// Null with device=none or while closed.
   HapticSession* session() const { return session_.get(); }

@@ -43,6 +43,12 @@ void PlaybackFollower::set_offset(GstClockTimeDiff offset_ns) {
   refresh_locked();
 }
 
+void PlaybackFollower::expect_base_time() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sync_.expect_base_time(element_);
+  refresh_locked();
+}
+
 void PlaybackFollower::refresh() {
   const std::lock_guard<std::mutex> lock(mutex_);
   refresh_locked();

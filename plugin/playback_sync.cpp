@@ -43,6 +43,12 @@ void PlaybackSync::fit() {
               static_cast<int64_t>(std::llround(static_cast<double>(since_base_ns) * rate));
 }
 
+void PlaybackSync::expect_base_time(GstElement* element) {
+  constexpr int64_t kPatience_ns = 3'000'000'000;
+  outdated_base_time_ = gst_element_get_base_time(element);
+  outdated_until_ns_ = now_(now_user_) + kPatience_ns;
+}
+
 PlaybackClock PlaybackSync::observe(GstElement* element) {
   PlaybackClock result;
   const GstClockTime base_time = gst_element_get_base_time(element);
@@ -52,6 +58,11 @@ PlaybackClock PlaybackSync::observe(GstElement* element) {
     return result;  // not playing: nothing is to be felt
   }
   const int64_t before_ns = now_(now_user_);
+  if (base_time == outdated_base_time_ && before_ns < outdated_until_ns_) {
+    gst_object_unref(clock);
+    return result;
+  }
+  outdated_base_time_ = GST_CLOCK_TIME_NONE;
   const GstClockTime time = gst_clock_get_time(clock);
   const int64_t after_ns = now_(now_user_);
   gst_object_unref(clock);

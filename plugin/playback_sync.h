@@ -23,17 +23,17 @@ class PlaybackSync {
   /// `now` reads CLOCK_MONOTONIC in nanoseconds, or a test's idea of it.
   PlaybackSync(Now now, void* user) : now_(now), now_user_(user) {}
 
-  void set_now(Now now, void* user) {
-    now_ = now;
-    now_user_ = user;
-    forget();
-  }
-
   /// Between PAUSED→PLAYING and PLAYING→PAUSED.
   void set_playing(bool playing) {
     playing_ = playing;
+    outdated_base_time_ = GST_CLOCK_TIME_NONE;
     forget();
   }
+
+  /// Running time has begun anew (flushing seek): the element's base time is outdated until the
+  /// pipeline has prerolled and distributes another one. Until then nothing is on the screen. A sink
+  /// that does not preroll keeps its base time: after three seconds so does this.
+  void expect_base_time(GstElement* element);
 
   /// Pipeline latency, from the LATENCY event.
   void set_latency(GstClockTime latency) { latency_ns_ = to_ns(latency); }
@@ -60,6 +60,8 @@ class PlaybackSync {
   Now now_;
   void* now_user_;
   bool playing_ = false;
+  GstClockTime outdated_base_time_ = GST_CLOCK_TIME_NONE;
+  int64_t outdated_until_ns_ = 0;
   int64_t latency_ns_ = 0;
   int64_t offset_ns_ = 0;
 

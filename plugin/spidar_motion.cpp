@@ -216,11 +216,15 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     case GST_EVENT_FLUSH_START:
       engine.flush();
       break;
-    case GST_EVENT_FLUSH_STOP:
+    case GST_EVENT_FLUSH_STOP: {
+      gboolean reset_time;
+      gst_event_parse_flush_stop(event, &reset_time);
       // Again: a frame may have been on its way through when the flush began.
       engine.flush();
       engine.restart_timing();
+      if (reset_time) engine.expect_base_time();
       break;
+    }
     case GST_EVENT_STREAM_START:
       self->warned = 0;
       break;
@@ -301,7 +305,6 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
 
   switch (transition) {
     case GST_STATE_CHANGE_PAUSED_TO_PLAYING:
-    case GST_STATE_CHANGE_PLAYING_TO_PLAYING:  // a new base time, as after a seek
       if (result != GST_STATE_CHANGE_FAILURE) engine.set_playing(true);
       break;
     case GST_STATE_CHANGE_READY_TO_NULL:

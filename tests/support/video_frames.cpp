@@ -1,15 +1,38 @@
 #include "tests/support/video_frames.h"
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 namespace spidar::test {
 
+namespace {
+
+/// Pseudo-random 0 … 1 for a lattice point.
+double lattice(int x, int y) {
+  uint32_t h = static_cast<uint32_t>(x) * 0x9E3779B1u ^ static_cast<uint32_t>(y) * 0x85EBCA77u;
+  h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
+  h = (h ^ (h >> 12)) * 0x297A2D39u;
+  return static_cast<double>(h ^ (h >> 15)) / 4294967295.0;
+}
+
+/// Value noise: the lattice, smoothly interpolated. Continuous with its first derivative.
+double noise(double x, double y) {
+  const double fx = std::floor(x), fy = std::floor(y);
+  const auto fade = [](double t) { return t * t * (3 - 2 * t); };
+  const double u = fade(x - fx), v = fade(y - fy);
+  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+  const double top = (1 - u) * lattice(ix, iy) + u * lattice(ix + 1, iy);
+  const double bottom = (1 - u) * lattice(ix, iy + 1) + u * lattice(ix + 1, iy + 1);
+  return (1 - v) * top + v * bottom;
+}
+
+}  // namespace
+
 unsigned char texture(double x, double y) {
-  // Waves of incommensurate lengths in several directions: corners everywhere, no period in sight.
-  const double v = std::sin(0.31 * x + 0.17 * y) + std::sin(-0.13 * x + 0.37 * y) +
-                   std::sin(0.23 * x - 0.29 * y + 1.0) + std::sin(0.041 * x + 0.057 * y + 2.0);
-  return static_cast<unsigned char>(std::lround(127.5 + 97.5 * v / 4.0));
+  // Two sizes of detail and no period: what looks alike is the same place.
+  const double value = 0.5 * noise(x / 7.0, y / 7.0) + 0.5 * noise(x / 19.0 + 50, y / 19.0);
+  return static_cast<unsigned char>(std::lround(30 + 195 * value));
 }
 
 GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0_extra_stride) {

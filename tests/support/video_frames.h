@@ -5,8 +5,7 @@
 
 namespace spidar::test {
 
-/// Smooth texture, sampled at (x − dx, y − dy): the picture has moved by (dx, dy) pixels.
-/// Grey level 30 … 225.
+/// Smooth texture without a period, grey level 30 … 225.
 unsigned char texture(double x, double y);
 
 /// A buffer of `info` that shows texture() moved by (dx, dy). Packed RGB is grey; chroma is
