@@ -148,8 +148,7 @@ int play(const Options& options) {
 
   if (record.numbers().frames == 0) {
     gst_structure_free(stats);
-    if (ending != Ending::kEndOfVideo) return 1;
-    throw std::runtime_error(title + ": not one frame of it reached spidarmotion");
+    throw std::runtime_error(title + ": not one frame was played");
   }
   if (ending == Ending::kInterrupted) std::printf("stopped by the user\n");
   print_report(record.numbers(), stats);
@@ -165,6 +164,7 @@ int play(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with the errors, in a file too
   gst_init(nullptr, nullptr);
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <unistd.h>
 
@@ -37,7 +38,9 @@ void report_error(const Playback& playback, GstMessage* message) {
   gst_message_parse_error(message, &error, &debug);
   playback.clear_line();
   std::fprintf(stderr, "error: %s: %s\n", GST_OBJECT_NAME(message->src), error->message);
-  if (debug != nullptr) std::fprintf(stderr, "  %s\n", debug);
+  // Behind the place in the source that GStreamer's first line names there may be a reason.
+  const char* const reason = debug != nullptr ? std::strchr(debug, '\n') : nullptr;
+  if (reason != nullptr) std::fprintf(stderr, "  %s\n", reason + 1);
   g_error_free(error);
   g_free(debug);
 }

@@ -60,9 +60,10 @@ void set_property(GstElement* element, const std::string& assignment) {
 
   GParamSpec* const pspec = g_object_class_find_property(G_OBJECT_GET_CLASS(element), name.c_str());
   if (pspec == nullptr || !(pspec->flags & G_PARAM_WRITABLE)) {
-    throw std::invalid_argument(std::string(G_OBJECT_TYPE_NAME(element)) +
-                                (pspec == nullptr ? " has no property '" : " only reads '") + name +
-                                "'; it has " + own_properties(element));
+    throw std::invalid_argument(
+        GST_OBJECT_NAME(gst_element_get_factory(element)) +
+        std::string(pspec == nullptr ? " has no property '" : " has only for reading '") + name +
+        "'; it has " + own_properties(element));
   }
 
   if (pspec->value_type == G_TYPE_STRING) {

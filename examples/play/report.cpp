@@ -37,11 +37,31 @@ double number_of(const GstStructure* stats, const char* name) {
   return value;
 }
 
-gboolean print_field(GQuark name, const GValue* value, void*) {
-  char* const text =
-      G_VALUE_HOLDS_STRING(value) ? g_value_dup_string(value) : g_strdup_value_contents(value);
-  std::printf("  %s %s\n", g_quark_to_string(name), text);
-  g_free(text);
+std::string to_text(const GValue* value) {
+  if (G_VALUE_HOLDS_STRING(value)) return g_value_get_string(value);
+  char text[32];
+  if (G_VALUE_HOLDS_DOUBLE(value)) {
+    std::snprintf(text, sizeof(text), "%.4g", g_value_get_double(value));
+    return text;
+  }
+  char* const serialized = gst_value_serialize(value);
+  const std::string result = serialized;
+  g_free(serialized);
+  return result;
+}
+
+/// Continues a paragraph of "name value" pairs; `column` is where it stands.
+gboolean print_field(GQuark name, const GValue* value, void* column) {
+  const std::string pair = std::string(g_quark_to_string(name)) + " " + to_text(value);
+  auto& at = *static_cast<size_t*>(column);
+  constexpr size_t kWidth = 78;
+  const char* separator = at == 0 ? "" : ", ";
+  if (at + 2 + pair.size() > kWidth) {
+    separator = ",\n";
+    at = 0;
+  }
+  std::printf("%s%s", separator, pair.c_str());
+  at += 2 + pair.size();
   return TRUE;
 }
 
@@ -64,20 +84,24 @@ void print_report(const SessionRecord::Numbers& numbers, const GstStructure* sta
   print_row("analysis, ms a frame", number_of(stats, "analysis-ms-median"),
             number_of(stats, "analysis-ms-p95"), NAN, NAN, number_of(stats, "analysis-ms-max"));
   print_row("loop wakes up late, ms", numbers.lateness_ms);
-  print_row("force - picture, ms", numbers.skew.signed_ms().quantile(0.5), NAN, NAN, NAN, NAN);
-  print_row("|force - picture|, ms", numbers.skew.size_ms());
+  print_row("force - picture, ms", numbers.skew.signed_ms());
+  print_row("  without its sign", numbers.skew.size_ms());
 
   if (numbers.ticks > 0) {
     std::printf(
-        "\nForce above %.2f N, which a hand feels: %.1f %% of the time\n", kFelt_N,
+        "\nForce above %.2f N, which a hand feels: %.1f %% of the time.\n", kFelt_N,
         100.0 * static_cast<double>(numbers.felt_ticks) / static_cast<double>(numbers.ticks));
   }
-  std::printf("Force - picture: from %.3f to %+.3f ms over %" PRIu64
-              " frames; positive when the force is later\n",
-              numbers.skew.signed_ms().min(), numbers.skew.signed_ms().max(),
-              numbers.skew.signed_ms().count());
-  std::printf("Statistics of the element:\n");
-  gst_structure_foreach(stats, print_field, nullptr);
+  const Histogram& skew_ms = numbers.skew.signed_ms();
+  if (skew_ms.count() > 0) {
+    std::printf("Force - picture: %+.3f to %+.3f ms over %" PRIu64
+                " frames; positive when the force is later.\n",
+                skew_ms.min(), skew_ms.max(), skew_ms.count());
+  }
+  std::printf("\nThe element says:\n");
+  size_t column = 0;
+  gst_structure_foreach(stats, print_field, &column);
+  std::printf("\n");
 }
 
 void draw_report(const SessionRecord::Numbers& numbers, const std::string& title,
