@@ -14,41 +14,48 @@ from pathlib import Path
 
 
 def case_result(case):
-    """("passed" | "failed" | "skipped", reason) of a JUnit test case."""
+    """("passed" | "failed" | "skipped", reason) of a GoogleTest case."""
     for tag, result in (("failure", "failed"), ("error", "failed"), ("skipped", "skipped")):
         found = case.find(tag)
         if found is not None:
-            reason = found.get("message") or found.text or case.findtext("system-out") or ""
-            lines = reason.strip().splitlines()
-            # GoogleTest puts "file:line" before the message of a skip.
-            return result, lines[-1] if lines else "no reason given"
-    if case.get("status") == "notrun":
-        return "skipped", "disabled"
-    return "passed", ""
+            # "file:line", then the message
+            return result, " ".join((found.get("message") or "").splitlines()[1:])
+    return ("skipped", "disabled") if case.get("status") == "notrun" else ("passed", "")
 
 
-def cases_of(build):
-    """Yields (name, result, reason) for every test case that ran in a build folder."""
-    logs = Path(build) / "meson-logs"
-    suites = ElementTree.parse(logs / "testlog.junit.xml").getroot().findall("testsuite")
-    failed_programs = set()
-    for suite in suites:
+def gtest_cases(build):
+    """Test cases by test program: those that GoogleTest has reported one by one."""
+    cases = {}
+    root = ElementTree.parse(Path(build) / "meson-logs" / "testlog.junit.xml").getroot()
+    for suite in root.findall("testsuite"):
         for case in suite.findall("testcase"):
-            result, reason = case_result(case)
-            if result == "failed":
-                failed_programs.update((suite.get("name").split(".")[1:2] or [case.get("name")]))
-            name = case.get("name")
-            if case.get("classname") and case.get("classname") != suite.get("name"):
-                name = f"{case.get('classname')}.{name}"
-            yield name, result, reason
+            # Meson names such a suite project.program.suite, with "suites / " before the program.
+            program, dot, name = suite.get("name").rpartition("." + case.get("classname"))
+            if dot and not name:
+                cases.setdefault(program.partition(".")[2].split(" / ")[-1], []).append(case)
+    return cases
 
-    # A program whose cases all passed can still fail, by a leak found when it ends for instance.
-    with open(logs / "testlog.json", encoding="utf-8") as lines:
-        for run in map(json.loads, lines):
-            program = run["name"].split(" / ")[-1]
-            if run["result"] in ("FAIL", "ERROR", "TIMEOUT", "INTERRUPT"):
-                if program not in failed_programs:
-                    yield program, "failed", f"{run['result']}, exit status {run['returncode']}"
+
+def results_of(build):
+    """Yields (name, result, reason) for all that ran in a build folder."""
+    cases_of = gtest_cases(build)
+    with open(Path(build) / "meson-logs" / "testlog.json", encoding="utf-8") as lines:
+        runs = [json.loads(line) for line in lines]
+    for run in runs:
+        program = run["name"].split(" / ")[-1]
+        failed = False
+        for case in cases_of.get(program, []):
+            result, reason = case_result(case)
+            failed |= result == "failed"
+            yield f"{program} {case.get('classname')}.{case.get('name')}", result, reason
+        # A program without cases, or one that failed though its cases passed: by a leak, for instance.
+        if run["result"] == "SKIP":
+            yield program, "skipped", (run["stdout"] or "").strip().split("\n")[-1]
+        elif run["result"] in ("OK", "EXPECTEDFAIL"):
+            if program not in cases_of:
+                yield program, "passed", ""
+        elif not failed:
+            yield program, "failed", f"{run['result']}, exit status {run['returncode']}"
 
 
 def main():
@@ -61,10 +68,10 @@ def main():
     counts = Counter(passed=len(arguments.passed), failed=len(arguments.failed))
     notes = [("failed", what, "") for what in arguments.failed]
     for build in arguments.builds:
-        for name, result, reason in cases_of(build):
+        for name, result, reason in results_of(build):
             counts[result] += 1
             if result != "passed":
-                notes.append((result, f"{build}: {name}", f": {reason}" if reason else ""))
+                notes.append((result, f"{build}/ {name}", f": {reason}" if reason else ""))
     for result, name, reason in sorted(notes, key=lambda note: note[0], reverse=True):
         print(f"{result}: {name}{reason}")
     print(f"{counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped")
