@@ -1,0 +1,42 @@
+# Sourced by tests/run.sh and examples/play.sh: installs Debian packages without asking.
+# shellcheck shell=bash
+
+# install_packages GROUP...: those of debian-packages.txt in these groups that are missing. Silent
+# when none is. Elsewhere than on Debian it leaves the system alone: the build says what it misses.
+install_packages() {
+    local list package group wanted=() missing=() as_root=()
+    list=$(dirname "${BASH_SOURCE[0]}")/debian-packages.txt
+    while read -r package group _; do
+        [[ $package == \#* || " $* " != *" $group "* ]] || wanted+=("$package")
+    done <"$list"
+
+    command -v dpkg-query >/dev/null || return 0
+    local installed
+    # dpkg-query fails when it does not know one of the packages; those it knows are printed.
+    installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${wanted[@]}" 2>/dev/null) || true
+    for package in "${wanted[@]}"; do
+        [[ $'\n'$installed$'\n' == *$'\n'"$package installed"$'\n'* ]] || missing+=("$package")
+    done
+    ((${#missing[@]})) || return 0
+
+    echo "installing ${#missing[@]} Debian packages: ${missing[*]}"
+    if ((EUID != 0)); then
+        if ! sudo -n true 2>/dev/null; then
+            echo "error: that needs root. Run this, then start again:" >&2
+            echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+            return 1
+        fi
+        as_root=(sudo -n)
+    fi
+    as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0)
+    local log
+    log=$(mktemp)
+    if ! { "${as_root[@]}" update && "${as_root[@]}" install -y --no-install-recommends \
+        "${missing[@]}"; } >"$log" 2>&1; then
+        cat "$log" >&2
+        rm -f "$log"
+        echo "error: could not install ${missing[*]} (see above)" >&2
+        return 1
+    fi
+    rm -f "$log"
+}
