@@ -20,9 +20,9 @@ struct AnalyzerSettings {
 
 /// What was found in one frame.
 struct FrameAnalysis {
-  int features = 0;     ///< points looked for in the next frame
-  ImageMotion motion;   ///< unscaled px/s of the frame given
-  Wrench wrench;        ///< what the controller wants, before any safety step
+  int features = 0;        ///< points looked for in the next frame
+  ImageMotion motion;      ///< unscaled px/s of the frame given
+  Wrench wrench;           ///< what the controller wants, before any safety step
   bool restarted = false;  ///< nothing to compare with: motion and wrench are zero
   /// Since the frame that this one was compared with; 0 after a restart.
   int64_t interval_ns = 0;
@@ -34,7 +34,8 @@ class SPIDAR_API MotionAnalyzer {
   explicit MotionAnalyzer(const AnalyzerSettings& settings = {});
   ~MotionAnalyzer();
 
-  /// Takes effect with the next frame; what the controller has learnt stays unless its kind changes.
+  /// Takes effect with the next frame; what the controller has learnt stays unless its kind
+  /// changes.
   void configure(const AnalyzerSettings& settings);
 
   /// Frames in the order in which they are shown. A running time that does not rise restarts, for

@@ -15,8 +15,8 @@ namespace spidar {
 constexpr double kReferenceHeight_px = 480.0;
 
 struct TrackerSettings {
-  int max_features = 200;         ///< 1 … 10000 points followed at once
-  double quality_level = 0.01;    ///< Shi–Tomasi: share of the strongest corner's eigenvalue, 0 … 1
+  int max_features = 200;       ///< 1 … 10000 points followed at once
+  double quality_level = 0.01;  ///< Shi–Tomasi: share of the strongest corner's eigenvalue, 0 … 1
   double min_distance_px = 10.0;  ///< between two features, in pixels of the reference frame
 
   bool operator==(const TrackerSettings& o) const {
@@ -51,9 +51,9 @@ class SPIDAR_API Tracker {
  public:
   virtual ~Tracker() = default;
 
-  /// Compares `frame` with the one given before. A frame of another size restarts the tracks, and so
-  /// does a cut, that is, a frame in which hardly any point is found again.
-  /// The result is valid until the next call.
+  /// Compares `frame` with the one given before. A frame of another size restarts the tracks, and
+  /// so does a cut, that is, a frame in which hardly any point is found again. The result is valid
+  /// until the next call.
   virtual const TrackedFrame& track(const ImageView& frame) = 0;
 
   /// Forgets the frame before: the next one starts anew and shows no motion.
