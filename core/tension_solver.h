@@ -1,8 +1,6 @@
 /// String tensions for a wanted wrench.
 #pragma once
 
-#include <array>
-
 #include <Eigen/Core>
 
 #include "core/api.h"
@@ -16,11 +14,11 @@ namespace spidar {
 struct TensionProblem {
   int count = kMaxStrings;  ///< strings in use, 1 … kMaxStrings; entries beyond are ignored
   StructureMatrix W = StructureMatrix::Zero();
-  Wrench wrench;                              ///< f
+  Wrench wrench;  ///< f
   StringVector t_min_N = StringVector::Zero();
   StringVector t_max_N = StringVector::Zero();
   StringVector t_ref_N = StringVector::Zero();
-  double epsilon = 1e-4;         ///< > 0
+  double epsilon = 1e-4;            ///< > 0
   double torque_length_m = 0.0225;  ///< ℓ > 0
 };
 
@@ -33,8 +31,8 @@ enum class TensionStatus {
 struct TensionResult {
   /// Within bounds always; on bad input the lower bounds where they are finite, else zero.
   StringVector tension_N = StringVector::Zero();
-  Wrench delivered;        ///< W t
-  double residual_N = 0;   ///< ‖S(W t − f)‖
+  Wrench delivered;       ///< W t
+  double residual_N = 0;  ///< ‖S(W t − f)‖
   /// Largest violation of the optimality conditions, relative to |Q||t| + |c|.
   double kkt_residual = 0;
   int iterations = 0;
@@ -51,7 +49,7 @@ class SPIDAR_API TensionSolver {
   void reset() noexcept { warm_ = false; }
 
  private:
-  std::array<signed char, kMaxStrings> bound_{};  ///< −1 at t_min, 0 free, +1 at t_max
+  StringVector last_N_ = StringVector::Zero();
   bool warm_ = false;
 };
 
