@@ -144,6 +144,18 @@ TEST_F(SimulatedDeviceTest, MotorsSaturateAndStringsNeverPush) {
   EXPECT_NEAR(tension_N[6], 1.0, step_N(profile, 6) / 2 * (1 + 1e-9));
 }
 
+TEST_F(SimulatedDeviceTest, DARangeEndsBeforeTheMotor) {
+  Profile weak = profile;
+  weak.dac_max_V = 0.5;
+  SimulatedDevice device(weak, kFixedStep, without_lag());
+  device.open();
+  DeviceReading reading;
+  for (int tick = 0; tick < 2; ++tick)
+    device.exchange(volts_for(weak, StringVector::Constant(4.0)), reading);
+  ASSERT_LT(0.5 * weak.drives[0].newtons_per_volt, weak.drives[0].max_tension_N);
+  EXPECT_NEAR(device.felt().tension_N[0], 0.5 * weak.drives[0].newtons_per_volt, 1e-12);
+}
+
 // Constant volts on some strings: the grip rests where the hand's springs hold the wrench of the
 // tensions that were asked for. The D/A is off by up to half a step a string, each of which moves
 // the grip by at most step/2 over the stiffness, and turns it by at most arm·step/2 over the
