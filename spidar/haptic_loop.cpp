@@ -125,6 +125,7 @@ void HapticLoop::forget_timeline(uint32_t generation) noexcept {
   timeline_.clear();
   timeline_generation_ = generation;
   newest_ns_ = INT64_MIN;
+  reached_ns_ = INT64_MIN;
 }
 
 void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
