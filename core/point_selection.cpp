@@ -73,7 +73,8 @@ std::vector<Candidate> find_corners(const cv::Mat& response, double threshold) {
     const float* largest = largest_around.ptr<float>(y);
     for (int x = kBorder_px; x < response.cols - kBorder_px; ++x) {
       if (static_cast<double>(value[x]) > threshold && value[x] == largest[x]) {
-        corners.push_back({{0, {static_cast<float>(x), static_cast<float>(y)}}, value[x], false});
+        corners.push_back(
+            {{0, {static_cast<float>(x), static_cast<float>(y)}, {}}, value[x], false});
       }
     }
   }

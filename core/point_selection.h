@@ -15,7 +15,8 @@ namespace spidar {
 /// A point that is followed.
 struct Feature {
   uint32_t id = 0;
-  ImagePoint at;  ///< pixels of the picture it was selected in
+  ImagePoint at;     ///< pixels of the picture it was selected in
+  ImagePoint moved;  ///< displacement since the picture before; 0 for a new one
 };
 
 struct SelectionSettings {

@@ -31,8 +31,8 @@ class PlaybackSync {
   }
 
   /// Running time has begun anew (flushing seek): the element's base time is outdated until the
-  /// pipeline has prerolled and distributes another one. Until then nothing is on the screen. A sink
-  /// that does not preroll keeps its base time: after three seconds so does this.
+  /// pipeline has prerolled and distributes another one. Until then nothing is on the screen. A
+  /// sink that does not preroll keeps its base time: after three seconds so does this.
   void expect_base_time(GstElement* element);
 
   /// Pipeline latency, from the LATENCY event.

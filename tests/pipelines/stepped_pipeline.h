@@ -4,7 +4,6 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include <gst/check/gsttestclock.h>
 #include <gst/gst.h>
@@ -20,31 +19,38 @@ class SteppedPipeline {
   explicit SteppedPipeline(const std::string& launch);
   ~SteppedPipeline();
 
-  /// Changes state and lets the clock run as far as that needs.
-  void play();
-  void pause();
-  /// Flushing, to this position.
+  /// Returns when the state is reached.
+  void set_state(GstState state);
+  /// To PLAYING, without waiting for the sink: it has nothing to show before the first step().
+  void play_live();
+  /// Flushing, to this position of the stream.
   void seek(GstClockTime position);
 
-  /// Waits until the pipeline waits for the clock, moves it to that time, and ticks the loop once.
-  /// The record of that tick.
-  TickRecord step();
-  /// Moves the clock by `ns` without letting a frame through, and ticks the loop every millisecond.
-  TickRecord idle(GstClockTime ns);
+  /// Waits until `waiters` elements wait for the clock; the earliest of their times.
+  GstClockTime await(guint waiters = 1);
+  /// Waits like await(), moves the clock to that time, ticks
+  /// the loop once, and lets that element go on. The record of the tick.
+  TickRecord step(guint waiters = 1);
+  /// Moves the clock without letting anything through, and ticks the loop every millisecond. The
+  /// record of the last tick.
+  TickRecord idle(GstClockTime duration);
 
   GstClockTime now() const { return gst_clock_get_time(GST_CLOCK(clock_)); }
-  /// When a frame of this running time is to be shown.
-  GstClockTime presentation_time(GstClockTime running_time) const;
+  /// Of the frame that is to be shown now.
+  GstClockTime running_time() const;
 
-  /// Wrench of each frame since play() or seek(), by running time, as the element told it.
+  /// Waits until the element has seen so many frames.
+  void await_analysed(size_t frames);
+  /// Wrench of each frame since the start or the last seek, by running time, as the element told
+  /// it.
   const std::map<GstClockTime, Wrench>& wrenches();
 
   GstElement* element() const { return element_; }
-  GstElement* pipeline() const { return pipeline_; }
 
  private:
-  void wait_for_state(GstState state);
+  void wait_for_state();
   TickRecord tick();
+  void take(GstMessage* message);
 
   GstTestClock* clock_;
   GstElement* pipeline_;
