@@ -14,13 +14,8 @@ enum class ControllerKind { kLinear, kNonlinear };
 
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::kNonlinear;
-<<<<<<< HEAD
   double max_force_N = 3.0;  ///< Fmax of eq. 12 and 15, finite and ≥ 0
   double alpha_s_px = 0.01;  ///< α of eq. 15, per px/s of the reference frame, finite and ≥ 0
-=======
-  double max_force_N = 3.0;  ///< Fmax of eq. 12 and 15
-  double alpha_s_px = 0.01;  ///< α of eq. 15, per px/s of the reference frame
->>>>>>> strings
 };
 
 /// Gain from speed to force. The paper's equations are one-dimensional; here they act on the speed

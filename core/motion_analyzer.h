@@ -36,12 +36,8 @@ class SPIDAR_API MotionAnalyzer {
   ~MotionAnalyzer();
 
   /// Takes effect with the next frame; what the controller has learnt stays unless its kind
-<<<<<<< HEAD
   /// changes. Throws std::invalid_argument when a setting is out of range, and then changes
   /// nothing.
-=======
-  /// changes.
->>>>>>> strings
   void configure(const AnalyzerSettings& settings);
 
   /// Frames in the order in which they are shown. A running time that does not rise restarts, for
