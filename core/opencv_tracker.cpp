@@ -134,6 +134,7 @@ void OpenCvTracker::Impl::select(int factor) {
   selection.max_features = settings.max_features;
   selection.quality_level = settings.quality_level;
   selection.min_distance_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
+  selection.border_px = follow_border_px(now[0]);
   select_features(now[0], selection, features, next_id);
   selected = features.size();
   frames_since_selection = 0;
