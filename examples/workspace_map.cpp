@@ -43,7 +43,7 @@ void run(const std::string& what, const std::vector<spidar::Profile>& profiles) 
   } else {
     for (const spidar::Profile& profile : profiles) {
       draw_map(profile, what);
-      std::printf("drawn: %s/%s.png\n", what.c_str(), profile.name.c_str());
+      std::printf("drawn: %s/workspace-%s.png\n", what.c_str(), profile.name.c_str());
     }
   }
 }

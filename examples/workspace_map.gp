@@ -28,10 +28,8 @@ width = 0.155
 bottom(row) = row == 1 ? 0.475 : 0.07
 height = 0.325
 
-# As many tics on the narrow side of a frame as there is room for.
 stats position skip 1 using 1:2 nooutput
-half_size = STATS_max_x > STATS_max_y ? STATS_max_x : STATS_max_y
-step = half_size > 100 ? 100 : half_size > 50 ? 40 : 20
+step(half_size) = half_size > 100 ? 100 : half_size > 50 ? 40 : half_size > 30 ? 20 : 10
 
 set multiplot title profile . ": what comes of 3 N in the worst of all directions" noenhanced font ",15"
 do for [row = 1:2] {
@@ -43,8 +41,8 @@ do for [row = 1:2] {
         set tmargin at screen bottom(row) + height
         set xlabel (row == 1 ? "x, mm" : "turned about x, °") offset 0,0.4
         set ylabel (i > 1 ? "" : row == 1 ? "y, mm" : "turned about y, °") offset 1,0
-        set xtics row == 1 ? step : 45
-        set ytics row == 1 ? step : 45
+        set xtics row == 1 ? step(STATS_max_x) : 45
+        set ytics row == 1 ? step(STATS_max_y) : 45
         set cbrange [0:largest[i]]
         if (row == 1) {
             set colorbox horizontal user origin screen left(i), screen 0.865 size screen width, screen 0.018

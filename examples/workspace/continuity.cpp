@@ -19,7 +19,9 @@ using spidar::test::TensionStep;
 
 constexpr double kTick_s = 0.001;
 constexpr int kTicks = 1000;  // of each path
-constexpr unsigned kPaths = 5;
+constexpr unsigned kPaths = 20;
+
+const PathLimits kPathKinds[] = {PathLimits(), spidar::test::far_and_turned()};
 
 /// Smaller paths for small devices: half of the shortest string for moving and a quarter for
 /// turning, because a string near to no length turns round at once.
@@ -37,8 +39,8 @@ struct Walk {
   TensionStep largest;
 };
 
-void walk(spidar::TensionProblem problem, const spidar::StringGeometry& geometry,
-          const GripPath& path, Walk& sum) {
+void follow(const GripPath& path, const spidar::StringGeometry& geometry,
+            spidar::TensionProblem problem, Walk& sum) {
   spidar::TensionSolver solver;
   spidar::TensionProblem last;
   spidar::StringVector last_N;
@@ -59,12 +61,12 @@ void walk(spidar::TensionProblem problem, const spidar::StringGeometry& geometry
   }
 }
 
-Walk walk_paths(const spidar::Profile& profile, const Weights& weights, const PathLimits& limits) {
+Walk walk(const spidar::Profile& profile, const Weights& weights, const PathLimits& limits) {
   Walk sum;
   for (unsigned seed = 1; seed <= kPaths; ++seed) {
     std::mt19937_64 random(seed);
-    walk(tension_problem(profile, weights), profile.geometry,
-         GripPath(random, fitted(limits, profile)), sum);
+    const GripPath path(random, fitted(limits, profile));
+    follow(path, profile.geometry, tension_problem(profile, weights), sum);
   }
   return sum;
 }
@@ -73,14 +75,13 @@ Walk walk_paths(const spidar::Profile& profile, const Weights& weights, const Pa
 
 void print_continuity(const std::vector<spidar::Profile>& profiles) {
   std::printf(
-      "| profile | median step | 99 %% | largest | its bound, piecewise | Lipschitz | beyond "
-      "reach: "
-      "median | 99 %% | largest | piecewise | Lipschitz |\n"
+      "| profile | near: median | 99 %% | largest | its bound, piecewise | Lipschitz "
+      "| far: median | 99 %% | largest | its bound, piecewise | Lipschitz |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const spidar::Profile& profile : profiles) {
     std::printf("| `%s` |", profile.name.c_str());
-    for (const PathLimits& limits : {PathLimits(), spidar::test::beyond_reach()}) {
-      Walk sum = walk_paths(profile, loop_weights(profile), limits);
+    for (const PathLimits& limits : kPathKinds) {
+      Walk sum = walk(profile, loop_weights(profile), limits);
       std::printf(" %.3f | %.2f | %.2f | %.2f | %.1f |", quantile(sum.steps_N, 0.5),
                   quantile(sum.steps_N, 0.99), sum.largest.largest_N, sum.largest.piecewise_N,
                   sum.largest.lipschitz_N);
@@ -91,14 +92,19 @@ void print_continuity(const std::vector<spidar::Profile>& profiles) {
 
 void print_smoothing(const spidar::Profile& profile) {
   std::printf(
-      "| ε | missing, N: median | 95 %% | step, N: median | 99 %% | largest |\n"
-      "|---|---|---|---|---|---|\n");
+      "| ε | near: missing, N: median | 95 %% | step, N: median | 99 %% | largest "
+      "| far: missing, N: median | 95 %% | step, N: median | 99 %% | largest |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const double epsilon : {1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 0.3}) {
     Weights weights = loop_weights(profile);
     weights.epsilon = epsilon;
-    Walk sum = walk_paths(profile, weights, PathLimits());
-    std::printf("| %g | %.4f | %.4f | %.3f | %.2f | %.2f |\n", epsilon,
-                quantile(sum.residuals_N, 0.5), quantile(sum.residuals_N, 0.95),
-                quantile(sum.steps_N, 0.5), quantile(sum.steps_N, 0.99), sum.largest.largest_N);
+    std::printf("| %g |", epsilon);
+    for (const PathLimits& limits : kPathKinds) {
+      Walk sum = walk(profile, weights, limits);
+      std::printf(" %.4f | %.4f | %.3f | %.2f | %.2f |", quantile(sum.residuals_N, 0.5),
+                  quantile(sum.residuals_N, 0.95), quantile(sum.steps_N, 0.5),
+                  quantile(sum.steps_N, 0.99), sum.largest.largest_N);
+    }
+    std::printf("\n");
   }
 }

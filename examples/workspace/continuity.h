@@ -6,8 +6,8 @@
 #include "spidar/profile.h"
 
 /// The largest step of a string at 1 kHz beside the bounds of tests/support/tension_step.h, for the
-/// weights of the loop. A table of all `profiles` as Markdown, on standard output; the paths come
-/// from fixed seeds. Throws std::runtime_error.
+/// weights of the loop. A table of all `profiles` as Markdown,
+/// on standard output; the paths come from fixed seeds. Throws std::runtime_error.
 void print_continuity(const std::vector<spidar::Profile>& profiles);
 
 /// What the weight ε trades: steps against what is missing of the wanted wrench. A table as

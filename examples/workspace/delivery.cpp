@@ -5,7 +5,8 @@
 
 Weights loop_weights(const spidar::Profile& profile) {
   Weights weights;
-  weights.torque_length_m = profile.geometry.grip_radius_m();
+  const double radius_m = profile.geometry.grip_radius_m();
+  if (radius_m > 0) weights.torque_length_m = radius_m;
   weights.t_ref_N = profile.min_tension_N();
   return weights;
 }

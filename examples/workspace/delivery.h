@@ -8,13 +8,13 @@
 
 /// What is minimised when tensions are chosen: ½‖S(W t − f)‖² + ½ε‖t − t_ref‖².
 struct Weights {
-  double epsilon = 1e-4;         ///< ε
-  double torque_length_m = 0.1;  ///< ℓ in S
+  double epsilon = spidar::TensionProblem().epsilon;                  ///< ε
+  double torque_length_m = spidar::TensionProblem().torque_length_m;  ///< ℓ in S
   spidar::StringVector t_ref_N = spidar::StringVector::Zero();
 };
 
-/// Those of the haptic loop: ε as in TensionProblem, ℓ the grip radius, and tensions as low as the
-/// strings may be.
+/// Those of the haptic loop: ε as in TensionProblem, ℓ the grip radius where there is one, and
+/// tensions as low as the strings may be.
 Weights loop_weights(const spidar::Profile& profile);
 
 /// The default of the published SPIDAR code (Springhead, HISpidarCalc6Dof::SetForce with

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <string>
 
 #include "examples/gnuplot.h"
 #include "examples/workspace/delivery.h"
@@ -82,12 +83,13 @@ void write_plane(const spidar::Profile& profile, const Plane& plane, const fs::p
 
 void draw_map(const spidar::Profile& profile, const fs::path& folder) {
   fs::create_directories(folder);
-  const fs::path position = folder / (profile.name + "-position.csv");
-  const fs::path rotation = folder / (profile.name + "-rotation.csv");
+  const std::string name = "workspace-" + profile.name;
+  const fs::path position = folder / (name + "-position.csv");
+  const fs::path rotation = folder / (name + "-rotation.csv");
   write_plane(profile, {1e3 * frame_half_size_m(profile).head<2>(), moved}, position);
   write_plane(profile, {Eigen::Vector2d::Constant(kLargestAngle_deg), turned}, rotation);
   run_gnuplot("workspace_map.gp", {{"profile", profile.name},
                                    {"position", position},
                                    {"rotation", rotation},
-                                   {"png", folder / (profile.name + ".png")}});
+                                   {"png", folder / (name + ".png")}});
 }

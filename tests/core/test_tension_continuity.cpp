@@ -98,6 +98,14 @@ TEST_P(TensionContinuity, WithinReach) {
   EXPECT_GT(sum.active_set_changes, 10);
 }
 
+TEST_P(TensionContinuity, FarAndTurned) {
+  const Walk sum = walk(far_and_turned(), GetParam());
+  EXPECT_GT(sum.nearest, 0.99);
+  EXPECT_GT(sum.active_set_changes, 10);
+  EXPECT_GT(sum.ticks_beyond_reach, 0);
+  EXPECT_LT(sum.ticks_beyond_reach, kTicks);
+}
+
 TEST_P(TensionContinuity, BeyondReach) {
   const Walk sum = walk(beyond_reach(), GetParam());
   EXPECT_GT(sum.nearest, 0.99);

@@ -41,11 +41,17 @@ struct PathLimits {
   double torque_Nm = 0.03, torque_rate_Nm_s = 0.6;
 };
 
-/// Far out, turned far, and most of the time more than the strings can give.
-inline PathLimits beyond_reach() {
+/// As far out and turned as it goes, in and out of where the strings can balance a wrench.
+inline PathLimits far_and_turned() {
   PathLimits limits;
   limits.reach_m = 0.04;
   limits.angle_rad = 1.2;
+  return limits;
+}
+
+/// There, and nearly always more wanted than the motors have.
+inline PathLimits beyond_reach() {
+  PathLimits limits = far_and_turned();
   limits.force_N = 60;
   limits.force_rate_N_s = 600;
   limits.torque_Nm = 0.6;
