@@ -86,7 +86,8 @@ Eigen::Vector3d frame_half_size_m(const spidar::Profile& profile) {
 }
 
 std::vector<Region> regions(const spidar::Profile& profile) {
-  return {{"±2 cm, 20°", Eigen::Vector3d::Constant(0.02), 20 * kDegree},
+  return {{"±5 mm, 10°", Eigen::Vector3d::Constant(0.005), 10 * kDegree},
+          {"±2 cm, 20°", Eigen::Vector3d::Constant(0.02), 20 * kDegree},
           {"±2 cm, 60°", Eigen::Vector3d::Constant(0.02), 60 * kDegree},
           {"±5 cm, 80°", Eigen::Vector3d::Constant(0.05), 80 * kDegree},
           {"frame, 20°", frame_half_size_m(profile), 20 * kDegree}};

@@ -14,7 +14,7 @@ struct Region {
   double angle_rad = 0;
 };
 
-/// Regions of the same size for every device, then `frame_region`.
+/// Regions of the same size for every device, then the box that holds its exits.
 std::vector<Region> regions(const spidar::Profile& profile);
 
 /// Half the size of the box that holds all exits, metres.
