@@ -161,9 +161,12 @@ TEST(HapticLoopDevice, UnknownPoseRampsToRest) {
   push(driver);
   ASSERT_EQ(driver.run(100 * kMs).commanded.force_N.x(), 1);
   const Pose before = driver.loop->snapshot().last.pose;
-  // One string half a metre longer than it can be: no pose explains that.
-  const StringDrive& drive = driver.profile.drives[0];
-  driver.log().count[0] = drive.encoder_sign * static_cast<int32_t>(0.5 / drive.metres_per_count);
+  // Two strings half a metre longer than they can be: no pose explains that, without one of them or
+  // not.
+  for (size_t i : {0, 5}) {
+    const StringDrive& drive = driver.profile.drives[i];
+    driver.log().count[i] = drive.encoder_sign * static_cast<int32_t>(0.5 / drive.metres_per_count);
+  }
   // The tick that reads it, and those until the last good pose is too old.
   TickRecord record = driver.run(HapticLoop::kPoseTimeout_ns);
   EXPECT_EQ(record.commanded.force_N.x(), 1);
@@ -172,7 +175,7 @@ TEST(HapticLoopDevice, UnknownPoseRampsToRest) {
   EXPECT_EQ(driver.run(45 * kMs).commanded.stacked().norm(), 0);
   EXPECT_GT(driver.counters().pose_errors, 0u);
 
-  driver.log().count[0] = 0;
+  driver.log().count[0] = driver.log().count[5] = 0;
   EXPECT_EQ(driver.run(100 * kMs).commanded.force_N.x(), 1);
 }
 
