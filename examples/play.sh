@@ -24,10 +24,11 @@ build() {
     if [[ ! -f $top/build/build.ninja ]]; then
         quietly meson setup "$top/build" "$top"
     fi
-    if [[ ! -x $top/build/examples/play ]]; then
-        echo "building, once: takes some minutes"
+    local targets=(plugin/libgstspidar.so examples/play)
+    if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then
+        echo "building; the first time that takes some minutes"
+        quietly ninja -C "$top/build" "${targets[@]}"
     fi
-    quietly ninja -C "$top/build" plugin/libgstspidar.so examples/play
 }
 
 # A clip like the paper's: prints the file name of a tree blown by the wind, out of Debian's package

@@ -4,18 +4,26 @@
 # install_packages GROUP...: those of debian-packages.txt in these groups that are missing. Silent
 # when none is. Elsewhere than on Debian it leaves the system alone: the build says what it misses.
 install_packages() {
-    local list package group wanted=() missing=() as_root=()
+    local list package group choice names=() wanted=() missing=() as_root=()
     list=$(dirname "${BASH_SOURCE[0]}")/debian-packages.txt
     while read -r package group _; do
         [[ $package == \#* || " $* " != *" $group "* ]] || wanted+=("$package")
     done <"$list"
 
     command -v dpkg-query >/dev/null || return 0
-    local installed
+    local -A is_installed=()
+    local state
+    IFS='|' read -ra names <<<"$(IFS='|' && echo "${wanted[*]}")"
     # dpkg-query fails when it does not know one of the packages; those it knows are printed.
-    installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${wanted[@]}" 2>/dev/null) || true
+    while read -r package state; do
+        [[ $state != installed ]] || is_installed[$package]=yes
+    done < <(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${names[@]}" 2>/dev/null)
     for package in "${wanted[@]}"; do
-        [[ $'\n'$installed$'\n' == *$'\n'"$package installed"$'\n'* ]] || missing+=("$package")
+        IFS='|' read -ra names <<<"$package"
+        for choice in "${names[@]}"; do
+            [[ -z ${is_installed[$choice]-} ]] || continue 2
+        done
+        missing+=("${names[0]}")
     done
     ((${#missing[@]})) || return 0
 

@@ -32,12 +32,17 @@ struct Playback {
   }
 };
 
-void report_error(const Playback& playback, GstMessage* message) {
+void end_by_error(Playback& playback, GstMessage* message) {
   GError* error = nullptr;
   char* debug = nullptr;
   gst_message_parse_error(message, &error, &debug);
   playback.clear_line();
-  std::fprintf(stderr, "error: %s: %s\n", GST_OBJECT_NAME(message->src), error->message);
+  const bool window_closed =
+      GST_OBJECT_FLAG_IS_SET(message->src, GST_ELEMENT_FLAG_SINK) &&
+      g_error_matches(error, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_NOT_FOUND);
+  playback.stop(window_closed ? Ending::kInterrupted : Ending::kFailed);
+  std::fprintf(stderr, "%s: %s: %s\n", window_closed ? "note" : "error",
+               GST_OBJECT_NAME(message->src), error->message);
   // Behind the place in the source that GStreamer's first line names there may be a reason.
   const char* const reason = debug != nullptr ? std::strchr(debug, '\n') : nullptr;
   if (reason != nullptr) std::fprintf(stderr, "  %s\n", reason + 1);
@@ -86,8 +91,7 @@ gboolean on_message(GstBus*, GstMessage* message, void* data) {
   auto& playback = *static_cast<Playback*>(data);
   switch (GST_MESSAGE_TYPE(message)) {
     case GST_MESSAGE_ERROR:
-      report_error(playback, message);
-      playback.stop(Ending::kFailed);
+      end_by_error(playback, message);
       break;
     case GST_MESSAGE_WARNING:
       report_warning(playback, message);

@@ -8,7 +8,7 @@
 
 enum class Ending {
   kEndOfVideo,
-  kInterrupted,  ///< Ctrl-C, or told to terminate
+  kInterrupted,  ///< Ctrl-C, told to terminate, or its window closed
   kFailed,
 };
 

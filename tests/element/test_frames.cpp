@@ -1,6 +1,8 @@
 // What the element does with frames: formats, strides, crops, fields, and that it leaves them
 // alone.
-#include <memory>
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -16,6 +18,10 @@ constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 // point; a tenth is what the mean of many points must keep in any case.
 constexpr double kTolerance_px = 0.1;
 constexpr double kTolerance_px_s = kTolerance_px * 25;
+
+guint8 grey(double x, double y) {
+  return static_cast<guint8>(std::lround(texture(x, y)));
+}
 
 class Formats : public testing::TestWithParam<const char*> {};
 
@@ -103,7 +109,7 @@ TEST(Frames, OnlyTheCropIsLookedAt) {
     GstMapInfo map;
     gst_buffer_map(frame, &map, GST_MAP_WRITE);
     for (int y = 101; y < 301; ++y) {
-      for (int x = 201; x < 501; ++x) map.data[y * 640 + x] = texture(x - 2.0 * n, y);
+      for (int x = 201; x < 501; ++x) map.data[y * 640 + x] = grey(x - 2.0 * n, y);
     }
     gst_buffer_unmap(frame, &map);
     GstVideoCropMeta* crop = gst_buffer_add_video_crop_meta(frame);
@@ -148,7 +154,7 @@ TEST(Frames, InterlacedFramesAreMeasuredByOneField) {
     GstMapInfo map;
     gst_buffer_map(frame, &map, GST_MAP_WRITE);
     for (int y = 1; y < 480; y += 2) {
-      for (int x = 0; x < 640; ++x) map.data[y * 640 + x] = texture(x - 4.0 * n - 2.0, y);
+      for (int x = 0; x < 640; ++x) map.data[y * 640 + x] = grey(x - 4.0 * n - 2.0, y);
     }
     gst_buffer_unmap(frame, &map);
     GST_BUFFER_FLAG_SET(frame, GST_VIDEO_BUFFER_FLAG_INTERLACED | GST_VIDEO_BUFFER_FLAG_TFF);

@@ -110,16 +110,24 @@ GstClockTime SteppedPipeline::running_time() const {
          gst_base_sink_get_latency(GST_BASE_SINK(sink_));
 }
 
-const std::map<GstClockTime, Wrench>& SteppedPipeline::wrenches() {
-  while (GstMessage* message = gst_bus_pop(bus_)) {
-    if (gst_message_has_name(message, "spidar-motion")) {
-      const MotionMessage motion = parse_motion_message(message);
-      // Running time begins anew with a seek, and what was before does not count any more.
-      if (!wrenches_.empty() && motion.running_time <= wrenches_.rbegin()->first) wrenches_.clear();
-      wrenches_[motion.running_time] = motion.wrench;
-    }
-    gst_message_unref(message);
+void SteppedPipeline::take(GstMessage* message) {
+  if (gst_message_has_name(message, "spidar-motion")) {
+    const MotionMessage motion = parse_motion_message(message);
+    // Running time begins anew with a seek, and what was before does not count any more.
+    if (!wrenches_.empty() && motion.running_time <= wrenches_.rbegin()->first) wrenches_.clear();
+    wrenches_[motion.running_time] = motion.wrench;
   }
+  gst_message_unref(message);
+}
+
+void SteppedPipeline::await_analysed(size_t frames) {
+  while (wrenches().size() < frames) {
+    take(gst_bus_timed_pop_filtered(bus_, GST_CLOCK_TIME_NONE, GST_MESSAGE_ELEMENT));
+  }
+}
+
+const std::map<GstClockTime, Wrench>& SteppedPipeline::wrenches() {
+  while (GstMessage* message = gst_bus_pop(bus_)) take(message);
   return wrenches_;
 }
 

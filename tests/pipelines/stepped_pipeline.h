@@ -39,6 +39,8 @@ class SteppedPipeline {
   /// Of the frame that is to be shown now.
   GstClockTime running_time() const;
 
+  /// Waits until the element has seen so many frames.
+  void await_analysed(size_t frames);
   /// Wrench of each frame since the start or the last seek, by running time, as the element told
   /// it.
   const std::map<GstClockTime, Wrench>& wrenches();
@@ -48,6 +50,7 @@ class SteppedPipeline {
  private:
   void wait_for_state();
   TickRecord tick();
+  void take(GstMessage* message);
 
   GstTestClock* clock_;
   GstElement* pipeline_;

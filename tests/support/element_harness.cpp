@@ -32,11 +32,15 @@ MotionMessage parse_motion_message(GstMessage* message) {
   return m;
 }
 
-ElementHarness::ElementHarness(const std::string& properties) {
+ElementHarness::ElementHarness(const std::string& properties)
+    : ElementHarness(properties, nullptr, nullptr) {}
+
+ElementHarness::ElementHarness(const std::string& properties, PlaybackSync::Now now, void* user) {
   init_gstreamer();
   GError* error = nullptr;
   GstElement* element = gst_parse_launch(("spidarmotion " + properties).c_str(), &error);
   if (!element || error) g_error("%s", error ? error->message : "no element");
+  gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)).set_manual(now, user);
   bus_ = gst_bus_new();
   gst_element_set_bus(element, bus_);
   harness_ = gst_harness_new_with_element(element, "sink", "src");

@@ -24,11 +24,13 @@ struct MotionMessage {
 };
 MotionMessage parse_motion_message(GstMessage* message);
 
-/// Owns the harness and the element's bus. Steps the haptic loop by hand.
+/// Owns the harness and the element's bus.
 class ElementHarness {
  public:
   /// `properties` as in a launch line, e.g. "device=none alpha=0.02".
   explicit ElementHarness(const std::string& properties = "device=none");
+  /// `now` stands for CLOCK_MONOTONIC, and the haptic loop waits to be ticked.
+  ElementHarness(const std::string& properties, PlaybackSync::Now now, void* user);
   ~ElementHarness();
 
   void set_caps(GstCaps* caps);  // takes them

@@ -1,38 +1,15 @@
 #include "tests/support/video_frames.h"
 
 #include <cmath>
-#include <cstdint>
 #include <cstring>
+
+#include "tests/support/texture.h"
 
 namespace spidar::test {
 
-namespace {
-
-/// Pseudo-random 0 … 1 for a lattice point.
-double lattice(int x, int y) {
-  uint32_t h = static_cast<uint32_t>(x) * 0x9E3779B1u ^ static_cast<uint32_t>(y) * 0x85EBCA77u;
-  h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
-  h = (h ^ (h >> 12)) * 0x297A2D39u;
-  return static_cast<double>(h ^ (h >> 15)) / 4294967295.0;
-}
-
-/// Value noise: the lattice, smoothly interpolated. Continuous with its first derivative.
-double noise(double x, double y) {
-  const double fx = std::floor(x), fy = std::floor(y);
-  const auto fade = [](double t) { return t * t * (3 - 2 * t); };
-  const double u = fade(x - fx), v = fade(y - fy);
-  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
-  const double top = (1 - u) * lattice(ix, iy) + u * lattice(ix + 1, iy);
-  const double bottom = (1 - u) * lattice(ix, iy + 1) + u * lattice(ix + 1, iy + 1);
-  return (1 - v) * top + v * bottom;
-}
-
-}  // namespace
-
-unsigned char texture(double x, double y) {
-  // Two sizes of detail and no period: what looks alike is the same place.
-  const double value = 0.5 * noise(x / 7.0, y / 7.0) + 0.5 * noise(x / 19.0 + 50, y / 19.0);
-  return static_cast<unsigned char>(std::lround(30 + 195 * value));
+double texture(double x, double y) {
+  static const Texture picture(1, 7.0);
+  return picture.at(x, y);
 }
 
 GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0_extra_stride) {
@@ -58,7 +35,7 @@ GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0
   for (int y = 0; y < GST_VIDEO_INFO_HEIGHT(&info); ++y) {
     guint8* line = map.data + static_cast<gsize>(stride[0]) * static_cast<gsize>(y);
     for (int x = 0; x < GST_VIDEO_INFO_WIDTH(&info); ++x) {
-      std::memset(line + x * pixel_stride, texture(x - dx, y - dy),
+      std::memset(line + x * pixel_stride, static_cast<int>(std::lround(texture(x - dx, y - dy))),
                   static_cast<size_t>(pixel_stride));
     }
   }

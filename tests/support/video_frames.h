@@ -5,8 +5,8 @@
 
 namespace spidar::test {
 
-/// Smooth texture without a period, grey level 30 … 225.
-unsigned char texture(double x, double y);
+/// Grey level 8 … 248 of the picture that make_frame() moves.
+double texture(double x, double y);
 
 /// A buffer of `info` that shows texture() moved by (dx, dy). Packed RGB is grey; chroma is
 /// neutral. `plane0_extra_stride` bytes are added to each line of plane 0 (with a GstVideoMeta).
