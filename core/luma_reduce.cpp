@@ -17,16 +17,19 @@ int reduction_factor(int width, int height) {
 }
 
 void reduce_luma(const ImageView& frame, int factor, cv::Mat& reduced) {
-  const int width = frame.width / factor;
-  const int height = frame.height / factor;
   // OpenCV has no constant view; nothing writes through this one.
-  const cv::Mat whole_blocks(height * factor, width * factor, CV_8UC1,
+  const cv::Mat whole_blocks(frame.height / factor * factor, frame.width / factor * factor, CV_8UC1,
                              const_cast<uint8_t*>(frame.data),
                              static_cast<size_t>(frame.stride_bytes));
-  if (factor == 1) {
-    reduced = whole_blocks;
-  } else {
-    cv::resize(whole_blocks, reduced, cv::Size(width, height), 0, 0, cv::INTER_AREA);
+  reduced = whole_blocks;
+  // By halves as far as it goes: OpenCV has vector code for blocks of 2 × 2 only.
+  for (int rest = factor; rest > 1;) {
+    const int step = rest % 2 == 0 ? 2 : rest;
+    cv::Mat smaller;
+    cv::resize(reduced, smaller, cv::Size(reduced.cols / step, reduced.rows / step), 0, 0,
+               cv::INTER_AREA);
+    reduced = smaller;
+    rest /= step;
   }
 }
 

@@ -97,11 +97,9 @@ void OpenCvTracker::Impl::track(const ImageView& frame) {
 
 /// Moves the features to the new picture and drops what is lost. False at a cut.
 bool OpenCvTracker::Impl::follow(int factor) {
-  std::vector<ImagePoint> from;
-  for (const Feature& feature : features) from.push_back(feature.at);
-  std::vector<ImagePoint> to;
-  std::vector<bool> found;
-  follow_points(before, now, from, to, found);
+  std::vector<PointFlow> flow;
+  for (const Feature& feature : features) flow.push_back({feature.at, feature.moved, {}, false});
+  follow_points(before, now, flow);
 
   const auto in_frame = [factor](const ImagePoint& p) {
     return ImagePoint{to_frame_px(p.x_px, factor), to_frame_px(p.y_px, factor)};
@@ -109,9 +107,11 @@ bool OpenCvTracker::Impl::follow(int factor) {
   const size_t looked_for = features.size();
   size_t kept = 0;
   for (size_t i = 0; i < looked_for; ++i) {
-    if (!found[i]) continue;
-    result.tracks.push_back({features[i].id, in_frame(from[i]), in_frame(to[i])});
-    features[kept++] = {features[i].id, to[i]};
+    const PointFlow& point = flow[i];
+    if (!point.found) continue;
+    result.tracks.push_back({features[i].id, in_frame(point.from), in_frame(point.to)});
+    const ImagePoint moved{point.to.x_px - point.from.x_px, point.to.y_px - point.from.y_px};
+    features[kept++] = {features[i].id, point.to, moved};
   }
   features.resize(kept);
 
@@ -134,6 +134,7 @@ void OpenCvTracker::Impl::select(int factor) {
   selection.max_features = settings.max_features;
   selection.quality_level = settings.quality_level;
   selection.min_distance_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
+  selection.border_px = follow_border_px(now[0]);
   select_features(now[0], selection, features, next_id);
   selected = features.size();
   frames_since_selection = 0;

@@ -18,11 +18,21 @@ using FlowPyramid = std::vector<cv::Mat>;
 /// `image`: 8-bit, one channel. Reuses the memory of `pyramid` when the size is the same.
 void build_pyramid(const cv::Mat& image, FlowPyramid& pyramid);
 
-/// Looks for points of `before` in `now`, pictures of one size. `found[i]` says whether `to[i]` is
-/// the place of `from[i]`: inside the picture, the same place when followed back again, and with
-/// surroundings that look alike. The results have the size of `from`.
+/// Points nearer to the border of `image` than this are not followed, pixels: their window would
+/// reach over it, to mirrored pixels that move the other way.
+int follow_border_px(const cv::Mat& image);
+
+/// A point of one picture that is looked for in the next; lengths in pixels of the pictures.
+struct PointFlow {
+  ImagePoint from;
+  ImagePoint expected;  ///< displacement to try first, the last one for example
+  ImagePoint to;        ///< where it is, if found
+  bool found = false;
+};
+
+/// Looks for `points` of `before` in `now`, pictures of one size. A point is found if its place is
+/// inside the border, shows the same surroundings, and leads back to where it came from.
 void follow_points(const FlowPyramid& before, const FlowPyramid& now,
-                   const std::vector<ImagePoint>& from, std::vector<ImagePoint>& to,
-                   std::vector<bool>& found);
+                   std::vector<PointFlow>& points);
 
 }  // namespace spidar

@@ -15,13 +15,15 @@ namespace spidar {
 /// A point that is followed.
 struct Feature {
   uint32_t id = 0;
-  ImagePoint at;  ///< pixels of the picture it was selected in
+  ImagePoint at;     ///< pixels of the picture it was selected in
+  ImagePoint moved;  ///< displacement since the picture before; 0 for a new one
 };
 
 struct SelectionSettings {
   int max_features = 0;
   double quality_level = 0;
   double min_distance_px = 0;  ///< in pixels of the picture given
+  int border_px = 0;           ///< no point is nearer to the border
 };
 
 /// Brings `features` to what eq. 1 selects in `image` (8-bit, one channel): points whose smaller

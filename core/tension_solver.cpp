@@ -2,150 +2,241 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include <Eigen/Cholesky>
+#include "core/row.h"
+#include "core/small_ldlt.h"
+#include "core/tension_objective.h"
 
 namespace spidar {
 namespace {
 
-using Hessian = Eigen::Matrix<double, kMaxStrings, kMaxStrings>;
+constexpr int n = kMaxStrings;
 
-// Multipliers and bound violations below this share of their own terms are rounding.
-constexpr double kTolerance = 1e-13;
-constexpr int kMaxIterations = 100;
+// A violation of the optimality conditions that counts as none, relative to the terms of the
+// gradient, which is itself rounded to some 1e-15 of them.
+constexpr double kTolerance = 2e-14;
+// What still is a solution when rounding keeps it from getting there.
+constexpr double kAccepted = 1e-12;
+constexpr int kMaxIterations = 24;
+// Of the strings that want to leave their bound, those leave whose gradient is this share of the
+// largest: one at a time takes more rounds, all at once sends some of them back.
+constexpr double kReleaseShare = 0.4;
+// Added to the diagonal (as a share of it) when ε is lost beside it; rises until the pivots are
+// sound.
+constexpr double kLeastDamping = 0x1p-48;
 
-bool is_valid(const TensionProblem& p) {
-  if (p.count < 1 || p.count > kMaxStrings) return false;
-  if (!(p.epsilon > 0 && std::isfinite(p.epsilon))) return false;
-  if (!(p.torque_length_m > 0 && std::isfinite(p.torque_length_m))) return false;
-  if (!p.wrench.is_finite()) return false;
-  for (int i = 0; i < p.count; ++i) {
-    if (!p.W.col(i).allFinite() || !std::isfinite(p.t_ref_N[i])) return false;
-    if (!std::isfinite(p.t_min_N[i]) || !std::isfinite(p.t_max_N[i])) return false;
-    if (p.t_min_N[i] > p.t_max_N[i]) return false;
+// Feasible tensions, their gradient, and which strings may move (bit i: string i).
+struct Iterate {
+  alignas(16) Row t;
+  alignas(16) Row gradient;
+  double residual[6];
+  unsigned free;
+};
+
+struct Bounds {
+  const double* low;
+  const double* high;
+
+  // Finite, and not crossed: the difference of anything else is infinite, NaN or negative.
+  bool are_valid() const {
+    Pair smallest = {}, sum = {};
+#pragma GCC unroll 4
+    for (int p = 0; p < kPairs; ++p) {
+      const Pair room = pair(high, p) - pair(low, p);
+      smallest = smaller(room, smallest);
+      sum += 0 * room;
+    }
+    return sum[0] + sum[1] == 0 && smallest[0] == 0 && smallest[1] == 0;
   }
-  return true;
+
+  // Strings that have room between their bounds.
+  unsigned apart() const {
+    unsigned strings = 0;
+    for (int p = 0; p < kPairs; ++p) strings |= bits(pair(low, p) < pair(high, p), p);
+    return strings;
+  }
+};
+
+// The nearest feasible point; free are the strings that are at no bound.
+void start(const Bounds& bounds, const double* tension, Iterate& x) {
+  x.free = 0;
+#pragma GCC unroll 4
+  for (int p = 0; p < kPairs; ++p) {
+    const Pair low = pair(bounds.low, p), high = pair(bounds.high, p);
+    const Pair t = smaller(larger(pair(tension, p), low), high);
+    pair(x.t, p) = t;
+    x.free |= bits((low < t) & (t < high), p);
+  }
+}
+
+TensionProblem with_eight_strings(const TensionProblem& p) {
+  TensionProblem padded = p;
+  padded.count = n;
+  for (int i = p.count; i < n; ++i) {
+    padded.W.col(i).setZero();
+    padded.t_min_N[i] = padded.t_max_N[i] = padded.t_ref_N[i] = 0;
+  }
+  return padded;
 }
 
 StringVector tension_at_rest(const TensionProblem& p) {
   StringVector t = StringVector::Zero();
-  for (int i = 0; i < std::clamp(p.count, 0, kMaxStrings); ++i)
+  for (int i = 0; i < std::min(p.count, n); ++i)
     if (std::isfinite(p.t_min_N[i])) t[i] = p.t_min_N[i];
   return t;
 }
 
-// Minimiser over the free strings with the others held where they are.
-StringVector free_minimum(const Hessian& Q, const StringVector& c, int count,
-                          const std::array<signed char, kMaxStrings>& bound, StringVector t) {
-  std::array<int, kMaxStrings> free{};
-  int n = 0;
-  for (int i = 0; i < count; ++i)
-    if (bound[i] == 0) free[n++] = i;
-  if (n == 0) return t;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStrings, kMaxStrings> A(n, n);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStrings, 1> b(n);
-  for (int a = 0; a < n; ++a) t[free[a]] = 0;
-  const StringVector g = c - Q * t;
-  for (int a = 0; a < n; ++a) {
-    b[a] = g[free[a]];
-    for (int d = 0; d < n; ++d) A(a, d) = Q(free[a], free[d]);
+// Each string's violation of its optimality condition; returns the largest.
+double violations(const Bounds& bounds, const Iterate& x, double* violation) {
+#pragma GCC unroll 4
+  for (int p = 0; p < kPairs; ++p) {
+    const Pair g = pair(x.gradient, p);
+    const Pair decrease = pair(x.t, p) > pair(bounds.low, p) ? g : Pair{};
+    const Pair increase = pair(x.t, p) < pair(bounds.high, p) ? -g : Pair{};
+    pair(violation, p) = larger(decrease, increase);
   }
-  const auto ldlt = A.ldlt();
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStrings, 1> y = ldlt.solve(b);
-  y += ldlt.solve(b - A * y);
-  for (int a = 0; a < n; ++a) t[free[a]] = y[a];
-  return t;
+  return largest(pair(violation, 0), pair(violation, 1), pair(violation, 2), pair(violation, 3));
+}
+
+// A step to the minimum over the free strings: t[index] − length.
+struct Step {
+  int count = 0;
+  int index[n];
+  double length[n];
+};
+
+Step newton_step(const TensionObjective& objective, const Iterate& x) {
+  Step step;
+  for (int i = 0; i < n; ++i) {
+    step.index[step.count] = i;
+    step.count += static_cast<int>(x.free >> i & 1);
+  }
+  double damping = 0;
+  while (!solve_ldlt(step.count, objective.Q, damping, step.index, x.gradient, step.length) &&
+         damping < 1)
+    damping = damping > 0 ? 4 * damping : kLeastDamping;
+  return step;
+}
+
+// Goes the whole step, clipped to the bounds. Returns the strings that were clipped.
+unsigned go_clipped(const Bounds& bounds, const Iterate& x, const Step& step, Iterate& next) {
+  for (int p = 0; p < kPairs; ++p) pair(next.t, p) = pair(x.t, p);
+  unsigned clipped = 0;
+  for (int a = 0; a < step.count; ++a) {
+    const int i = step.index[a];
+    const double whole = x.t[i] - step.length[a];
+    next.t[i] = std::min(std::max(bounds.low[i], whole), bounds.high[i]);
+    clipped |= static_cast<unsigned>(next.t[i] != whole) << i;
+  }
+  next.free = x.free & ~clipped;
+  return clipped;
+}
+
+// Change of the objective from `x` to `next`; exact, as the objective is quadratic.
+double change(const Iterate& x, const Iterate& next) {
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += (next.t[i] - x.t[i]) * (x.gradient[i] + next.gradient[i]) / 2;
+  return sum;
+}
+
+// Goes along the step to the first bound in the way, and holds the string that meets it.
+void go_to_first_bound(const Bounds& bounds, const Step& step, Iterate& x) {
+  double share = 1;
+  int first = -1;
+  for (int a = 0; a < step.count; ++a) {
+    const int i = step.index[a];
+    const double room = x.t[i] - (step.length[a] > 0 ? bounds.low[i] : bounds.high[i]);
+    if (step.length[a] != 0 && room / step.length[a] < share) {
+      share = room / step.length[a];
+      first = a;
+    }
+  }
+  for (int a = 0; a < step.count; ++a) {
+    const int i = step.index[a];
+    x.t[i] = std::clamp(x.t[i] - share * step.length[a], bounds.low[i], bounds.high[i]);
+  }
+  if (first < 0) return;
+  const int i = step.index[first];
+  x.t[i] = step.length[first] > 0 ? bounds.low[i] : bounds.high[i];
+  x.free &= ~(1u << i);
+}
+
+unsigned strings_to_release(const Iterate& x, const double* violation) {
+  double largest = 0;
+  for (int i = 0; i < n; ++i)
+    if (!(x.free >> i & 1)) largest = std::max(largest, violation[i]);
+  unsigned released = 0;
+  for (int i = 0; i < n; ++i)
+    if (violation[i] > 0 && violation[i] >= kReleaseShare * largest) released |= 1u << i;
+  return released & ~x.free;
 }
 
 }  // namespace
 
-TensionResult TensionSolver::solve(const TensionProblem& p) noexcept {
+// A projected Newton method: each round goes to the minimum over the strings that may move, clipped
+// to the bounds, holds those that were clipped, and lets go those whose gradient points inwards
+// (Bertsekas, Projected Newton methods, SIAM J. Control Optim. 20, 1982). When clipping raises the
+// objective, the round goes to the first bound only, as a primal active-set method does.
+TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
+  if (problem.count > 0 && problem.count < n) return solve(with_eight_strings(problem));
   TensionResult result;
-  if (!is_valid(p)) {
-    result.tension_N = tension_at_rest(p);
+  const TensionObjective objective(problem);
+  const Bounds bounds{problem.t_min_N.data(), problem.t_max_N.data()};
+  if (problem.count != n || !(problem.epsilon > 0) || !(problem.torque_length_m > 0) ||
+      !objective.is_finite() || !bounds.are_valid()) {
+    result.tension_N = tension_at_rest(problem);
     warm_ = false;
     return result;
   }
 
-  StructureMatrix A = p.W;
-  Eigen::Matrix<double, 6, 1> f = p.wrench.stacked();
-  A.bottomRows<3>() /= p.torque_length_m;
-  f.tail<3>() /= p.torque_length_m;
-  A.rightCols(kMaxStrings - p.count).setZero();
-  const Hessian Q = A.transpose() * A + p.epsilon * Hessian::Identity();
-  StringVector c = A.transpose() * f + p.epsilon * p.t_ref_N;
-  c.tail(kMaxStrings - p.count).setZero();
+  Iterate iterates[2];
+  Iterate* x = &iterates[0];
+  Iterate* next = &iterates[1];
+  start(bounds, warm_ ? last_N_.data() : problem.t_ref_N.data(), *x);
+  // The strings that were at a bound stay there at first; without such knowledge all may move.
+  if (!warm_) x->free = bounds.apart();
+  objective.evaluate(x->t, x->residual, x->gradient);
 
-  // A feasible start: strings at their remembered bound, the others clipped to theirs.
-  if (!warm_) bound_.fill(0);
-  StringVector t = free_minimum(Q, c, p.count, bound_, StringVector::Zero());
-  for (int i = 0; i < p.count; ++i) {
-    if (bound_[i] == 0 && t[i] <= p.t_min_N[i]) bound_[i] = -1;
-    if (bound_[i] == 0 && t[i] >= p.t_max_N[i]) bound_[i] = 1;
-    if (p.t_min_N[i] == p.t_max_N[i]) bound_[i] = -1;
-    if (bound_[i] != 0) t[i] = bound_[i] < 0 ? p.t_min_N[i] : p.t_max_N[i];
-  }
-
-  result.status = TensionStatus::kIterationLimit;
-  StringVector gradient;
-  StringVector scale;
+  bool cautious = false;
+  double scale = 0;
   while (result.iterations < kMaxIterations) {
     ++result.iterations;
-    const StringVector target = free_minimum(Q, c, p.count, bound_, t);
-    double step = 1;
-    int blocking = -1;
-    for (int i = 0; i < p.count; ++i) {
-      if (bound_[i] != 0) continue;
-      const double limit = target[i] < t[i] ? p.t_min_N[i] : p.t_max_N[i];
-      if ((target[i] - limit) * (target[i] - t[i]) <= 0) continue;
-      const double share = (limit - t[i]) / (target[i] - t[i]);
-      if (share < step) {
-        step = share;
-        blocking = i;
-      }
-    }
-    if (blocking >= 0) {
-      const bool down = target[blocking] < t[blocking];
-      t += step * (target - t);
-      bound_[blocking] = down ? -1 : 1;
-      t[blocking] = down ? p.t_min_N[blocking] : p.t_max_N[blocking];
+    const Step step = newton_step(objective, *x);
+    const unsigned clipped = go_clipped(bounds, *x, step, *next);
+    objective.evaluate(next->t, next->residual, next->gradient);
+    // Where the search starts is not worth holding on to; after that the objective only falls.
+    if (clipped && result.iterations > 1 && !(change(*x, *next) < 0)) {
+      go_to_first_bound(bounds, step, *x);
+      objective.evaluate(x->t, x->residual, x->gradient);
+      cautious = true;
       continue;
     }
-    t = target;
-    gradient = Q * t - c;
-    scale = Q.cwiseAbs() * t.cwiseAbs() + c.cwiseAbs();
-    int worst = -1;
-    double worst_multiplier = kTolerance * scale.maxCoeff();
-    for (int i = 0; i < p.count; ++i) {
-      if (bound_[i] == 0 || p.t_min_N[i] == p.t_max_N[i]) continue;
-      const double multiplier = bound_[i] * gradient[i];
-      if (multiplier > worst_multiplier) {
-        worst_multiplier = multiplier;
-        worst = i;
-      }
-    }
-    if (worst < 0) {
-      result.status = TensionStatus::kSolved;
-      break;
-    }
-    bound_[worst] = 0;
+    std::swap(x, next);
+    alignas(16) Row violation;
+    result.kkt_residual = violations(bounds, *x, violation);
+    scale = objective.gradient_scale(x->t);
+    if (result.kkt_residual <= kTolerance * scale) break;
+    // After a step that did not come off, no string is let go before the minimum over the free ones
+    // is reached: every round then either holds a string or ends lower, which cannot go on for
+    // ever.
+    cautious = cautious && clipped && x->free;
+    if (!cautious) x->free |= strings_to_release(*x, violation);
   }
+  if (scale > 0) result.kkt_residual /= scale;
+  result.status =
+      result.kkt_residual <= kAccepted ? TensionStatus::kSolved : TensionStatus::kIterationLimit;
 
-  for (int i = 0; i < p.count; ++i) t[i] = std::clamp(t[i], p.t_min_N[i], p.t_max_N[i]);
-  gradient = Q * t - c;
-  scale = Q.cwiseAbs() * t.cwiseAbs() + c.cwiseAbs();
-  double violation = 0;
-  for (int i = 0; i < p.count; ++i) {
-    const bool at_min = t[i] == p.t_min_N[i], at_max = t[i] == p.t_max_N[i];
-    const double up = at_min ? 0.0 : gradient[i], down = at_max ? 0.0 : -gradient[i];
-    violation = std::max({violation, up, down});
+  for (int p = 0; p < kPairs; ++p) pair(result.tension_N.data(), p) = pair(x->t, p);
+  last_N_ = result.tension_N;
+  double sum = 0;
+  for (int k = 0; k < 6; ++k) sum += x->residual[k] * x->residual[k];
+  result.residual_N = std::sqrt(sum);
+  for (int k = 0; k < 3; ++k) {
+    result.delivered.force_N[k] = x->residual[k] + objective.b[k];
+    result.delivered.torque_Nm[k] =
+        (x->residual[k + 3] + objective.b[k + 3]) * problem.torque_length_m;
   }
-  const double whole = scale.maxCoeff();
-  result.kkt_residual = whole > 0 ? violation / whole : 0.0;
-  result.tension_N = t;
-  const Eigen::Matrix<double, 6, 1> delivered = p.W.leftCols(p.count) * t.head(p.count);
-  result.delivered = {delivered.head<3>(), delivered.tail<3>()};
-  result.residual_N = (A * t - f).norm();
   warm_ = result.status == TensionStatus::kSolved;
   return result;
 }

@@ -125,6 +125,7 @@ void HapticLoop::forget_timeline(uint32_t generation) noexcept {
   timeline_.clear();
   timeline_generation_ = generation;
   newest_ns_ = INT64_MIN;
+  reached_ns_ = INT64_MIN;
 }
 
 void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
@@ -157,6 +158,9 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   record.found = result.found;
   record.frame_ns = result.frame_time_ns;
   record.wanted = result.wrench;
+  if (result.found == Found::kNothing || result.frame_time_ns == reached_ns_) return;
+  reached_ns_ = result.frame_time_ns;
+  skew_.add(record.running_ns - reached_ns_);
 }
 
 void HapticLoop::command(TickRecord& record, double dt_s) noexcept {

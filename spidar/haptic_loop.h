@@ -11,6 +11,7 @@
 #include "core/tension_solver.h"
 #include "core/wrench_timeline.h"
 #include "spidar/device.h"
+#include "spidar/latency_histogram.h"
 #include "spidar/playback_clock.h"
 #include "spidar/profile.h"
 #include "spidar/safety.h"
@@ -66,6 +67,9 @@ class SPIDAR_API HapticLoop {
   void set_limits(const SafetyLimits& limits) noexcept { shared_limits_.store(limits); }
 
   LoopSnapshot snapshot() const noexcept { return snapshot_.load(); }
+
+  /// For each frame: how long after it was due on the screen its wrench was reached.
+  const LatencyHistogram& skew() const noexcept { return skew_; }
 
   /// Every tick in order, for one reader; ticks are dropped when nobody reads.
   bool pop_record(TickRecord& record) noexcept { return records_.pop(record); }
@@ -125,12 +129,14 @@ class SPIDAR_API HapticLoop {
   Seqlock<PlaybackClock> shared_clock_;
   Seqlock<SafetyLimits> shared_limits_;
   Seqlock<LoopSnapshot> snapshot_;
+  LatencyHistogram skew_;
   // Loop thread only.
   PlaybackClock clock_;
   SafetyLimits limits_;
   WrenchTimeline timeline_;
   uint32_t timeline_generation_ = 0;
-  int64_t newest_ns_ = INT64_MIN;  // running time of the newest wrench in the timeline
+  int64_t newest_ns_ = INT64_MIN;   // running time of the newest wrench in the timeline
+  int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last
   WrenchSafety safety_;
   PoseSolver pose_solver_;
   TensionSolver tension_solver_;

@@ -51,6 +51,10 @@ HapticLoop& HapticSession::loop() noexcept {
 const HapticLoop& HapticSession::loop() const noexcept {
   return impl_->loop;
 }
+const Device& HapticSession::device() const noexcept {
+  return *impl_->device;
+}
+
 Device& HapticSession::device() noexcept {
   return *impl_->device;
 }

@@ -38,6 +38,7 @@ class SPIDAR_API HapticSession {
   HapticLoop& loop() noexcept;
   const HapticLoop& loop() const noexcept;
   Device& device() noexcept;
+  const Device& device() const noexcept;
   const Scheduling& scheduling() const noexcept;
 
   /// Lateness and duration of the thread's ticks; empty without a thread.

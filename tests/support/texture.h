@@ -1,0 +1,24 @@
+/// A grey texture that is known between the pixels too.
+#pragma once
+
+#include <cstdint>
+
+namespace spidar::test {
+
+/// Smooth random texture: a cubic B-spline over random values on a grid of `cell_px`. Twice
+/// differentiable, without repetition, rich in corners, and its value at any real position is
+/// exact: a picture of it may be moved by any part of a pixel without resampling.
+class Texture {
+ public:
+  /// `cell_px` > 0: distance of the grid points; structures are about twice as large.
+  Texture(uint32_t seed, double cell_px) : seed_(seed), cell_px_(cell_px) {}
+
+  /// Grey level at a position, 8 … 248.
+  double at(double x_px, double y_px) const;
+
+ private:
+  uint32_t seed_;
+  double cell_px_;
+};
+
+}  // namespace spidar::test
