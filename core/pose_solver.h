@@ -24,7 +24,8 @@ struct PoseResult {
 /// Needs at least six strings. No allocation, no exceptions after construction.
 class SPIDAR_API PoseSolver {
  public:
-  /// Throws std::invalid_argument when the geometry has fewer than six strings.
+  /// Throws std::invalid_argument when the geometry has fewer than six strings, or all of
+  /// them end in the grip's origin.
   explicit PoseSolver(const StringGeometry& geometry);
 
   /// A residual above this means that the solution is wrong: a local minimum or a bad length.

@@ -31,8 +31,8 @@ struct StringGeometry {
 /// Lengths from exit to grip point, metres.
 SPIDAR_API StringVector string_lengths_m(const StringGeometry& geometry, const Pose& pose);
 
-/// W with wrench = W · tensions: column i is [u_i; (R g_i) × u_i], u_i the unit vector from the grip
-/// point to the exit. A string of no length has no direction: its column is zero.
+/// W with wrench = W · tensions: column i is [u_i; (R g_i) × u_i], u_i the unit vector from the
+/// grip point to the exit. A string of no length has no direction: its column is zero.
 SPIDAR_API StructureMatrix structure_matrix(const StringGeometry& geometry, const Pose& pose);
 
 }  // namespace spidar

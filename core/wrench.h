@@ -21,7 +21,9 @@ struct Wrench {
   }
 };
 
-inline Wrench operator*(double s, const Wrench& w) { return {s * w.force_N, s * w.torque_Nm}; }
+inline Wrench operator*(double s, const Wrench& w) {
+  return {s * w.force_N, s * w.torque_Nm};
+}
 inline Wrench operator+(const Wrench& a, const Wrench& b) {
   return {a.force_N + b.force_N, a.torque_Nm + b.torque_Nm};
 }
@@ -30,6 +32,8 @@ inline Wrench operator-(const Wrench& a, const Wrench& b) {
 }
 
 /// Wrench between `a` (s = 0) and `b` (s = 1).
-inline Wrench interpolate(const Wrench& a, const Wrench& b, double s) { return a + s * (b - a); }
+inline Wrench interpolate(const Wrench& a, const Wrench& b, double s) {
+  return a + s * (b - a);
+}
 
 }  // namespace spidar

@@ -28,9 +28,9 @@ struct DeviceReading {
 
 enum class ExchangeStatus {
   kOk,
-  kTimeout,     ///< no answer in time; may come back
-  kBadReply,    ///< short, garbled or mismatched answer; may come back
-  kLost,        ///< unplugged or closed: open() again
+  kTimeout,   ///< no answer in time; may come back
+  kBadReply,  ///< short, garbled or mismatched answer; may come back
+  kLost,      ///< unplugged or closed: open() again
 };
 
 /// One controller board with its motors. One thread at a time.
@@ -42,8 +42,8 @@ class SPIDAR_API Device {
   /// close() it may be called again.
   virtual void open() = 0;
 
-  /// One cycle: puts out volts, reads counts. Called at 1 kHz: no allocation, no lock, no exception.
-  /// `reading` is only written with kOk.
+  /// One cycle: puts out volts, reads counts. Called at 1 kHz: no allocation, no lock, no
+  /// exception. `reading` is only written with kOk.
   virtual ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept = 0;
 
   /// Motors to zero, then releases the board. Safe to call twice, and after kLost.

@@ -11,67 +11,48 @@
 #include "core/tension_solver.h"
 #include "core/wrench_timeline.h"
 #include "spidar/device.h"
+#include "spidar/latency_histogram.h"
 #include "spidar/playback_clock.h"
 #include "spidar/profile.h"
 #include "spidar/safety.h"
 #include "spidar/seqlock.h"
 #include "spidar/spsc_ring.h"
+#include "spidar/tick_record.h"
 
 namespace spidar {
 
 constexpr int64_t kTick_ns = 1'000'000;  ///< 1 kHz
 
-enum class DeviceState {
-  kClosed,
-  kOpening,  ///< tensions ramp up to rest
-  kRunning,
-  kLost,     ///< does not answer; tried again
-};
-
-/// One tick, as it was. Also the row of the haptic trace.
-struct TickRecord {
-  uint64_t tick = 0;
-  int64_t monotonic_ns = 0;   ///< when the device was served
-  int64_t lateness_ns = 0;    ///< behind the deadline
-  int64_t running_ns = 0;     ///< running time on the screen
-  int64_t frame_ns = 0;       ///< running time of the frame whose wrench was reached last
-  Found found = Found::kNothing;
-  Wrench wanted;              ///< from the timeline
-  Wrench commanded;           ///< after finite, limit, slew and stale
-  Wrench delivered;           ///< W · tension, what the strings can do of it
-  StringVector tension_N = StringVector::Zero();
-  Pose pose;
-  double pose_residual_m = 0;
-  DeviceState device = DeviceState::kClosed;
-  bool playing = false;
-};
-
-/// Numbers since the loop was opened.
-struct LoopCounters {
-  uint64_t ticks = 0;
-  uint64_t overruns = 0;         ///< ticks that began more than one period late
-  uint64_t exchange_errors = 0;
-  uint64_t pose_errors = 0;
-  uint64_t rejected_wrenches = 0;  ///< not finite
-  uint64_t times_lost = 0;
-};
-
-struct LoopSnapshot {
-  TickRecord last;
-  LoopCounters counters;
-};
-
-/// The loop without its thread: whoever owns it calls tick(). Of the other members schedule() belongs
-/// to one thread (streaming), the rest may be called from any.
+/// The loop without its thread: whoever owns it calls tick(). Large (about 2 MB): not for the
+/// stack.
 class SPIDAR_API HapticLoop {
  public:
+  /// Tensions rise from zero to rest in this time after the device is opened.
+  static constexpr double kEnergise_s = 0.2;
+  /// And fall to zero in this before it is closed.
+  static constexpr double kRelease_s = 0.05;
+  /// Without a good pose for longer, W is not to be trusted: the wrench is ramped to rest.
+  static constexpr int64_t kPoseTimeout_ns = 50'000'000;
+  /// A device that fails in this many exchanges in a row is lost.
+  static constexpr int kMaxErrors = 20;
+  /// Time counted for one tick at most, however late it is, so that a stall does not end in a step.
+  static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
+  /// Wrenches enter the timeline this long before they are due; later ones wait in the ring, so
+  /// that a long queue of frames before the screen does not push out the wrench that is due.
+  static constexpr int64_t kHorizon_ns = 100'000'000;
+
   /// `device` outlives the loop and is opened by open(). Throws std::invalid_argument when the
   /// profile has fewer than six strings.
   HapticLoop(const Profile& profile, Device& device, const SafetyLimits& limits = {});
+  /// Closes the device when that has not been done.
+  ~HapticLoop();
+  HapticLoop(const HapticLoop&) = delete;
+  HapticLoop& operator=(const HapticLoop&) = delete;
 
   // --- streaming thread
 
-  /// False when the ring is full: the loop does not run or is far behind.
+  /// For the running time `entry.time_ns` on the screen. False when the ring is full: the loop does
+  /// not run, does not play, or is far behind.
   bool schedule(const TimedWrench& entry) noexcept;
 
   // --- any thread
@@ -80,13 +61,21 @@ class SPIDAR_API HapticLoop {
   void cancel_scheduled() noexcept { generation_.fetch_add(1, std::memory_order_acq_rel); }
 
   /// One caller at a time.
-  void set_playback_clock(const PlaybackClock& clock) noexcept { clock_.store(clock); }
-  void set_limits(const SafetyLimits& limits) noexcept { limits_.store(limits); }
+  void set_playback_clock(const PlaybackClock& clock) noexcept { shared_clock_.store(clock); }
+  /// One caller at a time. A lower total limit holds with the next tick, a higher one is reached
+  /// through the slew limit.
+  void set_limits(const SafetyLimits& limits) noexcept { shared_limits_.store(limits); }
 
   LoopSnapshot snapshot() const noexcept { return snapshot_.load(); }
 
+  /// For each frame: how long after it was due on the screen its wrench was reached.
+  const LatencyHistogram& skew() const noexcept { return skew_; }
+
   /// Every tick in order, for one reader; ticks are dropped when nobody reads.
   bool pop_record(TickRecord& record) noexcept { return records_.pop(record); }
+
+  /// From the next tick on wrench and tensions ramp to zero, see released().
+  void begin_close() noexcept { closing_.store(true, std::memory_order_release); }
 
   // --- loop thread
 
@@ -97,13 +86,19 @@ class SPIDAR_API HapticLoop {
   /// logs nor throws. After kLost it only counts; call reopen().
   void tick(int64_t deadline_ns, int64_t now_ns) noexcept;
 
-  /// Tries to get a lost device back. May block and allocate: nothing is energised at that time.
-  bool reopen() noexcept;
-
   bool lost() const noexcept { return state_ == DeviceState::kLost; }
 
-  /// Ramps down in `steps` ticks without waiting between them when `sleep` is null, then closes.
-  void close(void (*sleep)(int64_t ns)) noexcept;
+  /// Tries to get a lost device back; false when that fails. May block and allocate: nothing is
+  /// energised at that time. How long it takes does not count as missed deadlines.
+  bool reopen() noexcept;
+
+  /// After begin_close(): true once the ticks have brought the motors to zero, or the device is not
+  /// there to be brought to zero.
+  bool released() const noexcept;
+
+  /// Closes the device at once, which takes the motors to zero without a ramp if they are not
+  /// there.
+  void close() noexcept;
 
  private:
   struct Scheduled {
@@ -111,24 +106,52 @@ class SPIDAR_API HapticLoop {
     TimedWrench entry;
   };
 
+  void energise() noexcept;
+  void lose() noexcept;
+  void forget_timeline(uint32_t generation) noexcept;
+  void take_scheduled(bool playing, int64_t running_ns) noexcept;
+  void find_wanted(TickRecord& record) noexcept;
+  void command(TickRecord& record, double dt_s) noexcept;
+  void pull(TickRecord& record) noexcept;
+  void exchange(TickRecord& record) noexcept;
+  void locate(const DeviceReading& reading, int64_t now_ns) noexcept;
+  bool located_at(int64_t now_ns) const noexcept;
+  void publish(const TickRecord& record) noexcept;
+
   const Profile profile_;
+  const StringVector home_length_m_;
   Device& device_;
   // Shared.
   SpscRing<Scheduled, 256> scheduled_;
   SpscRing<TickRecord, 4096> records_;
   std::atomic<uint32_t> generation_{0};
-  Seqlock<PlaybackClock> clock_;
-  Seqlock<SafetyLimits> limits_;
+  std::atomic<bool> closing_{false};
+  Seqlock<PlaybackClock> shared_clock_;
+  Seqlock<SafetyLimits> shared_limits_;
   Seqlock<LoopSnapshot> snapshot_;
+  LatencyHistogram skew_;
   // Loop thread only.
+  PlaybackClock clock_;
+  SafetyLimits limits_;
   WrenchTimeline timeline_;
   uint32_t timeline_generation_ = 0;
-  FiniteCheck finite_;
-  SlewLimit slew_;
-  StaleRamp stale_;
+  int64_t newest_ns_ = INT64_MIN;   // running time of the newest wrench in the timeline
+  int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last
+  WrenchSafety safety_;
   PoseSolver pose_solver_;
   TensionSolver tension_solver_;
+  TensionProblem problem_;
   DeviceState state_ = DeviceState::kClosed;
+  double energised_ = 0;  // share of the tensions that is put out
+  int errors_in_a_row_ = 0;
+  Pose pose_;
+  double pose_residual_m_ = 0;
+  bool located_ = false;  // pose_ is of this device since it was opened
+  int64_t located_ns_ = 0;
+  bool ticked_ = false;
+  int64_t last_now_ns_ = 0;
+  int64_t last_deadline_ns_ = 0;
+  LoopCounters counters_;
 };
 
 }  // namespace spidar

@@ -1,4 +1,5 @@
-/// A device at work: loop, thread, and the file that records it. What a player needs of this library.
+/// A device at work: loop, thread, and the file that records it. What a player needs of this
+/// library.
 #pragma once
 
 #include <cstdint>
@@ -12,34 +13,42 @@
 #include "spidar/playback_clock.h"
 #include "spidar/profile.h"
 #include "spidar/safety.h"
+#include "spidar/scheduling.h"
+#include "spidar/tick_trace.h"
 
 namespace spidar {
 
 struct SessionSettings {
   SafetyLimits limits;
   std::string trace_path;  ///< CSV, one row a tick; empty: none
-  bool threaded = true;    ///< false: the owner calls tick()
-};
-
-/// Whether the loop's thread runs with real-time priority, and if not, why.
-struct Scheduling {
-  bool real_time = false;
-  std::string detail;  ///< "SCHED_FIFO 80" or the reason and what would help
+  bool threaded = true;    ///< false: the owner calls loop().tick()
+  bool real_time = true;   ///< ask for real-time priority; works without
 };
 
 class SPIDAR_API HapticSession {
  public:
-  /// Opens the device and starts the loop. Throws DeviceError, or std::runtime_error when the trace
-  /// cannot be written.
+  /// Opens the device and starts the loop. Throws DeviceError, std::invalid_argument when the
+  /// profile has fewer than six strings, or std::runtime_error when the trace cannot be written.
   HapticSession(const Profile& profile, std::unique_ptr<Device> device,
-                const SessionSettings& settings);
-  /// Ramps to rest, then to zero, and closes the device.
+                const SessionSettings& settings = {});
+  /// Ramps to rest, then to zero, and closes the device: some 60 ms. Without a thread the ramp's
+  /// ticks follow each other at once, a millisecond apart in the loop's time.
   ~HapticSession();
 
   HapticLoop& loop() noexcept;
   const HapticLoop& loop() const noexcept;
   Device& device() noexcept;
+  const Device& device() const noexcept;
   const Scheduling& scheduling() const noexcept;
+
+  /// Lateness and duration of the thread's ticks; empty without a thread.
+  const LoopTiming& timing() const noexcept;
+
+  /// Writes the trace up to the last tick; a thread does that by itself. The trace takes the loop's
+  /// records: pop_record() is for sessions without one.
+  void drain_trace() noexcept;
+  /// All zero without a trace.
+  TraceStatus trace_status() const noexcept;
 
   /// CLOCK_MONOTONIC, nanoseconds.
   static int64_t monotonic_now_ns() noexcept;

@@ -21,36 +21,41 @@ class SPIDAR_API ProfileError : public std::runtime_error {
 
 /// Motor, encoder and force range of one string.
 struct StringDrive {
-  double min_tension_N = 0;       ///< keeps the string taut
+  double min_tension_N = 0;  ///< keeps the string taut
   double max_tension_N = 0;
-  double newtons_per_volt = 0;    ///< > 0; the direction is in motor_sign
-  double metres_per_count = 0;    ///< > 0; the direction is in encoder_sign
-  int motor_sign = 1;             ///< +1: a positive voltage pulls
-  int encoder_sign = 1;           ///< +1: the count rises when string is paid out
+  double newtons_per_volt = 0;  ///< > 0; the direction is in motor_sign
+  double metres_per_count = 0;  ///< > 0; the direction is in encoder_sign
+  int motor_sign = 1;           ///< +1: a positive voltage pulls
+  int encoder_sign = 1;         ///< +1: the count rises when string is paid out
 };
 
 /// How sure a number is.
-enum class Evidence { kPublished, kInferred };
+enum class Evidence {
+  kPublished,     ///< read in the source
+  kInferred,      ///< derived or plausible; check on the unit
+  kContradicted,  ///< read in the source, and another source says something else
+};
 
 /// Where a group of numbers comes from.
 struct Provenance {
-  std::string field;     ///< e.g. "geometry", "newtons_per_volt"
-  std::string source;    ///< e.g. "Springhead 1, HISpidarG6C.cpp"
+  std::string field;   ///< e.g. "geometry", "newtons_per_volt"
+  std::string source;  ///< e.g. "haselab-net/SpringheadOne src/HIS/HISpidarG6C.cpp"
   Evidence evidence = Evidence::kPublished;
+  std::string note;  ///< how it was derived, or what contradicts it; may be empty
 };
 
 struct Profile {
   std::string name;         ///< file name without ending
   std::string description;  ///< one line
-  std::string board;        ///< controller it was used with: usb-sh4, usb-simple, uart, ahs, unknown
+  std::string board;  ///< controller it was used with: usb-sh4, usb-simple, uart, ahs, unknown
   StringGeometry geometry;  ///< in D (the files' left-handed tables are converted when read)
   std::array<StringDrive, kMaxStrings> drives{};  ///< geometry.count are used
-  int dac_bits = 12;        ///< resolution of the D/A over dac_max_V
-  double dac_max_V = 10.0;  ///< D/A range is 0 … this, times motor_sign
+  int dac_bits = 12;                              ///< resolution of the D/A over dac_max_V
+  double dac_max_V = 10.0;                        ///< D/A range is 0 … this, times motor_sign
   std::vector<Provenance> provenance;
 
-  StringVector min_tension_N() const;
-  StringVector max_tension_N() const;
+  SPIDAR_API StringVector min_tension_N() const;
+  SPIDAR_API StringVector max_tension_N() const;
 };
 
 /// `name_or_path`: a name as of list_profiles(), or a path (has a '/' or ends in .toml).

@@ -1,5 +1,6 @@
-/// The steps between a wanted wrench and the motors. Order: finite → limit → slew → stale → (tension
-/// solver) → tension bounds → D/A range. Each is a small object that can be tested alone.
+/// The steps between a wanted wrench and the motors. Order: finite → limit → slew → stale →
+/// (tension solver) → tension bounds → D/A range. Each is a small object that can be tested alone;
+/// none of them allocates, locks or throws.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,13 @@
 
 namespace spidar {
 
+/// A limit that is negative or not a number counts as zero.
 struct SafetyLimits {
-  double max_force_N = 3.0;      ///< of the total force
-  double max_torque_Nm = 0.1;    ///< of the total torque
-  double max_slew_N_s = 300.0;   ///< full default force in 10 ms
+  double max_force_N = 3.0;     ///< of the total force
+  double max_torque_Nm = 0.1;   ///< of the total torque
+  double max_slew_N_s = 300.0;  ///< full default force in 10 ms
   double max_slew_Nm_s = 10.0;
-  double ramp_s = 0.04;          ///< from full to rest and back when commands stop or begin
+  double ramp_s = 0.04;  ///< from full to rest and back when commands stop or begin
 };
 
 /// Not finite in any part: zero instead, and counted.
@@ -30,14 +32,20 @@ class SPIDAR_API FiniteCheck {
   uint64_t rejected_ = 0;
 };
 
-/// Shortens force and torque to their limits, keeping their directions.
+/// Shortens force and torque to their limits, keeping their directions. Not finite: zero.
 SPIDAR_API Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept;
 
-/// Bounds the change of force and torque per second.
+/// Bounds the change of force and torque per second. What it returns is also never above the total
+/// limits when `wanted` is not: lowered limits hold at once.
 class SPIDAR_API SlewLimit {
  public:
+  /// Next wrench, `dt_s` after the last. No time passed (or a dt that is negative or not a number),
+  /// or a `wanted` that is not finite: no step towards it.
   Wrench apply(const Wrench& wanted, double dt_s, const SafetyLimits& limits) noexcept;
-  void reset() noexcept { last_ = {}; }
+
+  /// Continues from `at`.
+  void reset(const Wrench& at = {}) noexcept { last_ = at; }
+  const Wrench& last() const noexcept { return last_; }
 
  private:
   Wrench last_;
@@ -47,15 +55,40 @@ class SPIDAR_API SlewLimit {
 class SPIDAR_API StaleRamp {
  public:
   /// Share of the wrench to apply after `dt_s` more, 0 … 1. `fresh`: there is a valid command now.
+  /// A ramp_s of zero switches at once.
   double apply(bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
   void reset() noexcept { share_ = 0; }
+  double share() const noexcept { return share_; }
 
  private:
   double share_ = 0;
 };
 
-/// Tensions within each string's range scaled by `energised` (0: motors off, 1: open). Not a number
-/// counts as the minimum.
+/// The four steps in a row, from a wanted wrench to the commanded one.
+///
+/// On the way to rest the stale share is the last step, so that no slew setting, however low, keeps
+/// a force alive for longer than ramp_s. On the way in it comes before the slew limit, so that both
+/// together do not exceed that limit. A fresh command therefore changes by at most max_slew, a
+/// stale one falls by at most max_force / ramp_s.
+class SPIDAR_API WrenchSafety {
+ public:
+  /// Wrench to apply `dt_s` after the last call. Not `fresh`: `wanted` is ignored, and the wrench
+  /// applied last is ramped to rest, after which nothing of it is left.
+  Wrench apply(const Wrench& wanted, bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
+
+  /// At rest, as after construction; what was rejected stays counted.
+  void reset() noexcept;
+
+  uint64_t rejected() const noexcept { return finite_.rejected(); }
+
+ private:
+  FiniteCheck finite_;
+  SlewLimit slew_;
+  StaleRamp stale_;
+};
+
+/// Tensions within each string's range, times `energised` (0: motors off … 1: full), so that a
+/// device coming up pulls in the right direction all the while. Not a number counts as the minimum.
 SPIDAR_API StringVector bound_tensions(const StringVector& tension_N, const Profile& profile,
                                        double energised) noexcept;
 

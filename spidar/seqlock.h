@@ -1,4 +1,4 @@
-/// A value that one thread writes and others read without ever holding each other up.
+/// A value that one thread writes and others read without locks.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace spidar {
 
-/// Readers repeat while a write is under way; the writer never waits. Several writers need a lock of
-/// their own. Words are atomics, so there is no data race for the sanitizer to overlook (Boehm, "Can
-/// seqlocks get along with programming language memory models?", 2012).
+/// The writer never waits; several writers need a lock of their own. Words are atomics, so there is
+/// no data race for the sanitizer to overlook (Boehm, "Can seqlocks get along with programming
+/// language memory models?", 2012).
 template <typename T>
 class Seqlock {
   // Eigen's fixed-size types are plain memory but not formally trivially copyable.
@@ -33,15 +33,22 @@ class Seqlock {
     sequence_.store(sequence + 2, std::memory_order_release);
   }
 
-  T load() const noexcept {
+  /// False when a write was under way: `value` is left as it was. For readers of higher priority
+  /// than the writer, which on one processor would wait for ever for a writer that they hold up.
+  bool try_load(T& value) const noexcept {
     std::array<uint64_t, kWords> words;
-    for (;;) {
-      const uint64_t before = sequence_.load(std::memory_order_acquire);
-      for (size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
-      if ((before & 1) == 0 && sequence_.load(std::memory_order_relaxed) == before) break;
-    }
-    T value;
+    const uint64_t before = sequence_.load(std::memory_order_acquire);
+    for (size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
+    if ((before & 1) != 0 || sequence_.load(std::memory_order_relaxed) != before) return false;
     std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
+    return true;
+  }
+
+  /// Repeats while a write is under way.
+  T load() const noexcept {
+    T value;
+    while (!try_load(value)) {
+    }
     return value;
   }
 

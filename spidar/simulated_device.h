@@ -11,55 +11,65 @@
 #include "core/pose.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
+#include "spidar/grip_model.h"
 #include "spidar/profile.h"
 
 namespace spidar {
 
-/// Rigid grip on strings, held by a hand. The hand carries the grip's weight.
-struct GripModel {
-  double mass_kg = 0.10;
-  double inertia_kg_m2 = 4e-5;             ///< solid sphere of that mass and 32 mm radius
-  double hand_stiffness_N_m = 300.0;       ///< relaxed grasp
-  double hand_damping_N_s_m = 8.0;
-  double hand_stiffness_Nm_rad = 1.5;
-  double hand_damping_Nm_s_rad = 0.02;
-  double motor_time_constant_s = 0.002;    ///< first-order lag from volts to tension
-};
-
 /// What the hand and the motors really got.
 struct FeltState {
-  int64_t time_ns = 0;        ///< simulated time since open()
+  int64_t time_ns = 0;  ///< simulated time since open()
   StringVector tension_N = StringVector::Zero();
-  Wrench wrench;              ///< of the strings on the grip
+  Wrench wrench;  ///< of the strings on the grip
   Pose pose;
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< in D
 };
 
 /// Encoders are quantised, the D/A has its resolution, motors lag and saturate, strings only pull.
+///
+/// An exchange is an instant: its volts act until the next one. Like the real boards it keeps them
+/// when the host goes silent: with kClock the strings pull on for the time that passed, with
+/// kFixedStep time stands still between exchanges.
 class SPIDAR_API SimulatedDevice final : public Device {
  public:
   enum class Time {
-    kFixedStep,  ///< each exchange is 1 ms: deterministic
-    kClock,      ///< the time that has really passed since the last exchange, at most 50 ms
+    kFixedStep,  ///< each exchange is 1 ms after the last: deterministic
+    kClock,      ///< the time that has really passed, at most 50 ms
   };
 
+  /// Throws std::invalid_argument when `model` is not physical or too stiff, see GripDynamics.
   SimulatedDevice(const Profile& profile, Time time, const GripModel& model = {});
   ~SimulatedDevice() override;
 
+  /// Puts the grip at rest at the centre, where the counters are cleared, as the user of a real
+  /// device does. Throws DeviceError for as long as a fault stands.
   void open() override;
+
+  /// kLost when not open. Volts that are not finite or point the wrong way count as zero.
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
+
+  /// Simulates on with zero volts until the motors' lag has run out, 50 ms at most; then the power
+  /// is off and the tensions are zero.
   void close() noexcept override;
+
   const std::string& name() const noexcept override;
 
-  /// Where the hand wants to be; the grip is pulled there by the hand's spring. Any thread.
+  /// Where the hand wants to be; the grip is pulled there by the hand's spring. A pose that is not
+  /// finite is ignored. Any thread.
   void set_hand(const Pose& pose) noexcept;
 
-  /// Makes every exchange answer like this until it is called with kOk; kLost closes the device and
-  /// open() fails for as long as the fault stands. Any thread.
+  /// Makes every exchange answer like this until it is called with kOk. Time passes all the same:
+  /// with kTimeout the volts do not reach the motors, with kBadReply they do. kLost closes the
+  /// device. Any thread.
   void set_fault(ExchangeStatus fault) noexcept;
 
   /// Newest state; any thread.
   FeltState felt() const noexcept;
+
+  /// Every state in order, one an exchange, for one reader. False when there is none. 4096 are
+  /// kept; newer ones are dropped when nobody reads.
+  bool pop_felt(FeltState& felt) noexcept;
 
  private:
   struct Impl;

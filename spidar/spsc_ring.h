@@ -13,7 +13,7 @@ class SpscRing {
   static_assert(N > 0 && (N & (N - 1)) == 0);
 
  public:
-  /// False when full; the entry is not taken.
+  /// Writer: false when full; the entry is not taken.
   bool push(const T& entry) noexcept {
     const size_t tail = tail_.load(std::memory_order_relaxed);
     if (tail - head_.load(std::memory_order_acquire) == N) return false;
@@ -22,19 +22,32 @@ class SpscRing {
     return true;
   }
 
-  /// False when empty.
-  bool pop(T& entry) noexcept {
+  /// Reader: the oldest entry, which stays in the ring until drop(); null when empty.
+  const T* front() const noexcept {
     const size_t head = head_.load(std::memory_order_relaxed);
-    if (head == tail_.load(std::memory_order_acquire)) return false;
-    entry = entries_[head & (N - 1)];
-    head_.store(head + 1, std::memory_order_release);
+    if (head == tail_.load(std::memory_order_acquire)) return nullptr;
+    return &entries_[head & (N - 1)];
+  }
+
+  /// Reader: removes what front() returned.
+  void drop() noexcept {
+    head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  }
+
+  /// Reader: false when empty.
+  bool pop(T& entry) noexcept {
+    const T* oldest = front();
+    if (oldest == nullptr) return false;
+    entry = *oldest;
+    drop();
     return true;
   }
 
  private:
+  // Apart, so that writer and reader do not take each other's cache lines.
   alignas(64) std::atomic<size_t> head_{0};
   alignas(64) std::atomic<size_t> tail_{0};
-  std::array<T, N> entries_{};
+  alignas(64) std::array<T, N> entries_{};
 };
 
 }  // namespace spidar

@@ -1,0 +1,11 @@
+/// Pictures by way of gnuplot.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Runs a gnuplot script of this folder; `variables` are its strings by name.
+/// Throws std::runtime_error when gnuplot is missing or does not like the script.
+void run_gnuplot(const std::string& script,
+                 const std::vector<std::pair<std::string, std::string>>& variables);

@@ -1,0 +1,59 @@
+# Fig. 6, 7, 8 and 10 of the paper, drawn from a rendered bouncing ball into `folder`.
+# paper_figures.cpp writes `measured` (a row a frame) and `analytic` (a row a millisecond) with the
+# columns: time, position, velocity, acceleration, k, linear force, nonlinear force; up is positive.
+# `gravity` is the scene's, in px/s².
+set encoding utf8
+set grid linecolor rgb "#d8d8d8" linetype 1 linewidth 0.5
+set border 3 linecolor rgb "#606060"
+set tics nomirror
+set key outside right center Left reverse samplen 2 spacing 1.2 width 2
+set style line 1 linecolor rgb "#b0b0b0" linewidth 3                         # analytic
+set style line 2 linecolor rgb "#0b5fa5" linewidth 1 pointtype 7 pointsize 0.5   # measured
+set xrange [0:*]
+
+# A panel: column of both files, from analytic curve to what was measured.
+panel(column) = sprintf("plot analytic using 1:%d with lines linestyle 1 title 'analytic', " . \
+                        "measured using 1:%d with points linestyle 2 title 'measured'", column, column)
+start(name, height) = sprintf("set terminal pngcairo size 1100,%d font 'sans,12'; " . \
+                              "set output '%s/%s.png'", height, folder, name)
+
+eval start("fig6", 1000)
+set multiplot layout 3,1 title "Fig. 6: motion of a bouncing ball" font ",14" \
+    margins 0.1,0.84,0.06,0.93 spacing 0.04
+set format x ""
+set ylabel "(a) position, px"
+eval panel(2)
+set ylabel "(b) velocity, px/s"
+eval panel(3)
+set format x "%g"
+set xlabel "time, s"
+set ylabel "(c) acceleration, px/s²\n(impacts leave the axis)"
+set yrange [-2 * gravity : gravity]
+eval panel(4)
+set autoscale y
+unset multiplot
+
+eval start("fig7", 420)
+set title "Fig. 7: gain k = Fmax / Vmax(T) of the linear controller" font ",14"
+set ylabel "k, N per px/s"
+set logscale y
+eval panel(5)
+unset logscale y
+unset title
+
+do for [figure in "8 10"] {
+    linear = figure eq "8"
+    eval start("fig" . figure, 720)
+    set multiplot layout 2,1 \
+        title sprintf("Fig. %s: force of the %s controller", figure, linear ? "linear" : "nonlinear") \
+        font ",14" margins 0.1,0.84,0.09,0.91 spacing 0.05
+    set format x ""
+    unset xlabel
+    set ylabel "(a) position, px"
+    eval panel(2)
+    set format x "%g"
+    set xlabel "time, s"
+    set ylabel "(b) force, N"
+    eval panel(linear ? 6 : 7)
+    unset multiplot
+}

@@ -1,0 +1,183 @@
+/// Plays a video and lets it be felt, then says how that went. examples/play.sh builds it and finds
+/// a video.
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gst/gst.h>
+
+#include "examples/play/pipeline.h"
+#include "examples/play/playback.h"
+#include "examples/play/properties.h"
+#include "examples/play/report.h"
+#include "examples/play/session_record.h"
+#include "examples/play/shown_frames.h"
+#include "examples/play/trace_reader.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kUsage =
+    "usage: play [--output FOLDER] [--headless] [VIDEO | URI] [-- name=value ...]\n"
+    "  --output FOLDER  where spidar-play.png goes; else the current folder\n"
+    "  --headless       no window, even with a display\n"
+    "  name=value       properties of spidarmotion: gst-inspect-1.0 spidarmotion\n"
+    "Without a video a ball of videotestsrc is played.\n";
+
+struct Options {
+  std::string video;
+  fs::path output = ".";
+  bool headless = false;
+  std::vector<std::string> assignments;
+};
+
+/// Throws std::invalid_argument.
+Options parse(const std::vector<std::string>& arguments) {
+  Options options;
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (argument == "--") {
+      options.assignments.assign(arguments.begin() + static_cast<ptrdiff_t>(i) + 1,
+                                 arguments.end());
+      break;
+    }
+    if (argument == "--headless") {
+      options.headless = true;
+    } else if (argument == "--output" && i + 1 < arguments.size()) {
+      options.output = arguments[++i];
+    } else if (argument.size() > 1 && argument[0] == '-') {
+      throw std::invalid_argument("unknown or incomplete option " + argument + "\n" + kUsage);
+    } else if (!options.video.empty()) {
+      throw std::invalid_argument("one video at a time, not " + options.video + " and " + argument +
+                                  "; properties go after --\n" + kUsage);
+    } else {
+      options.video = argument;
+    }
+  }
+  return options;
+}
+
+/// A folder for pipes and curves, gone with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string path = fs::temp_directory_path() / "spidar-play-XXXXXX";
+    if (mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot be made");
+    path_ = path;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Sets a path property of the filter and returns what the user had set.
+std::string exchange_path(GstElement* filter, const char* property, const std::string& path) {
+  char* old = nullptr;
+  g_object_get(filter, property, &old, nullptr);
+  const std::string result = old != nullptr ? old : "";
+  g_free(old);
+  g_object_set(filter, property, path.c_str(), nullptr);
+  return result;
+}
+
+std::string progress_line(const Now& now) {
+  constexpr int kBar = 20;
+  constexpr double kFullBar_N = 3.0;
+  const double force_N = std::hypot(now.force_N[0], now.force_N[1], now.force_N[2]);
+  const int filled = std::min(kBar, static_cast<int>(std::lround(kBar * force_N / kFullBar_N)));
+  const std::string bar = std::string(static_cast<size_t>(filled), '=') +
+                          std::string(static_cast<size_t>(kBar - filled), ' ');
+  char line[160];
+  std::snprintf(line, sizeof(line), "%7.1f s  %6.0f px/s  %5.2f N [%s] x %+.2f y %+.2f  device %s",
+                1e-9 * static_cast<double>(now.running_ns), now.speed_px_s, force_N, bar.c_str(),
+                now.force_N[0], now.force_N[1], now.device.c_str());
+  return line;
+}
+
+int play(const Options& options) {
+  GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
+  for (const std::string& assignment : options.assignments) set_property(filter, assignment);
+  const Screen screen = open_screen(options.headless);
+  GstElement* const pipeline = options.video.empty()
+                                   ? make_ball(filter, screen)
+                                   : make_player(uri_of(options.video), filter, screen);
+  const std::string title =
+      options.video.empty() ? "videotestsrc pattern=ball" : fs::path(options.video).filename();
+  std::printf("playing %s%s\n", title.c_str(),
+              screen.why_none.empty()
+                  ? ""
+                  : (", in real time but without a window: " + screen.why_none).c_str());
+
+  const TemporaryFolder folder;
+  SessionRecord record;
+  const std::string motion_pipe = folder.path() / "motion";
+  const std::string haptic_pipe = folder.path() / "haptic";
+  TraceReader motion(motion_pipe, exchange_path(filter, "trace", motion_pipe),
+                     SessionRecord::motion_columns(),
+                     [&](const TraceReader::Fields& row) { record.add_motion(row); });
+  TraceReader haptic(haptic_pipe, exchange_path(filter, "haptic-trace", haptic_pipe),
+                     SessionRecord::haptic_columns(),
+                     [&](const TraceReader::Fields& row) { record.add_haptic(row); });
+  watch_shown_frames(screen.sink, [&](int64_t running_ns, int64_t monotonic_ns) {
+    record.add_shown(running_ns, monotonic_ns);
+  });
+
+  const Ending ending = run_playback(pipeline, [&record] { return progress_line(record.now()); });
+  GstStructure* stats = nullptr;
+  g_object_get(filter, "stats", &stats, nullptr);
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(pipeline);
+  gst_object_unref(filter);
+  motion.finish();
+  haptic.finish();
+
+  if (record.numbers().frames == 0) {
+    gst_structure_free(stats);
+    throw std::runtime_error(title + ": not one frame was played");
+  }
+  if (ending == Ending::kInterrupted) std::printf("stopped by the user\n");
+  print_report(record.numbers(), stats);
+  gst_structure_free(stats);
+
+  fs::create_directories(options.output);
+  const std::string png = options.output / "spidar-play.png";
+  draw_report(record.numbers(), title, folder.path(), png);
+  std::printf("picture: %s\n", png.c_str());
+  return ending == Ending::kFailed ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with the errors, in a file too
+  gst_init(nullptr, nullptr);
+  try {
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (!arguments.empty() && (arguments[0] == "--help" || arguments[0] == "-h")) {
+      std::fputs(kUsage, stdout);
+      return 0;
+    }
+    return play(parse(arguments));
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# Plays a video whose motion is felt on a SPIDAR-G, simulated unless told otherwise, and ends with a
+# table and a picture of what was felt. Installs what is missing (Debian) and builds first.
+#   examples/play.sh                             a tree in the wind
+#   examples/play.sh VIDEO                       a file, or a URI such as https://...
+#   examples/play.sh VIDEO -- controller=linear max-force=2    with properties of spidarmotion
+#   examples/play.sh --output FOLDER --headless VIDEO          see --help
+set -euo pipefail
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source-path=SCRIPTDIR source=../tests/install.sh
+. "$top/tests/install.sh"
+
+# Runs a command and shows what it prints only if it fails.
+quietly() {
+    local log status=0
+    log=$(mktemp)
+    "$@" >"$log" 2>&1 || status=$?
+    ((status == 0)) || cat "$log" >&2
+    rm -f "$log"
+    return "$status"
+}
+
+build() {
+    if [[ ! -f $top/build/build.ninja ]]; then
+        quietly meson setup "$top/build" "$top"
+    fi
+    local targets=(plugin/libgstspidar.so examples/play)
+    if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then
+        echo "building; the first time that takes some minutes"
+        quietly ninja -C "$top/build" "${targets[@]}"
+    fi
+}
+
+# A clip like the paper's: prints the file name of a tree blown by the wind, out of Debian's package
+# opencv-doc, downloaded once and not installed. Fails when it cannot be had.
+tree_clip() {
+    local cache=${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar
+    local clip=$cache/tree.avi
+    if [[ ! -f $clip ]]; then
+        mkdir -p "$cache"
+        local work
+        work=$(mktemp -d "$cache/download.XXXXXX")
+        # The user _apt may not write here; apt would warn about it when run as root.
+        if (cd "$work" && apt-get -qq -o APT::Sandbox::User="$(id -un)" download opencv-doc &&
+            dpkg-deb --fsys-tarfile opencv-doc_*.deb |
+            tar -x ./usr/share/doc/opencv-doc/examples/data/tree.avi) >"$work/log" 2>&1; then
+            mv "$work/usr/share/doc/opencv-doc/examples/data/tree.avi" "$clip"
+        fi
+        rm -rf "$work"
+    fi
+    [[ -f $clip ]] && printf '%s\n' "$clip"
+}
+
+options=()
+video=()
+properties=()
+while (($#)); do
+    case $1 in
+    --)
+        properties=("$@")
+        break
+        ;;
+    --output)
+        options+=("${@:1:2}")
+        shift
+        ;;
+    -*) options+=("$1") ;;
+    *) video+=("$1") ;;
+    esac
+    (($#)) && shift
+done
+
+groups=(build play)
+[[ -z ${DISPLAY-}${WAYLAND_DISPLAY-} ]] || groups+=(display)
+install_packages "${groups[@]}"
+build
+
+if ((${#video[@]} == 0)) && [[ " ${options[*]-} " != *" --help "* ]]; then
+    [[ -f ${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar/tree.avi ]] ||
+        echo "fetching a clip, once: tree.avi of Debian's package opencv-doc (95 MB)"
+    if clip=$(tree_clip); then
+        video=("$clip")
+    else
+        echo "it cannot be had, perhaps for want of a network: playing a ball of videotestsrc"
+    fi
+fi
+
+export GST_PLUGIN_PATH=$top/build/plugin${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
+export GST_REGISTRY=$top/build/gst-registry.bin
+export SPIDAR_PROFILE_PATH=$top/spidar/profiles${SPIDAR_PROFILE_PATH:+:$SPIDAR_PROFILE_PATH}
+exec "$top/build/examples/play" "${options[@]}" "${video[@]}" "${properties[@]}"

@@ -1,0 +1,18 @@
+/// A pipeline at work.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <gst/gst.h>
+
+enum class Ending {
+  kEndOfVideo,
+  kInterrupted,  ///< Ctrl-C, told to terminate, or its window closed
+  kFailed,
+};
+
+/// Plays until the video ends, fails, or the user stops it. Errors and warnings of the pipeline go
+/// to standard error, `progress` to standard output: in place on a terminal, else a line now and
+/// then. The pipeline is still in PLAYING or PAUSED afterwards.
+Ending run_playback(GstElement* pipeline, const std::function<std::string()>& progress);

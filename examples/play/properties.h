@@ -1,0 +1,10 @@
+/// Element properties as a user types them.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+
+/// Sets `name=value` of a command line. Throws std::invalid_argument that says what was wrong and
+/// what would be right.
+void set_property(GstElement* element, const std::string& assignment);

@@ -1,0 +1,117 @@
+#include "examples/play/report.h"
+
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "examples/gnuplot.h"
+
+namespace {
+
+/// A column; NaN stays empty.
+void print_cell(double value) {
+  if (std::isnan(value)) {
+    std::printf("%10s", "");
+  } else {
+    std::printf("%10.*f", std::abs(value) < 10 ? 3 : 1, value);
+  }
+}
+
+void print_row(const char* name, double median, double p95, double p99, double p999, double max) {
+  std::printf("%-26s", name);
+  for (const double value : {median, p95, p99, p999, max}) print_cell(value);
+  std::printf("\n");
+}
+
+void print_row(const char* name, const Histogram& values) {
+  if (values.count() == 0) return;
+  print_row(name, values.quantile(0.5), values.quantile(0.95), values.quantile(0.99),
+            values.quantile(0.999), values.max());
+}
+
+double number_of(const GstStructure* stats, const char* name) {
+  double value = NAN;
+  gst_structure_get_double(stats, name, &value);
+  return value;
+}
+
+std::string to_text(const GValue* value) {
+  if (G_VALUE_HOLDS_STRING(value)) return g_value_get_string(value);
+  char text[32];
+  if (G_VALUE_HOLDS_DOUBLE(value)) {
+    std::snprintf(text, sizeof(text), "%.4g", g_value_get_double(value));
+    return text;
+  }
+  char* const serialized = gst_value_serialize(value);
+  const std::string result = serialized;
+  g_free(serialized);
+  return result;
+}
+
+/// Continues a paragraph of "name value" pairs; `column` is where it stands.
+gboolean print_field(GQuark name, const GValue* value, void* column) {
+  const std::string pair = std::string(g_quark_to_string(name)) + " " + to_text(value);
+  auto& at = *static_cast<size_t*>(column);
+  constexpr size_t kWidth = 78;
+  const char* separator = at == 0 ? "" : ", ";
+  if (at + 2 + pair.size() > kWidth) {
+    separator = ",\n";
+    at = 0;
+  }
+  std::printf("%s%s", separator, pair.c_str());
+  at += 2 + pair.size();
+  return TRUE;
+}
+
+template <typename Curve>
+void write_curve(const Curve& curve, const std::string& path) {
+  std::ofstream file(path);
+  curve.write(file);
+  if (!file.flush()) throw std::runtime_error(path + ": could not be written");
+}
+
+}  // namespace
+
+void print_report(const SessionRecord::Numbers& numbers, const GstStructure* stats) {
+  std::printf("\n%" PRIu64 " frames in %.1f s, %" PRIu64 " of them shown\n\n", numbers.frames,
+              numbers.duration_s, numbers.shown);
+  std::printf("%-26s%10s%10s%10s%10s%10s\n", "", "median", "95 %", "99 %", "99.9 %", "maximum");
+  print_row("speed, px/s", numbers.speed_px_s);
+  print_row("force wanted, N", numbers.wanted_N);
+  print_row("force at the grip, N", numbers.delivered_N);
+  print_row("analysis, ms a frame", number_of(stats, "analysis-ms-median"),
+            number_of(stats, "analysis-ms-p95"), NAN, NAN, number_of(stats, "analysis-ms-max"));
+  print_row("loop wakes up late, ms", numbers.lateness_ms);
+  print_row("force - picture, ms", numbers.skew.signed_ms());
+  print_row("  without its sign", numbers.skew.size_ms());
+
+  if (numbers.ticks > 0) {
+    std::printf(
+        "\nForce above %.2f N, which a hand feels: %.1f %% of the time.\n", kFelt_N,
+        100.0 * static_cast<double>(numbers.felt_ticks) / static_cast<double>(numbers.ticks));
+  }
+  const Histogram& skew_ms = numbers.skew.signed_ms();
+  if (skew_ms.count() > 0) {
+    std::printf("Force - picture: %+.3f to %+.3f ms over %" PRIu64
+                " frames; positive when the force is later.\n",
+                skew_ms.min(), skew_ms.max(), skew_ms.count());
+  }
+  std::printf("\nThe element says:\n");
+  size_t column = 0;
+  gst_structure_foreach(stats, print_field, &column);
+  std::printf("\n");
+}
+
+void draw_report(const SessionRecord::Numbers& numbers, const std::string& title,
+                 const std::string& folder, const std::string& png_path) {
+  const std::string frames = folder + "/frames.dat";
+  const std::string ticks = folder + "/ticks.dat";
+  write_curve(numbers.frames_curve, frames);
+  write_curve(numbers.ticks_curve, ticks);
+  run_gnuplot("play.gp", {{"png", png_path},
+                          {"title", title},
+                          {"frames", frames},
+                          {"ticks", numbers.ticks == 0 ? "" : ticks}});
+}

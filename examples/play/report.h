@@ -1,0 +1,16 @@
+/// What a playback was like, as a table and as a picture.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+
+#include "examples/play/session_record.h"
+
+/// Prints the numbers of a playback and of the element's own `stats`.
+void print_report(const SessionRecord::Numbers& numbers, const GstStructure* stats);
+
+/// Draws position, velocity, force and string tensions over time into a PNG. `folder` is for the
+/// files that gnuplot reads. Throws std::runtime_error when it cannot.
+void draw_report(const SessionRecord::Numbers& numbers, const std::string& title,
+                 const std::string& folder, const std::string& png_path);

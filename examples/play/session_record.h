@@ -1,0 +1,64 @@
+/// Everything that is known of one playback, in memory that does not grow with its length.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "examples/play/histogram.h"
+#include "examples/play/series.h"
+#include "examples/play/skew.h"
+#include "examples/play/trace_reader.h"
+
+/// Smallest force that a hand feels: IEEE Trans. Haptics 2013, PubMed 24808327.
+constexpr double kFelt_N = 0.04;
+
+constexpr size_t kStrings = 8;
+
+/// Latest state, for a line of progress.
+struct Now {
+  int64_t running_ns = 0;
+  double speed_px_s = 0;
+  double force_N[3] = {};  ///< at the grip: x right, y up, z towards the viewer
+  std::string device = "closed";
+};
+
+/// Any member may be called from any thread.
+class SessionRecord {
+ public:
+  static std::vector<std::string> motion_columns();
+  static std::vector<std::string> haptic_columns();
+
+  /// A row of each trace with these columns.
+  void add_motion(const TraceReader::Fields& row);
+  void add_haptic(const TraceReader::Fields& row);
+  void add_shown(int64_t running_ns, int64_t monotonic_ns);
+
+  Now now() const;
+
+  /// After the playback: the numbers to print and the curves to draw, for one thread.
+  struct Numbers {
+    uint64_t frames = 0;  ///< analysed
+    uint64_t shown = 0;
+    double duration_s = 0;  ///< of the video that was played
+    Histogram speed_px_s;
+    Histogram wanted_N;       ///< what the controller asks for, a frame
+    Histogram delivered_N;    ///< what the strings give, a tick
+    uint64_t ticks = 0;       ///< while playing
+    uint64_t felt_ticks = 0;  ///< of these, with more than kFelt_N
+    Histogram lateness_ms;    ///< of the loop's wake-up
+    Skew skew;
+    Series<6> frames_curve;  ///< position [px], velocity [px/s], wanted force [N]; x, y of each
+    Series<2 + kStrings> ticks_curve;  ///< delivered force x, y [N], tensions [N]
+  };
+  const Numbers& numbers() const { return numbers_; }
+
+ private:
+  mutable std::mutex mutex_;
+  Numbers numbers_;
+  Now now_;
+  double position_px_[2] = {0, 0};
+  int64_t first_frame_ns_ = -1;
+  int64_t last_frame_ns_ = -1;
+};

@@ -1,0 +1,15 @@
+/// When a video sink really shows its frames.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include <gst/gst.h>
+
+/// Calls `on_shown` in the sink's streaming thread with a frame's running time and the time
+/// (CLOCK_MONOTONIC) at which the sink was done with showing it: a push into a sink returns after
+/// the wait for the clock and after the drawing. Frames that the sink drops for being late are left
+/// out. `sink` is a GstBaseSink. Once in a process, before the pipeline starts, and until the
+/// process ends: GStreamer cannot take a tracer hook away again.
+void watch_shown_frames(GstElement* sink,
+                        std::function<void(int64_t running_ns, int64_t monotonic_ns)> on_shown);

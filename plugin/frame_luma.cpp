@@ -1,0 +1,90 @@
+#include "plugin/frame_luma.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/packed_luma.h"
+
+namespace spidar {
+namespace {
+
+struct Rectangle {
+  int x, y, width, height;
+};
+
+/// What is shown of the frame.
+Rectangle visible(const GstVideoFrame& frame) {
+  const int width = GST_VIDEO_FRAME_WIDTH(&frame);
+  const int height = GST_VIDEO_FRAME_HEIGHT(&frame);
+  const GstVideoCropMeta* crop = gst_buffer_get_video_crop_meta(frame.buffer);
+  if (!crop) return {0, 0, width, height};
+  const int x = static_cast<int>(std::min<guint>(crop->x, static_cast<guint>(width)));
+  const int y = static_cast<int>(std::min<guint>(crop->y, static_cast<guint>(height)));
+  return {x, y, static_cast<int>(std::min<guint>(crop->width, static_cast<guint>(width - x))),
+          static_cast<int>(std::min<guint>(crop->height, static_cast<guint>(height - y)))};
+}
+
+bool is_packed(GstVideoFormat format, PackedOrder& order) {
+  switch (format) {
+    case GST_VIDEO_FORMAT_RGB:
+      order = PackedOrder::kRgb;
+      return true;
+    case GST_VIDEO_FORMAT_BGR:
+      order = PackedOrder::kBgr;
+      return true;
+    case GST_VIDEO_FORMAT_RGBx:
+    case GST_VIDEO_FORMAT_RGBA:
+      order = PackedOrder::kRgbx;
+      return true;
+    case GST_VIDEO_FORMAT_BGRx:
+    case GST_VIDEO_FORMAT_BGRA:
+      order = PackedOrder::kBgrx;
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
+  // The field's own lines, and between them their mean: the picture keeps its shape.
+  const size_t width = static_cast<size_t>(frame.width);
+  const int first = top_first ? 0 : 1;
+  field_.resize(width * static_cast<size_t>(frame.height));
+  const auto source = [&](int y) { return frame.data + y * frame.stride_bytes; };
+  const int last = first + (frame.height - 1 - first) / 2 * 2;
+  for (int y = 0; y < frame.height; ++y) {
+    uint8_t* out = field_.data() + static_cast<size_t>(y) * width;
+    const uint8_t* above = source(std::clamp((y - first) % 2 == 0 ? y : y - 1, first, last));
+    const uint8_t* below = source(std::clamp((y - first) % 2 == 0 ? y : y + 1, first, last));
+    if (above == below) {
+      std::memcpy(out, above, width);
+    } else {
+      for (size_t x = 0; x < width; ++x) {
+        out[x] = static_cast<uint8_t>((above[x] + below[x] + 1) / 2);
+      }
+    }
+  }
+  return {field_.data(), frame.width, frame.height, static_cast<ptrdiff_t>(width)};
+}
+
+ImageView FrameLuma::view(const GstVideoFrame& frame) {
+  const Rectangle shown = visible(frame);
+  if (shown.width < kSmallestSide || shown.height < kSmallestSide) return {};
+  const ptrdiff_t stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
+  const uint8_t* data = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)) +
+                        shown.y * stride + shown.x * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, 0);
+  ImageView luma{data, shown.width, shown.height, stride};
+  PackedOrder order;
+  if (is_packed(GST_VIDEO_FRAME_FORMAT(&frame), order)) {
+    luma = luma_of_packed(data, shown.width, shown.height, stride, order, converted_);
+  }
+  if (GST_VIDEO_FRAME_IS_INTERLACED(&frame) && luma.height >= 2) {
+    // A crop that begins on an odd line begins with the other field.
+    luma = first_field(luma, GST_VIDEO_FRAME_IS_TFF(&frame) == (shown.y % 2 == 0));
+  }
+  return luma;
+}
+
+}  // namespace spidar

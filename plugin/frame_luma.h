@@ -1,0 +1,36 @@
+/// The luma of a video frame as the analysis wants it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <gst/video/video.h>
+
+#include "core/image_view.h"
+
+namespace spidar {
+
+/// Caps that FrameLuma understands, for the pad templates.
+#define SPIDAR_VIDEO_FORMATS \
+  "{ GRAY8, I420, YV12, NV12, NV21, Y42B, Y444, BGR, RGB, BGRx, RGBx, BGRA, RGBA }"
+
+/// Reads plane 0 of planar and semi-planar formats in place, with its stride; makes luma of packed
+/// RGB; honours a crop meta; of interlaced frames it takes the first field, because the two fields
+/// are two moments.
+class FrameLuma {
+ public:
+  /// In pixels; the caps allow no less, a crop may leave less.
+  static constexpr int kSmallestSide = 16;
+
+  /// The view is valid until the next call and for as long as the frame is mapped. Empty (no data)
+  /// when the crop leaves too little.
+  ImageView view(const GstVideoFrame& frame);
+
+ private:
+  ImageView first_field(const ImageView& frame, bool top_first);
+
+  std::vector<uint8_t> converted_;
+  std::vector<uint8_t> field_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,32 @@
+/// One row a frame, for those who want to look at it later.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "core/motion_analyzer.h"
+
+namespace spidar {
+
+/// CSV with a header line. Numbers are written without regard to the locale, with the digits that
+/// reading them back needs.
+class FrameTrace {
+ public:
+  ~FrameTrace() { close(); }
+
+  /// Empty string, or the reason why the file cannot be written.
+  std::string open(const std::string& path);
+  bool is_open() const { return file_ != nullptr; }
+
+  /// False when the disk is full or gone: the trace is closed then.
+  bool write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame);
+
+  /// False when the last rows could not be written.
+  bool close();
+
+ private:
+  std::FILE* file_ = nullptr;
+};
+
+}  // namespace spidar

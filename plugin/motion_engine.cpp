@@ -1,0 +1,206 @@
+#include "plugin/motion_engine.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "spidar/device_factory.h"
+
+namespace spidar {
+namespace {
+
+int64_t monotonic_now(void*) {
+  return HapticSession::monotonic_now_ns();
+}
+
+/// How long a frame's wrench holds when no later frame is known (live): half a frame more than the
+/// frame lasts, for the next one may be a little late.
+int64_t hold_time_ns(int64_t interval_ns) {
+  constexpr int64_t kLongest_ns = 100 * 1000 * 1000;
+  return std::min(interval_ns + interval_ns / 2, kLongest_ns);
+}
+
+}  // namespace
+
+void MotionEngine::set_manual(PlaybackSync::Now now, void* user) {
+  now_ = now;
+  now_user_ = user;
+}
+
+void MotionEngine::open(const MotionProperties& properties) {
+  apply(properties.analyzer);
+  if (properties.device == "none") return;
+  const Profile profile = load_profile(properties.profile);
+  SessionSettings settings;
+  settings.limits.max_force_N = properties.analyzer.controller.max_force_N;
+  settings.trace_path = properties.haptic_trace;
+  settings.threaded = now_ == nullptr;
+  auto session =
+      std::make_unique<HapticSession>(profile, make_device(properties.device, profile), settings);
+  HapticLoop& loop = session->loop();
+  auto follower = std::make_unique<PlaybackFollower>(
+      element_, [&loop](const PlaybackClock& clock) { loop.set_playback_clock(clock); },
+      now_ ? now_ : monotonic_now, now_user_, settings.threaded);
+  follower->set_latency(latency_);
+  follower->set_offset(offset_ns_);
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  session_ = std::move(session);
+  follower_ = std::move(follower);
+}
+
+void MotionEngine::close() {
+  std::unique_ptr<PlaybackFollower> follower;
+  std::unique_ptr<HapticSession> session;
+  {
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    follower = std::move(follower_);
+    session = std::move(session_);
+  }
+  follower.reset();  // before the loop that it publishes to
+}
+
+std::string MotionEngine::start(const std::string& trace_path) {
+  stats_.reset();
+  restart_timing();
+  return trace_path.empty() ? std::string() : trace_.open(trace_path);
+}
+
+bool MotionEngine::stop() {
+  flush();
+  return trace_.close();
+}
+
+void MotionEngine::set_playing(bool playing) {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (follower_) follower_->set_playing(playing);
+}
+
+void MotionEngine::set_latency(GstClockTime latency) {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  latency_ = latency;
+  if (follower_) follower_->set_latency(latency);
+}
+
+void MotionEngine::set_offset(GstClockTimeDiff offset_ns) {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  offset_ns_ = offset_ns;
+  if (follower_) follower_->set_offset(offset_ns);
+}
+
+void MotionEngine::flush() {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (session_) session_->loop().cancel_scheduled();
+}
+
+void MotionEngine::expect_base_time() {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (follower_) follower_->expect_base_time();
+}
+
+void MotionEngine::refresh_clock() {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (follower_) follower_->refresh();
+}
+
+GstStructure* MotionEngine::stats() const {
+  GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
+  stats_.describe(structure);
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (session_) describe_session(*session_, structure);
+  return structure;
+}
+
+DeviceState MotionEngine::device_state() const {
+  return session_ ? session_->loop().snapshot().last.device : DeviceState::kClosed;
+}
+
+void MotionEngine::apply(const AnalyzerSettings& settings) {
+  analyzer_.configure(settings);
+  const double max_force_N = settings.controller.max_force_N;
+  if (max_force_N == max_force_N_) return;
+  max_force_N_ = max_force_N;
+  SafetyLimits limits;
+  limits.max_force_N = max_force_N;
+  if (session_) session_->loop().set_limits(limits);
+}
+
+void MotionEngine::schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench) {
+  if (session_) session_->loop().schedule({running_ns, hold_ns, wrench});
+}
+
+void MotionEngine::restart() {
+  analyzer_.restart();
+}
+
+void MotionEngine::restart_timing() {
+  restart();
+  last_running_ns_ = -1;
+  last_interval_ns_ = 0;
+}
+
+void MotionEngine::run_out(GstClockTime running_time) {
+  restart();
+  if (!GST_CLOCK_TIME_IS_VALID(running_time)) return;  // what was scheduled expires by itself
+  schedule(static_cast<int64_t>(running_time), 0, Wrench());
+}
+
+void MotionEngine::end_of_stream() {
+  if (last_running_ns_ < 0) return;
+  run_out(static_cast<GstClockTime>(last_running_ns_ + std::max<int64_t>(last_interval_ns_, 1)));
+}
+
+FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& segment,
+                                  const AnalyzerSettings& settings) {
+  FrameReport report;
+  const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
+  if (!GST_CLOCK_TIME_IS_VALID(pts)) {
+    restart();
+    report.problem = FrameProblem::kNoTimestamp;
+    return report;
+  }
+  report.running_time = gst_segment_to_running_time(&segment, GST_FORMAT_TIME, pts);
+  report.stream_time = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, pts);
+  if (!GST_CLOCK_TIME_IS_VALID(report.running_time)) {
+    report.problem = FrameProblem::kNotShown;
+    return report;
+  }
+  const int64_t running_ns = static_cast<int64_t>(report.running_time);
+  if (GST_BUFFER_FLAG_IS_SET(frame.buffer, GST_BUFFER_FLAG_GAP)) {
+    run_out(report.running_time);
+    last_running_ns_ = running_ns;
+    report.problem = FrameProblem::kNotShown;
+    return report;
+  }
+  if (GST_BUFFER_IS_DISCONT(frame.buffer)) {
+    restart();
+  } else if (running_ns == last_running_ns_) {
+    report.problem = FrameProblem::kSameTimestamp;
+    return report;
+  } else if (running_ns < last_running_ns_) {
+    restart();
+    report.problem = FrameProblem::kFallingTimestamp;
+  }
+
+  const ImageView luma = luma_.view(frame);
+  if (!luma.data) {
+    restart();
+    report.problem = FrameProblem::kNotShown;
+    return report;
+  }
+  apply(settings);
+  const int64_t begin_ns = HapticSession::monotonic_now_ns();
+  report.analysis = analyzer_.analyze(luma, running_ns);
+  report.analyzed = true;
+  const int64_t took_ns = HapticSession::monotonic_now_ns() - begin_ns;
+
+  last_running_ns_ = running_ns;
+  if (report.analysis.interval_ns > 0) last_interval_ns_ = report.analysis.interval_ns;
+  schedule(running_ns, hold_time_ns(report.analysis.interval_ns), report.analysis.wrench);
+  if (trace_.is_open()) {
+    report.trace_failed =
+        !trace_.write(running_ns, static_cast<int64_t>(report.stream_time), report.analysis);
+  }
+  stats_.add(report.analysis, took_ns);
+  return report;
+}
+
+}  // namespace spidar

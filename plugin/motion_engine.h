@@ -1,0 +1,114 @@
+/// What the element does with frames and time, without GObject.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <gst/video/video.h>
+
+#include "core/motion_analyzer.h"
+#include "plugin/frame_luma.h"
+#include "plugin/frame_trace.h"
+#include "plugin/motion_properties.h"
+#include "plugin/motion_stats.h"
+#include "plugin/playback_follower.h"
+#include "spidar/haptic_session.h"
+
+namespace spidar {
+
+enum class FrameProblem {
+  kNone,
+  kNoTimestamp,       ///< no PTS: it cannot be felt in time
+  kSameTimestamp,     ///< as the frame before: no Δt to divide by
+  kFallingTimestamp,  ///< before the frame before
+  kNotShown,          ///< outside the segment, or a gap
+};
+
+/// What became of one frame.
+struct FrameReport {
+  FrameProblem problem = FrameProblem::kNone;
+  bool analyzed = false;
+  GstClockTime running_time = GST_CLOCK_TIME_NONE;
+  GstClockTime stream_time = GST_CLOCK_TIME_NONE;
+  FrameAnalysis analysis;
+  bool trace_failed = false;  ///< the trace could not be written and was closed
+};
+
+/// Analysis, trace and haptic session of one element. Methods are grouped by the thread they belong
+/// to; what they share is locked here.
+class MotionEngine {
+ public:
+  explicit MotionEngine(GstElement* element) : element_(element) {}
+
+  /// Tests only, before open(): `now` stands for CLOCK_MONOTONIC and the loop waits to be ticked.
+  void set_manual(PlaybackSync::Now now, void* user);
+
+  // --- state changes
+
+  /// Opens the device. Throws ProfileError, DeviceError, std::runtime_error.
+  void open(const MotionProperties& properties);
+  /// Motors to rest, device closed.
+  void close();
+  /// Begins a stream. Empty, or why the trace cannot be written.
+  std::string start(const std::string& trace_path);
+  /// Ends it. False when the last rows of the trace could not be written.
+  bool stop();
+  void set_playing(bool playing);
+
+  // --- any thread
+
+  void set_latency(GstClockTime latency);
+  void set_offset(GstClockTimeDiff offset_ns);
+  /// What was scheduled is forgotten at once.
+  void flush();
+  /// The pipeline will distribute a new base time: nothing is on the screen until then.
+  void expect_base_time();
+  /// Looks at the pipeline's clock now; a thread does that by itself.
+  void refresh_clock();
+  GstStructure* stats() const;
+  /// Null with device=none or while closed.
+  HapticSession* session() const { return session_.get(); }
+
+  // --- streaming thread
+
+  FrameReport process(const GstVideoFrame& frame, const GstSegment& segment,
+                      const AnalyzerSettings& settings);
+  /// The next frame has nothing to do with the one before.
+  void restart();
+  /// Running time begins anew: after a flush.
+  void restart_timing();
+  /// Nothing is shown from this running time on: the force runs out.
+  void run_out(GstClockTime running_time);
+  /// Nothing more comes.
+  void end_of_stream();
+  /// kClosed with device=none.
+  DeviceState device_state() const;
+
+ private:
+  void schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench);
+  void apply(const AnalyzerSettings& settings);
+
+  GstElement* const element_;
+  PlaybackSync::Now now_ = nullptr;
+  void* now_user_ = nullptr;
+
+  mutable std::mutex session_mutex_;  // state changes against stats()
+  std::unique_ptr<HapticSession> session_;
+  std::unique_ptr<PlaybackFollower> follower_;
+  GstClockTime latency_ = 0;
+  GstClockTimeDiff offset_ns_ = 0;
+
+  // Streaming thread.
+  MotionAnalyzer analyzer_;
+  double max_force_N_ = -1;
+  FrameLuma luma_;
+  FrameTrace trace_;
+  int64_t last_running_ns_ = -1;
+  int64_t last_interval_ns_ = 0;
+
+  MotionStats stats_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,55 @@
+/// What an application can set on the element.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <gst/gst.h>
+
+#include "core/motion_analyzer.h"
+
+namespace spidar {
+
+enum class MotionKind { kMean };
+enum class OnDeviceError { kWarn, kError };
+
+struct MotionProperties {
+  std::string device = "sim";
+  std::string profile;
+  AnalyzerSettings analyzer;
+  MotionKind motion = MotionKind::kMean;
+  GstClockTimeDiff ts_offset_ns = 0;
+  OnDeviceError on_device_error = OnDeviceError::kWarn;
+  bool post_messages = true;
+  std::string trace;
+  std::string haptic_trace;
+
+  MotionProperties();
+};
+
+enum PropertyId : guint {
+  kPropDevice = 1,
+  kPropProfile,
+  kPropController,
+  kPropMotion,
+  kPropMaxForce,
+  kPropAlpha,
+  kPropMaxFeatures,
+  kPropQualityLevel,
+  kPropMinDistance,
+  kPropTsOffset,
+  kPropOnDeviceError,
+  kPropPostMessages,
+  kPropTrace,
+  kPropHapticTrace,
+  kPropStats,
+};
+
+/// Registers all of them, `stats` included.
+void install_motion_properties(GObjectClass* object_class);
+
+/// False for an id that is not a setting (`stats`, unknown).
+bool set_motion_property(MotionProperties& properties, guint id, const GValue* value);
+bool get_motion_property(const MotionProperties& properties, guint id, GValue* value);
+
+}  // namespace spidar

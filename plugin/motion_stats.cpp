@@ -1,0 +1,61 @@
+#include "plugin/motion_stats.h"
+
+namespace spidar {
+namespace {
+
+double ms(int64_t ns) {
+  return static_cast<double>(ns) * 1e-6;
+}
+double us(int64_t ns) {
+  return static_cast<double>(ns) * 1e-3;
+}
+
+}  // namespace
+
+void MotionStats::reset() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_ = 0;
+  restarts_ = 0;
+  features_ = 0;
+  tracked_ = 0;
+  analysis_.reset();
+}
+
+void MotionStats::add(const FrameAnalysis& frame, int64_t took_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++frames_;
+  if (frame.restarted) ++restarts_;
+  features_ = frame.features;
+  tracked_ = frame.motion.tracked;
+  analysis_.add(took_ns);
+}
+
+void MotionStats::describe(GstStructure* structure) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  gst_structure_set(structure, "frames", G_TYPE_UINT64, frames_, "restarts", G_TYPE_UINT64,
+                    restarts_, "features", G_TYPE_UINT, static_cast<guint>(features_), "tracked",
+                    G_TYPE_UINT, static_cast<guint>(tracked_), "analysis-ms-median", G_TYPE_DOUBLE,
+                    ms(analysis_.quantile_ns(0.5)), "analysis-ms-p95", G_TYPE_DOUBLE,
+                    ms(analysis_.quantile_ns(0.95)), "analysis-ms-max", G_TYPE_DOUBLE,
+                    ms(analysis_.max_ns()), nullptr);
+}
+
+void describe_session(const HapticSession& session, GstStructure* structure) {
+  const HapticLoop& loop = session.loop();
+  const LoopSnapshot snapshot = loop.snapshot();
+  const LoopCounters& counters = snapshot.counters;
+  const Scheduling& scheduling = session.scheduling();
+  gst_structure_set(
+      structure, "device", G_TYPE_STRING, session.device().name().c_str(), "device-state",
+      G_TYPE_STRING, to_string(snapshot.last.device), "real-time", G_TYPE_BOOLEAN,
+      scheduling.real_time ? TRUE : FALSE, "scheduling", G_TYPE_STRING, scheduling.detail.c_str(),
+      "ticks", G_TYPE_UINT64, counters.ticks, "overruns", G_TYPE_UINT64, counters.overruns,
+      "exchange-errors", G_TYPE_UINT64, counters.exchange_errors, "pose-errors", G_TYPE_UINT64,
+      counters.pose_errors, "times-lost", G_TYPE_UINT64, counters.times_lost, "wakeup-us-median",
+      G_TYPE_DOUBLE, us(session.timing().lateness.quantile_ns(0.5)), "wakeup-us-p999",
+      G_TYPE_DOUBLE, us(session.timing().lateness.quantile_ns(0.999)), "skew-ms-median",
+      G_TYPE_DOUBLE, ms(loop.skew().quantile_ns(0.5)), "skew-ms-p99", G_TYPE_DOUBLE,
+      ms(loop.skew().quantile_ns(0.99)), nullptr);
+}
+
+}  // namespace spidar

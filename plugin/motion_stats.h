@@ -1,0 +1,43 @@
+/// Numbers of an element, for its `stats` property.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+
+#include <gst/gst.h>
+
+#include "core/motion_analyzer.h"
+#include "spidar/haptic_session.h"
+#include "spidar/latency_histogram.h"
+
+namespace spidar {
+
+/// Since the stream began. Thread-safe.
+class MotionStats {
+ public:
+  void reset();
+  void add(const FrameAnalysis& frame, int64_t took_ns);
+
+  /// Adds frames, restarts (uint64), features, tracked (uint, of the last frame),
+  /// analysis-ms-median, analysis-ms-p95, analysis-ms-max (double).
+  void describe(GstStructure* structure) const;
+
+ private:
+  // 10 µs to 50 ms: more than that is too slow for any video.
+  using AnalysisHistogram = DurationHistogram<5000, 10'000>;
+
+  mutable std::mutex mutex_;
+  uint64_t frames_ = 0;
+  uint64_t restarts_ = 0;
+  int features_ = 0;
+  int tracked_ = 0;
+  AnalysisHistogram analysis_;
+};
+
+/// Adds device, device-state, scheduling (string), real-time (boolean), ticks, overruns,
+/// exchange-errors, pose-errors, times-lost (uint64), wakeup-us-median, wakeup-us-p999,
+/// skew-ms-median, skew-ms-p99 (double; skew: force at the device after its frame was due on the
+/// screen).
+void describe_session(const HapticSession& session, GstStructure* structure);
+
+}  // namespace spidar

@@ -1,0 +1,71 @@
+#include "plugin/playback_follower.h"
+
+#include <chrono>
+#include <pthread.h>
+#include <utility>
+
+namespace spidar {
+
+PlaybackFollower::PlaybackFollower(GstElement* element, Publish publish, PlaybackSync::Now now,
+                                   void* now_user, bool threaded)
+    : element_(element), publish_(std::move(publish)), sync_(now, now_user) {
+  if (threaded) thread_ = std::thread([this] { run(); });
+}
+
+PlaybackFollower::~PlaybackFollower() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void PlaybackFollower::set_playing(bool playing) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    playing_ = playing;
+    sync_.set_playing(playing);
+    refresh_locked();
+  }
+  changed_.notify_all();
+}
+
+void PlaybackFollower::set_latency(GstClockTime latency) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sync_.set_latency(latency);
+  refresh_locked();
+}
+
+void PlaybackFollower::set_offset(GstClockTimeDiff offset_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sync_.set_offset(offset_ns);
+  refresh_locked();
+}
+
+void PlaybackFollower::expect_base_time() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sync_.expect_base_time(element_);
+  refresh_locked();
+}
+
+void PlaybackFollower::refresh() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  refresh_locked();
+}
+
+void PlaybackFollower::run() {
+  pthread_setname_np(pthread_self(), "spidar-clock");
+  constexpr std::chrono::milliseconds kPeriod(10);
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stop_) {
+    if (playing_) {
+      refresh_locked();
+      changed_.wait_for(lock, kPeriod);
+    } else {
+      changed_.wait(lock);
+    }
+  }
+}
+
+}  // namespace spidar

@@ -1,0 +1,49 @@
+/// Keeps the haptic loop's idea of the playback clock fresh.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include <gst/gst.h>
+
+#include "plugin/playback_sync.h"
+#include "spidar/playback_clock.h"
+
+namespace spidar {
+
+/// Observes the pipeline's clock a hundred times a second while playing. Frames are no good as the
+/// occasion: a queue behind the element holds them back, while a seek changes the base time and an
+/// audio clock drifts. Thread-safe.
+class PlaybackFollower {
+ public:
+  using Publish = std::function<void(const PlaybackClock&)>;
+
+  /// `now` as in PlaybackSync. Without a thread the owner calls refresh().
+  PlaybackFollower(GstElement* element, Publish publish, PlaybackSync::Now now, void* now_user,
+                   bool threaded);
+  ~PlaybackFollower();
+
+  void set_playing(bool playing);
+  void set_latency(GstClockTime latency);
+  void set_offset(GstClockTimeDiff offset_ns);
+  /// See PlaybackSync::expect_base_time().
+  void expect_base_time();
+  void refresh();
+
+ private:
+  void run();
+  void refresh_locked() { publish_(sync_.observe(element_)); }
+
+  GstElement* const element_;  // owns the owner of this
+  const Publish publish_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  PlaybackSync sync_;
+  bool playing_ = false;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,83 @@
+#include "plugin/playback_sync.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace spidar {
+
+void PlaybackSync::add_reading(int64_t monotonic_ns, int64_t clock_ns) {
+  if (readings_ > 0) {
+    const double predicted = static_cast<double>(monotonic_ns - monotonic_ns_) * rate_;
+    const int64_t error_ns = clock_ns - clock_ns_ - static_cast<int64_t>(predicted);
+    if (std::llabs(error_ns) > kJump_ns) forget();
+  }
+  const size_t slot = readings_++ % kWindow;
+  xy_[2 * slot] = static_cast<GstClockTime>(monotonic_ns);
+  xy_[2 * slot + 1] = static_cast<GstClockTime>(clock_ns);
+  monotonic_ns_ = monotonic_ns;
+  clock_ns_ = clock_ns;
+}
+
+void PlaybackSync::fit() {
+  // Fewer readings say more about jitter than about drift: take the newest and the nominal rate.
+  constexpr size_t kEnough = 16;
+  // Real clocks drift by tens of ppm; a slope beyond this is jitter over too short a time.
+  constexpr double kMaxDrift = 0.01;
+  rate_ = 1.0;
+  if (readings_ < kEnough) return;
+  GstClockTime numerator = 0, denominator = 0, base = 0, x_base = 0;
+  gdouble r_squared = 0;
+  const guint n = static_cast<guint>(std::min(readings_, kWindow));
+  if (!gst_calculate_linear_regression(xy_.data(), scratch_.data(), n, &numerator, &denominator,
+                                       &base, &x_base, &r_squared) ||
+      denominator == 0) {
+    return;
+  }
+  const double rate = static_cast<double>(numerator) / static_cast<double>(denominator);
+  if (!(std::fabs(rate - 1.0) < kMaxDrift)) return;
+  rate_ = rate;
+  // The value of the line at the newest reading, in place of that reading.
+  const int64_t since_base_ns = monotonic_ns_ - static_cast<int64_t>(x_base);
+  clock_ns_ = static_cast<int64_t>(base) +
+              static_cast<int64_t>(std::llround(static_cast<double>(since_base_ns) * rate));
+}
+
+void PlaybackSync::expect_base_time(GstElement* element) {
+  constexpr int64_t kPatience_ns = 3'000'000'000;
+  outdated_base_time_ = gst_element_get_base_time(element);
+  outdated_until_ns_ = now_(now_user_) + kPatience_ns;
+}
+
+PlaybackClock PlaybackSync::observe(GstElement* element) {
+  PlaybackClock result;
+  const GstClockTime base_time = gst_element_get_base_time(element);
+  GstClock* clock = playing_ ? gst_element_get_clock(element) : nullptr;
+  if (!clock || !GST_CLOCK_TIME_IS_VALID(base_time)) {
+    if (clock) gst_object_unref(clock);
+    return result;  // not playing: nothing is to be felt
+  }
+  const int64_t before_ns = now_(now_user_);
+  if (base_time == outdated_base_time_ && before_ns < outdated_until_ns_) {
+    gst_object_unref(clock);
+    return result;
+  }
+  outdated_base_time_ = GST_CLOCK_TIME_NONE;
+  const GstClockTime time = gst_clock_get_time(clock);
+  const int64_t after_ns = now_(now_user_);
+  gst_object_unref(clock);
+
+  // A reading during which this thread was put aside says little about when it was made.
+  constexpr int64_t kMaxReading_ns = 200 * 1000;
+  if (readings_ == 0 || after_ns - before_ns <= kMaxReading_ns) {
+    add_reading(before_ns + (after_ns - before_ns) / 2, to_ns(time));
+    fit();
+  }
+  result.monotonic_ns = monotonic_ns_;
+  result.running_ns = clock_ns_ - to_ns(base_time) - latency_ns_ - offset_ns_;
+  result.rate = rate_;
+  result.playing = true;
+  return result;
+}
+
+}  // namespace spidar

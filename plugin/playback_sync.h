@@ -1,0 +1,78 @@
+/// From the pipeline's clock to the haptic loop's.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <gst/gst.h>
+
+#include "spidar/playback_clock.h"
+
+namespace spidar {
+
+/// Observes an element's clock and base time and says which running time is on the screen at which
+/// moment of CLOCK_MONOTONIC. A sink shows a buffer at base time + running time + latency, so the
+/// running time presented is clock − base time − latency − offset.
+///
+/// Not thread-safe: the owner holds one lock around it.
+class PlaybackSync {
+ public:
+  using Now = int64_t (*)(void* user);
+
+  /// `now` reads CLOCK_MONOTONIC in nanoseconds, or a test's idea of it.
+  PlaybackSync(Now now, void* user) : now_(now), now_user_(user) {}
+
+  /// Between PAUSED→PLAYING and PLAYING→PAUSED.
+  void set_playing(bool playing) {
+    playing_ = playing;
+    outdated_base_time_ = GST_CLOCK_TIME_NONE;
+    forget();
+  }
+
+  /// Running time has begun anew (flushing seek): the element's base time is outdated until the
+  /// pipeline has prerolled and distributes another one. Until then nothing is on the screen. A
+  /// sink that does not preroll keeps its base time: after three seconds so does this.
+  void expect_base_time(GstElement* element);
+
+  /// Pipeline latency, from the LATENCY event.
+  void set_latency(GstClockTime latency) { latency_ns_ = to_ns(latency); }
+
+  /// Signed; > 0: the force comes later.
+  void set_offset(GstClockTimeDiff offset_ns) { offset_ns_ = offset_ns; }
+
+  /// Reads the element's clock and returns the line through what was read so far. A clock other
+  /// than the system's reads with jitter, so the line is fitted; a jump starts it anew.
+  PlaybackClock observe(GstElement* element);
+
+ private:
+  static constexpr size_t kWindow = 64;
+  /// Readings further than this from the line mean another clock or a step in it.
+  static constexpr int64_t kJump_ns = 5 * 1000 * 1000;
+
+  static int64_t to_ns(GstClockTime t) {
+    return GST_CLOCK_TIME_IS_VALID(t) ? static_cast<int64_t>(t) : 0;
+  }
+  void forget() { readings_ = 0; }
+  void add_reading(int64_t monotonic_ns, int64_t clock_ns);
+  void fit();
+
+  Now now_;
+  void* now_user_;
+  bool playing_ = false;
+  GstClockTime outdated_base_time_ = GST_CLOCK_TIME_NONE;
+  int64_t outdated_until_ns_ = 0;
+  int64_t latency_ns_ = 0;
+  int64_t offset_ns_ = 0;
+
+  // Readings (monotonic, clock) as gst_calculate_linear_regression() takes them.
+  std::array<GstClockTime, 2 * kWindow> xy_{};
+  std::array<GstClockTime, 2 * kWindow> scratch_{};
+  size_t readings_ = 0;  ///< since forget(); the last kWindow are kept
+  // clock = clock_ns_ + (t − monotonic_ns_) · rate_
+  int64_t monotonic_ns_ = 0;
+  int64_t clock_ns_ = 0;
+  double rate_ = 1.0;
+};
+
+}  // namespace spidar

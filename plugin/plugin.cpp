@@ -1,0 +1,12 @@
+#include <gst/gst.h>
+
+#include "plugin/spidar_motion.h"
+
+static gboolean plugin_init(GstPlugin* plugin) {
+  return GST_ELEMENT_REGISTER(spidarmotion, plugin);
+}
+
+#define PACKAGE "gst-spidar"
+GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, spidar,
+                  "Feel the motion of a video with a SPIDAR haptic device", plugin_init,
+                  PACKAGE_VERSION, "LGPL", "gst-spidar", "Unknown package origin")

@@ -1,0 +1,385 @@
+/**
+ * SECTION:element-spidarmotion
+ * @title: spidarmotion
+ * @short_description: feel the motion of a video with a SPIDAR haptic device
+ *
+ * Looks at the frames that pass, measures how the things in them move (Shi-Tomasi points, pyramidal
+ * Lucas-Kanade), turns the motion into force and torque, and gives them to the grip of a SPIDAR-G
+ * at the moment the frame is shown. The video itself is passed on untouched.
+ *
+ * A frame is shown at base time + running time + pipeline latency (+ #spidarmotion:ts-offset); its
+ * force is felt then, between two frames it is interpolated. Before PLAYING, in PAUSED and after
+ * the end there is none.
+ *
+ * The element posts a `spidar-motion` element message for each frame when
+ * #spidarmotion:post-messages is set, with these fields: `timestamp`, `stream-time`,
+ * `running-time`, `duration` (#GstClockTime), `features`, `tracked` (uint), `velocity-x`,
+ * `velocity-y` (pixels of the frame per second of running time; x right, y down), `force-x`,
+ * `force-y`, `force-z` (newtons; x right, y up, z towards the viewer), `torque-x`, `torque-y`,
+ * `torque-z` (newton metres).
+ *
+ * ## Example launch lines
+ * |[
+ * gst-launch-1.0 videotestsrc pattern=ball ! spidarmotion ! videoconvert ! autovideosink
+ * ]| A moving ball drives the simulated device.
+ * |[
+ * gst-launch-1.0 playbin uri=file:///tmp/clip.mp4 video-filter="spidarmotion controller=linear"
+ * ]| A film with sound.
+ *
+ * Since: 0.1
+ */
+#include "plugin/spidar_motion.h"
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "plugin/motion_engine.h"
+
+GST_DEBUG_CATEGORY_STATIC(gst_spidar_motion_debug);
+#define GST_CAT_DEFAULT gst_spidar_motion_debug
+
+using spidar::DeviceState;
+using spidar::FrameProblem;
+using spidar::FrameReport;
+using spidar::MotionEngine;
+using spidar::MotionProperties;
+using spidar::OnDeviceError;
+
+struct _GstSpidarMotion {
+  GstVideoFilter parent;
+
+  MotionProperties* properties;  // object lock
+  MotionEngine* engine;
+
+  // Streaming thread: what was already complained about in this stream.
+  guint warned;
+  DeviceState device_state;
+};
+
+#define CAPS                                                  \
+  "video/x-raw, format = (string) " SPIDAR_VIDEO_FORMATS      \
+  ", width = (int) [ 16, 8192 ], height = (int) [ 16, 8192 ]" \
+  ", framerate = (fraction) [ 0, max ]"
+
+static GstStaticPadTemplate sink_template =
+    GST_STATIC_PAD_TEMPLATE("sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
+static GstStaticPadTemplate src_template =
+    GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
+
+G_DEFINE_TYPE_WITH_CODE(GstSpidarMotion, gst_spidar_motion, GST_TYPE_VIDEO_FILTER,
+                        GST_DEBUG_CATEGORY_INIT(gst_spidar_motion_debug, "spidarmotion", 0,
+                                                "motion of a video to a SPIDAR"))
+GST_ELEMENT_REGISTER_DEFINE(spidarmotion, "spidarmotion", GST_RANK_NONE, GST_TYPE_SPIDAR_MOTION)
+
+MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self) {
+  return *self->engine;
+}
+
+// --- errors ------------------------------------------------------------------------------------
+
+/// C++ ends here: whatever is thrown becomes an error on the bus.
+template <typename Function>
+static bool guarded(GstSpidarMotion* self, const char* doing, Function&& function) {
+  try {
+    function();
+    return true;
+  } catch (const spidar::ProfileError& e) {
+    GST_ELEMENT_ERROR(self, RESOURCE, SETTINGS, ("%s", e.what()), ("while %s", doing));
+  } catch (const spidar::DeviceError& e) {
+    GST_ELEMENT_ERROR(self, RESOURCE, OPEN_READ_WRITE, ("%s", e.what()), ("while %s", doing));
+  } catch (const std::exception& e) {
+    GST_ELEMENT_ERROR(self, LIBRARY, FAILED, ("%s", e.what()), ("while %s", doing));
+  }
+  return false;
+}
+
+/// A problem of the stream is said once, not once a frame.
+static bool first_time(GstSpidarMotion* self, FrameProblem problem) {
+  const guint bit = 1u << static_cast<guint>(problem);
+  const bool first = (self->warned & bit) == 0;
+  self->warned |= bit;
+  return first;
+}
+
+static void warn_of_frame(GstSpidarMotion* self, FrameProblem problem) {
+  if (problem == FrameProblem::kNone || problem == FrameProblem::kNotShown ||
+      !first_time(self, problem)) {
+    return;
+  }
+  switch (problem) {
+    case FrameProblem::kNoTimestamp:
+      GST_ELEMENT_WARNING(
+          self, STREAM, FORMAT,
+          ("Frames without a timestamp cannot be felt in time; they are shown only."),
+          ("Buffer without PTS. A videorate or a parser before the decoder adds them."));
+      break;
+    case FrameProblem::kSameTimestamp:
+      GST_ELEMENT_WARNING(self, STREAM, FORMAT,
+                          ("Two frames have the same timestamp; the second one is shown only."),
+                          ("No time between the frames to divide their motion by."));
+      break;
+    case FrameProblem::kFallingTimestamp:
+      GST_ELEMENT_WARNING(self, STREAM, FORMAT,
+                          ("Timestamps go back without a discontinuity; motion is measured anew."),
+                          ("Running time must rise within a segment."));
+      break;
+    default:
+      break;
+  }
+}
+
+/// False when the stream is to end.
+static bool check_device(GstSpidarMotion* self, OnDeviceError policy) {
+  const DeviceState state = self->engine->device_state();
+  const DeviceState before = self->device_state;
+  self->device_state = state;
+  if (state == before) return true;
+  if (state != DeviceState::kLost) {
+    if (before == DeviceState::kLost) GST_INFO_OBJECT(self, "device is back");
+    return true;
+  }
+  const char* text = "The haptic device does not answer.";
+  if (policy == OnDeviceError::kError) {
+    GST_ELEMENT_ERROR(self, RESOURCE, WRITE, ("%s", text), ("on-device-error=error"));
+    return false;
+  }
+  GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("%s The video goes on without it.", text),
+                      ("It is taken back when it returns."));
+  return true;
+}
+
+// --- streaming thread --------------------------------------------------------------------------
+
+static void post_motion(GstSpidarMotion* self, GstBuffer* buffer, const FrameReport& report) {
+  const spidar::FrameAnalysis& frame = report.analysis;
+  const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
+  const Eigen::Vector3d& force = frame.wrench.force_N;
+  const Eigen::Vector3d& torque = frame.wrench.torque_Nm;
+  GstStructure* s = gst_structure_new(
+      "spidar-motion",                                                   //
+      "timestamp", G_TYPE_UINT64, GST_BUFFER_PTS(buffer),                //
+      "stream-time", G_TYPE_UINT64, report.stream_time,                  //
+      "running-time", G_TYPE_UINT64, report.running_time,                //
+      "duration", G_TYPE_UINT64, GST_BUFFER_DURATION(buffer),            //
+      "features", G_TYPE_UINT, static_cast<guint>(frame.features),       //
+      "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),  //
+      "velocity-x", G_TYPE_DOUBLE, velocity.x(), "velocity-y", G_TYPE_DOUBLE, velocity.y(),
+      "force-x", G_TYPE_DOUBLE, force.x(), "force-y", G_TYPE_DOUBLE, force.y(), "force-z",
+      G_TYPE_DOUBLE, force.z(), "torque-x", G_TYPE_DOUBLE, torque.x(), "torque-y", G_TYPE_DOUBLE,
+      torque.y(), "torque-z", G_TYPE_DOUBLE, torque.z(), nullptr);
+  gst_element_post_message(GST_ELEMENT(self), gst_message_new_element(GST_OBJECT(self), s));
+}
+
+static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffer* buffer) {
+  const GstClockTime time =
+      gst_segment_to_stream_time(&trans->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer));
+  if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
+}
+
+static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter,
+                                                          GstVideoFrame* frame) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
+  spidar::AnalyzerSettings settings;
+  bool post_messages;
+  OnDeviceError on_device_error;
+  GST_OBJECT_LOCK(self);
+  settings = self->properties->analyzer;
+  post_messages = self->properties->post_messages;
+  on_device_error = self->properties->on_device_error;
+  GST_OBJECT_UNLOCK(self);
+
+  FrameReport report;
+  const bool processed = guarded(self, "analysing a frame", [&] {
+    report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings);
+  });
+  if (!processed) return GST_FLOW_ERROR;
+  warn_of_frame(self, report.problem);
+  if (report.trace_failed) {
+    GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("The trace cannot be written any more."),
+                        ("Disk full? The video goes on without it."));
+  }
+  if (report.analyzed && post_messages) post_motion(self, frame->buffer, report);
+  return check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
+}
+
+/// Whether the same moments are shown at the same pace after `b` as after `a`.
+static bool same_playback(const GstSegment& a, const GstSegment& b) {
+  return a.format == b.format && a.rate == b.rate && a.start == b.start && a.base == b.base &&
+         a.time == b.time && a.offset == b.offset;
+}
+
+static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* event) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  MotionEngine& engine = *self->engine;
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_FLUSH_START:
+      engine.flush();
+      break;
+    case GST_EVENT_FLUSH_STOP: {
+      gboolean reset_time;
+      gst_event_parse_flush_stop(event, &reset_time);
+      // Again: a frame may have been on its way through when the flush began.
+      engine.flush();
+      engine.restart_timing();
+      if (reset_time) engine.expect_base_time();
+      break;
+    }
+    case GST_EVENT_STREAM_START:
+      self->warned = 0;
+      break;
+    case GST_EVENT_SEGMENT: {
+      const GstSegment* segment;
+      gst_event_parse_segment(event, &segment);
+      if (!same_playback(trans->segment, *segment)) engine.restart();
+      break;
+    }
+    case GST_EVENT_GAP: {
+      GstClockTime time;
+      gst_event_parse_gap(event, &time, nullptr);
+      engine.run_out(gst_segment_to_running_time(&trans->segment, GST_FORMAT_TIME, time));
+      break;
+    }
+    case GST_EVENT_EOS:
+      engine.end_of_stream();
+      break;
+    default:
+      break;
+  }
+  return GST_BASE_TRANSFORM_CLASS(gst_spidar_motion_parent_class)->sink_event(trans, event);
+}
+
+static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* event) {
+  if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) {
+    GstClockTime latency;
+    gst_event_parse_latency(event, &latency);
+    GST_DEBUG_OBJECT(trans, "latency is %" GST_TIME_FORMAT, GST_TIME_ARGS(latency));
+    GST_SPIDAR_MOTION(trans)->engine->set_latency(latency);
+  }
+  return GST_BASE_TRANSFORM_CLASS(gst_spidar_motion_parent_class)->src_event(trans, event);
+}
+
+static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_OBJECT_LOCK(self);
+  const std::string trace = self->properties->trace;
+  GST_OBJECT_UNLOCK(self);
+  self->warned = 0;
+  self->device_state = DeviceState::kClosed;
+  const std::string reason = self->engine->start(trace);
+  if (!reason.empty()) {
+    GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
+                        ("Cannot write the trace '%s': %s.", trace.c_str(), reason.c_str()),
+                        ("The video goes on without it."));
+  }
+  return TRUE;
+}
+
+static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  if (!self->engine->stop()) {
+    GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("The end of the trace could not be written."),
+                        ("Disk full?"));
+  }
+  return TRUE;
+}
+
+// --- states ------------------------------------------------------------------------------------
+
+static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
+                                                           GstStateChange transition) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(element);
+  MotionEngine& engine = *self->engine;
+  if (transition == GST_STATE_CHANGE_NULL_TO_READY) {
+    GST_OBJECT_LOCK(self);
+    const MotionProperties properties = *self->properties;
+    GST_OBJECT_UNLOCK(self);
+    const bool opened = guarded(self, "opening the device", [&] { engine.open(properties); });
+    if (!opened) return GST_STATE_CHANGE_FAILURE;
+  } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
+    engine.set_playing(false);
+  }
+
+  const GstStateChangeReturn result =
+      GST_ELEMENT_CLASS(gst_spidar_motion_parent_class)->change_state(element, transition);
+
+  switch (transition) {
+    case GST_STATE_CHANGE_PAUSED_TO_PLAYING:
+      if (result != GST_STATE_CHANGE_FAILURE) engine.set_playing(true);
+      break;
+    case GST_STATE_CHANGE_READY_TO_NULL:
+      engine.close();
+      break;
+    default:
+      break;
+  }
+  return result;
+}
+
+// --- object ------------------------------------------------------------------------------------
+
+static void gst_spidar_motion_set_property(GObject* object, guint id, const GValue* value,
+                                           GParamSpec* spec) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  GST_OBJECT_LOCK(self);
+  const bool known = set_motion_property(*self->properties, id, value);
+  const GstClockTimeDiff offset_ns = self->properties->ts_offset_ns;
+  GST_OBJECT_UNLOCK(self);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  if (id == spidar::kPropTsOffset) self->engine->set_offset(offset_ns);
+}
+
+static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
+                                           GParamSpec* spec) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  if (id == spidar::kPropStats) {
+    g_value_take_boxed(value, self->engine->stats());
+    return;
+  }
+  GST_OBJECT_LOCK(self);
+  const bool known = get_motion_property(*self->properties, id, value);
+  GST_OBJECT_UNLOCK(self);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+}
+
+static void gst_spidar_motion_finalize(GObject* object) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  delete self->engine;
+  delete self->properties;
+  G_OBJECT_CLASS(gst_spidar_motion_parent_class)->finalize(object);
+}
+
+static void gst_spidar_motion_init(GstSpidarMotion* self) {
+  self->properties = new MotionProperties;
+  self->engine = new MotionEngine(GST_ELEMENT(self));
+  // Frames are looked at and passed on. GstVideoFilter would drop late ones before that: here it is
+  // the application's choice.
+  gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);
+  gst_base_transform_set_qos_enabled(GST_BASE_TRANSFORM(self), FALSE);
+}
+
+static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
+  GObjectClass* object_class = G_OBJECT_CLASS(klass);
+  GstElementClass* element_class = GST_ELEMENT_CLASS(klass);
+  GstBaseTransformClass* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  GstVideoFilterClass* filter_class = GST_VIDEO_FILTER_CLASS(klass);
+
+  object_class->set_property = gst_spidar_motion_set_property;
+  object_class->get_property = gst_spidar_motion_get_property;
+  object_class->finalize = gst_spidar_motion_finalize;
+  spidar::install_motion_properties(object_class);
+
+  gst_element_class_set_static_metadata(
+      element_class, "SPIDAR motion", "Filter/Analyzer/Video/Hardware",
+      "Feel the motion of a video with a SPIDAR haptic device", "gst-spidar");
+  gst_element_class_add_static_pad_template(element_class, &sink_template);
+  gst_element_class_add_static_pad_template(element_class, &src_template);
+  element_class->change_state = gst_spidar_motion_change_state;
+
+  transform_class->start = gst_spidar_motion_start;
+  transform_class->stop = gst_spidar_motion_stop;
+  transform_class->sink_event = gst_spidar_motion_sink_event;
+  transform_class->src_event = gst_spidar_motion_src_event;
+  transform_class->before_transform = gst_spidar_motion_before_transform;
+  filter_class->transform_frame_ip = gst_spidar_motion_transform_frame_ip;
+}

@@ -1,0 +1,21 @@
+/// The element `spidarmotion`.
+#pragma once
+
+#include <gst/video/gstvideofilter.h>
+#include <gst/video/video.h>
+
+G_BEGIN_DECLS
+
+#define GST_TYPE_SPIDAR_MOTION (gst_spidar_motion_get_type())
+G_DECLARE_FINAL_TYPE(GstSpidarMotion, gst_spidar_motion, GST, SPIDAR_MOTION, GstVideoFilter)
+
+GST_ELEMENT_REGISTER_DECLARE(spidarmotion)
+
+G_END_DECLS
+
+namespace spidar {
+class MotionEngine;
+}
+
+/// For tests that step the element by hand.
+spidar::MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self);

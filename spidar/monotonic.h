@@ -1,0 +1,27 @@
+/// The clock of the haptic loop.
+#pragma once
+
+#include <cerrno>
+#include <cstdint>
+#include <ctime>
+
+namespace spidar {
+
+constexpr int64_t kSecond_ns = 1'000'000'000;
+
+/// CLOCK_MONOTONIC, nanoseconds.
+inline int64_t monotonic_now_ns() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<int64_t>(now.tv_sec) * kSecond_ns + now.tv_nsec;
+}
+
+/// Sleeps until then, whatever signals come; returns at once when that is past.
+inline void sleep_until_ns(int64_t monotonic_ns) noexcept {
+  const timespec until{static_cast<time_t>(monotonic_ns / kSecond_ns),
+                       static_cast<long>(monotonic_ns % kSecond_ns)};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+}
+
+}  // namespace spidar

@@ -1,0 +1,99 @@
+#include "spidar/profile.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "spidar/profile_file.h"
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEnding = ".toml";
+constexpr std::uintmax_t kMaxFileSize = 1 << 20;  // a profile has a few kilobytes
+
+std::vector<fs::path> search_path() {
+  std::vector<fs::path> folders;
+  if (const char* listed = std::getenv("SPIDAR_PROFILE_PATH")) {
+    std::istringstream parts(listed);
+    for (std::string part; std::getline(parts, part, ':');)
+      if (!part.empty()) folders.emplace_back(part);
+  }
+  folders.emplace_back(SPIDAR_PROFILE_DIR);
+  return folders;
+}
+
+bool is_path(const std::string& name_or_path) {
+  return name_or_path.find('/') != std::string::npos ||
+         fs::path(name_or_path).extension() == kEnding;
+}
+
+Profile read_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (error) throw ProfileError(path.string() + ": cannot be read: " + error.message());
+  if (!fs::is_regular_file(status))
+    throw ProfileError(path.string() + ": not a regular file; a profile is a TOML file");
+  if (fs::file_size(path, error) > kMaxFileSize)
+    throw ProfileError(path.string() + ": larger than a megabyte; a profile is a small TOML file");
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw ProfileError(path.string() + ": cannot be read: " + std::strerror(errno));
+  return parse_profile(text, path.string(), path.stem().string());
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text.empty() ? "none" : text;
+}
+
+template <double StringDrive::*kMember>
+StringVector per_string(const Profile& profile) {
+  StringVector values = StringVector::Zero();
+  for (int i = 0; i < profile.geometry.count; ++i)
+    values[i] = profile.drives[static_cast<size_t>(i)].*kMember;
+  return values;
+}
+
+}  // namespace
+
+StringVector Profile::min_tension_N() const {
+  return per_string<&StringDrive::min_tension_N>(*this);
+}
+
+StringVector Profile::max_tension_N() const {
+  return per_string<&StringDrive::max_tension_N>(*this);
+}
+
+Profile load_profile(const std::string& name_or_path) {
+  if (is_path(name_or_path)) return read_file(name_or_path);
+  std::vector<std::string> searched;
+  for (const fs::path& folder : search_path()) {
+    const fs::path path = folder / (name_or_path + kEnding);
+    std::error_code error;
+    if (fs::exists(path, error)) return read_file(path);
+    searched.push_back(folder.string());
+  }
+  throw ProfileError("unknown profile \"" + name_or_path + "\"; known are " +
+                     joined(list_profiles()) + "; searched in " + joined(searched));
+}
+
+std::vector<std::string> list_profiles() {
+  std::set<std::string> names;
+  for (const fs::path& folder : search_path()) {
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+      if (it->path().extension() == kEnding) names.insert(it->path().stem().string());
+  }
+  return {names.begin(), names.end()};
+}
+
+}  // namespace spidar

@@ -1,0 +1,170 @@
+#include "spidar/profile_file.h"
+
+#include <string_view>
+
+#include "spidar/toml_field.h"
+
+namespace spidar {
+namespace {
+
+using Values = std::array<double, kMaxStrings>;
+using Signs = std::array<int, kMaxStrings>;
+
+constexpr int kMinStrings = 6;  // fewer cannot hold six degrees of freedom
+// Beyond these a unit was mistaken: the largest SPIDAR fills a room, a count is some micrometres.
+constexpr double kMaxCoordinate_m = 5.0;
+constexpr double kMinLength_m = 1e-3;
+constexpr double kMin_m_per_count = 1e-8;
+constexpr double kMax_m_per_count = 1e-3;
+
+void check_length(const TomlField& field, int count) {
+  if (field.size() != static_cast<size_t>(count))
+    field.fail("has " + shown(field.size()) + " entries, must have " + shown(count) +
+               ", one for each string of geometry.exit");
+}
+
+Eigen::Vector3d point(const TomlField& field, const Eigen::Array3d& scale) {
+  if (field.size() != 3)
+    field.fail("has " + shown(field.size()) + " coordinates, must have three: [x, y, z]");
+  const Eigen::Vector3d point_m =
+      Eigen::Array3d(field[0].number(), field[1].number(), field[2].number()) * scale;
+  if (!(point_m.cwiseAbs().maxCoeff() <= kMaxCoordinate_m))
+    field.fail("is more than " + shown(kMaxCoordinate_m) +
+               " m from the centre; check it and geometry.unit");
+  return point_m;
+}
+
+StringGeometry read_geometry(const TomlField& in) {
+  in.allow_only({"frame", "unit", "exit", "grip"});
+  const double scale = in["unit"].one_of({"m", "mm"}) == "mm" ? 1e-3 : 1.0;
+  const bool left_handed = in["frame"].one_of({"left-handed", "right-handed"}) == "left-handed";
+  const Eigen::Array3d to_D(scale, scale, left_handed ? -scale : scale);
+
+  const TomlField exits = in["exit"];
+  if (exits.size() < kMinStrings || exits.size() > kMaxStrings)
+    exits.fail("has " + shown(exits.size()) + " strings, must have " + shown(kMinStrings) + " to " +
+               shown(kMaxStrings));
+  StringGeometry geometry;
+  geometry.count = static_cast<int>(exits.size());
+  const TomlField grips = in["grip"];
+  check_length(grips, geometry.count);
+  for (size_t i = 0; i < exits.size(); ++i) {
+    geometry.exit_m[i] = point(exits[i], to_D);
+    geometry.grip_m[i] = point(grips[i], to_D);
+    if ((geometry.exit_m[i] - geometry.grip_m[i]).norm() < kMinLength_m)
+      exits[i].fail("is less than " + shown(kMinLength_m) +
+                    " m from its grip point: the string would have no direction; check both and "
+                    "geometry.unit");
+  }
+  return geometry;
+}
+
+/// One number for all strings or an array with one for each; all above zero.
+Values per_string(const TomlField& field, int count) {
+  Values values{};
+  if (!field.is_array()) {
+    values.fill(field.positive());
+    return values;
+  }
+  check_length(field, count);
+  for (size_t i = 0; i < field.size(); ++i) values[i] = field[i].positive();
+  return values;
+}
+
+Signs signs(const TomlField& field, int count) {
+  check_length(field, count);
+  Signs values{};
+  for (size_t i = 0; i < field.size(); ++i) {
+    values[i] = field[i].integer(-1, 1);
+    if (values[i] == 0) field[i].fail("is 0, must be 1 or -1");
+  }
+  return values;
+}
+
+void check_drive(const TomlField& in, size_t i, const StringDrive& drive, double dac_max_V) {
+  const std::string string = "string " + shown(i) + ": ";
+  if (!(drive.min_tension_N < drive.max_tension_N))
+    in["max_tension_N"].fail(string + shown(drive.max_tension_N) +
+                             " N must be above min_tension_N, which is " +
+                             shown(drive.min_tension_N) + " N");
+  const double needed_V = drive.max_tension_N / drive.newtons_per_volt;
+  if (!(needed_V <= dac_max_V))
+    in["max_tension_N"].fail(string + shown(drive.max_tension_N) + " N needs " + shown(needed_V) +
+                             " V, but dac_max_V is " + shown(dac_max_V) +
+                             "; lower it, or correct newtons_per_volt or dac_max_V");
+  if (drive.metres_per_count < kMin_m_per_count || drive.metres_per_count > kMax_m_per_count)
+    in["metres_per_count"].fail(string + shown(drive.metres_per_count) + " must be from " +
+                                shown(kMin_m_per_count) + " to " + shown(kMax_m_per_count) +
+                                "; the unit is metres");
+}
+
+void read_strings(const TomlField& in, Profile& profile) {
+  in.allow_only({"min_tension_N", "max_tension_N", "newtons_per_volt", "metres_per_count",
+                 "motor_sign", "encoder_sign"});
+  const int count = profile.geometry.count;
+  const Values min_N = per_string(in["min_tension_N"], count);
+  const Values max_N = per_string(in["max_tension_N"], count);
+  const Values N_per_V = per_string(in["newtons_per_volt"], count);
+  const Values m_per_count = per_string(in["metres_per_count"], count);
+  const Signs motor_sign = signs(in["motor_sign"], count);
+  const Signs encoder_sign = signs(in["encoder_sign"], count);
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    profile.drives[i] = {min_N[i],       max_N[i],      N_per_V[i],
+                         m_per_count[i], motor_sign[i], encoder_sign[i]};
+    check_drive(in, i, profile.drives[i], profile.dac_max_V);
+  }
+}
+
+Evidence read_evidence(const TomlField& field) {
+  const std::string evidence = field.one_of({"published", "inferred", "contradicted"});
+  return evidence == "published"  ? Evidence::kPublished
+         : evidence == "inferred" ? Evidence::kInferred
+                                  : Evidence::kContradicted;
+}
+
+std::vector<Provenance> read_sources(const TomlField& sources) {
+  std::vector<Provenance> provenance;
+  for (size_t i = 0; i < sources.size(); ++i) {
+    const TomlField in = sources[i];
+    in.allow_only({"fields", "source", "evidence", "note"});
+    Provenance row;
+    row.source = in["source"].string();
+    row.evidence = read_evidence(in["evidence"]);
+    if (in.has("note")) row.note = in["note"].string();
+    const TomlField fields = in["fields"];
+    for (size_t k = 0; k < fields.size(); ++k) {
+      row.field = fields[k].one_of({"geometry", "frame", "min_tension_N", "max_tension_N",
+                                    "newtons_per_volt", "metres_per_count", "motor_sign",
+                                    "encoder_sign", "board", "dac_bits", "dac_max_V"});
+      provenance.push_back(row);
+    }
+  }
+  return provenance;
+}
+
+}  // namespace
+
+Profile parse_profile(const std::string& text, const std::string& path, const std::string& name) {
+  toml::table document;
+  try {
+    document = toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    TomlField::fail(path, error.source().begin.line, "",
+                    "not TOML: " + std::string(error.description()));
+  }
+  const TomlField root(path, document);
+  root.allow_only(
+      {"description", "board", "dac_bits", "dac_max_V", "geometry", "strings", "source"});
+  Profile profile;
+  profile.name = name;
+  profile.description = root["description"].string();
+  profile.board = root["board"].one_of({"usb-sh4", "usb-simple", "uart", "ahs", "unknown"});
+  profile.dac_bits = root["dac_bits"].integer(8, 24);
+  profile.dac_max_V = root["dac_max_V"].positive();
+  profile.geometry = read_geometry(root["geometry"]);
+  read_strings(root["strings"], profile);
+  if (root.has("source")) profile.provenance = read_sources(root["source"]);
+  return profile;
+}
+
+}  // namespace spidar

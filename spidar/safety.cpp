@@ -1,0 +1,97 @@
+#include "spidar/safety.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+/// Negative or not a number: zero.
+double non_negative(double x) {
+  return x > 0 ? x : 0;
+}
+
+/// `v` no longer than `max`, same direction; zero when it has no length to speak of.
+Eigen::Vector3d shorten(const Eigen::Vector3d& v, double max) {
+  const double norm = v.stableNorm();
+  if (norm <= max) return v;
+  if (!std::isfinite(norm)) return Eigen::Vector3d::Zero();
+  return v * (max / norm);
+}
+
+/// From `from` towards `to` by at most `step`.
+Eigen::Vector3d approach(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double step) {
+  const Eigen::Vector3d difference = to - from;
+  const double distance = difference.stableNorm();
+  if (distance <= step) return to;
+  if (!std::isfinite(distance)) return from;
+  return from + difference * (step / distance);
+}
+
+}  // namespace
+
+Wrench FiniteCheck::apply(const Wrench& wanted) noexcept {
+  if (wanted.is_finite()) return wanted;
+  ++rejected_;
+  return {};
+}
+
+Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept {
+  return {shorten(wanted.force_N, non_negative(limits.max_force_N)),
+          shorten(wanted.torque_Nm, non_negative(limits.max_torque_Nm))};
+}
+
+Wrench SlewLimit::apply(const Wrench& wanted, double dt_s, const SafetyLimits& limits) noexcept {
+  // Both ends within the total limits, which are balls: so is every point between them.
+  const Wrench from = limit_total(last_, limits);
+  last_.force_N = approach(from.force_N, wanted.force_N, non_negative(limits.max_slew_N_s * dt_s));
+  last_.torque_Nm =
+      approach(from.torque_Nm, wanted.torque_Nm, non_negative(limits.max_slew_Nm_s * dt_s));
+  return last_;
+}
+
+double StaleRamp::apply(bool fresh, double dt_s, const SafetyLimits& limits) noexcept {
+  const double step = limits.ramp_s > 0 ? non_negative(dt_s) / limits.ramp_s : 1.0;
+  share_ = fresh ? std::min(share_ + step, 1.0) : std::max(share_ - step, 0.0);
+  return share_;
+}
+
+Wrench WrenchSafety::apply(const Wrench& wanted, bool fresh, double dt_s,
+                           const SafetyLimits& limits) noexcept {
+  const double before = stale_.share();
+  const double share = stale_.apply(fresh, dt_s, limits);
+  if (fresh) return slew_.apply(share * limit_total(finite_.apply(wanted), limits), dt_s, limits);
+  const double left = before > 0 ? share / before : 0;
+  slew_.reset(left * limit_total(slew_.last(), limits));
+  return slew_.last();
+}
+
+void WrenchSafety::reset() noexcept {
+  slew_.reset();
+  stale_.reset();
+}
+
+StringVector bound_tensions(const StringVector& tension_N, const Profile& profile,
+                            double energised) noexcept {
+  const double scale = std::min(non_negative(energised), 1.0);
+  StringVector bounded = StringVector::Zero();
+  for (int i = 0; i < profile.geometry.count; ++i) {
+    const StringDrive& drive = profile.drives[static_cast<size_t>(i)];
+    const double wanted = std::isnan(tension_N[i]) ? drive.min_tension_N : tension_N[i];
+    bounded[i] = scale * std::clamp(wanted, drive.min_tension_N, drive.max_tension_N);
+  }
+  return bounded;
+}
+
+MotorVolts to_volts(const StringVector& tension_N, const Profile& profile) noexcept {
+  MotorVolts volts;
+  for (int i = 0; i < profile.geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    const StringDrive& drive = profile.drives[k];
+    const double magnitude = non_negative(tension_N[i] / drive.newtons_per_volt);
+    volts.volt[k] = drive.motor_sign * std::min(magnitude, profile.dac_max_V);
+  }
+  return volts;
+}
+
+}  // namespace spidar

@@ -1,0 +1,175 @@
+#include "spidar/simulated_device.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <ctime>
+#include <mutex>
+
+#include "spidar/seqlock.h"
+#include "spidar/spsc_ring.h"
+
+namespace spidar {
+namespace {
+
+constexpr int64_t kStep_ns = 1'000'000;
+constexpr int64_t kMaxElapsed_ns = 50'000'000;  // a stopped process must not leap when it goes on
+
+int64_t monotonic_ns() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+/// Tension that the motor of `drive` settles at: D/A range, D/A steps, then the motor's own limit.
+double settled_tension_N(double volt, const StringDrive& drive, const Profile& profile) noexcept {
+  const double pulling_V = volt * drive.motor_sign;
+  if (!(pulling_V > 0) || !std::isfinite(pulling_V)) return 0;
+  const double step_V = profile.dac_max_V / static_cast<double>((1 << profile.dac_bits) - 1);
+  const double put_out_V = step_V * std::round(std::min(pulling_V, profile.dac_max_V) / step_V);
+  return std::min(put_out_V * drive.newtons_per_volt, drive.max_tension_N);
+}
+
+}  // namespace
+
+struct SimulatedDevice::Impl {
+  Impl(const Profile& of, Time how, const GripModel& model)
+      : profile(of),
+        time(how),
+        model_lag_s(model.motor_time_constant_s),
+        dynamics(of.geometry, of.max_tension_N(), model),
+        home_length_m(string_lengths_m(of.geometry, {})) {}
+
+  void put_out(const MotorVolts& volts) noexcept {
+    for (int i = 0; i < profile.geometry.count; ++i) {
+      const auto k = static_cast<size_t>(i);
+      target_N[i] = settled_tension_N(volts.volt[k], profile.drives[k], profile);
+    }
+  }
+
+  void advance(int64_t elapsed_ns) noexcept {
+    hand_shared.try_load(hand);
+    dynamics.advance(target_N, hand, 1e-9 * static_cast<double>(elapsed_ns), state);
+    time_ns += elapsed_ns;
+  }
+
+  int64_t elapsed_ns() noexcept {
+    if (time == Time::kFixedStep) return kStep_ns;
+    const int64_t now_ns = monotonic_ns();
+    const int64_t passed_ns = now_ns - last_ns;
+    last_ns = now_ns;
+    return std::clamp<int64_t>(passed_ns, 0, kMaxElapsed_ns);
+  }
+
+  void read_counters(DeviceReading& reading) const noexcept {
+    const StringVector length_m = string_lengths_m(profile.geometry, state.pose);
+    reading = {};
+    for (int i = 0; i < profile.geometry.count; ++i) {
+      const auto k = static_cast<size_t>(i);
+      const StringDrive& drive = profile.drives[k];
+      const double counts = (length_m[i] - home_length_m[i]) / drive.metres_per_count;
+      reading.count[k] = drive.encoder_sign * static_cast<int32_t>(std::lround(counts));
+    }
+  }
+
+  void publish() noexcept {
+    const FeltState now{time_ns,    state.tension_N,    dynamics.string_wrench(state),
+                        state.pose, state.velocity_m_s, state.angular_velocity_rad_s};
+    felt.store(now);
+    history.push(now);
+  }
+
+  void release() noexcept {
+    if (!open) return;
+    open = false;
+    target_N.setZero();
+    // Ten time constants: less than 5e-5 of any tension is left.
+    const auto steps = static_cast<int64_t>(std::ceil(10 * model_lag_s * 1e9 / kStep_ns));
+    for (int64_t i = 0; i < std::min(steps, kMaxElapsed_ns / kStep_ns); ++i) {
+      advance(kStep_ns);
+      publish();
+    }
+    state.tension_N.setZero();
+    publish();
+  }
+
+  const std::string name = "sim";
+  const Profile profile;
+  const Time time;
+  const double model_lag_s;
+  const GripDynamics dynamics;
+  const StringVector home_length_m;
+  // Of the thread that exchanges.
+  bool open = false;
+  int64_t time_ns = 0;
+  int64_t last_ns = 0;
+  Pose hand;
+  GripState state;
+  StringVector target_N = StringVector::Zero();
+  // Shared.
+  std::mutex hand_writers;
+  Seqlock<Pose> hand_shared;
+  std::atomic<ExchangeStatus> fault{ExchangeStatus::kOk};
+  Seqlock<FeltState> felt;
+  SpscRing<FeltState, 4096> history;
+};
+
+SimulatedDevice::SimulatedDevice(const Profile& profile, Time time, const GripModel& model)
+    : impl_(std::make_unique<Impl>(profile, time, model)) {}
+
+SimulatedDevice::~SimulatedDevice() = default;
+
+void SimulatedDevice::open() {
+  const ExchangeStatus fault = impl_->fault.load();
+  if (fault != ExchangeStatus::kOk)
+    throw DeviceError("sim: cannot be opened: a fault is simulated; end it with set_fault(kOk)");
+  impl_->time_ns = 0;
+  impl_->last_ns = monotonic_ns();
+  impl_->state = {};
+  impl_->target_N.setZero();
+  impl_->open = true;
+  impl_->publish();
+}
+
+ExchangeStatus SimulatedDevice::exchange(const MotorVolts& volts, DeviceReading& reading) noexcept {
+  if (!impl_->open) return ExchangeStatus::kLost;
+  const ExchangeStatus fault = impl_->fault.load(std::memory_order_relaxed);
+  if (fault == ExchangeStatus::kLost) {
+    impl_->release();
+    return fault;
+  }
+  impl_->advance(impl_->elapsed_ns());
+  if (fault != ExchangeStatus::kTimeout) impl_->put_out(volts);
+  impl_->publish();
+  if (fault == ExchangeStatus::kOk) impl_->read_counters(reading);
+  return fault;
+}
+
+void SimulatedDevice::close() noexcept {
+  impl_->release();
+}
+
+const std::string& SimulatedDevice::name() const noexcept {
+  return impl_->name;
+}
+
+void SimulatedDevice::set_hand(const Pose& pose) noexcept {
+  const double norm = pose.orientation.norm();
+  if (!pose.position_m.allFinite() || !std::isfinite(norm) || !(norm > 0)) return;
+  const std::lock_guard<std::mutex> lock(impl_->hand_writers);
+  impl_->hand_shared.store({pose.position_m, pose.orientation.normalized()});
+}
+
+void SimulatedDevice::set_fault(ExchangeStatus fault) noexcept {
+  impl_->fault.store(fault);
+}
+
+FeltState SimulatedDevice::felt() const noexcept {
+  return impl_->felt.load();
+}
+
+bool SimulatedDevice::pop_felt(FeltState& felt) noexcept {
+  return impl_->history.pop(felt);
+}
+
+}  // namespace spidar

@@ -1,0 +1,60 @@
+#include "spidar/thread_setup.h"
+
+#include <algorithm>
+#include <cstring>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace spidar {
+namespace {
+
+int request_fifo(int priority) {
+  sched_param param{};
+  param.sched_priority = priority;
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
+}
+
+}  // namespace
+
+Scheduling request_real_time() {
+  int priority = kRealTimePriority;
+  int error = request_fifo(priority);
+  rlimit limit{};
+  getrlimit(RLIMIT_RTPRIO, &limit);
+  const auto allowed = static_cast<int>(std::min<rlim_t>(limit.rlim_cur, kRealTimePriority));
+  if (error != 0 && allowed > 0) {
+    priority = allowed;
+    error = request_fifo(priority);
+  }
+  if (error == 0) return {true, "SCHED_FIFO " + std::to_string(priority)};
+  const std::string wish = std::to_string(kRealTimePriority);
+  return {false, std::string("no real-time priority: ") + std::strerror(error) +
+                     "; the limit of this process is " + std::to_string(allowed) + ", allow " +
+                     wish + " with \"@GROUP - rtprio " + wish +
+                     "\" in /etc/security/limits.d and a new login, or with LimitRTPRIO=" + wish +
+                     " in a systemd unit"};
+}
+
+void request_exact_timers() noexcept {
+  prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
+}
+
+void request_background() noexcept {
+  // On Linux priorities are those of a thread, whatever POSIX says of processes.
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);
+}
+
+SignalsBlocked::SignalsBlocked() noexcept {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &previous_);
+}
+
+SignalsBlocked::~SignalsBlocked() {
+  pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
+}
+
+}  // namespace spidar

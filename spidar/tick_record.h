@@ -1,0 +1,90 @@
+/// What one cycle of the haptic loop saw and did.
+#pragma once
+
+#include <cstdint>
+
+#include "core/pose.h"
+#include "core/string_geometry.h"
+#include "core/wrench.h"
+#include "core/wrench_timeline.h"
+
+namespace spidar {
+
+enum class DeviceState {
+  kClosed,
+  kOpening,  ///< tensions ramp up to rest
+  kRunning,
+  kClosing,  ///< wrench and tensions ramp down to zero
+  kLost,     ///< does not answer; tried again
+};
+
+/// "closed", "opening", "running", "closing", "lost".
+constexpr const char* to_string(DeviceState state) noexcept {
+  switch (state) {
+    case DeviceState::kClosed:
+      return "closed";
+    case DeviceState::kOpening:
+      return "opening";
+    case DeviceState::kRunning:
+      return "running";
+    case DeviceState::kClosing:
+      return "closing";
+    case DeviceState::kLost:
+      return "lost";
+  }
+  return "unknown";
+}
+
+/// "nothing", "exact", "interpolated", "held", "expired".
+constexpr const char* to_string(Found found) noexcept {
+  switch (found) {
+    case Found::kNothing:
+      return "nothing";
+    case Found::kExact:
+      return "exact";
+    case Found::kInterpolated:
+      return "interpolated";
+    case Found::kHeld:
+      return "held";
+    case Found::kExpired:
+      return "expired";
+  }
+  return "unknown";
+}
+
+/// One tick, as it was. Also the row of the haptic trace.
+struct TickRecord {
+  uint64_t tick = 0;             ///< 1 for the first after open()
+  int64_t monotonic_ns = 0;      ///< CLOCK_MONOTONIC at which it began
+  int64_t lateness_ns = 0;       ///< behind the deadline
+  int64_t running_ns = 0;        ///< running time on the screen; 0 while not playing
+  int64_t frame_ns = INT64_MIN;  ///< running time of the frame whose wrench was reached last
+  Found found = Found::kNothing;
+  Wrench wanted;     ///< from the timeline; zero while not playing
+  Wrench commanded;  ///< after finite, limit, slew and stale
+  Wrench delivered;  ///< W · tension, what the strings can do of it
+  StringVector tension_N = StringVector::Zero();
+  Pose pose;  ///< from the newest good reading
+  double pose_residual_m = 0;
+  DeviceState device = DeviceState::kClosed;
+  bool playing = false;
+};
+
+/// Numbers since the loop was opened.
+struct LoopCounters {
+  uint64_t ticks = 0;
+  uint64_t overruns = 0;          ///< ticks that began more than one period late
+  uint64_t missed_deadlines = 0;  ///< deadlines left out because of that
+  uint64_t exchange_errors = 0;
+  uint64_t pose_errors = 0;
+  uint64_t rejected_wrenches = 0;  ///< not finite
+  uint64_t refused_wrenches = 0;   ///< time not after that of the one before
+  uint64_t times_lost = 0;
+};
+
+struct LoopSnapshot {
+  TickRecord last;
+  LoopCounters counters;
+};
+
+}  // namespace spidar

@@ -1,0 +1,121 @@
+#include "spidar/tick_trace.h"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fcntl.h>
+#include <initializer_list>
+#include <stdexcept>
+#include <string_view>
+#include <unistd.h>
+
+namespace spidar {
+namespace {
+
+constexpr size_t kFlush_bytes = 1 << 16;
+constexpr size_t kMaxRow_bytes = 2048;  // 41 fields of at most 32 characters
+
+/// Appends fields and the commas between them.
+class Row {
+ public:
+  explicit Row(std::string& csv) : csv_(csv), begin_(csv.size()) {}
+
+  template <typename Number>
+  Row& number(Number value) {
+    std::array<char, 32> text;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return field({text.data(), static_cast<size_t>(end - text.data())});
+  }
+  Row& field(std::string_view text) {
+    if (csv_.size() > begin_) csv_ += ',';
+    csv_ += text;
+    return *this;
+  }
+  Row& vector(const Eigen::Vector3d& v) { return number(v.x()).number(v.y()).number(v.z()); }
+  Row& wrench(const Wrench& w) { return vector(w.force_N).vector(w.torque_Nm); }
+
+ private:
+  std::string& csv_;
+  size_t begin_;
+};
+
+}  // namespace
+
+std::string trace_header() {
+  std::string header;
+  Row row(header);
+  for (const char* name : {"tick", "monotonic_ns", "lateness_ns", "running_ns", "frame_ns", "found",
+                           "playing", "device"}) {
+    row.field(name);
+  }
+  for (const char* which : {"wanted", "commanded", "delivered"}) {
+    for (const char* part : {"_force_x_N", "_force_y_N", "_force_z_N", "_torque_x_Nm",
+                             "_torque_y_Nm", "_torque_z_Nm"}) {
+      row.field(std::string(which) + part);
+    }
+  }
+  for (int i = 0; i < kMaxStrings; ++i) row.field("tension_" + std::to_string(i) + "_N");
+  for (const char* name : {"position_x_m", "position_y_m", "position_z_m", "orientation_w",
+                           "orientation_x", "orientation_y", "orientation_z", "pose_residual_m"}) {
+    row.field(name);
+  }
+  return header;
+}
+
+void append_row(const TickRecord& record, std::string& csv) {
+  Row row(csv);
+  row.number(record.tick).number(record.monotonic_ns).number(record.lateness_ns);
+  row.number(record.running_ns).number(record.frame_ns == INT64_MIN ? -1 : record.frame_ns);
+  row.field(to_string(record.found)).number(record.playing ? 1 : 0).field(to_string(record.device));
+  row.wrench(record.wanted).wrench(record.commanded).wrench(record.delivered);
+  for (int i = 0; i < kMaxStrings; ++i) row.number(record.tension_N[i]);
+  const Eigen::Quaterniond& q = record.pose.orientation;
+  row.vector(record.pose.position_m).number(q.w()).number(q.x()).number(q.y()).number(q.z());
+  row.number(record.pose_residual_m);
+  csv += '\n';
+}
+
+TickTrace::TickTrace(const std::string& path)
+    : file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (file_ < 0) {
+    throw std::runtime_error("cannot write the haptic trace \"" + path +
+                             "\": " + std::strerror(errno));
+  }
+  pending_.reserve(kFlush_bytes + kMaxRow_bytes);
+  pending_.append(trace_header()).append("\n");
+}
+
+TickTrace::~TickTrace() {
+  flush();
+  close(file_);
+}
+
+void TickTrace::add(const TickRecord& record) noexcept {
+  if (record.tick > last_tick_ + 1) status_.lost_rows += record.tick - last_tick_ - 1;
+  last_tick_ = record.tick;
+  if (status_.error != 0) {
+    ++status_.lost_rows;
+    return;
+  }
+  append_row(record, pending_);
+  ++pending_rows_;
+  if (pending_.size() >= kFlush_bytes) flush();
+}
+
+void TickTrace::flush() noexcept {
+  size_t written = 0;
+  while (status_.error == 0 && written < pending_.size()) {
+    const ssize_t n = write(file_, pending_.data() + written, pending_.size() - written);
+    if (n >= 0) {
+      written += static_cast<size_t>(n);
+    } else if (errno != EINTR) {
+      status_.error = errno;
+    }
+  }
+  (status_.error == 0 ? status_.rows : status_.lost_rows) += pending_rows_;
+  pending_.clear();
+  pending_rows_ = 0;
+}
+
+}  // namespace spidar

@@ -1,0 +1,53 @@
+#include "spidar/trace_thread.h"
+
+#include <chrono>
+#include <pthread.h>
+
+#include "spidar/thread_setup.h"
+
+namespace spidar {
+
+TraceThread::TraceThread(const std::string& path, HapticLoop& loop, bool threaded)
+    : loop_(loop), trace_(path) {
+  if (!threaded) return;
+  const SignalsBlocked blocked;
+  thread_ = std::thread([this] { run(); });
+}
+
+TraceThread::~TraceThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  if (thread_.joinable()) thread_.join();
+  drain();
+}
+
+void TraceThread::run() noexcept {
+  pthread_setname_np(pthread_self(), "spidar-trace");
+  request_background();
+  std::unique_lock lock(mutex_);
+  while (!stop_) {
+    wake_.wait_for(lock, std::chrono::milliseconds(50));
+    drain_locked();
+  }
+}
+
+void TraceThread::drain() noexcept {
+  const std::lock_guard lock(mutex_);
+  drain_locked();
+}
+
+void TraceThread::drain_locked() noexcept {
+  TickRecord record;
+  while (loop_.pop_record(record)) trace_.add(record);
+  trace_.flush();
+}
+
+TraceStatus TraceThread::status() const noexcept {
+  const std::lock_guard lock(mutex_);
+  return trace_.status();
+}
+
+}  // namespace spidar

@@ -1,0 +1,40 @@
+/// The thread that writes the haptic trace, so that the haptic thread touches no file.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "spidar/haptic_loop.h"
+#include "spidar/tick_trace.h"
+
+namespace spidar {
+
+/// Takes the records of a loop every 50 ms, of which the loop can keep more than four seconds.
+class TraceThread {
+ public:
+  /// Throws std::runtime_error when the file cannot be written. `loop` outlives it. Without
+  /// `threaded`, records are only taken by drain() and at the end.
+  TraceThread(const std::string& path, HapticLoop& loop, bool threaded);
+  /// Writes what is left.
+  ~TraceThread();
+
+  /// Writes all ticks so far.
+  void drain() noexcept;
+
+  TraceStatus status() const noexcept;
+
+ private:
+  void run() noexcept;
+  void drain_locked() noexcept;
+
+  HapticLoop& loop_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stop_ = false;
+  TickTrace trace_;
+  std::thread thread_;
+};
+
+}  // namespace spidar

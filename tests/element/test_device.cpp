@@ -1,0 +1,115 @@
+// The device while the video plays: it may fail, it may come back, and it is always put to rest.
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "spidar/haptic_loop.h"
+#include "spidar/simulated_device.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+
+int64_t read_time(void* time) {
+  return *static_cast<int64_t*>(time);
+}
+
+/// An element on the simulated device, its loop ticked by hand.
+class DeviceTest : public testing::Test {
+ protected:
+  void open(const std::string& properties) {
+    h = std::make_unique<ElementHarness>(properties, read_time, &time_ns);
+    h->set_caps(make_caps("GRAY8", 320, 240));
+  }
+
+  HapticLoop& loop() { return h->engine().session()->loop(); }
+  SimulatedDevice& device() {
+    return dynamic_cast<SimulatedDevice&>(h->engine().session()->device());
+  }
+
+  void tick(int count = 1) {
+    for (int i = 0; i < count; ++i) {
+      time_ns += kTick_ns;
+      loop().tick(time_ns, time_ns);
+    }
+  }
+
+  GstFlowReturn push_next() {
+    const int n = frames++;
+    return h->push_moved(2.0 * n, 0, static_cast<GstClockTime>(n) * kFrame);
+  }
+
+  int64_t time_ns = 1'000'000'000;
+  int frames = 0;
+  std::unique_ptr<ElementHarness> h;
+};
+
+TEST_F(DeviceTest, ThatIsLostIsAWarningAndTheVideoGoesOn) {
+  open("device=sim");
+  push_next();
+  tick(300);
+  EXPECT_EQ(push_next(), GST_FLOW_OK);
+  device().set_fault(ExchangeStatus::kLost);
+  tick(2);
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(push_next(), GST_FLOW_OK);
+  ASSERT_EQ(h->warnings().size(), 1u) << "said once, not once a frame";
+  EXPECT_NE(h->warnings()[0].find("device"), std::string::npos);
+  EXPECT_TRUE(h->errors().empty());
+
+  EXPECT_FALSE(loop().reopen()) << "the fault stands";
+  device().set_fault(ExchangeStatus::kOk);
+  EXPECT_TRUE(loop().reopen());
+  tick(300);
+  EXPECT_EQ(push_next(), GST_FLOW_OK);
+  EXPECT_EQ(h->engine().device_state(), DeviceState::kRunning);
+
+  device().set_fault(ExchangeStatus::kLost);
+  tick(2);
+  EXPECT_EQ(push_next(), GST_FLOW_OK);
+  EXPECT_EQ(h->warnings().size(), 2u) << "lost a second time";
+}
+
+TEST_F(DeviceTest, ThatIsLostIsAnErrorWhereThatWasAskedFor) {
+  open("device=sim on-device-error=error");
+  push_next();
+  tick(300);
+  EXPECT_EQ(push_next(), GST_FLOW_OK);
+  device().set_fault(ExchangeStatus::kLost);
+  tick(2);
+  EXPECT_EQ(push_next(), GST_FLOW_ERROR);
+  EXPECT_EQ(h->errors().size(), 1u);
+  EXPECT_TRUE(h->warnings().empty());
+}
+
+TEST_F(DeviceTest, MaxForceHoldsAtOnceWhilePlaying) {
+  open("device=sim max-force=3");
+  push_next();
+  g_object_set(h->element(), "max-force", 0.5, nullptr);
+  push_next();
+  EXPECT_LE(h->motions().back().wrench.force_N.norm(), 0.5);
+}
+
+TEST_F(DeviceTest, IsAtRestWhenTheElementIsClosed) {
+  open("device=sim");
+  for (int n = 0; n < 3; ++n) push_next();
+  tick(300);
+  EXPECT_GT(device().felt().tension_N.minCoeff(), 0) << "strings are taut while it is open";
+  gst_element_set_state(h->element(), GST_STATE_NULL);
+  EXPECT_EQ(h->engine().session(), nullptr);
+}
+
+TEST_F(DeviceTest, StateMayGoUpAndDownAsOftenAsOneLikes) {
+  open("device=sim");
+  for (int n = 0; n < 5; ++n) {
+    EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_NULL), GST_STATE_CHANGE_SUCCESS);
+    EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_PLAYING), GST_STATE_CHANGE_SUCCESS);
+    EXPECT_NE(h->engine().session(), nullptr);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test

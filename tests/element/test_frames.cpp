@@ -1,0 +1,169 @@
+// What the element does with frames: formats, strides, crops, fields, and that it leaves them
+// alone.
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+// Pyramidal Lucas–Kanade on a smooth texture without noise is good to a few hundredths of a pixel a
+// point; a tenth is what the mean of many points must keep in any case.
+constexpr double kTolerance_px = 0.1;
+constexpr double kTolerance_px_s = kTolerance_px * 25;
+
+guint8 grey(double x, double y) {
+  return static_cast<guint8>(std::lround(texture(x, y)));
+}
+
+class Formats : public testing::TestWithParam<const char*> {};
+
+TEST_P(Formats, PassThroughUntouchedAndMeasureMotion) {
+  ElementHarness h;
+  h.set_caps(make_caps(GetParam(), 323, 241));  // odd: strides differ from widths
+  for (int n = 0; n < 3; ++n) {
+    GstBuffer* frame = make_frame(h.info(), 2.0 * n, -1.0 * n, 13);
+    GstBuffer* untouched = gst_buffer_copy_deep(frame);
+    gst_buffer_ref(frame);  // held by somebody else: must neither be copied nor written to
+    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    EXPECT_EQ(out, frame);
+    GstMapInfo a, b;
+    gst_buffer_map(out, &a, GST_MAP_READ);
+    gst_buffer_map(untouched, &b, GST_MAP_READ);
+    EXPECT_EQ(a.size, b.size);
+    EXPECT_EQ(memcmp(a.data, b.data, a.size), 0);
+    gst_buffer_unmap(out, &a);
+    gst_buffer_unmap(untouched, &b);
+    gst_buffer_unref(untouched);
+    gst_buffer_unref(out);
+    gst_buffer_unref(frame);
+  }
+  ASSERT_EQ(h.motions().size(), 3u);
+  EXPECT_EQ(h.motions()[0].tracked, 0u);
+  for (size_t n = 1; n < 3; ++n) {
+    EXPECT_GT(h.motions()[n].tracked, 20u);
+    EXPECT_NEAR(h.motions()[n].velocity_x, 2.0 * 25, kTolerance_px_s);
+    EXPECT_NEAR(h.motions()[n].velocity_y, -1.0 * 25, kTolerance_px_s);
+  }
+  EXPECT_TRUE(h.warnings().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Formats,
+                         testing::Values("GRAY8", "I420", "YV12", "NV12", "NV21", "Y42B", "Y444",
+                                         "BGR", "RGB", "BGRx", "RGBx", "BGRA", "RGBA"),
+                         [](const auto& p) { return std::string(p.param); });
+
+TEST(Frames, SmallestAndOddSizesPass) {
+  for (const auto& [width, height] :
+       {std::pair{16, 16}, {17, 16}, {16, 31}, {8192, 16}, {16, 8192}}) {
+    SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+    ElementHarness h;
+    h.set_caps(make_caps("GRAY8", width, height));
+    for (int n = 0; n < 3; ++n) {
+      EXPECT_EQ(h.push_moved(n, 0, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    }
+    EXPECT_EQ(h.motions().size(), 3u);
+    EXPECT_TRUE(h.errors().empty());
+  }
+}
+
+TEST(Frames, SizesOutsideTheLimitsAreNotNegotiated) {
+  ElementHarness h;
+  for (const auto& [width, height] : {std::pair{15, 64}, {64, 15}, {8193, 64}}) {
+    GstCaps* caps = make_caps("GRAY8", width, height);
+    EXPECT_FALSE(gst_pad_query_accept_caps(GST_PAD_PEER(h.harness()->srcpad), caps));
+    gst_caps_unref(caps);
+  }
+}
+
+TEST(Frames, CapsMayChangeWhilePlaying) {
+  ElementHarness h;
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  h.push_moved(0, 0, 0);
+  h.push_moved(2, 0, kFrame);
+  h.set_caps(make_caps("I420", 640, 360));
+  h.push_moved(0, 0, 2 * kFrame);
+  h.push_moved(4, 0, 3 * kFrame);
+  ASSERT_EQ(h.motions().size(), 4u);
+  EXPECT_NEAR(h.motions()[1].velocity_x, 50, kTolerance_px_s);
+  // Nothing to compare the first frame of the new size with: exactly no motion.
+  EXPECT_EQ(h.motions()[2].velocity_x, 0);
+  EXPECT_EQ(h.motions()[2].tracked, 0u);
+  EXPECT_NEAR(h.motions()[3].velocity_x, 100, kTolerance_px_s);
+}
+
+TEST(Frames, OnlyTheCropIsLookedAt) {
+  ElementHarness h;
+  h.set_caps(make_caps("GRAY8", 640, 480));
+  for (int n = 0; n < 2; ++n) {
+    // Outside of the crop the picture moves the other way.
+    GstBuffer* frame = make_frame(h.info(), -3.0 * n, 0);
+    GstMapInfo map;
+    gst_buffer_map(frame, &map, GST_MAP_WRITE);
+    for (int y = 101; y < 301; ++y) {
+      for (int x = 201; x < 501; ++x) map.data[y * 640 + x] = grey(x - 2.0 * n, y);
+    }
+    gst_buffer_unmap(frame, &map);
+    GstVideoCropMeta* crop = gst_buffer_add_video_crop_meta(frame);
+    crop->x = 201;
+    crop->y = 101;
+    crop->width = 300;
+    crop->height = 200;
+    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+  }
+  ASSERT_EQ(h.motions().size(), 2u);
+  EXPECT_NEAR(h.motions()[1].velocity_x, 50, kTolerance_px_s);
+}
+
+TEST(Frames, CropsThatLeaveNothingOrReachOutsideAreHarmless) {
+  ElementHarness h;
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  GstClockTime pts = 0;
+  for (const auto& [x, y, width, height] : {std::array<guint, 4>{0, 0, 0, 0},
+                                            {400, 300, 10, 10},
+                                            {300, 200, 4000, 4000},
+                                            {0, 0, 3, 3}}) {
+    GstBuffer* frame = make_frame(h.info(), 0, 0);
+    GstVideoCropMeta* crop = gst_buffer_add_video_crop_meta(frame);
+    crop->x = x;
+    crop->y = y;
+    crop->width = width;
+    crop->height = height;
+    EXPECT_EQ(h.push(frame, pts += kFrame), GST_FLOW_OK);
+  }
+  EXPECT_TRUE(h.errors().empty());
+}
+
+TEST(Frames, InterlacedFramesAreMeasuredByOneField) {
+  // The bottom field is half a frame later: as whole frames the two would contradict each other.
+  ElementHarness h;
+  GstCaps* caps = make_caps("GRAY8", 640, 480);
+  gst_caps_set_simple(caps, "interlace-mode", G_TYPE_STRING, "interleaved", "field-order",
+                      G_TYPE_STRING, "top-field-first", nullptr);
+  h.set_caps(caps);
+  for (int n = 0; n < 2; ++n) {
+    GstBuffer* frame = make_frame(h.info(), 4.0 * n, 0);
+    GstMapInfo map;
+    gst_buffer_map(frame, &map, GST_MAP_WRITE);
+    for (int y = 1; y < 480; y += 2) {
+      for (int x = 0; x < 640; ++x) map.data[y * 640 + x] = grey(x - 4.0 * n - 2.0, y);
+    }
+    gst_buffer_unmap(frame, &map);
+    GST_BUFFER_FLAG_SET(frame, GST_VIDEO_BUFFER_FLAG_INTERLACED | GST_VIDEO_BUFFER_FLAG_TFF);
+    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+  }
+  ASSERT_EQ(h.motions().size(), 2u);
+  EXPECT_NEAR(h.motions()[1].velocity_x, 100, kTolerance_px_s);
+  EXPECT_NEAR(h.motions()[1].velocity_y, 0, kTolerance_px_s);
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,229 @@
+// Settings, errors, trace, stats.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gst/controller/gstdirectcontrolbinding.h>
+#include <gst/controller/gstinterpolationcontrolsource.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+
+/// A folder that goes when the test ends.
+struct TemporaryFolder {
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+  std::filesystem::path path;
+};
+
+GstElement* make_element(const char* properties) {
+  init_gstreamer();
+  GError* error = nullptr;
+  GstElement* element =
+      gst_parse_launch((std::string("spidarmotion ") + properties).c_str(), &error);
+  EXPECT_EQ(error, nullptr) << error->message;
+  return element;
+}
+
+/// State change to READY and the text of the error posted, if any.
+std::string error_at_ready(const char* properties) {
+  GstElement* element = make_element(properties);
+  GstBus* bus = gst_bus_new();
+  gst_element_set_bus(element, bus);
+  std::string text;
+  if (gst_element_set_state(element, GST_STATE_READY) == GST_STATE_CHANGE_FAILURE) {
+    text = "(no message)";
+    if (GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR)) {
+      GError* error = nullptr;
+      gst_message_parse_error(message, &error, nullptr);
+      text = error->message;
+      g_error_free(error);
+      gst_message_unref(message);
+    }
+  }
+  gst_element_set_state(element, GST_STATE_NULL);
+  gst_object_unref(element);
+  gst_object_unref(bus);
+  return text;
+}
+
+TEST(Properties, DefaultsAreTheDocumentedOnes) {
+  GstElement* element = make_element("");
+  gchar *device, *profile;
+  gdouble max_force, alpha, quality, distance;
+  gint64 ts_offset;
+  gboolean qos;
+  g_object_get(element, "device", &device, "profile", &profile, "max-force", &max_force, "alpha",
+               &alpha, "quality-level", &quality, "min-distance", &distance, "ts-offset",
+               &ts_offset, "qos", &qos, nullptr);
+  EXPECT_STREQ(device, "sim");
+  EXPECT_STREQ(profile, "spidar-gcc");
+  EXPECT_EQ(max_force, 3.0);
+  EXPECT_EQ(alpha, 0.01);
+  EXPECT_EQ(ts_offset, 0);
+  EXPECT_FALSE(qos);
+  EXPECT_TRUE(gst_base_transform_is_passthrough(GST_BASE_TRANSFORM(element)));
+  g_free(device);
+  g_free(profile);
+  gst_object_unref(element);
+}
+
+TEST(Properties, EverySettingReadsBackWhatWasWritten) {
+  GstElement* element = make_element(
+      "device=none profile=spidar-g6c controller=linear max-force=1.5 alpha=0.02 max-features=50 "
+      "quality-level=0.05 min-distance=4 ts-offset=-5000000 on-device-error=error "
+      "post-messages=false trace=/a haptic-trace=/b");
+  for (const auto& [name, text] : {std::pair{"device", "none"},
+                                   {"profile", "spidar-g6c"},
+                                   {"controller", "linear"},
+                                   {"motion", "mean"},
+                                   {"max-force", "1.5"},
+                                   {"alpha", "0.02"},
+                                   {"max-features", "50"},
+                                   {"quality-level", "0.05"},
+                                   {"min-distance", "4"},
+                                   {"ts-offset", "-5000000"},
+                                   {"on-device-error", "error"},
+                                   {"post-messages", "FALSE"},
+                                   {"trace", "/a"},
+                                   {"haptic-trace", "/b"}}) {
+    GValue value = G_VALUE_INIT, wanted = G_VALUE_INIT;
+    g_object_get_property(G_OBJECT(element), name, &value);
+    g_value_init(&wanted, G_VALUE_TYPE(&value));
+    ASSERT_TRUE(gst_value_deserialize(&wanted, text)) << name;
+    EXPECT_EQ(gst_value_compare(&value, &wanted), GST_VALUE_EQUAL) << name;
+    g_value_unset(&value);
+    g_value_unset(&wanted);
+  }
+  gst_object_unref(element);
+}
+
+TEST(Properties, ForceFollowsAControllerWhilePlaying) {
+  ElementHarness h("device=none controller=nonlinear alpha=0.01");
+  GstControlSource* source = gst_interpolation_control_source_new();
+  g_object_set(source, "mode", GST_INTERPOLATION_MODE_NONE, nullptr);
+  auto* values = GST_TIMED_VALUE_CONTROL_SOURCE(source);
+  // Control values are shares of the property's range, 0 … 20 N.
+  gst_timed_value_control_source_set(values, 0, 2.0 / 20);
+  gst_timed_value_control_source_set(values, 2 * kFrame, 4.0 / 20);
+  gst_object_add_control_binding(
+      GST_OBJECT(h.element()),
+      gst_direct_control_binding_new(GST_OBJECT(h.element()), "max-force", source));
+  gst_object_unref(source);
+  h.set_caps(make_caps("GRAY8", 640, 480));
+  for (int n = 0; n < 3; ++n) h.push_moved(4.0 * n, 0, static_cast<GstClockTime>(n) * kFrame);
+  ASSERT_EQ(h.motions().size(), 3u);
+  const auto expected = [](const MotionMessage& m, double max_force) {
+    const double speed = std::hypot(m.velocity_x, m.velocity_y);
+    return 2 * max_force / G_PI * std::atan(0.01 * speed);
+  };
+  EXPECT_NEAR(h.motions()[1].wrench.force_N.norm(), expected(h.motions()[1], 2.0), 1e-12);
+  EXPECT_NEAR(h.motions()[2].wrench.force_N.norm(), expected(h.motions()[2], 4.0), 1e-12);
+}
+
+TEST(Properties, UnknownDeviceIsAnErrorAtReady) {
+  EXPECT_NE(error_at_ready("device=telepathy").find("telepathy"), std::string::npos);
+}
+
+TEST(Properties, UnknownProfileIsAnErrorAtReady) {
+  EXPECT_NE(error_at_ready("profile=spidar-zzz").find("spidar-zzz"), std::string::npos);
+}
+
+TEST(Properties, UnreadableProfileIsAnErrorAtReady) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path / "broken.toml";
+  std::ofstream(file) << "name = \"x\nrest = [1,";
+  const std::string error = error_at_ready(("profile=" + file.string()).c_str());
+  EXPECT_NE(error.find("broken.toml"), std::string::npos) << error;
+}
+
+TEST(Properties, GoodDeviceOpensAndCloses) {
+  EXPECT_EQ(error_at_ready("device=sim"), "");
+}
+
+TEST(Trace, HasAHeaderAndARowAFrame) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path / "trace.csv").string();
+  std::vector<MotionMessage> motions;
+  {
+    ElementHarness h("device=none trace=" + file);
+    h.set_caps(make_caps("GRAY8", 320, 240));
+    for (int n = 0; n < 3; ++n) h.push_moved(2 * n, n, static_cast<GstClockTime>(n) * kFrame);
+    motions = h.motions();
+  }
+  std::ifstream in(file);
+  std::string line;
+  ASSERT_TRUE(std::getline(in, line));
+  EXPECT_EQ(line,
+            "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
+            "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm");
+  for (const MotionMessage& m : motions) {
+    ASSERT_TRUE(std::getline(in, line));
+    std::vector<double> row;
+    std::stringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    ASSERT_EQ(row.size(), 12u);
+    // Written with the digits that reading back needs: equal, not near.
+    EXPECT_EQ(row[0], static_cast<double>(m.running_time));
+    EXPECT_EQ(row[1], static_cast<double>(m.stream_time));
+    EXPECT_EQ(row[2], m.features);
+    EXPECT_EQ(row[3], m.tracked);
+    EXPECT_EQ(row[4], m.velocity_x);
+    EXPECT_EQ(row[5], m.velocity_y);
+    EXPECT_EQ(row[6], m.wrench.force_N.x());
+    EXPECT_EQ(row[7], m.wrench.force_N.y());
+  }
+  EXPECT_FALSE(std::getline(in, line));
+}
+
+TEST(Trace, ThatCannotBeWrittenIsAWarningAndTheVideoGoesOn) {
+  ElementHarness h("device=none trace=/nowhere/trace.csv");
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  EXPECT_EQ(h.push_moved(0, 0, 0), GST_FLOW_OK);
+  ASSERT_EQ(h.warnings().size(), 1u);
+  EXPECT_NE(h.warnings()[0].find("/nowhere/trace.csv"), std::string::npos);
+}
+
+TEST(Trace, FullDiskIsAWarningAndTheVideoGoesOn) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  ElementHarness h("device=none trace=/dev/full");
+  h.set_caps(make_caps("GRAY8", 64, 64));
+  for (int n = 0; n < 3; ++n) {
+    EXPECT_EQ(h.push_moved(0, 0, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+  }
+  EXPECT_EQ(h.warnings().size(), 1u);
+}
+
+TEST(Stats, CountFramesAndNameTheDevice) {
+  ElementHarness h("device=sim");
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  for (int n = 0; n < 5; ++n) h.push_moved(n, 0, static_cast<GstClockTime>(n) * kFrame);
+  GstStructure* stats = nullptr;
+  g_object_get(h.element(), "stats", &stats, nullptr);
+  guint64 frames = 0, restarts = 0;
+  guint tracked = 0;
+  EXPECT_TRUE(gst_structure_get(stats, "frames", G_TYPE_UINT64, &frames, "restarts", G_TYPE_UINT64,
+                                &restarts, "tracked", G_TYPE_UINT, &tracked, nullptr));
+  EXPECT_EQ(frames, 5u);
+  EXPECT_EQ(restarts, 1u);  // the first frame
+  EXPECT_GT(tracked, 20u);
+  EXPECT_STREQ(gst_structure_get_string(stats, "device"), "sim");
+  EXPECT_NE(gst_structure_get_string(stats, "scheduling"), nullptr);
+  gst_structure_free(stats);
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,163 @@
+// Timestamps, segments, discontinuities: motion is over running time, and only ever between two
+// frames that are shown one after the other.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+constexpr double kTolerance_px = 0.1;  // see test_frames.cpp
+
+struct Time : testing::Test {
+  Time() { h.set_caps(make_caps("GRAY8", 320, 240)); }
+
+  void send_segment(double rate, GstClockTime start, GstClockTime stop, GstClockTime position) {
+    GstSegment segment;
+    gst_segment_init(&segment, GST_FORMAT_TIME);
+    segment.rate = rate;
+    segment.start = segment.time = start;
+    segment.stop = stop;
+    segment.position = position;
+    gst_harness_push_event(h.harness(), gst_event_new_segment(&segment));
+  }
+
+  ElementHarness h;
+};
+
+TEST_F(Time, VelocityIsOverTheTimeThatPassesAndNotOverTheNominalRate) {
+  h.push_moved(0, 0, 0);
+  h.push_moved(2, 0, kFrame);
+  h.push_moved(8, 0, 4 * kFrame);  // two frames were dropped on the way
+  ASSERT_EQ(h.motions().size(), 3u);
+  EXPECT_NEAR(h.motions()[1].velocity_x, 50, kTolerance_px / 0.04);
+  EXPECT_NEAR(h.motions()[2].velocity_x, 50, kTolerance_px / 0.12);
+}
+
+TEST_F(Time, TwiceTheRateIsTwiceTheVelocity) {
+  send_segment(2.0, 0, GST_CLOCK_TIME_NONE, 0);
+  h.push_moved(0, 0, 0);
+  h.push_moved(2, 0, kFrame);
+  ASSERT_EQ(h.motions().size(), 2u);
+  EXPECT_EQ(h.motions()[1].running_time, kFrame / 2);
+  EXPECT_NEAR(h.motions()[1].velocity_x, 100, kTolerance_px / 0.02);
+}
+
+TEST_F(Time, ReverseTurnsTheVelocityRound) {
+  send_segment(-1.0, 0, GST_SECOND, GST_SECOND);
+  h.push_moved(20, 0, 10 * kFrame);
+  h.push_moved(18, 0, 9 * kFrame);
+  ASSERT_EQ(h.motions().size(), 2u);
+  EXPECT_NEAR(h.motions()[1].velocity_x, -50, kTolerance_px / 0.04);
+}
+
+TEST_F(Time, MessagesCarryAllTimes) {
+  send_segment(1.0, GST_SECOND, GST_CLOCK_TIME_NONE, GST_SECOND);
+  GstBuffer* frame = make_frame(h.info(), 0, 0);
+  GST_BUFFER_DURATION(frame) = kFrame;
+  h.push(frame, GST_SECOND + kFrame);
+  ASSERT_EQ(h.motions().size(), 1u);
+  const MotionMessage& m = h.motions()[0];
+  EXPECT_EQ(m.timestamp, GST_SECOND + kFrame);
+  EXPECT_EQ(m.running_time, kFrame);
+  EXPECT_EQ(m.stream_time, GST_SECOND + kFrame);
+  EXPECT_EQ(m.duration, kFrame);
+}
+
+TEST_F(Time, DiscontinuityIsNoMotion) {
+  h.push_moved(0, 0, 0);
+  h.push_moved(2, 0, kFrame);
+  h.push_moved(9, 0, 2 * kFrame, GST_BUFFER_FLAG_DISCONT);
+  h.push_moved(11, 0, 3 * kFrame);
+  ASSERT_EQ(h.motions().size(), 4u);
+  EXPECT_EQ(h.motions()[2].velocity_x, 0);
+  EXPECT_EQ(h.motions()[2].wrench.force_N.norm(), 0);
+  EXPECT_NEAR(h.motions()[3].velocity_x, 50, kTolerance_px / 0.04);
+}
+
+TEST_F(Time, FlushIsNoMotion) {
+  h.push_moved(0, 0, 0);
+  h.push_moved(2, 0, kFrame);
+  gst_harness_push_event(h.harness(), gst_event_new_flush_start());
+  gst_harness_push_event(h.harness(), gst_event_new_flush_stop(TRUE));
+  send_segment(1.0, 0, GST_CLOCK_TIME_NONE, 0);
+  h.push_moved(9, 0, 0);
+  h.push_moved(11, 0, kFrame);
+  ASSERT_EQ(h.motions().size(), 4u);
+  EXPECT_EQ(h.motions()[2].velocity_x, 0);
+  EXPECT_NEAR(h.motions()[3].velocity_x, 50, kTolerance_px / 0.04);
+  EXPECT_TRUE(h.warnings().empty());
+}
+
+TEST_F(Time, AnotherSegmentIsNoMotionButTheSameOneIs) {
+  send_segment(1.0, 0, GST_CLOCK_TIME_NONE, 0);
+  h.push_moved(0, 0, 0);
+  send_segment(1.0, 0, GST_CLOCK_TIME_NONE, 0);
+  h.push_moved(2, 0, kFrame);
+  ASSERT_EQ(h.motions().size(), 2u);
+  EXPECT_NEAR(h.motions()[1].velocity_x, 50, kTolerance_px / 0.04);
+
+  GstSegment loop;  // as a gapless loop sends it: base goes on, the picture begins anew
+  gst_segment_init(&loop, GST_FORMAT_TIME);
+  loop.base = 2 * kFrame;
+  gst_harness_push_event(h.harness(), gst_event_new_segment(&loop));
+  h.push_moved(9, 0, 0);
+  ASSERT_EQ(h.motions().size(), 3u);
+  EXPECT_EQ(h.motions()[2].running_time, 2 * kFrame);
+  EXPECT_EQ(h.motions()[2].velocity_x, 0);
+}
+
+TEST_F(Time, GapIsNoMotion) {
+  h.push_moved(0, 0, 0);
+  h.push_moved(2, 0, kFrame);
+  gst_harness_push_event(h.harness(), gst_event_new_gap(2 * kFrame, 5 * kFrame));
+  h.push_moved(9, 0, 7 * kFrame);
+  ASSERT_EQ(h.motions().size(), 3u);
+  EXPECT_EQ(h.motions()[2].velocity_x, 0);
+}
+
+TEST_F(Time, FramesWithoutTimestampAreShownAndComplainedAboutOnce) {
+  for (int n = 0; n < 3; ++n) {
+    EXPECT_EQ(h.push_moved(2 * n, 0, GST_CLOCK_TIME_NONE), GST_FLOW_OK);
+  }
+  EXPECT_EQ(gst_harness_buffers_received(h.harness()), 3u);
+  EXPECT_TRUE(h.motions().empty());
+  ASSERT_EQ(h.warnings().size(), 1u);
+  EXPECT_NE(h.warnings()[0].find("timestamp"), std::string::npos);
+}
+
+TEST_F(Time, EqualTimestampsAreNotDividedBy) {
+  h.push_moved(0, 0, 0);
+  h.push_moved(2, 0, kFrame);
+  h.push_moved(3, 0, kFrame);
+  h.push_moved(4, 0, 2 * kFrame);
+  ASSERT_EQ(h.motions().size(), 3u);
+  // From the frame that was measured last, over the whole time since.
+  EXPECT_NEAR(h.motions()[2].velocity_x, 50, kTolerance_px / 0.04);
+  EXPECT_EQ(h.warnings().size(), 1u);
+}
+
+TEST_F(Time, FallingTimestampsRestart) {
+  h.push_moved(0, 0, 5 * kFrame);
+  h.push_moved(2, 0, 6 * kFrame);
+  h.push_moved(9, 0, 3 * kFrame);
+  h.push_moved(11, 0, 4 * kFrame);
+  ASSERT_EQ(h.motions().size(), 4u);
+  EXPECT_EQ(h.motions()[2].velocity_x, 0);
+  EXPECT_NEAR(h.motions()[3].velocity_x, 50, kTolerance_px / 0.04);
+  EXPECT_EQ(h.warnings().size(), 1u);
+}
+
+TEST_F(Time, FramesOutsideTheSegmentAreNotShownAndNotFelt) {
+  send_segment(1.0, 10 * kFrame, 20 * kFrame, 10 * kFrame);
+  h.push_moved(0, 0, 5 * kFrame);
+  h.push_moved(2, 0, 10 * kFrame);
+  EXPECT_EQ(h.motions().size(), 1u);
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,121 @@
+/// What the player keeps of a playback: quantiles, curves, skew.
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "examples/play/histogram.h"
+#include "examples/play/series.h"
+#include "examples/play/skew.h"
+
+namespace {
+
+TEST(Histogram, KnowsNothingWithoutValues) {
+  EXPECT_EQ(Histogram().count(), 0u);
+  EXPECT_TRUE(std::isnan(Histogram().quantile(0.5)));
+}
+
+TEST(Histogram, QuantilesAreWithinHalfABin) {
+  Histogram values;
+  for (int i = 1; i <= 1000; ++i) values.add(0.01 * i);
+  // A bin is 1 % wide, and values 0.01 apart lie above and below the exact quantile.
+  EXPECT_NEAR(values.quantile(0.5), 5.0, 0.005 * 5.0 + 0.01);
+  EXPECT_NEAR(values.quantile(0.95), 9.5, 0.005 * 9.5 + 0.01);
+  EXPECT_EQ(values.min(), 0.01);
+  EXPECT_EQ(values.max(), 10.0);
+  EXPECT_EQ(values.quantile(1.0), 10.0);
+}
+
+TEST(Histogram, KeepsSignsApart) {
+  Histogram values;
+  for (const double value : {-2.0, -1.0, 0.0, 1.0, 2.0}) values.add(value);
+  EXPECT_NEAR(values.quantile(0.2), -2.0, 0.02);
+  EXPECT_NEAR(values.quantile(0.4), -1.0, 0.01);
+  EXPECT_EQ(values.quantile(0.6), 0.0);
+  EXPECT_NEAR(values.quantile(0.8), 1.0, 0.01);
+}
+
+TEST(Histogram, LeavesOutWhatIsNotFinite) {
+  Histogram values;
+  values.add(NAN);
+  values.add(INFINITY);
+  EXPECT_EQ(values.count(), 0u);
+}
+
+template <size_t N>
+std::vector<std::vector<double>> rows_of(const Series<N>& series) {
+  std::stringstream text;
+  series.write(text);
+  std::vector<std::vector<double>> rows;
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream numbers(line);
+    rows.emplace_back();
+    for (double number; numbers >> number;) rows.back().push_back(number);
+  }
+  return rows;
+}
+
+TEST(Series, KeepsAShortOneAsItIs) {
+  Series<2> series;
+  series.add(0.0, {1, -1});
+  series.add(0.5, {2, -2});
+  const std::vector<std::vector<double>> expected = {{0, 1, -1}, {0.5, 2, -2}};
+  EXPECT_EQ(rows_of(series), expected);
+}
+
+TEST(Series, ALongOneStaysSmallAndKeepsItsPeak) {
+  Series<1> series;
+  constexpr int kSamples = 1'000'000;
+  for (int i = 0; i < kSamples; ++i) series.add(0.001 * i, {i == 123'456 ? 5.0 : 0.0});
+  const auto rows = rows_of(series);
+  EXPECT_LE(rows.size(), 2u * 8000u);
+  EXPECT_GE(rows.size(), 2000u);
+  double peak = 0;
+  double peak_s = 0;
+  double last_s = -1;
+  for (const auto& row : rows) {
+    EXPECT_GE(row[0], last_s);
+    last_s = row[0];
+    if (row[1] > peak) {
+      peak = row[1];
+      peak_s = row[0];
+    }
+  }
+  EXPECT_EQ(peak, 5.0);
+  // Bins double from a millisecond until 8000 of them span the 1000 s: at most 0.25 s wide, twice
+  // that while they fill, and they are named after their first sample.
+  EXPECT_NEAR(peak_s, 123.456, 0.5);
+}
+
+TEST(Skew, JoinsInEitherOrder) {
+  Skew skew;
+  skew.shown(100, 1'000'000);
+  skew.felt(100, 3'000'000);
+  skew.felt(200, 5'000'000);
+  skew.shown(200, 6'000'000);
+  EXPECT_EQ(skew.signed_ms().count(), 2u);
+  EXPECT_EQ(skew.signed_ms().max(), 2.0);
+  EXPECT_EQ(skew.signed_ms().min(), -1.0);
+  EXPECT_EQ(skew.size_ms().min(), 1.0);
+}
+
+TEST(Skew, CountsTheFirstTickOfAFrame) {
+  Skew skew;
+  for (const int64_t tick_ns : {2'000'000, 3'000'000, 4'000'000}) skew.felt(100, tick_ns);
+  skew.shown(100, 2'000'000);
+  EXPECT_EQ(skew.signed_ms().count(), 1u);
+  EXPECT_EQ(skew.signed_ms().max(), 0.0);
+}
+
+TEST(Skew, ForgetsFramesThatWereNeverShown) {
+  Skew skew;
+  for (int64_t frame = 0; frame < 10'000; ++frame) skew.felt(frame, frame);
+  skew.shown(0, 0);
+  EXPECT_EQ(skew.signed_ms().count(), 0u);
+  skew.shown(9'999, 9'999);
+  EXPECT_EQ(skew.signed_ms().count(), 1u);
+}
+
+}  // namespace

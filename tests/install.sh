@@ -1,0 +1,50 @@
+# Sourced by tests/run.sh and examples/play.sh: installs Debian packages without asking.
+# shellcheck shell=bash
+
+# install_packages GROUP...: those of debian-packages.txt in these groups that are missing. Silent
+# when none is. Elsewhere than on Debian it leaves the system alone: the build says what it misses.
+install_packages() {
+    local list package group choice names=() wanted=() missing=() as_root=()
+    list=$(dirname "${BASH_SOURCE[0]}")/debian-packages.txt
+    while read -r package group _; do
+        [[ $package == \#* || " $* " != *" $group "* ]] || wanted+=("$package")
+    done <"$list"
+
+    command -v dpkg-query >/dev/null || return 0
+    local -A is_installed=()
+    local state
+    IFS='|' read -ra names <<<"$(IFS='|' && echo "${wanted[*]}")"
+    # dpkg-query fails when it does not know one of the packages; those it knows are printed.
+    while read -r package state; do
+        [[ $state != installed ]] || is_installed[$package]=yes
+    done < <(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${names[@]}" 2>/dev/null)
+    for package in "${wanted[@]}"; do
+        IFS='|' read -ra names <<<"$package"
+        for choice in "${names[@]}"; do
+            [[ -z ${is_installed[$choice]-} ]] || continue 2
+        done
+        missing+=("${names[0]}")
+    done
+    ((${#missing[@]})) || return 0
+
+    echo "installing ${#missing[@]} Debian packages: ${missing[*]}"
+    if ((EUID != 0)); then
+        if ! sudo -n true 2>/dev/null; then
+            echo "error: that needs root. Run this, then start again:" >&2
+            echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+            return 1
+        fi
+        as_root=(sudo -n)
+    fi
+    as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0)
+    local log
+    log=$(mktemp)
+    if ! { "${as_root[@]}" update && "${as_root[@]}" install -y --no-install-recommends \
+        "${missing[@]}"; } >"$log" 2>&1; then
+        cat "$log" >&2
+        rm -f "$log"
+        echo "error: could not install ${missing[*]} (see above)" >&2
+        return 1
+    fi
+    rm -f "$log"
+}

@@ -1,0 +1,134 @@
+#include "tests/pipelines/stepped_pipeline.h"
+
+#include <gst/base/gstbasesink.h>
+
+#include "plugin/spidar_motion.h"
+#include "spidar/haptic_loop.h"
+
+namespace spidar::test {
+namespace {
+
+int64_t read_clock(void* clock) {
+  return static_cast<int64_t>(gst_clock_get_time(static_cast<GstClock*>(clock)));
+}
+
+// Any time will do that is not zero: a base time of zero would hide a forgotten one.
+constexpr GstClockTime kStart = 1000 * GST_SECOND;
+
+}  // namespace
+
+SteppedPipeline::SteppedPipeline(const std::string& launch) {
+  init_gstreamer();
+  clock_ = GST_TEST_CLOCK(gst_test_clock_new_with_start_time(kStart));
+  GError* error = nullptr;
+  pipeline_ = gst_parse_launch(launch.c_str(), &error);
+  if (!pipeline_ || error) g_error("%s", error ? error->message : "no pipeline");
+  gst_pipeline_use_clock(GST_PIPELINE(pipeline_), GST_CLOCK(clock_));
+  element_ = gst_bin_get_by_name(GST_BIN(pipeline_), "motion");
+  sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
+  bus_ = gst_element_get_bus(pipeline_);
+  engine_ = &gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_));
+  engine_->set_manual(read_clock, clock_);
+}
+
+SteppedPipeline::~SteppedPipeline() {
+  gst_element_set_state(pipeline_, GST_STATE_NULL);
+  gst_object_unref(bus_);
+  gst_object_unref(sink_);
+  gst_object_unref(element_);
+  gst_object_unref(pipeline_);
+  gst_object_unref(clock_);
+}
+
+void SteppedPipeline::wait_for_state() {
+  if (gst_element_get_state(pipeline_, nullptr, nullptr, GST_CLOCK_TIME_NONE) ==
+      GST_STATE_CHANGE_FAILURE) {
+    GstMessage* message = gst_bus_pop_filtered(bus_, GST_MESSAGE_ERROR);
+    GError* error = nullptr;
+    if (message) gst_message_parse_error(message, &error, nullptr);
+    g_error("the pipeline does not change state: %s", error ? error->message : "no message");
+  }
+  engine_->refresh_clock();
+}
+
+void SteppedPipeline::set_state(GstState state) {
+  gst_element_set_state(pipeline_, state);
+  wait_for_state();
+}
+
+void SteppedPipeline::play_live() {
+  gst_element_set_state(pipeline_, GST_STATE_PLAYING);
+}
+
+void SteppedPipeline::seek(GstClockTime position) {
+  if (!gst_element_seek_simple(
+          pipeline_, GST_FORMAT_TIME,
+          static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE),
+          static_cast<gint64>(position))) {
+    g_error("seek refused");
+  }
+  wait_for_state();
+}
+
+TickRecord SteppedPipeline::tick() {
+  HapticLoop& loop = engine_->session()->loop();
+  const int64_t now_ns = read_clock(clock_);
+  loop.tick(now_ns, now_ns);
+  return loop.snapshot().last;
+}
+
+GstClockTime SteppedPipeline::await(guint waiters) {
+  GList* waiting = nullptr;
+  gst_test_clock_wait_for_multiple_pending_ids(clock_, waiters, &waiting);
+  GstClockTime next = GST_CLOCK_TIME_NONE;
+  for (GList* i = waiting; i; i = i->next) next = MIN(next, gst_clock_id_get_time(i->data));
+  g_list_free_full(waiting, gst_clock_id_unref);
+  return next;
+}
+
+TickRecord SteppedPipeline::step(guint waiters) {
+  const GstClockTime next = await(waiters);
+  if (next > now()) gst_test_clock_set_time(clock_, next);
+  engine_->refresh_clock();
+  const TickRecord record = tick();
+  gst_clock_id_unref(gst_test_clock_process_next_clock_id(clock_));
+  return record;
+}
+
+TickRecord SteppedPipeline::idle(GstClockTime duration) {
+  TickRecord record;
+  for (const GstClockTime end = now() + duration; now() + GST_MSECOND <= end;) {
+    gst_test_clock_advance_time(clock_, GST_MSECOND);
+    engine_->refresh_clock();
+    record = tick();
+  }
+  return record;
+}
+
+GstClockTime SteppedPipeline::running_time() const {
+  return now() - gst_element_get_base_time(pipeline_) -
+         gst_base_sink_get_latency(GST_BASE_SINK(sink_));
+}
+
+void SteppedPipeline::take(GstMessage* message) {
+  if (gst_message_has_name(message, "spidar-motion")) {
+    const MotionMessage motion = parse_motion_message(message);
+    // Running time begins anew with a seek, and what was before does not count any more.
+    if (!wrenches_.empty() && motion.running_time <= wrenches_.rbegin()->first) wrenches_.clear();
+    wrenches_[motion.running_time] = motion.wrench;
+  }
+  gst_message_unref(message);
+}
+
+void SteppedPipeline::await_analysed(size_t frames) {
+  while (wrenches().size() < frames) {
+    take(gst_bus_timed_pop_filtered(bus_, GST_CLOCK_TIME_NONE, GST_MESSAGE_ELEMENT));
+  }
+}
+
+const std::map<GstClockTime, Wrench>& SteppedPipeline::wrenches() {
+  while (GstMessage* message = gst_bus_pop(bus_)) take(message);
+  return wrenches_;
+}
+
+}  // namespace spidar::test

@@ -1,0 +1,64 @@
+/// A whole pipeline on a GstTestClock, and the haptic loop of its spidarmotion ticked by hand: time
+/// passes only when the test says so.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <gst/check/gsttestclock.h>
+#include <gst/gst.h>
+
+#include "plugin/motion_engine.h"
+#include "tests/support/element_harness.h"
+
+namespace spidar::test {
+
+class SteppedPipeline {
+ public:
+  /// `launch` holds a spidarmotion named "motion" and a sink named "sink".
+  explicit SteppedPipeline(const std::string& launch);
+  ~SteppedPipeline();
+
+  /// Returns when the state is reached.
+  void set_state(GstState state);
+  /// To PLAYING, without waiting for the sink: it has nothing to show before the first step().
+  void play_live();
+  /// Flushing, to this position of the stream.
+  void seek(GstClockTime position);
+
+  /// Waits until `waiters` elements wait for the clock; the earliest of their times.
+  GstClockTime await(guint waiters = 1);
+  /// Waits like await(), moves the clock to that time, ticks
+  /// the loop once, and lets that element go on. The record of the tick.
+  TickRecord step(guint waiters = 1);
+  /// Moves the clock without letting anything through, and ticks the loop every millisecond. The
+  /// record of the last tick.
+  TickRecord idle(GstClockTime duration);
+
+  GstClockTime now() const { return gst_clock_get_time(GST_CLOCK(clock_)); }
+  /// Of the frame that is to be shown now.
+  GstClockTime running_time() const;
+
+  /// Waits until the element has seen so many frames.
+  void await_analysed(size_t frames);
+  /// Wrench of each frame since the start or the last seek, by running time, as the element told
+  /// it.
+  const std::map<GstClockTime, Wrench>& wrenches();
+
+  GstElement* element() const { return element_; }
+
+ private:
+  void wait_for_state();
+  TickRecord tick();
+  void take(GstMessage* message);
+
+  GstTestClock* clock_;
+  GstElement* pipeline_;
+  GstElement* element_;
+  GstElement* sink_;
+  GstBus* bus_;
+  MotionEngine* engine_;
+  std::map<GstClockTime, Wrench> wrenches_;
+};
+
+}  // namespace spidar::test

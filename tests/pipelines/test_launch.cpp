@@ -1,0 +1,226 @@
+// Whole pipelines with the installed form of the plugin, as people launch them.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+namespace spidar::test {
+namespace {
+
+/// How a pipeline ended, and what it said on the way.
+struct Outcome {
+  bool eos = false;
+  std::string error;
+  std::vector<std::string> warnings;
+  int motions = 0;
+  double largest_force_N = 0;
+};
+
+void take(Outcome& outcome, GstMessage* message) {
+  GError* error = nullptr;
+  switch (GST_MESSAGE_TYPE(message)) {
+    case GST_MESSAGE_EOS:
+      outcome.eos = true;
+      break;
+    case GST_MESSAGE_ERROR:
+      gst_message_parse_error(message, &error, nullptr);
+      outcome.error = error->message;
+      break;
+    case GST_MESSAGE_WARNING:
+      gst_message_parse_warning(message, &error, nullptr);
+      outcome.warnings.emplace_back(error->message);
+      break;
+    case GST_MESSAGE_ELEMENT:
+      if (gst_message_has_name(message, "spidar-motion")) {
+        double x = 0, y = 0;
+        gst_structure_get(gst_message_get_structure(message), "force-x", G_TYPE_DOUBLE, &x,
+                          "force-y", G_TYPE_DOUBLE, &y, nullptr);
+        outcome.largest_force_N = std::max(outcome.largest_force_N, std::hypot(x, y));
+        ++outcome.motions;
+      }
+      break;
+    default:
+      break;
+  }
+  g_clear_error(&error);
+}
+
+Outcome run_to_end(GstElement* pipeline) {
+  Outcome outcome;
+  gst_element_set_state(pipeline, GST_STATE_PLAYING);
+  GstBus* bus = gst_element_get_bus(pipeline);
+  while (!outcome.eos && outcome.error.empty()) {
+    GstMessage* message = gst_bus_timed_pop(bus, GST_CLOCK_TIME_NONE);
+    take(outcome, message);
+    gst_message_unref(message);
+  }
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(bus);
+  gst_object_unref(pipeline);
+  return outcome;
+}
+
+Outcome launch(const std::string& line) {
+  SCOPED_TRACE(line);
+  GError* error = nullptr;
+  GstElement* pipeline = gst_parse_launch(line.c_str(), &error);
+  EXPECT_EQ(error, nullptr) << error->message;
+  if (!pipeline) return {};
+  return run_to_end(pipeline);
+}
+
+class Launch : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    gst_init(nullptr, nullptr);
+    std::string name = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
+    folder = mkdtemp(name.data());
+    clip = (folder / "clip.avi").string();
+    ASSERT_TRUE(launch("videotestsrc num-buffers=30 pattern=ball ! "
+                       "video/x-raw,width=320,height=240,framerate=25/1 ! jpegenc ! avimux ! "
+                       "filesink location=" +
+                       clip)
+                    .eos);
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(folder); }
+
+  static std::filesystem::path folder;
+  static std::string clip;
+};
+std::filesystem::path Launch::folder;
+std::string Launch::clip;
+
+TEST_F(Launch, EveryTestPattern) {
+  for (const char* pattern :
+       {"ball", "smpte", "snow", "black", "white", "checkers-1", "checkers-8", "circular", "blink",
+        "zone-plate", "gamut", "gradient", "pinwheel", "spokes", "solid-color"}) {
+    SCOPED_TRACE(pattern);
+    const Outcome outcome = launch(std::string("videotestsrc num-buffers=10 pattern=") + pattern +
+                                   " ! video/x-raw,width=320,height=240 ! spidarmotion ! fakesink");
+    EXPECT_TRUE(outcome.eos) << outcome.error;
+    EXPECT_TRUE(outcome.warnings.empty());
+    EXPECT_EQ(outcome.motions, 10);
+  }
+}
+
+TEST_F(Launch, APictureThatDoesNotMoveIsNotFelt) {
+  for (const char* pattern : {"black", "gradient", "checkers-8", "bar"}) {
+    SCOPED_TRACE(pattern);
+    const Outcome outcome = launch(std::string("videotestsrc num-buffers=10 pattern=") + pattern +
+                                   " ! video/x-raw,width=320,height=240 ! spidarmotion ! fakesink");
+    EXPECT_EQ(outcome.largest_force_N, 0);
+  }
+}
+
+TEST_F(Launch, EveryFormatIsTakenWithoutConversion) {
+  for (const char* format : {"GRAY8", "I420", "YV12", "NV12", "NV21", "Y42B", "Y444", "BGR", "RGB",
+                             "BGRx", "RGBx", "BGRA", "RGBA"}) {
+    SCOPED_TRACE(format);
+    const Outcome outcome =
+        launch(std::string("videotestsrc num-buffers=10 pattern=ball ! video/x-raw,format=") +
+               format + ",width=322,height=241 ! spidarmotion ! fakesink");
+    EXPECT_TRUE(outcome.eos) << outcome.error;
+    EXPECT_EQ(outcome.motions, 10);
+    EXPECT_GT(outcome.largest_force_N, 0.1);
+  }
+}
+
+TEST_F(Launch, OtherFormatsNeedAConverter) {
+  const std::string source = "videotestsrc num-buffers=3 ! video/x-raw,format=v308 ! ";
+  GError* error = nullptr;
+  GstElement* pipeline = gst_parse_launch((source + "spidarmotion ! fakesink").c_str(), &error);
+  EXPECT_NE(error, nullptr);
+  g_clear_error(&error);
+  if (pipeline) gst_object_unref(gst_object_ref_sink(pipeline));
+  EXPECT_TRUE(launch(source + "videoconvert ! spidarmotion ! fakesink").eos);
+}
+
+TEST_F(Launch, PlaybinWithVideoFilter) {
+  for (const char* player : {"playbin", "playbin3"}) {
+    SCOPED_TRACE(player);
+    GstElement* playbin = gst_element_factory_make(player, nullptr);
+    ASSERT_NE(playbin, nullptr);
+    GstElement* filter = gst_element_factory_make("spidarmotion", nullptr);
+    ASSERT_NE(filter, nullptr);
+    GstElement* sink = gst_element_factory_make("fakesink", nullptr);
+    gchar* uri = gst_filename_to_uri(clip.c_str(), nullptr);
+    g_object_set(playbin, "uri", uri, "video-filter", filter, "video-sink", sink, nullptr);
+    g_free(uri);
+    const Outcome outcome = run_to_end(playbin);
+    EXPECT_TRUE(outcome.eos) << outcome.error;
+    EXPECT_EQ(outcome.motions, 30);
+    EXPECT_GT(outcome.largest_force_N, 0.1);
+  }
+}
+
+TEST_F(Launch, CorruptVideoIsSurvived) {
+  std::ifstream in(clip, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  uint32_t random = 1;
+  for (size_t i = 4096; i < bytes.size(); ++i) {
+    random = random * 1664525u + 1013904223u;
+    if (random >> 24 == 0) bytes[i] = static_cast<char>(random >> 8);
+  }
+  const std::string corrupt = (folder / "corrupt.avi").string();
+  std::ofstream(corrupt, std::ios::binary) << bytes;
+  const Outcome outcome = launch("filesrc location=" + corrupt +
+                                 " ! decodebin ! videoconvert ! spidarmotion ! fakesink");
+  EXPECT_TRUE(outcome.eos || !outcome.error.empty());
+}
+
+TEST_F(Launch, SizeMayChangeInMidPlay) {
+  const Outcome outcome = launch(
+      "concat name=c ! spidarmotion ! fakesink "
+      "videotestsrc num-buffers=10 pattern=ball ! video/x-raw,width=320,height=240 ! c. "
+      "videotestsrc num-buffers=10 pattern=ball ! video/x-raw,width=640,height=360 ! c.");
+  EXPECT_TRUE(outcome.eos) << outcome.error;
+  EXPECT_EQ(outcome.motions, 20);
+}
+
+TEST_F(Launch, TwoElementsInOnePipeline) {
+  const Outcome outcome = launch(
+      "videotestsrc num-buffers=10 pattern=ball ! video/x-raw,width=320,height=240 ! tee name=t "
+      "t. ! queue ! spidarmotion ! fakesink t. ! queue ! spidarmotion controller=linear ! "
+      "fakesink");
+  EXPECT_TRUE(outcome.eos) << outcome.error;
+  EXPECT_EQ(outcome.motions, 20);
+}
+
+TEST_F(Launch, EncodedVideoIsRefused) {
+  GError* error = nullptr;
+  GstElement* pipeline =
+      gst_parse_launch("videotestsrc ! jpegenc ! spidarmotion ! fakesink", &error);
+  EXPECT_NE(error, nullptr) << "raw video only";
+  g_clear_error(&error);
+  if (pipeline) gst_object_unref(gst_object_ref_sink(pipeline));
+}
+
+TEST_F(Launch, StateChangesInAnyOrder) {
+  GstElement* pipeline = gst_parse_launch(
+      "videotestsrc pattern=ball ! video/x-raw,width=320,height=240 ! spidarmotion ! queue ! "
+      "fakesink sync=true",
+      nullptr);
+  const GstState states[] = {GST_STATE_NULL, GST_STATE_READY, GST_STATE_PAUSED, GST_STATE_PLAYING};
+  uint32_t random = 7;
+  for (int n = 0; n < 60; ++n) {
+    random = random * 1664525u + 1013904223u;
+    ASSERT_NE(gst_element_set_state(pipeline, states[random >> 30]), GST_STATE_CHANGE_FAILURE);
+    if (random & 0x1000000) {
+      ASSERT_NE(gst_element_get_state(pipeline, nullptr, nullptr, GST_CLOCK_TIME_NONE),
+                GST_STATE_CHANGE_FAILURE);
+    }
+  }
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(pipeline);
+}
+
+}  // namespace
+}  // namespace spidar::test

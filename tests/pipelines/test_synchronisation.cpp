@@ -1,0 +1,168 @@
+// The wrench of a frame is there at the moment the frame is shown, and at no other. On a test
+// clock: nothing here depends on how fast the machine is.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/stepped_pipeline.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+const std::string kBall =
+    "pattern=ball ! video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 "
+    "! spidarmotion name=motion ";
+const std::string kSink = "! queue ! fakesink name=sink sync=true";
+
+/// The tick at the time of the frame that is shown now found this frame's wrench, bit for bit.
+void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& tick) {
+  const auto frame = pipeline.wrenches().find(pipeline.running_time());
+  ASSERT_NE(frame, pipeline.wrenches().end()) << "at " << pipeline.running_time();
+  EXPECT_EQ(tick.running_ns, static_cast<int64_t>(frame->first));
+  EXPECT_EQ(tick.frame_ns, static_cast<int64_t>(frame->first));
+  EXPECT_EQ(tick.found, Found::kExact);
+  EXPECT_EQ(tick.wanted.force_N, frame->second.force_N);
+  EXPECT_EQ(tick.wanted.torque_Nm, frame->second.torque_Nm);
+}
+
+/// The ball is felt at all: without this the other checks would compare zero with zero.
+void expect_something_felt(SteppedPipeline& pipeline) {
+  double largest_N = 0;
+  for (const auto& [time, wrench] : pipeline.wrenches()) {
+    largest_N = std::max(largest_N, wrench.force_N.norm());
+  }
+  EXPECT_GT(largest_N, 0.1);
+}
+
+TEST(Synchronisation, NonLive) {
+  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 20; ++n) {
+    SCOPED_TRACE(n);
+    expect_wrench_of_frame(pipeline, pipeline.step());
+  }
+  expect_something_felt(pipeline);
+}
+
+TEST(Synchronisation, BetweenTwoFramesTheWrenchIsBetweenTheirs) {
+  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 6; ++n) pipeline.step();
+  const GstClockTime from = 5 * kFrame;
+  pipeline.await();  // the next frame has come through the element
+  const TickRecord tick = pipeline.idle(kFrame / 4);
+  ASSERT_TRUE(pipeline.wrenches().count(from) && pipeline.wrenches().count(from + kFrame));
+  const Wrench expected =
+      interpolate(pipeline.wrenches().at(from), pipeline.wrenches().at(from + kFrame), 0.25);
+  EXPECT_EQ(tick.found, Found::kInterpolated);
+  // Rounding of a product and a sum of numbers around 1.
+  EXPECT_LT((tick.wanted.force_N - expected.force_N).norm(), 1e-14);
+}
+
+TEST(Synchronisation, LiveWithLatency) {
+  SteppedPipeline pipeline("videotestsrc is-live=true " + kBall +
+                           "! queue ! fakesink name=sink sync=true processing-deadline=100000000");
+  pipeline.play_live();
+  pipeline.step();  // the source takes the first frame, which is shown 100 ms later
+  int shown = 0;
+  for (int n = 0; n < 40; ++n) {
+    SCOPED_TRACE(n);
+    const TickRecord tick = pipeline.step(2);
+    const GstClockTime running_time = pipeline.running_time();
+    if (running_time > 1000 * GST_SECOND || running_time % kFrame != 0)
+      continue;  // a source's step
+    ++shown;
+    expect_wrench_of_frame(pipeline, tick);
+  }
+  EXPECT_GT(shown, 10);
+  expect_something_felt(pipeline);
+}
+
+TEST(Synchronisation, OffsetMovesTheForceAndNotThePicture) {
+  for (const GstClockTimeDiff offset : {20 * GST_MSECOND, -30 * GST_MSECOND}) {
+    SCOPED_TRACE(offset);
+    SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+    g_object_set(pipeline.element(), "ts-offset", static_cast<gint64>(offset), nullptr);
+    pipeline.set_state(GST_STATE_PLAYING);
+    for (int n = 0; n < 5; ++n) {
+      const TickRecord tick = pipeline.step();
+      EXPECT_EQ(tick.running_ns, static_cast<int64_t>(pipeline.running_time()) - offset);
+    }
+    g_object_set(pipeline.element(), "ts-offset", static_cast<gint64>(0), nullptr);
+    expect_wrench_of_frame(pipeline, pipeline.step());
+  }
+}
+
+TEST(Synchronisation, NoForceBeforePlaying) {
+  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  pipeline.set_state(GST_STATE_PAUSED);
+  pipeline.await_analysed(5);  // frames are analysed …
+  const TickRecord tick = pipeline.idle(300 * GST_MSECOND);
+  EXPECT_EQ(tick.found, Found::kNothing);  // … and none of them is felt
+  EXPECT_EQ(tick.commanded.force_N.norm(), 0);
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 5; ++n) expect_wrench_of_frame(pipeline, pipeline.step());
+}
+
+TEST(Synchronisation, NoForceInPausedAndBackInTimeAfterwards) {
+  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 10; ++n) pipeline.step();
+  pipeline.await();  // frame 9 has been let through, the sink waits with frame 10
+  EXPECT_GT(pipeline.idle(kFrame - GST_MSECOND).commanded.force_N.norm(), 0.01);
+  pipeline.set_state(GST_STATE_PAUSED);
+  const TickRecord paused = pipeline.idle(50 * GST_MSECOND);
+  EXPECT_FALSE(paused.playing);
+  EXPECT_EQ(paused.commanded.force_N.norm(), 0);
+  EXPECT_EQ(pipeline.idle(10 * GST_SECOND).commanded.force_N.norm(), 0);
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 5; ++n) {
+    SCOPED_TRACE(n);
+    expect_wrench_of_frame(pipeline, pipeline.step());
+  }
+}
+
+TEST(Synchronisation, AfterAFlushingSeekNothingOfBefore) {
+  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 10; ++n) pipeline.step();
+  pipeline.await();  // frame 9 has been let through, the sink waits with frame 10
+  pipeline.idle(kFrame - GST_MSECOND);
+  pipeline.seek(2 * GST_SECOND);
+  for (int n = 0; n < 5; ++n) {
+    SCOPED_TRACE(n);
+    const TickRecord tick = pipeline.step();
+    expect_wrench_of_frame(pipeline, tick);
+    // The seek itself is no motion.
+    if (n == 0) {
+      EXPECT_EQ(tick.wanted.force_N.norm(), 0);
+    }
+  }
+}
+
+TEST(Synchronisation, AtTheEndTheForceRunsOut) {
+  SteppedPipeline pipeline("videotestsrc num-buffers=6 " + kBall + kSink);
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 6; ++n) pipeline.step();
+  EXPECT_GT(pipeline.wrenches().rbegin()->second.force_N.norm(), 0.1);
+  pipeline.await();  // the sink waits for the end of the last frame: EOS has come through
+  // The last frame lasts 40 ms; after that and the ramp there is nothing left.
+  EXPECT_EQ(pipeline.idle(kFrame + 50 * GST_MSECOND).commanded.force_N.norm(), 0);
+}
+
+TEST(Synchronisation, TwiceTheRateIsTwiceTheVelocityAndInTime) {
+  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  pipeline.set_state(GST_STATE_PAUSED);
+  ASSERT_TRUE(gst_element_seek(pipeline.element(), 2.0, GST_FORMAT_TIME, GST_SEEK_FLAG_FLUSH,
+                               GST_SEEK_TYPE_SET, 0, GST_SEEK_TYPE_NONE, 0));
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 10; ++n) {
+    SCOPED_TRACE(n);
+    expect_wrench_of_frame(pipeline, pipeline.step());
+    EXPECT_EQ(pipeline.running_time(), static_cast<GstClockTime>(n) * kFrame / 2);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test

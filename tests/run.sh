@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Installs what is missing (Debian), builds, runs every test. The last line is
+# `N passed, N failed, N skipped`; the exit status is 0 when nothing failed.
+#   tests/run.sh        as a user builds it, in build/
+#   tests/run.sh --ci   warnings are errors, layout, and again under the sanitizers, in build-ci*/
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source-path=SCRIPTDIR source=../tests/install.sh
+. tests/install.sh
+
+builds=()  # folders with test results
+checks=()  # arguments for summary.py: what is no meson test
+
+say() { printf '\n== %s\n' "$*"; }
+
+# build_and_test FOLDER [meson setup option...] [-- meson test option...]
+build_and_test() {
+    local folder=$1 setup=()
+    shift
+    while (($#)) && [[ $1 != -- ]]; do
+        setup+=("$1")
+        shift
+    done
+    say "building in $folder/"
+    if { [[ -f $folder/build.ninja ]] || meson setup "$folder" "${setup[@]}"; } &&
+        ninja -C "$folder" -j"$(nproc)"; then
+        say "testing $folder/"
+        # Results of an earlier run would stand for a test program that crashes in this one.
+        rm -f "$folder"/*.xml "$folder"/meson-logs/testlog*
+        meson test -C "$folder" --no-rebuild --print-errorlogs "${@:2}" || true
+        builds+=("$folder")
+    else
+        checks+=(--failed "build in $folder/")
+    fi
+}
+
+check_layout() {
+    say "layout: $(clang-format --version)"
+    local files
+    mapfile -t files < <(find core spidar plugin tests examples -name "*.cpp" -o -name "*.h")
+    if clang-format --dry-run --Werror "${files[@]}"; then
+        checks+=(--passed layout)
+    else
+        checks+=(--failed "layout: run clang-format -i on the files above")
+    fi
+}
+
+case ${1-} in
+"")
+    install_packages build
+    build_and_test build
+    ;;
+--ci)
+    install_packages build play ci
+    check_layout
+    build_and_test build-ci --werror
+    # Without optimisation Eigen is too slow for the tests that sample many poses.
+    export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+    build_and_test build-ci-address -Dbuildtype=debugoptimized -Db_lundef=false \
+        -Db_sanitize=address,undefined -Dbenchmarks=disabled -- -t 4
+    say "thread sanitizer: left out are the element, for GLib and GStreamer are not built with it and" \
+        "their locks would be taken for races, and core, which has no threads"
+    build_and_test build-ci-thread -Dbuildtype=debugoptimized -Db_lundef=false \
+        -Db_sanitize=thread -Dbenchmarks=disabled -Dplugin=disabled -- \
+        -t 8 --suite spidar --suite examples
+    ;;
+*)
+    echo "error: unknown option $1; usage: tests/run.sh [--ci]" >&2
+    exit 2
+    ;;
+esac
+
+say "summary"
+python3 tests/summary.py "${checks[@]}" "${builds[@]}"

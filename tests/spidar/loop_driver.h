@@ -1,0 +1,54 @@
+/// A haptic loop on a fake device, ticked by hand.
+#pragma once
+
+#include <memory>
+
+#include "spidar/haptic_loop.h"
+#include "spidar/profile.h"
+#include "tests/support/fake_device.h"
+
+namespace spidar::test {
+
+constexpr int64_t kMs = 1'000'000;
+
+inline Wrench push_right(double force_N) {
+  return {{force_N, 0, 0}, {0, 0, 0}};
+}
+
+struct LoopDriver {
+  explicit LoopDriver(const SafetyLimits& limits = {})
+      : loop(std::make_unique<HapticLoop>(profile, device, limits)) {}
+
+  /// One tick `step_ns` after the last, in time.
+  TickRecord tick(int64_t step_ns = kTick_ns) {
+    now_ns += step_ns;
+    loop->tick(now_ns, now_ns);
+    return loop->snapshot().last;
+  }
+
+  TickRecord run(int64_t duration_ns) {
+    const int64_t end = now_ns + duration_ns;
+    while (now_ns < end) tick();
+    return loop->snapshot().last;
+  }
+
+  /// Opens the device and ticks until its strings are taut.
+  void open() {
+    loop->open();
+    run(static_cast<int64_t>(HapticLoop::kEnergise_s * 1e9) + 2 * kMs);
+  }
+
+  /// From now on `running_ns` and what follows is on the screen.
+  void play(int64_t running_ns) { loop->set_playback_clock({now_ns, running_ns, 1.0, true}); }
+  void pause() { loop->set_playback_clock({now_ns, 0, 1.0, false}); }
+
+  LoopCounters counters() const { return loop->snapshot().counters; }
+  FakeDeviceLog& log() { return device.log(); }
+
+  Profile profile = load_profile(kDefaultProfile);
+  FakeDevice device;
+  std::unique_ptr<HapticLoop> loop;
+  int64_t now_ns = 7'000'000'000'000;
+};
+
+}  // namespace spidar::test

@@ -1,0 +1,248 @@
+/// What is felt when: playback, flush, limits.
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/spidar/loop_driver.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr int64_t kFrame = 40 * kMs;
+// One tick more than ramp_s for the rounding of the sum of its steps.
+const int64_t kRamp = static_cast<int64_t>(SafetyLimits{}.ramp_s * 1e9) + kMs;
+
+TimedWrench frame(int64_t time_ns, const Wrench& wrench) {
+  return {time_ns, kFrame, wrench};
+}
+
+/// Open, with frames that push to the right with 1 N for two seconds, of which the first is due.
+struct Playing : LoopDriver {
+  Playing() {
+    open();
+    for (int i = 0; i < 50; ++i) loop->schedule(frame(i * kFrame, push_right(1)));
+    play(0);
+  }
+};
+
+TEST(HapticLoop, NoForceBeforePlaying) {
+  LoopDriver driver;
+  driver.open();
+  driver.loop->schedule(frame(0, push_right(2)));
+  driver.pause();
+  for (int i = 0; i < 500; ++i) {
+    const TickRecord record = driver.tick();
+    ASSERT_EQ(record.commanded.stacked().norm(), 0) << "tick " << i;
+    ASSERT_EQ(record.found, Found::kNothing);
+    ASSERT_FALSE(record.playing);
+  }
+}
+
+TEST(HapticLoop, NoForceWithoutAClock) {
+  Playing driver;
+  for (const double rate : {0.0, -1.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    driver.loop->set_playback_clock({driver.now_ns, 0, rate, true});
+    EXPECT_EQ(driver.run(kRamp).commanded.stacked().norm(), 0) << "rate " << rate;
+    EXPECT_FALSE(driver.tick().playing) << "rate " << rate;
+  }
+}
+
+TEST(HapticLoop, WantedAtTheTimeOfAFrameIsThatOfTheFrame) {
+  LoopDriver driver;
+  driver.open();
+  for (int i = 0; i < 20; ++i) driver.loop->schedule(frame(i * kFrame, push_right(0.1 * i)));
+  driver.play(0);
+  for (int i = 1; i < 20; ++i) {
+    const TickRecord record = driver.run(kFrame);
+    EXPECT_EQ(record.running_ns, i * kFrame);
+    EXPECT_EQ(record.frame_ns, i * kFrame);
+    EXPECT_EQ(record.found, Found::kExact);
+    EXPECT_EQ(record.wanted.force_N.x(), 0.1 * i);
+  }
+}
+
+TEST(HapticLoop, CommandsWhatIsWanted) {
+  Playing driver;
+  const TickRecord record = driver.run(2 * kRamp);
+  EXPECT_EQ(record.commanded.stacked(), record.wanted.stacked());
+  EXPECT_EQ(record.commanded.force_N.x(), 1);
+  EXPECT_EQ(record.device, DeviceState::kRunning);
+
+  // The strings were given what the record says.
+  const StructureMatrix W = structure_matrix(driver.profile.geometry, Pose{});
+  EXPECT_LE((W * record.tension_N - record.delivered.stacked()).norm(), 1e-12);
+  const MotorVolts expected = to_volts(record.tension_N, driver.profile);
+  EXPECT_EQ(driver.log().last_volts.volt, expected.volt);
+
+  // And they can do it at the centre. The solver trades residual against tension: at its optimum
+  // 0.5 |r|² ≤ 0.5 ε |t − t_ref|² for any t that balances f exactly, so |r| ≤ sqrt(ε) |t − t_ref|
+  // with |t − t_ref| below the sum of all ranges.
+  const double most_N = (driver.profile.max_tension_N() - driver.profile.min_tension_N()).norm();
+  EXPECT_LE((record.delivered.force_N - record.commanded.force_N).norm(),
+            std::sqrt(TensionProblem{}.epsilon) * most_N);
+}
+
+TEST(HapticLoop, PauseRampsToRest) {
+  Playing driver;
+  Wrench last = driver.run(5 * kFrame).commanded;
+  ASSERT_EQ(last.force_N.x(), 1);
+  driver.pause();
+  const double step_N = 1.0 / (SafetyLimits{}.ramp_s / 1e-3);
+  const int64_t paused = driver.now_ns;
+  while (driver.now_ns < paused + kRamp) {
+    const Wrench commanded = driver.tick().commanded;
+    ASSERT_LE(commanded.force_N.x(), last.force_N.x());
+    ASSERT_LE(last.force_N.x() - commanded.force_N.x(), step_N + 1e-12);
+    last = commanded;
+  }
+  EXPECT_EQ(last.stacked().norm(), 0);
+  // Playing on where it was.
+  driver.play(5 * kFrame);
+  EXPECT_EQ(driver.run(2 * kRamp).commanded.force_N.x(), 1);
+}
+
+TEST(HapticLoop, EndOfCommandsRampsToRest) {
+  LoopDriver driver;
+  driver.open();
+  driver.loop->schedule(frame(0, push_right(2)));
+  driver.loop->schedule(frame(kFrame, push_right(2)));
+  driver.play(0);
+  EXPECT_GT(driver.run(2 * kFrame).commanded.force_N.x(), 0);
+  EXPECT_EQ(driver.tick().found, Found::kExpired);
+  EXPECT_EQ(driver.run(kRamp).commanded.stacked().norm(), 0);
+}
+
+TEST(HapticLoop, FlushForgets) {
+  Playing driver;
+  double last_N = driver.run(5 * kFrame).commanded.force_N.x();
+  driver.loop->cancel_scheduled();
+  EXPECT_EQ(driver.tick().found, Found::kNothing);
+  const double step_N = 1.0 / (SafetyLimits{}.ramp_s / 1e-3);
+  for (int i = 0; i < 200; ++i) {
+    const TickRecord record = driver.tick();
+    ASSERT_LE(last_N - record.commanded.force_N.x(), 2 * step_N + 1e-12) << "a step at tick " << i;
+    last_N = record.commanded.force_N.x();
+    if (i * kMs > kRamp) {
+      ASSERT_EQ(last_N, 0);
+    }
+  }
+  // A seek goes on at any running time, also an earlier one.
+  driver.loop->schedule(frame(0, push_right(-1)));
+  driver.loop->schedule(frame(kFrame, push_right(-1)));
+  driver.play(0);
+  for (int i = 0; i < 40; ++i) ASSERT_LE(driver.tick().commanded.force_N.x(), 0);
+  EXPECT_LT(driver.tick().commanded.force_N.x(), -0.9);
+}
+
+TEST(HapticLoop, FlushForgetsWhatTheLoopHasNotSeen) {
+  LoopDriver driver;
+  driver.open();
+  driver.loop->schedule(frame(0, push_right(1)));
+  driver.loop->cancel_scheduled();
+  driver.loop->schedule(frame(10 * kMs, push_right(-2)));
+  driver.play(10 * kMs);
+  const TickRecord record = driver.tick();
+  EXPECT_EQ(record.frame_ns, 10 * kMs);
+  EXPECT_EQ(record.wanted.force_N.x(), -2);
+}
+
+TEST(HapticLoop, LongQueueBeforeTheScreen) {
+  LoopDriver driver;
+  driver.open();
+  // Far more frames ahead than the timeline keeps.
+  constexpr int kAhead = 3 * WrenchTimeline::kCapacity;
+  for (int i = 0; i < kAhead; ++i) {
+    ASSERT_TRUE(driver.loop->schedule(frame(i * kFrame, push_right(0.01 * i))));
+  }
+  driver.play(0);
+  for (int i = 1; i < kAhead; ++i) {
+    const TickRecord record = driver.run(kFrame);
+    ASSERT_EQ(record.found, Found::kExact) << "frame " << i;
+    ASSERT_EQ(record.wanted.force_N.x(), 0.01 * i) << "frame " << i;
+  }
+}
+
+TEST(HapticLoop, SaysWhenItsRingIsFull) {
+  LoopDriver driver;
+  int taken = 0;
+  while (taken < 10'000 && driver.loop->schedule(frame(taken * kFrame, {}))) ++taken;
+  EXPECT_EQ(taken, 256);
+}
+
+TEST(HapticLoop, CountsWhatIsNotFinite) {
+  LoopDriver driver;
+  driver.open();
+  driver.loop->schedule(frame(0, push_right(std::numeric_limits<double>::quiet_NaN())));
+  driver.play(0);
+  for (int i = 0; i < 10; ++i) ASSERT_EQ(driver.tick().commanded.stacked().norm(), 0);
+  EXPECT_EQ(driver.counters().rejected_wrenches, 10u);
+}
+
+TEST(HapticLoop, CountsTimesThatDoNotRise) {
+  LoopDriver driver;
+  driver.open();
+  for (const int64_t time : {kFrame, kFrame, int64_t{0}}) {
+    driver.loop->schedule(frame(time, push_right(1)));
+  }
+  driver.play(0);
+  driver.tick();
+  EXPECT_EQ(driver.counters().refused_wrenches, 2u);
+}
+
+TEST(HapticLoop, LimitsChangeWhileRunning) {
+  Playing driver;
+  driver.run(5 * kFrame);
+  SafetyLimits limits;
+  limits.max_force_N = 0.25;
+  driver.loop->set_limits(limits);
+  EXPECT_LE(driver.tick().commanded.force_N.norm(), 0.25 * (1 + 1e-15));
+  limits.max_force_N = 3;
+  limits.max_slew_N_s = 50;
+  driver.loop->set_limits(limits);
+  double last_N = 0.25;
+  for (int i = 0; i < 15; ++i) {
+    const double now_N = driver.tick().commanded.force_N.norm();
+    EXPECT_NEAR(now_N - last_N, 0.05, 1e-12);
+    last_N = now_N;
+  }
+  EXPECT_EQ(driver.tick().commanded.force_N.x(), 1);
+}
+
+TEST(HapticLoop, CountsLateTicksAndMissedDeadlines) {
+  LoopDriver driver;
+  driver.open();
+  const int64_t t = driver.now_ns;
+  driver.loop->tick(t + kMs, t + kMs + kMs / 2);
+  EXPECT_EQ(driver.loop->snapshot().last.lateness_ns, kMs / 2);
+  EXPECT_EQ(driver.counters().overruns, 0u);
+  EXPECT_EQ(driver.counters().missed_deadlines, 0u);
+  driver.loop->tick(t + 2 * kMs, t + 5 * kMs);
+  EXPECT_EQ(driver.counters().overruns, 1u);
+  driver.loop->tick(t + 6 * kMs, t + 6 * kMs);
+  EXPECT_EQ(driver.counters().overruns, 1u);
+  EXPECT_EQ(driver.counters().missed_deadlines, 3u);
+}
+
+TEST(HapticLoop, StallDoesNotEndInAStep) {
+  Playing driver;
+  driver.tick();
+  driver.loop->schedule(frame(50 * kFrame, push_right(1)));
+  const double before_N = driver.run(10 * kMs).commanded.force_N.x();
+  const double after_N = driver.tick(500 * kMs).commanded.force_N.x();
+  const SafetyLimits limits;
+  EXPECT_LE(after_N - before_N, limits.max_slew_N_s * 1e-9 * HapticLoop::kMaxStep_ns + 1e-12);
+}
+
+TEST(HapticLoop, RecordsEveryTick) {
+  Playing driver;
+  const uint64_t ticks = driver.counters().ticks;
+  TickRecord record;
+  for (uint64_t i = 1; i <= ticks; ++i) {
+    ASSERT_TRUE(driver.loop->pop_record(record));
+    ASSERT_EQ(record.tick, i);
+  }
+  EXPECT_FALSE(driver.loop->pop_record(record));
+}
+
+}  // namespace
+}  // namespace spidar::test

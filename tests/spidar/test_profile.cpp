@@ -1,0 +1,267 @@
+// What load_profile() finds, and what it says about files that cannot be used.
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "spidar/profile.h"
+
+namespace fs = std::filesystem;
+using namespace spidar;
+
+namespace {
+
+const std::string kValid = R"(description = "test"
+board = "uart"
+dac_bits = 12
+dac_max_V = 3.3
+
+[geometry]
+frame = "left-handed"
+unit = "mm"
+exit = [
+  [-60, -61, -62],
+  [-60, -61, 62],
+  [60, -61, 62],
+  [60, -61, -62],
+  [-60, 61, -62],
+  [-60, 61, 62],
+]
+grip = [[0, -20, 1], [-20, 0, 2], [20, 0, 3], [0, -20, 4], [0, 20, 5], [-20, 0, 6]]
+
+[strings]
+min_tension_N = [0.3, 0.3, 0.3, 0.4, 0.3, 0.3]
+max_tension_N = 6
+newtons_per_volt = 12.5
+metres_per_count = 2.25e-5
+motor_sign = [1, -1, 1, -1, 1, -1]
+encoder_sign = [-1, -1, 1, 1, 1, 1]
+
+[[source]]
+fields = ["geometry", "board"]
+source = "a book"
+evidence = "contradicted"
+note = "another book"
+)";
+
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "spidar-profile-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
+    path_ = pattern;
+  }
+  ~Folder() { fs::remove_all(path_); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return path_ / name;
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+class Environment {
+ public:
+  explicit Environment(const std::string& search_path) {
+    const char* old = std::getenv("SPIDAR_PROFILE_PATH");
+    old_ = old ? old : "";
+    setenv("SPIDAR_PROFILE_PATH", search_path.c_str(), 1);
+  }
+  ~Environment() { setenv("SPIDAR_PROFILE_PATH", old_.c_str(), 1); }
+
+ private:
+  std::string old_;
+};
+
+std::string error_of(const std::string& name_or_path) {
+  try {
+    load_profile(name_or_path);
+  } catch (const ProfileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_contains(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
+}
+
+}  // namespace
+
+TEST(Profile, FileIsReadIntoTheDeviceFrame) {
+  const Folder folder;
+  const Profile profile = load_profile(folder.write("mine.toml", kValid).string());
+  EXPECT_EQ(profile.name, "mine");
+  EXPECT_EQ(profile.description, "test");
+  EXPECT_EQ(profile.board, "uart");
+  EXPECT_EQ(profile.dac_bits, 12);
+  EXPECT_EQ(profile.dac_max_V, 3.3);
+  ASSERT_EQ(profile.geometry.count, 6);
+  // Left-handed to right-handed: z turns round in both tables. mm · 1e-3 is exact to rounding.
+  EXPECT_TRUE(profile.geometry.exit_m[1].isApprox(Eigen::Vector3d(-0.060, -0.061, -0.062), 1e-15));
+  EXPECT_TRUE(profile.geometry.grip_m[4].isApprox(Eigen::Vector3d(0, 0.020, -0.005), 1e-15));
+  EXPECT_EQ(profile.drives[3].min_tension_N, 0.4);
+  EXPECT_EQ(profile.drives[3].max_tension_N, 6);
+  EXPECT_EQ(profile.drives[3].newtons_per_volt, 12.5);
+  EXPECT_EQ(profile.drives[3].metres_per_count, 2.25e-5);
+  EXPECT_EQ(profile.drives[3].motor_sign, -1);
+  EXPECT_EQ(profile.drives[3].encoder_sign, 1);
+  EXPECT_EQ(profile.min_tension_N()[3], 0.4);
+  EXPECT_EQ(profile.max_tension_N()[5], 6);
+  EXPECT_EQ(profile.max_tension_N()[6], 0) << "unused strings are zero";
+  ASSERT_EQ(profile.provenance.size(), 2u);
+  EXPECT_EQ(profile.provenance[1].field, "board");
+  EXPECT_EQ(profile.provenance[1].source, "a book");
+  EXPECT_EQ(profile.provenance[1].evidence, Evidence::kContradicted);
+  EXPECT_EQ(profile.provenance[1].note, "another book");
+}
+
+TEST(Profile, RightHandedTableIsTakenAsItIs) {
+  const Folder folder;
+  std::string text = kValid;
+  text.replace(text.find("left-handed"), 4, "right");
+  const Profile profile = load_profile(folder.write("mine.toml", text).string());
+  EXPECT_TRUE(profile.geometry.exit_m[1].isApprox(Eigen::Vector3d(-0.060, -0.061, 0.062), 1e-15));
+}
+
+TEST(Profile, FirstFolderOfTheSearchPathWins) {
+  const Folder first;
+  const Folder second;
+  first.write("a.toml", kValid);
+  std::string other = kValid;
+  other.replace(other.find("test"), 4, "late");
+  second.write("a.toml", other);
+  second.write("b.toml", other);
+  second.write("notes.txt", "not a profile");
+  const Environment environment(first.path().string() + "::" + second.path().string());
+  EXPECT_EQ(load_profile("a").description, "test");
+  EXPECT_EQ(load_profile("b").description, "late");
+  const std::vector<std::string> names = list_profiles();
+  EXPECT_EQ(std::count(names.begin(), names.end(), "a"), 1);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "b"), 1);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "notes"), 0);
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+}
+
+TEST(Profile, UnknownNameListsWhatIsKnownAndWhereItWasSearched) {
+  const Folder folder;
+  folder.write("only-one.toml", kValid);
+  const Environment environment(folder.path().string());
+  const std::string error = error_of("spidar-gc");
+  expect_contains(error, "\"spidar-gc\"");
+  expect_contains(error, "only-one");
+  expect_contains(error, folder.path().string());
+}
+
+TEST(Profile, WhatIsNotAFileIsSaid) {
+  const Folder folder;
+  fs::create_directory(folder.path() / "folder.toml");
+  expect_contains(error_of((folder.path() / "folder.toml").string()), "not a regular file");
+  const std::string missing = (folder.path() / "missing.toml").string();
+  expect_contains(error_of(missing), missing);
+  expect_contains(error_of(missing), "No such file");
+  expect_contains(error_of("/dev/zero"), "not a regular file");
+}
+
+// One line of the valid file is replaced; the error names the file, this line (or the one given),
+// the field, what is wrong and what would be right.
+struct Broken {
+  std::string from;
+  std::string to;
+  std::vector<std::string> expected;
+  std::string at = {};  ///< text on the line that is named; `to` when empty
+};
+
+class BrokenProfile : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenProfile, ErrorNamesFileLineFieldAndRemedy) {
+  const Broken& broken = GetParam();
+  std::string text = kValid;
+  const size_t found = text.find(broken.from);
+  ASSERT_NE(found, std::string::npos) << broken.from;
+  text.replace(found, broken.from.size(), broken.to);
+
+  const std::string at = broken.at.empty() ? broken.to : broken.at;
+  const size_t named = text.find(at);
+  ASSERT_NE(named, std::string::npos) << at;
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(named), '\n');
+
+  const Folder folder;
+  const std::string path = folder.write("broken.toml", text).string();
+  const std::string error = error_of(path);
+  ASSERT_FALSE(error.empty()) << "accepted:\n" << text;
+  expect_contains(error, path + ":" + std::to_string(line) + ": ");
+  for (const std::string& part : broken.expected) expect_contains(error, part);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Fields, BrokenProfile,
+    testing::Values(
+        Broken{"dac_bits = 12", "dac_bits = = 12", {"not TOML"}},
+        Broken{"board = \"uart\"", "bord = \"uart\"", {"bord", "unknown key", "board"}},
+        Broken{"board = \"uart\"", "board = \"usb\"", {"board", "\"usb\"", "usb-sh4", "uart"}},
+        Broken{"board = \"uart\"\n", "", {"board", "missing"}, "description"},
+        Broken{"description = \"test\"", "description = 3", {"description", "integer", "string"}},
+        Broken{"dac_bits = 12", "dac_bits = 12.5", {"dac_bits", "floating-point", "8 to 24"}},
+        Broken{"dac_bits = 12", "dac_bits = 64", {"dac_bits", "64", "8 to 24"}},
+        Broken{"dac_max_V = 3.3", "dac_max_V = 0", {"dac_max_V", "is 0", "above zero"}},
+        Broken{"dac_max_V = 3.3", "dac_max_V = nan", {"dac_max_V", "nan", "finite"}},
+        Broken{"frame = \"left-handed\"",
+               "frame = \"left\"",
+               {"geometry.frame", "\"left\"", "left-handed", "right-handed"}},
+        Broken{"unit = \"mm\"", "unit = \"cm\"", {"geometry.unit", "\"cm\"", "m, mm"}},
+        Broken{"unit = \"mm\"",
+               "unit = \"m\"",
+               {"geometry.exit[0]", "geometry.unit"},
+               "[-60, -61, -62]"},
+        Broken{"[60, -61, 62]", "[60, -61]", {"geometry.exit[2]", "2 coordinates", "three"}},
+        Broken{"[60, -61, 62]", "[60, \"y\", 62]", {"geometry.exit[2][1]", "string", "number"}},
+        Broken{"[60, -61, 62]", "[60, inf, 62]", {"geometry.exit[2][1]", "inf", "finite"}},
+        Broken{"  [60, -61, 62],\n", "", {"geometry.exit", "5 strings", "6 to 8"}, "exit = ["},
+        Broken{"[-20, 0, 6]]", "]", {"geometry.grip", "5 entries", "must have 6"}, "grip = ["},
+        Broken{"[-60, 61, 62]", "[-20, 0, 6]", {"geometry.exit[5]", "grip point"}},
+        Broken{"max_tension_N = 6",
+               "max_tension_N = 0.35",
+               {"strings.max_tension_N", "string 3", "0.35", "min_tension_N", "0.4"}},
+        Broken{"max_tension_N = 6",
+               "max_tension_N = 60",
+               {"strings.max_tension_N", "4.8 V", "dac_max_V", "3.3"}},
+        Broken{"max_tension_N = 6", "max_tension_N = true", {"strings.max_tension_N", "boolean"}},
+        Broken{
+            "0.4, 0.3, 0.3]", "0.4, 0.3]", {"strings.min_tension_N", "5 entries", "must have 6"}},
+        Broken{"0.4, 0.3, 0.3]", "0, 0.3, 0.3]", {"strings.min_tension_N[3]", "above zero"}},
+        Broken{"newtons_per_volt = 12.5",
+               "newtons_per_volt = -12.5",
+               {"strings.newtons_per_volt", "-12.5", "above zero"}},
+        Broken{
+            "newtons_per_volt = 12.5\n", "", {"strings.newtons_per_volt", "missing"}, "[strings]"},
+        Broken{"metres_per_count = 2.25e-5",
+               "metres_per_count = 2.25e-2",
+               {"strings.metres_per_count", "0.0225", "metres"}},
+        Broken{"motor_sign = [1, -1, 1, -1",
+               "motor_sign = [1, -1, 1, 0",
+               {"strings.motor_sign[3]", "1 or -1"}},
+        Broken{"motor_sign = [1, -1, 1, -1",
+               "motor_sign = [1, -1, 1, 2",
+               {"strings.motor_sign[3]", "-1 to 1"}},
+        Broken{"encoder_sign = [-1, -1,",
+               "encoder_sign = [-1,",
+               {"strings.encoder_sign", "5 entries"}},
+        Broken{"encoder_sign = [-1, -1, 1, 1, 1, 1]",
+               "encoder_sign = 1",
+               {"strings.encoder_sign", "array"}},
+        Broken{"[strings]", "[string]", {"string", "unknown key", "strings"}},
+        Broken{"fields = [\"geometry\"",
+               "fields = [\"geometri\"",
+               {"source[0].fields[0]", "\"geometri\""}},
+        Broken{"\"contradicted\"", "\"heard\"", {"source[0].evidence", "\"heard\"", "inferred"}},
+        Broken{"source = \"a book\"\n", "", {"source[0].source", "missing"}, "[[source]]"}));

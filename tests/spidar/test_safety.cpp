@@ -1,0 +1,247 @@
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "spidar/safety.h"
+
+namespace spidar {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kTick_s = 1e-3;
+// A length scaled to its limit is exact up to the roundings of norm, quotient and products.
+constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+
+Wrench force(double x, double y, double z) {
+  return {{x, y, z}, {0, 0, 0}};
+}
+
+Profile two_strings() {
+  Profile profile;
+  profile.geometry.count = 2;
+  profile.drives[0] = {0.3, 5.0, 2.0, 1e-5, 1, 1};
+  profile.drives[1] = {0.2, 4.0, 0.5, 1e-5, -1, 1};
+  profile.dac_max_V = 6.0;
+  return profile;
+}
+
+TEST(FiniteCheck, PassesWhatIsFinite) {
+  FiniteCheck check;
+  EXPECT_EQ(check.apply({{1, 2, 3}, {4, 5, 6}}).stacked(),
+            (Wrench{{1, 2, 3}, {4, 5, 6}}.stacked()));
+  EXPECT_EQ(check.rejected(), 0u);
+}
+
+TEST(FiniteCheck, RejectsWholeWrenchAndCounts) {
+  FiniteCheck check;
+  for (const double bad : {kNaN, kInf, -kInf}) {
+    for (int part = 0; part < 6; ++part) {
+      Wrench wanted{{1, 1, 1}, {1, 1, 1}};
+      (part < 3 ? wanted.force_N[part] : wanted.torque_Nm[part - 3]) = bad;
+      EXPECT_EQ(check.apply(wanted).stacked().norm(), 0) << bad << " in part " << part;
+    }
+  }
+  EXPECT_EQ(check.rejected(), 18u);
+}
+
+TEST(LimitTotal, ShortensAndKeepsDirection) {
+  const SafetyLimits limits;
+  const Wrench limited = limit_total({{30, -40, 0}, {0, 0, 2}}, limits);
+  EXPECT_TRUE(limited.force_N.isApprox(Eigen::Vector3d(1.8, -2.4, 0), kRounding));
+  EXPECT_TRUE(limited.torque_Nm.isApprox(Eigen::Vector3d(0, 0, 0.1), kRounding));
+}
+
+TEST(LimitTotal, LeavesWhatIsWithin) {
+  const Wrench wanted{{1, -2, 0.5}, {0.01, 0, 0.02}};
+  EXPECT_EQ(limit_total(wanted, {}).stacked(), wanted.stacked());
+}
+
+TEST(LimitTotal, SurvivesAnything) {
+  EXPECT_EQ(limit_total(force(kNaN, 1, 1), {}).force_N.norm(), 0);
+  EXPECT_EQ(limit_total(force(kInf, 1, 1), {}).force_N.norm(), 0);
+  // A sum of squares would overflow.
+  EXPECT_NEAR(limit_total(force(-1e300, 0, 0), {}).force_N.x(), -3.0, 3 * kRounding);
+  for (const double max : {kNaN, -1.0, 0.0, -kInf}) {
+    SafetyLimits limits;
+    limits.max_force_N = max;
+    EXPECT_EQ(limit_total(force(1, 0, 0), limits).force_N.norm(), 0) << "max_force " << max;
+  }
+}
+
+TEST(SlewLimit, ChangesByNoMoreThanTheLimit) {
+  SlewLimit slew;
+  for (int i = 1; i <= 10; ++i) {
+    EXPECT_NEAR(slew.apply(force(3, 0, 0), kTick_s, {}).force_N.x(), 0.3 * i, 1e-12);
+  }
+  // There, exactly, and it stays.
+  EXPECT_EQ(slew.apply(force(3, 0, 0), kTick_s, {}).force_N.x(), 3);
+  // Turning round goes straight through, at the same rate.
+  EXPECT_NEAR(slew.apply(force(-3, 0, 0), kTick_s, {}).force_N.x(), 2.7, 1e-12);
+}
+
+TEST(SlewLimit, NoTimeNoStep) {
+  SlewLimit slew;
+  for (const double dt : {0.0, -1.0, kNaN}) {
+    EXPECT_EQ(slew.apply(force(3, 0, 0), dt, {}).force_N.norm(), 0) << "dt " << dt;
+  }
+  SafetyLimits unlimited;
+  unlimited.max_slew_N_s = kInf;
+  EXPECT_EQ(slew.apply(force(3, 0, 0), kTick_s, unlimited).force_N.x(), 3);
+}
+
+TEST(SlewLimit, IgnoresWhatIsNotFinite) {
+  SlewLimit slew;
+  slew.reset(force(1, 0, 0));
+  for (const double bad : {kNaN, kInf}) {
+    EXPECT_EQ(slew.apply(force(bad, 0, 0), kTick_s, {}).force_N.x(), 1) << bad;
+  }
+}
+
+TEST(SlewLimit, LoweredTotalHoldsAtOnce) {
+  SlewLimit slew;
+  slew.reset(force(0, 3, 0));
+  SafetyLimits lowered;
+  lowered.max_force_N = 1;
+  EXPECT_NEAR(slew.apply(limit_total(force(0, 3, 0), lowered), kTick_s, lowered).force_N.y(), 1.0,
+              kRounding);
+}
+
+TEST(StaleRamp, TakesRampSecondsEachWay) {
+  StaleRamp ramp;
+  EXPECT_EQ(ramp.share(), 0);
+  for (int i = 1; i <= 40; ++i) EXPECT_NEAR(ramp.apply(true, kTick_s, {}), i / 40.0, 1e-12);
+  EXPECT_EQ(ramp.apply(true, kTick_s, {}), 1);
+  for (int i = 39; i >= 0; --i) EXPECT_NEAR(ramp.apply(false, kTick_s, {}), i / 40.0, 1e-12);
+  EXPECT_EQ(ramp.apply(false, kTick_s, {}), 0);
+}
+
+TEST(StaleRamp, SurvivesAnything) {
+  StaleRamp ramp;
+  EXPECT_EQ(ramp.apply(true, kNaN, {}), 0);
+  EXPECT_EQ(ramp.apply(true, -1, {}), 0);
+  EXPECT_EQ(ramp.apply(true, kInf, {}), 1);
+  SafetyLimits at_once;
+  at_once.ramp_s = 0;
+  EXPECT_EQ(ramp.apply(false, 0, at_once), 0);
+  at_once.ramp_s = kNaN;
+  EXPECT_EQ(ramp.apply(true, 0, at_once), 1);
+}
+
+TEST(WrenchSafety, LeavesNothingOfBefore) {
+  WrenchSafety safety;
+  for (int i = 0; i < 100; ++i) safety.apply(force(3, 0, 0), true, kTick_s, {});
+  for (int i = 0; i < 41; ++i) safety.apply(force(3, 0, 0), false, kTick_s, {});
+  // To the left at once: no rest of the force to the right is ramped in.
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_LE(safety.apply(force(-3, 0, 0), true, kTick_s, {}).force_N.x(), 0) << "tick " << i;
+  }
+}
+
+TEST(WrenchSafety, RestsInTimeHoweverLowTheSlewLimit) {
+  SafetyLimits limits;
+  WrenchSafety safety;
+  for (int i = 0; i < 100; ++i) safety.apply(force(3, 0, 0), true, kTick_s, limits);
+  limits.max_slew_N_s = 1;
+  Wrench commanded;
+  // One tick more than ramp_s for the rounding of the sum of steps.
+  for (int i = 0; i < 41; ++i) commanded = safety.apply(force(3, 0, 0), false, kTick_s, limits);
+  EXPECT_EQ(commanded.force_N.norm(), 0);
+}
+
+TEST(WrenchSafety, HoldsItsLimitsForAnySequence) {
+  constexpr int kSeed = 20240501;
+  std::mt19937_64 random(kSeed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  WrenchSafety safety;
+  SafetyLimits limits;
+  double largest_N = limits.max_force_N;  // ever allowed
+  bool fresh = false;
+  Wrench wanted;
+  Wrench last;
+  for (int i = 0; i < 200'000; ++i) {
+    if (uniform(0, 1) < 0.02) fresh = !fresh;
+    if (uniform(0, 1) < 0.05) {
+      const double size = std::pow(10, uniform(-3, 3));
+      wanted = {{uniform(-size, size), uniform(-size, size), uniform(-size, size)},
+                {uniform(-size, size), uniform(-size, size), uniform(-size, size)}};
+      if (uniform(0, 1) < 0.1) wanted.force_N.y() = uniform(0, 1) < 0.5 ? kNaN : kInf;
+    }
+    if (uniform(0, 1) < 0.005) {
+      limits.max_force_N = uniform(0, 6);
+      limits.max_slew_N_s = uniform(10, 1000);
+      largest_N = std::max(largest_N, limits.max_force_N);
+    }
+    const double dt_s = uniform(0, 1) < 0.1 ? 0 : uniform(0, 2e-3);
+    const Wrench commanded = safety.apply(wanted, fresh, dt_s, limits);
+
+    ASSERT_TRUE(commanded.is_finite()) << "seed " << kSeed << " call " << i;
+    ASSERT_LE(commanded.force_N.norm(), limits.max_force_N * (1 + kRounding))
+        << "seed " << kSeed << " call " << i;
+    ASSERT_LE(commanded.torque_Nm.norm(), limits.max_torque_Nm * (1 + kRounding))
+        << "seed " << kSeed << " call " << i;
+    // Fresh: the slew limit. Stale: from at most what was ever allowed to zero in ramp_s. A limit
+    // that was lowered may cut off the rest at once.
+    const double rate_N_s = fresh ? limits.max_slew_N_s : largest_N / limits.ramp_s;
+    const double cut_off_N = std::max(0.0, last.force_N.norm() - limits.max_force_N);
+    ASSERT_LE((commanded.force_N - last.force_N).norm(), rate_N_s * dt_s + cut_off_N + 1e-12)
+        << "seed " << kSeed << " call " << i;
+    last = commanded;
+  }
+  EXPECT_GT(safety.rejected(), 0u);
+}
+
+TEST(BoundTensions, KeepsEveryStringInItsRange) {
+  StringVector wanted = StringVector::Zero();
+  wanted[0] = 7;
+  wanted[1] = -1;
+  StringVector bounded = bound_tensions(wanted, two_strings(), 1);
+  EXPECT_EQ(bounded[0], 5.0);
+  EXPECT_EQ(bounded[1], 0.2);
+  wanted[0] = kNaN;
+  wanted[1] = kInf;
+  bounded = bound_tensions(wanted, two_strings(), 1);
+  EXPECT_EQ(bounded[0], 0.3);
+  EXPECT_EQ(bounded[1], 4.0);
+  EXPECT_EQ(bounded.tail<6>().norm(), 0);
+}
+
+TEST(BoundTensions, ScalesWithPower) {
+  StringVector wanted = StringVector::Zero();
+  wanted[0] = 2;
+  wanted[1] = 3;
+  const StringVector half = bound_tensions(wanted, two_strings(), 0.5);
+  EXPECT_EQ(half[0], 1.0);
+  EXPECT_EQ(half[1], 1.5);
+  for (const double off : {0.0, -1.0, kNaN}) {
+    EXPECT_EQ(bound_tensions(wanted, two_strings(), off).norm(), 0) << "energised " << off;
+  }
+  EXPECT_EQ(bound_tensions(wanted, two_strings(), 2)[0], 2.0);
+}
+
+TEST(ToVolts, UsesGainSignAndRange) {
+  StringVector tension = StringVector::Zero();
+  tension[0] = 5;
+  tension[1] = 1;
+  MotorVolts volts = to_volts(tension, two_strings());
+  EXPECT_EQ(volts.volt[0], 2.5);
+  EXPECT_EQ(volts.volt[1], -2.0);
+  EXPECT_EQ(volts.volt[2], 0);
+  tension[0] = 50;
+  tension[1] = 50;
+  volts = to_volts(tension, two_strings());
+  EXPECT_EQ(volts.volt[0], 6.0);
+  EXPECT_EQ(volts.volt[1], -6.0);
+  tension[0] = kNaN;
+  tension[1] = -1;
+  volts = to_volts(tension, two_strings());
+  EXPECT_EQ(volts.volt[0], 0);
+  EXPECT_EQ(volts.volt[1], 0);
+}
+
+}  // namespace
+}  // namespace spidar

@@ -1,0 +1,107 @@
+/// Seqlock and ring, alone and between two threads (which is for the thread sanitizer).
+#include <array>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "spidar/seqlock.h"
+#include "spidar/spsc_ring.h"
+
+namespace spidar {
+namespace {
+
+/// Torn when its words differ.
+struct Block {
+  std::array<uint64_t, 37> words{};
+  static Block of(uint64_t value) {
+    Block block;
+    block.words.fill(value);
+    return block;
+  }
+  bool whole() const {
+    for (const uint64_t word : words) {
+      if (word != words[0]) return false;
+    }
+    return true;
+  }
+};
+
+TEST(Seqlock, GivesWhatWasStored) {
+  Seqlock<Block> lock(Block::of(7));
+  EXPECT_EQ(lock.load().words[36], 7u);
+  lock.store(Block::of(8));
+  EXPECT_EQ(lock.load().words[36], 8u);
+  Block block;
+  EXPECT_TRUE(lock.try_load(block));
+  EXPECT_EQ(block.words[0], 8u);
+}
+
+TEST(Seqlock, OddSizes) {
+  struct Small {
+    char text[11] = "0123456789";
+  };
+  Seqlock<Small> lock;
+  EXPECT_STREQ(lock.load().text, "0123456789");
+}
+
+TEST(Seqlock, NeverTornAndNeverBackwards) {
+  Seqlock<Block> lock;
+  constexpr uint64_t kStores = 100'000;
+  std::thread writer([&] {
+    for (uint64_t i = 1; i <= kStores; ++i) lock.store(Block::of(i));
+  });
+  uint64_t last = 0;
+  bool whole = true;
+  bool rising = true;
+  Block maybe;
+  while (last < kStores) {
+    const Block block = lock.load();
+    whole = whole && block.whole();
+    rising = rising && block.words[0] >= last;
+    last = block.words[0];
+    if (lock.try_load(maybe)) rising = rising && maybe.words[0] >= last;
+    whole = whole && maybe.whole();
+  }
+  writer.join();
+  EXPECT_TRUE(whole);
+  EXPECT_TRUE(rising);
+}
+
+TEST(SpscRing, KeepsOrderAndSize) {
+  SpscRing<int, 4> ring;
+  int value = -1;
+  EXPECT_FALSE(ring.pop(value));
+  EXPECT_EQ(ring.front(), nullptr);
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(ring.push(i));
+    EXPECT_FALSE(ring.push(4));
+    EXPECT_EQ(*ring.front(), 0);
+    ring.drop();
+    for (int i = 1; i < 4; ++i) {
+      EXPECT_TRUE(ring.pop(value));
+      EXPECT_EQ(value, i);
+    }
+    EXPECT_FALSE(ring.pop(value));
+  }
+}
+
+TEST(SpscRing, LosesNothingBetweenThreads) {
+  SpscRing<Block, 16> ring;
+  constexpr uint64_t kEntries = 200'000;
+  std::thread writer([&] {
+    for (uint64_t i = 1; i <= kEntries; ++i) {
+      while (!ring.push(Block::of(i))) std::this_thread::yield();
+    }
+  });
+  uint64_t in_order = 0;
+  Block block;
+  for (uint64_t i = 1; i <= kEntries; ++i) {
+    while (!ring.pop(block)) std::this_thread::yield();
+    if (block.whole() && block.words[0] == i) ++in_order;
+  }
+  writer.join();
+  EXPECT_EQ(in_order, kEntries);
+}
+
+}  // namespace
+}  // namespace spidar

@@ -1,0 +1,139 @@
+#include <cerrno>
+#include <clocale>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "spidar/tick_trace.h"
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that is gone after the test.
+struct TemporaryFolder {
+  TemporaryFolder() {
+    std::string name = fs::temp_directory_path() / "spidar-trace-XXXXXX";
+    path = mkdtemp(name.data());
+  }
+  ~TemporaryFolder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> result;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, ',');) result.push_back(field);
+  return result;
+}
+
+std::vector<std::string> lines(const fs::path& path) {
+  std::vector<std::string> result;
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);) result.push_back(line);
+  return result;
+}
+
+TickRecord some_record() {
+  TickRecord r;
+  r.tick = 12;
+  r.monotonic_ns = 9'000'000'000'000'001;
+  r.lateness_ns = -3;
+  r.running_ns = 40'000'000;
+  r.frame_ns = 33'366'666;
+  r.found = Found::kInterpolated;
+  r.playing = true;
+  r.device = DeviceState::kRunning;
+  r.wanted = {{0.1, 0.2, 0.3}, {1e-7, 0, -0.5}};
+  r.commanded = {{1, 2, 3}, {4, 5, 6}};
+  r.delivered = {{7, 8, 9}, {10, 11, 12}};
+  for (int i = 0; i < kMaxStrings; ++i) r.tension_N[i] = i + 0.5;
+  r.pose = {{0.01, 0.02, 0.03}, Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5)};
+  r.pose_residual_m = 5.9e-06;
+  return r;
+}
+
+TEST(TickTrace, HeaderAndRow) {
+  EXPECT_EQ(trace_header(),
+            "tick,monotonic_ns,lateness_ns,running_ns,frame_ns,found,playing,device,"
+            "wanted_force_x_N,wanted_force_y_N,wanted_force_z_N,"
+            "wanted_torque_x_Nm,wanted_torque_y_Nm,wanted_torque_z_Nm,"
+            "commanded_force_x_N,commanded_force_y_N,commanded_force_z_N,"
+            "commanded_torque_x_Nm,commanded_torque_y_Nm,commanded_torque_z_Nm,"
+            "delivered_force_x_N,delivered_force_y_N,delivered_force_z_N,"
+            "delivered_torque_x_Nm,delivered_torque_y_Nm,delivered_torque_z_Nm,"
+            "tension_0_N,tension_1_N,tension_2_N,tension_3_N,"
+            "tension_4_N,tension_5_N,tension_6_N,tension_7_N,"
+            "position_x_m,position_y_m,position_z_m,"
+            "orientation_w,orientation_x,orientation_y,orientation_z,pose_residual_m");
+  std::string row;
+  append_row(some_record(), row);
+  EXPECT_EQ(row,
+            "12,9000000000000001,-3,40000000,33366666,interpolated,1,running,"
+            "0.1,0.2,0.3,1e-07,0,-0.5,1,2,3,4,5,6,7,8,9,10,11,12,"
+            "0.5,1.5,2.5,3.5,4.5,5.5,6.5,7.5,0.01,0.02,0.03,0.5,-0.5,0.5,-0.5,5.9e-06\n");
+  EXPECT_EQ(fields(row).size(), fields(trace_header()).size());
+}
+
+TEST(TickTrace, NoFrameIsMinusOne) {
+  std::string row;
+  append_row({}, row);
+  EXPECT_EQ(fields(row)[4], "-1");
+  EXPECT_EQ(fields(row)[5], "nothing");
+}
+
+TEST(TickTrace, WritesOnFlushAndAtTheEnd) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path / "haptic.csv";
+  TickRecord record = some_record();
+  {
+    TickTrace trace(path);
+    record.tick = 1;
+    trace.add(record);
+    trace.flush();
+    EXPECT_EQ(lines(path).size(), 2u);
+    EXPECT_EQ(trace.status().rows, 1u);
+    record.tick = 5;  // 2, 3 and 4 did not fit into the ring
+    trace.add(record);
+    EXPECT_EQ(trace.status().lost_rows, 3u);
+  }
+  const std::vector<std::string> written = lines(path);
+  ASSERT_EQ(written.size(), 3u);
+  EXPECT_EQ(written[0], trace_header());
+  EXPECT_EQ(fields(written[2])[0], "5");
+}
+
+TEST(TickTrace, UnwritablePathIsNamedWithTheReason) {
+  const TemporaryFolder folder;
+  const auto message = [](const fs::path& path) -> std::string {
+    try {
+      TickTrace trace(path);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const fs::path missing = folder.path / "missing" / "haptic.csv";
+  EXPECT_NE(message(missing).find(missing.string()), std::string::npos);
+  EXPECT_NE(message(missing).find("No such file or directory"), std::string::npos);
+  EXPECT_NE(message(folder.path).find("Is a directory"), std::string::npos);
+}
+
+TEST(TickTrace, FullDiskEndsTheTrace) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  TickTrace trace("/dev/full");
+  TickRecord record;
+  for (record.tick = 1; record.tick <= 1000; ++record.tick) trace.add(record);
+  trace.flush();
+  EXPECT_EQ(trace.status().error, ENOSPC);
+  EXPECT_EQ(trace.status().rows, 0u);
+  EXPECT_EQ(trace.status().lost_rows, 1000u);
+}
+
+}  // namespace
+}  // namespace spidar

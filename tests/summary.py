@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Counts the test cases of meson builds: summary.py BUILD... prints what failed and what was skipped
+and why, and as its last line `N passed, N failed, N skipped`. Fails when a test did.
+
+`--failed WHAT` counts something that is no meson test and went wrong, `--passed WHAT` one that went
+well."""
+
+import argparse
+import json
+import sys
+import xml.etree.ElementTree as ElementTree
+from collections import Counter
+from pathlib import Path
+
+
+def case_result(case):
+    """("passed" | "failed" | "skipped", reason) of a GoogleTest case."""
+    for tag, result in (("failure", "failed"), ("error", "failed"), ("skipped", "skipped")):
+        found = case.find(tag)
+        if found is not None:
+            # "file:line", then the message
+            return result, " ".join((found.get("message") or "").splitlines()[1:])
+    return ("skipped", "disabled") if case.get("status") == "notrun" else ("passed", "")
+
+
+def gtest_cases(build):
+    """Test cases by test program: those that GoogleTest has reported one by one."""
+    cases = {}
+    root = ElementTree.parse(Path(build) / "meson-logs" / "testlog.junit.xml").getroot()
+    for suite in root.findall("testsuite"):
+        for case in suite.findall("testcase"):
+            # Meson names such a suite project.program.suite, with "suites / " before the program.
+            program, dot, name = suite.get("name").rpartition("." + case.get("classname"))
+            if dot and not name:
+                cases.setdefault(program.partition(".")[2].split(" / ")[-1], []).append(case)
+    return cases
+
+
+def results_of(build):
+    """Yields (name, result, reason) for all that ran in a build folder."""
+    cases_of = gtest_cases(build)
+    with open(Path(build) / "meson-logs" / "testlog.json", encoding="utf-8") as lines:
+        runs = [json.loads(line) for line in lines]
+    for run in runs:
+        program = run["name"].split(" / ")[-1]
+        failed = False
+        for case in cases_of.get(program, []):
+            result, reason = case_result(case)
+            failed |= result == "failed"
+            yield f"{program} {case.get('classname')}.{case.get('name')}", result, reason
+        # A program without cases, or one that failed though its cases passed: by a leak, for instance.
+        if run["result"] == "SKIP":
+            yield program, "skipped", (run["stdout"] or "").strip().split("\n")[-1]
+        elif run["result"] in ("OK", "EXPECTEDFAIL"):
+            if program not in cases_of:
+                yield program, "passed", ""
+        elif not failed:
+            yield program, "failed", f"{run['result']}, exit status {run['returncode']}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--passed", action="append", default=[])
+    parser.add_argument("--failed", action="append", default=[])
+    parser.add_argument("builds", nargs="*")
+    arguments = parser.parse_args()
+
+    counts = Counter(passed=len(arguments.passed), failed=len(arguments.failed))
+    notes = [("failed", what, "") for what in arguments.failed]
+    for build in arguments.builds:
+        for name, result, reason in results_of(build):
+            counts[result] += 1
+            if result != "passed":
+                notes.append((result, f"{build}/ {name}", f": {reason}" if reason else ""))
+    for result, name, reason in sorted(notes, key=lambda note: note[0], reverse=True):
+        print(f"{result}: {name}{reason}")
+    print(f"{counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped")
+    sys.exit(1 if counts["failed"] else 0)
+
+
+if __name__ == "__main__":
+    main()

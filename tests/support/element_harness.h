@@ -1,0 +1,62 @@
+/// A spidarmotion in a GstHarness, and what came out of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gst/check/gstharness.h>
+#include <gst/gst.h>
+#include <gst/video/video.h>
+
+#include "plugin/motion_engine.h"
+
+namespace spidar::test {
+
+/// gst_init() and registration of the element, once a process. No plugin of the system is needed.
+void init_gstreamer();
+
+/// The values of one `spidar-motion` message.
+struct MotionMessage {
+  GstClockTime running_time = 0, stream_time = 0, timestamp = 0, duration = 0;
+  guint features = 0, tracked = 0;
+  double velocity_x = 0, velocity_y = 0;
+  Wrench wrench;
+};
+MotionMessage parse_motion_message(GstMessage* message);
+
+/// Owns the harness and the element's bus.
+class ElementHarness {
+ public:
+  /// `properties` as in a launch line, e.g. "device=none alpha=0.02".
+  explicit ElementHarness(const std::string& properties = "device=none");
+  /// `now` stands for CLOCK_MONOTONIC, and the haptic loop waits to be ticked.
+  ElementHarness(const std::string& properties, PlaybackSync::Now now, void* user);
+  ~ElementHarness();
+
+  void set_caps(GstCaps* caps);  // takes them
+  /// Pushes a frame; its flow return. `flags` are GstBufferFlags.
+  GstFlowReturn push(GstBuffer* frame, GstClockTime pts, guint flags = 0);
+  GstFlowReturn push_moved(double dx, double dy, GstClockTime pts, guint flags = 0);
+
+  // Everything posted so far; of warnings and errors the text for people.
+  const std::vector<MotionMessage>& motions();
+  const std::vector<std::string>& warnings();
+  const std::vector<std::string>& errors();
+
+  GstElement* element() const { return harness_->element; }
+  GstHarness* harness() const { return harness_; }
+  const GstVideoInfo& info() const { return info_; }
+  MotionEngine& engine();
+
+ private:
+  void drain();
+
+  GstHarness* harness_;
+  GstBus* bus_;
+  GstVideoInfo info_{};
+  std::vector<MotionMessage> motions_;
+  std::vector<std::string> warnings_;
+  std::vector<std::string> errors_;
+};
+
+}  // namespace spidar::test

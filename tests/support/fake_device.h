@@ -1,0 +1,69 @@
+/// A device that remembers what it is given and answers as it is told.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spidar/device.h"
+
+namespace spidar::test {
+
+/// What happened to a FakeDevice; outlives it. Atomics may be used while a loop's thread runs, the
+/// rest before and after.
+struct FakeDeviceLog {
+  /// The device is there: open() works.
+  std::atomic<bool> present{true};
+  /// Answer of every exchange; kLost also closes.
+  std::atomic<ExchangeStatus> answer{ExchangeStatus::kOk};
+  std::array<int32_t, kMaxStrings> count{};  ///< what the encoders say
+
+  std::atomic<bool> is_open{false};
+  std::atomic<int> opened{0};
+  std::atomic<int> closed{0};
+  /// Of every exchange up to kMemory, so that nothing is allocated.
+  std::vector<MotorVolts> volts;
+  MotorVolts last_volts;
+
+  static constexpr size_t kMemory = 20'000;
+};
+
+class FakeDevice final : public Device {
+ public:
+  explicit FakeDevice(std::shared_ptr<FakeDeviceLog> log = std::make_shared<FakeDeviceLog>())
+      : log_(std::move(log)) {
+    log_->volts.reserve(FakeDeviceLog::kMemory);
+  }
+
+  void open() override {
+    if (!log_->present) throw DeviceError("fake: not there");
+    log_->is_open = true;
+    ++log_->opened;
+  }
+
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    if (!log_->is_open) return ExchangeStatus::kLost;
+    const ExchangeStatus answer = log_->answer;
+    if (answer == ExchangeStatus::kLost) log_->is_open = false;
+    log_->last_volts = volts;
+    if (log_->volts.size() < FakeDeviceLog::kMemory) log_->volts.push_back(volts);
+    if (answer == ExchangeStatus::kOk) reading.count = log_->count;
+    return answer;
+  }
+
+  void close() noexcept override {
+    log_->is_open = false;
+    ++log_->closed;
+  }
+
+  const std::string& name() const noexcept override { return name_; }
+
+  FakeDeviceLog& log() noexcept { return *log_; }
+
+ private:
+  std::shared_ptr<FakeDeviceLog> log_;
+  std::string name_ = "fake";
+};
+
+}  // namespace spidar::test

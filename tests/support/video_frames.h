@@ -1,0 +1,18 @@
+/// Frames with a texture that is moved by known amounts, in every format.
+#pragma once
+
+#include <gst/video/video.h>
+
+namespace spidar::test {
+
+/// Grey level 8 … 248 of the picture that make_frame() moves.
+double texture(double x, double y);
+
+/// A buffer of `info` that shows texture() moved by (dx, dy). Packed RGB is grey; chroma is
+/// neutral. `plane0_extra_stride` bytes are added to each line of plane 0 (with a GstVideoMeta).
+GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0_extra_stride = 0);
+
+/// Caps string of raw video.
+GstCaps* make_caps(const char* format, int width, int height, int fps_n = 25, int fps_d = 1);
+
+}  // namespace spidar::test
