@@ -109,7 +109,10 @@ void select_features(const cv::Mat& image, const SelectionSettings& settings,
   const int border_px = std::max(settings.border_px, kBlock_px / 2 + kSobel_px / 2);
 
   const auto limit = static_cast<size_t>(settings.max_features);
-  Occupancy occupancy(image.size(), settings.min_distance_px);
+  // More than the picture is the same as the picture, and fits into an int.
+  const double min_distance_px =
+      std::min(settings.min_distance_px, std::hypot(image.cols, image.rows));
+  Occupancy occupancy(image.size(), min_distance_px);
   std::vector<Candidate> selected;
   for (const Candidate& known : rate(features, response, threshold)) {
     if (occupancy.take(known.feature.at)) selected.push_back(known);

@@ -118,6 +118,15 @@ TEST(FeatureSelection, KeepsTheMinimumDistanceOfTheReferenceFrame) {
   }
 }
 
+TEST(FeatureSelection, AnyMinimumDistanceLeavesOnePoint) {
+  const Picture picture = textured(640, 360);
+  for (const double min_distance_px : {1e3, 1e9, 1e300}) {
+    TrackerSettings settings;
+    settings.min_distance_px = min_distance_px;
+    EXPECT_EQ(selected(picture, settings).size(), 1u) << min_distance_px;
+  }
+}
+
 TEST(FeatureSelection, KeepsTheMaximumNumber) {
   const Picture picture = textured(640, 360);
   for (const int max_features : {1, 7, 200}) {
