@@ -57,12 +57,12 @@ case ${1-} in
     # Without optimisation Eigen is too slow for the tests that sample many poses.
     export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
     build_and_test build-ci-address -Dbuildtype=debugoptimized -Db_lundef=false \
-        -Db_sanitize=address,undefined -Dbenchmarks=disabled -Dexamples=false -- -t 4
-    say "thread sanitizer: core and spidar only, for GLib and GStreamer are not built with it and" \
-        "their locks would be taken for races"
+        -Db_sanitize=address,undefined -Dbenchmarks=disabled -- -t 4
+    say "thread sanitizer: left out are the element, for GLib and GStreamer are not built with it and" \
+        "their locks would be taken for races, and core, which has no threads"
     build_and_test build-ci-thread -Dbuildtype=debugoptimized -Db_lundef=false \
-        -Db_sanitize=thread -Dbenchmarks=disabled -Dexamples=false -Dplugin=disabled -- \
-        -t 8 --suite spidar
+        -Db_sanitize=thread -Dbenchmarks=disabled -Dplugin=disabled -- \
+        -t 8 --suite spidar --suite examples
     ;;
 *)
     echo "error: unknown option $1; usage: tests/run.sh [--ci]" >&2
