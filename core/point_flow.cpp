@@ -60,8 +60,9 @@ float contrast(const cv::Mat& image, const cv::Point2f& at) {
 }
 
 bool inside(const cv::Mat& image, const cv::Point2f& p) {
-  return p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(image.cols - 1) &&
-         p.y <= static_cast<float>(image.rows - 1);
+  const auto border = static_cast<float>(follow_border_px(image));
+  return p.x >= border && p.y >= border && p.x <= static_cast<float>(image.cols - 1) - border &&
+         p.y <= static_cast<float>(image.rows - 1) - border;
 }
 
 struct Flow {
@@ -146,6 +147,11 @@ void follow_missing(const FlowPyramid& before, const FlowPyramid& now, const Sea
 }
 
 }  // namespace
+
+int follow_border_px(const cv::Mat& image) {
+  // A quarter leaves half of a tiny picture.
+  return std::min({kWindow_px / 2, image.cols / 4, image.rows / 4});
+}
 
 void build_pyramid(const cv::Mat& image, FlowPyramid& pyramid) {
   constexpr bool kWithDerivatives = true;  // used twice: forwards from this picture, and back

@@ -18,6 +18,10 @@ using FlowPyramid = std::vector<cv::Mat>;
 /// `image`: 8-bit, one channel. Reuses the memory of `pyramid` when the size is the same.
 void build_pyramid(const cv::Mat& image, FlowPyramid& pyramid);
 
+/// Points nearer to the border of `image` than this are not followed, pixels: their window would
+/// reach over it, to mirrored pixels that move the other way.
+int follow_border_px(const cv::Mat& image);
+
 /// A point of one picture that is looked for in the next; lengths in pixels of the pictures.
 struct PointFlow {
   ImagePoint from;
@@ -27,7 +31,7 @@ struct PointFlow {
 };
 
 /// Looks for `points` of `before` in `now`, pictures of one size. A point is found if its place is
-/// inside the picture, shows the same surroundings, and leads back to where it came from.
+/// inside the border, shows the same surroundings, and leads back to where it came from.
 void follow_points(const FlowPyramid& before, const FlowPyramid& now,
                    std::vector<PointFlow>& points);
 

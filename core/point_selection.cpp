@@ -10,11 +10,10 @@ namespace {
 
 constexpr int kBlock_px = 3;  // neighbourhood of eq. 1
 constexpr int kSobel_px = 3;
-constexpr int kBorder_px = 1;  // no gradient across the border
 
 /// Below this root mean square gradient in the weakest direction, grey levels per pixel, there is
 /// nothing but noise and rounding, however it compares with the rest of the picture.
-constexpr double kMinGradient = 2.0;
+constexpr double kMinGradient = 1.0;
 
 /// cornerMinEigenVal() scales the Sobel sums by 1 / (4 · block · 255) before it adds block²
 /// squares: a gradient of g grey levels per pixel in both directions gives (2 g / 255)².
@@ -64,14 +63,14 @@ class Occupancy {
 };
 
 /// Local maxima of the response above the threshold, strongest first.
-std::vector<Candidate> find_corners(const cv::Mat& response, double threshold) {
+std::vector<Candidate> find_corners(const cv::Mat& response, double threshold, int border_px) {
   cv::Mat largest_around;
   cv::dilate(response, largest_around, cv::Mat());
   std::vector<Candidate> corners;
-  for (int y = kBorder_px; y < response.rows - kBorder_px; ++y) {
+  for (int y = border_px; y < response.rows - border_px; ++y) {
     const float* value = response.ptr<float>(y);
     const float* largest = largest_around.ptr<float>(y);
-    for (int x = kBorder_px; x < response.cols - kBorder_px; ++x) {
+    for (int x = border_px; x < response.cols - border_px; ++x) {
       if (static_cast<double>(value[x]) > threshold && value[x] == largest[x]) {
         corners.push_back(
             {{0, {static_cast<float>(x), static_cast<float>(y)}, {}}, value[x], false});
@@ -106,14 +105,20 @@ void select_features(const cv::Mat& image, const SelectionSettings& settings,
   cv::minMaxLoc(response, nullptr, &strongest);
   const double threshold = std::max(kMinResponse, settings.quality_level * strongest);
 
+  // Nearer to the border the eigenvalues see mirrored pixels.
+  const int border_px = std::max(settings.border_px, kBlock_px / 2 + kSobel_px / 2);
+
   const auto limit = static_cast<size_t>(settings.max_features);
-  Occupancy occupancy(image.size(), settings.min_distance_px);
+  // More than the picture is the same as the picture, and fits into an int.
+  const double min_distance_px =
+      std::min(settings.min_distance_px, std::hypot(image.cols, image.rows));
+  Occupancy occupancy(image.size(), min_distance_px);
   std::vector<Candidate> selected;
   for (const Candidate& known : rate(features, response, threshold)) {
     if (occupancy.take(known.feature.at)) selected.push_back(known);
   }
   const size_t known_count = selected.size();
-  for (const Candidate& corner : find_corners(response, threshold)) {
+  for (const Candidate& corner : find_corners(response, threshold, border_px)) {
     if (selected.size() - known_count >= limit) break;
     if (occupancy.take(corner.feature.at)) selected.push_back(corner);
   }

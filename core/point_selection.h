@@ -23,6 +23,7 @@ struct SelectionSettings {
   int max_features = 0;
   double quality_level = 0;
   double min_distance_px = 0;  ///< in pixels of the picture given
+  int border_px = 0;           ///< no point is nearer to the border
 };
 
 /// Brings `features` to what eq. 1 selects in `image` (8-bit, one channel): points whose smaller

@@ -174,6 +174,10 @@ unsigned strings_to_release(const Iterate& x, const double* violation) {
 
 }  // namespace
 
+// A projected Newton method: each round goes to the minimum over the strings that may move, clipped
+// to the bounds, holds those that were clipped, and lets go those whose gradient points inwards
+// (Bertsekas, Projected Newton methods, SIAM J. Control Optim. 20, 1982). When clipping raises the
+// objective, the round goes to the first bound only, as a primal active-set method does.
 TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
   if (problem.count > 0 && problem.count < n) return solve(with_eight_strings(problem));
   TensionResult result;
@@ -201,7 +205,8 @@ TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
     const Step step = newton_step(objective, *x);
     const unsigned clipped = go_clipped(bounds, *x, step, *next);
     objective.evaluate(next->t, next->residual, next->gradient);
-    if (clipped && !(change(*x, *next) < 0)) {
+    // Where the search starts is not worth holding on to; after that the objective only falls.
+    if (clipped && result.iterations > 1 && !(change(*x, *next) < 0)) {
       go_to_first_bound(bounds, step, *x);
       objective.evaluate(x->t, x->residual, x->gradient);
       cautious = true;
@@ -212,7 +217,10 @@ TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
     result.kkt_residual = violations(bounds, *x, violation);
     scale = objective.gradient_scale(x->t);
     if (result.kkt_residual <= kTolerance * scale) break;
-    cautious = cautious && clipped;
+    // After a step that did not come off, no string is let go before the minimum over the free ones
+    // is reached: every round then either holds a string or ends lower, which cannot go on for
+    // ever.
+    cautious = cautious && clipped && x->free;
     if (!cautious) x->free |= strings_to_release(*x, violation);
   }
   if (scale > 0) result.kkt_residual /= scale;

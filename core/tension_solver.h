@@ -25,7 +25,9 @@ struct TensionProblem {
 enum class TensionStatus {
   kSolved,
   kIterationLimit,  ///< tensions are within bounds but not optimal
-  kBadInput,        ///< NaN, infinity, t_min > t_max, ε or ℓ not positive, no strings
+  /// NaN, infinity, or a number whose square is not finite; t_min > t_max; ε or ℓ not positive;
+  /// count not 1 … kMaxStrings
+  kBadInput,
 };
 
 struct TensionResult {
@@ -33,14 +35,17 @@ struct TensionResult {
   StringVector tension_N = StringVector::Zero();
   Wrench delivered;       ///< W t
   double residual_N = 0;  ///< ‖S(W t − f)‖
-  /// Largest violation of the optimality conditions, relative to |Q||t| + |c|.
+  /// Largest violation of the optimality conditions, that is of Q t = c for free strings and of its
+  /// sign for those at a bound, relative to the largest Qᵢᵢ|tᵢ| + |cᵢ|; Q and c as in
+  /// tension_objective.h. Solved means 1e-12 or less.
   double kkt_residual = 0;
-  int iterations = 0;
+  int iterations = 0;  ///< rounds, at most 24
   TensionStatus status = TensionStatus::kBadInput;
 };
 
-/// Exact active-set solver, started from the strings that were at a bound the last time.
-/// No allocation, no exceptions.
+/// Exact to rounding, at any scale of wrench, tensions and units, and down to an ε that is lost
+/// beside WᵀS²W. Starts from the tensions of the last call, which makes steady motion one round;
+/// the result does not depend on them beyond rounding. No allocation, no exceptions.
 class SPIDAR_API TensionSolver {
  public:
   TensionResult solve(const TensionProblem& problem) noexcept;

@@ -1,9 +1,9 @@
-#include "core/wrench_timeline.h"
-
 #include <cstring>
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "core/wrench_timeline.h"
 
 namespace spidar {
 namespace {

@@ -1,11 +1,11 @@
-#include "core/gain_controller.h"
-
 #include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+
+#include "core/gain_controller.h"
 
 namespace spidar {
 namespace {

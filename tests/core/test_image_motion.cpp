@@ -1,9 +1,9 @@
-#include "core/image_motion.h"
-
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "core/image_motion.h"
 
 namespace spidar {
 namespace {

@@ -1,0 +1,190 @@
+// Which points the tracker chooses. A picture shown twice gives each of them as a track that starts
+// at the point.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/opencv_tracker.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+using test::Picture;
+using test::Texture;
+
+std::vector<Track> selected(const Picture& picture, const TrackerSettings& settings = {}) {
+  OpenCvTracker tracker(settings);
+  tracker.track(picture.view());
+  return tracker.track(picture.view()).tracks;
+}
+
+double distance(const ImagePoint& a, const ImagePoint& b) {
+  return std::hypot(static_cast<double>(a.x_px) - static_cast<double>(b.x_px),
+                    static_cast<double>(a.y_px) - static_cast<double>(b.y_px));
+}
+
+/// Share of the interval [from, to] that a pixel around `x` covers.
+double cover(double x, double from, double to) {
+  return std::max(0.0, std::min(x + 0.5, to) - std::max(x - 0.5, from));
+}
+
+Picture textured(int width, int height, double cell_px = 8) {
+  Picture picture(width, height);
+  const Texture texture(3, cell_px);
+  picture.fill([&](double x, double y) { return texture.at(x, y); });
+  return picture;
+}
+
+TEST(FeatureSelection, AFlatPictureHasNone) {
+  for (const double grey : {0.0, 128.0, 255.0}) {
+    Picture picture(640, 360);
+    picture.fill([grey](double, double) { return grey; });
+    OpenCvTracker tracker;
+    EXPECT_EQ(tracker.track(picture.view()).features, 0);
+    const TrackedFrame& again = tracker.track(picture.view());
+    EXPECT_EQ(again.features, 0);
+    EXPECT_TRUE(again.tracks.empty());
+    EXPECT_FALSE(again.restarted);
+  }
+}
+
+TEST(FeatureSelection, ARampHasNone) {
+  // A gradient in one direction only.
+  Picture picture(640, 360);
+  picture.fill([](double x, double y) { return x * 0.25 + y * 0.1; });
+  EXPECT_TRUE(selected(picture).empty());
+}
+
+TEST(FeatureSelection, AnEdgeIsNotACorner) {
+  for (const double slope : {0.0, 0.3, 1.0}) {
+    Picture picture(640, 360);
+    // A soft edge across the whole picture, at most 40 grey levels per pixel.
+    picture.fill([slope](double x, double y) {
+      return 128 + 80 * std::tanh((x - 320 - slope * (y - 180)) / 2);
+    });
+    EXPECT_TRUE(selected(picture).empty()) << "slope " << slope;
+  }
+}
+
+TEST(FeatureSelection, FindsTheCornersOfARectangleAndNothingElse) {
+  // Edges between the pixels, so that the corners are at the ends of the intervals.
+  const double left = 200.25;
+  const double right = 420.5;
+  const double top = 100.75;
+  const double bottom = 260.0;
+  Picture picture(640, 360);
+  picture.fill(
+      [&](double x, double y) { return 60 + 140 * cover(x, left, right) * cover(y, top, bottom); });
+  const std::vector<Track> found = selected(picture);
+  ASSERT_EQ(found.size(), 4u);
+  for (const double x : {left, right}) {
+    for (const double y : {top, bottom}) {
+      const ImagePoint corner{static_cast<float>(x), static_cast<float>(y)};
+      double nearest = 1e9;
+      for (const Track& track : found) nearest = std::min(nearest, distance(track.from, corner));
+      // The 3×3 sum of 3×3 Sobel sums is largest within half its reach of 2.5 px of the corner in
+      // each direction.
+      EXPECT_LE(nearest, 2.5 * std::sqrt(2.0)) << "corner " << x << " " << y;
+    }
+  }
+}
+
+TEST(FeatureSelection, KeepsTheMinimumDistanceOfTheReferenceFrame) {
+  struct Size {
+    int width, height;
+  };
+  for (const Size size : {Size{640, 360}, Size{1280, 720}, Size{1921, 1081}}) {
+    for (const double min_distance_px : {5.0, 10.0, 40.0}) {
+      TrackerSettings settings;
+      settings.min_distance_px = min_distance_px;
+      const std::vector<Track> found =
+          selected(textured(size.width, size.height, size.height / 45.0), settings);
+      ASSERT_GE(found.size(), 20u);
+      double nearest = 1e9;
+      for (size_t i = 0; i < found.size(); ++i) {
+        for (size_t j = 0; j < i; ++j) {
+          nearest = std::min(nearest, distance(found[i].from, found[j].from));
+        }
+      }
+      // The points lie on whole pixels of the reduced picture; 1e-3 is float at 2000 px.
+      EXPECT_GE(nearest, min_distance_px * size.height / kReferenceHeight_px - 1e-3)
+          << size.width << "x" << size.height << ", distance " << min_distance_px;
+    }
+  }
+}
+
+TEST(FeatureSelection, AnyMinimumDistanceLeavesOnePoint) {
+  const Picture picture = textured(640, 360);
+  for (const double min_distance_px : {1e3, 1e9, 1e300}) {
+    TrackerSettings settings;
+    settings.min_distance_px = min_distance_px;
+    EXPECT_EQ(selected(picture, settings).size(), 1u) << min_distance_px;
+  }
+}
+
+TEST(FeatureSelection, KeepsTheMaximumNumber) {
+  const Picture picture = textured(640, 360);
+  for (const int max_features : {1, 7, 200}) {
+    TrackerSettings settings;
+    settings.max_features = max_features;
+    OpenCvTracker tracker(settings);
+    EXPECT_EQ(tracker.track(picture.view()).features, max_features);
+  }
+}
+
+TEST(FeatureSelection, AHigherQualityLevelLeavesFewer) {
+  const Picture picture = textured(640, 360);
+  size_t last = 1'000'000;
+  for (const double quality_level : {0.0, 0.2, 0.4, 0.8}) {
+    TrackerSettings settings;
+    settings.max_features = 10000;
+    settings.min_distance_px = 0;
+    settings.quality_level = quality_level;
+    const size_t count = selected(picture, settings).size();
+    EXPECT_LT(count, last) << "quality " << quality_level;
+    last = count;
+  }
+  EXPECT_GE(last, 1u);
+}
+
+TEST(FeatureSelection, AMirroredPictureHasMirroredPoints) {
+  // Right only if the centre of the first pixel is 0 at every reduction: a point at x goes to
+  // width − 1 − x. Widths and heights are multiples of the factor: nothing is cut off.
+  struct Size {
+    int width, height, factor;
+  };
+  for (const Size size : {Size{480, 288, 1}, Size{960, 540, 2}, Size{1920, 1080, 4}}) {
+    const double unit = size.factor;
+    Picture picture(size.width, size.height);
+    Picture mirrored(size.width, size.height);
+    // Rectangles of different sizes, far from each other, with edges on whole reduced pixels.
+    const auto grey = [unit](double x, double y) {
+      double sum = 40;
+      for (int i = 0; i < 4; ++i) {
+        const double left = (40 + 90 * i) * unit - 0.5;
+        const double top = (50 + 30 * i) * unit - 0.5;
+        sum += (100 + 20 * i) * cover(x, left, left + (30 + 5 * i) * unit) *
+               cover(y, top, top + (25 + 7 * i) * unit);
+      }
+      return sum;
+    };
+    picture.fill(grey);
+    mirrored.fill([&](double x, double y) { return grey(size.width - 1 - x, y); });
+    std::set<std::pair<float, float>> points;
+    for (const Track& track : selected(picture)) points.insert({track.from.x_px, track.from.y_px});
+    std::set<std::pair<float, float>> back;
+    for (const Track& track : selected(mirrored)) {
+      back.insert({static_cast<float>(size.width - 1) - track.from.x_px, track.from.y_px});
+    }
+    EXPECT_EQ(points.size(), 16u) << size.width;
+    EXPECT_EQ(points, back) << size.width;
+  }
+}
+
+}  // namespace
+}  // namespace spidar

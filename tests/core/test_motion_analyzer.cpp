@@ -1,0 +1,255 @@
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "core/motion_analyzer.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+using test::Picture;
+using test::Texture;
+
+constexpr int64_t kFrame_ns = 40'000'000;
+constexpr double kFrame_s = 0.04;
+
+/// A mean displacement is right to 0.03 px of the reduced picture: see the tracker's test.
+constexpr double kMeanTolerance_px = 0.03;
+
+/// A texture that moves by a constant displacement each frame.
+class Scene {
+ public:
+  Scene(int width, int height, double dx_px, double dy_px, uint32_t seed = 8)
+      : picture_(width, height), texture_(seed, 8 * reduction()), dx_px_(dx_px), dy_px_(dy_px) {}
+
+  /// Frame pixels to one of the picture that is looked at.
+  double reduction() const { return std::max(1.0, std::round(picture_.width / 480.0)); }
+
+  ImageView frame(int n) {
+    picture_.fill([&](double x, double y) { return texture_.at(x - n * dx_px_, y - n * dy_px_); });
+    return picture_.view();
+  }
+
+ private:
+  Picture picture_;
+  Texture texture_;
+  double dx_px_;
+  double dy_px_;
+};
+
+AnalyzerSettings linear() {
+  AnalyzerSettings settings;
+  settings.controller.kind = ControllerKind::kLinear;
+  return settings;
+}
+
+void expect_nothing(const FrameAnalysis& analysis) {
+  EXPECT_EQ(analysis.motion.velocity_px_s, Eigen::Vector2d::Zero());
+  EXPECT_EQ(analysis.motion.tracked, 0);
+  EXPECT_EQ(analysis.wrench.stacked(), (Eigen::Matrix<double, 6, 1>::Zero()));
+}
+
+void expect_restarted(const FrameAnalysis& analysis) {
+  EXPECT_TRUE(analysis.restarted);
+  EXPECT_EQ(analysis.interval_ns, 0);
+  expect_nothing(analysis);
+}
+
+TEST(MotionAnalyzer, TheFirstFrameShowsNoMotion) {
+  Scene scene(640, 360, 3, 0);
+  MotionAnalyzer analyzer;
+  const FrameAnalysis first = analyzer.analyze(scene.frame(0), 0);
+  expect_restarted(first);
+  EXPECT_GT(first.features, 0);
+}
+
+TEST(MotionAnalyzer, VelocityIsDisplacementOverRunningTime) {
+  Scene scene(640, 360, 3.5, -1.25);
+  for (const int64_t interval_ns : {kFrame_ns, 2 * kFrame_ns, kFrame_ns / 4}) {
+    MotionAnalyzer analyzer;
+    analyzer.analyze(scene.frame(0), 7 * kFrame_ns);
+    const FrameAnalysis analysis = analyzer.analyze(scene.frame(1), 7 * kFrame_ns + interval_ns);
+    EXPECT_FALSE(analysis.restarted);
+    EXPECT_EQ(analysis.interval_ns, interval_ns);
+    EXPECT_GT(analysis.motion.tracked, 50);
+    const double interval_s = static_cast<double>(interval_ns) * 1e-9;
+    const double tolerance_px_s = kMeanTolerance_px / interval_s;
+    EXPECT_NEAR(analysis.motion.velocity_px_s.x(), 3.5 / interval_s, tolerance_px_s);
+    EXPECT_NEAR(analysis.motion.velocity_px_s.y(), -1.25 / interval_s, tolerance_px_s);
+  }
+}
+
+TEST(MotionAnalyzer, ADroppedFrameIsNoJump) {
+  Scene scene(640, 360, 2, 1);
+  MotionAnalyzer analyzer;
+  analyzer.analyze(scene.frame(0), 0);
+  const double tolerance_px_s = kMeanTolerance_px / kFrame_s;
+  for (const int n : {1, 2, 4, 5, 8}) {
+    const FrameAnalysis analysis = analyzer.analyze(scene.frame(n), n * kFrame_ns);
+    EXPECT_NEAR(analysis.motion.velocity_px_s.x(), 2 / kFrame_s, tolerance_px_s) << n;
+    EXPECT_NEAR(analysis.motion.velocity_px_s.y(), 1 / kFrame_s, tolerance_px_s) << n;
+  }
+}
+
+TEST(MotionAnalyzer, RightIsRightAndUpIsUp) {
+  Scene right(640, 360, 4, 0);
+  Scene up(640, 360, 0, -4);
+  MotionAnalyzer analyzer;
+  analyzer.analyze(right.frame(0), 0);
+  const Wrench to_the_right = analyzer.analyze(right.frame(1), kFrame_ns).wrench;
+  EXPECT_GT(to_the_right.force_N.x(), 0.5);
+  analyzer.restart();
+  analyzer.analyze(up.frame(0), 0);
+  const Wrench upwards = analyzer.analyze(up.frame(1), kFrame_ns).wrench;
+  EXPECT_GT(upwards.force_N.y(), 0.5);
+}
+
+TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
+  // The same picture in three sizes: the velocity is that of the frame, the force is the same.
+  struct Size {
+    int width, height;
+  };
+  for (const Size size : {Size{320, 180}, Size{640, 360}, Size{1280, 720}, Size{1920, 1080}}) {
+    const double dx_px = 0.01 * size.height;
+    Scene scene(size.width, size.height, dx_px, 0);
+    MotionAnalyzer analyzer;
+    analyzer.analyze(scene.frame(0), 0);
+    const FrameAnalysis analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
+    const double tolerance_px_s = kMeanTolerance_px * scene.reduction() / kFrame_s;
+    EXPECT_NEAR(analysis.motion.velocity_px_s.x(), dx_px / kFrame_s, tolerance_px_s);
+
+    // Exactly eq. 15 of the velocity reported.
+    NonlinearController controller(3.0, 0.01);
+    const Wrench expected = render_motion(
+        controller, kReferenceHeight_px / size.height * analysis.motion.velocity_px_s);
+    EXPECT_EQ(analysis.wrench.stacked(), expected.stacked());
+
+    // 0.01 · 480 px in 40 ms: 120 px/s of the reference frame. No slope of eq. 15 is above that at
+    // 0.
+    const double slope_N_s_px = 2 * 3.0 / std::acos(-1.0) * 0.01;
+    EXPECT_NEAR(analysis.wrench.force_N.x(), controller.force_N(120),
+                slope_N_s_px * tolerance_px_s * kReferenceHeight_px / size.height)
+        << size.width << "x" << size.height;
+  }
+}
+
+TEST(MotionAnalyzer, ARunningTimeThatDoesNotRiseRestarts) {
+  Scene scene(640, 360, 3, 0);
+  for (const int64_t step_ns : {int64_t{0}, -kFrame_ns, -10'000 * kFrame_ns}) {
+    MotionAnalyzer analyzer(linear());
+    analyzer.analyze(scene.frame(0), 0);
+    analyzer.analyze(scene.frame(1), kFrame_ns);
+    expect_restarted(analyzer.analyze(scene.frame(2), kFrame_ns + step_ns));
+    // Goes on from there.
+    const FrameAnalysis next = analyzer.analyze(scene.frame(3), 2 * kFrame_ns + step_ns);
+    EXPECT_FALSE(next.restarted);
+    EXPECT_EQ(next.interval_ns, kFrame_ns);
+    EXPECT_GT(next.motion.velocity_px_s.x(), 0);
+  }
+}
+
+TEST(MotionAnalyzer, RestartForgetsTheFrameAndTheLargestSpeed) {
+  Scene fast(640, 360, 8, 0);
+  Scene slow(640, 360, 1, 0);
+  MotionAnalyzer analyzer(linear());
+  analyzer.analyze(fast.frame(0), 0);
+  // Rounding only: the first speed is the largest, so the force is the maximum.
+  EXPECT_NEAR(analyzer.analyze(fast.frame(1), kFrame_ns).wrench.force_N.norm(), 3.0, 1e-14);
+  analyzer.restart();
+  expect_restarted(analyzer.analyze(slow.frame(0), 2 * kFrame_ns));
+  EXPECT_NEAR(analyzer.analyze(slow.frame(1), 3 * kFrame_ns).wrench.force_N.norm(), 3.0, 1e-14);
+}
+
+TEST(MotionAnalyzer, ACutShowsNoMotionAndKeepsTheLargestSpeed) {
+  // Vmax(T) of eq. 13 is the largest since the video began, whatever its scenes.
+  Scene fast(640, 360, 8, 0, 8);
+  Scene slow(640, 360, 2, 0, 77);
+  MotionAnalyzer analyzer(linear());
+  analyzer.analyze(fast.frame(0), 0);
+  const double fastest_px_s =
+      analyzer.analyze(fast.frame(1), kFrame_ns).motion.velocity_px_s.norm();
+  expect_restarted(analyzer.analyze(slow.frame(2), 2 * kFrame_ns));
+  const FrameAnalysis after = analyzer.analyze(slow.frame(3), 3 * kFrame_ns);
+  EXPECT_FALSE(after.restarted);
+  EXPECT_NEAR(after.wrench.force_N.norm(), 3.0 * after.motion.velocity_px_s.norm() / fastest_px_s,
+              1e-14);
+}
+
+TEST(MotionAnalyzer, AnotherFrameSizeShowsNoMotion) {
+  Scene large(640, 360, 3, 0);
+  Scene small(320, 180, 3, 0);
+  MotionAnalyzer analyzer;
+  analyzer.analyze(large.frame(0), 0);
+  analyzer.analyze(large.frame(1), kFrame_ns);
+  expect_restarted(analyzer.analyze(small.frame(0), 2 * kFrame_ns));
+  EXPECT_FALSE(analyzer.analyze(small.frame(1), 3 * kFrame_ns).restarted);
+}
+
+TEST(MotionAnalyzer, AFlatPictureIsNoMotionAndNoRestart) {
+  Picture grey(640, 360);
+  grey.fill([](double, double) { return 100.0; });
+  MotionAnalyzer analyzer(linear());
+  analyzer.analyze(grey.view(), 0);
+  const FrameAnalysis analysis = analyzer.analyze(grey.view(), kFrame_ns);
+  EXPECT_FALSE(analysis.restarted);
+  EXPECT_EQ(analysis.interval_ns, kFrame_ns);
+  EXPECT_EQ(analysis.features, 0);
+  expect_nothing(analysis);
+}
+
+TEST(MotionAnalyzer, AStillPictureIsFollowedAndHasNoForce) {
+  Scene scene(640, 360, 0, 0);
+  MotionAnalyzer analyzer;
+  analyzer.analyze(scene.frame(0), 0);
+  const FrameAnalysis analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
+  EXPECT_GT(analysis.motion.tracked, 50);
+  EXPECT_EQ(analysis.motion.velocity_px_s, Eigen::Vector2d::Zero());
+  EXPECT_EQ(analysis.wrench.force_N, Eigen::Vector3d::Zero());
+}
+
+TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
+  Scene scene(640, 360, 4, 0);
+  AnalyzerSettings settings = linear();
+  MotionAnalyzer analyzer(settings);
+  analyzer.analyze(scene.frame(0), 0);
+  analyzer.analyze(scene.frame(1), kFrame_ns);
+  // Half the speed over twice the time.
+  settings.controller.max_force_N = 1.0;
+  analyzer.configure(settings);
+  const FrameAnalysis half = analyzer.analyze(scene.frame(2), 3 * kFrame_ns);
+  // Two speeds, each of 100 px/s with the tolerance of a mean.
+  const double relative = 2 * kMeanTolerance_px / kFrame_s / 100;
+  EXPECT_NEAR(half.wrench.force_N.norm(), 0.5, 0.5 * relative);
+
+  // Another kind begins anew.
+  settings.controller.kind = ControllerKind::kNonlinear;
+  analyzer.configure(settings);
+  const FrameAnalysis nonlinear = analyzer.analyze(scene.frame(3), 4 * kFrame_ns);
+  NonlinearController controller(1.0, 0.01);
+  EXPECT_EQ(nonlinear.wrench.stacked(),
+            render_motion(controller, kReferenceHeight_px / 360 * nonlinear.motion.velocity_px_s)
+                .stacked());
+}
+
+TEST(MotionAnalyzer, BadSettingsAreRefusedAndChangeNothing) {
+  Scene scene(640, 360, 4, 0);
+  MotionAnalyzer analyzer;
+  analyzer.analyze(scene.frame(0), 0);
+  AnalyzerSettings bad;
+  bad.tracker.max_features = 5;
+  bad.controller.max_force_N = -1;
+  EXPECT_THROW(analyzer.configure(bad), std::invalid_argument);
+  EXPECT_THROW(MotionAnalyzer{bad}, std::invalid_argument);
+  EXPECT_GT(analyzer.analyze(scene.frame(1), kFrame_ns).features, 50);
+}
+
+TEST(MotionAnalyzer, ABadFrameIsRefused) {
+  MotionAnalyzer analyzer;
+  EXPECT_THROW(analyzer.analyze({}, 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace spidar

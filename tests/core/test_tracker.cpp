@@ -1,0 +1,359 @@
+// How the tracker follows points through frames with a known motion.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/opencv_tracker.h"
+#include "tests/support/ball_scene.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+using test::BallScene;
+using test::BallSettings;
+using test::Picture;
+using test::Texture;
+
+/// Pixels of the frame to one of the picture that points are followed in: the longer side becomes
+/// about 480 px.
+double reduction(int width, int height) {
+  return std::max(1.0, std::round(std::max(width, height) / 480.0));
+}
+
+/// A single displacement, px of the reduced picture. The iteration stops at steps of 0.01 px;
+/// rounding to grey levels is σ = 0.29 √2 over the gradient of about 10 levels / px and the square
+/// root of the window's 225 px: 0.003 px; the rest is the bilinear interpolation of a texture with
+/// structures of some 8 px, whose error between the pixels is up to h²/8 · f'' ≈ 1/8 · 10 · 2π/16 ≈
+/// 0.5 levels, that is 0.05 px if all of the window erred the same way.
+constexpr double kTrackTolerance_px = 0.1;
+/// The mean over a hundred of them, whose interpolation errors differ in sign.
+constexpr double kMeanTolerance_px = 0.03;
+
+class MovingTexture {
+ public:
+  MovingTexture(int width, int height, double dx_px, double dy_px, uint32_t seed = 5)
+      : picture_(width, height, 3),
+        texture_(seed, 8 * reduction(width, height)),
+        dx_px_(dx_px),
+        dy_px_(dy_px) {}
+
+  ImageView frame(int n) {
+    picture_.fill([&](double x, double y) { return texture_.at(x - n * dx_px_, y - n * dy_px_); });
+    return picture_.view();
+  }
+
+ private:
+  Picture picture_;
+  Texture texture_;
+  double dx_px_;
+  double dy_px_;
+};
+
+double dx(const Track& t) {
+  return static_cast<double>(t.to.x_px) - static_cast<double>(t.from.x_px);
+}
+double dy(const Track& t) {
+  return static_cast<double>(t.to.y_px) - static_cast<double>(t.from.y_px);
+}
+
+struct Translation {
+  int width, height;
+  double dx_px, dy_px;
+};
+
+class KnownTranslation : public testing::TestWithParam<Translation> {};
+
+TEST_P(KnownTranslation, IsFoundToAPartOfAPixel) {
+  const Translation p = GetParam();
+  const double unit = reduction(p.width, p.height);
+  MovingTexture scene(p.width, p.height, p.dx_px, p.dy_px);
+  OpenCvTracker tracker;
+  int looked_for = tracker.track(scene.frame(0)).features;
+  ASSERT_GE(looked_for, 50);
+  for (int n = 1; n <= 3; ++n) {
+    const TrackedFrame& frame = tracker.track(scene.frame(n));
+    ASSERT_FALSE(frame.restarted);
+    // All but those that leave: the share that leaves a frame is at most the displaced margin.
+    const double margin = std::abs(p.dx_px) / p.width + std::abs(p.dy_px) / p.height;
+    EXPECT_GE(static_cast<double>(frame.tracks.size()), looked_for * (0.9 - 2 * margin)) << n;
+    double sum_x = 0;
+    double sum_y = 0;
+    for (const Track& track : frame.tracks) {
+      EXPECT_NEAR(dx(track), p.dx_px, kTrackTolerance_px * unit) << track.from.x_px;
+      EXPECT_NEAR(dy(track), p.dy_px, kTrackTolerance_px * unit) << track.from.y_px;
+      sum_x += dx(track);
+      sum_y += dy(track);
+    }
+    const auto count = static_cast<double>(frame.tracks.size());
+    EXPECT_NEAR(sum_x / count, p.dx_px, kMeanTolerance_px * unit);
+    EXPECT_NEAR(sum_y / count, p.dy_px, kMeanTolerance_px * unit);
+    looked_for = frame.features;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, KnownTranslation,
+    testing::Values(Translation{640, 360, 0, 0}, Translation{640, 360, 0.25, -0.4},
+                    Translation{640, 360, 3.3, 1.7}, Translation{640, 360, -17.6, 9.2},
+                    Translation{641, 359, 2.5, -2.5}, Translation{322, 241, -1.3, 0.6},
+                    Translation{1280, 720, 5.7, -3.1}, Translation{1920, 1080, 0.9, 0.7},
+                    Translation{1080, 1920, -8.2, 6.6}),
+    [](const auto& test_case) { return "Case" + std::to_string(test_case.index); });
+
+TEST(Tracker, TheFirstFrameHasNothingToCompareWith) {
+  MovingTexture scene(640, 360, 1, 0);
+  OpenCvTracker tracker;
+  const TrackedFrame& first = tracker.track(scene.frame(0));
+  EXPECT_TRUE(first.restarted);
+  EXPECT_TRUE(first.tracks.empty());
+  EXPECT_GT(first.features, 0);
+}
+
+TEST(Tracker, APointKeepsItsIdAndStartsWhereItEnded) {
+  MovingTexture scene(640, 360, 1.5, 0.5);
+  OpenCvTracker tracker;
+  tracker.track(scene.frame(0));
+  std::map<uint32_t, ImagePoint> last;
+  for (int n = 1; n <= 12; ++n) {
+    const TrackedFrame& frame = tracker.track(scene.frame(n));
+    std::map<uint32_t, ImagePoint> now;
+    size_t known = 0;
+    for (const Track& track : frame.tracks) {
+      EXPECT_TRUE(now.insert({track.id, track.to}).second) << "id twice: " << track.id;
+      const auto before = last.find(track.id);
+      if (before == last.end()) continue;
+      ++known;
+      EXPECT_EQ(before->second.x_px, track.from.x_px);
+      EXPECT_EQ(before->second.y_px, track.from.y_px);
+    }
+    if (n > 1) {
+      EXPECT_GE(known * 2, frame.tracks.size()) << n;
+    }
+    last = now;
+  }
+}
+
+TEST(Tracker, PointsThatLeaveTheFrameAreDroppedNotStill) {
+  constexpr double kSpeed_px = 25;
+  MovingTexture scene(640, 360, kSpeed_px, 0);
+  OpenCvTracker tracker;
+  int looked_for = tracker.track(scene.frame(0)).features;
+  int dropped = 0;
+  for (int n = 1; n <= 8; ++n) {
+    const TrackedFrame& frame = tracker.track(scene.frame(n));
+    dropped += looked_for - static_cast<int>(frame.tracks.size());
+    for (const Track& track : frame.tracks) {
+      EXPECT_NEAR(dx(track), kSpeed_px, kTrackTolerance_px) << n << " from " << track.from.x_px;
+      EXPECT_LE(track.to.x_px, 639);
+    }
+    looked_for = frame.features;
+  }
+  // A strip of 25 of 640 px leaves with each frame.
+  EXPECT_GE(dropped, 8);
+}
+
+TEST(Tracker, ACutRestartsAndTheNextFrameIsFollowedAgain) {
+  MovingTexture scene(640, 360, 2, 1, 5);
+  MovingTexture other(640, 360, -3, 1, 99);
+  OpenCvTracker tracker;
+  tracker.track(scene.frame(0));
+  EXPECT_FALSE(tracker.track(scene.frame(1)).restarted);
+  const TrackedFrame& cut = tracker.track(other.frame(2));
+  EXPECT_TRUE(cut.restarted);
+  EXPECT_TRUE(cut.tracks.empty());
+  EXPECT_GT(cut.features, 100);
+  const TrackedFrame& after = tracker.track(other.frame(3));
+  EXPECT_FALSE(after.restarted);
+  ASSERT_GE(after.tracks.size(), 50u);
+  for (const Track& track : after.tracks) EXPECT_NEAR(dx(track), -3, kTrackTolerance_px);
+}
+
+TEST(Tracker, ACutToAFlatPictureAndBackIsNoMotion) {
+  MovingTexture scene(640, 360, 2, 1);
+  Picture black(640, 360);
+  black.fill([](double, double) { return 16.0; });
+  OpenCvTracker tracker;
+  tracker.track(scene.frame(0));
+  tracker.track(scene.frame(1));
+  for (int n = 0; n < 3; ++n) {
+    const TrackedFrame& frame = tracker.track(black.view());
+    EXPECT_TRUE(frame.tracks.empty());
+    EXPECT_EQ(frame.features, 0);
+    EXPECT_EQ(frame.restarted, n == 0);
+  }
+  EXPECT_TRUE(tracker.track(scene.frame(2)).tracks.empty());
+}
+
+TEST(Tracker, AnotherSizeRestarts) {
+  MovingTexture large(640, 360, 1, 0);
+  MovingTexture small(320, 180, 1, 0);
+  OpenCvTracker tracker;
+  tracker.track(large.frame(0));
+  EXPECT_FALSE(tracker.track(large.frame(1)).restarted);
+  const TrackedFrame& frame = tracker.track(small.frame(0));
+  EXPECT_TRUE(frame.restarted);
+  EXPECT_TRUE(frame.tracks.empty());
+  const TrackedFrame& next = tracker.track(small.frame(1));
+  EXPECT_FALSE(next.restarted);
+  for (const Track& track : next.tracks) EXPECT_NEAR(dx(track), 1, kTrackTolerance_px);
+}
+
+TEST(Tracker, RestartForgetsTheFrameBefore) {
+  MovingTexture scene(640, 360, 4, 0);
+  OpenCvTracker tracker;
+  tracker.track(scene.frame(0));
+  tracker.restart();
+  const TrackedFrame& frame = tracker.track(scene.frame(1));
+  EXPECT_TRUE(frame.restarted);
+  EXPECT_TRUE(frame.tracks.empty());
+  EXPECT_FALSE(tracker.track(scene.frame(2)).tracks.empty());
+}
+
+/// Tracks that begin on the ball and follow it.
+int on_ball(const TrackedFrame& frame, const BallScene& scene, double t0_s, double t1_s) {
+  const Eigen::Vector2d centre = scene.position_px(t0_s);
+  const Eigen::Vector2d moved = scene.position_px(t1_s) - centre;
+  return static_cast<int>(
+      std::count_if(frame.tracks.begin(), frame.tracks.end(), [&](const Track& t) {
+        const Eigen::Vector2d from(static_cast<double>(t.from.x_px),
+                                   static_cast<double>(t.from.y_px));
+        return (from - centre).norm() < scene.settings().radius_px &&
+               (Eigen::Vector2d(dx(t), dy(t)) - moved).norm() < 2 * kTrackTolerance_px;
+      }));
+}
+
+/// The most tracks on a ball that has just come in from the left.
+int found_on_entering_ball(uint32_t seed, bool textured_background) {
+  BallSettings settings;
+  settings.seed = seed;
+  settings.textured_background = textured_background;
+  settings.radius_px = 70;
+  settings.start_px = {-160, 180};
+  settings.horizontal_px_s = 240;
+  settings.floor_px = 251;
+  const BallScene scene(settings);
+  Picture picture(settings.width, settings.height);
+  OpenCvTracker tracker;
+  constexpr double kFrame_s = 1.0 / 30;
+  int most = 0;
+  // The ball is wholly inside after 230 px, 29 frames. Points are selected every 5 frames at the
+  // latest, and followed from the next on.
+  for (int n = 0; n <= 29 + 6; ++n) {
+    scene.render(n * kFrame_s, picture.pixels.data(), picture.stride);
+    const TrackedFrame& frame = tracker.track(picture.view());
+    if (n > 0) most = std::max(most, on_ball(frame, scene, (n - 1) * kFrame_s, n * kFrame_s));
+  }
+  return most;
+}
+
+TEST(Tracker, AnObjectThatEntersAnEmptyPictureIsFound) {
+  // A disc of 70 px has room for some hundred points 7.5 px apart.
+  EXPECT_GE(found_on_entering_ball(1, false), 50);
+}
+
+TEST(Tracker, AnObjectThatEntersAFullPictureGetsItsShareOfThePoints) {
+  // All 200 points are taken when it comes. Away from its edge it covers 60² π of 626 × 346 px, 5.2
+  // % or 10 points if all textures were equally strong: half of that on average over six textures,
+  // and at least one on the weakest.
+  int sum = 0;
+  for (uint32_t seed = 1; seed <= 6; ++seed) {
+    const int found = found_on_entering_ball(seed, true);
+    EXPECT_GE(found, 1) << "seed " << seed;
+    sum += found;
+  }
+  EXPECT_GE(sum, 6 * 5);
+}
+
+TEST(Tracker, IndependentNoiseIsNotMotion) {
+  std::mt19937 random(17);
+  for (const double sigma : {2.0, 8.0, 30.0}) {
+    std::normal_distribution<double> noise(128, sigma);
+    Picture picture(640, 360);
+    OpenCvTracker tracker;
+    int looked_for = 0;
+    for (int n = 0; n < 12; ++n) {
+      picture.fill([&](double, double) { return std::min(255.0, std::max(0.0, noise(random))); });
+      const TrackedFrame& frame = tracker.track(picture.view());
+      // What is found again by chance is less than what makes a cut.
+      EXPECT_TRUE(frame.tracks.size() * 10 <= static_cast<size_t>(looked_for))
+          << "seed 17, sigma " << sigma << ", frame " << n << ": " << frame.tracks.size() << " of "
+          << looked_for;
+      looked_for = frame.features;
+    }
+  }
+}
+
+TEST(Tracker, SettingsTakeEffectWithTheNextFrame) {
+  MovingTexture scene(640, 360, 1, 0);
+  TrackerSettings settings;
+  OpenCvTracker tracker(settings);
+  EXPECT_EQ(tracker.track(scene.frame(0)).features, 200);
+  settings.max_features = 20;
+  tracker.configure(settings);
+  EXPECT_EQ(tracker.track(scene.frame(1)).features, 20);
+  settings.max_features = 100;
+  tracker.configure(settings);
+  const TrackedFrame& more = tracker.track(scene.frame(2));
+  EXPECT_EQ(more.features, 100);
+  EXPECT_LE(more.tracks.size(), 20u);
+  EXPECT_GE(more.tracks.size(), 15u);
+}
+
+TEST(Tracker, RefusesSettingsOutOfRange) {
+  OpenCvTracker tracker;
+  const double nan = std::nan("");
+  for (const TrackerSettings& bad : {TrackerSettings{0, 0.01, 10}, TrackerSettings{10001, 0.01, 10},
+                                     TrackerSettings{200, -0.1, 10}, TrackerSettings{200, 1.1, 10},
+                                     TrackerSettings{200, nan, 10}, TrackerSettings{200, 0.01, -1},
+                                     TrackerSettings{200, 0.01, nan}}) {
+    EXPECT_THROW(tracker.configure(bad), std::invalid_argument);
+    EXPECT_THROW(OpenCvTracker{bad}, std::invalid_argument);
+  }
+}
+
+TEST(Tracker, RefusesAFrameThatIsNone) {
+  OpenCvTracker tracker;
+  const Picture picture(64, 64);
+  EXPECT_THROW(tracker.track({nullptr, 64, 64, 64}), std::invalid_argument);
+  EXPECT_THROW(tracker.track({picture.pixels.data(), 15, 64, 64}), std::invalid_argument);
+  EXPECT_THROW(tracker.track({picture.pixels.data(), 64, 0, 64}), std::invalid_argument);
+  EXPECT_THROW(tracker.track({picture.pixels.data(), 64, 64, 63}), std::invalid_argument);
+}
+
+TEST(Tracker, WorksFromTheSmallestFrameToTheLargest) {
+  struct Size {
+    int width, height;
+  };
+  for (const Size size : {Size{16, 16}, Size{17, 31}, Size{8192, 16}, Size{16, 8192}, Size{481, 17},
+                          Size{8192, 8192}}) {
+    Picture picture(size.width, size.height);
+    // Cells of 3 px of the reduced picture; drawn once, since the largest has 67 million pixels.
+    const double cell_px = 3 * std::max(1.0, std::min(size.width, size.height) / 480.0);
+    const Texture texture(4, cell_px);
+    if (size.width * size.height < 1'000'000) {
+      picture.fill([&](double x, double y) { return texture.at(x, y); });
+    } else {
+      picture.fill([](double x, double y) { return std::fmod(x * y / 4096, 200); });
+    }
+    OpenCvTracker tracker;
+    EXPECT_TRUE(tracker.track(picture.view()).restarted);
+    const TrackedFrame& frame = tracker.track(picture.view());
+    EXPECT_FALSE(frame.restarted) << size.width << "x" << size.height;
+    EXPECT_GE(frame.tracks.size(), 1u) << size.width << "x" << size.height;
+    for (const Track& track : frame.tracks) {
+      EXPECT_NEAR(dx(track), 0, 1e-3);
+      EXPECT_NEAR(dy(track), 0, 1e-3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spidar
