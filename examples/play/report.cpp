@@ -41,7 +41,7 @@ std::string to_text(const GValue* value) {
   if (G_VALUE_HOLDS_STRING(value)) return g_value_get_string(value);
   char text[32];
   if (G_VALUE_HOLDS_DOUBLE(value)) {
-    std::snprintf(text, sizeof(text), "%.4g", g_value_get_double(value));
+    std::snprintf(text, sizeof(text), "%.5g", g_value_get_double(value));
     return text;
   }
   char* const serialized = gst_value_serialize(value);
