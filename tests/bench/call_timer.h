@@ -45,7 +45,6 @@ inline double quantile(std::vector<double> values, double q) {
 }
 
 /// Nanoseconds of each of `count` calls of call(0), call(1), …; before each pass begin() is called.
-/// Call 0 is left out of the first pass' timing only by the median.
 template <typename Begin, typename Call>
 std::vector<double> time_calls(size_t count, int passes, Begin begin, Call call) {
   std::vector<std::vector<double>> samples(count);
