@@ -46,7 +46,7 @@ struct OpenCvTracker::Impl {
   int height = 0;
   FlowPyramid before;
   FlowPyramid now;
-  cv::Mat response;
+  cv::Mat response;               // buffer of the selection
   std::vector<Feature> features;  // in the reduced picture
   uint32_t next_id = 0;
   size_t selected = 0;  // points after the last selection
