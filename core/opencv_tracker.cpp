@@ -1,6 +1,5 @@
 #include "core/opencv_tracker.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -39,31 +38,15 @@ void require_usable(const ImageView& frame) {
 
 }  // namespace
 
-void validate(const TrackerSettings& settings) {
-  constexpr int kMostFeatures = 10000;
-  if (settings.max_features < 1 || settings.max_features > kMostFeatures) {
-    throw std::invalid_argument("max_features must be 1 to " + std::to_string(kMostFeatures) +
-                                ", got " + std::to_string(settings.max_features));
-  }
-  if (!(settings.quality_level >= 0 && settings.quality_level <= 1)) {
-    throw std::invalid_argument("quality_level must be 0 to 1, got " +
-                                std::to_string(settings.quality_level));
-  }
-  if (!std::isfinite(settings.min_distance_px) || settings.min_distance_px < 0) {
-    throw std::invalid_argument("min_distance_px must be finite and not negative, got " +
-                                std::to_string(settings.min_distance_px));
-  }
-}
-
 struct OpenCvTracker::Impl {
   TrackerSettings settings;
   bool settings_changed = false;
 
   int width = 0;  // of the frame before; 0: there is none
   int height = 0;
-  cv::Mat reduced;
   FlowPyramid before;
   FlowPyramid now;
+  cv::Mat response;               // buffer of the selection
   std::vector<Feature> features;  // in the reduced picture
   uint32_t next_id = 0;
   size_t selected = 0;  // points after the last selection
@@ -85,6 +68,7 @@ void OpenCvTracker::Impl::track(const ImageView& frame) {
   height = frame.height;
 
   std::swap(before, now);
+  cv::Mat reduced;
   reduce_luma(frame, factor, reduced);
   build_pyramid(reduced, now);
 
@@ -135,7 +119,7 @@ void OpenCvTracker::Impl::select(int factor) {
   selection.quality_level = settings.quality_level;
   selection.min_distance_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
   selection.border_px = follow_border_px(now[0]);
-  select_features(now[0], selection, features, next_id);
+  select_features(now[0], selection, response, features, next_id);
   selected = features.size();
   frames_since_selection = 0;
   settings_changed = false;

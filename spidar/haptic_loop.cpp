@@ -68,9 +68,6 @@ void HapticLoop::energise() noexcept {
 void HapticLoop::lose() noexcept {
   ++counters_.times_lost;
   state_ = DeviceState::kLost;
-  energised_ = 0;
-  located_ = false;
-  safety_.reset();
 }
 
 bool HapticLoop::released() const noexcept {
@@ -83,7 +80,6 @@ void HapticLoop::close() noexcept {
   if (state_ == DeviceState::kClosed) return;
   device_.close();
   state_ = DeviceState::kClosed;
-  energised_ = 0;
   LoopSnapshot closed{{}, counters_};
   closed.last.tick = counters_.ticks;
   closed.last.monotonic_ns = last_now_ns_;
@@ -132,17 +128,16 @@ void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
   const uint32_t generation = generation_.load(std::memory_order_acquire);
   if (generation != timeline_generation_) forget_timeline(generation);
   while (const Scheduled* next = scheduled_.front()) {
-    // Signed, for the number wraps round.
-    const auto age = static_cast<int32_t>(next->generation - timeline_generation_);
-    if (age > 0) forget_timeline(next->generation);
-    if (age >= 0) {
-      const bool due = timeline_.size() == 0 || newest_ns_ - kHorizon_ns <= running_ns;
-      if (!playing || !due) return;
+    if (next->generation == timeline_generation_) {
+      const bool soon = timeline_.size() == 0 || newest_ns_ - kHorizon_ns <= running_ns;
+      if (!playing || !soon) return;
       if (timeline_.push(next->entry)) {
         newest_ns_ = next->entry.time_ns;
       } else {
         ++counters_.refused_wrenches;
       }
+    } else if (static_cast<int32_t>(next->generation - timeline_generation_) > 0) {
+      return;  // flushed just now: for the next tick. Signed, for the number wraps round.
     }
     scheduled_.drop();
   }

@@ -1,4 +1,28 @@
 /// From a profile file's text to a Profile; looking files up is in profile.h.
+///
+/// A profile is TOML. All keys but `source` and `note` must be there, others must not:
+///
+///     description = "…"           one line
+///     board = "uart"              usb-sh4, usb-simple, uart, ahs, unknown
+///     dac_bits = 12               8 … 24
+///     dac_max_V = 3.3
+///     [geometry]
+///     frame = "left-handed"       x right, y up, z away from the user; "right-handed": z towards
+///     unit = "mm"                 or "m"
+///     exit = [[x, y, z], …]       6 to 8 strings, in the order of the board's channels
+///     grip = [[x, y, z], …]       as many, relative to the grip's origin, grip not turned
+///     [strings]                   each one number for all strings or an array of one for each
+///     min_tension_N = 0.3
+///     max_tension_N = 6           within newtons_per_volt · dac_max_V
+///     newtons_per_volt = 12.5     above zero: signs are below
+///     metres_per_count = 2.25e-5  above zero
+///     motor_sign = [1, …]         an array: 1 where a positive voltage pulls, else -1
+///     encoder_sign = [1, …]       an array: 1 where the count rises as string is paid out, else -1
+///     [[source]]                  where numbers are from; any number of these
+///     fields = ["geometry", …]
+///     source = "…"
+///     evidence = "published"      inferred, contradicted
+///     note = "…"
 #pragma once
 
 #include <string>
@@ -7,10 +31,8 @@
 
 namespace spidar {
 
-/// Reads and checks one profile. `text` is TOML, `path` is only for messages, `name` becomes
-/// Profile::name. Every key is known, every number finite and in its range, every table as long as
-/// there are strings. Tables in the left-handed frame (x right, y up, z away from the user) are
-/// turned into D by z → −z. Throws ProfileError.
+/// Reads and checks one profile. `path` is only for messages, `name` becomes Profile::name.
+/// Left-handed tables are turned into D by z → −z. Throws ProfileError.
 Profile parse_profile(const std::string& text, const std::string& path, const std::string& name);
 
 }  // namespace spidar

@@ -2,6 +2,7 @@
 // at the point.
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 #include <vector>
 
@@ -51,6 +52,16 @@ TEST(FeatureSelection, AFlatPictureHasNone) {
     EXPECT_TRUE(again.tracks.empty());
     EXPECT_FALSE(again.restarted);
   }
+}
+
+TEST(FeatureSelection, RoundingNoiseHasNone) {
+  // What a flat grey between two levels looks like after dithering: relative to its strongest
+  // corner all of it is corners.
+  Picture picture(640, 360);
+  std::mt19937 random(23);
+  picture.fill([&](double, double) { return 128.0 + static_cast<double>(random() & 1u); });
+  OpenCvTracker tracker;
+  EXPECT_EQ(tracker.track(picture.view()).features, 0) << "seed 23";
 }
 
 TEST(FeatureSelection, ARampHasNone) {
@@ -115,6 +126,15 @@ TEST(FeatureSelection, KeepsTheMinimumDistanceOfTheReferenceFrame) {
       EXPECT_GE(nearest, min_distance_px * size.height / kReferenceHeight_px - 1e-3)
           << size.width << "x" << size.height << ", distance " << min_distance_px;
     }
+  }
+}
+
+TEST(FeatureSelection, AnyMinimumDistanceLeavesOnePoint) {
+  const Picture picture = textured(640, 360);
+  for (const double min_distance_px : {1e3, 1e9, 1e300}) {
+    TrackerSettings settings;
+    settings.min_distance_px = min_distance_px;
+    EXPECT_EQ(selected(picture, settings).size(), 1u) << min_distance_px;
   }
 }
 

@@ -193,14 +193,13 @@ TEST(GripModel, ModelThatIsNotPhysicalIsRefused) {
 TEST_P(EveryProfile, EnergyDoesNotGrow) {
   const Profile profile = load_profile(GetParam());
   const StringVector pull_N = profile.max_tension_N();
-  // As it is, without dampers, with hard ones, and in a grasp so stiff that steps of a millisecond
-  // would be unstable (ω = 5500 1/s).
+  // Ten seconds without dampers; with usual and hard ones, which bring it to rest in less than one;
+  // and in a grasp so stiff that steps of a millisecond would be unstable (ω = 5500 1/s).
   struct Grasp {
     double stiffness, damping;
     int ticks;
   };
-  for (const Grasp& grasp :
-       {Grasp{1, 1, 10'000}, {1, 0, 10'000}, {1, 1e4, 10'000}, {1e4, 0, 500}}) {
+  for (const Grasp& grasp : {Grasp{1, 0, 10'000}, {1, 1, 1000}, {1, 1e4, 1000}, {1e4, 0, 500}}) {
     SCOPED_TRACE("stiffness × " + std::to_string(grasp.stiffness) + ", damping × " +
                  std::to_string(grasp.damping));
     GripModel model;

@@ -1,4 +1,7 @@
 /// The loop and its device: opening, closing, losing it, and where the grip is.
+#include <cmath>
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "spidar/simulated_device.h"
@@ -77,6 +80,7 @@ TEST(HapticLoopDevice, ClosesAtZeroVoltsWithinATenthOfASecond) {
     ASSERT_LT(driver.now_ns, begin + 100 * kMs);
   }
   EXPECT_EQ(driver.loop->snapshot().last.device, DeviceState::kClosing);
+  EXPECT_EQ(driver.loop->snapshot().last.commanded.stacked().norm(), 0);
   EXPECT_EQ(largest_volt(driver.log().last_volts), 0);
   // A product of two linear ramps (the wrench's in 40 ms, the power's in 50 ms) never falls faster
   // than the sum of their rates.
@@ -161,9 +165,12 @@ TEST(HapticLoopDevice, UnknownPoseRampsToRest) {
   push(driver);
   ASSERT_EQ(driver.run(100 * kMs).commanded.force_N.x(), 1);
   const Pose before = driver.loop->snapshot().last.pose;
-  // One string half a metre longer than it can be: no pose explains that.
-  const StringDrive& drive = driver.profile.drives[0];
-  driver.log().count[0] = drive.encoder_sign * static_cast<int32_t>(0.5 / drive.metres_per_count);
+  // Two strings half a metre longer than they can be: no pose explains that, without one of them or
+  // not.
+  for (size_t i : {0, 5}) {
+    const StringDrive& drive = driver.profile.drives[i];
+    driver.log().count[i] = drive.encoder_sign * static_cast<int32_t>(0.5 / drive.metres_per_count);
+  }
   // The tick that reads it, and those until the last good pose is too old.
   TickRecord record = driver.run(HapticLoop::kPoseTimeout_ns);
   EXPECT_EQ(record.commanded.force_N.x(), 1);
@@ -172,8 +179,59 @@ TEST(HapticLoopDevice, UnknownPoseRampsToRest) {
   EXPECT_EQ(driver.run(45 * kMs).commanded.stacked().norm(), 0);
   EXPECT_GT(driver.counters().pose_errors, 0u);
 
-  driver.log().count[0] = 0;
+  driver.log().count[0] = driver.log().count[5] = 0;
   EXPECT_EQ(driver.run(100 * kMs).commanded.force_N.x(), 1);
+}
+
+/// Counts of a grip that is there.
+void put_grip(LoopDriver& driver, const Pose& pose) {
+  const StringGeometry& geometry = driver.profile.geometry;
+  const StringVector change_m = string_lengths_m(geometry, pose) - string_lengths_m(geometry, {});
+  for (int i = 0; i < geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    const StringDrive& drive = driver.profile.drives[k];
+    driver.log().count[k] = drive.encoder_sign *
+                            static_cast<int32_t>(std::lround(change_m[i] / drive.metres_per_count));
+  }
+}
+
+TEST(HapticLoopDevice, FindsAGripThatWasLostFromTheCentre) {
+  constexpr int kSeed = 5;
+  std::mt19937_64 random(kSeed);
+  const auto any = [&](double most) {
+    return std::uniform_real_distribution<double>(-most, most)(random);
+  };
+  const auto any_pose = [&] {
+    const Eigen::AngleAxisd turn(any(1.4), Eigen::Vector3d(any(1), any(1), any(1)).normalized());
+    return Pose{{any(0.04), any(0.04), any(0.04)}, Eigen::Quaterniond(turn)};
+  };
+  LoopDriver driver;
+  const StringGeometry& geometry = driver.profile.geometry;
+  const auto finds = [&](const Pose& from, const Pose& to) {
+    PoseSolver solver(geometry);
+    solver.reset(from);
+    return solver.solve(string_lengths_m(geometry, to)).status == PoseStatus::kSolved;
+  };
+  // Two poses of which the search from one does not lead to the other; about one pair in 20.
+  Pose first, second;
+  int tries = 0;
+  do {
+    if (++tries > 2000) GTEST_SKIP() << "the solver finds every pose from every other";
+    first = any_pose();
+    second = any_pose();
+  } while (finds(first, second) || !finds({}, first) || !finds({}, second));
+
+  driver.open();
+  put_grip(driver, first);
+  driver.tick();
+  ASSERT_EQ(driver.counters().pose_errors, 0u);
+  put_grip(driver, second);
+  driver.run(HapticLoop::kPoseTimeout_ns);
+  ASSERT_GT(driver.counters().pose_errors, 0u);
+  EXPECT_LE((driver.loop->snapshot().last.pose.position_m - first.position_m).norm(), 1e-3);
+  driver.run(3 * kMs);
+  // Far below the distance of the two, far above a count.
+  EXPECT_LE((driver.loop->snapshot().last.pose.position_m - second.position_m).norm(), 1e-3);
 }
 
 TEST(HapticLoopDevice, KnowsWhereTheGripIs) {
@@ -186,13 +244,18 @@ TEST(HapticLoopDevice, KnowsWhereTheGripIs) {
   hand.orientation = Eigen::AngleAxisd(0.2, Eigen::Vector3d(1, 2, 2) / 3);
   device.set_hand(hand);
   int64_t now = 0;
+  TickRecord before;
   for (int i = 0; i < 1000; ++i) {
+    before = loop->snapshot().last;
     now += kTick_ns;
     loop->tick(now, now);
   }
   const TickRecord record = loop->snapshot().last;
   EXPECT_EQ(record.device, DeviceState::kRunning);
   EXPECT_EQ(loop->snapshot().counters.pose_errors, 0u);
+  // What the strings do there, with W of the reading before this tick's.
+  const StructureMatrix used = structure_matrix(profile.geometry, before.pose);
+  EXPECT_LE((used * record.tension_N - record.delivered.stacked()).norm(), 1e-12);
   EXPECT_GT(record.pose.position_m.norm(), 0.005);
   // Each length is read within half a count. The pose is their least-squares fit, so its error is
   // at most |pinv(Wᵀ)| times that of the lengths (rows of Wᵀ are the derivatives of the lengths).
