@@ -54,7 +54,7 @@ case ${1-} in
     build_and_test build
     ;;
 --ci)
-    install_packages build play ci
+    install_packages build ci
     check_layout
     build_and_test build-ci --werror
     say "address sanitizer: GLib's table of quarks is left out, which it never frees; plugins are read" \
