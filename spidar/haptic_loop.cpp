@@ -16,7 +16,7 @@ HapticLoop::HapticLoop(const Profile& profile, Device& device, const SafetyLimit
       shared_limits_(limits),
       limits_(limits),
       tension_slew_(profile),
-      pose_solver_(profile.geometry) {
+      pose_solver_(profile.geometry, profile.max_pose_residual_m()) {
   problem_.count = profile_.geometry.count;
   problem_.t_min_N = profile_.min_tension_N();
   problem_.t_max_N = profile_.max_tension_N();
@@ -61,6 +61,7 @@ void HapticLoop::energise() noexcept {
   errors_in_a_row_ = 0;
   located_ = false;
   pose_ = {};
+  faulty_string_ = -1;
   pose_solver_.reset();
   tension_solver_.reset();
   safety_.reset();
@@ -117,6 +118,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   record.device = state_;
   record.pose = pose_;
   record.pose_residual_m = pose_residual_m_;
+  record.faulty_string = faulty_string_;
   publish(record);
 }
 
@@ -215,6 +217,9 @@ void HapticLoop::locate(const DeviceReading& reading, int64_t now_ns) noexcept {
   const PoseResult result = pose_solver_.solve(lengths_m);
   pose_residual_m_ = result.residual_m;
   if (result.status == PoseStatus::kSolved) {
+    if (result.faulty_string >= 0 && result.faulty_string != faulty_string_)
+      ++counters_.string_faults;
+    faulty_string_ = result.faulty_string;
     pose_ = result.pose;
     located_ = true;
     located_ns_ = now_ns;

@@ -147,6 +147,7 @@ class SPIDAR_API HapticLoop {
   int errors_in_a_row_ = 0;
   Pose pose_;
   double pose_residual_m_ = 0;
+  int faulty_string_ = -1;
   bool located_ = false;  // pose_ is of this device since it was opened
   int64_t located_ns_ = 0;
   bool ticked_ = false;
