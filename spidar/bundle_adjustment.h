@@ -24,6 +24,15 @@ enum class Adjust { kPoses, kAll };
 void adjust(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m,
             double sigma_m, Adjust what, int max_iterations, Bundle& bundle);
 
+/// How far the parameters of `bundle`, which fits `paid_out_m` best, are off on average because the
+/// poses are as noisy as the lengths: least squares with a pose for each sample is biased by the
+/// noise squared, however many samples there are. By a parametric bootstrap (Efron and Tibshirani
+/// 1993, ch. 10) with noise of `sigma_m` and its opposite, whose first-order effects cancel;
+/// seeded, so that a result can be had again.
+Eigen::VectorXd noise_bias(const CalibrationModel& model,
+                           const std::vector<StringVector>& paid_out_m, double sigma_m,
+                           int max_iterations, const Bundle& bundle);
+
 /// √5.99: exceeded by 5 % of the good samples, whose squared error is χ² with two degrees of
 /// freedom in units of σ².
 inline constexpr double kHuber = 2.448;

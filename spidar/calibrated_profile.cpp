@@ -37,13 +37,13 @@ Profile calibrated_profile(const Profile& profile, const CalibrationResult& resu
   const std::string note =
       shown(result.samples) + " samples, residual " + shown(1e6 * result.residual_m) + " um";
   replace_provenance("home_offset_m", how, note, calibrated.provenance);
-  if (result.scale_sd > 0) {
+  if (result.estimated.free_scale) {
     record.scale_sd = result.scale_sd;
     replace_provenance("metres_per_count", how, note, calibrated.provenance);
   }
-  if (!result.exit_sd_m[0].isZero(0)) {
-    record.exit_sd_m.assign(result.exit_sd_m.begin(),
-                            result.exit_sd_m.begin() + static_cast<std::ptrdiff_t>(count));
+  if (result.estimated.free_exits) {
+    for (int i = 0; i < profile.geometry.count; ++i)
+      record.exit_sd_m.push_back(result.exit_sd_m.col(i));
     replace_provenance("geometry", how, "exits; " + note, calibrated.provenance);
   }
   calibrated.calibration = record;

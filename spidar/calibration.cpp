@@ -71,6 +71,13 @@ void refine(double floor_m, Fit& fit) {
   }
 }
 
+void remove_bias(double noise_m, double floor_m, Fit& fit) {
+  fit.bundle.parameters -=
+      noise_bias(fit.model, fit.lengths_m, noise_m, kMaxIterations, fit.bundle);
+  adjust(fit.model, fit.lengths_m, fit.sigma_m, Adjust::kPoses, kMaxIterations, fit.bundle);
+  fit.look_at_errors(floor_m);
+}
+
 /// The largest coefficients of a combination of named quantities.
 std::string combination_text(const CalibrationModel& model, const Eigen::VectorXd& coefficients) {
   const Eigen::VectorXd hundredths = (100 * coefficients).array().round().matrix();
@@ -114,8 +121,17 @@ bool find_observable(const Fit& fit, CalibrationResult& result) {
   if (model.scale_row() >= 0) result.scale_sd = sd[model.scale_row()] / model.mean_length_m();
   if (model.exit_row() >= 0)
     for (int i = 0; i < model.strings(); ++i)
-      result.exit_sd_m[static_cast<size_t>(i)] = sd.segment<3>(model.exit_row() + 3 * i);
+      result.exit_sd_m.col(i) = sd.segment<3>(model.exit_row() + 3 * i);
   return motion_suffices;
+}
+
+void describe_parameters(const Fit& fit, CalibrationResult& result) {
+  const Eigen::VectorXd& parameters = fit.bundle.parameters;
+  const StringGeometry geometry = fit.model.geometry(parameters);
+  result.home_offset_m = fit.model.home_offset_m(parameters);
+  result.scale = fit.model.scale(parameters);
+  result.exit_m = geometry.exit_m;
+  result.cleared_at = pose_at_zero_count(geometry, result.home_offset_m);
 }
 
 void describe_motion(const std::vector<Pose>& poses, CalibrationResult& result) {
@@ -149,29 +165,27 @@ bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
 CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
                             const CalibrationSettings& settings) {
   check_samples(profile, counts, kMinStrings);
-  const double rounding_m = rounding_sd_m(profile);
-
   // Offsets alone first: a wrong start is much further away than exits and scale are wrong.
   const CalibrationModel offsets_only(profile, {});
   const std::vector<StringVector> lengths_m = distinct_lengths_m(offsets_only, counts);
+  const double rounding_m = rounding_sd_m(
+      profile, static_cast<double>(counts.rows()) / static_cast<double>(lengths_m.size()));
   const CalibrationModel model(profile, settings);
   Fit fit{model, lengths_m, find_bundle(offsets_only, lengths_m, rounding_m), 0, {}, {}, {}};
   fit.bundle.parameters.conservativeResizeLike(Eigen::VectorXd::Zero(model.size()));
   refine(rounding_m, fit);
 
   CalibrationResult result;
-  result.home_offset_m = model.home_offset_m(fit.bundle.parameters);
-  result.scale = model.scale(fit.bundle.parameters);
-  const StringGeometry geometry = model.geometry(fit.bundle.parameters);
-  result.exit_m = geometry.exit_m;
-  result.cleared_at = pose_at_zero_count(geometry, result.home_offset_m);
+  result.estimated = settings;
   result.length_noise_m = fit.noise_m(rounding_m);
+  const bool motion_suffices = find_observable(fit, result);
+  if (motion_suffices) remove_bias(result.length_noise_m, rounding_m, fit);
+  describe_parameters(fit, result);
+  describe_motion(fit.bundle.poses, result);
   const Eigen::ArrayXd outliers = (fit.norms_m.array() > kOutlier * fit.sigma_m).cast<double>();
   result.outlier_share = outliers.mean();
   describe_errors(fit, result);
-  describe_motion(fit.bundle.poses, result);
 
-  const bool motion_suffices = find_observable(fit, result);
   if (contradicts(fit, outliers)) {
     result.status = CalibrationStatus::kContradiction;
   } else if (!motion_suffices) {

@@ -44,6 +44,7 @@ struct UndeterminedCombination {
 
 struct CalibrationResult {
   CalibrationStatus status = CalibrationStatus::kContradiction;
+  CalibrationSettings estimated;  ///< what was asked for besides the offsets
 
   /// Length at zero count minus length at the centre, as in StringDrive::home_offset_m; the latter
   /// of the exits below.
@@ -58,7 +59,8 @@ struct CalibrationResult {
   /// wrong geometry, count for what they are.
   StringVector home_offset_sd_m = StringVector::Zero();
   double scale_sd = 0;
-  std::array<Eigen::Vector3d, kMaxStrings> exit_sd_m{};
+  Eigen::Matrix<double, 3, kMaxStrings> exit_sd_m =
+      Eigen::Matrix<double, 3, kMaxStrings>::Zero();  ///< a column for each string
 
   /// Where the grip was when the counters were zero.
   Pose cleared_at;

@@ -1,5 +1,6 @@
 #include "spidar/calibration_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -13,6 +14,7 @@ namespace {
 // Over so short a way a string's length is linear in the pose to 0.3^2/(8*36) mm = 0.3 µm for the
 // smallest of the devices.
 constexpr double kSameLength_m = 0.3e-3;
+constexpr double kMaxAveraged = 4;
 
 }  // namespace
 
@@ -37,11 +39,11 @@ void check_samples(const Profile& profile, const CountSamples& counts, int min_s
                                     ": the count is " + shown(counts(k, i)) + ", must be finite");
 }
 
-double rounding_sd_m(const Profile& profile) {
+double rounding_sd_m(const Profile& profile, double averaged) {
   double sum = 0;
   for (int i = 0; i < profile.geometry.count; ++i)
     sum += profile.drives[static_cast<size_t>(i)].metres_per_count;
-  return sum / profile.geometry.count / std::sqrt(12.0);
+  return sum / profile.geometry.count / std::sqrt(12 * std::min(averaged, kMaxAveraged));
 }
 
 std::vector<StringVector> distinct_lengths_m(const CalibrationModel& model,

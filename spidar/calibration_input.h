@@ -13,8 +13,10 @@ namespace spidar {
 /// Throws std::invalid_argument that says what is wrong with the samples.
 void check_samples(const Profile& profile, const CountSamples& counts, int min_strings);
 
-/// Standard deviation of a length that is rounded to counts, the mean of all strings.
-double rounding_sd_m(const Profile& profile);
+/// Standard deviation of a length that is rounded to counts, the mean of all strings, when
+/// `averaged` of them are averaged: less by the root of that if the grip moves in between, which is
+/// trusted up to four.
+double rounding_sd_m(const Profile& profile, double averaged);
 
 /// Change of lengths since zero count, neighbours that are the same to a third of a millimetre
 /// averaged: a grip that stands still tells one thing, however often it is read, and neither noise

@@ -183,8 +183,10 @@ CalibrationRecord read_calibration(const TomlField& in, int count) {
   if (!in.has("exit_sd_m")) return record;
   const TomlField exits = in["exit_sd_m"];
   check_length(exits, count);
-  for (size_t i = 0; i < exits.size(); ++i)
+  for (size_t i = 0; i < exits.size(); ++i) {
     record.exit_sd_m.push_back(point(exits[i], Eigen::Array3d::Ones()));
+    for (size_t axis = 0; axis < 3; ++axis) not_negative(exits[i][axis]);
+  }
   return record;
 }
 

@@ -1,6 +1,7 @@
 #include "spidar/profile_writer.h"
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -14,30 +15,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-toml::array to_array(const Eigen::Vector3d& point) {
-  return toml::array{point.x(), point.y(), point.z()};
+/// As short as it can be and still be read back as the same number.
+std::string number(double value) {
+  char digits[32];
+  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value + 0.0);
+  return {digits, end};
 }
 
-/// One line for each string.
+/// `value(i)` for each of `count` strings, in one line.
+template <typename Value>
+std::string listed(size_t count, Value value) {
+  std::string text = "[";
+  for (size_t i = 0; i < count; ++i) text += (i ? ", " : "") + number(value(i));
+  return text + "]";
+}
+
 template <typename Points>
-void write_points(std::ostream& out, const char* key, const Points& points, int count) {
+void write_points(std::ostream& out, const char* key, const Points& points, size_t count) {
   out << key << " = [\n";
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i)
-    out << "  " << to_array(points[i]) << ",\n";
+  for (size_t i = 0; i < count; ++i)
+    out << "  "
+        << listed(3, [&](size_t axis) { return points[i][static_cast<Eigen::Index>(axis)]; })
+        << ",\n";
   out << "]\n";
 }
 
-template <typename Value>
-void write(std::ostream& out, const char* key, const Value& value) {
-  out << key << " = " << toml::value<Value>(value) << '\n';
-}
-
-template <typename Value>
-void write_drives(std::ostream& out, const Profile& profile, Value StringDrive::*member) {
-  toml::array values;
-  for (size_t i = 0; i < static_cast<size_t>(profile.geometry.count); ++i)
-    values.push_back(profile.drives[i].*member);
-  out << values << '\n';
+void write_text(std::ostream& out, const char* key, const std::string& text) {
+  out << key << " = " << toml::value<std::string>(text) << '\n';
 }
 
 const char* evidence_name(Evidence evidence) {
@@ -56,50 +60,50 @@ const char* evidence_name(Evidence evidence) {
 
 void write_strings(std::ostream& out, const Profile& profile) {
   out << "\n[strings]\n";
-  const auto numbers = [&](const char* key, auto member) {
-    out << key << " = ";
-    write_drives(out, profile, member);
+  const auto write = [&](const char* key, auto member) {
+    out << key << " = " << listed(static_cast<size_t>(profile.geometry.count), [&](size_t i) {
+      return profile.drives[i].*member;
+    }) << '\n';
   };
-  numbers("min_tension_N", &StringDrive::min_tension_N);
-  numbers("max_tension_N", &StringDrive::max_tension_N);
-  numbers("newtons_per_volt", &StringDrive::newtons_per_volt);
-  numbers("metres_per_count", &StringDrive::metres_per_count);
-  numbers("motor_sign", &StringDrive::motor_sign);
-  numbers("encoder_sign", &StringDrive::encoder_sign);
-  numbers("home_offset_m", &StringDrive::home_offset_m);
+  write("min_tension_N", &StringDrive::min_tension_N);
+  write("max_tension_N", &StringDrive::max_tension_N);
+  write("newtons_per_volt", &StringDrive::newtons_per_volt);
+  write("metres_per_count", &StringDrive::metres_per_count);
+  write("motor_sign", &StringDrive::motor_sign);
+  write("encoder_sign", &StringDrive::encoder_sign);
+  write("home_offset_m", &StringDrive::home_offset_m);
 }
 
 void write_calibration(std::ostream& out, const CalibrationRecord& record) {
-  out << "\n[calibration]  # standard deviations\n";
-  write<int64_t>(out, "samples", record.samples);
-  write(out, "residual_m", record.residual_m);
-  toml::array offsets;
-  for (const double sd : record.home_offset_sd_m) offsets.push_back(sd);
-  out << "home_offset_sd_m = " << offsets << '\n';
-  if (record.scale_sd) write(out, "scale_sd", *record.scale_sd);
+  const std::vector<double>& offsets = record.home_offset_sd_m;
+  out << "\n[calibration]  # standard deviations\nsamples = " << record.samples
+      << "\nresidual_m = " << number(record.residual_m)
+      << "\nhome_offset_sd_m = " << listed(offsets.size(), [&](size_t i) { return offsets[i]; })
+      << '\n';
+  if (record.scale_sd) out << "scale_sd = " << number(*record.scale_sd) << '\n';
   if (!record.exit_sd_m.empty())
-    write_points(out, "exit_sd_m", record.exit_sd_m, static_cast<int>(record.exit_sd_m.size()));
+    write_points(out, "exit_sd_m", record.exit_sd_m, record.exit_sd_m.size());
 }
 
 }  // namespace
 
 std::string profile_text(const Profile& profile) {
+  const StringGeometry& geometry = profile.geometry;
   std::ostringstream out;
-  write(out, "description", profile.description);
-  write(out, "board", profile.board);
-  write<int64_t>(out, "dac_bits", profile.dac_bits);
-  write(out, "dac_max_V", profile.dac_max_V);
-  out << "\n[geometry]\nframe = \"right-handed\"  # x right, y up, z towards the user\nunit = "
-         "\"m\"\n";
-  write_points(out, "exit", profile.geometry.exit_m, profile.geometry.count);
-  write_points(out, "grip", profile.geometry.grip_m, profile.geometry.count);
+  write_text(out, "description", profile.description);
+  write_text(out, "board", profile.board);
+  out << "dac_bits = " << profile.dac_bits << "\ndac_max_V = " << number(profile.dac_max_V)
+      << "\n\n[geometry]\nframe = \"right-handed\"  # x right, y up, z towards the user\n"
+      << "unit = \"m\"\n";
+  write_points(out, "exit", geometry.exit_m, static_cast<size_t>(geometry.count));
+  write_points(out, "grip", geometry.grip_m, static_cast<size_t>(geometry.count));
   write_strings(out, profile);
   if (profile.calibration) write_calibration(out, *profile.calibration);
   for (const Provenance& row : profile.provenance) {
-    out << "\n[[source]]\nfields = " << toml::array{row.field} << '\n';
-    write(out, "source", row.source);
-    write<std::string>(out, "evidence", evidence_name(row.evidence));
-    if (!row.note.empty()) write(out, "note", row.note);
+    out << "\n[[source]]\nfields = [\"" << row.field << "\"]\n";
+    write_text(out, "source", row.source);
+    write_text(out, "evidence", evidence_name(row.evidence));
+    if (!row.note.empty()) write_text(out, "note", row.note);
   }
   return out.str();
 }

@@ -8,8 +8,8 @@
 
 namespace spidar {
 
-/// TOML that load_profile() reads back as the same profile, bit for bit, but for its name, which is
-/// that of the file. Geometry is in D and metres.
+/// TOML that load_profile() reads back as the same profile, to the last digit, but for its name,
+/// which is that of the file. Geometry is in D and metres.
 SPIDAR_API std::string profile_text(const Profile& profile);
 
 /// Writes profile_text() to `path`, whole or not at all: an existing file is replaced when the new

@@ -118,7 +118,7 @@ TEST(Calibration, ExitsAndScaleAreFoundAsWellAsPredicted) {
       const auto k = static_cast<size_t>(i);
       const Eigen::Vector3d exit = (to_profile * truth.col(i).homogeneous()).head<3>();
       const Eigen::Vector3d in_sd =
-          (result.exit_m[k] - exit).cwiseQuotient(result.exit_sd_m[k]).cwiseAbs();
+          (result.exit_m[k] - exit).cwiseQuotient(result.exit_sd_m.col(i)).cwiseAbs();
       EXPECT_LT(in_sd.maxCoeff(), kFiveSigma) << "exit " << i;
     }
   }

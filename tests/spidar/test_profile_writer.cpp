@@ -98,9 +98,10 @@ TEST(ProfileWriter, CalibrationComesBack) {
   result.residual_m = 1.0 / 3e5;
   result.scale = 1 + uniform(random, 0.01);
   result.scale_sd = 1.0 / 3e4;
+  result.estimated = {true, true};
   for (size_t i = 0; i < 8; ++i) {
     result.exit_m[i] = profile.geometry.exit_m[i] + uniform_vector(random, 1e-3);
-    result.exit_sd_m[i] = uniform_vector(random, 1e-5).cwiseAbs();
+    result.exit_sd_m.col(static_cast<Eigen::Index>(i)) = uniform_vector(random, 1e-5).cwiseAbs();
     result.home_offset_m[static_cast<Eigen::Index>(i)] = uniform(random, 0.02);
     result.home_offset_sd_m[static_cast<Eigen::Index>(i)] = std::abs(uniform(random, 1e-5));
   }
