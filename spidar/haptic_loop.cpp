@@ -11,7 +11,7 @@ constexpr double kMaxRate = 10;
 
 HapticLoop::HapticLoop(const Profile& profile, Device& device, const SafetyLimits& limits)
     : profile_(profile),
-      home_length_m_(string_lengths_m(profile.geometry, Pose{})),
+      zero_length_m_(profile.zero_count_length_m()),
       device_(device),
       shared_limits_(limits),
       limits_(limits),
@@ -205,13 +205,12 @@ void HapticLoop::exchange(TickRecord& record) noexcept {
   if (status == ExchangeStatus::kLost || ++errors_in_a_row_ >= kMaxErrors) lose();
 }
 
-/// Counts are zero where the grip was held when the device was opened: at the centre.
 void HapticLoop::locate(const DeviceReading& reading, int64_t now_ns) noexcept {
   StringVector lengths_m = StringVector::Zero();
   for (int i = 0; i < profile_.geometry.count; ++i) {
     const auto k = static_cast<size_t>(i);
     const StringDrive& drive = profile_.drives[k];
-    lengths_m[i] = home_length_m_[i] + drive.encoder_sign * drive.metres_per_count *
+    lengths_m[i] = zero_length_m_[i] + drive.encoder_sign * drive.metres_per_count *
                                            static_cast<double>(reading.count[k]);
   }
   const PoseResult result = pose_solver_.solve(lengths_m);

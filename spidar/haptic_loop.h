@@ -119,7 +119,7 @@ class SPIDAR_API HapticLoop {
   void publish(const TickRecord& record) noexcept;
 
   const Profile profile_;
-  const StringVector home_length_m_;
+  const StringVector zero_length_m_;
   Device& device_;
   // Shared.
   SpscRing<Scheduled, 256> scheduled_;

@@ -65,6 +65,10 @@ StringVector per_string(const Profile& profile) {
 
 }  // namespace
 
+StringVector Profile::zero_count_length_m() const {
+  return string_lengths_m(geometry, {}) + per_string<&StringDrive::home_offset_m>(*this);
+}
+
 StringVector Profile::min_tension_N() const {
   return per_string<&StringDrive::min_tension_N>(*this);
 }

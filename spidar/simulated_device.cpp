@@ -41,7 +41,7 @@ struct SimulatedDevice::Impl {
         time(how),
         model_lag_s(model.motor_time_constant_s),
         dynamics(of.geometry, of.max_tension_N(), model),
-        home_length_m(string_lengths_m(of.geometry, {})) {}
+        zero_length_m(of.zero_count_length_m()) {}
 
   void put_out(const MotorVolts& volts) noexcept {
     for (int i = 0; i < profile.geometry.count; ++i) {
@@ -70,7 +70,7 @@ struct SimulatedDevice::Impl {
     for (int i = 0; i < profile.geometry.count; ++i) {
       const auto k = static_cast<size_t>(i);
       const StringDrive& drive = profile.drives[k];
-      const double counts = (length_m[i] - home_length_m[i]) / drive.metres_per_count;
+      const double counts = (length_m[i] - zero_length_m[i]) / drive.metres_per_count;
       reading.count[k] = drive.encoder_sign * static_cast<int32_t>(std::lround(counts)) +
                          count_error[k].load(std::memory_order_relaxed);
     }
@@ -102,7 +102,7 @@ struct SimulatedDevice::Impl {
   const Time time;
   const double model_lag_s;
   const GripDynamics dynamics;
-  const StringVector home_length_m;
+  const StringVector zero_length_m;
   // Of the thread that exchanges.
   bool open = false;
   int64_t time_ns = 0;

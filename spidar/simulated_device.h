@@ -42,8 +42,9 @@ class SPIDAR_API SimulatedDevice final : public Device {
   SimulatedDevice(const Profile& profile, Time time, const GripModel& model = {});
   ~SimulatedDevice() override;
 
-  /// Puts the grip at rest at the centre, where the counters are cleared, as the user of a real
-  /// device does. Throws DeviceError for as long as a fault stands.
+  /// Puts the grip at rest at the centre, as the user of a real device does. The counters are zero
+  /// there, or where the profile's home_offset_m says. Throws DeviceError for as long as a fault
+  /// stands.
   void open() override;
 
   /// kLost when not open. Volts that are not finite or point the wrong way count as zero.
