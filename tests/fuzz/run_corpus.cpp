@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -66,18 +67,19 @@ void run_file(const std::filesystem::path& path) {
 
 }  // namespace
 
+// Arguments: how many seeded inputs, then files and folders.
 int main(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
+  const int inputs = argc > 1 ? std::atoi(argv[1]) : 0;
+  for (int i = 2; i < argc; ++i) {
     if (!std::filesystem::is_directory(argv[i])) {
       run_file(argv[i]);
       continue;
     }
     for (const auto& entry : std::filesystem::directory_iterator(argv[i])) run_file(entry.path());
   }
-  constexpr uint64_t kInputs = 50000;
-  for (uint64_t seed = 0; seed < kInputs; ++seed) {
-    const std::vector<uint8_t> bytes = random_input(seed);
+  for (int seed = 0; seed < inputs; ++seed) {
+    const std::vector<uint8_t> bytes = random_input(static_cast<uint64_t>(seed));
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
   }
-  std::printf("%d inputs\n", static_cast<int>(kInputs));
+  std::printf("%d inputs\n", inputs);
 }
