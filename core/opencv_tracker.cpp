@@ -46,6 +46,7 @@ struct OpenCvTracker::Impl {
   int height = 0;
   FlowPyramid before;
   FlowPyramid now;
+  cv::Mat response;               // buffer of the selection
   std::vector<Feature> features;  // in the reduced picture
   uint32_t next_id = 0;
   size_t selected = 0;  // points after the last selection
@@ -118,7 +119,7 @@ void OpenCvTracker::Impl::select(int factor) {
   selection.quality_level = settings.quality_level;
   selection.min_distance_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
   selection.border_px = follow_border_px(now[0]);
-  select_features(now[0], selection, features, next_id);
+  select_features(now[0], selection, response, features, next_id);
   selected = features.size();
   frames_since_selection = 0;
   settings_changed = false;

@@ -62,19 +62,26 @@ class Occupancy {
   double radius_px_;
 };
 
+/// No neighbour of pixel `x` is stronger; `above`, `row` and `below` are rows of the response.
+bool is_local_maximum(const float* above, const float* row, const float* below, int x) {
+  const float value = row[x];
+  // Most pixels fail within their own row.
+  return row[x - 1] <= value && row[x + 1] <= value &&
+         std::max({above[x - 1], above[x], above[x + 1]}) <= value &&
+         std::max({below[x - 1], below[x], below[x + 1]}) <= value;
+}
+
 /// Local maxima of the response above the threshold, strongest first.
 std::vector<Candidate> find_corners(const cv::Mat& response, double threshold, int border_px) {
-  cv::Mat largest_around;
-  cv::dilate(response, largest_around, cv::Mat());
+  const auto least = static_cast<float>(threshold);
   std::vector<Candidate> corners;
   for (int y = border_px; y < response.rows - border_px; ++y) {
-    const float* value = response.ptr<float>(y);
-    const float* largest = largest_around.ptr<float>(y);
+    const auto* row = response.ptr<float>(y);
+    const auto* above = response.ptr<float>(y - 1);
+    const auto* below = response.ptr<float>(y + 1);
     for (int x = border_px; x < response.cols - border_px; ++x) {
-      if (static_cast<double>(value[x]) > threshold && value[x] == largest[x]) {
-        corners.push_back(
-            {{0, {static_cast<float>(x), static_cast<float>(y)}, {}}, value[x], false});
-      }
+      if (row[x] <= least || !is_local_maximum(above, row, below, x)) continue;
+      corners.push_back({{0, {static_cast<float>(x), static_cast<float>(y)}, {}}, row[x], false});
     }
   }
   std::sort(corners.begin(), corners.end(), stronger);
@@ -97,9 +104,8 @@ std::vector<Candidate> rate(const std::vector<Feature>& features, const cv::Mat&
 
 }  // namespace
 
-void select_features(const cv::Mat& image, const SelectionSettings& settings,
+void select_features(const cv::Mat& image, const SelectionSettings& settings, cv::Mat& response,
                      std::vector<Feature>& features, uint32_t& next_id) {
-  cv::Mat response;
   cv::cornerMinEigenVal(image, response, kBlock_px, kSobel_px);
   double strongest = 0;
   cv::minMaxLoc(response, nullptr, &strongest);

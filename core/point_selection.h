@@ -34,7 +34,10 @@ struct SelectionSettings {
 /// before a new one near it; new ones get ids from `next_id` on. When there are too many, the
 /// weakest go, old or new: an object that enters gets its share of the points.
 /// The order is strongest first.
-void select_features(const cv::Mat& image, const SelectionSettings& settings,
+///
+/// `response` is a buffer for the eigenvalues. Give the same each time: large blocks that are freed
+/// after each use go back to the system, and fetching their pages again costs more than the search.
+void select_features(const cv::Mat& image, const SelectionSettings& settings, cv::Mat& response,
                      std::vector<Feature>& features, uint32_t& next_id);
 
 }  // namespace spidar

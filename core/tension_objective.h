@@ -36,6 +36,12 @@ struct TensionObjective {
     return sum[0] + sum[1] == 0;
   }
 
+  /// False when c is zero: neither a wrench nor t_ref draws the tensions away from zero.
+  bool has_pull() const noexcept {
+    return largest(magnitude(pair(c, 0)), magnitude(pair(c, 1)), magnitude(pair(c, 2)),
+                   magnitude(pair(c, 3))) > 0;
+  }
+
   /// residual = A t − b, gradient = Aᵀ residual + ε (t − t_ref).
   void evaluate(const double* t, double* residual, double* gradient) const noexcept {
 #pragma GCC unroll 6

@@ -50,6 +50,11 @@ struct Bounds {
     return sum[0] + sum[1] == 0 && smallest[0] == 0 && smallest[1] == 0;
   }
 
+  // NaN ends at the lower bound.
+  double clamp(int i, double t) const {
+    return std::min(std::max(low[i], t), high[i]);
+  }
+
   // Strings that have room between their bounds.
   unsigned apart() const {
     unsigned strings = 0;
@@ -126,7 +131,7 @@ unsigned go_clipped(const Bounds& bounds, const Iterate& x, const Step& step, It
   for (int a = 0; a < step.count; ++a) {
     const int i = step.index[a];
     const double whole = x.t[i] - step.length[a];
-    next.t[i] = std::min(std::max(bounds.low[i], whole), bounds.high[i]);
+    next.t[i] = bounds.clamp(i, whole);
     clipped |= static_cast<unsigned>(next.t[i] != whole) << i;
   }
   next.free = x.free & ~clipped;
@@ -154,7 +159,7 @@ void go_to_first_bound(const Bounds& bounds, const Step& step, Iterate& x) {
   }
   for (int a = 0; a < step.count; ++a) {
     const int i = step.index[a];
-    x.t[i] = std::clamp(x.t[i] - share * step.length[a], bounds.low[i], bounds.high[i]);
+    x.t[i] = bounds.clamp(i, x.t[i] - share * step.length[a]);
   }
   if (first < 0) return;
   const int i = step.index[first];
@@ -162,13 +167,13 @@ void go_to_first_bound(const Bounds& bounds, const Step& step, Iterate& x) {
   x.free &= ~(1u << i);
 }
 
-unsigned strings_to_release(const Iterate& x, const double* violation) {
+unsigned strings_to_release(const Iterate& x, const double* violation, double share) {
   double largest = 0;
   for (int i = 0; i < n; ++i)
     if (!(x.free >> i & 1)) largest = std::max(largest, violation[i]);
   unsigned released = 0;
   for (int i = 0; i < n; ++i)
-    if (violation[i] > 0 && violation[i] >= kReleaseShare * largest) released |= 1u << i;
+    if (violation[i] > 0 && violation[i] >= share * largest) released |= 1u << i;
   return released & ~x.free;
 }
 
@@ -193,9 +198,12 @@ TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
   Iterate iterates[2];
   Iterate* x = &iterates[0];
   Iterate* next = &iterates[1];
-  start(bounds, warm_ ? last_N_.data() : problem.t_ref_N.data(), *x);
+  // Where nothing pulls the solution may be zero, which has no scale to compare leftovers of the
+  // last tensions with.
+  const bool warm = warm_ && objective.has_pull();
+  start(bounds, warm ? last_N_.data() : problem.t_ref_N.data(), *x);
   // The strings that were at a bound stay there at first; without such knowledge all may move.
-  if (!warm_) x->free = bounds.apart();
+  if (!warm) x->free = bounds.apart();
   objective.evaluate(x->t, x->residual, x->gradient);
 
   bool cautious = false;
@@ -218,10 +226,11 @@ TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
     scale = objective.gradient_scale(x->t);
     if (result.kkt_residual <= kTolerance * scale) break;
     // After a step that did not come off, no string is let go before the minimum over the free ones
-    // is reached: every round then either holds a string or ends lower, which cannot go on for
-    // ever.
-    cautious = cautious && clipped && x->free;
-    if (!cautious) x->free |= strings_to_release(*x, violation);
+    // is reached, and then only one: it does move inwards, so the objective falls with every such
+    // release, which cannot go on for ever.
+    if (cautious && clipped && x->free) continue;
+    x->free |= strings_to_release(*x, violation, cautious ? 1.0 : kReleaseShare);
+    cautious = false;
   }
   if (scale > 0) result.kkt_residual /= scale;
   result.status =

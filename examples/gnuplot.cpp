@@ -1,6 +1,7 @@
 #include "examples/gnuplot.h"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <spawn.h>
 #include <stdexcept>
@@ -28,6 +29,8 @@ void run_gnuplot(const std::string& script,
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
+
+  setenv("LC_ALL", "C.UTF-8", 1);  // else gnuplot complains about the units in its scripts
 
   pid_t child = 0;
   int status = posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ);

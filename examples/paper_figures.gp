@@ -6,7 +6,7 @@ set encoding utf8
 set grid linecolor rgb "#d8d8d8" linetype 1 linewidth 0.5
 set border 3 linecolor rgb "#606060"
 set tics nomirror
-set key outside right center Left reverse samplen 2 spacing 1.2 width 2
+set key at graph 1.02, graph 0.95 left top Left reverse samplen 2 spacing 1.2
 set style line 1 linecolor rgb "#b0b0b0" linewidth 3                         # analytic
 set style line 2 linecolor rgb "#0b5fa5" linewidth 1 pointtype 7 pointsize 0.5   # measured
 set xrange [0:*]
@@ -34,11 +34,13 @@ set autoscale y
 unset multiplot
 
 eval start("fig7", 420)
+set rmargin at screen 0.84
 set title "Fig. 7: gain k = Fmax / Vmax(T) of the linear controller" font ",14"
 set ylabel "k, N per px/s"
 set logscale y
 eval panel(5)
 unset logscale y
+set rmargin
 unset title
 
 do for [figure in "8 10"] {

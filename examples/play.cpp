@@ -1,6 +1,7 @@
 /// Plays a video and lets it be felt, then says how that went. examples/play.sh builds it and finds
 /// a video.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -26,15 +27,17 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kUsage =
-    "usage: play [--output FOLDER] [--headless] [VIDEO | URI] [-- name=value ...]\n"
+    "usage: play [--output FOLDER] [--headless] VIDEO | URI | --ball [-- name=value ...]\n"
     "  --output FOLDER  where spidar-play.png goes; else the current folder\n"
     "  --headless       no window, even with a display\n"
     "  name=value       properties of spidarmotion: gst-inspect-1.0 spidarmotion\n"
-    "Without a video a ball of videotestsrc is played.\n";
+    "  --ball           no video, but the ball of videotestsrc for ten seconds\n";
 
 struct Options {
   std::string video;
   fs::path output = ".";
+  bool help = false;
+  bool ball = false;
   bool headless = false;
   std::vector<std::string> assignments;
 };
@@ -49,7 +52,11 @@ Options parse(const std::vector<std::string>& arguments) {
                                  arguments.end());
       break;
     }
-    if (argument == "--headless") {
+    if (argument == "--help" || argument == "-h") {
+      options.help = true;
+    } else if (argument == "--ball") {
+      options.ball = true;
+    } else if (argument == "--headless") {
       options.headless = true;
     } else if (argument == "--output" && i + 1 < arguments.size()) {
       options.output = arguments[++i];
@@ -61,6 +68,9 @@ Options parse(const std::vector<std::string>& arguments) {
     } else {
       options.video = argument;
     }
+  }
+  if (!options.help && options.ball == !options.video.empty()) {
+    throw std::invalid_argument(std::string("give a video, or --ball\n") + kUsage);
   }
   return options;
 }
@@ -112,12 +122,12 @@ std::string progress_line(const Now& now) {
 int play(const Options& options) {
   GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
   for (const std::string& assignment : options.assignments) set_property(filter, assignment);
+  const std::string uri = options.ball ? "" : uri_of(options.video);
+  std::string title = options.ball ? "videotestsrc pattern=ball" : options.video;
+  if (fs::path(title).has_filename()) title = fs::path(title).filename();
   const Screen screen = open_screen(options.headless);
-  GstElement* const pipeline = options.video.empty()
-                                   ? make_ball(filter, screen)
-                                   : make_player(uri_of(options.video), filter, screen);
-  const std::string title =
-      options.video.empty() ? "videotestsrc pattern=ball" : fs::path(options.video).filename();
+  GstElement* const pipeline =
+      options.ball ? make_ball(filter, screen) : make_player(uri, filter, screen);
   std::printf("playing %s%s\n", title.c_str(),
               screen.why_none.empty()
                   ? ""
@@ -167,12 +177,10 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with the errors, in a file too
   gst_init(nullptr, nullptr);
   try {
-    const std::vector<std::string> arguments(argv + 1, argv + argc);
-    if (!arguments.empty() && (arguments[0] == "--help" || arguments[0] == "-h")) {
-      std::fputs(kUsage, stdout);
-      return 0;
-    }
-    return play(parse(arguments));
+    const Options options = parse({argv + 1, argv + argc});
+    if (!options.help) return play(options);
+    std::fputs(kUsage, stdout);
+    return 0;
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;

@@ -13,15 +13,14 @@ array colours[8] = ["#e69f00", "#56b4e9", "#009e73", "#999933", "#0072b2", "#d55
 
 set style data lines
 set grid linecolor rgb "#d8d8d8" linetype 1 linewidth 0.5
-set key outside right center Left reverse noenhanced samplen 2 spacing 1.2 width 2
+set key at graph 1.02, graph 0.95 left top Left reverse noenhanced samplen 2 spacing 1.2
 set border 3 linecolor rgb "#606060"
 set tics nomirror
-set offsets graph 0, 0, 0.05, 0.05
 
 set multiplot layout 5,1 title title . ": motion felt at the grip" noenhanced font ",15" margins 0.08,0.83,0.05,0.95 spacing 0.03
 
 stats frames using 1 nooutput name "time"
-set xrange [time_min:time_max]
+set xrange [time_min : time_max > time_min ? time_max : time_min + 1]
 set format x ""
 
 set ylabel "position, px\n(integral of velocity)"
@@ -30,19 +29,24 @@ plot frames using 1:2 title "x, right", frames using 1:3 title "y, up"
 set ylabel "velocity, px/s"
 plot frames using 1:4 title "x, right", frames using 1:5 title "y, up"
 
-wanted(axis) = axis . " wanted, each frame"
+wanted(axis) = axis . " wanted"
 delivered(axis) = axis . " at the grip"
+# What a hand does not feel: kFelt_N of the player.
+set object 1 rectangle from graph 0, first -0.04 to graph 1, first 0.04 behind \
+    fillcolor rgb "#ececec" fillstyle solid noborder
 set ylabel "force, N"
 do for [axis = 1:2] {
     name = axis == 1 ? "x" : "y"
     if (strlen(ticks)) {
         plot frames using 1:(column(5 + axis)) with points pointtype 7 pointsize 0.5 \
                  linecolor rgb "#a0a0a0" title wanted(name), \
-             ticks using 1:(column(1 + axis)) linetype axis title delivered(name)
+             ticks using 1:(column(1 + axis)) linetype axis title delivered(name), \
+             NaN with boxes fillstyle solid linecolor rgb "#ececec" title "too weak to feel"
     } else {
         plot frames using 1:(column(5 + axis)) linetype axis title wanted(name)
     }
 }
+unset object 1
 
 if (strlen(ticks)) {
     set format x "%g"

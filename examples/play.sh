@@ -4,7 +4,7 @@
 #   examples/play.sh                             a tree in the wind
 #   examples/play.sh VIDEO                       a file, or a URI such as https://...
 #   examples/play.sh VIDEO -- controller=linear max-force=2    with properties of spidarmotion
-#   examples/play.sh --output FOLDER --headless VIDEO          see --help
+#   examples/play.sh --ball --output FOLDER      without a video; see --help
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source-path=SCRIPTDIR source=../tests/install.sh
@@ -54,6 +54,7 @@ tree_clip() {
 options=()
 video=()
 properties=()
+needs_clip=yes
 while (($#)); do
     case $1 in
     --)
@@ -61,27 +62,37 @@ while (($#)); do
         break
         ;;
     --output)
+        (($# > 1)) || needs_clip=no
         options+=("${@:1:2}")
         shift
         ;;
+    --ball | --help | -h)
+        options+=("$1")
+        needs_clip=no
+        ;;
     -*) options+=("$1") ;;
-    *) video+=("$1") ;;
+    *)
+        video+=("$1")
+        needs_clip=no
+        ;;
     esac
     (($#)) && shift
 done
 
-groups=(build play)
-[[ -z ${DISPLAY-}${WAYLAND_DISPLAY-} ]] || groups+=(display)
-install_packages "${groups[@]}"
+install_packages build play
+if [[ -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]]; then
+    install_packages display || echo "going on without; there may be no window"
+fi
 build
 
-if ((${#video[@]} == 0)) && [[ " ${options[*]-} " != *" --help "* ]]; then
+if [[ $needs_clip == yes ]]; then
     [[ -f ${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar/tree.avi ]] ||
         echo "fetching a clip, once: tree.avi of Debian's package opencv-doc (95 MB)"
     if clip=$(tree_clip); then
         video=("$clip")
     else
         echo "it cannot be had, perhaps for want of a network: playing a ball of videotestsrc"
+        options+=(--ball)
     fi
 fi
 

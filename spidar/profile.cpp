@@ -77,6 +77,10 @@ StringVector Profile::max_tension_N() const {
   return per_string<&StringDrive::max_tension_N>(*this);
 }
 
+double Profile::max_pose_residual_m() const {
+  return per_string<&StringDrive::metres_per_count>(*this).maxCoeff();
+}
+
 Profile load_profile(const std::string& name_or_path) {
   if (is_path(name_or_path)) return read_file(name_or_path);
   std::vector<std::string> searched;

@@ -73,6 +73,9 @@ struct Profile {
   SPIDAR_API StringVector zero_count_length_m() const;
   SPIDAR_API StringVector min_tension_N() const;
   SPIDAR_API StringVector max_tension_N() const;
+  /// What a PoseSolver may leave of a right pose (root mean square): one encoder step, the coarsest
+  /// of the strings. Counts err by half of it; the rest is for what the geometry does not say.
+  SPIDAR_API double max_pose_residual_m() const;
 };
 
 /// `name_or_path`: a name as of list_profiles(), or a path (has a '/' or ends in .toml).

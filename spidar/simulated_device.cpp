@@ -1,10 +1,13 @@
 #include "spidar/simulated_device.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <ctime>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 
 #include "spidar/seqlock.h"
 #include "spidar/spsc_ring.h"
@@ -68,7 +71,8 @@ struct SimulatedDevice::Impl {
       const auto k = static_cast<size_t>(i);
       const StringDrive& drive = profile.drives[k];
       const double counts = (length_m[i] - zero_length_m[i]) / drive.metres_per_count;
-      reading.count[k] = drive.encoder_sign * static_cast<int32_t>(std::lround(counts));
+      reading.count[k] = drive.encoder_sign * static_cast<int32_t>(std::lround(counts)) +
+                         count_error[k].load(std::memory_order_relaxed);
     }
   }
 
@@ -110,6 +114,7 @@ struct SimulatedDevice::Impl {
   std::mutex hand_writers;
   Seqlock<Pose> hand_shared;
   std::atomic<ExchangeStatus> fault{ExchangeStatus::kOk};
+  std::array<std::atomic<int32_t>, kMaxStrings> count_error{};
   Seqlock<FeltState> felt;
   SpscRing<FeltState, 4096> history;
 };
@@ -162,6 +167,14 @@ void SimulatedDevice::set_hand(const Pose& pose) noexcept {
 
 void SimulatedDevice::set_fault(ExchangeStatus fault) noexcept {
   impl_->fault.store(fault);
+}
+
+void SimulatedDevice::set_count_error(int string, int32_t counts) {
+  const int strings = impl_->profile.geometry.count;
+  if (string < 0 || string >= strings)
+    throw std::out_of_range("sim: there is no string " + std::to_string(string) +
+                            "; known are 0 to " + std::to_string(strings - 1));
+  impl_->count_error[static_cast<size_t>(string)] = counts;
 }
 
 FeltState SimulatedDevice::felt() const noexcept {

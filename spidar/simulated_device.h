@@ -65,6 +65,10 @@ class SPIDAR_API SimulatedDevice final : public Device {
   /// device. Any thread.
   void set_fault(ExchangeStatus fault) noexcept;
 
+  /// From now on the encoder of `string` (0 … count − 1) says this many counts more: pulses that
+  /// were lost, or string that is slack. Any thread. Throws std::out_of_range.
+  void set_count_error(int string, int32_t counts);
+
   /// Newest state; any thread.
   FeltState felt() const noexcept;
 

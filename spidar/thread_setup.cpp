@@ -44,7 +44,7 @@ void request_exact_timers() noexcept {
 
 void request_background() noexcept {
   // On Linux priorities are those of a thread, whatever POSIX says of processes.
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
 }
 
 SignalsBlocked::SignalsBlocked() noexcept {

@@ -18,7 +18,7 @@ Scheduling request_real_time();
 /// so that processors sleep longer. A real-time thread has no slack anyway.
 void request_exact_timers() noexcept;
 
-/// The calling thread yields to all others.
+/// The calling thread yields to most others.
 void request_background() noexcept;
 
 /// While it lives, threads that this one starts have all signals blocked: an application's signals

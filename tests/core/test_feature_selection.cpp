@@ -2,6 +2,7 @@
 // at the point.
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 #include <vector>
 
@@ -51,6 +52,16 @@ TEST(FeatureSelection, AFlatPictureHasNone) {
     EXPECT_TRUE(again.tracks.empty());
     EXPECT_FALSE(again.restarted);
   }
+}
+
+TEST(FeatureSelection, RoundingNoiseHasNone) {
+  // What a flat grey between two levels looks like after dithering: relative to its strongest
+  // corner all of it is corners.
+  Picture picture(640, 360);
+  std::mt19937 random(23);
+  picture.fill([&](double, double) { return 128.0 + static_cast<double>(random() & 1u); });
+  OpenCvTracker tracker;
+  EXPECT_EQ(tracker.track(picture.view()).features, 0) << "seed 23";
 }
 
 TEST(FeatureSelection, ARampHasNone) {

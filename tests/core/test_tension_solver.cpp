@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/tension_solver.h"
-#include "string_samples.h"
+#include "tension_cases.h"
 #include "tension_reference.h"
 
 namespace spidar::test {
@@ -11,16 +11,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-TensionProblem g6x3_problem(const Pose& pose, const Wrench& wrench) {
-  TensionProblem p;
-  p.W = structure_matrix(g6x3_geometry(), pose);
-  p.wrench = wrench;
-  p.t_min_N.setConstant(0.3);
-  p.t_max_N.setConstant(20);
-  p.t_ref_N.setConstant(1);
-  return p;
-}
 
 TensionProblem random_problem(Random& random) {
   const double force = uniform(random, 0, 1) < 0.5 ? 3 : 30;

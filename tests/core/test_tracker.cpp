@@ -117,6 +117,26 @@ TEST(Tracker, TheFirstFrameHasNothingToCompareWith) {
   EXPECT_GT(first.features, 0);
 }
 
+TEST(Tracker, APeriodicTextureDoesNotJumpAPeriod) {
+  // Every 12 px the picture is the same: of all displacements that explain it the smallest is
+  // meant.
+  constexpr double kWave_px = 2 * 3.14159265358979323846 / 12;
+  Picture picture(640, 360);
+  OpenCvTracker tracker;
+  for (int n = 0; n < 4; ++n) {
+    picture.fill([n](double x, double y) {
+      return 128 + 50 * std::sin(kWave_px * (x - 2 * n)) + 50 * std::sin(kWave_px * (y + n));
+    });
+    const TrackedFrame& frame = tracker.track(picture.view());
+    if (n == 0) continue;
+    ASSERT_GE(frame.tracks.size(), 100u);
+    for (const Track& track : frame.tracks) {
+      EXPECT_NEAR(dx(track), 2, kTrackTolerance_px) << n;
+      EXPECT_NEAR(dy(track), -1, kTrackTolerance_px) << n;
+    }
+  }
+}
+
 TEST(Tracker, APointKeepsItsIdAndStartsWhereItEnded) {
   MovingTexture scene(640, 360, 1.5, 0.5);
   OpenCvTracker tracker;
