@@ -77,7 +77,77 @@ void run_case(const Profile& profile, const CalibrationSettings& settings, doubl
   std::fflush(stdout);
 }
 
-void run(int repetitions) {
+/// Counters cleared off the centre by up to `share` of the strings' mean length an axis, turned by
+/// up to 80 degrees; ten seconds of motion.
+void run_wrong_starts(const char* name, double share, int repetitions) {
+  const Profile profile = load_profile(name);
+  const int strings = profile.geometry.count;
+  const double reach_m = share * string_lengths_m(profile.geometry, {}).head(strings).mean();
+  int recovered = 0, wrong = 0;
+  for (int n = 0; n < repetitions; ++n) {
+    Random random(static_cast<unsigned>(n + 1));
+    Profile device = profile;
+    clear_counters_at(wrong_start(random, reach_m, 80 * M_PI / 180), device);
+    const CalibrationResult result =
+        calibrate(profile, moved_counts(device, 1000, 0.01, random, 0));
+    const double error_m = zero_length_errors_m(profile, device, result).norm();
+    const bool solved = result.status == CalibrationStatus::kSolved;
+    const bool right = error_m < 10 * result.home_offset_sd_m.norm();
+    recovered += solved && right;
+    wrong += solved && !right;
+  }
+  std::printf("| %-16s | %2.0f | %d/%d | %d |\n", name, 1e3 * reach_m, recovered, repetitions,
+              wrong);
+  std::fflush(stdout);
+}
+
+struct Motion {
+  const char* name;
+  Eigen::Array3d move_m, turn_rad;
+};
+
+/// How many combinations ten seconds of a motion leave undetermined.
+void run_motion(const Profile& profile, const Motion& motion) {
+  const Eigen::Array3d move_Hz(0.437, 0.361, 0.281), turn_Hz(0.251, 0.319, 0.397);
+  Random random(1);
+  const CountSamples counts = counts_of(profile, 1000, 0.01, random, 0, [&](double time_s) {
+    Pose pose;
+    pose.position_m = motion.move_m * (2 * M_PI * move_Hz * time_s).sin();
+    const Eigen::Vector3d turn = motion.turn_rad * (2 * M_PI * turn_Hz * time_s).sin();
+    if (turn.norm() > 0) pose.orientation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+    return pose;
+  });
+  std::printf("| %-22s |", motion.name);
+  for (const CalibrationSettings settings :
+       {CalibrationSettings{}, {false, true}, {true, false}, {true, true}}) {
+    const CalibrationResult result = calibrate(profile, counts, settings);
+    std::printf(" %2zu |", result.undetermined.size());
+    std::fflush(stdout);
+  }
+  std::printf("\n");
+}
+
+void run_motions() {
+  const double m = 0.03, r = 0.5;
+  std::printf(
+      "\nCombinations that a motion leaves undetermined (sd above 50 um), %s, 10 s, rounding "
+      "only:\n\n| motion | offsets (8) | and scale (9) | and exits (26) | and both (27) |\n"
+      "|---|---|---|---|---|\n",
+      kDefaultProfile);
+  for (const Motion& motion : {Motion{"held still", {0, 0, 0}, {0, 0, 0}},
+                               {"along x", {m, 0, 0}, {0, 0, 0}},
+                               {"along y", {0, m, 0}, {0, 0, 0}},
+                               {"along z", {0, 0, m}, {0, 0, 0}},
+                               {"along x, y, z", {m, m, m}, {0, 0, 0}},
+                               {"about x", {0, 0, 0}, {r, 0, 0}},
+                               {"about y", {0, 0, 0}, {0, r, 0}},
+                               {"about z", {0, 0, 0}, {0, 0, r}},
+                               {"about x, y, z", {0, 0, 0}, {r, r, r}},
+                               {"along and about all", {m, m, m}, {r, r, r}}})
+    run_motion(load_profile(kDefaultProfile), motion);
+}
+
+void run_accuracy(int repetitions) {
   const Profile profile = encoders_of_15_um(load_profile(kDefaultProfile));
   std::printf(
       "%s, offsets:\n\n| s | noise, counts | error, um | predicted, um | solved | s to "
@@ -106,7 +176,14 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    run(repetitions);
+    run_accuracy(repetitions);
+    std::printf(
+        "\nWrong starts, turned by up to 80 degrees:\n\n| profile | off by up to, mm an axis | "
+        "recovered | solved but wrong |\n|---|---|---|---|\n");
+    for (const char* name :
+         {"spidar-gcc", "spidar-g", "spidar-g6x3-v2-r", "spidar-g6c", "spidar-isotropic"})
+      run_wrong_starts(name, 0.45, 25 * repetitions);
+    run_motions();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_calibration: %s\n", error.what());
     return 1;

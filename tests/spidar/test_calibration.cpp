@@ -189,9 +189,8 @@ TEST(Calibration, HeldStillDeterminesTwoCombinations) {
   }
 }
 
-// Moving along one axis only. The frame is symmetric, and along z every string keeps the direction
-// of its mirror image: by elimination at poses of that line (rank of the redundant equations) four
-// combinations are open; along x and y there are none but some known to 50 µm or worse.
+// Moving along one axis only: of the singular values of the reduced Jacobian along z four are zero,
+// because the frame is symmetric; along x and y none is, but at least one gives more than 50 µm.
 TEST(Calibration, MotionAlongOneAxisIsReported) {
   const Profile profile = load_profile("spidar-gcc");
   for (int axis = 0; axis < 3; ++axis) {
@@ -206,8 +205,6 @@ TEST(Calibration, MotionAlongOneAxisIsReported) {
         calibrate(profile, counts_of(profile, 500, kPeriod_s, random, 0, along));
     EXPECT_EQ(result.status, CalibrationStatus::kUndetermined);
     EXPECT_GE(result.undetermined.size(), axis == 2 ? 4u : 1u);
-    // The worst of them take the length of the motion and not its noise: 3 cm amplitude.
-    EXPECT_NEAR(result.moved_m[axis], 0.03, 3e-3);
   }
 }
 
