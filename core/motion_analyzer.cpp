@@ -12,6 +12,7 @@ struct MotionAnalyzer::Impl {
 
   AnalyzerSettings settings;
   OpenCvTracker tracker;
+  MotionEstimator motion;
   std::unique_ptr<GainController> controller;
   std::optional<int64_t> last_running_time_ns;
 };
@@ -42,10 +43,16 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   FrameAnalysis analysis;
   analysis.features = tracked.features;
   analysis.restarted = tracked.restarted || !last_ns;
-  if (analysis.restarted) return analysis;
+  if (analysis.restarted) {
+    impl_->motion.reset();
+    return analysis;
+  }
 
   analysis.interval_ns = running_time_ns - *last_ns;
-  analysis.motion = mean_motion(tracked.tracks, analysis.interval_ns);
+  const SceneMotion scene = impl_->motion.estimate(impl_->settings.motion, tracked.tracks,
+                                                   frame.width, frame.height, analysis.interval_ns);
+  analysis.motion = scene.felt;
+  analysis.model = scene.model;
   const double to_reference = kReferenceHeight_px / frame.height;
   analysis.wrench = render_motion(*impl_->controller, to_reference * analysis.motion.velocity_px_s);
   return analysis;

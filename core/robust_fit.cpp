@@ -33,13 +33,15 @@ class Sampler {
     return std::min(static_cast<size_t>(found - sums_.begin()), sums_.size() - 1);
   }
 
+  double sum() const { return sums_.back(); }
+
  private:
   std::vector<double> sums_;
   std::minstd_rand random_;
 };
 
 /// Weights of the model's inliers, 0 for the others; their sum.
-double inlier_weights(const MotionModel& model, const Evidence& evidence,
+double inlier_weights(const MotionModel& model, const WeightedTracks& evidence,
                       std::vector<double>& inliers) {
   double sum = 0;
   for (size_t i = 0; i < evidence.points.size(); ++i) {
@@ -51,7 +53,7 @@ double inlier_weights(const MotionModel& model, const Evidence& evidence,
 }
 
 /// Fits to the inliers of `best`; false when that is no better.
-bool refit(const Evidence& evidence, std::vector<double>& inliers, Candidate& best) {
+bool refit(const WeightedTracks& evidence, std::vector<double>& inliers, Candidate& best) {
   const auto model = fit_model(best.model.kind, evidence.points, inliers);
   if (!model) return false;
   const double cost = robust_cost(*model, evidence, best.cost);
@@ -70,7 +72,7 @@ int samples_needed(double inlier_share, int points) {
 
 }  // namespace
 
-double robust_cost(const MotionModel& model, const Evidence& evidence, double limit) {
+double robust_cost(const MotionModel& model, const WeightedTracks& evidence, double limit) {
   double cost = 0;
   for (size_t i = 0; i < evidence.points.size() && cost <= limit; ++i) {
     cost += evidence.weights[i] * point_cost(model, evidence.points[i], evidence.sigma_px);
@@ -78,7 +80,7 @@ double robust_cost(const MotionModel& model, const Evidence& evidence, double li
   return cost;
 }
 
-std::optional<MotionModel> fit_robustly(ModelKind kind, const Evidence& evidence) {
+std::optional<MotionModel> fit_robustly(ModelKind kind, const WeightedTracks& evidence) {
   const auto size = static_cast<size_t>(least_points(kind));
   const size_t n = evidence.points.size();
   if (size == 0) return MotionModel();
@@ -102,7 +104,7 @@ std::optional<MotionModel> fit_robustly(ModelKind kind, const Evidence& evidence
     refit(evidence, inliers, *best);
     double share = 0;
     for (const double weight : inliers) share += weight;
-    share /= static_cast<double>(n);
+    share /= sampler.sum();
     needed = std::min(needed, samples_needed(share, static_cast<int>(size)));
   }
   if (!best) return std::nullopt;

@@ -11,9 +11,9 @@
 namespace spidar {
 
 /// Tracks to explain.
-struct Evidence {
+struct WeightedTracks {
   std::vector<Displacement> points;
-  std::vector<double> weights;  ///< ≥ 0, one a point, mean 1
+  std::vector<double> weights;  ///< ≥ 0, one a point
   double sigma_px = 1;          ///< noise of a displacement, each coordinate, > 0
 };
 
@@ -28,7 +28,7 @@ inline double point_cost(const MotionModel& model, const Displacement& point, do
 }
 
 /// Σ w ρ. Gives up above `limit` and returns something larger.
-SPIDAR_API double robust_cost(const MotionModel& model, const Evidence& evidence,
+SPIDAR_API double robust_cost(const MotionModel& model, const WeightedTracks& evidence,
                               double limit = 1e300);
 
 /// The model of least robust_cost() among those that a bounded number of random samples lead to
@@ -36,6 +36,6 @@ SPIDAR_API double robust_cost(const MotionModel& model, const Evidence& evidence
 /// by their weights. The same evidence gives the same model, bit for bit. At most 32 samples a
 /// parameter pair, fewer when a good model is found early (99 % confidence). Nothing when the
 /// points do not determine the model.
-SPIDAR_API std::optional<MotionModel> fit_robustly(ModelKind kind, const Evidence& evidence);
+SPIDAR_API std::optional<MotionModel> fit_robustly(ModelKind kind, const WeightedTracks& evidence);
 
 }  // namespace spidar

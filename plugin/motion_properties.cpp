@@ -20,9 +20,11 @@ GType controller_type() {
 
 GType motion_type() {
   static const GType type = [] {
-    static const GEnumValue values[] = {{static_cast<int>(MotionKind::kMean),
-                                         "Mean velocity of all tracked points (eq. 9-10)", "mean"},
-                                        {0, nullptr, nullptr}};
+    static const GEnumValue values[] = {
+        {static_cast<int>(MotionKind::kMean), "Mean velocity of all tracked points (eq. 9-10)",
+         "mean"},
+        {static_cast<int>(MotionKind::kCamera), "What the camera does: ride along", "camera"},
+        {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionMotion", values);
   }();
   return type;
@@ -82,9 +84,9 @@ void install_motion_properties(GObjectClass* c) {
   install(kPropController,
           g_param_spec_enum("controller", "Controller", "How speed becomes force",
                             controller_type(), static_cast<int>(gain.kind), kControllable));
-  install(kPropMotion,
-          g_param_spec_enum("motion", "Motion", "Which motion of the picture is felt",
-                            motion_type(), static_cast<int>(defaults.motion), kControllable));
+  install(kPropMotion, g_param_spec_enum("motion", "Motion", "Which motion of the picture is felt",
+                                         motion_type(), static_cast<int>(defaults.analyzer.motion),
+                                         kControllable));
   install(kPropMaxForce, g_param_spec_double("max-force", "Maximum force",
                                              "Largest force on the grip, N (Fmax of eq. 12 and 15)",
                                              0.0, 20.0, gain.max_force_N, kControllable));
@@ -153,7 +155,7 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
       gain.kind = static_cast<ControllerKind>(g_value_get_enum(value));
       return true;
     case kPropMotion:
-      p.motion = static_cast<MotionKind>(g_value_get_enum(value));
+      p.analyzer.motion = static_cast<MotionKind>(g_value_get_enum(value));
       return true;
     case kPropMaxForce:
       gain.max_force_N = g_value_get_double(value);
@@ -204,7 +206,7 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       g_value_set_enum(value, static_cast<int>(gain.kind));
       return true;
     case kPropMotion:
-      g_value_set_enum(value, static_cast<int>(p.motion));
+      g_value_set_enum(value, static_cast<int>(p.analyzer.motion));
       return true;
     case kPropMaxForce:
       g_value_set_double(value, gain.max_force_N);

@@ -130,7 +130,7 @@ TEST_P(EachModel, IsFoundAmongAsManyStrays) {
   constexpr double kSigma_px = 0.1;
   for (uint32_t seed = 1; seed <= 20; ++seed) {
     TrackSource source(seed);
-    Evidence evidence;
+    WeightedTracks evidence;
     evidence.points = source.moved(truth, 100, kSigma_px);
     const Eigen::VectorXd bound = cramer_rao(truth, evidence.points, kSigma_px);
     for (int i = 0; i < 100; ++i) evidence.points.push_back(source.stray());
