@@ -53,6 +53,7 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
                                                    frame.width, frame.height, analysis.interval_ns);
   analysis.motion = scene.felt;
   analysis.model = scene.model;
+  analysis.objects = scene.objects;
   const double to_reference = kReferenceHeight_px / frame.height;
   analysis.wrench = render_motion(*impl_->controller, to_reference * analysis.motion.velocity_px_s);
   return analysis;

@@ -27,6 +27,7 @@ struct FrameAnalysis {
   ImageMotion motion;  ///< the one that is felt, in unscaled px/s of the frame given
   /// Model of the background; nothing when `motion` needs none, and after a restart.
   std::optional<ModelKind> model;
+  int objects = 0;         ///< known beside the background; 0 when `motion` looks for none
   Wrench wrench;           ///< what the controller wants, before any safety step
   bool restarted = false;  ///< nothing to compare with: motion and wrench are zero
   /// Since the frame that this one was compared with; 0 after a restart.

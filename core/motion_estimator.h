@@ -7,14 +7,18 @@
 
 #include "core/api.h"
 #include "core/background.h"
+#include "core/dominant_object.h"
 #include "core/image_motion.h"
+#include "core/objects.h"
 #include "core/tracker.h"
 
 namespace spidar {
 
 enum class MotionKind {
-  kMean,    ///< mean velocity of all points: the paper's eq. 9–10
-  kCamera,  ///< what the camera does
+  kMean,     ///< mean velocity of all points: the paper's eq. 9–10
+  kObject,   ///< the dominant object against the background
+  kObjects,  ///< all objects against the background, weighted by their area
+  kCamera,   ///< what the camera does
 };
 
 /// What the tracks of one frame say.
@@ -25,6 +29,7 @@ struct SceneMotion {
   /// Of the camera: where the background goes to the left it goes to the right, where the
   /// background grows it goes in. Zero with kMean.
   ImageMotion camera;
+  int objects = 0;  ///< that are known, seen or not; 0 with kMean
 };
 
 /// tracks → motion. Keeps what must be known of the frames before.
@@ -41,6 +46,8 @@ class SPIDAR_API MotionEstimator {
  private:
   std::vector<Displacement> points_;
   BackgroundEstimator background_;
+  ObjectTracker objects_;
+  DominantObject dominant_;
 };
 
 }  // namespace spidar

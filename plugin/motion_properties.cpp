@@ -23,6 +23,11 @@ GType motion_type() {
     static const GEnumValue values[] = {
         {static_cast<int>(MotionKind::kMean), "Mean velocity of all tracked points (eq. 9-10)",
          "mean"},
+        {static_cast<int>(MotionKind::kObject),
+         "The dominant object against the background; at rest where only the camera moves",
+         "object"},
+        {static_cast<int>(MotionKind::kObjects),
+         "All objects against the background, weighted by their area", "objects"},
         {static_cast<int>(MotionKind::kCamera), "What the camera does: ride along", "camera"},
         {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionMotion", values);

@@ -19,6 +19,7 @@ void MotionStats::reset() {
   features_ = 0;
   tracked_ = 0;
   model_.reset();
+  objects_ = 0;
   analysis_.reset();
 }
 
@@ -29,6 +30,7 @@ void MotionStats::add(const FrameAnalysis& frame, int64_t took_ns) {
   features_ = frame.features;
   tracked_ = frame.motion.tracked;
   model_ = frame.model;
+  objects_ = frame.objects;
   analysis_.add(took_ns);
 }
 
@@ -37,7 +39,8 @@ void MotionStats::describe(GstStructure* structure) const {
   gst_structure_set(structure, "frames", G_TYPE_UINT64, frames_, "restarts", G_TYPE_UINT64,
                     restarts_, "features", G_TYPE_UINT, static_cast<guint>(features_), "tracked",
                     G_TYPE_UINT, static_cast<guint>(tracked_), "model", G_TYPE_STRING,
-                    model_ ? to_string(*model_) : "none", "analysis-ms-median", G_TYPE_DOUBLE,
+                    model_ ? to_string(*model_) : "none", "objects", G_TYPE_UINT,
+                    static_cast<guint>(objects_), "analysis-ms-median", G_TYPE_DOUBLE,
                     ms(analysis_.quantile_ns(0.5)), "analysis-ms-p95", G_TYPE_DOUBLE,
                     ms(analysis_.quantile_ns(0.95)), "analysis-ms-max", G_TYPE_DOUBLE,
                     ms(analysis_.max_ns()), nullptr);

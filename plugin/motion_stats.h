@@ -20,8 +20,8 @@ class MotionStats {
   void add(const FrameAnalysis& frame, int64_t took_ns);
 
   /// Adds frames, restarts (uint64), features, tracked (uint, of the last frame), model (string: of
-  /// the background in the last frame, 'none' when the motion that is felt needs none),
-  /// analysis-ms-median, analysis-ms-p95, analysis-ms-max (double).
+  /// the background in the last frame, 'none' when the motion that is felt needs none), objects
+  /// (uint, in the last frame), analysis-ms-median, analysis-ms-p95, analysis-ms-max (double).
   void describe(GstStructure* structure) const;
 
  private:
@@ -34,6 +34,7 @@ class MotionStats {
   int features_ = 0;
   int tracked_ = 0;
   std::optional<ModelKind> model_;
+  int objects_ = 0;
   AnalysisHistogram analysis_;
 };
 

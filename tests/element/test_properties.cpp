@@ -215,6 +215,9 @@ TEST(Stats, NameTheModelOfTheBackground) {
   GstStructure* stats = nullptr;
   g_object_get(h.element(), "stats", &stats, nullptr);
   EXPECT_STREQ(gst_structure_get_string(stats, "model"), "translation");
+  guint objects = 1;
+  EXPECT_TRUE(gst_structure_get_uint(stats, "objects", &objects));
+  EXPECT_EQ(objects, 0u);
   gst_structure_free(stats);
   EXPECT_LT(h.motions().back().velocity_x, 0);  // the picture goes right, the camera left
 }
