@@ -8,7 +8,9 @@ namespace spidar {
 
 struct MotionAnalyzer::Impl {
   explicit Impl(const AnalyzerSettings& given)
-      : settings(given), tracker(given.tracker), controller(make_controller(given.controller)) {}
+      : settings(given), tracker(given.tracker), controller(make_controller(given.controller)) {
+    validate(given.axes);
+  }
 
   AnalyzerSettings settings;
   OpenCvTracker tracker;
@@ -25,6 +27,7 @@ MotionAnalyzer::~MotionAnalyzer() = default;
 void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   validate(settings.tracker);
   validate(settings.controller);
+  validate(settings.axes);
   impl_->tracker.configure(settings.tracker);
   if (settings.controller.kind == impl_->settings.controller.kind) {
     impl_->controller->configure(settings.controller);
@@ -54,8 +57,8 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   analysis.motion = scene.felt;
   analysis.model = scene.model;
   analysis.objects = scene.objects;
-  const double to_reference = kReferenceHeight_px / frame.height;
-  analysis.wrench = render_motion(*impl_->controller, to_reference * analysis.motion.velocity_px_s);
+  analysis.wrench =
+      render_motion(*impl_->controller, analysis.motion, impl_->settings.axes, frame.height);
   return analysis;
 }
 

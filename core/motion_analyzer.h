@@ -10,6 +10,7 @@
 #include "core/image_motion.h"
 #include "core/image_view.h"
 #include "core/motion_estimator.h"
+#include "core/motion_rendering.h"
 #include "core/tracker.h"
 #include "core/wrench.h"
 
@@ -18,6 +19,7 @@ namespace spidar {
 struct AnalyzerSettings {
   TrackerSettings tracker;
   MotionKind motion = MotionKind::kMean;
+  AxisGains axes;
   ControllerSettings controller;
 };
 

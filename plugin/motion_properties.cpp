@@ -100,6 +100,16 @@ void install_motion_properties(GObjectClass* c) {
                               "Steepness of the nonlinear controller, seconds per pixel of a frame "
                               "480 lines high: half the maximum force is reached at 1/alpha px/s",
                               1e-6, 10.0, gain.alpha_s_px, kControllable));
+  install(kPropDepthGain,
+          g_param_spec_double("depth-gain", "Depth gain",
+                              "Force towards the viewer of what grows: 1 feels a growth like the "
+                              "speed that it gives half a frame's height away; 0 is off",
+                              0.0, 100.0, defaults.analyzer.axes.depth, kControllable));
+  install(kPropRollGain,
+          g_param_spec_double("roll-gain", "Roll gain",
+                              "Torque about the view axis of what turns: 1 feels a turn like the "
+                              "speed that it gives half a frame's height away; 0 is off",
+                              0.0, 100.0, defaults.analyzer.axes.roll, kControllable));
   install(kPropMaxFeatures,
           g_param_spec_uint("max-features", "Maximum features", "Points followed at once", 1, 10000,
                             static_cast<guint>(tracker.max_features), kControllable));
@@ -168,6 +178,12 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
     case kPropAlpha:
       gain.alpha_s_px = g_value_get_double(value);
       return true;
+    case kPropDepthGain:
+      p.analyzer.axes.depth = g_value_get_double(value);
+      return true;
+    case kPropRollGain:
+      p.analyzer.axes.roll = g_value_get_double(value);
+      return true;
     case kPropMaxFeatures:
       tracker.max_features = static_cast<int>(g_value_get_uint(value));
       return true;
@@ -218,6 +234,12 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       return true;
     case kPropAlpha:
       g_value_set_double(value, gain.alpha_s_px);
+      return true;
+    case kPropDepthGain:
+      g_value_set_double(value, p.analyzer.axes.depth);
+      return true;
+    case kPropRollGain:
+      g_value_set_double(value, p.analyzer.axes.roll);
       return true;
     case kPropMaxFeatures:
       g_value_set_uint(value, static_cast<guint>(tracker.max_features));

@@ -32,6 +32,8 @@ enum PropertyId : guint {
   kPropMotion,
   kPropMaxForce,
   kPropAlpha,
+  kPropDepthGain,
+  kPropRollGain,
   kPropMaxFeatures,
   kPropQualityLevel,
   kPropMinDistance,

@@ -195,5 +195,27 @@ TEST(ObjectMotion, TwoDiscsAreTwoObjectsAndTheHandStaysWithOne) {
   }
 }
 
+TEST(ObjectMotion, ADiscThatComesNearerAndTurnsIsFeltSo) {
+  for (const double sign : {1.0, -1.0}) {
+    MovingScene scene(kWidth, kHeight);
+    scene.plain_background();
+    scene.add_disc(60);
+    MotionAnalyzer analyzer(with(MotionKind::kObject));
+    for (int n = 0; n < 8; ++n) {
+      const Placement disc{{0, 0}, std::pow(1.02, sign * n), 0.02 * sign * n};
+      const FrameAnalysis frame = analyzer.analyze(scene.draw({}, {disc}), n * kFrame_ns);
+      if (n < 2) continue;
+      // A mean right to 0.03 px, of points that are 30 px from the middle on average.
+      EXPECT_NEAR(frame.motion.growth_1_s * kFrame_s, std::pow(1.02, sign) * std::cos(0.02) - 1,
+                  kMean_px / 30)
+          << n;
+      EXPECT_NEAR(frame.motion.roll_rad_s * kFrame_s, 0.02 * sign, kMean_px / 30) << n;
+      // Nearer: towards the viewer. Clockwise on the screen: against the device's sense of turn.
+      EXPECT_GT(sign * frame.wrench.force_N.z(), 0.5) << n;
+      EXPECT_LT(sign * frame.wrench.torque_Nm.z(), -0.5 * kTorqueArm_m) << n;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace spidar

@@ -84,7 +84,7 @@ TEST(Properties, DefaultsAreTheDocumentedOnes) {
 TEST(Properties, EverySettingReadsBackWhatWasWritten) {
   GstElement* element = make_element(
       "device=none profile=spidar-g6c controller=linear motion=camera max-force=1.5 alpha=0.02 "
-      "max-features=50 "
+      "depth-gain=2.5 roll-gain=0 max-features=50 "
       "quality-level=0.05 min-distance=4 ts-offset=-5000000 on-device-error=error "
       "post-messages=false trace=/a haptic-trace=/b");
   for (const auto& [name, text] : {std::pair{"device", "none"},
@@ -93,6 +93,8 @@ TEST(Properties, EverySettingReadsBackWhatWasWritten) {
                                    {"motion", "camera"},
                                    {"max-force", "1.5"},
                                    {"alpha", "0.02"},
+                                   {"depth-gain", "2.5"},
+                                   {"roll-gain", "0"},
                                    {"max-features", "50"},
                                    {"quality-level", "0.05"},
                                    {"min-distance", "4"},
