@@ -1,6 +1,7 @@
 /// Plays a video and lets it be felt, then says how that went. examples/play.sh builds it and finds
 /// a video.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -121,11 +122,12 @@ std::string progress_line(const Now& now) {
 int play(const Options& options) {
   GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
   for (const std::string& assignment : options.assignments) set_property(filter, assignment);
+  const std::string uri = options.ball ? "" : uri_of(options.video);
+  std::string title = options.ball ? "videotestsrc pattern=ball" : options.video;
+  if (fs::path(title).has_filename()) title = fs::path(title).filename();
   const Screen screen = open_screen(options.headless);
   GstElement* const pipeline =
-      options.ball ? make_ball(filter, screen) : make_player(uri_of(options.video), filter, screen);
-  const std::string title =
-      options.ball ? "videotestsrc pattern=ball" : fs::path(options.video).filename();
+      options.ball ? make_ball(filter, screen) : make_player(uri, filter, screen);
   std::printf("playing %s%s\n", title.c_str(),
               screen.why_none.empty()
                   ? ""

@@ -20,7 +20,7 @@ set tics nomirror
 set multiplot layout 5,1 title title . ": motion felt at the grip" noenhanced font ",15" margins 0.08,0.83,0.05,0.95 spacing 0.03
 
 stats frames using 1 nooutput name "time"
-set xrange [time_min:time_max]
+set xrange [time_min : time_max > time_min ? time_max : time_min + 1]
 set format x ""
 
 set ylabel "position, px\n(integral of velocity)"

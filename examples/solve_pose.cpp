@@ -2,10 +2,11 @@
 //   solve_pose PROFILE [--track]
 // PROFILE is a name (spidar-gcc, …) or the path of a profile file. Writes a line for each:
 //   position x y z (m), quaternion w x y z, root mean square length error (m), status
-// where status is solved, solved-without-N (string N does not fit the others and was left out) or
-// not-converged. Each line is located from the centre, or with --track next to the line before. A
-// bad line is refused by its number on standard error, and the next one read. Exit status 1 when
-// any was.
+// where status is solved, solved-without-N (string N does not fit the others and was left out),
+// ambiguous (the lengths fit two poses within the encoder's step) or not-converged; the last two
+// come with the pose before. Each line is located from the centre, or with --track next to the line
+// before. A bad line is refused by its number on standard error, and the next one read. Exit status
+// 1 when any was.
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -22,13 +23,15 @@ using namespace spidar;
 namespace {
 
 std::string status(const PoseResult& result) {
+  if (result.status == PoseStatus::kAmbiguous) return "ambiguous";
   if (result.status != PoseStatus::kSolved) return "not-converged";
   if (result.faulty_string < 0) return "solved";
   return "solved-without-" + std::to_string(result.faulty_string);
 }
 
 int run(const char* profile, bool track) {
-  PoseSolver solver(load_profile(profile).geometry);
+  const Profile device = load_profile(profile);
+  PoseSolver solver(device.geometry, device.max_pose_residual_m());
   const auto solve = [&](const std::vector<double>& numbers) -> std::string {
     if (!track) solver.reset();
     const PoseResult r =

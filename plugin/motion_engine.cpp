@@ -113,6 +113,10 @@ DeviceState MotionEngine::device_state() const {
   return session_ ? session_->loop().snapshot().last.device : DeviceState::kClosed;
 }
 
+int MotionEngine::faulty_string() const {
+  return session_ ? session_->loop().snapshot().last.faulty_string : -1;
+}
+
 void MotionEngine::apply(const AnalyzerSettings& settings) {
   analyzer_.configure(settings);
   const double max_force_N = settings.controller.max_force_N;

@@ -85,6 +85,8 @@ class MotionEngine {
   void end_of_stream();
   /// kClosed with device=none.
   DeviceState device_state() const;
+  /// −1 when all strings are well, or with device=none.
+  int faulty_string() const;
 
  private:
   void schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench);

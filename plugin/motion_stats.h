@@ -39,9 +39,9 @@ class MotionStats {
 };
 
 /// Adds device, device-state, scheduling (string), real-time (boolean), ticks, overruns,
-/// exchange-errors, pose-errors, times-lost (uint64), wakeup-us-median, wakeup-us-p999,
-/// skew-ms-median, skew-ms-p99 (double; skew: force at the device after its frame was due on the
-/// screen).
+/// exchange-errors, pose-errors, times-lost (uint64), faulty-string (int, −1 when none),
+/// wakeup-us-median, wakeup-us-p999, skew-ms-median, skew-ms-p99 (double; skew: force at the device
+/// after its frame was due on the screen).
 void describe_session(const HapticSession& session, GstStructure* structure);
 
 }  // namespace spidar

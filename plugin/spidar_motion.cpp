@@ -55,6 +55,7 @@ struct _GstSpidarMotion {
   // Streaming thread: what was already complained about in this stream.
   guint warned;
   DeviceState device_state;
+  guint warned_strings;  // bit i: string i
 };
 
 #define CAPS                                                  \
@@ -129,8 +130,19 @@ static void warn_of_frame(GstSpidarMotion* self, FrameProblem problem) {
   }
 }
 
+static void warn_of_string(GstSpidarMotion* self) {
+  const int string = self->engine->faulty_string();
+  if (string < 0 || (self->warned_strings & 1u << string) != 0) return;
+  self->warned_strings |= 1u << string;
+  GST_ELEMENT_WARNING(
+      self, RESOURCE, READ,
+      ("String %d of the haptic device is slack or its encoder is at fault.", string),
+      ("Its length fits no pose of the others. The grip is found without it."));
+}
+
 /// False when the stream is to end.
 static bool check_device(GstSpidarMotion* self, OnDeviceError policy) {
+  warn_of_string(self);
   const DeviceState state = self->engine->device_state();
   const DeviceState before = self->device_state;
   self->device_state = state;
@@ -266,6 +278,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   GST_OBJECT_UNLOCK(self);
   self->warned = 0;
   self->device_state = DeviceState::kClosed;
+  self->warned_strings = 0;
   const std::string reason = self->engine->start(trace);
   if (!reason.empty()) {
     GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,

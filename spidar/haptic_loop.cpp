@@ -11,11 +11,12 @@ constexpr double kMaxRate = 10;
 
 HapticLoop::HapticLoop(const Profile& profile, Device& device, const SafetyLimits& limits)
     : profile_(profile),
-      home_length_m_(string_lengths_m(profile.geometry, Pose{})),
+      zero_length_m_(profile.zero_count_length_m()),
       device_(device),
       shared_limits_(limits),
       limits_(limits),
-      pose_solver_(profile.geometry) {
+      tension_slew_(profile),
+      pose_solver_(profile.geometry, profile.max_pose_residual_m()) {
   problem_.count = profile_.geometry.count;
   problem_.t_min_N = profile_.min_tension_N();
   problem_.t_max_N = profile_.max_tension_N();
@@ -60,9 +61,11 @@ void HapticLoop::energise() noexcept {
   errors_in_a_row_ = 0;
   located_ = false;
   pose_ = {};
+  faulty_string_ = -1;
   pose_solver_.reset();
   tension_solver_.reset();
   safety_.reset();
+  tension_slew_.reset(profile_);
 }
 
 void HapticLoop::lose() noexcept {
@@ -107,13 +110,15 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   shared_limits_.try_load(limits_);
   find_wanted(record);
   if (state_ != DeviceState::kLost && state_ != DeviceState::kClosed) {
-    command(record, 1e-9 * static_cast<double>(step_ns));
-    pull(record);
+    const double dt_s = 1e-9 * static_cast<double>(step_ns);
+    command(record, dt_s);
+    pull(record, dt_s);
     exchange(record);
   }
   record.device = state_;
   record.pose = pose_;
   record.pose_residual_m = pose_residual_m_;
+  record.faulty_string = faulty_string_;
   publish(record);
 }
 
@@ -178,11 +183,12 @@ bool HapticLoop::located_at(int64_t now_ns) const noexcept {
   return located_ && now_ns - located_ns_ <= kPoseTimeout_ns;
 }
 
-void HapticLoop::pull(TickRecord& record) noexcept {
+void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
   problem_.W = structure_matrix(profile_.geometry, pose_);
   problem_.wrench = record.commanded;
   const TensionResult result = tension_solver_.solve(problem_);
-  record.tension_N = bound_tensions(result.tension_N, profile_, energised_);
+  const StringVector tension_N = tension_slew_.apply(result.tension_N, profile_, dt_s);
+  record.tension_N = bound_tensions(tension_N, profile_, energised_);
   const Eigen::Matrix<double, 6, 1> delivered = problem_.W * record.tension_N;
   record.delivered = {delivered.head<3>(), delivered.tail<3>()};
 }
@@ -199,18 +205,20 @@ void HapticLoop::exchange(TickRecord& record) noexcept {
   if (status == ExchangeStatus::kLost || ++errors_in_a_row_ >= kMaxErrors) lose();
 }
 
-/// Counts are zero where the grip was held when the device was opened: at the centre.
 void HapticLoop::locate(const DeviceReading& reading, int64_t now_ns) noexcept {
   StringVector lengths_m = StringVector::Zero();
   for (int i = 0; i < profile_.geometry.count; ++i) {
     const auto k = static_cast<size_t>(i);
     const StringDrive& drive = profile_.drives[k];
-    lengths_m[i] = home_length_m_[i] + drive.encoder_sign * drive.metres_per_count *
+    lengths_m[i] = zero_length_m_[i] + drive.encoder_sign * drive.metres_per_count *
                                            static_cast<double>(reading.count[k]);
   }
   const PoseResult result = pose_solver_.solve(lengths_m);
   pose_residual_m_ = result.residual_m;
   if (result.status == PoseStatus::kSolved) {
+    if (result.faulty_string >= 0 && result.faulty_string != faulty_string_)
+      ++counters_.string_faults;
+    faulty_string_ = result.faulty_string;
     pose_ = result.pose;
     located_ = true;
     located_ns_ = now_ns;

@@ -112,14 +112,14 @@ class SPIDAR_API HapticLoop {
   void take_scheduled(bool playing, int64_t running_ns) noexcept;
   void find_wanted(TickRecord& record) noexcept;
   void command(TickRecord& record, double dt_s) noexcept;
-  void pull(TickRecord& record) noexcept;
+  void pull(TickRecord& record, double dt_s) noexcept;
   void exchange(TickRecord& record) noexcept;
   void locate(const DeviceReading& reading, int64_t now_ns) noexcept;
   bool located_at(int64_t now_ns) const noexcept;
   void publish(const TickRecord& record) noexcept;
 
   const Profile profile_;
-  const StringVector home_length_m_;
+  const StringVector zero_length_m_;
   Device& device_;
   // Shared.
   SpscRing<Scheduled, 256> scheduled_;
@@ -138,6 +138,7 @@ class SPIDAR_API HapticLoop {
   int64_t newest_ns_ = INT64_MIN;   // running time of the newest wrench in the timeline
   int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last
   WrenchSafety safety_;
+  TensionSlew tension_slew_;
   PoseSolver pose_solver_;
   TensionSolver tension_solver_;
   TensionProblem problem_;
@@ -146,6 +147,7 @@ class SPIDAR_API HapticLoop {
   int errors_in_a_row_ = 0;
   Pose pose_;
   double pose_residual_m_ = 0;
+  int faulty_string_ = -1;
   bool located_ = false;  // pose_ is of this device since it was opened
   int64_t located_ns_ = 0;
   bool ticked_ = false;

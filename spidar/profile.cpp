@@ -65,12 +65,20 @@ StringVector per_string(const Profile& profile) {
 
 }  // namespace
 
+StringVector Profile::zero_count_length_m() const {
+  return string_lengths_m(geometry, {}) + per_string<&StringDrive::home_offset_m>(*this);
+}
+
 StringVector Profile::min_tension_N() const {
   return per_string<&StringDrive::min_tension_N>(*this);
 }
 
 StringVector Profile::max_tension_N() const {
   return per_string<&StringDrive::max_tension_N>(*this);
+}
+
+double Profile::max_pose_residual_m() const {
+  return per_string<&StringDrive::metres_per_count>(*this).maxCoeff();
 }
 
 Profile load_profile(const std::string& name_or_path) {

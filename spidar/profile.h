@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -27,6 +28,9 @@ struct StringDrive {
   double metres_per_count = 0;  ///< > 0; the direction is in encoder_sign
   int motor_sign = 1;           ///< +1: a positive voltage pulls
   int encoder_sign = 1;         ///< +1: the count rises when string is paid out
+  /// Length at zero count minus length with the grip at the centre: 0 when the grip was at the
+  /// centre when the board's counters were cleared. Holds until they are cleared again.
+  double home_offset_m = 0;
 };
 
 /// How sure a number is.
@@ -34,6 +38,7 @@ enum class Evidence {
   kPublished,     ///< read in the source
   kInferred,      ///< derived or plausible; check on the unit
   kContradicted,  ///< read in the source, and another source says something else
+  kMeasured,      ///< on this very unit, by calibration
 };
 
 /// Where a group of numbers comes from.
@@ -44,6 +49,15 @@ struct Provenance {
   std::string note;  ///< how it was derived, or what contradicts it; may be empty
 };
 
+/// How well calibrated numbers are known: standard deviations. What was not calibrated is empty.
+struct CalibrationRecord {
+  int samples = 0;
+  double residual_m = 0;                   ///< root mean square length error of all samples
+  std::vector<double> home_offset_sd_m;    ///< one for each string
+  std::optional<double> scale_sd;          ///< of metres_per_count, relative, common to all strings
+  std::vector<Eigen::Vector3d> exit_sd_m;  ///< one for each string, x, y, z
+};
+
 struct Profile {
   std::string name;         ///< file name without ending
   std::string description;  ///< one line
@@ -52,10 +66,16 @@ struct Profile {
   std::array<StringDrive, kMaxStrings> drives{};  ///< geometry.count are used
   int dac_bits = 12;                              ///< resolution of the D/A over dac_max_V
   double dac_max_V = 10.0;                        ///< D/A range is 0 … this, times motor_sign
+  std::optional<CalibrationRecord> calibration;
   std::vector<Provenance> provenance;
 
+  /// Lengths at which the counters are zero: those at the centre plus home_offset_m.
+  SPIDAR_API StringVector zero_count_length_m() const;
   SPIDAR_API StringVector min_tension_N() const;
   SPIDAR_API StringVector max_tension_N() const;
+  /// What a PoseSolver may leave of a right pose (root mean square): one encoder step, the coarsest
+  /// of the strings. Counts err by half of it; the rest is for what the geometry does not say.
+  SPIDAR_API double max_pose_residual_m() const;
 };
 
 /// `name_or_path`: a name as of list_profiles(), or a path (has a '/' or ends in .toml).

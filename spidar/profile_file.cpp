@@ -1,5 +1,6 @@
 #include "spidar/profile_file.h"
 
+#include <limits>
 #include <string_view>
 
 #include "spidar/toml_field.h"
@@ -81,6 +82,24 @@ Signs signs(const TomlField& field, int count) {
   return values;
 }
 
+/// Missing: zero.
+Values home_offsets(const TomlField& strings, const StringGeometry& geometry) {
+  Values values{};
+  if (!strings.has("home_offset_m")) return values;
+  const TomlField field = strings["home_offset_m"];
+  check_length(field, geometry.count);
+  const StringVector home_m = string_lengths_m(geometry, {});
+  for (size_t i = 0; i < field.size(); ++i) {
+    values[i] = field[i].number();
+    const double length_m = home_m[static_cast<Eigen::Index>(i)] + values[i];
+    if (!(length_m > 0 && length_m <= 2 * kMaxCoordinate_m))
+      field[i].fail("is " + shown(values[i]) + ": with the length at the centre the string has " +
+                    shown(length_m) + " m at zero count, must be above zero and at most " +
+                    shown(2 * kMaxCoordinate_m) + " m; the unit is metres");
+  }
+  return values;
+}
+
 void check_drive(const TomlField& in, size_t i, const StringDrive& drive, double dac_max_V) {
   const std::string string = "string " + shown(i) + ": ";
   if (!(drive.min_tension_N < drive.max_tension_N))
@@ -100,7 +119,7 @@ void check_drive(const TomlField& in, size_t i, const StringDrive& drive, double
 
 void read_strings(const TomlField& in, Profile& profile) {
   in.allow_only({"min_tension_N", "max_tension_N", "newtons_per_volt", "metres_per_count",
-                 "motor_sign", "encoder_sign"});
+                 "motor_sign", "encoder_sign", "home_offset_m"});
   const int count = profile.geometry.count;
   const Values min_N = per_string(in["min_tension_N"], count);
   const Values max_N = per_string(in["max_tension_N"], count);
@@ -108,18 +127,20 @@ void read_strings(const TomlField& in, Profile& profile) {
   const Values m_per_count = per_string(in["metres_per_count"], count);
   const Signs motor_sign = signs(in["motor_sign"], count);
   const Signs encoder_sign = signs(in["encoder_sign"], count);
+  const Values home_offset_m = home_offsets(in, profile.geometry);
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    profile.drives[i] = {min_N[i],       max_N[i],      N_per_V[i],
-                         m_per_count[i], motor_sign[i], encoder_sign[i]};
+    profile.drives[i] = {min_N[i],      max_N[i],        N_per_V[i],      m_per_count[i],
+                         motor_sign[i], encoder_sign[i], home_offset_m[i]};
     check_drive(in, i, profile.drives[i], profile.dac_max_V);
   }
 }
 
 Evidence read_evidence(const TomlField& field) {
-  const std::string evidence = field.one_of({"published", "inferred", "contradicted"});
-  return evidence == "published"  ? Evidence::kPublished
-         : evidence == "inferred" ? Evidence::kInferred
-                                  : Evidence::kContradicted;
+  const std::string evidence = field.one_of({"published", "inferred", "contradicted", "measured"});
+  return evidence == "published"      ? Evidence::kPublished
+         : evidence == "inferred"     ? Evidence::kInferred
+         : evidence == "contradicted" ? Evidence::kContradicted
+                                      : Evidence::kMeasured;
 }
 
 std::vector<Provenance> read_sources(const TomlField& sources) {
@@ -133,13 +154,40 @@ std::vector<Provenance> read_sources(const TomlField& sources) {
     if (in.has("note")) row.note = in["note"].string();
     const TomlField fields = in["fields"];
     for (size_t k = 0; k < fields.size(); ++k) {
-      row.field = fields[k].one_of({"geometry", "frame", "min_tension_N", "max_tension_N",
-                                    "newtons_per_volt", "metres_per_count", "motor_sign",
-                                    "encoder_sign", "board", "dac_bits", "dac_max_V"});
+      row.field =
+          fields[k].one_of({"geometry", "frame", "min_tension_N", "max_tension_N",
+                            "newtons_per_volt", "metres_per_count", "motor_sign", "encoder_sign",
+                            "home_offset_m", "board", "dac_bits", "dac_max_V"});
       provenance.push_back(row);
     }
   }
   return provenance;
+}
+
+double not_negative(const TomlField& field) {
+  const double value = field.number();
+  if (value < 0) field.fail("is " + shown(value) + ", must not be negative");
+  return value;
+}
+
+CalibrationRecord read_calibration(const TomlField& in, int count) {
+  in.allow_only({"samples", "residual_m", "home_offset_sd_m", "scale_sd", "exit_sd_m"});
+  CalibrationRecord record;
+  record.samples = in["samples"].integer(1, std::numeric_limits<int>::max());
+  record.residual_m = not_negative(in["residual_m"]);
+  const TomlField offsets = in["home_offset_sd_m"];
+  check_length(offsets, count);
+  for (size_t i = 0; i < offsets.size(); ++i)
+    record.home_offset_sd_m.push_back(not_negative(offsets[i]));
+  if (in.has("scale_sd")) record.scale_sd = not_negative(in["scale_sd"]);
+  if (!in.has("exit_sd_m")) return record;
+  const TomlField exits = in["exit_sd_m"];
+  check_length(exits, count);
+  for (size_t i = 0; i < exits.size(); ++i) {
+    record.exit_sd_m.push_back(point(exits[i], Eigen::Array3d::Ones()));
+    for (size_t axis = 0; axis < 3; ++axis) not_negative(exits[i][axis]);
+  }
+  return record;
 }
 
 }  // namespace
@@ -153,8 +201,8 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
                     "not TOML: " + std::string(error.description()));
   }
   const TomlField root(path, document);
-  root.allow_only(
-      {"description", "board", "dac_bits", "dac_max_V", "geometry", "strings", "source"});
+  root.allow_only({"description", "board", "dac_bits", "dac_max_V", "geometry", "strings",
+                   "calibration", "source"});
   Profile profile;
   profile.name = name;
   profile.description = root["description"].string();
@@ -163,6 +211,8 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
   profile.dac_max_V = root["dac_max_V"].positive();
   profile.geometry = read_geometry(root["geometry"]);
   read_strings(root["strings"], profile);
+  if (root.has("calibration"))
+    profile.calibration = read_calibration(root["calibration"], profile.geometry.count);
   if (root.has("source")) profile.provenance = read_sources(root["source"]);
   return profile;
 }

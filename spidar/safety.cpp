@@ -71,6 +71,22 @@ void WrenchSafety::reset() noexcept {
   stale_.reset();
 }
 
+StringVector TensionSlew::apply(const StringVector& tension_N, const Profile& profile,
+                                double dt_s) noexcept {
+  StringVector wanted_N = tension_N;
+  double share = 1;
+  for (int i = 0; i < profile.geometry.count; ++i) {
+    const StringDrive& drive = profile.drives[static_cast<size_t>(i)];
+    if (!std::isfinite(wanted_N[i])) wanted_N[i] = drive.min_tension_N;
+    const double allowed_N =
+        non_negative(dt_s) / kRange_s * (drive.max_tension_N - drive.min_tension_N);
+    const double change_N = std::fabs(wanted_N[i] - last_N_[i]);
+    if (change_N > allowed_N) share = std::min(share, allowed_N / change_N);
+  }
+  last_N_ = share < 1 ? StringVector(last_N_ + share * (wanted_N - last_N_)) : wanted_N;
+  return last_N_;
+}
+
 StringVector bound_tensions(const StringVector& tension_N, const Profile& profile,
                             double energised) noexcept {
   const double scale = std::min(non_negative(energised), 1.0);

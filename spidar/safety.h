@@ -87,6 +87,27 @@ class SPIDAR_API WrenchSafety {
   StaleRamp stale_;
 };
 
+/// Bounds the change of tensions per second. At the border of the poses that strings can balance
+/// the solution moves nearly the whole tension from some strings to others within a tick
+/// (docs/workspace.md), which a hand would feel as a jerk and a motor cannot follow.
+class SPIDAR_API TensionSlew {
+ public:
+  /// A string takes this long at least through its whole range.
+  static constexpr double kRange_s = 0.02;
+
+  explicit TensionSlew(const Profile& profile) { reset(profile); }
+
+  /// All strings go the same share of the way, so that no bound is passed, and the wrench lies
+  /// between the one of before and the wanted one. Not a number counts as the minimum.
+  StringVector apply(const StringVector& tension_N, const Profile& profile, double dt_s) noexcept;
+
+  /// At rest: every string at its minimum.
+  void reset(const Profile& profile) noexcept { last_N_ = profile.min_tension_N(); }
+
+ private:
+  StringVector last_N_;
+};
+
 /// Tensions within each string's range, times `energised` (0: motors off … 1: full), so that a
 /// device coming up pulls in the right direction all the while. Not a number counts as the minimum.
 SPIDAR_API StringVector bound_tensions(const StringVector& tension_N, const Profile& profile,

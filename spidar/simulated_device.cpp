@@ -1,10 +1,13 @@
 #include "spidar/simulated_device.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <ctime>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 
 #include "spidar/seqlock.h"
 #include "spidar/spsc_ring.h"
@@ -38,7 +41,7 @@ struct SimulatedDevice::Impl {
         time(how),
         model_lag_s(model.motor_time_constant_s),
         dynamics(of.geometry, of.max_tension_N(), model),
-        home_length_m(string_lengths_m(of.geometry, {})) {}
+        zero_length_m(of.zero_count_length_m()) {}
 
   void put_out(const MotorVolts& volts) noexcept {
     for (int i = 0; i < profile.geometry.count; ++i) {
@@ -67,8 +70,9 @@ struct SimulatedDevice::Impl {
     for (int i = 0; i < profile.geometry.count; ++i) {
       const auto k = static_cast<size_t>(i);
       const StringDrive& drive = profile.drives[k];
-      const double counts = (length_m[i] - home_length_m[i]) / drive.metres_per_count;
-      reading.count[k] = drive.encoder_sign * static_cast<int32_t>(std::lround(counts));
+      const double counts = (length_m[i] - zero_length_m[i]) / drive.metres_per_count;
+      reading.count[k] = drive.encoder_sign * static_cast<int32_t>(std::lround(counts)) +
+                         count_error[k].load(std::memory_order_relaxed);
     }
   }
 
@@ -98,7 +102,7 @@ struct SimulatedDevice::Impl {
   const Time time;
   const double model_lag_s;
   const GripDynamics dynamics;
-  const StringVector home_length_m;
+  const StringVector zero_length_m;
   // Of the thread that exchanges.
   bool open = false;
   int64_t time_ns = 0;
@@ -110,6 +114,7 @@ struct SimulatedDevice::Impl {
   std::mutex hand_writers;
   Seqlock<Pose> hand_shared;
   std::atomic<ExchangeStatus> fault{ExchangeStatus::kOk};
+  std::array<std::atomic<int32_t>, kMaxStrings> count_error{};
   Seqlock<FeltState> felt;
   SpscRing<FeltState, 4096> history;
 };
@@ -162,6 +167,14 @@ void SimulatedDevice::set_hand(const Pose& pose) noexcept {
 
 void SimulatedDevice::set_fault(ExchangeStatus fault) noexcept {
   impl_->fault.store(fault);
+}
+
+void SimulatedDevice::set_count_error(int string, int32_t counts) {
+  const int strings = impl_->profile.geometry.count;
+  if (string < 0 || string >= strings)
+    throw std::out_of_range("sim: there is no string " + std::to_string(string) +
+                            "; known are 0 to " + std::to_string(strings - 1));
+  impl_->count_error[static_cast<size_t>(string)] = counts;
 }
 
 FeltState SimulatedDevice::felt() const noexcept {

@@ -42,8 +42,9 @@ class SPIDAR_API SimulatedDevice final : public Device {
   SimulatedDevice(const Profile& profile, Time time, const GripModel& model = {});
   ~SimulatedDevice() override;
 
-  /// Puts the grip at rest at the centre, where the counters are cleared, as the user of a real
-  /// device does. Throws DeviceError for as long as a fault stands.
+  /// Puts the grip at rest at the centre, as the user of a real device does. The counters are zero
+  /// there, or where the profile's home_offset_m says. Throws DeviceError for as long as a fault
+  /// stands.
   void open() override;
 
   /// kLost when not open. Volts that are not finite or point the wrong way count as zero.
@@ -63,6 +64,10 @@ class SPIDAR_API SimulatedDevice final : public Device {
   /// with kTimeout the volts do not reach the motors, with kBadReply they do. kLost closes the
   /// device. Any thread.
   void set_fault(ExchangeStatus fault) noexcept;
+
+  /// From now on the encoder of `string` (0 … count − 1) says this many counts more: pulses that
+  /// were lost, or string that is slack. Any thread. Throws std::out_of_range.
+  void set_count_error(int string, int32_t counts);
 
   /// Newest state; any thread.
   FeltState felt() const noexcept;

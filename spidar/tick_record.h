@@ -66,6 +66,7 @@ struct TickRecord {
   StringVector tension_N = StringVector::Zero();
   Pose pose;  ///< from the newest good reading
   double pose_residual_m = 0;
+  int faulty_string = -1;  ///< whose length fits no pose that the others agree on; −1 when all fit
   DeviceState device = DeviceState::kClosed;
   bool playing = false;
 };
@@ -77,6 +78,7 @@ struct LoopCounters {
   uint64_t missed_deadlines = 0;  ///< deadlines left out because of that
   uint64_t exchange_errors = 0;
   uint64_t pose_errors = 0;
+  uint64_t string_faults = 0;      ///< times that a string became faulty, or another one did
   uint64_t rejected_wrenches = 0;  ///< not finite
   uint64_t refused_wrenches = 0;   ///< time not after that of the one before
   uint64_t times_lost = 0;

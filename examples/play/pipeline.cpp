@@ -43,12 +43,16 @@ Screen open_screen(bool headless) {
   } else if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) {
     screen.why_none = "neither DISPLAY nor WAYLAND_DISPLAY is set";
   } else {
-    screen.element = make("autovideosink");
-    gst_element_set_state(screen.element, GST_STATE_READY);
-    screen.sink = chosen_sink(screen.element);
-    if (screen.sink != nullptr) return screen;
-    gst_element_set_state(screen.element, GST_STATE_NULL);
-    gst_object_unref(gst_object_ref_sink(screen.element));
+    // An X server that has no other client starts anew when autovideosink lets go of the first sink
+    // it tries, and is not there for the next one.
+    for (int attempt = 0; attempt < 5; ++attempt) {
+      screen.element = make("autovideosink");
+      gst_element_set_state(screen.element, GST_STATE_READY);
+      screen.sink = chosen_sink(screen.element);
+      if (screen.sink != nullptr) return screen;
+      gst_element_set_state(screen.element, GST_STATE_NULL);
+      gst_object_unref(gst_object_ref_sink(screen.element));
+    }
     screen.why_none = "no video sink can open the display";
   }
   screen.element = screen.sink = make("fakesink");

@@ -38,15 +38,15 @@ double number_of(const GstStructure* stats, const char* name) {
 }
 
 std::string to_text(const GValue* value) {
-  if (G_VALUE_HOLDS_STRING(value)) return g_value_get_string(value);
   char text[32];
   if (G_VALUE_HOLDS_DOUBLE(value)) {
     std::snprintf(text, sizeof(text), "%.5g", g_value_get_double(value));
     return text;
   }
-  char* const serialized = gst_value_serialize(value);
-  const std::string result = serialized;
-  g_free(serialized);
+  char* const string =
+      G_VALUE_HOLDS_STRING(value) ? g_value_dup_string(value) : gst_value_serialize(value);
+  const std::string result = string != nullptr ? string : "-";
+  g_free(string);
   return result;
 }
 

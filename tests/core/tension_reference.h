@@ -24,8 +24,9 @@ struct Optimality {
 namespace detail {
 
 using Long = long double;
-using LongMatrix = Eigen::Matrix<Long, kMaxStrings, kMaxStrings>;
-using LongVector = Eigen::Matrix<Long, kMaxStrings, 1>;
+// Of sizes known at run time only: unrolled long double takes the compiler half a minute.
+using LongMatrix = Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>;
+using LongVector = Eigen::Matrix<Long, Eigen::Dynamic, 1>;
 
 /// ½ tᵀQt − cᵀt; strings that are not in use have zero rows.
 struct Objective {
@@ -33,11 +34,11 @@ struct Objective {
   LongVector c;
 
   explicit Objective(const TensionProblem& p) {
-    Eigen::Matrix<Long, 6, 1> s;
-    s << 1, 1, 1, Eigen::Matrix<Long, 3, 1>::Constant(1 / Long(p.torque_length_m));
-    Eigen::Matrix<Long, 6, kMaxStrings> A = s.asDiagonal() * p.W.cast<Long>();
+    LongVector s(6);
+    s << 1, 1, 1, LongVector::Constant(3, 1 / Long(p.torque_length_m));
+    LongMatrix A = s.asDiagonal() * LongMatrix(p.W.cast<Long>());
     for (int i = p.count; i < kMaxStrings; ++i) A.col(i).setZero();
-    const Eigen::Matrix<Long, 6, 1> f = s.cwiseProduct(p.wrench.stacked().cast<Long>());
+    const LongVector f = s.cwiseProduct(LongVector(p.wrench.stacked().cast<Long>()));
     Q = A.transpose() * A;
     c = A.transpose() * f;
     for (int i = 0; i < p.count; ++i) {
@@ -52,7 +53,7 @@ struct Objective {
 /// Minimiser over the strings with `free`, the others held at `t`.
 inline LongVector free_minimum(const Objective& objective, const LongVector& t,
                                const std::array<bool, kMaxStrings>& free) {
-  LongMatrix A = LongMatrix::Identity();
+  LongMatrix A = LongMatrix::Identity(kMaxStrings, kMaxStrings);
   LongVector b = t;
   const LongVector g = objective.c - objective.Q * t;
   for (int i = 0; i < kMaxStrings; ++i) {
@@ -87,9 +88,9 @@ inline StringVector solve_by_enumeration(const TensionProblem& p) {
   int patterns = 1;
   for (int i = 0; i < p.count; ++i) patterns *= 3;
   detail::Long best = std::numeric_limits<detail::Long>::infinity();
-  detail::LongVector best_t = detail::LongVector::Zero();
+  detail::LongVector best_t = detail::LongVector::Zero(kMaxStrings);
   for (int pattern = 0; pattern < patterns; ++pattern) {
-    detail::LongVector t = detail::LongVector::Zero();
+    detail::LongVector t = detail::LongVector::Zero(kMaxStrings);
     std::array<bool, kMaxStrings> free{};
     for (int i = 0, rest = pattern; i < p.count; ++i, rest /= 3) {
       free[i] = rest % 3 == 0;

@@ -85,6 +85,26 @@ TEST_F(DeviceTest, ThatIsLostIsAnErrorWhereThatWasAskedFor) {
   EXPECT_TRUE(h->warnings().empty());
 }
 
+TEST_F(DeviceTest, AFaultyStringIsNamedOnceAndInTheStats) {
+  open("device=sim");
+  push_next();
+  tick(300);
+  EXPECT_EQ(push_next(), GST_FLOW_OK);
+  EXPECT_TRUE(h->warnings().empty());
+  device().set_count_error(5, 100);  // 1.5 mm
+  tick(2);
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(push_next(), GST_FLOW_OK);
+  ASSERT_EQ(h->warnings().size(), 1u) << "said once, not once a frame";
+  EXPECT_NE(h->warnings()[0].find("String 5"), std::string::npos) << h->warnings()[0];
+
+  GstStructure* stats = nullptr;
+  g_object_get(h->element(), "stats", &stats, nullptr);
+  int faulty = -1;
+  EXPECT_TRUE(gst_structure_get_int(stats, "faulty-string", &faulty));
+  EXPECT_EQ(faulty, 5);
+  gst_structure_free(stats);
+}
+
 TEST_F(DeviceTest, MaxForceHoldsAtOnceWhilePlaying) {
   open("device=sim max-force=3");
   push_next();

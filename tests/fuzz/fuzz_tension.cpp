@@ -1,45 +1,13 @@
-// Fuzz target of the tension solver. With clang, build this file and core/tension_solver.cpp with
-// -std=c++17 -fsanitize=fuzzer,address,undefined -DEIGEN_MAX_STATIC_ALIGN_BYTES=16 -I.
+// Fuzz target of the tension solver; CONTRIBUTING.md says how to run it under libFuzzer.
 // The bytes are taken as the numbers of a problem. Whatever they are, tensions are within bounds
 // that are bounds, never NaN, and what is called solved is solved.
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 
 #include "core/tension_solver.h"
+#include "numbers.h"
 
 using namespace spidar;
-
-namespace {
-
-class Numbers {
- public:
-  Numbers(const uint8_t* data, size_t size) : data_(data), left_(size) {}
-
-  double next() {
-    double x = 0;
-    const size_t n = left_ < sizeof x ? left_ : sizeof x;
-    std::memcpy(&x, data_, n);
-    data_ += n;
-    left_ -= n;
-    return x;
-  }
-
- private:
-  const uint8_t* data_;
-  size_t left_;
-};
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "fuzz_tension: %s\n", what);
-  std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;

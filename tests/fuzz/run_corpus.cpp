@@ -1,9 +1,10 @@
-// Runs a fuzz target without a fuzzer: on the files named, or on seeded inputs of its own, made of
-// numbers of all sizes, of special ones, and of plain noise.
+// Runs a fuzz target without a fuzzer: on the files and the files of the folders named, and on
+// seeded inputs of its own, made of numbers of all sizes, of special ones, and of plain noise.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -57,18 +58,26 @@ std::vector<uint8_t> random_input(uint64_t seed) {
   return bytes;
 }
 
+void run_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
+  LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
-    std::ifstream file(argv[i], std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
-    LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
+    if (!std::filesystem::is_directory(argv[i])) {
+      run_file(argv[i]);
+      continue;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(argv[i])) run_file(entry.path());
   }
-  if (argc > 1) return 0;
-  for (uint64_t seed = 0; seed < 200000; ++seed) {
+  constexpr uint64_t kInputs = 50000;
+  for (uint64_t seed = 0; seed < kInputs; ++seed) {
     const std::vector<uint8_t> bytes = random_input(seed);
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
   }
-  std::puts("200000 inputs");
+  std::printf("%d inputs\n", static_cast<int>(kInputs));
 }

@@ -195,6 +195,25 @@ void put_grip(LoopDriver& driver, const Pose& pose) {
   }
 }
 
+TEST(HapticLoopDevice, ReportsAFaultyString) {
+  LoopDriver driver;
+  driver.open();
+  Pose pose;
+  pose.position_m = {2e-4, -1e-4, 1e-4};
+  put_grip(driver, pose);
+  TickRecord record = driver.tick();
+  EXPECT_EQ(record.faulty_string, -1);
+  driver.log().count[6] += 65;  // 1 mm
+  record = driver.tick();
+  EXPECT_EQ(record.faulty_string, 6);
+  EXPECT_EQ(driver.counters().string_faults, 1u);
+  // Seven strings at a count of 15 µm each, with some conditioning.
+  EXPECT_LE((record.pose.position_m - pose.position_m).norm(), 1e-4);
+  EXPECT_EQ(driver.tick().faulty_string, 6);
+  EXPECT_EQ(driver.counters().string_faults, 1u) << "counted once";
+  EXPECT_EQ(driver.counters().pose_errors, 0u);
+}
+
 TEST(HapticLoopDevice, FindsAGripThatWasLostFromTheCentre) {
   constexpr int kSeed = 5;
   std::mt19937_64 random(kSeed);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -193,6 +194,62 @@ TEST(WrenchSafety, HoldsItsLimitsForAnySequence) {
     last = commanded;
   }
   EXPECT_GT(safety.rejected(), 0u);
+}
+
+StringVector two_tensions(double first_N, double second_N) {
+  StringVector tension_N = StringVector::Zero();
+  tension_N.head<2>() << first_N, second_N;
+  return tension_N;
+}
+
+TEST(TensionSlew, LeavesSmallChanges) {
+  const Profile profile = two_strings();
+  TensionSlew slew(profile);
+  // 4.7 and 3.8 N of range, a twentieth of it a tick.
+  const StringVector near_rest = two_tensions(0.3 + 0.23, 0.2 + 0.18);
+  EXPECT_EQ(slew.apply(near_rest, profile, kTick_s), near_rest);
+}
+
+TEST(TensionSlew, TakesItsTimeAndAllStringsGoTheSameShare) {
+  const Profile profile = two_strings();
+  TensionSlew slew(profile);
+  const StringVector rest = two_tensions(0.3, 0.2);
+  const StringVector wanted = two_tensions(5.0, 1.2);  // the first through its whole range
+  StringVector last = rest;
+  for (int tick = 1; tick <= 20; ++tick) {
+    const StringVector now = slew.apply(wanted, profile, kTick_s);
+    const StringVector expected = rest + tick / 20.0 * (wanted - rest);
+    // Each tick rounds a share and a sum.
+    EXPECT_LT((now - expected).norm(), tick * 4 * std::numeric_limits<double>::epsilon() * 5);
+    EXPECT_GT(now[0], last[0]);
+    last = now;
+  }
+}
+
+TEST(TensionSlew, WrenchStaysBetweenThatOfBeforeAndTheWanted) {
+  // A linear function of tensions: what is true of one is true of each component of W t.
+  const Profile profile = two_strings();
+  TensionSlew slew(profile);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> tension(0.3, 4.0);
+  StringVector last = two_tensions(0.3, 0.2);
+  for (int tick = 0; tick < 1000; ++tick) {
+    const StringVector wanted = two_tensions(tension(random), tension(random));
+    const StringVector now = slew.apply(wanted, profile, kTick_s);
+    const auto pull = [](const StringVector& t) { return t[0] - 0.7 * t[1]; };
+    const double low = std::min(pull(last), pull(wanted));
+    const double high = std::max(pull(last), pull(wanted));
+    EXPECT_GE(pull(now), low - kRounding * 8) << "tick " << tick;
+    EXPECT_LE(pull(now), high + kRounding * 8) << "tick " << tick;
+    last = now;
+  }
+}
+
+TEST(TensionSlew, TakesNotANumberForTheMinimum) {
+  const Profile profile = two_strings();
+  TensionSlew slew(profile);
+  EXPECT_EQ(slew.apply(two_tensions(kNaN, kInf), profile, kTick_s), two_tensions(0.3, 0.2));
+  EXPECT_EQ(slew.apply(two_tensions(5, 4), profile, kNaN), two_tensions(0.3, 0.2));
 }
 
 TEST(BoundTensions, KeepsEveryStringInItsRange) {

@@ -1,0 +1,76 @@
+#include "examples/workspace/force_closure.h"
+
+#include <algorithm>
+
+#include <Eigen/SVD>
+
+namespace {
+
+using spidar::kMaxStrings;
+using spidar::StringVector;
+using Directions = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kMaxStrings, 2>;
+using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxStrings>;
+
+// Smaller singular values than this share of the largest count as zero: at a singular pose they are
+// rounding, and a pose this near to one is of no use.
+constexpr double kRankTolerance = 1e-9;
+// A ratio of tensions below this is a rounded zero: the pose is on the border.
+constexpr double kLeastRatio = 1e-12;
+// Stands for "above zero" where a profile lets tensions fall to zero.
+constexpr double kLeastTension_N = 1e-9;
+
+/// Null space of `A` by columns, the second one zero when there is only one. No columns when A has
+/// not rank 6 or nothing is left over.
+bool null_space(const Columns& A, Directions& N) {
+  const Eigen::JacobiSVD<Columns> svd(A, Eigen::ComputeFullV);
+  const auto rest = A.cols() - 6;
+  if (rest < 1 || svd.singularValues()[5] <= kRankTolerance * svd.singularValues()[0]) return false;
+  N = Directions::Zero(A.cols(), 2);
+  N.leftCols(rest) = svd.matrixV().rightCols(rest);
+  return true;
+}
+
+/// Largest min tᵢ/lowᵢ over max tᵢ/highᵢ of all t = N d; 0 when no t is all positive.
+///
+/// With eight strings d turns in a plane. Where t is all positive, which is an arc of directions,
+/// the ratio is 0 at both ends and monotonic between the directions at which another string becomes
+/// the least or the largest, so its largest value is at one of those. With seven, d is ±(1, 0).
+double best_ratio(const Directions& N, const StringVector& low, const StringVector& high) {
+  const auto count = N.rows();
+  const Directions L = low.head(count).cwiseInverse().asDiagonal() * N;
+  const Directions H = high.head(count).cwiseInverse().asDiagonal() * N;
+  double best = 0;
+  const auto attempt = [&](const Eigen::Vector2d& d) {
+    const double least = (L * d).minCoeff(), largest = (H * d).maxCoeff();
+    if (least > kLeastRatio * largest) best = std::max(best, least / largest);
+  };
+  const auto attempt_both = [&](const Eigen::Vector2d& d) {
+    attempt(d);
+    attempt(-d);
+  };
+  attempt_both(Eigen::Vector2d::UnitX());
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < i; ++j) {
+      attempt_both((L.row(i) - L.row(j)).transpose().unitOrthogonal());
+      attempt_both((H.row(i) - H.row(j)).transpose().unitOrthogonal());
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+ForceClosure force_closure(const spidar::StructureMatrix& W, int count, double torque_length_m,
+                           const StringVector& t_min_N, const StringVector& t_max_N) {
+  Columns A = W.leftCols(count);
+  A.bottomRows<3>() /= torque_length_m;
+  ForceClosure closure;
+  Directions N;
+  if (!null_space(A, N)) return closure;
+  const StringVector one = StringVector::Ones();
+  closure.tension_factor = best_ratio(N, one, one);
+  // t can be scaled: when the least of tᵢ/t_minᵢ is made 1, the largest tᵢ/t_maxᵢ must be ≤ 1.
+  closure.balanced_within_bounds =
+      closure.tension_factor > 0 && best_ratio(N, t_min_N.cwiseMax(kLeastTension_N), t_max_N) >= 1;
+  return closure;
+}

@@ -1,0 +1,201 @@
+#include "spidar/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/pose_solver.h"
+#include "spidar/bundle_adjustment.h"
+#include "spidar/calibration_input.h"
+#include "spidar/calibration_model.h"
+#include "spidar/calibration_noise.h"
+#include "spidar/calibration_start.h"
+#include "spidar/grip_model.h"
+#include "spidar/observability.h"
+#include "spidar/toml_field.h"
+
+namespace spidar {
+namespace {
+
+constexpr int kMinStrings = 7;
+constexpr int kMaxIterations = 50;
+constexpr int kMaxRescalings = 5;
+constexpr double kSameSigma = 0.02;
+// exp(-12.5): of good samples four in a million are further out.
+constexpr double kOutlier = 5.0;
+// Where the strings slipped for good, the offsets of before no longer hold: the last tenth of the
+// samples must mostly fit.
+constexpr Eigen::Index kLastParts = 10;
+// Coefficients that are shown of a combination.
+constexpr double kShownShare = 0.3;
+constexpr size_t kShownParts = 6;
+
+/// What was fitted, and how well.
+struct Fit {
+  const CalibrationModel& model;
+  const std::vector<StringVector>& lengths_m;
+  Bundle bundle;
+  double sigma_m = 0;        ///< standard deviation of one length
+  Eigen::MatrixXd errors_m;  ///< a row for each sample, a column for each string
+  Eigen::VectorXd norms_m;   ///< of the samples' errors
+  Eigen::VectorXd weights;   ///< Huber's
+
+  int redundant() const { return model.strings() - 6; }
+
+  void look_at_errors(double floor_m) {
+    errors_m.resize(static_cast<Eigen::Index>(lengths_m.size()), model.strings());
+    for (size_t k = 0; k < lengths_m.size(); ++k)
+      errors_m.row(static_cast<Eigen::Index>(k)) =
+          model.length_errors_m(bundle.parameters, lengths_m[k], bundle.poses[k], nullptr);
+    norms_m = errors_m.rowwise().norm();
+    sigma_m = robust_sigma_m(norms_m, redundant(), model.size(), floor_m);
+    weights = (kHuber * sigma_m / norms_m.array().max(kHuber * sigma_m)).matrix();
+  }
+
+  /// Of all samples, those in the tails by their weights.
+  double noise_m(double floor_m) const {
+    const double left = redundant() * weights.sum() - model.size();
+    if (left <= 0) return floor_m;
+    return std::max(floor_m, std::sqrt(weights.dot(norms_m.cwiseAbs2()) / left));
+  }
+};
+
+/// Huber's corner follows the noise that is found.
+void refine(double floor_m, Fit& fit) {
+  fit.look_at_errors(floor_m);
+  for (int i = 0; i < kMaxRescalings; ++i) {
+    const double before_m = fit.sigma_m;
+    adjust(fit.model, fit.lengths_m, before_m, Adjust::kAll, kMaxIterations, fit.bundle);
+    fit.look_at_errors(floor_m);
+    if (std::abs(fit.sigma_m - before_m) <= kSameSigma * before_m) break;
+  }
+}
+
+void remove_bias(double noise_m, double floor_m, Fit& fit) {
+  fit.bundle.parameters -=
+      noise_bias(fit.model, fit.lengths_m, noise_m, kMaxIterations, fit.bundle);
+  adjust(fit.model, fit.lengths_m, fit.sigma_m, Adjust::kPoses, kMaxIterations, fit.bundle);
+  fit.look_at_errors(floor_m);
+}
+
+/// The largest coefficients of a combination of named quantities.
+std::string combination_text(const CalibrationModel& model, const Eigen::VectorXd& coefficients) {
+  const Eigen::VectorXd hundredths = (100 * coefficients).array().round().matrix();
+  std::vector<int> order(static_cast<size_t>(coefficients.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return std::abs(hundredths[a]) > std::abs(hundredths[b]); });
+  const double least = kShownShare * std::abs(hundredths[order[0]]);
+  std::string text;
+  for (size_t n = 0; n < std::min(kShownParts, order.size()); ++n) {
+    const double c = hundredths[order[n]];
+    if (std::abs(c) < least) break;
+    text += n == 0 ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
+    text += shown(std::abs(c) / 100) + " " + model.quantity_name(order[n]);
+  }
+  return text;
+}
+
+/// Standard deviations of what was estimated; returns whether they would be small enough if errors
+/// of successive samples did not depend on each other.
+bool find_observable(const Fit& fit, CalibrationResult& result) {
+  const CalibrationModel& model = fit.model;
+  Observability observability(model.size());
+  for (size_t k = 0; k < fit.lengths_m.size(); ++k) {
+    CalibrationModel::Derivatives d;
+    model.length_errors_m(fit.bundle.parameters, fit.lengths_m[k], fit.bundle.poses[k], &d);
+    observability.add(d.by_twist, d.by_parameter, fit.weights[static_cast<Eigen::Index>(k)]);
+  }
+  Observability::Directions directions = observability.directions();
+  directions.sd *= result.length_noise_m;
+  const bool motion_suffices = directions.sd.maxCoeff() <= kMaxCalibrationSd_m;
+  directions.sd *= correlation_factor(fit.errors_m, fit.weights, fit.redundant());
+  const Eigen::MatrixXd quantities = model.quantities();
+  for (Eigen::Index i = 0; i < directions.sd.size(); ++i)
+    if (directions.sd[i] > kMaxCalibrationSd_m)
+      result.undetermined.push_back(
+          {directions.sd[i], combination_text(model, quantities * directions.directions.col(i))});
+
+  const Eigen::VectorXd sd = standard_deviations(directions, quantities);
+  result.home_offset_sd_m.head(model.strings()) = sd.head(model.strings());
+  if (model.scale_row() >= 0) result.scale_sd = sd[model.scale_row()] / model.mean_length_m();
+  if (model.exit_row() >= 0)
+    for (int i = 0; i < model.strings(); ++i)
+      result.exit_sd_m.col(i) = sd.segment<3>(model.exit_row() + 3 * i);
+  return motion_suffices;
+}
+
+void describe_parameters(const Fit& fit, CalibrationResult& result) {
+  const Eigen::VectorXd& parameters = fit.bundle.parameters;
+  const StringGeometry geometry = fit.model.geometry(parameters);
+  result.home_offset_m = fit.model.home_offset_m(parameters);
+  result.scale = fit.model.scale(parameters);
+  result.exit_m = geometry.exit_m;
+  result.cleared_at = pose_at_zero_count(geometry, result.home_offset_m);
+}
+
+void describe_motion(const std::vector<Pose>& poses, CalibrationResult& result) {
+  using Range = Eigen::AlignedBox3d;
+  Range positions, turns;
+  for (const Pose& pose : poses) {
+    positions.extend(pose.position_m);
+    turns.extend(rotation_vector(pose.orientation));
+  }
+  result.moved_m = positions.sizes() / 2;
+  result.turned_rad = turns.sizes() / 2;
+}
+
+void describe_errors(const Fit& fit, CalibrationResult& result) {
+  const auto samples = static_cast<double>(fit.errors_m.rows());
+  result.samples = static_cast<int>(fit.errors_m.rows());
+  result.residual_m = fit.errors_m.norm() / std::sqrt(samples * fit.model.strings());
+  result.string_residual_m.head(fit.model.strings()) =
+      fit.errors_m.colwise().norm().transpose() / std::sqrt(samples);
+}
+
+/// Half of the samples are worse than a tick of the loop may be, or the last ones do not fit.
+bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
+  const double typical_m = median(fit.norms_m) / std::sqrt(fit.model.strings());
+  const Eigen::Index last = (outliers.size() + kLastParts - 1) / kLastParts;
+  return typical_m > PoseSolver::kMaxResidual_m || outliers.tail(last).mean() > 0.5;
+}
+
+}  // namespace
+
+CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
+                            const CalibrationSettings& settings) {
+  check_samples(profile, counts, kMinStrings);
+  // Offsets alone first: a wrong start is much further away than exits and scale are wrong.
+  const CalibrationModel offsets_only(profile, {});
+  const std::vector<StringVector> lengths_m = distinct_lengths_m(offsets_only, counts);
+  const double rounding_m = rounding_sd_m(
+      profile, static_cast<double>(counts.rows()) / static_cast<double>(lengths_m.size()));
+  const CalibrationModel model(profile, settings);
+  Fit fit{model, lengths_m, find_bundle(offsets_only, lengths_m, rounding_m), 0, {}, {}, {}};
+  fit.bundle.parameters.conservativeResizeLike(Eigen::VectorXd::Zero(model.size()));
+  refine(rounding_m, fit);
+
+  CalibrationResult result;
+  result.estimated = settings;
+  result.length_noise_m = fit.noise_m(rounding_m);
+  const bool motion_suffices = find_observable(fit, result);
+  if (motion_suffices) remove_bias(result.length_noise_m, rounding_m, fit);
+  describe_parameters(fit, result);
+  describe_motion(fit.bundle.poses, result);
+  const Eigen::ArrayXd outliers = (fit.norms_m.array() > kOutlier * fit.sigma_m).cast<double>();
+  result.outlier_share = outliers.mean();
+  describe_errors(fit, result);
+
+  if (contradicts(fit, outliers)) {
+    result.status = CalibrationStatus::kContradiction;
+  } else if (!motion_suffices) {
+    result.status = CalibrationStatus::kUndetermined;
+  } else if (!result.undetermined.empty()) {
+    result.status = CalibrationStatus::kContradiction;
+  } else {
+    result.status = CalibrationStatus::kSolved;
+  }
+  return result;
+}
+
+}  // namespace spidar

@@ -1,0 +1,77 @@
+#include "spidar/calibration_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/pose_solver.h"
+#include "spidar/toml_field.h"
+
+namespace spidar {
+namespace {
+
+// Over so short a way a string's length is linear in the pose to 0.3^2/(8*36) mm = 0.3 µm for the
+// smallest of the devices.
+constexpr double kSameLength_m = 0.3e-3;
+constexpr double kMaxAveraged = 4;
+
+}  // namespace
+
+void check_samples(const Profile& profile, const CountSamples& counts, int min_strings) {
+  const int strings = profile.geometry.count;
+  if (strings < min_strings)
+    throw std::invalid_argument("calibration: profile \"" + profile.name + "\" has " +
+                                shown(strings) + " strings, must have at least " +
+                                shown(min_strings) +
+                                ": a pose takes six, only those beyond tell anything");
+  if (counts.cols() != strings)
+    throw std::invalid_argument("calibration: samples have counts of " + shown(counts.cols()) +
+                                " strings, must have " + shown(strings) + " as profile \"" +
+                                profile.name + "\"");
+  if (counts.rows() < kMinCalibrationSamples)
+    throw std::invalid_argument("calibration: " + shown(counts.rows()) +
+                                " samples, must be at least " + shown(kMinCalibrationSamples));
+  for (Eigen::Index k = 0; k < counts.rows(); ++k)
+    for (Eigen::Index i = 0; i < counts.cols(); ++i)
+      if (!std::isfinite(counts(k, i)))
+        throw std::invalid_argument("calibration: sample " + shown(k) + ", string " + shown(i) +
+                                    ": the count is " + shown(counts(k, i)) + ", must be finite");
+}
+
+double rounding_sd_m(const Profile& profile, double averaged) {
+  double sum = 0;
+  for (int i = 0; i < profile.geometry.count; ++i)
+    sum += profile.drives[static_cast<size_t>(i)].metres_per_count;
+  return sum / profile.geometry.count / std::sqrt(12 * std::min(averaged, kMaxAveraged));
+}
+
+std::vector<StringVector> distinct_lengths_m(const CalibrationModel& model,
+                                             const CountSamples& counts) {
+  std::vector<StringVector> lengths;
+  StringVector first = StringVector::Zero(), sum = first;
+  int same = 0;
+  const auto finish = [&] {
+    if (same > 0) lengths.push_back(sum / same);
+    same = 0;
+  };
+  for (Eigen::Index k = 0; k < counts.rows(); ++k) {
+    const StringVector next = model.paid_out_m(counts.row(k).transpose());
+    if (same > 0 && (next - first).cwiseAbs().maxCoeff() > kSameLength_m) finish();
+    if (same == 0) {
+      first = next;
+      sum.setZero();
+    }
+    sum += next;
+    ++same;
+  }
+  finish();
+  return lengths;
+}
+
+Pose pose_at_zero_count(const StringGeometry& geometry, const StringVector& home_offset_m) {
+  PoseSolver solver(geometry, std::numeric_limits<double>::infinity());
+  return solver.locate(string_lengths_m(geometry, {}) + home_offset_m).pose;
+}
+
+}  // namespace spidar

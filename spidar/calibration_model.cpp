@@ -1,0 +1,106 @@
+#include "spidar/calibration_model.h"
+
+#include <Eigen/QR>
+
+namespace spidar {
+namespace {
+
+/// Displacements of the exits, stacked, that are orthogonal to shifts and small turns of all.
+Eigen::MatrixXd shape_changes(const StringGeometry& geometry) {
+  const int rows = 3 * geometry.count;
+  Eigen::MatrixXd rigid(rows, 6);
+  for (int i = 0; i < geometry.count; ++i) {
+    const Eigen::Vector3d& e = geometry.exit_m[static_cast<size_t>(i)];
+    rigid.block<3, 3>(3 * i, 0).setIdentity();
+    for (int axis = 0; axis < 3; ++axis)
+      rigid.block<3, 1>(3 * i, 3 + axis) = Eigen::Vector3d::Unit(axis).cross(e);
+  }
+  const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(rigid).householderQ();
+  return Q.rightCols(rows - 6);
+}
+
+}  // namespace
+
+CalibrationModel::CalibrationModel(const Profile& profile, const CalibrationSettings& settings)
+    : geometry_(profile.geometry),
+      home_length_m_(string_lengths_m(profile.geometry, {})),
+      metres_per_count_(StringVector::Zero()),
+      mean_length_m_(home_length_m_.head(profile.geometry.count).mean()),
+      scale_at_(settings.free_scale ? profile.geometry.count : -1),
+      exits_at_(profile.geometry.count + (settings.free_scale ? 1 : 0)) {
+  for (int i = 0; i < geometry_.count; ++i) {
+    const StringDrive& drive = profile.drives[static_cast<size_t>(i)];
+    metres_per_count_[i] = drive.encoder_sign * drive.metres_per_count;
+  }
+  if (settings.free_exits) exit_directions_ = shape_changes(geometry_);
+}
+
+StringGeometry CalibrationModel::geometry(const Eigen::VectorXd& parameters) const {
+  StringGeometry moved = geometry_;
+  if (exit_directions_.cols() == 0) return moved;
+  const Eigen::VectorXd displacement = exit_directions_ * parameters.tail(exit_directions_.cols());
+  for (int i = 0; i < moved.count; ++i)
+    moved.exit_m[static_cast<size_t>(i)] += displacement.segment<3>(3 * i);
+  return moved;
+}
+
+double CalibrationModel::scale(const Eigen::VectorXd& parameters) const {
+  return scale_at_ < 0 ? 1.0 : 1.0 + parameters[scale_at_] / mean_length_m_;
+}
+
+StringVector CalibrationModel::home_offset_m(const Eigen::VectorXd& parameters) const {
+  StringVector offset_m = home_length_m_ - string_lengths_m(geometry(parameters), {});
+  offset_m.head(strings()) += parameters.head(strings());
+  return offset_m;
+}
+
+StringVector CalibrationModel::paid_out_m(const Eigen::VectorXd& counts) const {
+  StringVector paid_out_m = StringVector::Zero();
+  paid_out_m.head(strings()) = counts.cwiseProduct(metres_per_count_.head(strings()));
+  return paid_out_m;
+}
+
+Eigen::VectorXd CalibrationModel::cleared_at(const Pose& pose) const {
+  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(size());
+  parameters.head(strings()) = (string_lengths_m(geometry_, pose) - home_length_m_).head(strings());
+  return parameters;
+}
+
+Eigen::VectorXd CalibrationModel::length_errors_m(const Eigen::VectorXd& parameters,
+                                                  const StringVector& paid_out_m, const Pose& pose,
+                                                  Derivatives* derivatives) const {
+  const int n = strings();
+  const StringGeometry moved = geometry(parameters);
+  const Eigen::VectorXd error_m = string_lengths_m(moved, pose).head(n) - home_length_m_.head(n) -
+                                  parameters.head(n) - scale(parameters) * paid_out_m.head(n);
+  if (!derivatives) return error_m;
+
+  // A string shortens by the structure matrix' column times the twist (virtual work).
+  const StructureMatrix W = structure_matrix(moved, pose);
+  derivatives->by_twist = -W.leftCols(n).transpose();
+  Eigen::MatrixXd& by_parameter = derivatives->by_parameter;
+  by_parameter.setZero(n, size());
+  by_parameter.leftCols(n).diagonal().setConstant(-1);
+  if (scale_at_ >= 0) by_parameter.col(scale_at_) = -paid_out_m.head(n) / mean_length_m_;
+  if (exit_directions_.cols() > 0)
+    for (int i = 0; i < n; ++i)
+      by_parameter.row(i).tail(exit_directions_.cols()) =
+          W.col(i).head<3>().transpose() * exit_directions_.middleRows<3>(3 * i);
+  return error_m;
+}
+
+Eigen::MatrixXd CalibrationModel::quantities() const {
+  Eigen::MatrixXd meaning = Eigen::MatrixXd::Zero(exits_at_ + exit_directions_.rows(), size());
+  meaning.topLeftCorner(exits_at_, exits_at_).setIdentity();
+  meaning.bottomRightCorner(exit_directions_.rows(), exit_directions_.cols()) = exit_directions_;
+  return meaning;
+}
+
+std::string CalibrationModel::quantity_name(int row) const {
+  if (row < strings()) return "offset " + std::to_string(row);
+  if (row == scale_at_) return "scale";
+  const int exit = row - exits_at_;
+  return "exit " + std::to_string(exit / 3) + " " + "xyz"[exit % 3];
+}
+
+}  // namespace spidar

@@ -1,0 +1,68 @@
+/// How string lengths follow from the grip's pose and from what calibration estimates.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "core/pose.h"
+#include "core/string_geometry.h"
+#include "spidar/calibration.h"
+#include "spidar/profile.h"
+
+namespace spidar {
+
+/// The parameters that all samples share, all in metres: an offset for each string; the scale minus
+/// one, times the mean length at the centre; the exits along the directions that neither shift nor
+/// turn the frame as a whole. (Where the frame stands is not observable: moving all exits and all
+/// poses alike changes no length. This is the choice of "inner constraints" of geodesy.)
+class CalibrationModel {
+ public:
+  CalibrationModel(const Profile& profile, const CalibrationSettings& settings);
+
+  int strings() const { return geometry_.count; }
+  int size() const { return exits_at_ + static_cast<int>(exit_directions_.cols()); }
+
+  StringGeometry geometry(const Eigen::VectorXd& parameters) const;
+
+  /// Factor on all metres_per_count.
+  double scale(const Eigen::VectorXd& parameters) const;
+
+  /// StringDrive::home_offset_m.
+  StringVector home_offset_m(const Eigen::VectorXd& parameters) const;
+
+  /// Change of the lengths since the counters were zero, by the profile's scale.
+  StringVector paid_out_m(const Eigen::VectorXd& counts) const;
+
+  /// Parameters of the profile's geometry and scale with the counters cleared at `pose`.
+  Eigen::VectorXd cleared_at(const Pose& pose) const;
+
+  struct Derivatives {
+    Eigen::Matrix<double, Eigen::Dynamic, 6> by_twist;  ///< [δp; δφ], φ a rotation vector in D
+    Eigen::MatrixXd by_parameter;
+  };
+
+  /// Lengths at `pose` minus measured lengths. `derivatives` may be null.
+  Eigen::VectorXd length_errors_m(const Eigen::VectorXd& parameters, const StringVector& paid_out_m,
+                                  const Pose& pose, Derivatives* derivatives) const;
+
+  /// What the parameters mean, one row each: offset of each string, scale minus one times length,
+  /// and x, y, z of each exit; the last two if they are free.
+  Eigen::MatrixXd quantities() const;
+  std::string quantity_name(int row) const;
+  int scale_row() const { return scale_at_; }  ///< −1: not free
+  int exit_row() const { return exit_directions_.cols() > 0 ? exits_at_ : -1; }
+
+  double mean_length_m() const { return mean_length_m_; }
+
+ private:
+  StringGeometry geometry_;
+  StringVector home_length_m_;
+  StringVector metres_per_count_;  ///< signed
+  double mean_length_m_;
+  int scale_at_;
+  int exits_at_;
+  Eigen::MatrixXd exit_directions_;  ///< orthonormal columns
+};
+
+}  // namespace spidar

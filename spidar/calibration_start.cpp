@@ -1,0 +1,141 @@
+#include "spidar/calibration_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+namespace spidar {
+namespace {
+
+constexpr double kPlain = std::numeric_limits<double>::infinity();
+constexpr size_t kFew = 40;
+constexpr int kMaxIterations = 100;
+constexpr int kMaxRepairs = 4;
+// A sample in a minimum of its own has a residual far from the others'.
+constexpr double kBad = 2.0;
+constexpr double kGood = 1.5;
+
+/// Where the counters may have been cleared: not turned, or by 1 rad about the axes and the
+/// diagonals of the cube, which leaves none within 80° further than 0.7 rad from the nearest.
+std::vector<Pose> starts() {
+  std::vector<Pose> poses(1);
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const int axes = std::abs(x) + std::abs(y) + std::abs(z);
+        if (axes != 1 && axes != 3) continue;
+        Pose pose;
+        pose.orientation = Eigen::AngleAxisd(1.0, Eigen::Vector3d(x, y, z).normalized());
+        poses.push_back(pose);
+      }
+  return poses;
+}
+
+std::vector<double> errors_m(const CalibrationModel& model,
+                             const std::vector<StringVector>& paid_out_m, const Bundle& bundle) {
+  std::vector<double> errors;
+  for (size_t k = 0; k < paid_out_m.size(); ++k)
+    errors.push_back(
+        model.length_errors_m(bundle.parameters, paid_out_m[k], bundle.poses[k], nullptr).norm());
+  return errors;
+}
+
+double rms_m(const CalibrationModel& model, const std::vector<double>& errors) {
+  double sum = 0;
+  for (const double error : errors) sum += error * error;
+  return std::sqrt(sum / static_cast<double>(errors.size() * static_cast<size_t>(model.strings())));
+}
+
+/// Index of the sample whose lengths are nearest to `lengths` among those that `may` allows.
+template <typename May>
+size_t nearest(const std::vector<StringVector>& samples, const StringVector& lengths, May may) {
+  size_t best = samples.size();
+  double distance = std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k < samples.size(); ++k) {
+    const double d = (samples[k] - lengths).squaredNorm();
+    if (d >= distance || !may(k)) continue;
+    best = k;
+    distance = d;
+  }
+  return best;
+}
+
+struct Candidate {
+  Bundle bundle;
+  std::vector<double> errors;
+  double rms = 0;
+};
+
+class Search {
+ public:
+  Search(const CalibrationModel& model, const std::vector<StringVector>& samples)
+      : model_(model), samples_(samples) {}
+
+  /// A fit with all poses begun at `start`. Poses that ended in minima of their own begin again at
+  /// that of their nearest neighbour, as long as that helps.
+  Candidate from(const Pose& start) const {
+    Candidate best = fitted({model_.cleared_at(start), std::vector<Pose>(samples_.size(), start)});
+    for (int repair = 0; repair < kMaxRepairs; ++repair) {
+      Candidate next = fitted(repaired(best));
+      if (!(next.rms < (1 - 1e-3) * best.rms)) break;
+      best = std::move(next);
+    }
+    return best;
+  }
+
+ private:
+  Candidate fitted(Bundle bundle) const {
+    adjust(model_, samples_, kPlain, Adjust::kAll, kMaxIterations, bundle);
+    Candidate candidate{std::move(bundle), {}, 0};
+    candidate.errors = errors_m(model_, samples_, candidate.bundle);
+    candidate.rms = rms_m(model_, candidate.errors);
+    return candidate;
+  }
+
+  Bundle repaired(const Candidate& candidate) const {
+    const std::vector<double>& errors = candidate.errors;
+    std::vector<double> sorted = errors;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double median = *middle;
+    Bundle bundle = candidate.bundle;
+    for (size_t k = 0; k < samples_.size(); ++k) {
+      if (errors[k] <= kBad * median) continue;
+      const auto is_good = [&](size_t j) { return errors[j] <= kGood * median; };
+      bundle.poses[k] = candidate.bundle.poses[nearest(samples_, samples_[k], is_good)];
+    }
+    return bundle;
+  }
+
+  const CalibrationModel& model_;
+  const std::vector<StringVector>& samples_;
+};
+
+}  // namespace
+
+Bundle find_bundle(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m,
+                   double sure_m) {
+  const size_t count = paid_out_m.size();
+  std::vector<StringVector> few;
+  for (size_t i = 0; i < std::min(kFew, count); ++i)
+    few.push_back(paid_out_m[i * count / std::min(kFew, count)]);
+
+  const Search search(model, few);
+  Candidate best;
+  for (const Pose& start : starts()) {
+    Candidate candidate = search.from(start);
+    if (best.errors.empty() || candidate.rms < best.rms) best = std::move(candidate);
+    if (best.rms <= sure_m) break;
+  }
+
+  Bundle all{best.bundle.parameters, {}};
+  const auto any = [](size_t) { return true; };
+  for (const StringVector& lengths : paid_out_m)
+    all.poses.push_back(best.bundle.poses[nearest(few, lengths, any)]);
+  adjust(model, paid_out_m, kPlain, Adjust::kPoses, kMaxIterations, all);
+  return all;
+}
+
+}  // namespace spidar

@@ -1,0 +1,128 @@
+#include "spidar/profile_writer.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+#include <toml++/toml.h>
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As short as it can be and still be read back as the same number.
+std::string number(double value) {
+  char digits[32];
+  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value + 0.0);
+  return {digits, end};
+}
+
+/// `value(i)` for each of `count` strings, in one line.
+template <typename Value>
+std::string listed(size_t count, Value value) {
+  std::string text = "[";
+  for (size_t i = 0; i < count; ++i) text += (i ? ", " : "") + number(value(i));
+  return text + "]";
+}
+
+template <typename Points>
+void write_points(std::ostream& out, const char* key, const Points& points, size_t count) {
+  out << key << " = [\n";
+  for (size_t i = 0; i < count; ++i)
+    out << "  "
+        << listed(3, [&](size_t axis) { return points[i][static_cast<Eigen::Index>(axis)]; })
+        << ",\n";
+  out << "]\n";
+}
+
+void write_text(std::ostream& out, const char* key, const std::string& text) {
+  out << key << " = " << toml::value<std::string>(text) << '\n';
+}
+
+const char* evidence_name(Evidence evidence) {
+  switch (evidence) {
+    case Evidence::kPublished:
+      return "published";
+    case Evidence::kInferred:
+      return "inferred";
+    case Evidence::kContradicted:
+      return "contradicted";
+    case Evidence::kMeasured:
+      return "measured";
+  }
+  return "inferred";
+}
+
+void write_strings(std::ostream& out, const Profile& profile) {
+  out << "\n[strings]\n";
+  const auto write = [&](const char* key, auto member) {
+    out << key << " = " << listed(static_cast<size_t>(profile.geometry.count), [&](size_t i) {
+      return profile.drives[i].*member;
+    }) << '\n';
+  };
+  write("min_tension_N", &StringDrive::min_tension_N);
+  write("max_tension_N", &StringDrive::max_tension_N);
+  write("newtons_per_volt", &StringDrive::newtons_per_volt);
+  write("metres_per_count", &StringDrive::metres_per_count);
+  write("motor_sign", &StringDrive::motor_sign);
+  write("encoder_sign", &StringDrive::encoder_sign);
+  write("home_offset_m", &StringDrive::home_offset_m);
+}
+
+void write_calibration(std::ostream& out, const CalibrationRecord& record) {
+  const std::vector<double>& offsets = record.home_offset_sd_m;
+  out << "\n[calibration]  # standard deviations\nsamples = " << record.samples
+      << "\nresidual_m = " << number(record.residual_m)
+      << "\nhome_offset_sd_m = " << listed(offsets.size(), [&](size_t i) { return offsets[i]; })
+      << '\n';
+  if (record.scale_sd) out << "scale_sd = " << number(*record.scale_sd) << '\n';
+  if (!record.exit_sd_m.empty())
+    write_points(out, "exit_sd_m", record.exit_sd_m, record.exit_sd_m.size());
+}
+
+}  // namespace
+
+std::string profile_text(const Profile& profile) {
+  const StringGeometry& geometry = profile.geometry;
+  std::ostringstream out;
+  write_text(out, "description", profile.description);
+  write_text(out, "board", profile.board);
+  out << "dac_bits = " << profile.dac_bits << "\ndac_max_V = " << number(profile.dac_max_V)
+      << "\n\n[geometry]\nframe = \"right-handed\"  # x right, y up, z towards the user\n"
+      << "unit = \"m\"\n";
+  write_points(out, "exit", geometry.exit_m, static_cast<size_t>(geometry.count));
+  write_points(out, "grip", geometry.grip_m, static_cast<size_t>(geometry.count));
+  write_strings(out, profile);
+  if (profile.calibration) write_calibration(out, *profile.calibration);
+  for (const Provenance& row : profile.provenance) {
+    out << "\n[[source]]\nfields = [\"" << row.field << "\"]\n";
+    write_text(out, "source", row.source);
+    write_text(out, "evidence", evidence_name(row.evidence));
+    if (!row.note.empty()) write_text(out, "note", row.note);
+  }
+  return out.str();
+}
+
+void save_profile(const Profile& profile, const std::string& path) {
+  const std::string part = path + ".part" + std::to_string(getpid());
+  const auto fail = [&](const std::string& why) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw ProfileError(path + ": cannot be written: " + why);
+  };
+  errno = 0;
+  std::ofstream out(part, std::ios::binary);
+  out << profile_text(profile) << std::flush;
+  out.close();
+  if (!out) fail(errno ? std::strerror(errno) : "unknown error");
+  std::error_code error;
+  fs::rename(part, path, error);
+  if (error) fail(error.message());
+}
+
+}  // namespace spidar

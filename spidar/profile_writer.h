@@ -1,0 +1,19 @@
+/// From a Profile to a profile file.
+#pragma once
+
+#include <string>
+
+#include "core/api.h"
+#include "spidar/profile.h"
+
+namespace spidar {
+
+/// TOML that load_profile() reads back as the same profile, to the last digit, but for its name,
+/// which is that of the file. Geometry is in D and metres.
+SPIDAR_API std::string profile_text(const Profile& profile);
+
+/// Writes profile_text() to `path`, whole or not at all: an existing file is replaced when the new
+/// one is complete. Throws ProfileError.
+SPIDAR_API void save_profile(const Profile& profile, const std::string& path);
+
+}  // namespace spidar

@@ -1,0 +1,156 @@
+#include "spidar/tools/calibrate_command.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <unistd.h>
+
+#include "spidar/calibration.h"
+#include "spidar/count_recorder.h"
+#include "spidar/device_factory.h"
+#include "spidar/monotonic.h"
+#include "spidar/profile_writer.h"
+#include "spidar/simulated_device.h"
+#include "spidar/tools/calibrate_options.h"
+#include "spidar/tools/calibrate_report.h"
+#include "spidar/tools/hand_motion.h"
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDone = 0, kNotCalibrated = 3, kInterrupted = 130;
+constexpr double kHoldSeconds = 2;
+constexpr double kSamplePeriod_s = 0.002;
+
+std::atomic<bool> interrupted{false};
+
+/// The strings are released before the program ends, whoever ends it.
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = true; };
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
+
+/// The device that is calibrated, and the hand of a simulated one.
+class Bench {
+ public:
+  Bench(const CalibrateOptions& options, const Profile& profile) : geometry_(profile.geometry) {
+    if (options.device != "sim") {
+      device_ = make_device(options.device, profile);
+      return;
+    }
+    Profile real = profile;
+    if (options.sim_start) {
+      const StringVector offset_m =
+          string_lengths_m(geometry_, *options.sim_start) - string_lengths_m(geometry_, {});
+      for (int i = 0; i < geometry_.count; ++i)
+        real.drives[static_cast<size_t>(i)].home_offset_m = offset_m[i];
+    }
+    auto simulated = std::make_unique<SimulatedDevice>(real, SimulatedDevice::Time::kClock);
+    hand_ = simulated.get();
+    device_ = std::move(simulated);
+  }
+
+  Device& device() { return *device_; }
+
+  void move_hand(double time_s) {
+    if (hand_) hand_->set_hand(hand_in_motion(geometry_, time_s));
+  }
+
+ private:
+  StringGeometry geometry_;
+  std::unique_ptr<Device> device_;
+  SimulatedDevice* hand_ = nullptr;
+};
+
+class Progress {
+ public:
+  explicit Progress(double seconds) : seconds_(seconds), shown_(isatty(STDERR_FILENO) != 0) {}
+  ~Progress() {
+    if (shown_ && last_ >= 0) std::fputc('\n', stderr);
+  }
+
+  void show(double time_s) {
+    const int left = static_cast<int>(std::ceil(std::max(0.0, seconds_ - std::max(0.0, time_s))));
+    if (!shown_ || left == last_) return;
+    last_ = left;
+    std::fprintf(stderr, "\r%4d s left ", left);
+  }
+
+ private:
+  double seconds_;
+  bool shown_;
+  int last_ = -1;
+};
+
+/// Before anybody moves a grip for nothing.
+void check_folder_of(const std::string& file) {
+  const fs::path parent = fs::absolute(file).parent_path();
+  if (access(parent.c_str(), W_OK) != 0)
+    throw ProfileError(file + ": cannot be written: " + parent.string() + ": " +
+                       std::strerror(errno));
+}
+
+CountSamples record(const CalibrateOptions& options, const Profile& profile) {
+  Bench bench(options, profile);
+  std::cerr << (options.centre ? "Hold the grip still at the centre, not turned.\n"
+                               : "Move and turn the grip in every direction, as far as it goes.\n");
+  const RecordingSettings settings{options.centre ? kHoldSeconds : options.seconds,
+                                   kSamplePeriod_s};
+  Progress progress(settings.seconds);
+  std::optional<double> begin_s;
+  const auto next_tick = [&](double time_s) {
+    if (!begin_s) begin_s = 1e-9 * static_cast<double>(monotonic_now_ns()) - time_s;
+    sleep_until_ns(static_cast<int64_t>(1e9 * (*begin_s + time_s)));
+    if (!options.centre) bench.move_hand(time_s);
+    progress.show(time_s);
+    return !interrupted;
+  };
+  return record_counts(bench.device(), profile, settings, next_tick);
+}
+
+std::string how(const CalibrateOptions& options) {
+  char text[64];
+  std::snprintf(text, sizeof text, "spidarctl calibrate: grip moved for %g s", options.seconds);
+  return options.centre ? "spidarctl calibrate: grip held at the centre" : text;
+}
+
+}  // namespace
+
+int calibrate_command(int argc, char** argv) {
+  const CalibrateOptions options = parse_calibrate_options(argc, argv);
+  if (options.help) {
+    std::cout << kCalibrateHelp;
+    return kDone;
+  }
+  const Profile profile = load_profile(options.profile);
+  if (!options.output.empty()) check_folder_of(options.output);
+  catch_signals();
+  const CountSamples counts = record(options, profile);
+  if (interrupted) {
+    std::cerr << "interrupted; the strings are released\n";
+    return kInterrupted;
+  }
+
+  const CalibrationResult result = options.centre ? calibrate_at_centre(profile, counts)
+                                                  : calibrate(profile, counts, options.settings);
+  (options.json ? print_result_json : print_result)(std::cout, profile, result, how(options));
+  if (result.status != CalibrationStatus::kSolved) return kNotCalibrated;
+  if (!options.output.empty()) {
+    save_profile(calibrated_profile(profile, result, how(options)), options.output);
+    std::cerr << "written: " << options.output << '\n';
+  }
+  return kDone;
+}
+
+}  // namespace spidar

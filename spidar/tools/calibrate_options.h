@@ -1,0 +1,37 @@
+/// What is asked of `spidarctl calibrate`.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "core/pose.h"
+#include "spidar/calibration.h"
+#include "spidar/profile.h"
+
+namespace spidar {
+
+/// A command line that cannot be followed. what() says what was wrong and what would be right.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct CalibrateOptions {
+  std::string device;
+  std::string profile = kDefaultProfile;
+  bool centre = false;
+  double seconds = 20;
+  CalibrationSettings settings;
+  std::string output;             ///< empty: none
+  std::optional<Pose> sim_start;  ///< where the simulated device's counters were cleared
+  bool json = false;
+  bool help = false;
+};
+
+/// `argv[0]` is the sub-command. Throws UsageError.
+CalibrateOptions parse_calibrate_options(int argc, char** argv);
+
+extern const char* const kCalibrateHelp;
+
+}  // namespace spidar

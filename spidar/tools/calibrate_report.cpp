@@ -1,0 +1,158 @@
+#include "spidar/tools/calibrate_report.h"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <ostream>
+
+#include <toml++/toml.h>
+
+#include "spidar/grip_model.h"
+
+namespace spidar {
+namespace {
+
+constexpr double kDegrees = 180 / M_PI;
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string micrometres(double value_m) {
+  return std::isfinite(value_m) ? format("%.2f", 1e6 * value_m) : "unknown";
+}
+
+std::string triple(const Eigen::Vector3d& value, const char* pattern) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    char number[32];
+    std::snprintf(number, sizeof number, pattern, value[axis]);
+    // Not "-0.00".
+    if (std::strtod(number, nullptr) == 0) std::snprintf(number, sizeof number, pattern, 0.0);
+    text += (axis ? " " : "") + std::string(number);
+  }
+  return text;
+}
+
+const char* status_name(CalibrationStatus status) {
+  switch (status) {
+    case CalibrationStatus::kSolved:
+      return "solved";
+    case CalibrationStatus::kUndetermined:
+      return "undetermined";
+    case CalibrationStatus::kContradiction:
+      return "contradiction";
+  }
+  return "";
+}
+
+const char* advice(CalibrationStatus status) {
+  switch (status) {
+    case CalibrationStatus::kSolved:
+      return "";
+    case CalibrationStatus::kUndetermined:
+      return "This motion does not determine what was asked for. Move further, turn the grip about "
+             "every axis as well, take longer, or ask for less with --free.\n";
+    case CalibrationStatus::kContradiction:
+      return "The lengths contradict each other or the profile. Check that no string slips or is "
+             "off its pulley and that the profile is right, try --free exits,scale, or begin "
+             "nearer to the centre.\n";
+  }
+  return "";
+}
+
+void print_strings(std::ostream& out, int strings, const CalibrationResult& result) {
+  out << "\n  string  offset mm  sd um    residual um\n";
+  for (int i = 0; i < strings; ++i)
+    out << format("  %6d  %9.4f  %-7s  %11.2f\n", i, 1e3 * result.home_offset_m[i],
+                  micrometres(result.home_offset_sd_m[i]).c_str(),
+                  1e6 * result.string_residual_m[i]);
+}
+
+void print_exits(std::ostream& out, int strings, const CalibrationResult& result) {
+  out << "\n  exit    x y z mm                    sd um\n";
+  for (int i = 0; i < strings; ++i)
+    out << format("  %4d    %s  %s\n", i,
+                  triple(1e3 * result.exit_m[static_cast<size_t>(i)], "%8.3f").c_str(),
+                  triple(1e6 * result.exit_sd_m.col(i), "%6.1f").c_str());
+}
+
+toml::array to_array(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  toml::array array;
+  for (Eigen::Index i = 0; i < values.size(); ++i) array.push_back(values[i]);
+  return array;
+}
+
+}  // namespace
+
+void print_result(std::ostream& out, const Profile& profile, const CalibrationResult& result,
+                  const std::string& how) {
+  const int strings = profile.geometry.count;
+  out << profile.name << ": " << how << ", " << result.samples
+      << " samples: " << status_name(result.status) << '\n'
+      << "  counters zero at  " << triple(1e3 * result.cleared_at.position_m, "%.2f")
+      << " mm, turned by "
+      << triple(kDegrees * rotation_vector(result.cleared_at.orientation), "%.2f") << " deg\n"
+      << "  residual          " << format("%.2f um rms", 1e6 * result.residual_m)
+      << format(", noise of a length %.2f um", 1e6 * result.length_noise_m)
+      << format(", outliers %.1f %%\n", 100 * result.outlier_share) << "  grip moved        "
+      << triple(1e3 * result.moved_m, "%.1f") << " mm each way, turned "
+      << triple(kDegrees * result.turned_rad, "%.1f") << " deg\n";
+  print_strings(out, strings, result);
+  if (result.estimated.free_scale)
+    out << format("\n  scale   %.6f, sd %.6f\n", result.scale, result.scale_sd);
+  if (result.estimated.free_exits) print_exits(out, strings, result);
+  if (!result.undetermined.empty()) {
+    out << "\n  not determined to " << micrometres(kMaxCalibrationSd_m) << " um:\n";
+    for (const UndeterminedCombination& one : result.undetermined)
+      out << "    sd " << micrometres(one.sd_m) << " um: " << one.text << '\n';
+  }
+  if (result.status != CalibrationStatus::kSolved) out << '\n' << advice(result.status);
+}
+
+void print_result_json(std::ostream& out, const Profile& profile, const CalibrationResult& result,
+                       const std::string& how) {
+  const int strings = profile.geometry.count;
+  toml::table document{
+      {"profile", profile.name},
+      {"how", how},
+      {"status", status_name(result.status)},
+      {"samples", result.samples},
+      {"residual_m", result.residual_m},
+      {"length_noise_m", result.length_noise_m},
+      {"outlier_share", result.outlier_share},
+      {"home_offset_m", to_array(result.home_offset_m.head(strings))},
+      {"home_offset_sd_m", to_array(result.home_offset_sd_m.head(strings))},
+      {"string_residual_m", to_array(result.string_residual_m.head(strings))},
+      {"cleared_at_m", to_array(result.cleared_at.position_m)},
+      {"cleared_at_rad", to_array(rotation_vector(result.cleared_at.orientation))},
+      {"moved_m", to_array(result.moved_m)},
+      {"turned_rad", to_array(result.turned_rad)},
+  };
+  if (result.estimated.free_scale) {
+    document.insert("scale", result.scale);
+    document.insert("scale_sd", result.scale_sd);
+  }
+  if (result.estimated.free_exits) {
+    toml::array exits, exit_sds;
+    for (int i = 0; i < strings; ++i) {
+      exits.push_back(to_array(result.exit_m[static_cast<size_t>(i)]));
+      exit_sds.push_back(to_array(result.exit_sd_m.col(i)));
+    }
+    document.insert("exit_m", std::move(exits));
+    document.insert("exit_sd_m", std::move(exit_sds));
+  }
+  toml::array undetermined;
+  for (const UndeterminedCombination& one : result.undetermined)
+    undetermined.push_back(toml::table{{"sd_m", one.sd_m}, {"combination", one.text}});
+  document.insert("undetermined", undetermined);
+  out << toml::json_formatter(document) << '\n';
+}
+
+}  // namespace spidar

@@ -1,0 +1,33 @@
+// Fuzz target of the pose solver; CONTRIBUTING.md says how to run it under libFuzzer.
+// The bytes are taken as lengths of one tick after the other, as changes from those at the centre.
+// Whatever they are, the pose is finite and a rotation, and what is called solved fits.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/pose_solver.h"
+#include "numbers.h"
+#include "tests/core/string_samples.h"
+
+using namespace spidar;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  if (size == 0) return 0;
+  StringGeometry geometry = test::g6x3_geometry();
+  geometry.count = 6 + data[0] % 3;
+  const double scale_m = data[0] & 64 ? 1e-4 : 0.05;
+  PoseSolver solver(geometry);
+  StringVector lengths_m = string_lengths_m(geometry, {});
+  Numbers numbers(data + 1, size - 1);
+  while (!numbers.empty()) {
+    for (double& l : lengths_m) l += scale_m * numbers.next();
+    const PoseResult result = data[0] & 128 ? solver.locate(lengths_m) : solver.solve(lengths_m);
+    require(result.pose.position_m.allFinite(), "fuzz_pose: a position is not finite");
+    require(std::abs(result.pose.orientation.norm() - 1) < 1e-12, "fuzz_pose: not a rotation");
+    require(result.faulty_string >= -1 && result.faulty_string < geometry.count,
+            "fuzz_pose: there is no such string");
+    if (result.status != PoseStatus::kSolved) continue;
+    require(result.residual_m <= PoseSolver::kMaxResidual_m, "fuzz_pose: solved, but does not fit");
+  }
+  return 0;
+}

@@ -1,0 +1,91 @@
+// What calibration says about input that it cannot use.
+
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/spidar/calibration_samples.h"
+
+using namespace spidar;
+using namespace spidar::test;
+
+namespace {
+
+std::string error_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_contains(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
+}
+
+CountSamples good_counts(const Profile& profile) {
+  Random random(1);
+  return moved_counts(profile, 100, 0.05, random, 0);
+}
+
+}  // namespace
+
+TEST(CalibrationInput, TooFewSamples) {
+  const Profile profile = load_profile("spidar-gcc");
+  const CountSamples counts = good_counts(profile).topRows(19);
+  expect_contains(error_of([&] { calibrate(profile, counts); }), "19 samples, must be at least 20");
+  expect_contains(error_of([&] { calibrate_at_centre(profile, counts); }), "19 samples");
+}
+
+TEST(CalibrationInput, NotANumber) {
+  const Profile profile = load_profile("spidar-gcc");
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    CountSamples counts = good_counts(profile);
+    counts(17, 3) = bad;
+    expect_contains(error_of([&] { calibrate(profile, counts); }), "sample 17, string 3: ");
+    expect_contains(error_of([&] { calibrate_at_centre(profile, counts); }), "must be finite");
+  }
+}
+
+TEST(CalibrationInput, WrongStringCount) {
+  Profile profile = load_profile("spidar-gcc");
+  const CountSamples counts = good_counts(profile);
+  const CountSamples seven = counts.leftCols(7);
+  expect_contains(error_of([&] { calibrate(profile, seven); }),
+                  "counts of 7 strings, must have 8 as profile \"spidar-gcc\"");
+  profile.geometry.count = 6;
+  expect_contains(error_of([&] { calibrate(profile, counts.leftCols(6)); }),
+                  "has 6 strings, must have at least 7");
+}
+
+// One redundant length instead of two: twice the samples.
+TEST(CalibrationInput, SevenStringsDo) {
+  Profile profile = load_profile("spidar-gcc");
+  Random random(2);
+  profile.geometry.count = 7;
+  Profile device = profile;
+  clear_counters_at(wrong_start(random, 0.02, 0.3), device);
+  const CalibrationResult result = calibrate(profile, moved_counts(device, 2000, 0.01, random, 0));
+  ASSERT_EQ(result.status, CalibrationStatus::kSolved);
+  const StringVector error_m = zero_length_errors_m(profile, device, result);
+  for (int i = 0; i < 7; ++i)
+    EXPECT_LT(std::abs(error_m[i]), 5 * result.home_offset_sd_m[i]) << "string " << i;
+}
+
+TEST(CalibrationInput, GripThatMovesIsNotHeldAtTheCentre) {
+  const Profile profile = load_profile("spidar-gcc");
+  expect_contains(error_of([&] { calibrate_at_centre(profile, good_counts(profile)); }),
+                  "not held still");
+}
+
+TEST(CalibrationInput, OnlyASolvedResultMakesAProfile) {
+  const Profile profile = load_profile("spidar-gcc");
+  CalibrationResult result;
+  result.status = CalibrationStatus::kUndetermined;
+  expect_contains(error_of([&] { calibrated_profile(profile, result, "a test"); }), "not solved");
+}

@@ -1,0 +1,153 @@
+// save_profile() and load_profile() are each other's inverse.
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "spidar/profile_writer.h"
+#include "tests/spidar/calibration_samples.h"
+
+namespace fs = std::filesystem;
+using namespace spidar;
+using namespace spidar::test;
+
+namespace {
+
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "spidar-writer-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
+    path_ = pattern;
+  }
+  ~Folder() { fs::remove_all(path_); }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  bool is_empty() const { return fs::is_empty(path_); }
+
+ private:
+  fs::path path_;
+};
+
+void expect_same(const Profile& a, const Profile& b) {
+  EXPECT_EQ(a.description, b.description);
+  EXPECT_EQ(a.board, b.board);
+  EXPECT_EQ(a.dac_bits, b.dac_bits);
+  EXPECT_EQ(a.dac_max_V, b.dac_max_V);
+  ASSERT_EQ(a.geometry.count, b.geometry.count);
+  for (size_t i = 0; i < static_cast<size_t>(a.geometry.count); ++i) {
+    EXPECT_EQ(a.geometry.exit_m[i], b.geometry.exit_m[i]);
+    EXPECT_EQ(a.geometry.grip_m[i], b.geometry.grip_m[i]);
+    EXPECT_EQ(a.drives[i].min_tension_N, b.drives[i].min_tension_N);
+    EXPECT_EQ(a.drives[i].max_tension_N, b.drives[i].max_tension_N);
+    EXPECT_EQ(a.drives[i].newtons_per_volt, b.drives[i].newtons_per_volt);
+    EXPECT_EQ(a.drives[i].metres_per_count, b.drives[i].metres_per_count);
+    EXPECT_EQ(a.drives[i].motor_sign, b.drives[i].motor_sign);
+    EXPECT_EQ(a.drives[i].encoder_sign, b.drives[i].encoder_sign);
+    EXPECT_EQ(a.drives[i].home_offset_m, b.drives[i].home_offset_m);
+  }
+  ASSERT_EQ(a.provenance.size(), b.provenance.size());
+  for (size_t i = 0; i < a.provenance.size(); ++i) {
+    EXPECT_EQ(a.provenance[i].field, b.provenance[i].field);
+    EXPECT_EQ(a.provenance[i].source, b.provenance[i].source);
+    EXPECT_EQ(a.provenance[i].evidence, b.provenance[i].evidence);
+    EXPECT_EQ(a.provenance[i].note, b.provenance[i].note);
+  }
+  ASSERT_EQ(a.calibration.has_value(), b.calibration.has_value());
+  if (!a.calibration) return;
+  EXPECT_EQ(a.calibration->samples, b.calibration->samples);
+  EXPECT_EQ(a.calibration->residual_m, b.calibration->residual_m);
+  EXPECT_EQ(a.calibration->home_offset_sd_m, b.calibration->home_offset_sd_m);
+  EXPECT_EQ(a.calibration->scale_sd, b.calibration->scale_sd);
+  EXPECT_EQ(a.calibration->exit_sd_m, b.calibration->exit_sd_m);
+}
+
+std::string load_error(const std::string& path, const std::string& text) {
+  std::ofstream(path) << text;
+  try {
+    load_profile(path);
+  } catch (const ProfileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(ProfileWriter, EveryShippedProfileComesBack) {
+  const Folder folder;
+  const std::string path = folder.file("copy.toml");
+  for (const std::string& name : list_profiles()) {
+    SCOPED_TRACE(name);
+    const Profile profile = load_profile(name);
+    save_profile(profile, path);
+    expect_same(profile, load_profile(path));
+  }
+}
+
+TEST(ProfileWriter, CalibrationComesBack) {
+  const Folder folder;
+  const Profile profile = load_profile("spidar-gcc");
+  Random random(1);
+  CalibrationResult result;
+  result.status = CalibrationStatus::kSolved;
+  result.samples = 1234;
+  result.residual_m = 1.0 / 3e5;
+  result.scale = 1 + uniform(random, 0.01);
+  result.scale_sd = 1.0 / 3e4;
+  result.estimated = {true, true};
+  for (size_t i = 0; i < 8; ++i) {
+    result.exit_m[i] = profile.geometry.exit_m[i] + uniform_vector(random, 1e-3);
+    result.exit_sd_m.col(static_cast<Eigen::Index>(i)) = uniform_vector(random, 1e-5).cwiseAbs();
+    result.home_offset_m[static_cast<Eigen::Index>(i)] = uniform(random, 0.02);
+    result.home_offset_sd_m[static_cast<Eigen::Index>(i)] = std::abs(uniform(random, 1e-5));
+  }
+  Profile once = calibrated_profile(profile, result, "first \"try\"\twith\nodd characters");
+  const Profile twice = calibrated_profile(once, result, "second try");
+  // Scale and offsets replace those of before; so does what is said about them.
+  EXPECT_EQ(twice.provenance.size(), profile.provenance.size() + 3);
+  EXPECT_EQ(twice.provenance.back().source, "second try");
+  EXPECT_EQ(twice.provenance.back().evidence, Evidence::kMeasured);
+  for (const Profile& calibrated : {once, twice}) {
+    save_profile(calibrated, folder.file("mine.toml"));
+    const Profile loaded = load_profile(folder.file("mine.toml"));
+    EXPECT_EQ(loaded.name, "mine");
+    ASSERT_TRUE(loaded.calibration);
+    EXPECT_EQ(loaded.drives[5].home_offset_m, result.home_offset_m[5]);
+    expect_same(calibrated, loaded);
+  }
+}
+
+TEST(ProfileWriter, FailureLeavesNothingBehind) {
+  const Folder folder;
+  const Profile profile = load_profile("spidar-gcc");
+  for (const std::string& path : {folder.file("no/such/folder.toml"), folder.file("")}) {
+    try {
+      save_profile(profile, path);
+      ADD_FAILURE() << "written to " << path;
+    } catch (const ProfileError& error) {
+      EXPECT_NE(std::string(error.what()).find(path + ": cannot be written: "), std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_TRUE(folder.is_empty());
+}
+
+TEST(ProfileWriter, BadCalibrationIsRefusedByName) {
+  const Folder folder;
+  Profile profile = load_profile("spidar-gcc");
+  profile.drives[2].home_offset_m = -1.0;
+  EXPECT_NE(load_error(folder.file("a.toml"), profile_text(profile)).find("home_offset_m[2]"),
+            std::string::npos);
+  profile.drives[2].home_offset_m = 0;
+  profile.calibration = CalibrationRecord{10, 1e-6, std::vector<double>(7, 1e-6), {}, {}};
+  EXPECT_NE(load_error(folder.file("b.toml"), profile_text(profile))
+                .find("calibration.home_offset_sd_m: has 7 entries, must have 8"),
+            std::string::npos);
+  profile.calibration = CalibrationRecord{10, -1e-6, std::vector<double>(8, 1e-6), {}, {}};
+  EXPECT_NE(load_error(folder.file("c.toml"), profile_text(profile)).find("residual_m"),
+            std::string::npos);
+}
