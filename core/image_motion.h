@@ -14,7 +14,10 @@ namespace spidar {
 /// Motion of the picture between two frames.
 struct ImageMotion {
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< image frame I: x right, y down
-  int tracked = 0;                                          ///< points it was measured with
+  /// Relative change of lengths a second: 0.5 is half as large again. Positive: comes nearer.
+  double growth_1_s = 0;
+  double roll_rad_s = 0;  ///< turn from x to y: clockwise as seen on the screen
+  int tracked = 0;        ///< points it was measured with
 };
 
 /// The paper's frame velocity (eq. 9–10): mean over all tracks of displacement / Δt.

@@ -8,10 +8,13 @@ namespace spidar {
 
 struct MotionAnalyzer::Impl {
   explicit Impl(const AnalyzerSettings& given)
-      : settings(given), tracker(given.tracker), controller(make_controller(given.controller)) {}
+      : settings(given), tracker(given.tracker), controller(make_controller(given.controller)) {
+    validate(given.axes);
+  }
 
   AnalyzerSettings settings;
   OpenCvTracker tracker;
+  MotionEstimator motion;
   std::unique_ptr<GainController> controller;
   std::optional<int64_t> last_running_time_ns;
 };
@@ -24,6 +27,7 @@ MotionAnalyzer::~MotionAnalyzer() = default;
 void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   validate(settings.tracker);
   validate(settings.controller);
+  validate(settings.axes);
   impl_->tracker.configure(settings.tracker);
   if (settings.controller.kind == impl_->settings.controller.kind) {
     impl_->controller->configure(settings.controller);
@@ -42,12 +46,19 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   FrameAnalysis analysis;
   analysis.features = tracked.features;
   analysis.restarted = tracked.restarted || !last_ns;
-  if (analysis.restarted) return analysis;
+  if (analysis.restarted) {
+    impl_->motion.reset();
+    return analysis;
+  }
 
   analysis.interval_ns = running_time_ns - *last_ns;
-  analysis.motion = mean_motion(tracked.tracks, analysis.interval_ns);
-  const double to_reference = kReferenceHeight_px / frame.height;
-  analysis.wrench = render_motion(*impl_->controller, to_reference * analysis.motion.velocity_px_s);
+  const SceneMotion scene = impl_->motion.estimate(impl_->settings.motion, tracked.tracks,
+                                                   frame.width, frame.height, analysis.interval_ns);
+  analysis.motion = scene.felt;
+  analysis.model = scene.model;
+  analysis.objects = scene.objects;
+  analysis.wrench =
+      render_motion(*impl_->controller, analysis.motion, impl_->settings.axes, frame.height);
   return analysis;
 }
 

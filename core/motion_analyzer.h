@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "core/api.h"
 #include "core/gain_controller.h"
 #include "core/image_motion.h"
 #include "core/image_view.h"
+#include "core/motion_estimator.h"
+#include "core/motion_rendering.h"
 #include "core/tracker.h"
 #include "core/wrench.h"
 
@@ -15,20 +18,26 @@ namespace spidar {
 
 struct AnalyzerSettings {
   TrackerSettings tracker;
+  MotionKind motion = MotionKind::kMean;
+  AxisGains axes;
   ControllerSettings controller;
 };
 
 /// What was found in one frame.
 struct FrameAnalysis {
-  int features = 0;        ///< points looked for in the next frame
-  ImageMotion motion;      ///< unscaled px/s of the frame given
+  int features = 0;    ///< points looked for in the next frame
+  ImageMotion motion;  ///< the one that is felt, in unscaled px/s of the frame given
+  /// Model of the background; nothing when `motion` needs none, and after a restart.
+  std::optional<ModelKind> model;
+  int objects = 0;         ///< known beside the background; 0 when `motion` looks for none
   Wrench wrench;           ///< what the controller wants, before any safety step
   bool restarted = false;  ///< nothing to compare with: motion and wrench are zero
   /// Since the frame that this one was compared with; 0 after a restart.
   int64_t interval_ns = 0;
 };
 
-/// image → features → tracks → motion → gain controller → wrench. One thread at a time.
+/// image → features → tracks → motion model → motion → gain controller → wrench. One thread at a
+/// time.
 class SPIDAR_API MotionAnalyzer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.

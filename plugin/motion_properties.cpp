@@ -20,9 +20,16 @@ GType controller_type() {
 
 GType motion_type() {
   static const GType type = [] {
-    static const GEnumValue values[] = {{static_cast<int>(MotionKind::kMean),
-                                         "Mean velocity of all tracked points (eq. 9-10)", "mean"},
-                                        {0, nullptr, nullptr}};
+    static const GEnumValue values[] = {
+        {static_cast<int>(MotionKind::kMean), "Mean velocity of all tracked points (eq. 9-10)",
+         "mean"},
+        {static_cast<int>(MotionKind::kObject),
+         "The dominant object against the background; at rest where only the camera moves",
+         "object"},
+        {static_cast<int>(MotionKind::kObjects),
+         "All objects against the background, weighted by their area", "objects"},
+        {static_cast<int>(MotionKind::kCamera), "What the camera does: ride along", "camera"},
+        {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionMotion", values);
   }();
   return type;
@@ -82,9 +89,9 @@ void install_motion_properties(GObjectClass* c) {
   install(kPropController,
           g_param_spec_enum("controller", "Controller", "How speed becomes force",
                             controller_type(), static_cast<int>(gain.kind), kControllable));
-  install(kPropMotion,
-          g_param_spec_enum("motion", "Motion", "Which motion of the picture is felt",
-                            motion_type(), static_cast<int>(defaults.motion), kControllable));
+  install(kPropMotion, g_param_spec_enum("motion", "Motion", "Which motion of the picture is felt",
+                                         motion_type(), static_cast<int>(defaults.analyzer.motion),
+                                         kControllable));
   install(kPropMaxForce, g_param_spec_double("max-force", "Maximum force",
                                              "Largest force on the grip, N (Fmax of eq. 12 and 15)",
                                              0.0, 20.0, gain.max_force_N, kControllable));
@@ -93,6 +100,16 @@ void install_motion_properties(GObjectClass* c) {
                               "Steepness of the nonlinear controller, seconds per pixel of a frame "
                               "480 lines high: half the maximum force is reached at 1/alpha px/s",
                               1e-6, 10.0, gain.alpha_s_px, kControllable));
+  install(kPropDepthGain,
+          g_param_spec_double("depth-gain", "Depth gain",
+                              "Force towards the viewer of what grows: 1 feels a growth like the "
+                              "speed that it gives half a frame's height away; 0 is off",
+                              0.0, 100.0, defaults.analyzer.axes.depth, kControllable));
+  install(kPropRollGain,
+          g_param_spec_double("roll-gain", "Roll gain",
+                              "Torque about the view axis of what turns: 1 feels a turn like the "
+                              "speed that it gives half a frame's height away; 0 is off",
+                              0.0, 100.0, defaults.analyzer.axes.roll, kControllable));
   install(kPropMaxFeatures,
           g_param_spec_uint("max-features", "Maximum features", "Points followed at once", 1, 10000,
                             static_cast<guint>(tracker.max_features), kControllable));
@@ -153,13 +170,19 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
       gain.kind = static_cast<ControllerKind>(g_value_get_enum(value));
       return true;
     case kPropMotion:
-      p.motion = static_cast<MotionKind>(g_value_get_enum(value));
+      p.analyzer.motion = static_cast<MotionKind>(g_value_get_enum(value));
       return true;
     case kPropMaxForce:
       gain.max_force_N = g_value_get_double(value);
       return true;
     case kPropAlpha:
       gain.alpha_s_px = g_value_get_double(value);
+      return true;
+    case kPropDepthGain:
+      p.analyzer.axes.depth = g_value_get_double(value);
+      return true;
+    case kPropRollGain:
+      p.analyzer.axes.roll = g_value_get_double(value);
       return true;
     case kPropMaxFeatures:
       tracker.max_features = static_cast<int>(g_value_get_uint(value));
@@ -204,13 +227,19 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       g_value_set_enum(value, static_cast<int>(gain.kind));
       return true;
     case kPropMotion:
-      g_value_set_enum(value, static_cast<int>(p.motion));
+      g_value_set_enum(value, static_cast<int>(p.analyzer.motion));
       return true;
     case kPropMaxForce:
       g_value_set_double(value, gain.max_force_N);
       return true;
     case kPropAlpha:
       g_value_set_double(value, gain.alpha_s_px);
+      return true;
+    case kPropDepthGain:
+      g_value_set_double(value, p.analyzer.axes.depth);
+      return true;
+    case kPropRollGain:
+      g_value_set_double(value, p.analyzer.axes.roll);
       return true;
     case kPropMaxFeatures:
       g_value_set_uint(value, static_cast<guint>(tracker.max_features));

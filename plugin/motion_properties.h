@@ -10,14 +10,12 @@
 
 namespace spidar {
 
-enum class MotionKind { kMean };
 enum class OnDeviceError { kWarn, kError };
 
 struct MotionProperties {
   std::string device = "sim";
   std::string profile;
   AnalyzerSettings analyzer;
-  MotionKind motion = MotionKind::kMean;
   GstClockTimeDiff ts_offset_ns = 0;
   OnDeviceError on_device_error = OnDeviceError::kWarn;
   bool post_messages = true;
@@ -34,6 +32,8 @@ enum PropertyId : guint {
   kPropMotion,
   kPropMaxForce,
   kPropAlpha,
+  kPropDepthGain,
+  kPropRollGain,
   kPropMaxFeatures,
   kPropQualityLevel,
   kPropMinDistance,

@@ -18,6 +18,8 @@ void MotionStats::reset() {
   restarts_ = 0;
   features_ = 0;
   tracked_ = 0;
+  model_.reset();
+  objects_ = 0;
   analysis_.reset();
 }
 
@@ -27,6 +29,8 @@ void MotionStats::add(const FrameAnalysis& frame, int64_t took_ns) {
   if (frame.restarted) ++restarts_;
   features_ = frame.features;
   tracked_ = frame.motion.tracked;
+  model_ = frame.model;
+  objects_ = frame.objects;
   analysis_.add(took_ns);
 }
 
@@ -34,7 +38,9 @@ void MotionStats::describe(GstStructure* structure) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   gst_structure_set(structure, "frames", G_TYPE_UINT64, frames_, "restarts", G_TYPE_UINT64,
                     restarts_, "features", G_TYPE_UINT, static_cast<guint>(features_), "tracked",
-                    G_TYPE_UINT, static_cast<guint>(tracked_), "analysis-ms-median", G_TYPE_DOUBLE,
+                    G_TYPE_UINT, static_cast<guint>(tracked_), "model", G_TYPE_STRING,
+                    model_ ? to_string(*model_) : "none", "objects", G_TYPE_UINT,
+                    static_cast<guint>(objects_), "analysis-ms-median", G_TYPE_DOUBLE,
                     ms(analysis_.quantile_ns(0.5)), "analysis-ms-p95", G_TYPE_DOUBLE,
                     ms(analysis_.quantile_ns(0.95)), "analysis-ms-max", G_TYPE_DOUBLE,
                     ms(analysis_.max_ns()), nullptr);

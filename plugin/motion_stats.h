@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <optional>
 
 #include <gst/gst.h>
 
@@ -18,8 +19,9 @@ class MotionStats {
   void reset();
   void add(const FrameAnalysis& frame, int64_t took_ns);
 
-  /// Adds frames, restarts (uint64), features, tracked (uint, of the last frame),
-  /// analysis-ms-median, analysis-ms-p95, analysis-ms-max (double).
+  /// Adds frames, restarts (uint64), features, tracked (uint, of the last frame), model (string: of
+  /// the background in the last frame, 'none' when the motion that is felt needs none), objects
+  /// (uint, in the last frame), analysis-ms-median, analysis-ms-p95, analysis-ms-max (double).
   void describe(GstStructure* structure) const;
 
  private:
@@ -31,6 +33,8 @@ class MotionStats {
   uint64_t restarts_ = 0;
   int features_ = 0;
   int tracked_ = 0;
+  std::optional<ModelKind> model_;
+  int objects_ = 0;
   AnalysisHistogram analysis_;
 };
 

@@ -83,15 +83,18 @@ TEST(Properties, DefaultsAreTheDocumentedOnes) {
 
 TEST(Properties, EverySettingReadsBackWhatWasWritten) {
   GstElement* element = make_element(
-      "device=none profile=spidar-g6c controller=linear max-force=1.5 alpha=0.02 max-features=50 "
+      "device=none profile=spidar-g6c controller=linear motion=camera max-force=1.5 alpha=0.02 "
+      "depth-gain=2.5 roll-gain=0 max-features=50 "
       "quality-level=0.05 min-distance=4 ts-offset=-5000000 on-device-error=error "
       "post-messages=false trace=/a haptic-trace=/b");
   for (const auto& [name, text] : {std::pair{"device", "none"},
                                    {"profile", "spidar-g6c"},
                                    {"controller", "linear"},
-                                   {"motion", "mean"},
+                                   {"motion", "camera"},
                                    {"max-force", "1.5"},
                                    {"alpha", "0.02"},
+                                   {"depth-gain", "2.5"},
+                                   {"roll-gain", "0"},
                                    {"max-features", "50"},
                                    {"quality-level", "0.05"},
                                    {"min-distance", "4"},
@@ -207,6 +210,20 @@ TEST(Trace, FullDiskIsAWarningAndTheVideoGoesOn) {
   EXPECT_EQ(h.warnings().size(), 1u);
 }
 
+TEST(Stats, NameTheModelOfTheBackground) {
+  ElementHarness h("device=none motion=camera");
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  for (int n = 0; n < 3; ++n) h.push_moved(3.0 * n, 0, static_cast<GstClockTime>(n) * kFrame);
+  GstStructure* stats = nullptr;
+  g_object_get(h.element(), "stats", &stats, nullptr);
+  EXPECT_STREQ(gst_structure_get_string(stats, "model"), "translation");
+  guint objects = 1;
+  EXPECT_TRUE(gst_structure_get_uint(stats, "objects", &objects));
+  EXPECT_EQ(objects, 0u);
+  gst_structure_free(stats);
+  EXPECT_LT(h.motions().back().velocity_x, 0);  // the picture goes right, the camera left
+}
+
 TEST(Stats, CountFramesAndNameTheDevice) {
   ElementHarness h("device=sim");
   h.set_caps(make_caps("GRAY8", 320, 240));
@@ -220,6 +237,7 @@ TEST(Stats, CountFramesAndNameTheDevice) {
   EXPECT_EQ(frames, 5u);
   EXPECT_EQ(restarts, 1u);  // the first frame
   EXPECT_GT(tracked, 20u);
+  EXPECT_STREQ(gst_structure_get_string(stats, "model"), "none");  // motion=mean
   EXPECT_STREQ(gst_structure_get_string(stats, "device"), "sim");
   EXPECT_NE(gst_structure_get_string(stats, "scheduling"), nullptr);
   gst_structure_free(stats);

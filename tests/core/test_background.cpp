@@ -1,0 +1,208 @@
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/background.h"
+#include "track_samples.h"
+
+namespace spidar {
+namespace {
+
+using test::sample_model;
+using test::TrackSource;
+
+constexpr int kWidth = 640;
+constexpr int kHeight = 360;
+/// What the estimator starts from: 0.1 px of 480 in a frame of 640.
+constexpr double kSigma_px = 0.1 * 640 / 480;
+
+/// Points of something 100 px wide at `at_px`, as far from the centre, that moves by `moved_px`.
+void add_object(TrackSource& source, std::vector<Displacement>& points, int count,
+                const Eigen::Vector2d& at_px, const Eigen::Vector2d& moved_px, double sigma_px) {
+  MotionModel model;
+  model.kind = ModelKind::kTranslation;
+  model.shift_px = moved_px;
+  for (int i = 0; i < count; ++i) {
+    const double dx = source.uniform(-50, 50);
+    const Eigen::Vector2d place = at_px + Eigen::Vector2d(dx, source.uniform(-50, 50));
+    points.push_back(source.moved(model, place, sigma_px));
+  }
+}
+
+Background settle(BackgroundEstimator& estimator, TrackSource& source, const MotionModel& truth,
+                  int frames, double sigma_px, int strays = 0) {
+  Background background;
+  for (int n = 0; n < frames; ++n) {
+    auto points = source.moved(truth, 200 - strays, sigma_px);
+    for (int i = 0; i < strays; ++i) points.push_back(source.stray());
+    background = estimator.estimate(points, kWidth, kHeight);
+  }
+  return background;
+}
+
+class EachRung : public testing::TestWithParam<ModelKind> {};
+
+TEST_P(EachRung, IsTheOneThatTheTracksNeed) {
+  const MotionModel truth = sample_model(GetParam());
+  for (const int strays : {0, 40}) {
+    for (uint32_t seed = 1; seed <= 10; ++seed) {
+      TrackSource source(seed);
+      BackgroundEstimator estimator;
+      for (int n = 0; n < 20; ++n) {
+        const Background found = settle(estimator, source, truth, 1, kSigma_px, strays);
+        // From the first frame on, and never another one.
+        ASSERT_EQ(to_string(found.model.kind), std::string(to_string(truth.kind)))
+            << "seed " << seed << ", frame " << n << ", strays " << strays;
+        // 160 points at least; eight parameters share 2 · 160 equations, so that a displacement has
+        // on average σ √(8 / 320) = 0.16 σ of noise in each coordinate, and in a corner, where the
+        // leverage of a homography's points is largest, up to five times that; 4 deviations.
+        for (const Eigen::Vector2d& at : {Eigen::Vector2d(0, 0), Eigen::Vector2d(300, 160)}) {
+          EXPECT_LT((found.model.displacement_px(at) - truth.displacement_px(at)).norm(),
+                    4 * 5 * 0.16 * kSigma_px)
+              << "seed " << seed << ", frame " << n;
+        }
+      }
+    }
+  }
+}
+
+TEST_P(EachRung, FallsToStillWhenTheCameraStops) {
+  TrackSource source(3);
+  BackgroundEstimator estimator;
+  settle(estimator, source, sample_model(GetParam()), 5, kSigma_px);
+  // At most four rungs, five frames each.
+  const Background found = settle(estimator, source, MotionModel(), 4 * 5, kSigma_px);
+  EXPECT_EQ(found.model.kind, ModelKind::kStill);
+  EXPECT_EQ(found.model.displacement_px({100, 100}), Eigen::Vector2d(0, 0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Ladder, EachRung,
+                         testing::Values(ModelKind::kStill, ModelKind::kTranslation,
+                                         ModelKind::kSimilarity, ModelKind::kAffine,
+                                         ModelKind::kHomography),
+                         [](const auto& instance) {
+                           return std::string(to_string(instance.param));
+                         });
+
+TEST(Background, DoesNotFlickerWhereTwoRungsAreEquallyGood) {
+  // A pan so slow that the gain of GRIC is about the price of its parameters: n |t|² / 2σ² ≈ 2 λ₂.
+  // Without hysteresis every other frame would change the rung.
+  TrackSource source(7);
+  BackgroundEstimator estimator;
+  MotionModel slow;
+  slow.kind = ModelKind::kTranslation;
+  slow.shift_px << kSigma_px * std::sqrt(2 * std::log(4.0 * 200) / 200), 0;
+  int changes = 0;
+  ModelKind last = ModelKind::kStill;
+  for (int n = 0; n < 300; ++n) {
+    const Background found = settle(estimator, source, slow, 1, kSigma_px);
+    changes += found.model.kind != last;
+    last = found.model.kind;
+    EXPECT_LE(found.model.kind, ModelKind::kTranslation) << "frame " << n;
+  }
+  // Five better frames in succession, each with a chance of about a half, come about once in 62.
+  EXPECT_LE(changes, 2 * 300 / 62);
+}
+
+TEST(Background, AnObjectOnAPlainBackgroundIsNotTheBackground) {
+  for (uint32_t seed = 1; seed <= 10; ++seed) {
+    TrackSource source(seed);
+    BackgroundEstimator estimator;
+    for (int n = 0; n < 10; ++n) {
+      std::vector<Displacement> points;
+      add_object(source, points, 100, {60.0 - 10 * n, 20}, {-10, 2}, kSigma_px);
+      const Background& found = estimator.estimate(points, kWidth, kHeight);
+      EXPECT_EQ(found.model.kind, ModelKind::kStill) << "seed " << seed << ", frame " << n;
+      EXPECT_EQ(estimator.fitted(), 0);
+    }
+  }
+}
+
+TEST(Background, FollowsThePanBehindAnObjectThatHasMostOfThePoints) {
+  MotionModel pan;
+  pan.kind = ModelKind::kTranslation;
+  pan.shift_px << -4, 1;
+  for (uint32_t seed = 1; seed <= 10; ++seed) {
+    TrackSource source(seed);
+    BackgroundEstimator estimator;
+    for (int n = 0; n < 10; ++n) {
+      auto points = source.moved(pan, 80, kSigma_px);
+      add_object(source, points, 120, {0, 0}, {6, 3}, kSigma_px);
+      const Background& found = estimator.estimate(points, kWidth, kHeight);
+      ASSERT_EQ(found.model.kind, ModelKind::kTranslation) << "seed " << seed;
+      // 80 points that do not count alike, at worst as 40: σ / √40 a coordinate, 5 deviations.
+      EXPECT_LT((found.model.shift_px - pan.shift_px).norm(), 5 * kSigma_px / std::sqrt(40.0));
+    }
+  }
+}
+
+TEST(Background, NothingButNoiseIsStillHoweverStrong) {
+  for (const double sigma_px : {0.05, 0.2, 0.4, 1.0, 5.0}) {
+    for (uint32_t seed = 1; seed <= 10; ++seed) {
+      TrackSource source(seed);
+      BackgroundEstimator estimator;
+      for (int n = 0; n < 30; ++n) {
+        const Background found = settle(estimator, source, MotionModel(), 1, sigma_px);
+        ASSERT_EQ(found.model.kind, ModelKind::kStill)
+            << "seed " << seed << ", frame " << n << ", sigma " << sigma_px;
+        ASSERT_EQ(found.model.displacement_px({50, 50}), Eigen::Vector2d(0, 0));
+      }
+    }
+  }
+}
+
+TEST(Background, LearnsTheNoiseOfBadVideo) {
+  TrackSource source(9);
+  BackgroundEstimator estimator;
+  const double sigma_px = 0.3 * 640 / 480;
+  const Background still = settle(estimator, source, MotionModel(), 40, sigma_px);
+  // A median of 200 residuals is right to 6 %; three times that.
+  EXPECT_NEAR(still.sigma_px, sigma_px, 0.18 * sigma_px);
+  const MotionModel pan = sample_model(ModelKind::kTranslation);
+  const Background moving = settle(estimator, source, pan, 5, sigma_px);
+  EXPECT_EQ(moving.model.kind, ModelKind::kTranslation);
+}
+
+TEST(Background, StillScenesAndOneObjectCostNoFit) {
+  TrackSource source(4);
+  BackgroundEstimator estimator;
+  for (int n = 0; n < 20; ++n) {
+    auto points = source.moved(MotionModel(), 180, 0.04);
+    add_object(source, points, 20, {100.0 - 10 * n, 0}, {-10, 0}, 0.04);
+    estimator.estimate(points, kWidth, kHeight);
+    EXPECT_EQ(estimator.fitted(), 0) << "frame " << n;
+  }
+}
+
+TEST(Background, FewOrNoPointsAreStill) {
+  BackgroundEstimator estimator;
+  TrackSource source(5);
+  for (int count = 0; count < 5; ++count) {
+    const auto points = source.moved(sample_model(ModelKind::kHomography), count, 0);
+    EXPECT_EQ(estimator.estimate(points, kWidth, kHeight).model.kind, ModelKind::kStill) << count;
+  }
+}
+
+TEST(Background, IsTheSameBitForBit) {
+  const auto run = [] {
+    TrackSource source(6);
+    BackgroundEstimator estimator;
+    std::vector<double> numbers;
+    for (const ModelKind kind : {ModelKind::kStill, ModelKind::kHomography, ModelKind::kSimilarity,
+                                 ModelKind::kTranslation}) {
+      for (int n = 0; n < 5; ++n) {
+        const Background found = settle(estimator, source, sample_model(kind), 1, kSigma_px, 40);
+        for (const double v : found.model.linear.reshaped()) numbers.push_back(v);
+        for (const double v : found.model.shift_px) numbers.push_back(v);
+        for (const double v : found.model.perspective_1_px) numbers.push_back(v);
+      }
+    }
+    return numbers;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+}  // namespace
+}  // namespace spidar

@@ -1,0 +1,80 @@
+/// A camera that pans, zooms and rolls over a texture, and discs that move in front of it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar::test {
+
+/// Of something that is drawn, in pixels from the centre of the frame (x right, y down).
+struct Placement {
+  Eigen::Vector2d centre_px{0, 0};
+  double scale = 1;
+  double angle_rad = 0;  ///< clockwise as seen on the screen
+
+  /// Where a place of the frame is on the thing itself.
+  Eigen::Vector2d on_thing(const Eigen::Vector2d& frame_px) const {
+    return Eigen::Rotation2Dd(-angle_rad) * (frame_px - centre_px) / scale;
+  }
+};
+
+class MovingScene {
+ public:
+  struct Disc {
+    double radius_px;  ///< at scale 1
+    Texture texture;
+  };
+
+  MovingScene(int width, int height, uint32_t seed = 1)
+      : picture_(width, height), seed_(seed), background_(seed, kCell_px) {}
+
+  void plain_background() { plain_ = true; }
+  void add_disc(double radius_px) {
+    discs_.push_back(
+        {radius_px, Texture(seed_ + 1 + static_cast<uint32_t>(discs_.size()), kCell_px)});
+  }
+
+  int width() const { return picture_.width; }
+  int height() const { return picture_.height; }
+
+  /// One placement for each disc; the last ones are in front. Valid until the next call.
+  ImageView draw(const Placement& background, const std::vector<Placement>& discs) {
+    const Eigen::Vector2d middle((width() - 1) / 2.0, (height() - 1) / 2.0);
+    picture_.fill([&](double x, double y) {
+      const Eigen::Vector2d at = Eigen::Vector2d(x, y) - middle;
+      const Eigen::Vector2d behind = background.on_thing(at);
+      double left = 1;  // share of the pixel that nothing in front covers
+      double sum = 0;
+      for (size_t i = discs.size(); i-- > 0 && left > 0;) {
+        const Eigen::Vector2d on_disc = discs[i].on_thing(at);
+        const double inside_px = (discs_[i].radius_px - on_disc.norm()) * discs[i].scale;
+        const double cover = left * std::clamp(inside_px + 0.5, 0.0, 1.0);
+        if (cover == 0) continue;
+        sum += cover * discs_[i].texture.at(on_disc.x(), on_disc.y());
+        left -= cover;
+      }
+      if (left == 0) return sum;
+      return sum + left * (plain_ ? 128 : background_.at(behind.x(), behind.y()));
+    });
+    return picture_.view();
+  }
+
+ private:
+  /// Structures of a dozen pixels, as large as the tracker's windows.
+  static constexpr double kCell_px = 8;
+  Picture picture_;
+  uint32_t seed_;
+  Texture background_;
+  bool plain_ = false;
+  std::vector<Disc> discs_;
+};
+
+}  // namespace spidar::test
