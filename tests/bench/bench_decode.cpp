@@ -88,11 +88,11 @@ bool encode(const std::string& file) {
 double play_ms(const std::string& file, const std::string& filter) {
   double best_ms = 1e9;
   for (int pass = 0; pass < 5; ++pass) {
-    GstElement* pipeline = gst_parse_launch(("filesrc location=" + file +
-                                             " ! qtdemux ! avdec_h264 max-threads=1 ! " + filter +
-                                             " ! fakesink sync=false")
-                                                .c_str(),
-                                            nullptr);
+    GstElement* pipeline =
+        gst_parse_launch(("filesrc location=" + file + " ! qtdemux ! avdec_h264 max-threads=1 ! " +
+                          filter + " ! fakesink sync=false")
+                             .c_str(),
+                         nullptr);
     gst_element_set_state(pipeline, GST_STATE_PAUSED);
     gst_element_get_state(pipeline, nullptr, nullptr, GST_CLOCK_TIME_NONE);
     const double begin_ms = process_time_ms();
@@ -124,8 +124,8 @@ int main(int argc, char** argv) {
 
   const double decode_ms = play_ms(file, "identity");
   std::printf("1920x1080, avdec_h264 in one thread: %.2f ms a frame\n", decode_ms);
-  for (const char* filter : {"spidarmotion device=none post-messages=false",
-                             "spidarmotion device=none"}) {
+  for (const char* filter :
+       {"spidarmotion device=none post-messages=false", "spidarmotion device=none"}) {
     const double ms = play_ms(file, filter) - decode_ms;
     std::printf("+ %-45s %.2f ms a frame, %.0f %% of decoding\n", filter, ms, 100 * ms / decode_ms);
   }
