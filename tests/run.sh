@@ -13,6 +13,8 @@ checks=()  # arguments for summary.py: what is no meson test
 
 say() { printf '\n== %s\n' "$*"; }
 
+targets=()  # of ninja; none: all
+
 # build_and_test FOLDER [meson setup option...] [-- meson test option...]
 build_and_test() {
     local folder=$1 setup=()
@@ -68,11 +70,13 @@ case ${1-} in
     export GST_REGISTRY_FORK=no
     build_and_test build-ci-address "${sanitized[@]}" \
         -Db_sanitize=address,undefined -Dbenchmarks=disabled -- -t 4
-    say "thread sanitizer: left out are the element, for GLib and GStreamer are not built with it and" \
-        "their locks would be taken for races, and core, which has no threads"
+    say "thread sanitizer: what runs on several threads; left out is the element, for GLib and GStreamer" \
+        "are not built with it and their locks would be taken for races"
+    threaded=(haptic_session shared_memory simulated_faults tick_trace)
+    targets=("${threaded[@]/#/tests/spidar/test_}" tests/examples/test_play_{numbers,traces})
     build_and_test build-ci-thread "${sanitized[@]}" \
         -Db_sanitize=thread -Dbenchmarks=disabled -Dplugin=disabled -- \
-        -t 8 --suite spidar --suite examples
+        -t 8 "${threaded[@]}" play_numbers play_traces
     ;;
 *)
     echo "error: unknown option $1; usage: tests/run.sh [--ci]" >&2
