@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/opencv_tracker.h"
+#include "core/tracking/opencv_tracker.h"
 
 namespace spidar {
 

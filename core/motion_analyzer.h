@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "core/api.h"
-#include "core/gain_controller.h"
-#include "core/image_motion.h"
+#include "core/force/gain_controller.h"
+#include "core/force/motion_rendering.h"
 #include "core/image_view.h"
-#include "core/motion_estimator.h"
-#include "core/motion_rendering.h"
-#include "core/tracker.h"
+#include "core/motion/image_motion.h"
+#include "core/motion/motion_estimator.h"
+#include "core/tracking/tracker.h"
 #include "core/wrench.h"
 
 namespace spidar {

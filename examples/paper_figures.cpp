@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gain_controller.h"
+#include "core/force/gain_controller.h"
 #include "core/motion_analyzer.h"
 #include "examples/gnuplot.h"
 #include "tests/support/ball_scene.h"

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pose_solver.h"
+#include "core/grip/pose_solver.h"
 #include "line_reader.h"
 #include "spidar/profile.h"
 

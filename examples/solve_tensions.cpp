@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "line_reader.h"
 
 using namespace spidar;

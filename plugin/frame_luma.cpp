@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/packed_luma.h"
+#include "core/tracking/packed_luma.h"
 
 namespace spidar {
 namespace {

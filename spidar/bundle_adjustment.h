@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/pose.h"
+#include "core/grip/pose.h"
 #include "spidar/calibration_model.h"
 
 namespace spidar {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/pose_solver.h"
+#include "core/grip/pose_solver.h"
 #include "spidar/bundle_adjustment.h"
 #include "spidar/calibration_input.h"
 #include "spidar/calibration_model.h"

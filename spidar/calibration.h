@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 
 #include "core/api.h"
-#include "core/pose.h"
-#include "core/string_geometry.h"
+#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 #include "spidar/profile.h"
 
 namespace spidar {

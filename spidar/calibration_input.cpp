@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/pose_solver.h"
+#include "core/grip/pose_solver.h"
 #include "spidar/toml_field.h"
 
 namespace spidar {

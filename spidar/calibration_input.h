@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/string_geometry.h"
+#include "core/grip/string_geometry.h"
 #include "spidar/calibration.h"
 #include "spidar/calibration_model.h"
 #include "spidar/profile.h"

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "core/pose.h"
-#include "core/string_geometry.h"
+#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 #include "spidar/calibration.h"
 #include "spidar/profile.h"
 

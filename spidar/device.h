@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/api.h"
-#include "core/string_geometry.h"
+#include "core/grip/string_geometry.h"
 
 namespace spidar {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 
 #include "core/api.h"
-#include "core/pose.h"
-#include "core/string_geometry.h"
+#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 
 namespace spidar {

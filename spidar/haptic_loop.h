@@ -5,11 +5,11 @@
 #include <cstdint>
 
 #include "core/api.h"
-#include "core/pose.h"
-#include "core/pose_solver.h"
-#include "core/string_geometry.h"
-#include "core/tension_solver.h"
-#include "core/wrench_timeline.h"
+#include "core/force/wrench_timeline.h"
+#include "core/grip/pose.h"
+#include "core/grip/pose_solver.h"
+#include "core/grip/string_geometry.h"
+#include "core/grip/tension_solver.h"
 #include "spidar/device.h"
 #include "spidar/latency_histogram.h"
 #include "spidar/playback_clock.h"

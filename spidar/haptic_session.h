@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/api.h"
-#include "core/wrench_timeline.h"
+#include "core/force/wrench_timeline.h"
 #include "spidar/device.h"
 #include "spidar/haptic_loop.h"
 #include "spidar/playback_clock.h"

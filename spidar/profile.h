@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/api.h"
-#include "core/string_geometry.h"
+#include "core/grip/string_geometry.h"
 
 namespace spidar {
 

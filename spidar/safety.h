@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/api.h"
-#include "core/string_geometry.h"
+#include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
 #include "spidar/profile.h"

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/api.h"
-#include "core/pose.h"
+#include "core/grip/pose.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
 #include "spidar/grip_model.h"

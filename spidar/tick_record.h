@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "core/pose.h"
-#include "core/string_geometry.h"
+#include "core/force/wrench_timeline.h"
+#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 #include "core/wrench.h"
-#include "core/wrench_timeline.h"
 
 namespace spidar {
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "examples/workspace/delivery.h"
 #include "examples/workspace/quantile.h"
 #include "tests/support/grip_path.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "spidar/profile.h"
 
 /// What is minimised when tensions are chosen: ½‖S(W t − f)‖² + ½ε‖t − t_ref‖².

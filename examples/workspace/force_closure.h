@@ -1,7 +1,7 @@
 /// Whether strings, which can only pull, can balance a wrench at a pose.
 #pragma once
 
-#include "core/string_geometry.h"
+#include "core/grip/string_geometry.h"
 
 /// A pose has force closure, that is, lies in the wrench-closure workspace, when tensions ≥ 0 can
 /// balance any wrench. That is so exactly when W has rank 6 and some t with all tᵢ > 0 has W t = 0

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/pose.h"
+#include "core/grip/pose.h"
 #include "spidar/calibration.h"
 #include "spidar/profile.h"
 

@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "core/pose.h"
-#include "core/string_geometry.h"
+#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 
 namespace spidar {
 

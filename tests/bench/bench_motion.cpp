@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "core/motion_estimator.h"
+#include "core/motion/motion_estimator.h"
 #include "tests/core/track_samples.h"
 
 namespace {

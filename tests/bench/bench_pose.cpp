@@ -13,7 +13,7 @@
 #include <ceres/tiny_solver_autodiff_function.h>
 
 #include "call_timer.h"
-#include "core/pose_solver.h"
+#include "core/grip/pose_solver.h"
 #include "tests/core/string_samples.h"
 
 namespace {

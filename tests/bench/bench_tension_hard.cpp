@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "call_timer.h"
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "spidar/profile.h"
 #include "tests/core/tension_cases.h"
 #include "tests/core/tension_reference.h"

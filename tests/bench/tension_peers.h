@@ -11,7 +11,7 @@
 #include <Eigen/QR>
 #include <ceres/ceres.h>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 
 namespace spidar::bench {
 

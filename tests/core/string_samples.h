@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "core/pose.h"
-#include "core/string_geometry.h"
+#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 
 namespace spidar::test {
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/SVD>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "string_samples.h"
 
 namespace spidar::test {

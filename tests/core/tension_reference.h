@@ -10,7 +10,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 
 namespace spidar::test {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/background.h"
+#include "core/motion/background.h"
 #include "track_samples.h"
 
 namespace spidar {

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/motion_analyzer.h"
-#include "core/opencv_tracker.h"
+#include "core/tracking/opencv_tracker.h"
 #include "tests/support/ball_scene.h"
 #include "tests/support/picture.h"
 

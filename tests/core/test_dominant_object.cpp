@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/dominant_object.h"
+#include "core/motion/dominant_object.h"
 
 namespace spidar {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/opencv_tracker.h"
+#include "core/tracking/opencv_tracker.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 

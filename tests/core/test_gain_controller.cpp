@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/gain_controller.h"
+#include "core/force/gain_controller.h"
 
 namespace spidar {
 namespace {

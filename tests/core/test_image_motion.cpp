@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/image_motion.h"
+#include "core/motion/image_motion.h"
 
 namespace spidar {
 namespace {

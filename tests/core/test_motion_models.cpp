@@ -5,8 +5,8 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "core/motion_models.h"
-#include "core/robust_fit.h"
+#include "core/motion/motion_models.h"
+#include "core/motion/robust_fit.h"
 #include "track_samples.h"
 
 namespace spidar {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion_rendering.h"
+#include "core/force/motion_rendering.h"
 
 namespace spidar {
 namespace {

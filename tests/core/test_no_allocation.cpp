@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/pose_solver.h"
-#include "core/tension_solver.h"
+#include "core/grip/pose_solver.h"
+#include "core/grip/tension_solver.h"
 #include "count_allocations.h"
 #include "tension_cases.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/objects.h"
+#include "core/motion/objects.h"
 #include "track_world.h"
 
 namespace spidar {

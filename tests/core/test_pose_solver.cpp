@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "core/pose_solver.h"
+#include "core/grip/pose_solver.h"
 #include "string_samples.h"
 
 namespace spidar::test {

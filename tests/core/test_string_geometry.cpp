@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/string_geometry.h"
+#include "core/grip/string_geometry.h"
 #include "string_samples.h"
 
 namespace spidar::test {

@@ -8,7 +8,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "string_samples.h"
 #include "tension_reference.h"
 #include "tests/support/grip_path.h"

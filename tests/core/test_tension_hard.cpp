@@ -1,7 +1,7 @@
 // The tension solver on problems that break solvers: see tension_cases.h.
 #include <gtest/gtest.h>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "tension_cases.h"
 #include "tension_reference.h"
 

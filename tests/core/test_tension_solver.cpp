@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "tension_cases.h"
 #include "tension_reference.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/wrench_timeline.h"
+#include "core/force/wrench_timeline.h"
 
 namespace spidar {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "core/motion_models.h"
+#include "core/motion/motion_models.h"
 
 namespace spidar::test {
 

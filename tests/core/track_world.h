@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/objects.h"
+#include "core/motion/objects.h"
 #include "track_samples.h"
 
 namespace spidar::test {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/pose_solver.h"
+#include "core/grip/pose_solver.h"
 #include "numbers.h"
 #include "tests/core/string_samples.h"
 

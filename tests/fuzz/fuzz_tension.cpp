@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "numbers.h"
 
 using namespace spidar;

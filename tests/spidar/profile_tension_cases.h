@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 #include "spidar/profile.h"
 #include "tests/core/string_samples.h"
 

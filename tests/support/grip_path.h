@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/pose.h"
+#include "core/grip/pose.h"
 #include "core/wrench.h"
 
 namespace spidar::test {

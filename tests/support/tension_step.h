@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "core/tension_solver.h"
+#include "core/grip/tension_solver.h"
 
 namespace spidar::test {
 
@@ -43,7 +43,7 @@ using SomeStrings = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStrings, 1>;
 using SomeMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStrings, kMaxStrings>;
 
-/// ½tᵀQt − cᵀt as in core/tension_solver.h; strings that are not in use have zero rows.
+/// ½tᵀQt − cᵀt as in core/grip/tension_solver.h; strings that are not in use have zero rows.
 struct Quadratic {
   StringMatrix Q = StringMatrix::Zero();
   StringVector c = StringVector::Zero();

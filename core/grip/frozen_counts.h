@@ -1,0 +1,42 @@
+/// Strings whose encoder has stopped counting while the others go on.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/grip/string_geometry.h"
+
+namespace spidar {
+
+/// Remembers all lengths as they were when each string's length changed last.
+class FrozenCounts {
+ public:
+  void update(const StringVector& lengths_m, int count) noexcept {
+    for (int i = 0; i < count; ++i) {
+      StringVector& then = at_change_m_[static_cast<size_t>(i)];
+      if (then[i] != lengths_m[i]) then = lengths_m;
+    }
+  }
+
+  /// How far the second fastest of the other strings has moved since string `i` changed last: one
+  /// alone may have jumped.
+  double missed_m(const StringVector& lengths_m, int count, int i) const noexcept {
+    const StringVector& then = at_change_m_[static_cast<size_t>(i)];
+    double most = 0, second = 0;
+    for (int k = 0; k < count; ++k) {
+      const double moved = std::abs(lengths_m[k] - then[k]);
+      second = std::max(second, std::min(most, moved));
+      most = std::max(most, moved);
+    }
+    return second;
+  }
+
+ private:
+  static StringVector never() noexcept { return StringVector::Constant(-1); }  // no length
+
+  std::array<StringVector, kMaxStrings> at_change_m_{never(), never(), never(), never(),
+                                                     never(), never(), never(), never()};
+};
+
+}  // namespace spidar

@@ -1,0 +1,173 @@
+#include "core/grip/pose_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/grip/small_ldlt.h"
+
+namespace spidar {
+namespace {
+
+// The error after a Gauss–Newton step is about half its square over the string length: 50 µm leave
+// less than 0.06 µm at 2 cm, a hundredth of what the quantisation of an encoder leaves.
+constexpr double kLastStep_m = 50e-6;
+constexpr int kMaxTrackingSteps = 4;
+// A cold start is polished further: it decides between minima.
+constexpr double kLastSearchStep_m = 1e-9;
+constexpr int kMaxSearchSteps = 40;
+constexpr double kNoCost_m2 = 1e-24;
+constexpr double kLittleDamping = 1e-4;
+// No step of the search is longer: the model is linear over some centimetres only.
+constexpr double kLongestStep_m = 0.02;
+// Near the walls of the frame wrong minima go down to 20 µm; what quantisation leaves of a right
+// one is some 3 µm. In between, the other starts are tried as well and the best wins.
+constexpr double kSureResidual_m = 10e-6;
+// Over the SPIDAR-G6X3's box the other pose is turned by 0.7 to 1.7 rad times the smallest singular
+// value (rotations scaled by the grip radius), and the ridge between them is half way.
+constexpr double kBesideStep = 1.5;
+// Nearer is the same minimum: searches end within some steps of kLastSearchStep_m.
+constexpr double kSamePose_m = 1e-6;
+
+using Weights = StringVector;
+
+Weights weights(int count, int left_out) {
+  Weights w = Weights::Zero();
+  w.head(count).setOnes();
+  if (left_out >= 0) w[left_out] = 0;
+  return w;
+}
+
+bool solve(const NormalEquations& equations, double damping, const double* rhs, Twist& solution) {
+  constexpr int kAll[6] = {0, 1, 2, 3, 4, 5};
+  return solve_ldlt<6>(equations.H, damping, kAll, rhs, solution.data());
+}
+
+bool newton_step(const NormalEquations& equations, double damping, Twist& step) {
+  return solve(equations, damping, equations.g, step);
+}
+
+double decrease(const NormalEquations& equations, const Twist& step) {
+  return Eigen::Map<const Twist>(equations.g).dot(step);
+}
+
+// Rotations by 1 rad about the axes and the diagonals of the cube: no pose within 80° is further
+// than 0.7 rad from one of them or from none.
+Pose restart(int n) {
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  if (n < 6) {
+    axis[n / 2] = n % 2 ? -1 : 1;
+  } else {
+    for (int k = 0; k < 3; ++k) axis[k] = ((n - 6) >> k & 1 ? 1 : -1) / std::sqrt(3.0);
+  }
+  Pose pose;
+  pose.orientation = Eigen::AngleAxisd(1.0, axis);
+  return pose;
+}
+constexpr int kRestarts = 14;
+
+// The direction in which the lengths change least, times the smallest singular value of J: by
+// inverse iteration on H = JᵀJ, which converges fast where that value is much smaller than the
+// others.
+Twist weakest_direction(const NormalEquations& equations) {
+  constexpr int kIterations = 6;
+  Twist direction;
+  direction << 0.3, -0.4, 0.5, -0.4, 0.3, 0.5;
+  direction.normalize();
+  double eigenvalue = 0;
+  for (int i = 0; i < kIterations; ++i) {
+    Twist next;
+    if (!solve(equations, 0, direction.data(), next)) break;
+    eigenvalue = 1 / next.norm();
+    direction = next * eigenvalue;
+  }
+  return std::sqrt(eigenvalue) * direction;
+}
+
+}  // namespace
+
+PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& start,
+                                 int left_out) const noexcept {
+  const Weights w = weights(model_.count, left_out);
+  const int used = model_.count - (left_out >= 0);
+  PoseFit fit{start, 0, 0, false};
+  NormalEquations equations;
+  while (fit.iterations < kMaxTrackingSteps && !fit.converged) {
+    ++fit.iterations;
+    model_.linearise(fit.pose, lengths_m.data(), w.data(), equations);
+    Twist step;
+    if (!newton_step(equations, 0, step)) break;
+    fit.pose = model_.moved(fit.pose, step);
+    // Of the linear model after the step, which is the true one where the step is short.
+    const double cost_m2 = std::max(0.0, equations.cost_m2 - decrease(equations, step));
+    fit.residual_m = model_.rms_m(cost_m2, used);
+    fit.converged = step.squaredNorm() <= kLastStep_m * kLastStep_m;
+  }
+  return fit;
+}
+
+PoseFit PoseFitter::levenberg_marquardt(const StringVector& lengths_m, const Pose& start,
+                                        int left_out) const noexcept {
+  const Weights w = weights(model_.count, left_out);
+  const int used = model_.count - (left_out >= 0);
+  PoseFit fit{start, 0, 0, false};
+  NormalEquations equations;
+  model_.linearise(fit.pose, lengths_m.data(), w.data(), equations);
+  double damping = 0;
+  while (fit.iterations < kMaxSearchSteps && !fit.converged) {
+    ++fit.iterations;
+    Twist step;
+    if (!newton_step(equations, damping, step)) {
+      damping = std::max(kLittleDamping, 10 * damping);
+      continue;
+    }
+    const double length_m = step.norm();
+    if (length_m > kLongestStep_m) step *= kLongestStep_m / length_m;
+    const Pose pose = model_.moved(fit.pose, step);
+    NormalEquations there;
+    model_.linearise(pose, lengths_m.data(), w.data(), there);
+    // A step that damping has shortened says nothing about how near the minimum is.
+    fit.converged =
+        (length_m <= kLastSearchStep_m && damping <= kLittleDamping) || there.cost_m2 <= kNoCost_m2;
+    if (there.cost_m2 < equations.cost_m2) {
+      fit.pose = pose;
+      equations = there;
+      damping = damping > 1e-6 ? damping / 10 : 0;
+    } else {
+      damping = std::max(kLittleDamping, 10 * damping);
+    }
+  }
+  fit.residual_m = model_.rms_m(equations.cost_m2, used);
+  return fit;
+}
+
+PoseFit PoseFitter::search(const StringVector& lengths_m, const Pose& start) const noexcept {
+  PoseFit best = levenberg_marquardt(lengths_m, start, -1);
+  for (int n = 0; n < kRestarts && !(best.converged && best.residual_m <= kSureResidual_m); ++n) {
+    const PoseFit fit = levenberg_marquardt(lengths_m, restart(n), -1);
+    const int iterations = best.iterations + fit.iterations;
+    if (fit.residual_m < best.residual_m) best = fit;
+    best.iterations = iterations;
+  }
+  return best;
+}
+
+PoseFit PoseFitter::beside(const StringVector& lengths_m, const PoseFit& fit,
+                           int left_out) const noexcept {
+  NormalEquations equations;
+  model_.linearise(fit.pose, lengths_m.data(), weights(model_.count, left_out).data(), equations);
+  const Twist direction = weakest_direction(equations);
+  PoseFit best;
+  int iterations = 0;
+  for (const double side : {kBesideStep, -kBesideStep}) {
+    const Pose start = model_.moved(fit.pose, side * model_.radius_m * direction);
+    const PoseFit other = levenberg_marquardt(lengths_m, start, left_out);
+    iterations += other.iterations;
+    const bool distinct = model_.twist(fit.pose, other.pose).norm() > kSamePose_m;
+    if (other.converged && distinct && (!best.converged || other.residual_m < best.residual_m))
+      best = other;
+  }
+  best.iterations = iterations;
+  return best;
+}
+
+}  // namespace spidar

@@ -1,0 +1,223 @@
+#include "core/grip/pose_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace spidar {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A hand does not reach 1000 m/s²: at 1 kHz the grip is within half a millimetre of where its
+// motion leads to. Further off, a string may be at fault in a direction in which the residual does
+// not show it; it is when the pose without it is this much nearer.
+constexpr double kImplausible_m = 1e-3;
+constexpr double kMuchNearer = 0.25;
+// Another string explains the lengths as well when its fit is not this much worse.
+constexpr double kUnambiguous = 3;
+// The length of a string that is left out is predicted from seven others, each some third of the
+// largest residual off; in bad poses they err in the same direction.
+constexpr double kMisfit = 3;
+// A string that is at rest while two others have moved by this many largest residuals (about
+// encoder steps) is frozen, if it should have moved too. A fault that grows slowly has already led
+// the expectation astray when it is noticed: a frozen string is forgiven as much of its distance as
+// the others have moved, up to the second number.
+constexpr double kMissed = 2;
+constexpr double kForgiven = 10;
+// What the residual of seven counts in comparison with the distance: it has one degree of freedom
+// and the distance six, some of them weakly determined.
+constexpr double kResidualWeight = 8;
+// A dead encoder fits by chance when the grip passes through; a mended string goes on fitting.
+constexpr int kTicksToTrust = 100;
+
+}  // namespace
+
+PoseSolver::PoseSolver(const StringGeometry& geometry, double max_residual_m)
+    : geometry_(geometry), fitter_(geometry), max_residual_m_(max_residual_m) {
+  if (geometry.count < 6)
+    throw std::invalid_argument("a pose has six unknowns and needs at least six strings, not " +
+                                std::to_string(geometry.count));
+  if (!(geometry.grip_radius_m() > 0))
+    throw std::invalid_argument(
+        "strings that all meet in the grip's origin do not tell how it is "
+        "turned: at least one must be tied away from it");
+  if (!(max_residual_m > 0))
+    throw std::invalid_argument("the largest residual must be positive, not " +
+                                std::to_string(max_residual_m) + " m");
+}
+
+void PoseSolver::reset(const Pose& pose) noexcept {
+  last_ = pose;
+  motion_.setZero();
+  tracking_ = false;
+  faulty_string_ = -1;
+  fitting_ticks_ = 0;
+  counts_ = {};
+}
+
+bool PoseSolver::are_lengths(const StringVector& lengths_m) const noexcept {
+  bool good = true;
+  for (int i = 0; i < geometry_.count; ++i)
+    good &= lengths_m[i] >= 0 && lengths_m[i] <= std::numeric_limits<double>::max();
+  return good;
+}
+
+bool PoseSolver::is_good(const PoseFit& fit) const noexcept {
+  return fit.converged && fit.residual_m <= max_residual_m_;
+}
+
+double PoseSolver::misfit_m(const StringVector& lengths_m, const Pose& pose,
+                            int string) const noexcept {
+  return std::abs(string_lengths_m(geometry_, pose)[string] - lengths_m[string]);
+}
+
+// One of seven strings always fits a little: which one is at fault is told by how far the pose of
+// the others is from where the grip must be, and by a count that stands still.
+double PoseSolver::implausibility_m(const StringVector& lengths_m, const Pose& expected,
+                                    const PoseFit& fit, int left_out) const noexcept {
+  const double distance_m = fitter_.model().twist(expected, fit.pose).norm();
+  const double implausibility_m = distance_m + kResidualWeight * fit.residual_m;
+  const double missed_m = counts_.missed_m(lengths_m, geometry_.count, left_out);
+  const bool frozen = missed_m > kMissed * max_residual_m_ &&
+                      misfit_m(lengths_m, fit.pose, left_out) > kMisfit * max_residual_m_;
+  return frozen ? implausibility_m - std::min(missed_m, kForgiven * max_residual_m_)
+                : implausibility_m;
+}
+
+PoseResult PoseSolver::track_without_one(const StringVector& lengths_m,
+                                         const Pose& expected) const noexcept {
+  PoseResult result = rejected(PoseStatus::kNotConverged);
+  if (geometry_.count < 8) return result;  // six strings fit whatever they say
+  double least_m = kInfinity;
+  for (int i = 0; i < geometry_.count; ++i) {
+    const PoseFit fit = fitter_.gauss_newton(lengths_m, expected, i);
+    result.iterations += fit.iterations;
+    if (!is_good(fit)) continue;
+    const double implausible_m = implausibility_m(lengths_m, expected, fit, i);
+    if (implausible_m >= least_m) continue;
+    least_m = implausible_m;
+    result.pose = fit.pose;
+    result.residual_m = fit.residual_m;
+    result.faulty_string = i;
+    result.status = PoseStatus::kSolved;
+  }
+  return result;
+}
+
+// Without an expectation only the residual tells, where it does.
+PoseResult PoseSolver::locate_without_one(const StringVector& lengths_m,
+                                          const Pose& start) const noexcept {
+  PoseResult result = rejected(PoseStatus::kNotConverged);
+  if (geometry_.count < 8) return result;
+  PoseFit best{last_, kInfinity, 0, false};
+  double second_m = best.residual_m;
+  int left_out = -1;
+  for (int i = 0; i < geometry_.count; ++i) {
+    const PoseFit fit = fitter_.levenberg_marquardt(lengths_m, start, i);
+    result.iterations += fit.iterations;
+    second_m = std::min(second_m, std::max(fit.residual_m, best.residual_m));
+    if (fit.residual_m >= best.residual_m) continue;
+    best = fit;
+    left_out = i;
+  }
+  if (!is_good(best) || second_m <= kUnambiguous * best.residual_m) return result;
+  best.iterations = result.iterations;
+  return unless_ambiguous(lengths_m, best, left_out);
+}
+
+PoseResult PoseSolver::unless_ambiguous(const StringVector& lengths_m, const PoseFit& fit,
+                                        int left_out) const noexcept {
+  const PoseFit other = fitter_.beside(lengths_m, fit, left_out);
+  PoseResult result = rejected(PoseStatus::kAmbiguous);
+  if (!is_good(other)) result = {fit.pose, 0, 0, left_out, PoseStatus::kSolved};
+  result.residual_m = fit.residual_m;
+  result.iterations = fit.iterations + other.iterations;
+  return result;
+}
+
+PoseResult PoseSolver::rejected(PoseStatus status) const noexcept {
+  PoseResult result;
+  result.pose = last_;
+  result.status = status;
+  return result;
+}
+
+PoseResult PoseSolver::accepted(const PoseResult& result) noexcept {
+  motion_ = tracking_ ? fitter_.model().twist(last_, result.pose) : Twist(Twist::Zero());
+  last_ = result.pose;
+  tracking_ = true;
+  faulty_string_ = result.faulty_string;
+  return result;
+}
+
+// A count that stands still fits by chance for as long as the grip does not move.
+int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& result) noexcept {
+  const int i = result.faulty_string;
+  const bool fitting = i >= 0 && i == faulty_string_ &&
+                       misfit_m(lengths_m, result.pose, i) <= kMisfit * max_residual_m_;
+  if (!fitting) fitting_ticks_ = 0;
+  if (!fitting) return i;
+  if (fitting_ticks_++ == 0) fitting_from_m_ = lengths_m[i];
+  const bool moved = std::abs(lengths_m[i] - fitting_from_m_) > 2 * kMisfit * max_residual_m_;
+  return fitting_ticks_ > kTicksToTrust && moved ? -1 : i;
+}
+
+PoseResult PoseSolver::track(const StringVector& lengths_m) noexcept {
+  if (!are_lengths(lengths_m)) return rejected(PoseStatus::kBadInput);
+  counts_.update(lengths_m, geometry_.count);
+  const LengthModel& model = fitter_.model();
+  const Pose expected = tracking_ ? model.moved(last_, motion_) : last_;
+  const PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
+  PoseResult result = rejected(PoseStatus::kNotConverged);
+  if (is_good(fit)) result = {fit.pose, fit.residual_m, 0, faulty_string_, PoseStatus::kSolved};
+
+  const double distance_m = model.twist(expected, fit.pose).norm();
+  if (tracking_ && (!is_good(fit) || distance_m > kImplausible_m)) {
+    const PoseResult seven = track_without_one(lengths_m, expected);
+    result.iterations = seven.iterations;
+    const double limit_m = is_good(fit) ? kMuchNearer * distance_m : kInfinity;
+    if (seven.status == PoseStatus::kSolved && model.twist(expected, seven.pose).norm() <= limit_m)
+      result = seven;
+  }
+  result.iterations += fit.iterations;
+  if (result.status == PoseStatus::kNotConverged) {
+    result.residual_m = fit.residual_m;
+    tracking_ = false;
+    return result;
+  }
+  result.faulty_string = still_faulty(lengths_m, result);
+  return accepted(result);
+}
+
+PoseResult PoseSolver::locate(const StringVector& lengths_m) noexcept {
+  if (!are_lengths(lengths_m)) return rejected(PoseStatus::kBadInput);
+  tracking_ = false;
+  const PoseFit fit = fitter_.search(lengths_m, last_);
+  PoseResult result;
+  if (is_good(fit)) {
+    result = unless_ambiguous(lengths_m, fit, -1);
+  } else {
+    result = locate_without_one(lengths_m, fit.pose);
+    result.iterations += fit.iterations;
+    if (result.status == PoseStatus::kNotConverged) result.residual_m = fit.residual_m;
+  }
+  return result.status == PoseStatus::kSolved ? accepted(result) : result;
+}
+
+PoseResult PoseSolver::solve(const StringVector& lengths_m) noexcept {
+  const bool guess = !tracking_;
+  const Pose start = last_;
+  const PoseResult tracked = track(lengths_m);
+  if (tracked.status == PoseStatus::kBadInput) return tracked;
+  const bool near = fitter_.model().twist(start, tracked.pose).norm() <= kImplausible_m;
+  if (tracked.status == PoseStatus::kSolved && (near || !guess)) return tracked;
+  if (guess) last_ = start;  // what was found may be one of two
+  PoseResult located = locate(lengths_m);
+  located.iterations += tracked.iterations;
+  return located;
+}
+
+}  // namespace spidar

@@ -1,0 +1,38 @@
+/// Where the strings run.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+#include "core/grip/pose.h"
+
+namespace spidar {
+
+constexpr int kMaxStrings = 8;
+
+/// One value for each string; entries from `count` on are unused and zero.
+using StringVector = Eigen::Matrix<double, kMaxStrings, 1>;
+
+/// Columns are strings, rows force x, y, z (1) and torque x, y, z (m); unused columns are zero.
+using StructureMatrix = Eigen::Matrix<double, 6, kMaxStrings>;
+
+struct StringGeometry {
+  int count = 0;                                      ///< 1 … kMaxStrings
+  std::array<Eigen::Vector3d, kMaxStrings> exit_m{};  ///< where the string leaves the frame, in D
+  std::array<Eigen::Vector3d, kMaxStrings> grip_m{};  ///< where it is tied to the grip, in G
+
+  /// Mean distance of the grip points from the grip's origin, metres: the lever ℓ that makes
+  /// torques comparable with forces.
+  SPIDAR_API double grip_radius_m() const;
+};
+
+/// Lengths from exit to grip point, metres.
+SPIDAR_API StringVector string_lengths_m(const StringGeometry& geometry, const Pose& pose);
+
+/// W with wrench = W · tensions: column i is [u_i; (R g_i) × u_i], u_i the unit vector from the
+/// grip point to the exit. A string of no length has no direction: its column is zero.
+SPIDAR_API StructureMatrix structure_matrix(const StringGeometry& geometry, const Pose& pose);
+
+}  // namespace spidar

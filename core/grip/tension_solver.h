@@ -1,0 +1,61 @@
+/// String tensions for a wanted wrench.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+#include "core/grip/string_geometry.h"
+#include "core/wrench.h"
+
+namespace spidar {
+
+/// Minimise ½‖S(W t − f)‖² + ½ε‖t − t_ref‖² subject to t_min ≤ t ≤ t_max,
+/// with S = diag(1, 1, 1, 1/ℓ, 1/ℓ, 1/ℓ). Strictly convex, so there is exactly one solution.
+struct TensionProblem {
+  int count = kMaxStrings;  ///< strings in use, 1 … kMaxStrings; entries beyond are ignored
+  StructureMatrix W = StructureMatrix::Zero();
+  Wrench wrench;  ///< f
+  StringVector t_min_N = StringVector::Zero();
+  StringVector t_max_N = StringVector::Zero();
+  StringVector t_ref_N = StringVector::Zero();
+  double epsilon = 1e-4;            ///< > 0
+  double torque_length_m = 0.0225;  ///< ℓ > 0
+};
+
+enum class TensionStatus {
+  kSolved,
+  kIterationLimit,  ///< tensions are within bounds but not optimal
+  /// NaN, infinity, or a number whose square is not finite; t_min > t_max; ε or ℓ not positive;
+  /// count not 1 … kMaxStrings
+  kBadInput,
+};
+
+struct TensionResult {
+  /// Within bounds always; on bad input the lower bounds where they are finite, else zero.
+  StringVector tension_N = StringVector::Zero();
+  Wrench delivered;       ///< W t
+  double residual_N = 0;  ///< ‖S(W t − f)‖
+  /// Largest violation of the optimality conditions, that is of Q t = c for free strings and of its
+  /// sign for those at a bound, relative to the largest Qᵢᵢ|tᵢ| + |cᵢ|; Q and c as in
+  /// tension_objective.h. Solved means 1e-12 or less.
+  double kkt_residual = 0;
+  int iterations = 0;  ///< rounds, at most 24
+  TensionStatus status = TensionStatus::kBadInput;
+};
+
+/// Exact to rounding, at any scale of wrench, tensions and units, and down to an ε that is lost
+/// beside WᵀS²W. Starts from the tensions of the last call, which makes steady motion one round;
+/// the result does not depend on them beyond rounding. No allocation, no exceptions.
+class SPIDAR_API TensionSolver {
+ public:
+  TensionResult solve(const TensionProblem& problem) noexcept;
+
+  /// Forgets the last solution.
+  void reset() noexcept { warm_ = false; }
+
+ private:
+  StringVector last_N_ = StringVector::Zero();
+  bool warm_ = false;
+};
+
+}  // namespace spidar

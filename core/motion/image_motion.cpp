@@ -1,0 +1,26 @@
+#include "core/motion/image_motion.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace spidar {
+
+ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns) {
+  if (interval_ns <= 0) {
+    throw std::invalid_argument("mean_motion: the interval must be positive, got " +
+                                std::to_string(interval_ns) + " ns");
+  }
+  ImageMotion motion;
+  if (tracks.empty()) return motion;
+  Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
+  for (const Track& track : tracks) {
+    sum_px.x() += static_cast<double>(track.to.x_px) - static_cast<double>(track.from.x_px);
+    sum_px.y() += static_cast<double>(track.to.y_px) - static_cast<double>(track.from.y_px);
+  }
+  const double interval_s = static_cast<double>(interval_ns) * 1e-9;
+  motion.tracked = static_cast<int>(tracks.size());
+  motion.velocity_px_s = sum_px / static_cast<double>(tracks.size()) / interval_s;
+  return motion;
+}
+
+}  // namespace spidar

@@ -1,0 +1,28 @@
+/// From tracks to the motion that is felt.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+#include "core/tracking/tracker.h"
+
+namespace spidar {
+
+/// Motion of the picture between two frames.
+struct ImageMotion {
+  Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< image frame I: x right, y down
+  /// Relative change of lengths a second: 0.5 is half as large again. Positive: comes nearer.
+  double growth_1_s = 0;
+  double roll_rad_s = 0;  ///< turn from x to y: clockwise as seen on the screen
+  int tracked = 0;        ///< points it was measured with
+};
+
+/// The paper's frame velocity (eq. 9–10): mean over all tracks of displacement / Δt.
+/// `interval_ns` is the difference of the frames' running times and must be positive.
+/// No tracks: velocity 0 with `tracked` 0.
+SPIDAR_API ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns);
+
+}  // namespace spidar

@@ -1,0 +1,36 @@
+#include "core/tracking/luma_reduce.h"
+
+#include <algorithm>
+
+#include <opencv2/imgproc.hpp>
+
+namespace spidar {
+namespace {
+
+constexpr int kReducedSide_px = 480;
+
+}  // namespace
+
+int reduction_factor(int width, int height) {
+  const int nearest = (std::max(width, height) + kReducedSide_px / 2) / kReducedSide_px;
+  return std::max(1, std::min(nearest, std::min(width, height) / kMinSide_px));
+}
+
+void reduce_luma(const ImageView& frame, int factor, cv::Mat& reduced) {
+  // OpenCV has no constant view; nothing writes through this one.
+  const cv::Mat whole_blocks(frame.height / factor * factor, frame.width / factor * factor, CV_8UC1,
+                             const_cast<uint8_t*>(frame.data),
+                             static_cast<size_t>(frame.stride_bytes));
+  reduced = whole_blocks;
+  // By halves as far as it goes: OpenCV has vector code for blocks of 2 × 2 only.
+  for (int rest = factor; rest > 1;) {
+    const int step = rest % 2 == 0 ? 2 : rest;
+    cv::Mat smaller;
+    cv::resize(reduced, smaller, cv::Size(reduced.cols / step, reduced.rows / step), 0, 0,
+               cv::INTER_AREA);
+    reduced = smaller;
+    rest /= step;
+  }
+}
+
+}  // namespace spidar

@@ -1,0 +1,152 @@
+#include "core/tracking/opencv_tracker.h"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <opencv2/core.hpp>
+
+#include "core/tracking/luma_reduce.h"
+#include "core/tracking/point_flow.h"
+#include "core/tracking/point_selection.h"
+#include "core/tracking/serial_opencv.h"
+
+namespace spidar {
+namespace {
+
+/// New points are selected when fewer than this share of those selected last are left …
+constexpr double kThinnedOut = 0.7;
+/// … and after this many frames in any case: something may have entered.
+constexpr int kSelectionInterval = 5;
+
+/// A cut: at least kMinForCut points were looked for and fewer than this share was found. With few
+/// points it is rather a small object that was lost.
+constexpr double kFoundAfterCut = 0.1;
+constexpr size_t kMinForCut = 10;
+
+void require_usable(const ImageView& frame) {
+  if (frame.data && frame.width >= kMinSide_px && frame.height >= kMinSide_px &&
+      frame.stride_bytes >= frame.width) {
+    return;
+  }
+  throw std::invalid_argument(
+      "a frame needs data, at least " + std::to_string(kMinSide_px) + "x" +
+      std::to_string(kMinSide_px) + " pixels and a stride of at least its width; got " +
+      (frame.data ? "" : "no data, ") + std::to_string(frame.width) + "x" +
+      std::to_string(frame.height) + " with stride " + std::to_string(frame.stride_bytes));
+}
+
+}  // namespace
+
+struct OpenCvTracker::Impl {
+  TrackerSettings settings;
+  bool settings_changed = false;
+
+  int width = 0;  // of the frame before; 0: there is none
+  int height = 0;
+  FlowPyramid before;
+  FlowPyramid now;
+  cv::Mat response;               // buffer of the selection
+  std::vector<Feature> features;  // in the reduced picture
+  uint32_t next_id = 0;
+  size_t selected = 0;  // points after the last selection
+  int frames_since_selection = 0;
+
+  TrackedFrame result;
+
+  void track(const ImageView& frame);
+  bool follow(int factor);
+  bool selection_is_due() const;
+  void select(int factor);
+};
+
+void OpenCvTracker::Impl::track(const ImageView& frame) {
+  const int factor = reduction_factor(frame.width, frame.height);
+  const bool comparable = frame.width == width && frame.height == height;
+  if (!comparable) features.clear();
+  width = frame.width;
+  height = frame.height;
+
+  std::swap(before, now);
+  cv::Mat reduced;
+  reduce_luma(frame, factor, reduced);
+  build_pyramid(reduced, now);
+
+  result.tracks.clear();
+  result.restarted = !comparable || !follow(factor);
+  ++frames_since_selection;
+  if (result.restarted || settings_changed || selection_is_due()) select(factor);
+  result.features = static_cast<int>(features.size());
+}
+
+/// Moves the features to the new picture and drops what is lost. False at a cut.
+bool OpenCvTracker::Impl::follow(int factor) {
+  std::vector<PointFlow> flow;
+  for (const Feature& feature : features) flow.push_back({feature.at, feature.moved, {}, false});
+  follow_points(before, now, flow);
+
+  const auto in_frame = [factor](const ImagePoint& p) {
+    return ImagePoint{to_frame_px(p.x_px, factor), to_frame_px(p.y_px, factor)};
+  };
+  const size_t looked_for = features.size();
+  size_t kept = 0;
+  for (size_t i = 0; i < looked_for; ++i) {
+    const PointFlow& point = flow[i];
+    if (!point.found) continue;
+    result.tracks.push_back({features[i].id, in_frame(point.from), in_frame(point.to)});
+    const ImagePoint moved{point.to.x_px - point.from.x_px, point.to.y_px - point.from.y_px};
+    features[kept++] = {features[i].id, point.to, moved};
+  }
+  features.resize(kept);
+
+  const bool cut = looked_for >= kMinForCut &&
+                   static_cast<double>(kept) < kFoundAfterCut * static_cast<double>(looked_for);
+  if (cut) {
+    result.tracks.clear();
+    features.clear();
+  }
+  return !cut;
+}
+
+bool OpenCvTracker::Impl::selection_is_due() const {
+  return static_cast<double>(features.size()) < kThinnedOut * static_cast<double>(selected) ||
+         frames_since_selection >= kSelectionInterval;
+}
+
+void OpenCvTracker::Impl::select(int factor) {
+  SelectionSettings selection;
+  selection.max_features = settings.max_features;
+  selection.quality_level = settings.quality_level;
+  selection.min_distance_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
+  selection.border_px = follow_border_px(now[0]);
+  select_features(now[0], selection, response, features, next_id);
+  selected = features.size();
+  frames_since_selection = 0;
+  settings_changed = false;
+}
+
+OpenCvTracker::OpenCvTracker(const TrackerSettings& settings) : impl_(std::make_unique<Impl>()) {
+  configure(settings);
+}
+
+OpenCvTracker::~OpenCvTracker() = default;
+
+const TrackedFrame& OpenCvTracker::track(const ImageView& frame) {
+  require_usable(frame);
+  run_on_this_thread([&] { impl_->track(frame); });
+  return impl_->result;
+}
+
+void OpenCvTracker::restart() {
+  impl_->width = 0;
+  impl_->height = 0;
+}
+
+void OpenCvTracker::configure(const TrackerSettings& settings) {
+  validate(settings);
+  if (settings == impl_->settings) return;
+  impl_->settings = settings;
+  impl_->settings_changed = true;
+}
+
+}  // namespace spidar
