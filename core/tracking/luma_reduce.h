@@ -2,15 +2,13 @@
 #pragma once
 
 #include "core/image_view.h"
+#include "core/tracking/tracker.h"
 
 namespace cv {
 class Mat;
 }
 
 namespace spidar {
-
-/// Width and height that the tracker accepts at least, px.
-constexpr int kMinSide_px = 16;
 
 /// Whole number of frame pixels to one pixel of the reduced picture, so that its longer side is
 /// about 480 px: motion is found as well as at full size in a fraction of the time. At least 1, and
