@@ -183,9 +183,9 @@ bool PatchTracker::Impl::comes_back(const Point& point, const SearchSettings& se
 }
 
 void PatchTracker::Impl::search_expected(SearchSettings search) {
+  search.first_level = kExpectedLevel;
   for (Point& point : points) {
     point.found = false;
-    search.first_level = point.is_new ? GrayPyramid::kLevels - 1 : kExpectedLevel;
     try_from(point, point.moved, search);
   }
 }
@@ -242,18 +242,17 @@ bool PatchTracker::Impl::follow(const ImageView& frame) {
   search.least_strength = kKeptStrength * least_strength();
   search_expected(search);
   search_lost(search);
-  const size_t looked_for = points.size();
-  const auto found = static_cast<size_t>(
-      std::count_if(points.begin(), points.end(), [](const Point& p) { return p.found; }));
-  if (looked_for >= kMinForCut &&
-      static_cast<double>(found) < kFoundAfterCut * static_cast<double>(looked_for)) {
-    points.clear();
-    return false;
-  }
   settle(frame, search.gain);
   report();
+  const size_t looked_for = points.size();
   drop_lost();
-  return true;
+  // What is found by chance does not agree with its neighbours and is not reported.
+  const bool cut = looked_for >= kMinForCut && static_cast<double>(result.tracks.size()) <
+                                                   kFoundAfterCut * static_cast<double>(looked_for);
+  if (!cut) return true;
+  result.tracks.clear();
+  points.clear();
+  return false;
 }
 
 /// Where the point is in the frame, from the reduced picture and, if it helps, from the frame.

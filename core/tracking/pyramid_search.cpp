@@ -17,7 +17,7 @@ constexpr MatchSettings kCoarse{4, 0.1f, 5, 1};
 constexpr MatchSettings kBase{6, 0.02f, 5, 1};
 constexpr MatchSettings kRefine{4, 0.01f, 1, 1};
 /// A larger window may see something else beside: then its residual grows.
-constexpr float kRefineWorse = 1.3f;
+constexpr float kRefineWorse = 0.1f;
 /// Of the strength asked for, at coarse levels.
 constexpr float kCoarseStrength = 0.25f;
 
@@ -80,7 +80,7 @@ bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint 
   settings.gain = gain;
   WindowMatch found{match.to, 0};
   if (!window.find(ReadablePixels(is), settings, found)) return false;
-  if (found.residual > kRefineWorse * match.residual) return false;
+  if (found.residual > match.residual + kRefineWorse) return false;
   match.to = found.centre;
   return true;
 }
