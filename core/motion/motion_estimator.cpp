@@ -59,13 +59,15 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const std::vector<Track>&
   const std::vector<MovingObject>& objects =
       objects_.update(points_, background, width, height, interval_s);
   scene.objects = static_cast<int>(objects.size());
-  const MovingObject* dominant = dominant_.choose(objects, interval_s);
+  scene.background = &background;
+  scene.object_list = &objects;
+  scene.dominant = dominant_.choose(objects, interval_s);
   if (kind == MotionKind::kCamera) {
     scene.felt = scene.camera;
   } else if (kind == MotionKind::kObjects) {
     scene.felt = weighted_by_area(objects);
-  } else if (dominant) {
-    scene.felt = motion_of(*dominant);
+  } else if (scene.dominant) {
+    scene.felt = motion_of(*scene.dominant);
   }
   return scene;
 }

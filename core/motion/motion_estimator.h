@@ -30,6 +30,11 @@ struct SceneMotion {
   /// background grows it goes in. Zero with kMean.
   ImageMotion camera;
   int objects = 0;  ///< that are known, seen or not; 0 with kMean
+  /// What was found, in detail: valid until the next estimate(); null with kMean.
+  const Background* background = nullptr;
+  const std::vector<MovingObject>* object_list = nullptr;  ///< in the order of birth
+  /// The object that `object` follows, one of the list; null while there is none.
+  const MovingObject* dominant = nullptr;
 };
 
 /// tracks → motion. Keeps what must be known of the frames before.
