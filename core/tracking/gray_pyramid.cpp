@@ -1,11 +1,16 @@
 #include "core/tracking/gray_pyramid.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "core/tracking/tracker.h"
+
 namespace spidar {
 namespace {
+
+constexpr int kBaseSide_px = 480;
 
 #if CV_SIMD128
 using cv::v_int16x8;
@@ -45,11 +50,10 @@ v_uint16x8 block_sums(const uint8_t* pixels, ptrdiff_t step, int rows) {
   }
 }
 
-/// Σ / count, rounded, of 8 sums: a product with 2¹⁶ / count rounded up, which is exact as long as
-/// its excess times the largest sum is below 2¹⁶ / count; it is for count = 4, 8, 9 and 32.
+/// Σ / count, rounded, of 8 sums; `count` is a power of 2.
 void store_means(const v_uint16x8& sums, unsigned count, uint8_t* to) {
   const auto half = static_cast<uint16_t>(count / 2);
-  const auto inverse = static_cast<uint16_t>((65536 + count - 1) / count);
+  const auto inverse = static_cast<uint16_t>(65536 / count);
   cv::v_pack_store(to, cv::v_mul_hi(sums + cv::v_setall_u16(half), cv::v_setall_u16(inverse)));
 }
 #endif
@@ -85,38 +89,17 @@ int reduce_by_power_of_2(const BlockRow& row, uint8_t* to) {
   return x;
 }
 
-/// Sums over the rows first, then three neighbours.
-int reduce_by_3(const BlockRow& row, std::vector<uint16_t>& sums, uint8_t* to) {
-  const int columns = row.columns / 8 * 8;
-  sums.resize(static_cast<size_t>(columns) * 3);
-  for (int x = 0; x < columns * 3; x += 8) {
-    v_uint16x8 sum = cv::v_load_expand(row.pixels + x);
-    for (int k = 1; k < row.rows; ++k) {
-      sum = sum + cv::v_load_expand(row.pixels + k * row.step + x);
-    }
-    cv::v_store(sums.data() + x, sum);
-  }
-  for (int x = 0; x < columns; x += 8) {
-    v_uint16x8 a;
-    v_uint16x8 b;
-    v_uint16x8 c;
-    cv::v_load_deinterleave(sums.data() + 3 * x, a, b, c);
-    store_means(a + b + c, row.count(), to + x);
-  }
-  return columns;
-}
-
 /// Blocks that were done from the left; the rest has no vector code.
-int reduce_with_vectors(const BlockRow& row, std::vector<uint16_t>& sums, uint8_t* to) {
+int reduce_with_vectors(const BlockRow& row, uint8_t* to) {
   switch (row.factor) {
     case 2:
       return reduce_by_power_of_2<2>(row, to);
-    case 3:
-      return reduce_by_3(row, sums, to);
     case 4:
       return reduce_by_power_of_2<4>(row, to);
     case 8:
       return reduce_by_power_of_2<8>(row, to);
+    case 16:
+      return reduce_by_power_of_2<16>(row, to);
     default:
       return 0;
   }
@@ -124,6 +107,17 @@ int reduce_with_vectors(const BlockRow& row, std::vector<uint16_t>& sums, uint8_
 #endif
 
 }  // namespace
+
+int halving_factor(int width, int height) {
+  const int side = std::max(width, height);
+  int factor = 1;
+  // Nearest on a logarithmic scale: the factor doubles at √2 times the next one's side.
+  while (side * side >= 2 * (factor * kBaseSide_px) * (factor * kBaseSide_px) &&
+         std::min(width, height) / (2 * factor) >= kMinSide_px) {
+    factor *= 2;
+  }
+  return factor;
+}
 
 void PaddedImage::resize(int width, int height) {
   if (width == width_ && height == height_) return;
@@ -150,8 +144,7 @@ void PaddedImage::repeat_border() {
   }
 }
 
-void reduce_blocks(const ImageView& frame, int factor, [[maybe_unused]] std::vector<uint16_t>& sums,
-                   PaddedImage& reduced) {
+void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
   reduced.resize(frame.width / factor, frame.height / factor);
   BlockRow row{nullptr, row_step(factor) * frame.stride_bytes, factor, rows_used(factor),
                reduced.width()};
@@ -164,15 +157,14 @@ void reduce_blocks(const ImageView& frame, int factor, [[maybe_unused]] std::vec
     }
     int x = 0;
 #if CV_SIMD128
-    x = reduce_with_vectors(row, sums, to);
+    x = reduce_with_vectors(row, to);
 #endif
     for (; x < row.columns; ++x) to[x] = block_mean(row, x);
   }
 }
 
 void halve(const PaddedImage& image, PaddedImage& half) {
-  std::vector<uint16_t> unused;
-  reduce_blocks(image.view(), 2, unused, half);
+  reduce_blocks(image.view(), 2, half);
 }
 
 void GrayPyramid::build_from_base() {

@@ -36,6 +36,10 @@ class PaddedImage {
   std::vector<uint8_t> memory_;
 };
 
+/// Power of 2 that makes the longer side of a picture about 480 px (340 … 680), or smaller, so that
+/// the shorter one keeps kMinSide_px.
+int halving_factor(int width, int height);
+
 /// Rows of a block of `factor` rows that reduce_rows() looks at: all of them up to 3, every second
 /// from 4 on, which halves what is fetched from memory at no loss that tracking would notice.
 constexpr int row_step(int factor) {
@@ -45,11 +49,10 @@ constexpr int rows_used(int factor) {
   return (factor + row_step(factor) - 1) / row_step(factor);
 }
 
-/// `reduced` becomes the mean of each block of `factor` × `factor` pixels (factor 1 … 16), rounded;
-/// of the rows of a block row_step() says which count. Columns and rows that do not fill a block
-/// are left out. `sums` is a buffer.
-void reduce_blocks(const ImageView& frame, int factor, std::vector<uint16_t>& sums,
-                   PaddedImage& reduced);
+/// `reduced` becomes the mean of each block of `factor` × `factor` pixels, rounded; of the rows of
+/// a block row_step() says which count. Columns and rows that do not fill a block are left out.
+/// Powers of 2 up to 16 are fast.
+void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced);
 
 /// Mean of each 2 × 2 block, rounded.
 void halve(const PaddedImage& image, PaddedImage& half);

@@ -78,7 +78,9 @@ int absolute_difference(const uint8_t* a, ptrdiff_t stride_a, const uint8_t* b,
 
 template TemplateSums read_template(const WindowSource&, TemplatePixels<8>&);
 template TemplateSums read_template(const WindowSource&, TemplatePixels<16>&);
+template TemplateSums read_template(const WindowSource&, TemplatePixels<24>&);
 template DifferenceSums compare(const WindowSource&, const TemplatePixels<8>&, int);
 template DifferenceSums compare(const WindowSource&, const TemplatePixels<16>&, int);
+template DifferenceSums compare(const WindowSource&, const TemplatePixels<24>&, int);
 
 }  // namespace spidar::plain

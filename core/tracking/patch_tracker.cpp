@@ -8,7 +8,7 @@
 
 #include "core/tracking/corner.h"
 #include "core/tracking/gray_pyramid.h"
-#include "core/tracking/luma_reduce.h"
+#include "core/tracking/pixel_scale.h"
 #include "core/tracking/point_grid.h"
 #include "core/tracking/pyramid_search.h"
 #include "core/tracking/window_match.h"
@@ -37,8 +37,8 @@ constexpr float kKeptStrength = 0.5f;
 
 /// Refinement in the frame is worth it from this share of the reduced picture's structure on: a
 /// window there has four times the pixels.
-constexpr float kFineStrength = 0.125f;
-constexpr int kFineWindow_px = 16;
+constexpr float kFineStrength = 0.25f;
+constexpr int kFineWindow_px = 24;
 
 /// A cut: at least kMinForCut points were looked for and fewer than this share was found.
 constexpr double kFoundAfterCut = 0.1;
@@ -85,7 +85,6 @@ struct PatchTracker::Impl {
   int factor = 1;
   GrayPyramid before;
   GrayPyramid now;
-  std::vector<uint16_t> sums;
 
   std::vector<Point> points;       // the oldest first
   std::vector<FineTemplate> fine;  // of the points, in the frame before
@@ -114,20 +113,16 @@ struct PatchTracker::Impl {
   void drop_lost();
   void add_points(bool everywhere);
   void read_fine_templates(const ImageView& frame);
-
-  ImagePoint in_frame(ImagePoint p) const {
-    return {to_frame_px(p.x_px, factor), to_frame_px(p.y_px, factor)};
-  }
 };
 
 void PatchTracker::Impl::track(const ImageView& frame) {
   const bool comparable = frame.width == width && frame.height == height;
   width = frame.width;
   height = frame.height;
-  factor = reduction_factor(width, height);
+  factor = halving_factor(width, height);
 
   std::swap(before, now);
-  reduce_blocks(frame, factor, sums, now.levels[0]);
+  reduce_blocks(frame, factor, now.levels[0]);
   const PaddedImage& base = now.levels[0];
   const double cells = kGridShare * settings.max_features;
   const double even_px = std::sqrt(base.width() * base.height() / cells);
@@ -263,20 +258,23 @@ ImagePoint PatchTracker::Impl::refined(const Point& point, const FineTemplate& w
   const ImagePoint coarse{point.frame.x_px + scale * moved.x_px,
                           point.frame.y_px + scale * moved.y_px};
   if (factor == 1) return coarse;
-  if (was.strength() < kFineStrength * point.match.strength) return coarse;
+  if (scale * scale * was.strength() < kFineStrength * point.match.strength) return coarse;
   MatchSettings settings_px;
-  settings_px.iterations = 4;
-  settings_px.step_px = 0.02f;
+  settings_px.iterations = 3;
+  settings_px.step_px = 0.03f;
   settings_px.reach_px = 0.5f + 0.5f * scale;
   settings_px.gain = gain;
   WindowMatch match{coarse, 0};
   if (!was.find(ReadablePixels(frame), settings_px, match)) return coarse;
-  return match.residual > kSameThing ? coarse : match.centre;
+  if (match.residual > kSameThing) return coarse;
+  const float coarse_px2 = scale * scale * point.match.variance_px2;
+  const float both_px2 = coarse_px2 + match.variance_px2;
+  const float share = both_px2 > 0 ? coarse_px2 / both_px2 : 1;
+  return {coarse.x_px + share * (match.centre.x_px - coarse.x_px), coarse.y_px + share * (match.centre.y_px - coarse.y_px)};
 }
 
 /// Brings the points to the new frame.
 void PatchTracker::Impl::settle(const ImageView& frame, float gain) {
-  const auto scale = static_cast<float>(factor);
   for (size_t i = 0; i < points.size(); ++i) {
     Point& point = points[i];
     if (!point.found) {
@@ -284,7 +282,7 @@ void PatchTracker::Impl::settle(const ImageView& frame, float gain) {
       continue;
     }
     const ImagePoint to = refined(point, fine[i], frame, gain);
-    const ImagePoint reduced{(to.x_px + 0.5f) / scale - 0.5f, (to.y_px + 0.5f) / scale - 0.5f};
+    const ImagePoint reduced = to_reduced(to, factor);
     point.moved = reduced - point.at;
     point.at = reduced;
     point.from = std::exchange(point.frame, to);
@@ -333,7 +331,7 @@ void PatchTracker::Impl::add_points(bool everywhere) {
     Point point;
     point.id = next_id++;
     point.at = corner.at;
-    point.frame = in_frame(corner.at);
+    point.frame = to_frame(corner.at, factor);
     points.push_back(point);
   }
   if (points.size() > most) points.resize(most);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/tracking/pixel_scale.h"
 #include "core/tracking/window_match.h"
 
 namespace spidar {
@@ -13,18 +14,13 @@ namespace {
 using SearchTemplate = WindowTemplate<kSearchWindow_px>;
 
 /// Coarse levels only have to lead into the basin of the next finer one.
-constexpr MatchSettings kCoarse{4, 0.1f, 5, 1};
-constexpr MatchSettings kBase{6, 0.02f, 5, 1};
-constexpr MatchSettings kRefine{4, 0.01f, 1, 1};
+constexpr MatchSettings kCoarse{3, 0.15f, 5, 1};
+constexpr MatchSettings kBase{6, 0.06f, 5, 1};
+constexpr MatchSettings kRefine{3, 0.02f, 1, 1};
 /// A larger window may see something else beside: then its residual grows.
 constexpr float kRefineWorse = 0.1f;
 /// Of the strength asked for, at coarse levels.
 constexpr float kCoarseStrength = 0.25f;
-
-/// Pixel centres of a level of half the size lie between those of the finer one.
-ImagePoint at_level(ImagePoint base, float scale) {
-  return {(base.x_px + 0.5f) * scale - 0.5f, (base.y_px + 0.5f) * scale - 0.5f};
-}
 
 /// The whole window of `side` px, so that no repeated border takes part in what is measured.
 bool is_inside(const PaddedImage& image, ImagePoint centre, int side) {
@@ -43,7 +39,7 @@ bool find_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint fr
   SearchTemplate window;
   for (int level = settings.first_level; level >= 0; --level) {
     const auto l = static_cast<size_t>(level);
-    const ImagePoint centre = at_level(from, 1.0f / static_cast<float>(1 << level));
+    const ImagePoint centre = to_reduced(from, 1 << level);
     const bool is_base = level == 0;
     const float least = settings.least_strength * (is_base ? 1 : kCoarseStrength);
     const bool usable =
@@ -58,6 +54,7 @@ bool find_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint fr
       if (ended) {
         moved = {found.centre.x_px - centre.x_px, found.centre.y_px - centre.y_px};
         match.residual = found.residual;
+        match.variance_px2 = found.variance_px2;
       }
     }
     if (!is_base) moved = {2 * moved.x_px, 2 * moved.y_px};
@@ -82,6 +79,7 @@ bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint 
   if (!window.find(ReadablePixels(is), settings, found)) return false;
   if (found.residual > match.residual + kRefineWorse) return false;
   match.to = found.centre;
+  match.variance_px2 = found.variance_px2;
   return true;
 }
 
@@ -96,7 +94,7 @@ bool find_by_blocks(const GrayPyramid& before, const GrayPyramid& now, ImagePoin
   const PaddedImage& a = before.levels[kLevel];
   const PaddedImage& b = now.levels[kLevel];
   if (a.width() < kSide_px || a.height() < kSide_px) return false;
-  const ImagePoint centre = at_level(from, 1.0f / (1 << kLevel));
+  const ImagePoint centre = to_reduced(from, 1 << kLevel);
   const auto corner = [](float middle, int size) {
     const int first = static_cast<int>(std::lround(middle - (kSide_px - 1) / 2.0f));
     return std::clamp(first, 0, size - kSide_px);

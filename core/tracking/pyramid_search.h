@@ -12,6 +12,7 @@ constexpr int kSearchWindow_px = 8;
 struct PointMatch {
   ImagePoint to;       ///< pixels of the base
   float residual = 0;  ///< see WindowMatch
+  float variance_px2 = 0;
   float strength = 0;  ///< of the window in the picture before, (grey / px)²
 };
 

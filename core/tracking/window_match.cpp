@@ -96,6 +96,7 @@ bool WindowTemplate<kSide>::find(const ReadablePixels& image, const MatchSetting
   constexpr float kPixels = kSide * kSide;
   const ImagePoint start = match.centre;
   ImagePoint at = start;
+  float left = 0;  // variance that the template does not explain
   float gain = settings.gain > 0 ? std::clamp(settings.gain, kLeastGain, kMostGain) : 1.0f;
   for (int i = 0; i < settings.iterations; ++i) {
     const ImagePoint begin = upper_left(at, kSide);
@@ -103,8 +104,7 @@ bool WindowTemplate<kSide>::find(const ReadablePixels& image, const MatchSetting
     if (!image.source(begin.x_px, begin.y_px, kSide + 1, kSide + 1, source)) return false;
     const auto fixed_gain = static_cast<int>(gain * kGainOne);
     const DifferenceSums sums = vectors::compare(source, pixels_, fixed_gain);
-    match.residual = std::sqrt(variance(sums.difference, sums.squared, kPixels)) /
-                     (kDifferenceOne * gain * contrast_);
+    left = variance(sums.difference, sums.squared, kPixels) / (kDifferenceOne * kDifferenceOne);
 
     const auto difference = static_cast<float>(sums.difference);
     const float bx = static_cast<float>(sums.x) - mean_x_ * difference;
@@ -122,10 +122,13 @@ bool WindowTemplate<kSide>::find(const ReadablePixels& image, const MatchSetting
     if (settings.gain <= 0) gain = gain_of(sums);
   }
   match.centre = at;
+  match.residual = std::sqrt(left) / (gain * contrast_);
+  match.variance_px2 = left / (gain * gain * kPixels * strength_);
   return true;
 }
 
 template class WindowTemplate<8>;
 template class WindowTemplate<16>;
+template class WindowTemplate<24>;
 
 }  // namespace spidar

@@ -35,6 +35,8 @@ struct WindowMatch {
   /// Standard deviation of what the template does not explain, over its contrast: about √2 for
   /// windows that have nothing to do with each other.
   float residual = 0;
+  /// Of the centre along its worse direction, if what is left is noise: residual² / (n λ), px².
+  float variance_px2 = 0;
 };
 
 /// What a window looks like and how it would change if it moved.
