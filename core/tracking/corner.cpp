@@ -23,7 +23,7 @@ struct Tensor {
   }
 };
 
-/// Smaller eigenvalue of the window's mean tensor, (grey / px)².
+/// Smaller eigenvalue of the window's mean tensor, (grey / px)²; 0 for an edge.
 float strength(const Tensor& t) {
   constexpr float kTwice = 4;  // both derivatives
   constexpr float kScale = 1 / (kTwice * kCornerWindow_px * kCornerWindow_px);
@@ -32,7 +32,9 @@ float strength(const Tensor& t) {
   const auto yy = static_cast<float>(t.yy);
   const float difference = xx - yy;
   const float root = std::sqrt(difference * difference + 4 * xy * xy);
-  return std::max(0.0f, 0.5f * kScale * (xx + yy - root));
+  const float smaller = xx + yy - root;
+  const float larger = xx + yy + root;
+  return smaller > kLeastRoundness * larger ? 0.5f * kScale * smaller : 0.0f;
 }
 
 constexpr int kBlock_px = kCornerStep_px;

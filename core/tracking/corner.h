@@ -10,7 +10,7 @@ namespace spidar {
 struct Corner {
   ImagePoint at;
   /// Smaller eigenvalue of the mean structure tensor of the window, (grey / px)²; 0 when there is
-  /// nothing.
+  /// nothing or but an edge.
   float strength = 0;
 };
 
@@ -18,6 +18,10 @@ struct Corner {
 constexpr int kCornerWindow_px = 8;
 /// Windows are looked at this many pixels apart.
 constexpr int kCornerStep_px = 4;
+
+/// Smaller eigenvalue over the larger one, at least: what looks less round is an edge, along which
+/// only its noise would be followed.
+constexpr float kLeastRoundness = 0.02f;
 
 /// A piece of an image, in pixels; x1, y1 are the first outside.
 struct PixelBox {

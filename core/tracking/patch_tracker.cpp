@@ -270,7 +270,8 @@ ImagePoint PatchTracker::Impl::refined(const Point& point, const FineTemplate& w
   const float coarse_px2 = scale * scale * point.match.variance_px2;
   const float both_px2 = coarse_px2 + match.variance_px2;
   const float share = both_px2 > 0 ? coarse_px2 / both_px2 : 1;
-  return {coarse.x_px + share * (match.centre.x_px - coarse.x_px), coarse.y_px + share * (match.centre.y_px - coarse.y_px)};
+  return {coarse.x_px + share * (match.centre.x_px - coarse.x_px),
+          coarse.y_px + share * (match.centre.y_px - coarse.y_px)};
 }
 
 /// Brings the points to the new frame.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/tracking/corner.h"
 #include "core/tracking/pixel_scale.h"
 #include "core/tracking/window_match.h"
 
@@ -19,6 +20,8 @@ constexpr MatchSettings kBase{6, 0.06f, 5, 1};
 constexpr MatchSettings kRefine{3, 0.02f, 1, 1};
 /// A larger window may see something else beside: then its residual grows.
 constexpr float kRefineWorse = 0.1f;
+/// A point that is followed may become less of a corner than a new one.
+constexpr float kKeptRoundness = kLeastRoundness / 2;
 /// Of the strength asked for, at coarse levels.
 constexpr float kCoarseStrength = 0.25f;
 
@@ -44,7 +47,7 @@ bool find_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint fr
     const float least = settings.least_strength * (is_base ? 1 : kCoarseStrength);
     const bool usable =
         window.read(ReadablePixels(before.levels[l]), centre) && window.strength() >= least;
-    if (is_base && !usable) return false;
+    if (is_base && !(usable && window.roundness() >= kKeptRoundness)) return false;
     if (usable) {
       MatchSettings matching = is_base ? kBase : kCoarse;
       matching.gain = settings.gain;
@@ -86,7 +89,7 @@ bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint 
 bool find_by_blocks(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from,
                     ImagePoint& moved) {
   constexpr int kLevel = 3;
-  constexpr int kReach_px = 8;
+  constexpr int kReach_px = 12;
   constexpr int kSide_px = 8;
   constexpr int kNear_px = 2;  // the same minimum
   /// Mean absolute difference, grey levels.

@@ -79,6 +79,7 @@ bool WindowTemplate<kSide>::read(const ReadablePixels& image, ImagePoint centre)
   const float root = std::sqrt(difference * difference + 4 * xy_ * xy_);
   constexpr float kScale = 0.5f / (kPixels * kDerivativeOne * kDerivativeOne);
   strength_ = std::max(0.0f, kScale * (xx_ + yy_ - root));
+  roundness_ = strength_ / (kScale * (xx_ + yy_ + root));
   contrast_ = std::sqrt(variance(sums.pixel, sums.pixel_squared, kPixels)) / kDifferenceOne;
   return strength_ > 0 && contrast_ > 0;
 }

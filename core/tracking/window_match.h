@@ -48,6 +48,8 @@ class WindowTemplate {
 
   /// Smaller eigenvalue of the mean structure tensor about its mean, (grey / px)².
   float strength() const { return strength_; }
+  /// That over the larger one: 0 for an edge.
+  float roundness() const { return roundness_; }
   /// Standard deviation, grey levels.
   float contrast() const { return contrast_; }
 
@@ -67,6 +69,7 @@ class WindowTemplate {
   float mean_x_ = 0;  ///< of the derivatives
   float mean_y_ = 0;
   float strength_ = 0;
+  float roundness_ = 0;
   float contrast_ = 0;
 };
 
