@@ -80,12 +80,12 @@ void run(const Command& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  gst_init(nullptr, nullptr);
   const std::optional<Command> command = parse(argc, argv);
   if (!command) {
     std::fputs(kUsage, stderr);
     return 2;
   }
+  gst_init(nullptr, nullptr);
   try {
     run(*command);
   } catch (const std::exception& error) {
