@@ -44,6 +44,8 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   impl_->last_running_time_ns = running_time_ns;
 
   FrameAnalysis analysis;
+  analysis.width = frame.width;
+  analysis.height = frame.height;
   analysis.features = tracked.features;
   analysis.restarted = tracked.restarted || !last_ns;
   if (analysis.restarted) {

@@ -26,6 +26,8 @@ struct AnalyzerSettings {
 
 /// What was found in one frame.
 struct FrameAnalysis {
+  int width = 0;  ///< of the frame, px
+  int height = 0;
   int features = 0;    ///< points looked for in the next frame
   ImageMotion motion;  ///< the one that is felt, in unscaled px/s of the frame given
   /// Model of the background; nothing when `motion` needs none, and after a restart.

@@ -136,11 +136,12 @@ void install_motion_properties(GObjectClass* c) {
           g_param_spec_boolean("post-messages", "Post messages",
                                "Post a 'spidar-motion' element message for each frame",
                                defaults.post_messages, kPlaying));
-  install(kPropTrace,
-          g_param_spec_string("trace", "Trace",
-                              "Write motion and force to this file, CSV with a row a frame; opened "
-                              "from READY to PAUSED",
-                              nullptr, kReady));
+  install(kPropTrace, g_param_spec_string(
+                          "trace", "Trace",
+                          "Write motion and force to this file, a line a frame: CSV, or JSON with "
+                          "background and objects when its name ends in .jsonl; opened from "
+                          "READY to PAUSED",
+                          nullptr, kReady));
   install(kPropHapticTrace,
           g_param_spec_string("haptic-trace", "Haptic trace",
                               "Write forces, string tensions and pose to this file, CSV with a row "

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/film_studio.h"
 #include "tests/support/known_motion.h"
 
 namespace spidar::test {
@@ -23,9 +24,6 @@ struct MotionCase {
   bool coded;  ///< is to be seen through a video codec
   std::function<Film(int width, int height, uint32_t seed)> film;
 };
-
-/// Frames of a film; with the speeds in use nothing leaves its sheet or runs out of view before.
-constexpr int kFilmFrames = 12;
 
 /// Speeds of the usual object, px a frame: mean 13.
 constexpr double kSlow_px = 2;

@@ -45,8 +45,9 @@ std::pair<int, int> size(const std::string& text) {
 const char* const kUsage =
     "usage: bench_tracking [OPTION...]\n"
     "  --sizes WxH,...      default 640x360,1280x720\n"
-    "  --full               four sizes up to 3840x2160, 2 scenes, 3 rounds: 15 minutes\n"
-    "  --scenes N           pictures that each case is made from, default 1\n"
+    "  --full               four sizes up to 3840x2160, 2 scenes, 2 rounds: 10 minutes\n"
+    "  --scenes N           pictures that each case is made from, default 1; hard cases: 4 at "
+    "least\n"
     "  --rounds N           times that each film is run, default 1\n"
     "  --cases NAME,...     default all\n"
     "  --pipelines NAME,... default all\n"
@@ -61,7 +62,7 @@ Options parse_options(int argc, const char* const* argv) {
     if (name == "--full") {
       options.sizes = {{640, 360}, {1280, 720}, {1920, 1080}, {3840, 2160}};
       options.scenes = 2;
-      options.rounds = 3;
+      options.rounds = 2;
       continue;
     }
     const bool known = name == "--sizes" || name == "--scenes" || name == "--rounds" ||
