@@ -45,6 +45,7 @@ using spidar::FrameReport;
 using spidar::MotionEngine;
 using spidar::MotionProperties;
 using spidar::OnDeviceError;
+using spidar::PointerKind;
 
 struct _GstSpidarMotion {
   GstVideoFilter parent;
@@ -193,13 +194,18 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
                                                           GstVideoFrame* frame) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
   spidar::AnalyzerSettings settings;
+  PointerKind pointer;
   bool post_messages;
   OnDeviceError on_device_error;
   GST_OBJECT_LOCK(self);
   settings = self->properties->analyzer;
+  pointer = self->properties->pointer;
   post_messages = self->properties->post_messages;
   on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
+  if (pointer == PointerKind::kGrip) {
+    settings.pointer = self->engine->grip_place().value_or(settings.pointer);
+  }
 
   FrameReport report;
   const bool processed = guarded(self, "analysing a frame", [&] {

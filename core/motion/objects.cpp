@@ -135,6 +135,7 @@ void ObjectTracker::see(Life& life, const Cluster& cluster, const Frame& frame) 
   object.roll_rad_s = cluster.motion.roll_rad() / frame.interval_s;
   object.model = cluster.motion.kind;
   object.tracks = static_cast<int>(cluster.members.size());
+  object.noise_px_s = frame.sigma_px / std::sqrt(object.tracks) / frame.interval_s;
   life.track_ids.clear();
   const auto keep = [&](int i) { life.track_ids.push_back(relative_[static_cast<size_t>(i)].id); };
   std::for_each(life.group.begin(), life.group.end(), keep);

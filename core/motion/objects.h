@@ -24,6 +24,7 @@ struct MovingObject {
   double roll_rad_s = 0;                                     ///< … the background
   ModelKind model = ModelKind::kTranslation;                 ///< translation or similarity
   int tracks = 0;                                            ///< 0 while it is out of sight
+  double noise_px_s = 0;  ///< standard error of each coordinate of relative_px_s
   /// Area × speed, smoothed over kProminence_s: what one would look at.
   double prominence = 0;
 

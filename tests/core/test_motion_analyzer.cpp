@@ -41,7 +41,7 @@ class Scene {
 };
 
 AnalyzerSettings linear() {
-  AnalyzerSettings settings;
+  AnalyzerSettings settings = paper_settings();
   settings.controller.kind = ControllerKind::kLinear;
   return settings;
 }
@@ -60,7 +60,7 @@ void expect_restarted(const FrameAnalysis& analysis) {
 
 TEST(MotionAnalyzer, TheFirstFrameShowsNoMotion) {
   Scene scene(640, 360, 3, 0);
-  MotionAnalyzer analyzer;
+  MotionAnalyzer analyzer(paper_settings());
   const FrameAnalysis first = analyzer.analyze(scene.frame(0), 0);
   expect_restarted(first);
   EXPECT_GT(first.features, 0);
@@ -69,7 +69,7 @@ TEST(MotionAnalyzer, TheFirstFrameShowsNoMotion) {
 TEST(MotionAnalyzer, VelocityIsDisplacementOverRunningTime) {
   Scene scene(640, 360, 3.5, -1.25);
   for (const int64_t interval_ns : {kFrame_ns, 2 * kFrame_ns, kFrame_ns / 4}) {
-    MotionAnalyzer analyzer;
+    MotionAnalyzer analyzer(paper_settings());
     analyzer.analyze(scene.frame(0), 7 * kFrame_ns);
     const FrameAnalysis analysis = analyzer.analyze(scene.frame(1), 7 * kFrame_ns + interval_ns);
     EXPECT_FALSE(analysis.restarted);
@@ -84,7 +84,7 @@ TEST(MotionAnalyzer, VelocityIsDisplacementOverRunningTime) {
 
 TEST(MotionAnalyzer, ADroppedFrameIsNoJump) {
   Scene scene(640, 360, 2, 1);
-  MotionAnalyzer analyzer;
+  MotionAnalyzer analyzer(paper_settings());
   analyzer.analyze(scene.frame(0), 0);
   const double tolerance_px_s = kMeanTolerance_px / kFrame_s;
   for (const int n : {1, 2, 4, 5, 8}) {
@@ -97,7 +97,7 @@ TEST(MotionAnalyzer, ADroppedFrameIsNoJump) {
 TEST(MotionAnalyzer, RightIsRightAndUpIsUp) {
   Scene right(640, 360, 4, 0);
   Scene up(640, 360, 0, -4);
-  MotionAnalyzer analyzer;
+  MotionAnalyzer analyzer(paper_settings());
   analyzer.analyze(right.frame(0), 0);
   const Wrench to_the_right = analyzer.analyze(right.frame(1), kFrame_ns).wrench;
   EXPECT_GT(to_the_right.force_N.x(), 0.5);
@@ -115,7 +115,7 @@ TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
   for (const Size size : {Size{320, 180}, Size{640, 360}, Size{1280, 720}, Size{1920, 1080}}) {
     const double dx_px = 0.01 * size.height;
     Scene scene(size.width, size.height, dx_px, 0);
-    MotionAnalyzer analyzer;
+    MotionAnalyzer analyzer(paper_settings());
     analyzer.analyze(scene.frame(0), 0);
     const FrameAnalysis analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
     const double tolerance_px_s = kMeanTolerance_px * scene.reduction() / kFrame_s;
@@ -181,7 +181,7 @@ TEST(MotionAnalyzer, ACutShowsNoMotionAndKeepsTheLargestSpeed) {
 TEST(MotionAnalyzer, AnotherFrameSizeShowsNoMotion) {
   Scene large(640, 360, 3, 0);
   Scene small(320, 180, 3, 0);
-  MotionAnalyzer analyzer;
+  MotionAnalyzer analyzer(paper_settings());
   analyzer.analyze(large.frame(0), 0);
   analyzer.analyze(large.frame(1), kFrame_ns);
   expect_restarted(analyzer.analyze(small.frame(0), 2 * kFrame_ns));
@@ -202,7 +202,7 @@ TEST(MotionAnalyzer, AFlatPictureIsNoMotionAndNoRestart) {
 
 TEST(MotionAnalyzer, AStillPictureIsFollowedAndHasNoForce) {
   Scene scene(640, 360, 0, 0);
-  MotionAnalyzer analyzer;
+  MotionAnalyzer analyzer(paper_settings());
   analyzer.analyze(scene.frame(0), 0);
   const FrameAnalysis analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
   EXPECT_GT(analysis.motion.tracked, 50);
@@ -236,7 +236,7 @@ TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
 
 TEST(MotionAnalyzer, BadSettingsAreRefusedAndChangeNothing) {
   Scene scene(640, 360, 4, 0);
-  MotionAnalyzer analyzer;
+  MotionAnalyzer analyzer(paper_settings());
   analyzer.analyze(scene.frame(0), 0);
   AnalyzerSettings bad;
   bad.tracker.max_features = 5;
@@ -247,7 +247,7 @@ TEST(MotionAnalyzer, BadSettingsAreRefusedAndChangeNothing) {
 }
 
 TEST(MotionAnalyzer, ABadFrameIsRefused) {
-  MotionAnalyzer analyzer;
+  MotionAnalyzer analyzer(paper_settings());
   EXPECT_THROW(analyzer.analyze({}, 0), std::invalid_argument);
 }
 
