@@ -7,11 +7,14 @@
 
 namespace spidar {
 
-/// Of the 1 € filter, see one_euro_filter.h; docs/feeling.md has what the defaults cost and give.
+/// Of the 1 € filter, see one_euro_filter.h. A velocity that changes by a px/s² is late by 1 / (2π
+/// (min_cutoff + β a)), an error of less than 1 / (2π β) however fast it changes: with the default
+/// β 2 px/s, less than is felt (AdaptiveController::kLeast_px_s). docs/feeling.md has what other
+/// values cost and give.
 struct FilterSettings {
-  double min_cutoff_Hz = 3;  ///< finite and ≥ 0; 0 is no filter at all
+  double min_cutoff_Hz = 1;  ///< finite and ≥ 0; 0 is no filter at all
   /// Hz for each px/s² of the reference frame, finite and ≥ 0.
-  double beta_s_px = 0.01;
+  double beta_s_px = 0.08;
 };
 
 /// Throws std::invalid_argument when a value is out of range.

@@ -80,8 +80,8 @@ TEST(Properties, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(pointer, static_cast<gint>(PointerKind::kFixed));
   EXPECT_EQ(pointer_x, 0.5);
   EXPECT_EQ(pointer_y, 0.5);
-  EXPECT_EQ(min_cutoff, 3.0);
-  EXPECT_EQ(beta, 0.01);
+  EXPECT_EQ(min_cutoff, 1.0);
+  EXPECT_EQ(beta, 0.08);
   EXPECT_EQ(ts_offset, 0);
   EXPECT_FALSE(qos);
   EXPECT_TRUE(gst_base_transform_is_passthrough(GST_BASE_TRANSFORM(element)));
