@@ -50,7 +50,8 @@ void AdaptiveController::follow(double speed_px_s, double interval_s) {
 }
 
 double AdaptiveController::force_N(const MeasuredSpeed& measured) {
-  const double dead_px_s = std::max(kLeast_px_s, kNoiseSigmas * measured.noise_px_s);
+  const double dead_px_s =
+      measured.noise_px_s > 0 ? kNoiseSigmas * measured.noise_px_s : kLeast_px_s;
   if (alpha_s_px_ == 0 || measured.speed_px_s <= dead_px_s) return 0;
   follow(measured.speed_px_s, measured.interval_s);
   return NonlinearController(max_force_N_, 1 / scale_px_s())

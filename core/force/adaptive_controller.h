@@ -9,11 +9,11 @@ namespace spidar {
 /// F = (2 Fmax / π) atan((V − V₀)⁺ / S): eq. 15 with 1/α = S, a running scale of the speeds seen,
 /// and a dead zone V₀ that the force leaves without a step.
 ///
-/// The dead zone is kNoiseSigmas standard errors of the velocity (for a Gaussian error of two
-/// coordinates P(|e| > 3 σ) = 1.1 %), and kLeast_px_s at least, the speed at which eq. 15 with α
-/// = 0.01 and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans. Haptics 2013,
-/// PubMed 24808327). Within it the force is exactly zero and nothing is learnt: a pause is no
-/// reason to become more sensitive.
+/// The dead zone is kNoiseSigmas standard errors of the velocity: for a Gaussian error of two
+/// coordinates P(|e| > 3 σ) = 1.1 %. Where they are not known it is kLeast_px_s, the speed at which
+/// eq. 15 with α = 0.01 and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans.
+/// Haptics 2013, PubMed 24808327). Within it the force is exactly zero and nothing is learnt: a
+/// pause is no reason to become more sensitive.
 ///
 /// The scale follows ln V: d ln S / dt = clamp(ln V − ln S, −1, 1) / T, with T = kAttack_s while
 /// speeds are above the scale and kRelease_s while they are below. It settles where a share of

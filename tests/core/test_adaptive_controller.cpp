@@ -124,8 +124,8 @@ TEST(AdaptiveController, NothingIsExactlyNothingAndNothingIsLearntOfIt) {
 }
 
 TEST(AdaptiveController, TheDeadZoneHasNoStep) {
-  for (const double noise_px_s : {0.0, 5.0}) {
-    const double edge_px_s = std::max(Adaptive::kLeast_px_s, 3 * noise_px_s);
+  for (const double noise_px_s : {0.0, 0.4, 5.0}) {
+    const double edge_px_s = noise_px_s > 0 ? 3 * noise_px_s : Adaptive::kLeast_px_s;
     Adaptive controller(kMax_N, kAlpha_s_px);
     double last_N = 0;
     const double step_px_s = 0.01;
