@@ -45,9 +45,12 @@ struct SceneMotion {
   int objects = 0;  ///< that are known, seen or not; 0 with kMean and kCamera
 };
 
-/// tracks → motion. Keeps what must be known of the frames before.
+/// tracks → motion. Keeps what must be known of the frames before. Takes no memory from the heap
+/// but when it is made.
 class SPIDAR_API MotionEstimator {
  public:
+  MotionEstimator() { points_.reserve(kMostDisplacements); }
+
   /// Tracks between two frames of `width` × `height` pixels that are shown `interval_ns` apart, >
   /// 0. `pointer` is a place of the picture, (0, 0) its top left and (1, 1) its bottom right
   /// corner; it may lie outside. Only kObjects looks at it. Another kind than in the frame before
