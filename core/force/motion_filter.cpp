@@ -1,5 +1,7 @@
 #include "core/force/motion_filter.h"
 
+#include <cmath>
+
 #include "core/force/motion_rendering.h"
 #include "core/force/require_not_negative.h"
 
@@ -43,6 +45,9 @@ ImageMotion MotionFilter::filter(const ImageMotion& motion, int frame_height, do
   steadier.growth_1_s =
       steady(growth_, kRim_px * motion.growth_1_s, interval_s, settings) / kRim_px;
   steadier.roll_rad_s = steady(roll_, kRim_px * motion.roll_rad_s, interval_s, settings) / kRim_px;
+  const double share = velocity_.share();
+  noise_px_s_ = std::hypot((1 - share) * noise_px_s_, share * to_reference * motion.noise_px_s);
+  steadier.noise_px_s = noise_px_s_ / to_reference;
   return steadier;
 }
 
@@ -50,6 +55,7 @@ void MotionFilter::reset() {
   velocity_.reset();
   growth_.reset();
   roll_.reset();
+  noise_px_s_ = 0;
 }
 
 }  // namespace spidar

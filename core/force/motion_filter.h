@@ -22,7 +22,8 @@ SPIDAR_API void validate(const FilterSettings& settings);
 
 /// A 1 € filter each for velocity, growth and roll, all in px/s of the reference frame so that one
 /// β does for all: growth and roll by the speed at kRim_px. Where nothing moves any more, and what
-/// is left is slower than kRest_px_s, the result is exactly zero.
+/// is left is slower than kRest_px_s, the result is exactly zero. The noise
+/// of the velocity is that of what is left of it.
 class SPIDAR_API MotionFilter {
  public:
   /// `motion` of a frame of `frame_height` pixels, `interval_s` > 0 after the frame before. With no
@@ -39,6 +40,7 @@ class SPIDAR_API MotionFilter {
   OneEuroFilter<2> velocity_;
   OneEuroFilter<1> growth_;
   OneEuroFilter<1> roll_;
+  double noise_px_s_ = 0;
 };
 
 }  // namespace spidar

@@ -33,14 +33,21 @@ class OneEuroFilter {
     const Vector rate = (x - value_) / interval_s;
     rate_ += smoothing(kRateCutoff_Hz, interval_s) * (rate - rate_);
     const double cutoff_Hz = min_cutoff_Hz + beta * rate_.norm();
-    value_ += smoothing(cutoff_Hz, interval_s) * (x - value_);
+    share_ = smoothing(cutoff_Hz, interval_s);
+    value_ += share_ * (x - value_);
     return value_;
   }
+
+  /// Of the newest value in the last result, 0 … 1: result += share · (value − result). So noise of
+  /// variance v in the values, independent of each other, is noise of variance (1 − share)² u +
+  /// share² v in the result, u that of the result before.
+  double share() const { return share_; }
 
   /// As if `x` had been the first value.
   void restart_at(const Vector& x) {
     value_ = x;
     rate_.setZero();
+    share_ = 1;
     started_ = true;
   }
 
@@ -55,6 +62,7 @@ class OneEuroFilter {
 
   Vector value_ = Vector::Zero();
   Vector rate_ = Vector::Zero();
+  double share_ = 1;
   bool started_ = false;
 };
 
