@@ -50,7 +50,8 @@ bool impact_between(const BallScene& scene, double from_s, double to_s) {
   return std::any_of(impacts.begin(), impacts.end(), [&](double t) { return t > from_s; });
 }
 
-std::vector<FrameAnalysis> analyze(const BallScene& scene, const AnalyzerSettings& settings = paper_settings()) {
+std::vector<FrameAnalysis> analyze(const BallScene& scene,
+                                   const AnalyzerSettings& settings = paper_settings()) {
   Picture picture(scene.settings().width, scene.settings().height, 5);
   MotionAnalyzer analyzer(settings);
   std::vector<FrameAnalysis> frames;
