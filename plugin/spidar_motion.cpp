@@ -7,6 +7,10 @@
  * Lucas-Kanade), turns the motion into force and torque, and gives them to the grip of a SPIDAR-G
  * at the moment the frame is shown. The video itself is passed on untouched.
  *
+ * By default the object that stands out most against the background is felt (#spidarmotion:motion),
+ * steadied by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
+ * filter-min-cutoff=0 it is the mean velocity of all points, as in the paper.
+ *
  * A frame is shown at base time + running time + pipeline latency (+ #spidarmotion:ts-offset); its
  * force is felt then, between two frames it is interpolated. Before PLAYING, in PAUSED and after
  * the end there is none.
