@@ -30,6 +30,7 @@ void MotionEngine::open(const MotionProperties& properties) {
   apply(properties.analyzer);
   if (properties.device == "none") return;
   const Profile profile = load_profile(properties.profile);
+  grip_pointer_ = GripPointer(profile.geometry);
   SessionSettings settings;
   settings.limits.max_force_N = properties.analyzer.controller.max_force_N;
   settings.trace_path = properties.haptic_trace;
@@ -107,6 +108,13 @@ GstStructure* MotionEngine::stats() const {
   const std::lock_guard<std::mutex> lock(session_mutex_);
   if (session_) describe_session(*session_, structure);
   return structure;
+}
+
+std::optional<Eigen::Vector2d> MotionEngine::grip_place() const {
+  if (!session_) return std::nullopt;
+  const TickRecord tick = session_->loop().snapshot().last;
+  if (tick.device != DeviceState::kRunning) return std::nullopt;
+  return grip_pointer_.place(tick.pose.position_m);
 }
 
 DeviceState MotionEngine::device_state() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <gst/video/video.h>
@@ -11,6 +12,7 @@
 #include "core/motion_analyzer.h"
 #include "plugin/frame_luma.h"
 #include "plugin/frame_trace.h"
+#include "plugin/grip_pointer.h"
 #include "plugin/motion_properties.h"
 #include "plugin/motion_stats.h"
 #include "plugin/playback_follower.h"
@@ -83,6 +85,8 @@ class MotionEngine {
   void run_out(GstClockTime running_time);
   /// Nothing more comes.
   void end_of_stream();
+  /// Where the grip points at the picture; nothing while no device runs.
+  std::optional<Eigen::Vector2d> grip_place() const;
   /// kClosed with device=none.
   DeviceState device_state() const;
   /// −1 when all strings are well, or with device=none.
@@ -103,6 +107,7 @@ class MotionEngine {
   GstClockTimeDiff offset_ns_ = 0;
 
   // Streaming thread.
+  GripPointer grip_pointer_;
   MotionAnalyzer analyzer_;
   double max_force_N_ = -1;
   FrameLuma luma_;
