@@ -57,6 +57,9 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   analysis.motion = scene.felt;
   analysis.model = scene.model;
   analysis.objects = scene.objects;
+  analysis.tracks = &tracked.tracks;
+  analysis.background = scene.background;
+  analysis.objects_seen = scene.objects_seen;
   analysis.wrench =
       render_motion(*impl_->controller, analysis.motion, impl_->settings.axes, frame.height);
   return analysis;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/api.h"
 #include "core/force/gain_controller.h"
@@ -34,6 +35,11 @@ struct FrameAnalysis {
   bool restarted = false;  ///< nothing to compare with: motion and wrench are zero
   /// Since the frame that this one was compared with; 0 after a restart.
   int64_t interval_ns = 0;
+
+  // What it was found from, valid until the next call of analyze() or restart().
+  const std::vector<Track>* tracks = nullptr;               ///< null after a restart
+  const Background* background = nullptr;                   ///< null when `motion` needs none
+  const std::vector<MovingObject>* objects_seen = nullptr;  ///< null when `motion` looks for none
 };
 
 /// image → features → tracks → motion model → motion → gain controller → wrench. One thread at a

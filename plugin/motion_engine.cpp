@@ -86,6 +86,12 @@ void MotionEngine::set_offset(GstClockTimeDiff offset_ns) {
   if (follower_) follower_->set_offset(offset_ns);
 }
 
+void MotionEngine::set_muted(bool muted) {
+  const std::lock_guard<std::mutex> lock(mute_mutex_);
+  if (muted && !muted_) flush();
+  muted_ = muted;
+}
+
 void MotionEngine::flush() {
   const std::lock_guard<std::mutex> lock(session_mutex_);
   if (session_) session_->loop().cancel_scheduled();
@@ -128,7 +134,8 @@ void MotionEngine::apply(const AnalyzerSettings& settings) {
 }
 
 void MotionEngine::schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench) {
-  if (session_) session_->loop().schedule({running_ns, hold_ns, wrench});
+  const std::lock_guard<std::mutex> lock(mute_mutex_);
+  if (session_ && !muted_) session_->loop().schedule({running_ns, hold_ns, wrench});
 }
 
 void MotionEngine::restart() {

@@ -61,6 +61,8 @@ class MotionEngine {
 
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
+  /// The force ramps to rest at once and stays there until frames come after set_muted(false).
+  void set_muted(bool muted);
   /// What was scheduled is forgotten at once.
   void flush();
   /// The pipeline will distribute a new base time: nothing is on the screen until then.
@@ -101,6 +103,8 @@ class MotionEngine {
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;
+  std::mutex mute_mutex_;  // nothing is scheduled between muting and forgetting
+  bool muted_ = false;
 
   // Streaming thread.
   MotionAnalyzer analyzer_;

@@ -7,6 +7,7 @@
 #include <gst/gst.h>
 
 #include "core/motion_analyzer.h"
+#include "plugin/display_properties.h"
 
 namespace spidar {
 
@@ -21,6 +22,8 @@ struct MotionProperties {
   bool post_messages = true;
   std::string trace;
   std::string haptic_trace;
+  bool mute = false;
+  DisplayProperties display;
 
   MotionProperties();
 };
@@ -43,6 +46,7 @@ enum PropertyId : guint {
   kPropTrace,
   kPropHapticTrace,
   kPropStats,
+  kPropMute,
 };
 
 /// Registers all of them, `stats` included.

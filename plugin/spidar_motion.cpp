@@ -34,6 +34,7 @@
 #include <new>
 #include <string>
 
+#include "plugin/motion_display.h"
 #include "plugin/motion_engine.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_motion_debug);
@@ -42,6 +43,7 @@ GST_DEBUG_CATEGORY_STATIC(gst_spidar_motion_debug);
 using spidar::DeviceState;
 using spidar::FrameProblem;
 using spidar::FrameReport;
+using spidar::MotionDisplay;
 using spidar::MotionEngine;
 using spidar::MotionProperties;
 using spidar::OnDeviceError;
@@ -51,6 +53,7 @@ struct _GstSpidarMotion {
 
   MotionProperties* properties;  // object lock
   MotionEngine* engine;
+  MotionDisplay* display;
 
   // Streaming thread: what was already complained about in this stream.
   guint warned;
@@ -193,10 +196,12 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
                                                           GstVideoFrame* frame) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
   spidar::AnalyzerSettings settings;
+  spidar::DisplayProperties display;
   bool post_messages;
   OnDeviceError on_device_error;
   GST_OBJECT_LOCK(self);
   settings = self->properties->analyzer;
+  display = self->properties->display;
   post_messages = self->properties->post_messages;
   on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
@@ -204,6 +209,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   FrameReport report;
   const bool processed = guarded(self, "analysing a frame", [&] {
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings);
+    self->display->show(report, display, settings.controller.max_force_N, *frame);
   });
   if (!processed) return GST_FLOW_ERROR;
   warn_of_frame(self, report.problem);
@@ -337,9 +343,15 @@ static void gst_spidar_motion_set_property(GObject* object, guint id, const GVal
   GST_OBJECT_LOCK(self);
   const bool known = set_motion_property(*self->properties, id, value);
   const GstClockTimeDiff offset_ns = self->properties->ts_offset_ns;
+  const bool muted = self->properties->mute;
+  const bool overlay = self->properties->display.overlay;
   GST_OBJECT_UNLOCK(self);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
   if (id == spidar::kPropTsOffset) self->engine->set_offset(offset_ns);
+  if (id == spidar::kPropMute) self->engine->set_muted(muted);
+  if (id == spidar::kPropOverlay) {
+    gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !overlay);
+  }
 }
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
@@ -357,6 +369,7 @@ static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* va
 
 static void gst_spidar_motion_finalize(GObject* object) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  delete self->display;
   delete self->engine;
   delete self->properties;
   G_OBJECT_CLASS(gst_spidar_motion_parent_class)->finalize(object);
@@ -365,6 +378,7 @@ static void gst_spidar_motion_finalize(GObject* object) {
 static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
+  self->display = new MotionDisplay;
   // Frames are looked at and passed on. GstVideoFilter would drop late ones before that: here it is
   // the application's choice.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);

@@ -59,6 +59,8 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const std::vector<Track>&
   const std::vector<MovingObject>& objects =
       objects_.update(points_, background, width, height, interval_s);
   scene.objects = static_cast<int>(objects.size());
+  scene.background = &background;
+  scene.objects_seen = &objects;
   const MovingObject* dominant = dominant_.choose(objects, interval_s);
   if (kind == MotionKind::kCamera) {
     scene.felt = scene.camera;

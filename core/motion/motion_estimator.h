@@ -30,6 +30,9 @@ struct SceneMotion {
   /// background grows it goes in. Zero with kMean.
   ImageMotion camera;
   int objects = 0;  ///< that are known, seen or not; 0 with kMean
+  /// The same in full, valid until the estimator's next call; null with kMean.
+  const Background* background = nullptr;
+  const std::vector<MovingObject>* objects_seen = nullptr;
 };
 
 /// tracks → motion. Keeps what must be known of the frames before.
