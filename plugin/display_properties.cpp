@@ -23,6 +23,12 @@ void install_display_properties(GObjectClass* c) {
                           "Length of a track's arrow to the way that the point went since the "
                           "frame before",
                           0.1, 100.0, defaults.arrow_scale, kControllable));
+  g_object_class_install_property(
+      c, kPropDebugWindow,
+      g_param_spec_boolean("debug-window", "Debug window",
+                           "Show picture, tracks, grip, tensions and settings in a window of its "
+                           "own, from READY on; false again when the user closes it",
+                           defaults.debug_window, kPlaying));
 }
 
 bool set_display_property(DisplayProperties& p, guint id, const GValue* value) {
@@ -32,6 +38,9 @@ bool set_display_property(DisplayProperties& p, guint id, const GValue* value) {
       return true;
     case kPropArrowScale:
       p.arrow_scale = g_value_get_double(value);
+      return true;
+    case kPropDebugWindow:
+      p.debug_window = g_value_get_boolean(value);
       return true;
     default:
       return false;
@@ -45,6 +54,9 @@ bool get_display_property(const DisplayProperties& p, guint id, GValue* value) {
       return true;
     case kPropArrowScale:
       g_value_set_double(value, p.arrow_scale);
+      return true;
+    case kPropDebugWindow:
+      g_value_set_boolean(value, p.debug_window);
       return true;
     default:
       return false;

@@ -8,11 +8,13 @@ namespace spidar {
 struct DisplayProperties {
   bool overlay = false;
   double arrow_scale = 4;
+  bool debug_window = false;
 };
 
 enum DisplayPropertyId : guint {
   kPropOverlay = 100,  ///< after those of MotionProperties
   kPropArrowScale,
+  kPropDebugWindow,
 };
 
 void install_display_properties(GObjectClass* object_class);

@@ -43,6 +43,7 @@ void MotionEngine::open(const MotionProperties& properties) {
   follower->set_latency(latency_);
   follower->set_offset(offset_ns_);
   const std::lock_guard<std::mutex> lock(session_mutex_);
+  profile_ = profile;
   session_ = std::move(session);
   follower_ = std::move(follower);
 }
@@ -113,6 +114,17 @@ GstStructure* MotionEngine::stats() const {
   const std::lock_guard<std::mutex> lock(session_mutex_);
   if (session_) describe_session(*session_, structure);
   return structure;
+}
+
+bool MotionEngine::look_at_device(DeviceView& view) const {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (!session_) return false;
+  view.name = session_->device().name();
+  view.loop = session_->loop().snapshot();
+  view.geometry = profile_.geometry;
+  view.min_tension_N = profile_.min_tension_N();
+  view.max_tension_N = profile_.max_tension_N();
+  return true;
 }
 
 DeviceState MotionEngine::device_state() const {
@@ -201,7 +213,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
   report.analysis = analyzer_.analyze(luma, running_ns);
   report.analyzed = true;
-  const int64_t took_ns = HapticSession::monotonic_now_ns() - begin_ns;
+  report.took_ns = HapticSession::monotonic_now_ns() - begin_ns;
 
   last_running_ns_ = running_ns;
   if (report.analysis.interval_ns > 0) last_interval_ns_ = report.analysis.interval_ns;
@@ -210,7 +222,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.trace_failed =
         !trace_.write(running_ns, static_cast<int64_t>(report.stream_time), report.analysis);
   }
-  stats_.add(report.analysis, took_ns);
+  stats_.add(report.analysis, report.took_ns);
   return report;
 }
 

@@ -9,6 +9,7 @@
 #include <gst/video/video.h>
 
 #include "core/motion_analyzer.h"
+#include "plugin/device_view.h"
 #include "plugin/frame_luma.h"
 #include "plugin/frame_trace.h"
 #include "plugin/motion_properties.h"
@@ -33,6 +34,7 @@ struct FrameReport {
   GstClockTime running_time = GST_CLOCK_TIME_NONE;
   GstClockTime stream_time = GST_CLOCK_TIME_NONE;
   FrameAnalysis analysis;
+  int64_t took_ns = 0;        ///< the analysis
   bool trace_failed = false;  ///< the trace could not be written and was closed
 };
 
@@ -70,6 +72,8 @@ class MotionEngine {
   /// Looks at the pipeline's clock now; a thread does that by itself.
   void refresh_clock();
   GstStructure* stats() const;
+  /// False with device=none or while closed.
+  bool look_at_device(DeviceView& view) const;
   /// Null with device=none or while closed.
   HapticSession* session() const { return session_.get(); }
 
@@ -100,6 +104,7 @@ class MotionEngine {
 
   mutable std::mutex session_mutex_;  // state changes against stats()
   std::unique_ptr<HapticSession> session_;
+  Profile profile_;  // of the session
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;

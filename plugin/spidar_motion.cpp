@@ -52,6 +52,7 @@ struct _GstSpidarMotion {
   GstVideoFilter parent;
 
   MotionProperties* properties;  // object lock
+  gboolean opened;               // object lock: READY or above
   MotionEngine* engine;
   MotionDisplay* display;
 
@@ -75,6 +76,10 @@ G_DEFINE_TYPE_WITH_CODE(GstSpidarMotion, gst_spidar_motion, GST_TYPE_VIDEO_FILTE
                         GST_DEBUG_CATEGORY_INIT(gst_spidar_motion_debug, "spidarmotion", 0,
                                                 "motion of a video to a SPIDAR"))
 GST_ELEMENT_REGISTER_DEFINE(spidarmotion, "spidarmotion", GST_RANK_NONE, GST_TYPE_SPIDAR_MOTION)
+
+spidar::MotionDisplay& gst_spidar_motion_display(GstSpidarMotion* self) {
+  return *self->display;
+}
 
 MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self) {
   return *self->engine;
@@ -209,7 +214,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   FrameReport report;
   const bool processed = guarded(self, "analysing a frame", [&] {
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings);
-    self->display->show(report, display, settings.controller.max_force_N, *frame);
+    self->display->show(report, display, settings, *frame);
   });
   if (!processed) return GST_FLOW_ERROR;
   warn_of_frame(self, report.problem);
@@ -303,6 +308,34 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   return TRUE;
 }
 
+// --- debug window ------------------------------------------------------------------------------
+
+/// Open while the element is and the property says so.
+static void follow_debug_window(GstSpidarMotion* self) {
+  GST_OBJECT_LOCK(self);
+  const bool wanted = self->opened && self->properties->display.debug_window;
+  GST_OBJECT_UNLOCK(self);
+  if (wanted) {
+    self->display->open_window();
+  } else {
+    self->display->close_window();
+  }
+}
+
+static void set_opened(GstSpidarMotion* self, bool opened) {
+  GST_OBJECT_LOCK(self);
+  self->opened = opened;
+  GST_OBJECT_UNLOCK(self);
+  follow_debug_window(self);
+}
+
+static gboolean gst_spidar_motion_save_window(GstSpidarMotion* self, const char* path) {
+  const std::string problem = path ? self->display->save_window(path) : "no file is named";
+  if (problem.empty()) return TRUE;
+  GST_WARNING_OBJECT(self, "cannot save the debug window as %s: %s", path, problem.c_str());
+  return FALSE;
+}
+
 // --- states ------------------------------------------------------------------------------------
 
 static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
@@ -315,6 +348,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     GST_OBJECT_UNLOCK(self);
     const bool opened = guarded(self, "opening the device", [&] { engine.open(properties); });
     if (!opened) return GST_STATE_CHANGE_FAILURE;
+    set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
     engine.set_playing(false);
   }
@@ -328,6 +362,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
       break;
     case GST_STATE_CHANGE_READY_TO_NULL:
       engine.close();
+      set_opened(self, false);
       break;
     default:
       break;
@@ -349,6 +384,7 @@ static void gst_spidar_motion_set_property(GObject* object, guint id, const GVal
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
   if (id == spidar::kPropTsOffset) self->engine->set_offset(offset_ns);
   if (id == spidar::kPropMute) self->engine->set_muted(muted);
+  if (id == spidar::kPropDebugWindow) follow_debug_window(self);
   if (id == spidar::kPropOverlay) {
     gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !overlay);
   }
@@ -378,7 +414,7 @@ static void gst_spidar_motion_finalize(GObject* object) {
 static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
-  self->display = new MotionDisplay;
+  self->display = new MotionDisplay(GST_ELEMENT(self));
   // Frames are looked at and passed on. GstVideoFilter would drop late ones before that: here it is
   // the application's choice.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);
@@ -395,6 +431,11 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   object_class->get_property = gst_spidar_motion_get_property;
   object_class->finalize = gst_spidar_motion_finalize;
   spidar::install_motion_properties(object_class);
+  // gboolean save-window(const gchar *path): what the debug window shows, as a PNG file.
+  g_signal_new_class_handler("save-window", GST_TYPE_SPIDAR_MOTION,
+                             static_cast<GSignalFlags>(G_SIGNAL_RUN_LAST | G_SIGNAL_ACTION),
+                             G_CALLBACK(gst_spidar_motion_save_window), nullptr, nullptr, nullptr,
+                             G_TYPE_BOOLEAN, 1, G_TYPE_STRING);
 
   gst_element_class_set_static_metadata(
       element_class, "SPIDAR motion", "Filter/Analyzer/Video/Hardware",
