@@ -160,8 +160,9 @@ bool WindowThread::create(Window::Entry& entry) {
     entry.window = std::make_unique<DebugWindow>(entry.source, entry.feed);
     return true;
   } catch (const std::exception& e) {
-    entry.source->complain(std::string("The debug window cannot be opened: ") + e.what() + ".",
-                           "It needs OpenGL 3.3.");
+    entry.source->complain(
+        std::string("The debug window cannot be opened with OpenGL 3.3: ") + e.what() + ".",
+        "Is there a driver for it, or Mesa's software renderer (libgl1-mesa-dri)?");
     return false;
   }
 }
