@@ -29,6 +29,12 @@ void install_display_properties(GObjectClass* c) {
                            "Show picture, tracks, grip, tensions and settings in a window of its "
                            "own, from READY on; false again when the user closes it",
                            defaults.debug_window, kPlaying));
+  g_object_class_install_property(
+      c, kPropAttachMeta,
+      g_param_spec_boolean("attach-meta", "Attach meta",
+                           "Attach a GstSpidarMotionMeta with motion, tracks and wrench to each "
+                           "frame; the picture is neither copied nor written to",
+                           defaults.attach_meta, kPlaying));
 }
 
 bool set_display_property(DisplayProperties& p, guint id, const GValue* value) {
@@ -41,6 +47,9 @@ bool set_display_property(DisplayProperties& p, guint id, const GValue* value) {
       return true;
     case kPropDebugWindow:
       p.debug_window = g_value_get_boolean(value);
+      return true;
+    case kPropAttachMeta:
+      p.attach_meta = g_value_get_boolean(value);
       return true;
     default:
       return false;
@@ -57,6 +66,9 @@ bool get_display_property(const DisplayProperties& p, guint id, GValue* value) {
       return true;
     case kPropDebugWindow:
       g_value_set_boolean(value, p.debug_window);
+      return true;
+    case kPropAttachMeta:
+      g_value_set_boolean(value, p.attach_meta);
       return true;
     default:
       return false;

@@ -9,12 +9,14 @@ struct DisplayProperties {
   bool overlay = false;
   double arrow_scale = 4;
   bool debug_window = false;
+  bool attach_meta = false;
 };
 
 enum DisplayPropertyId : guint {
   kPropOverlay = 100,  ///< after those of MotionProperties
   kPropArrowScale,
   kPropDebugWindow,
+  kPropAttachMeta,
 };
 
 void install_display_properties(GObjectClass* object_class);

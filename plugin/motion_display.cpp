@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "plugin/motion_meta.h"
 #include "plugin/overlay/video_overlay.h"
 #include "plugin/window/element_source.h"
 
@@ -10,7 +11,8 @@ namespace spidar {
 void MotionDisplay::show(const FrameReport& report, const DisplayProperties& properties,
                          const AnalyzerSettings& settings, GstVideoFrame& frame) {
   const std::shared_ptr<FrameFeed> window_feed = feed();
-  if (!report.analyzed || !(properties.overlay || window_feed)) {
+  const bool shown = properties.overlay || properties.attach_meta || window_feed;
+  if (!report.analyzed || !shown) {
     viewer_.reset();
     return;
   }
@@ -26,7 +28,11 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
     facts.settings = settings;
     window_feed->give(frame, facts);
   }
-  // The property may have been turned on after the frame was mapped.
+  // Both properties may have been turned on after the buffer was prepared for them.
+  if (properties.attach_meta && gst_buffer_is_writable(frame.buffer)) {
+    attach_motion_meta(frame.buffer, report, scene, GST_VIDEO_FRAME_WIDTH(&frame),
+                       GST_VIDEO_FRAME_HEIGHT(&frame));
+  }
   if (properties.overlay && (frame.map[0].flags & GST_MAP_WRITE) != 0) {
     draw_overlay(scene, visible, properties.arrow_scale, settings.controller.max_force_N, frame);
   }

@@ -15,7 +15,7 @@
 
 namespace spidar {
 
-/// One element's overlay and debug window.
+/// One element's overlay, meta and debug window.
 class MotionDisplay {
  public:
   explicit MotionDisplay(GstElement* element) : element_(element) {}
@@ -23,7 +23,7 @@ class MotionDisplay {
   // --- streaming thread
 
   /// `report` as process() just gave it of `frame`, which is mapped for writing when the overlay is
-  /// on.
+  /// on, and whose buffer is writable when metas are attached.
   void show(const FrameReport& report, const DisplayProperties& properties,
             const AnalyzerSettings& settings, GstVideoFrame& frame);
 

@@ -36,6 +36,7 @@
 
 #include "plugin/motion_display.h"
 #include "plugin/motion_engine.h"
+#include "plugin/motion_meta.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_motion_debug);
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
@@ -224,6 +225,22 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   }
   if (report.analyzed && post_messages) post_motion(self, frame->buffer, report);
   return check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
+}
+
+/// In passthrough nothing is writable. A meta is added to the buffer and not to its memory, so a
+/// copy of the buffer that shares the memory will do.
+static GstFlowReturn gst_spidar_motion_prepare_output_buffer(GstBaseTransform* trans,
+                                                             GstBuffer* input, GstBuffer** output) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_OBJECT_LOCK(self);
+  const bool attach_meta = self->properties->display.attach_meta;
+  GST_OBJECT_UNLOCK(self);
+  if (!attach_meta || !gst_base_transform_is_passthrough(trans) || gst_buffer_is_writable(input)) {
+    return GST_BASE_TRANSFORM_CLASS(gst_spidar_motion_parent_class)
+        ->prepare_output_buffer(trans, input, output);
+  }
+  *output = gst_buffer_copy(input);
+  return *output ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
 /// Whether the same moments are shown at the same pace after `b` as after `a`.
@@ -431,6 +448,7 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   object_class->get_property = gst_spidar_motion_get_property;
   object_class->finalize = gst_spidar_motion_finalize;
   spidar::install_motion_properties(object_class);
+  spidar::register_motion_meta();
   // gboolean save-window(const gchar *path): what the debug window shows, as a PNG file.
   g_signal_new_class_handler("save-window", GST_TYPE_SPIDAR_MOTION,
                              static_cast<GSignalFlags>(G_SIGNAL_RUN_LAST | G_SIGNAL_ACTION),
@@ -448,6 +466,7 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   transform_class->stop = gst_spidar_motion_stop;
   transform_class->sink_event = gst_spidar_motion_sink_event;
   transform_class->src_event = gst_spidar_motion_src_event;
+  transform_class->prepare_output_buffer = gst_spidar_motion_prepare_output_buffer;
   transform_class->before_transform = gst_spidar_motion_before_transform;
   filter_class->transform_frame_ip = gst_spidar_motion_transform_frame_ip;
 }

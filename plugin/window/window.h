@@ -36,7 +36,7 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  static constexpr std::chrono::milliseconds kPatience{500};
+  static constexpr std::chrono::milliseconds kPatience{1000};
 
   /// What the window shows once it has drawn all that it was given before this call. Nothing when
   /// there is no window or it does not answer in time.
