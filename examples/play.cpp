@@ -29,7 +29,9 @@ namespace {
 constexpr const char* kUsage =
     "usage: play [--output FOLDER] [--headless] VIDEO | URI | --ball [-- name=value ...]\n"
     "  --output FOLDER  where spidar-play.png goes; else the current folder\n"
-    "  --headless       no window, even with a display\n"
+    "  --headless       no window for the video, even with a display\n"
+    "  --window         the debug window: tracks, forces, grip, settings\n"
+    "  --window-png FILE  the same, saved as a picture after five seconds of the video\n"
     "  name=value       properties of spidarmotion: gst-inspect-1.0 spidarmotion\n"
     "  --ball           no video, but the ball of videotestsrc for ten seconds\n";
 
@@ -39,6 +41,8 @@ struct Options {
   bool help = false;
   bool ball = false;
   bool headless = false;
+  bool window = false;
+  std::string window_png;
   std::vector<std::string> assignments;
 };
 
@@ -58,6 +62,11 @@ Options parse(const std::vector<std::string>& arguments) {
       options.ball = true;
     } else if (argument == "--headless") {
       options.headless = true;
+    } else if (argument == "--window") {
+      options.window = true;
+    } else if (argument == "--window-png" && i + 1 < arguments.size()) {
+      options.window = true;
+      options.window_png = arguments[++i];
     } else if (argument == "--output" && i + 1 < arguments.size()) {
       options.output = arguments[++i];
     } else if (argument.size() > 1 && argument[0] == '-') {
@@ -105,6 +114,25 @@ std::string exchange_path(GstElement* filter, const char* property, const std::s
   return result;
 }
 
+/// Saves the debug window, once, when the video has got far enough for its plots to be full.
+class WindowPicture {
+ public:
+  WindowPicture(GstElement* filter, const std::string& path) : filter_(filter), path_(path) {}
+
+  void take_if_due(int64_t running_ns) {
+    constexpr int64_t kDue_ns = 5'000'000'000;
+    if (path_.empty() || running_ns < kDue_ns) return;
+    gboolean saved = FALSE;
+    g_signal_emit_by_name(filter_, "save-window", path_.c_str(), &saved);
+    std::printf("\n%s: %s\n", path_.c_str(), saved ? "saved" : "could not be saved");
+    path_.clear();
+  }
+
+ private:
+  GstElement* const filter_;
+  std::string path_;
+};
+
 std::string progress_line(const Now& now) {
   constexpr int kBar = 20;
   constexpr double kFullBar_N = 3.0;
@@ -122,6 +150,7 @@ std::string progress_line(const Now& now) {
 int play(const Options& options) {
   GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
   for (const std::string& assignment : options.assignments) set_property(filter, assignment);
+  if (options.window) g_object_set(filter, "debug-window", TRUE, nullptr);
   const std::string uri = options.ball ? "" : uri_of(options.video);
   std::string title = options.ball ? "videotestsrc pattern=ball" : options.video;
   if (fs::path(title).has_filename()) title = fs::path(title).filename();
@@ -147,7 +176,12 @@ int play(const Options& options) {
     record.add_shown(running_ns, monotonic_ns);
   });
 
-  const Ending ending = run_playback(pipeline, [&record] { return progress_line(record.now()); });
+  WindowPicture window_picture(filter, options.window_png);
+  const Ending ending = run_playback(pipeline, [&] {
+    const Now now = record.now();
+    window_picture.take_if_due(now.running_ns);
+    return progress_line(now);
+  });
   GstStructure* stats = nullptr;
   g_object_get(filter, "stats", &stats, nullptr);
   gst_element_set_state(pipeline, GST_STATE_NULL);

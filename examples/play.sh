@@ -4,6 +4,7 @@
 #   examples/play.sh                             a tree in the wind
 #   examples/play.sh VIDEO                       a file, or a URI such as https://...
 #   examples/play.sh VIDEO -- controller=linear max-force=2    with properties of spidarmotion
+#   examples/play.sh --window                    with the debug window
 #   examples/play.sh --ball --output FOLDER      without a video; see --help
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -61,7 +62,7 @@ while (($#)); do
         properties=("$@")
         break
         ;;
-    --output)
+    --output | --window-png)
         (($# > 1)) || needs_clip=no
         options+=("${@:1:2}")
         shift

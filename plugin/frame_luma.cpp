@@ -8,22 +8,6 @@
 namespace spidar {
 namespace {
 
-struct Rectangle {
-  int x, y, width, height;
-};
-
-/// What is shown of the frame.
-Rectangle visible(const GstVideoFrame& frame) {
-  const int width = GST_VIDEO_FRAME_WIDTH(&frame);
-  const int height = GST_VIDEO_FRAME_HEIGHT(&frame);
-  const GstVideoCropMeta* crop = gst_buffer_get_video_crop_meta(frame.buffer);
-  if (!crop) return {0, 0, width, height};
-  const int x = static_cast<int>(std::min<guint>(crop->x, static_cast<guint>(width)));
-  const int y = static_cast<int>(std::min<guint>(crop->y, static_cast<guint>(height)));
-  return {x, y, static_cast<int>(std::min<guint>(crop->width, static_cast<guint>(width - x))),
-          static_cast<int>(std::min<guint>(crop->height, static_cast<guint>(height - y)))};
-}
-
 bool is_packed(GstVideoFormat format, PackedOrder& order) {
   switch (format) {
     case GST_VIDEO_FORMAT_RGB:
@@ -46,6 +30,17 @@ bool is_packed(GstVideoFormat format, PackedOrder& order) {
 }
 
 }  // namespace
+
+VisiblePart visible_part(const GstVideoFrame& frame) {
+  const int width = GST_VIDEO_FRAME_WIDTH(&frame);
+  const int height = GST_VIDEO_FRAME_HEIGHT(&frame);
+  const GstVideoCropMeta* crop = gst_buffer_get_video_crop_meta(frame.buffer);
+  if (!crop) return {0, 0, width, height};
+  const int x = static_cast<int>(std::min<guint>(crop->x, static_cast<guint>(width)));
+  const int y = static_cast<int>(std::min<guint>(crop->y, static_cast<guint>(height)));
+  return {x, y, static_cast<int>(std::min<guint>(crop->width, static_cast<guint>(width - x))),
+          static_cast<int>(std::min<guint>(crop->height, static_cast<guint>(height - y)))};
+}
 
 ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
   // The field's own lines, and between them their mean: the picture keeps its shape.
@@ -70,7 +65,7 @@ ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
 }
 
 ImageView FrameLuma::view(const GstVideoFrame& frame) {
-  const Rectangle shown = visible(frame);
+  const VisiblePart shown = visible_part(frame);
   if (shown.width < kSmallestSide || shown.height < kSmallestSide) return {};
   const ptrdiff_t stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
   const uint8_t* data = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)) +

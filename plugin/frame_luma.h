@@ -14,6 +14,12 @@ namespace spidar {
 #define SPIDAR_VIDEO_FORMATS \
   "{ GRAY8, I420, YV12, NV12, NV21, Y42B, Y444, BGR, RGB, BGRx, RGBx, BGRA, RGBA }"
 
+/// The part of a frame that is shown, and therefore analysed: its crop meta, else all of it.
+struct VisiblePart {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+VisiblePart visible_part(const GstVideoFrame& frame);
+
 /// Reads plane 0 of planar and semi-planar formats in place, with its stride; makes luma of packed
 /// RGB; honours a crop meta; of interlaced frames it takes the first field, because the two fields
 /// are two moments.

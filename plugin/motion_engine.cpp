@@ -44,6 +44,7 @@ void MotionEngine::open(const MotionProperties& properties) {
   follower->set_latency(latency_);
   follower->set_offset(offset_ns_);
   const std::lock_guard<std::mutex> lock(session_mutex_);
+  profile_ = profile;
   session_ = std::move(session);
   follower_ = std::move(follower);
 }
@@ -87,6 +88,12 @@ void MotionEngine::set_offset(GstClockTimeDiff offset_ns) {
   if (follower_) follower_->set_offset(offset_ns);
 }
 
+void MotionEngine::set_muted(bool muted) {
+  const std::lock_guard<std::mutex> lock(mute_mutex_);
+  if (muted && !muted_) flush();
+  muted_ = muted;
+}
+
 void MotionEngine::flush() {
   const std::lock_guard<std::mutex> lock(session_mutex_);
   if (session_) session_->loop().cancel_scheduled();
@@ -117,6 +124,17 @@ std::optional<Eigen::Vector2d> MotionEngine::grip_place() const {
   return grip_pointer_.place(tick.pose.position_m);
 }
 
+bool MotionEngine::look_at_device(DeviceView& view) const {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (!session_) return false;
+  view.name = session_->device().name();
+  view.loop = session_->loop().snapshot();
+  view.geometry = profile_.geometry;
+  view.min_tension_N = profile_.min_tension_N();
+  view.max_tension_N = profile_.max_tension_N();
+  return true;
+}
+
 DeviceState MotionEngine::device_state() const {
   return session_ ? session_->loop().snapshot().last.device : DeviceState::kClosed;
 }
@@ -136,7 +154,8 @@ void MotionEngine::apply(const AnalyzerSettings& settings) {
 }
 
 void MotionEngine::schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench) {
-  if (session_) session_->loop().schedule({running_ns, hold_ns, wrench});
+  const std::lock_guard<std::mutex> lock(mute_mutex_);
+  if (session_ && !muted_) session_->loop().schedule({running_ns, hold_ns, wrench});
 }
 
 void MotionEngine::restart() {
@@ -202,7 +221,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
   report.analysis = analyzer_.analyze(luma, running_ns);
   report.analyzed = true;
-  const int64_t took_ns = HapticSession::monotonic_now_ns() - begin_ns;
+  report.took_ns = HapticSession::monotonic_now_ns() - begin_ns;
 
   last_running_ns_ = running_ns;
   if (report.analysis.interval_ns > 0) last_interval_ns_ = report.analysis.interval_ns;
@@ -211,7 +230,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.trace_failed =
         !trace_.write(running_ns, static_cast<int64_t>(report.stream_time), report.analysis);
   }
-  stats_.add(report.analysis, took_ns);
+  stats_.add(report.analysis, report.took_ns);
   return report;
 }
 

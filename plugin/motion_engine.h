@@ -10,6 +10,7 @@
 #include <gst/video/video.h>
 
 #include "core/motion_analyzer.h"
+#include "plugin/device_view.h"
 #include "plugin/frame_luma.h"
 #include "plugin/frame_trace.h"
 #include "plugin/grip_pointer.h"
@@ -35,6 +36,7 @@ struct FrameReport {
   GstClockTime running_time = GST_CLOCK_TIME_NONE;
   GstClockTime stream_time = GST_CLOCK_TIME_NONE;
   FrameAnalysis analysis;
+  int64_t took_ns = 0;        ///< the analysis
   bool trace_failed = false;  ///< the trace could not be written and was closed
 };
 
@@ -63,6 +65,8 @@ class MotionEngine {
 
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
+  /// The force ramps to rest at once and stays there until frames come after set_muted(false).
+  void set_muted(bool muted);
   /// What was scheduled is forgotten at once.
   void flush();
   /// The pipeline will distribute a new base time: nothing is on the screen until then.
@@ -70,6 +74,8 @@ class MotionEngine {
   /// Looks at the pipeline's clock now; a thread does that by itself.
   void refresh_clock();
   GstStructure* stats() const;
+  /// False with device=none or while closed.
+  bool look_at_device(DeviceView& view) const;
   /// Null with device=none or while closed.
   HapticSession* session() const { return session_.get(); }
 
@@ -102,9 +108,12 @@ class MotionEngine {
 
   mutable std::mutex session_mutex_;  // state changes against stats()
   std::unique_ptr<HapticSession> session_;
+  Profile profile_;  // of the session
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;
+  std::mutex mute_mutex_;  // nothing is scheduled between muting and forgetting
+  bool muted_ = false;
 
   // Streaming thread.
   GripPointer grip_pointer_;

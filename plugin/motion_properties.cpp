@@ -94,6 +94,12 @@ void install_motion_properties(GObjectClass* c) {
                               "Write forces, string tensions and pose to this file, CSV with a row "
                               "a millisecond; opened from NULL to READY",
                               nullptr, kReady));
+  install(kPropMute, g_param_spec_boolean(
+                         "mute", "Mute",
+                         "Hold the force at rest: it ramps there at once, and comes back with "
+                         "the next frame after this is turned off",
+                         defaults.mute, kControllable));
+  install_display_properties(c);
   install(kPropStats,
           g_param_spec_boxed("stats", "Statistics",
                              "Frames, analysis time, state and timing of the haptic loop",
@@ -135,8 +141,11 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
     case kPropHapticTrace:
       p.haptic_trace = string_of(value);
       return true;
+    case kPropMute:
+      p.mute = g_value_get_boolean(value);
+      return true;
     default:
-      return set_feel_property(p, id, value);
+      return set_feel_property(p, id, value) || set_display_property(p.display, id, value);
   }
 }
 
@@ -173,8 +182,11 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
     case kPropHapticTrace:
       g_value_set_string(value, or_null(p.haptic_trace));
       return true;
+    case kPropMute:
+      g_value_set_boolean(value, p.mute);
+      return true;
     default:
-      return get_feel_property(p, id, value);
+      return get_feel_property(p, id, value) || get_display_property(p.display, id, value);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gst/gst.h>
 
 #include "core/motion_analyzer.h"
+#include "plugin/display_properties.h"
 
 namespace spidar {
 
@@ -23,6 +24,8 @@ struct MotionProperties {
   bool post_messages = true;
   std::string trace;
   std::string haptic_trace;
+  bool mute = false;
+  DisplayProperties display;
 
   MotionProperties();
 };
@@ -50,6 +53,7 @@ enum PropertyId : guint {
   kPropTrace,
   kPropHapticTrace,
   kPropStats,
+  kPropMute,
 };
 
 /// Registers all of them, `stats` included.

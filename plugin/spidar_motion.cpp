@@ -38,7 +38,9 @@
 #include <new>
 #include <string>
 
+#include "plugin/motion_display.h"
 #include "plugin/motion_engine.h"
+#include "plugin/motion_meta.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_motion_debug);
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
@@ -46,6 +48,7 @@ GST_DEBUG_CATEGORY_STATIC(gst_spidar_motion_debug);
 using spidar::DeviceState;
 using spidar::FrameProblem;
 using spidar::FrameReport;
+using spidar::MotionDisplay;
 using spidar::MotionEngine;
 using spidar::MotionProperties;
 using spidar::OnDeviceError;
@@ -55,7 +58,9 @@ struct _GstSpidarMotion {
   GstVideoFilter parent;
 
   MotionProperties* properties;  // object lock
+  gboolean opened;               // object lock: READY or above
   MotionEngine* engine;
+  MotionDisplay* display;
 
   // Streaming thread: what was already complained about in this stream.
   guint warned;
@@ -77,6 +82,10 @@ G_DEFINE_TYPE_WITH_CODE(GstSpidarMotion, gst_spidar_motion, GST_TYPE_VIDEO_FILTE
                         GST_DEBUG_CATEGORY_INIT(gst_spidar_motion_debug, "spidarmotion", 0,
                                                 "motion of a video to a SPIDAR"))
 GST_ELEMENT_REGISTER_DEFINE(spidarmotion, "spidarmotion", GST_RANK_NONE, GST_TYPE_SPIDAR_MOTION)
+
+spidar::MotionDisplay& gst_spidar_motion_display(GstSpidarMotion* self) {
+  return *self->display;
+}
 
 MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self) {
   return *self->engine;
@@ -199,11 +208,13 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
   spidar::AnalyzerSettings settings;
   PointerKind pointer;
+  spidar::DisplayProperties display;
   bool post_messages;
   OnDeviceError on_device_error;
   GST_OBJECT_LOCK(self);
   settings = self->properties->analyzer;
   pointer = self->properties->pointer;
+  display = self->properties->display;
   post_messages = self->properties->post_messages;
   on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
@@ -214,6 +225,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   FrameReport report;
   const bool processed = guarded(self, "analysing a frame", [&] {
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings);
+    self->display->show(report, display, settings, *frame);
   });
   if (!processed) return GST_FLOW_ERROR;
   warn_of_frame(self, report.problem);
@@ -223,6 +235,22 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   }
   if (report.analyzed && post_messages) post_motion(self, frame->buffer, report);
   return check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
+}
+
+/// In passthrough nothing is writable. A meta is added to the buffer and not to its memory, so a
+/// copy of the buffer that shares the memory will do.
+static GstFlowReturn gst_spidar_motion_prepare_output_buffer(GstBaseTransform* trans,
+                                                             GstBuffer* input, GstBuffer** output) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_OBJECT_LOCK(self);
+  const bool attach_meta = self->properties->display.attach_meta;
+  GST_OBJECT_UNLOCK(self);
+  if (!attach_meta || !gst_base_transform_is_passthrough(trans) || gst_buffer_is_writable(input)) {
+    return GST_BASE_TRANSFORM_CLASS(gst_spidar_motion_parent_class)
+        ->prepare_output_buffer(trans, input, output);
+  }
+  *output = gst_buffer_copy(input);
+  return *output ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
 /// Whether the same moments are shown at the same pace after `b` as after `a`.
@@ -307,6 +335,34 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   return TRUE;
 }
 
+// --- debug window ------------------------------------------------------------------------------
+
+/// Open while the element is and the property says so.
+static void follow_debug_window(GstSpidarMotion* self) {
+  GST_OBJECT_LOCK(self);
+  const bool wanted = self->opened && self->properties->display.debug_window;
+  GST_OBJECT_UNLOCK(self);
+  if (wanted) {
+    self->display->open_window();
+  } else {
+    self->display->close_window();
+  }
+}
+
+static void set_opened(GstSpidarMotion* self, bool opened) {
+  GST_OBJECT_LOCK(self);
+  self->opened = opened;
+  GST_OBJECT_UNLOCK(self);
+  follow_debug_window(self);
+}
+
+static gboolean gst_spidar_motion_save_window(GstSpidarMotion* self, const char* path) {
+  const std::string problem = path ? self->display->save_window(path) : "no file is named";
+  if (problem.empty()) return TRUE;
+  GST_WARNING_OBJECT(self, "cannot save the debug window as %s: %s", path, problem.c_str());
+  return FALSE;
+}
+
 // --- states ------------------------------------------------------------------------------------
 
 static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
@@ -319,6 +375,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     GST_OBJECT_UNLOCK(self);
     const bool opened = guarded(self, "opening the device", [&] { engine.open(properties); });
     if (!opened) return GST_STATE_CHANGE_FAILURE;
+    set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
     engine.set_playing(false);
   }
@@ -332,6 +389,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
       break;
     case GST_STATE_CHANGE_READY_TO_NULL:
       engine.close();
+      set_opened(self, false);
       break;
     default:
       break;
@@ -347,9 +405,16 @@ static void gst_spidar_motion_set_property(GObject* object, guint id, const GVal
   GST_OBJECT_LOCK(self);
   const bool known = set_motion_property(*self->properties, id, value);
   const GstClockTimeDiff offset_ns = self->properties->ts_offset_ns;
+  const bool muted = self->properties->mute;
+  const bool overlay = self->properties->display.overlay;
   GST_OBJECT_UNLOCK(self);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
   if (id == spidar::kPropTsOffset) self->engine->set_offset(offset_ns);
+  if (id == spidar::kPropMute) self->engine->set_muted(muted);
+  if (id == spidar::kPropDebugWindow) follow_debug_window(self);
+  if (id == spidar::kPropOverlay) {
+    gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !overlay);
+  }
 }
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
@@ -367,6 +432,7 @@ static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* va
 
 static void gst_spidar_motion_finalize(GObject* object) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  delete self->display;
   delete self->engine;
   delete self->properties;
   G_OBJECT_CLASS(gst_spidar_motion_parent_class)->finalize(object);
@@ -375,6 +441,7 @@ static void gst_spidar_motion_finalize(GObject* object) {
 static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
+  self->display = new MotionDisplay(GST_ELEMENT(self));
   // Frames are looked at and passed on. GstVideoFilter would drop late ones before that: here it is
   // the application's choice.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);
@@ -391,6 +458,12 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   object_class->get_property = gst_spidar_motion_get_property;
   object_class->finalize = gst_spidar_motion_finalize;
   spidar::install_motion_properties(object_class);
+  spidar::register_motion_meta();
+  // gboolean save-window(const gchar *path): what the debug window shows, as a PNG file.
+  g_signal_new_class_handler("save-window", GST_TYPE_SPIDAR_MOTION,
+                             static_cast<GSignalFlags>(G_SIGNAL_RUN_LAST | G_SIGNAL_ACTION),
+                             G_CALLBACK(gst_spidar_motion_save_window), nullptr, nullptr, nullptr,
+                             G_TYPE_BOOLEAN, 1, G_TYPE_STRING);
 
   gst_element_class_set_static_metadata(
       element_class, "SPIDAR motion", "Filter/Analyzer/Video/Hardware",
@@ -403,6 +476,7 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   transform_class->stop = gst_spidar_motion_stop;
   transform_class->sink_event = gst_spidar_motion_sink_event;
   transform_class->src_event = gst_spidar_motion_src_event;
+  transform_class->prepare_output_buffer = gst_spidar_motion_prepare_output_buffer;
   transform_class->before_transform = gst_spidar_motion_before_transform;
   filter_class->transform_frame_ip = gst_spidar_motion_transform_frame_ip;
 }

@@ -14,8 +14,10 @@ GST_ELEMENT_REGISTER_DECLARE(spidarmotion)
 G_END_DECLS
 
 namespace spidar {
+class MotionDisplay;
 class MotionEngine;
-}
+}  // namespace spidar
 
-/// For tests that step the element by hand.
+/// For the debug window, and for tests that step the element by hand.
+spidar::MotionDisplay& gst_spidar_motion_display(GstSpidarMotion* self);
 spidar::MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self);

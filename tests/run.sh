@@ -52,11 +52,11 @@ check_layout() {
 
 case ${1-} in
 "")
-    install_packages build
+    install_packages build test
     build_and_test build
     ;;
 --ci)
-    install_packages build ci
+    install_packages build test ci
     check_layout
     build_and_test build-ci --werror
     # Line numbers without variables and the lowest optimisation: the compiler needs a third of the

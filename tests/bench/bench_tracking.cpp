@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -92,8 +93,8 @@ class Benchmark {
   }
 
  private:
-  std::vector<Runner> runners() const {
-    std::vector<Runner> all;
+  std::deque<Runner> runners() const {
+    std::deque<Runner> all;
     for (const Pipeline& pipeline : pipelines_) all.emplace_back(pipeline);
     return all;
   }
@@ -109,7 +110,7 @@ class Benchmark {
       if (each->group == group)
         scores.emplace_back(each->name, std::vector<Score>(pipelines_.size()));
     }
-    std::vector<Runner> all = runners();
+    std::deque<Runner> all = runners();
     const int scenes =
         group == CaseGroup::kUsual ? options_.scenes : std::max(options_.scenes, kHardScenes);
     for (int scene = 1; scene <= scenes; ++scene) {
@@ -132,7 +133,7 @@ class Benchmark {
   }
 
   void run_pairs() {
-    std::vector<Runner> all = runners();
+    std::deque<Runner> all = runners();
     std::vector<Score> scores(all.size());
     for (const FlowPair& pair : pairs_) {
       for (size_t k = 0; k < all.size(); ++k) all[k].run(pair, scores[k]);

@@ -1,4 +1,5 @@
 // The device while the video plays: it may fail, it may come back, and it is always put to rest.
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -142,6 +143,41 @@ TEST_F(DeviceTest, MaxForceHoldsAtOnceWhilePlaying) {
   g_object_set(h->element(), "max-force", 0.5, nullptr);
   push_next();
   EXPECT_LE(h->motions().back().wrench.force_N.norm(), 0.5);
+}
+
+TEST_F(DeviceTest, MuteRampsToRestAndHoldsIt) {
+  open("device=sim");
+  tick(300);  // energised and located
+  // Frames are shown from here on: frame n at 40 n ms of running time.
+  PlaybackClock clock;
+  clock.playing = true;
+  clock.monotonic_ns = time_ns;
+  loop().set_playback_clock(clock);
+  const auto force_N = [&] { return loop().snapshot().last.commanded.force_N.norm(); };
+  const auto play_frame = [&] {
+    push_next();
+    tick(40);
+  };
+  for (int n = 0; n < 5; ++n) play_frame();
+  EXPECT_GT(force_N(), 0.5) << "50 px/s by eq. 15: 0.89 N";
+
+  g_object_set(h->element(), "mute", TRUE, nullptr);
+  double before_N = force_N();
+  // Not a step: a stale command falls by at most max-force / ramp_s, 3 N / 40 ms, and is gone then.
+  push_next();
+  for (int ms = 0; ms < 40; ++ms) {
+    tick();
+    EXPECT_LE(std::abs(force_N() - before_N), 3.0 / 40 + 1e-9) << ms;
+    before_N = force_N();
+  }
+  EXPECT_NEAR(force_N(), 0, 1e-9);
+  for (int n = 0; n < 3; ++n) play_frame();
+  EXPECT_EQ(force_N(), 0) << "frames go on, forces do not";
+  EXPECT_GT(loop().snapshot().last.tension_N.minCoeff(), 0) << "strings stay taut";
+
+  g_object_set(h->element(), "mute", FALSE, nullptr);
+  for (int n = 0; n < 4; ++n) play_frame();
+  EXPECT_GT(force_N(), 0.5);
 }
 
 TEST_F(DeviceTest, IsAtRestWhenTheElementIsClosed) {

@@ -52,6 +52,7 @@ ElementHarness::ElementHarness(const std::string& properties, PlaybackSync::Now 
 
 ElementHarness::~ElementHarness() {
   gst_harness_teardown(harness_);
+  gst_bus_set_flushing(bus_, TRUE);  // its messages hold the element, which holds the bus
   gst_object_unref(bus_);
 }
 

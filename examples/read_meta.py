@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""Prints what spidarmotion attaches to each frame of FILE, or of the ball of videotestsrc.
+
+Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in README.md.
+"""
+import sys
+
+import gi
+
+gi.require_version("Gst", "1.0")
+from gi.repository import Gst  # noqa: E402
+
+
+def read(_pad, info):
+    meta = info.get_buffer().get_custom_meta("GstSpidarMotionMeta")
+    if meta is not None:
+        get = meta.get_structure().get_value
+        tracks = get("tracks").unpack()  # [(id, from x, from y, to x, to y, object), ...]
+        print(f"{get('running-time') / Gst.SECOND:7.3f} s  "
+              f"velocity {get('velocity-x'):7.1f} {get('velocity-y'):7.1f} px/s  "
+              f"force {get('force-x'):6.2f} {get('force-y'):6.2f} N  {len(tracks)} tracks")
+    return Gst.PadProbeReturn.OK
+
+
+Gst.init(None)
+source = f'filesrc location="{sys.argv[1]}" ! decodebin' if sys.argv[1:] else \
+    "videotestsrc pattern=ball num-buffers=30"
+pipeline = Gst.parse_launch(f"{source} ! videoconvert ! spidarmotion device=none attach-meta=true "
+                            "! videoconvert ! fakesink name=sink")
+pipeline.get_by_name("sink").get_static_pad("sink").add_probe(Gst.PadProbeType.BUFFER, read)
+pipeline.set_state(Gst.State.PLAYING)
+message = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE,
+                                          Gst.MessageType.EOS | Gst.MessageType.ERROR)
+pipeline.set_state(Gst.State.NULL)
+sys.exit(message.parse_error().gerror.message if message.type == Gst.MessageType.ERROR else 0)

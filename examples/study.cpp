@@ -1,0 +1,187 @@
+/// The paper's experiment with people: which controller feels better, and what haptics add.
+
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gst/gst.h>
+
+#include "examples/play/pipeline.h"
+#include "examples/play/playback.h"
+#include "examples/play/properties.h"
+#include "examples/study/analysis.h"
+#include "examples/study/answers.h"
+#include "examples/study/schedule.h"
+#include "examples/study/terminal.h"
+
+namespace {
+
+using namespace study;
+
+constexpr const char* kUsage =
+    "usage: study run ANSWERS.csv PARTICIPANT CLIP... [option...] [-- name=value ...]\n"
+    "       study report ANSWERS.csv\n"
+    "  run     plays clips and asks; goes on where this participant stopped\n"
+    "  report  percentages, means, and a sign test of all answers\n"
+    "  --seed N              another random order of clips; the same for all of a study\n"
+    "  --question NAME=TEXT  one more question after each clip, on the same five steps\n"
+    "  --headless            no window for the video\n"
+    "  name=value            properties of spidarmotion, the same for all clips\n";
+
+struct Options {
+  std::string answers;
+  std::string participant;
+  std::vector<std::string> clips;
+  std::vector<Question> questions;
+  std::vector<std::string> assignments;
+  uint32_t seed = 1;
+  bool headless = false;
+};
+
+Question question_of(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals + 1 == text.size()) {
+    throw std::invalid_argument("--question " + text + " is not NAME=TEXT");
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+uint32_t seed_of(const std::string& text) {
+  char* end = nullptr;
+  const unsigned long value = std::strtoul(text.c_str(), &end, 10);
+  if (text.empty() || *end || value > UINT32_MAX) {
+    throw std::invalid_argument("--seed " + text + " is not a whole number");
+  }
+  return static_cast<uint32_t>(value);
+}
+
+/// Throws std::invalid_argument.
+Options parse(const std::vector<std::string>& arguments) {
+  Options options;
+  std::vector<std::string> names;
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (argument == "--") {
+      options.assignments.assign(arguments.begin() + static_cast<ptrdiff_t>(i) + 1,
+                                 arguments.end());
+      break;
+    }
+    if (argument == "--headless") {
+      options.headless = true;
+    } else if (argument == "--seed" && i + 1 < arguments.size()) {
+      options.seed = seed_of(arguments[++i]);
+    } else if (argument == "--question" && i + 1 < arguments.size()) {
+      options.questions.push_back(question_of(arguments[++i]));
+    } else if (argument.size() > 1 && argument[0] == '-') {
+      throw std::invalid_argument("unknown or incomplete option " + argument + "\n" + kUsage);
+    } else {
+      names.push_back(argument);
+    }
+  }
+  if (names.size() < 3) throw std::invalid_argument(kUsage);
+  options.answers = names[0];
+  options.participant = names[1];
+  options.clips.assign(names.begin() + 2, names.end());
+  return options;
+}
+
+std::string utc_now() {
+  char text[32];
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+Ending play(const Trial& trial, const Options& options) {
+  GstElement* const filter = make_filter();
+  gst_object_ref_sink(filter);
+  for (const std::string& assignment : options.assignments) set_property(filter, assignment);
+  set_property(
+      filter, trial.condition == Condition::kLinear ? "controller=linear" : "controller=nonlinear");
+  if (trial.condition == Condition::kWithout) set_property(filter, "mute=true");
+  const Screen screen = open_screen(options.headless);
+  GstElement* const pipeline = make_player(uri_of(trial.clip), filter, screen);
+  const Ending ending = run_playback(pipeline, [&] { return "clip " + trial.code; });
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(pipeline);
+  gst_object_unref(filter);
+  return ending;
+}
+
+/// False when the participant stops here.
+bool run_trial(const Trial& trial, const std::vector<Question>& open, const Options& options) {
+  if (!wait_for_return(std::cin, std::cout)) return false;
+  const Ending ending = play(trial, options);
+  if (ending == Ending::kFailed) throw std::runtime_error(trial.clip + " could not be played");
+  if (ending == Ending::kInterrupted) return false;
+  for (const Question& question : open) {
+    const int step = ask(question, std::cin, std::cout);
+    if (step == 0) return false;
+    append_answer(options.answers, {options.participant, trial, question.name, step, utc_now()});
+  }
+  return true;
+}
+
+int run(const Options& options) {
+  check_name(options.participant);
+  for (const std::string& clip : options.clips) {
+    check_name(clip);
+    uri_of(clip);  // all are there before the first is shown
+  }
+  for (const Question& question : options.questions) check_name(question.name);
+  const std::vector<Answer> answers = read_answers(options.answers);
+  const std::vector<Trial> trials =
+      schedule(options.clips, index_of(answers, options.participant), options.seed);
+  check_same_trials(answers, options.participant, trials);
+  for (const Trial& trial : trials) {
+    std::vector<Question> open;
+    std::vector<Question> all = questions(trial.part);
+    all.insert(all.end(), options.questions.begin(), options.questions.end());
+    for (const Question& question : all) {
+      if (!is_answered(answers, options.participant, trial, question.name)) {
+        open.push_back(question);
+      }
+    }
+    if (open.empty()) continue;
+    std::printf("\nclip %d of %zu, code %s\n", trial.number, trials.size(), trial.code.c_str());
+    if (!run_trial(trial, open, options)) {
+      std::printf("\nstopped; the same command goes on here\n");
+      return 0;
+    }
+  }
+  std::printf("\nthat was all; thank you\n");
+  return 0;
+}
+
+int report_file(const std::string& path) {
+  const std::vector<Answer> answers = read_answers(path);
+  if (answers.empty()) throw std::runtime_error(path + ": there are no answers in it");
+  std::fputs(report(answers).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  try {
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (arguments.size() == 2 && arguments[0] == "report") return report_file(arguments[1]);
+    if (arguments.empty() || arguments[0] != "run") throw std::invalid_argument(kUsage);
+    const Options options = parse({arguments.begin() + 1, arguments.end()});
+    gst_init(nullptr, nullptr);
+    return run(options);
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,19 @@
+/// What can be seen of an open device from outside the haptic loop.
+#pragma once
+
+#include <string>
+
+#include "core/grip/string_geometry.h"
+#include "spidar/tick_record.h"
+
+namespace spidar {
+
+struct DeviceView {
+  std::string name;
+  LoopSnapshot loop;
+  StringGeometry geometry;
+  StringVector min_tension_N = StringVector::Zero();
+  StringVector max_tension_N = StringVector::Zero();
+};
+
+}  // namespace spidar

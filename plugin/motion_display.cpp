@@ -1,0 +1,77 @@
+#include "plugin/motion_display.h"
+
+#include <utility>
+
+#include "plugin/motion_meta.h"
+#include "plugin/overlay/video_overlay.h"
+#include "plugin/window/element_source.h"
+
+namespace spidar {
+
+void MotionDisplay::show(const FrameReport& report, const DisplayProperties& properties,
+                         const AnalyzerSettings& settings, GstVideoFrame& frame) {
+  const std::shared_ptr<FrameFeed> window_feed = feed();
+  const bool shown = properties.overlay || properties.attach_meta || window_feed;
+  if (!report.analyzed || !shown) {
+    viewer_.reset();
+    return;
+  }
+  const VisiblePart visible = visible_part(frame);
+  const SceneView& scene = viewer_.see(report.analysis, visible);
+  // Before the overlay, whose arrows would be seen twice.
+  if (window_feed && window_feed->wanted()) {
+    FrameFacts facts;
+    facts.running_ns = static_cast<int64_t>(report.running_time);
+    facts.analysis_ms = 1e-6 * static_cast<double>(report.took_ns);
+    facts.visible = visible;
+    facts.scene = scene;
+    facts.settings = settings;
+    window_feed->give(frame, facts);
+  }
+  // Both properties may have been turned on after the buffer was prepared for them.
+  if (properties.attach_meta && gst_buffer_is_writable(frame.buffer)) {
+    attach_motion_meta(frame.buffer, report, scene, GST_VIDEO_FRAME_WIDTH(&frame),
+                       GST_VIDEO_FRAME_HEIGHT(&frame));
+  }
+  if (properties.overlay && (frame.map[0].flags & GST_MAP_WRITE) != 0) {
+    draw_overlay(scene, visible, properties.arrow_scale, settings.controller.max_force_N, frame);
+  }
+}
+
+std::shared_ptr<FrameFeed> MotionDisplay::feed() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return feed_;
+}
+
+std::shared_ptr<Window> MotionDisplay::window() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return window_;
+}
+
+void MotionDisplay::open_window() {
+  if (window()) return;
+  auto new_feed = std::make_shared<FrameFeed>();
+  auto new_window = std::make_shared<Window>(make_element_source(element_), new_feed);
+  // A second caller's window, if there is one, closes when it leaves here.
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (window_) return;
+  window_ = std::move(new_window);
+  feed_ = std::move(new_feed);
+}
+
+void MotionDisplay::close_window() {
+  std::shared_ptr<Window> closing;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  closing.swap(window_);
+  feed_.reset();
+}
+
+std::string MotionDisplay::save_window(const std::string& path) {
+  constexpr std::chrono::seconds kTimeout{5};
+  const std::shared_ptr<Window> shown = window();
+  if (!shown) return "there is no debug window";
+  const std::optional<Screenshot> shot = shown->screenshot(kTimeout);
+  return shot ? write_png(*shot, path) : "the debug window does not answer";
+}
+
+}  // namespace spidar

@@ -1,0 +1,51 @@
+/// Where a frame's motion and force are shown besides being felt.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <gst/video/video.h>
+
+#include "plugin/display_properties.h"
+#include "plugin/motion_engine.h"
+#include "plugin/overlay/scene_view.h"
+#include "plugin/window/window.h"
+
+namespace spidar {
+
+/// One element's overlay, meta and debug window.
+class MotionDisplay {
+ public:
+  explicit MotionDisplay(GstElement* element) : element_(element) {}
+
+  // --- streaming thread
+
+  /// `report` as process() just gave it of `frame`, which is mapped for writing when the overlay is
+  /// on, and whose buffer is writable when metas are attached.
+  void show(const FrameReport& report, const DisplayProperties& properties,
+            const AnalyzerSettings& settings, GstVideoFrame& frame);
+
+  // --- any thread
+
+  void open_window();
+  /// Returns when it is gone, or after Window::kPatience.
+  void close_window();
+  /// Tests, and save_window(): null while there is none.
+  std::shared_ptr<Window> window() const;
+  /// Writes what the window shows to a PNG file. Empty, or why that cannot be done.
+  std::string save_window(const std::string& path);
+
+ private:
+  std::shared_ptr<FrameFeed> feed() const;
+
+  GstElement* const element_;
+  SceneViewer viewer_;  // streaming thread
+
+  mutable std::mutex mutex_;  // never held while a window opens or closes
+  std::shared_ptr<Window> window_;
+  std::shared_ptr<FrameFeed> feed_;  // null while there is no window
+};
+
+}  // namespace spidar

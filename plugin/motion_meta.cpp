@@ -1,0 +1,134 @@
+#include "plugin/motion_meta.h"
+
+#include "plugin/gstspidarmotionmeta.h"
+
+namespace spidar {
+namespace {
+
+GstStructure* add_meta(GstBuffer* buffer) {
+  GstCustomMeta* meta = gst_buffer_add_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
+  return gst_custom_meta_get_structure(meta);
+}
+
+void set_tracks(GstStructure* structure, const std::vector<GstSpidarMotionTrack>& tracks) {
+  GVariantBuilder builder;
+  g_variant_builder_init(&builder, G_VARIANT_TYPE(GST_SPIDAR_MOTION_TRACKS_TYPE));
+  for (const GstSpidarMotionTrack& track : tracks) {
+    g_variant_builder_add(&builder, "(uddddu)", track.id, track.from_x, track.from_y, track.to_x,
+                          track.to_y, track.object);
+  }
+  gst_structure_set(structure, "tracks", G_TYPE_VARIANT, g_variant_builder_end(&builder), nullptr);
+}
+
+void set_values(GstStructure* structure, const GstSpidarMotion& m) {
+  gst_structure_set(structure, "width", G_TYPE_UINT, m.width, "height", G_TYPE_UINT, m.height,
+                    "running-time", G_TYPE_UINT64, m.running_time, "interval", G_TYPE_UINT64,
+                    m.interval, "velocity-x", G_TYPE_DOUBLE, m.velocity_x, "velocity-y",
+                    G_TYPE_DOUBLE, m.velocity_y, "growth", G_TYPE_DOUBLE, m.growth, "roll",
+                    G_TYPE_DOUBLE, m.roll, "force-x", G_TYPE_DOUBLE, m.force_x, "force-y",
+                    G_TYPE_DOUBLE, m.force_y, "force-z", G_TYPE_DOUBLE, m.force_z, "torque-x",
+                    G_TYPE_DOUBLE, m.torque_x, "torque-y", G_TYPE_DOUBLE, m.torque_y, "torque-z",
+                    G_TYPE_DOUBLE, m.torque_z, nullptr);
+}
+
+/// The meta of `from` on `to`, whose pixels are `scale_x` × `scale_y` times as many.
+bool copy_scaled(GstBuffer* to, GstBuffer* from, double scale_x, double scale_y, guint width,
+                 guint height) {
+  GstSpidarMotion motion;
+  GArray* tracks = gst_buffer_get_spidar_tracks(from);
+  if (!tracks || !gst_buffer_get_spidar_motion(from, &motion)) {
+    g_clear_pointer(&tracks, g_array_unref);
+    return false;
+  }
+  motion.width = width;
+  motion.height = height;
+  motion.velocity_x *= scale_x;
+  motion.velocity_y *= scale_y;
+  std::vector<GstSpidarMotionTrack> scaled;
+  for (guint i = 0; i < tracks->len; ++i) {
+    GstSpidarMotionTrack track = g_array_index(tracks, GstSpidarMotionTrack, i);
+    // The corner of the picture stays where it is, which is at (−½, −½).
+    for (gdouble* x : {&track.from_x, &track.to_x}) *x = (*x + 0.5) * scale_x - 0.5;
+    for (gdouble* y : {&track.from_y, &track.to_y}) *y = (*y + 0.5) * scale_y - 0.5;
+    scaled.push_back(track);
+  }
+  g_array_unref(tracks);
+  GstStructure* structure = add_meta(to);
+  set_values(structure, motion);
+  set_tracks(structure, scaled);
+  return true;
+}
+
+gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer* from, GQuark type, gpointer data,
+                   gpointer) {
+  GstStructure* given = gst_custom_meta_get_structure(meta);
+  if (GST_META_TRANSFORM_IS_COPY(type)) {
+    const auto* copy = static_cast<const GstMetaTransformCopy*>(data);
+    if (copy->region) return FALSE;  // a part of the bytes is no picture
+    gst_structure_foreach(
+        given,
+        [](GQuark field, const GValue* value, gpointer target) -> gboolean {
+          gst_structure_id_set_value(static_cast<GstStructure*>(target), field, value);
+          return TRUE;
+        },
+        add_meta(to));
+    return TRUE;
+  }
+  if (GST_VIDEO_META_TRANSFORM_IS_SCALE(type)) {
+    const auto* scale = static_cast<const GstVideoMetaTransform*>(data);
+    const GstVideoInfo &in = *scale->in_info, &out = *scale->out_info;
+    return copy_scaled(
+        to, from, static_cast<double>(GST_VIDEO_INFO_WIDTH(&out)) / GST_VIDEO_INFO_WIDTH(&in),
+        static_cast<double>(GST_VIDEO_INFO_HEIGHT(&out)) / GST_VIDEO_INFO_HEIGHT(&in),
+        static_cast<guint>(GST_VIDEO_INFO_WIDTH(&out)),
+        static_cast<guint>(GST_VIDEO_INFO_HEIGHT(&out)));
+  }
+  return FALSE;
+}
+
+}  // namespace
+
+void register_motion_meta() {
+  static const bool registered = [] {
+    // What the values depend on: elements that change one of these ask transform(), or drop it.
+    const gchar* tags[] = {GST_META_TAG_VIDEO_STR, GST_META_TAG_VIDEO_SIZE_STR,
+                           GST_META_TAG_VIDEO_ORIENTATION_STR, nullptr};
+    return gst_meta_register_custom(GST_SPIDAR_MOTION_META_NAME, tags, transform, nullptr,
+                                    nullptr) != nullptr;
+  }();
+  (void)registered;
+}
+
+void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
+                        int width, int height) {
+  GstCustomMeta* before = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
+  if (before) gst_buffer_remove_meta(buffer, reinterpret_cast<GstMeta*>(before));
+  const ImageMotion& felt = scene.motion;
+  const Eigen::Vector3d &force = scene.wrench.force_N, &torque = scene.wrench.torque_Nm;
+  GstSpidarMotion motion{};
+  motion.width = static_cast<guint>(width);
+  motion.height = static_cast<guint>(height);
+  motion.running_time = report.running_time;
+  motion.interval = static_cast<guint64>(report.analysis.interval_ns);
+  motion.velocity_x = felt.velocity_px_s.x();
+  motion.velocity_y = felt.velocity_px_s.y();
+  motion.growth = felt.growth_1_s;
+  motion.roll = felt.roll_rad_s;
+  motion.force_x = force.x();
+  motion.force_y = force.y();
+  motion.force_z = force.z();
+  motion.torque_x = torque.x();
+  motion.torque_y = torque.y();
+  motion.torque_z = torque.z();
+  std::vector<GstSpidarMotionTrack> tracks;
+  tracks.reserve(scene.tracks.size());
+  for (const SceneTrack& track : scene.tracks) {
+    tracks.push_back(
+        {track.id, track.from.x_px, track.from.y_px, track.to.x_px, track.to.y_px, track.object});
+  }
+  GstStructure* structure = add_meta(buffer);
+  set_values(structure, motion);
+  set_tracks(structure, tracks);
+}
+
+}  // namespace spidar

@@ -1,0 +1,97 @@
+#include "plugin/overlay/arrow.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+/// Shorter arrows are squares.
+constexpr double kShortest_px = 1.0;
+/// Head: this share of a short arrow, this many shaft widths of a long one.
+constexpr double kHeadShare = 0.5;
+constexpr double kHeadWidths = 4.0;
+
+constexpr double kThin_px = 1.5, kBold_px = 2.5, kFelt_px = 6;  // in a picture 480 lines high
+constexpr double kPale = 0.45;
+constexpr double kFeltLength = 0.2;
+
+/// Narrower than this a shaft has gaps, for a pixel is drawn when its centre is inside.
+constexpr double kNarrowest_px = 1.5;
+
+double width_px(double at_480, const ArrowStyle& style) {
+  return std::max(kNarrowest_px, at_480 * style.height_px / kReferenceHeight_px);
+}
+
+Eigen::Vector2d vector_of(const ImagePoint& point) {
+  return {point.x_px, point.y_px};
+}
+
+}  // namespace
+
+ArrowShape shape_of(const Arrow& arrow) {
+  const Eigen::Vector2d along_px = arrow.tip_px - arrow.tail_px;
+  const double length_px = along_px.norm();
+  ArrowShape shape;
+  if (length_px < kShortest_px) {
+    const double half_px = arrow.width_px / 2;
+    const Eigen::Vector2d a(half_px, half_px), b(half_px, -half_px);
+    shape.shaft_px = {arrow.tail_px - a, arrow.tail_px + b, arrow.tail_px + a, arrow.tail_px - b};
+    shape.has_head = false;
+    return shape;
+  }
+  const Eigen::Vector2d unit = along_px / length_px;
+  const Eigen::Vector2d side(-unit.y(), unit.x());
+  const double head_px = std::min(kHeadShare * length_px, kHeadWidths * arrow.width_px);
+  const Eigen::Vector2d neck_px = arrow.tip_px - head_px * unit;
+  const Eigen::Vector2d half_shaft_px = arrow.width_px / 2 * side;
+  const Eigen::Vector2d half_head_px = std::max(head_px / 2, arrow.width_px) * side;
+  shape.shaft_px = {arrow.tail_px - half_shaft_px, neck_px - half_shaft_px, neck_px + half_shaft_px,
+                    arrow.tail_px + half_shaft_px};
+  shape.head_px = {neck_px - half_head_px, arrow.tip_px, neck_px + half_head_px};
+  return shape;
+}
+
+Rgb direction_color(const Eigen::Vector2d& direction, double saturation) {
+  const double turns = std::atan2(-direction.y(), direction.x()) / (2 * M_PI);
+  const auto channel = [&](double shift) {
+    // HSV of value 1: a channel is full for a third of the circle on either side of its own hue,
+    // and falls linearly beyond a sixth.
+    double distance = std::fabs(turns - shift);
+    distance = std::fabs(distance - std::round(distance));
+    const double pure = std::clamp(2 - 6 * distance, 0.0, 1.0);
+    return static_cast<uint8_t>(std::lround(255 * (1 - saturation * (1 - pure))));
+  };
+  return {channel(0), channel(1.0 / 3), channel(2.0 / 3)};
+}
+
+std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style) {
+  std::vector<Arrow> arrows;
+  arrows.reserve(scene.tracks.size());
+  for (const SceneTrack& track : scene.tracks) {
+    const Eigen::Vector2d moved_px = vector_of(track.to) - vector_of(track.from);
+    Arrow arrow;
+    arrow.tail_px = vector_of(track.from);
+    arrow.tip_px = arrow.tail_px + style.scale * moved_px;
+    arrow.width_px = width_px(track.owner == TrackOwner::kObject ? kBold_px : kThin_px, style);
+    arrow.color = direction_color(moved_px, track.owner == TrackOwner::kBackground ? kPale : 1);
+    arrows.push_back(arrow);
+  }
+  return arrows;
+}
+
+Arrow felt_arrow(const Wrench& wrench, const ArrowStyle& style) {
+  Arrow arrow;
+  arrow.tail_px = style.centre_px;
+  arrow.tip_px = style.centre_px;
+  arrow.width_px = width_px(kFelt_px, style);
+  arrow.color = kWhite;
+  if (style.max_force_N > 0) {
+    const double px_N = kFeltLength * style.height_px / style.max_force_N;
+    // Up is y > 0 in the device and y < 0 in the picture.
+    arrow.tip_px += px_N * Eigen::Vector2d(wrench.force_N.x(), -wrench.force_N.y());
+  }
+  return arrow;
+}
+
+}  // namespace spidar

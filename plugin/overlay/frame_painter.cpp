@@ -1,0 +1,102 @@
+#include "plugin/overlay/frame_painter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+uint8_t to_byte(double value) {
+  return static_cast<uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+}
+
+double cross_product(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+}  // namespace
+
+FramePainter::Components FramePainter::components_of(Rgb color) const {
+  const GstVideoInfo& info = frame_.info;
+  if (GST_VIDEO_INFO_IS_RGB(&info)) return {color.r, color.g, color.b, 255};
+  // Luma and colour differences of ITU-R BT.601 or what else the caps say.
+  double kr = 0.299, kb = 0.114;
+  gst_video_color_matrix_get_Kr_Kb(GST_VIDEO_INFO_COLORIMETRY(&info).matrix, &kr, &kb);
+  gint offset[GST_VIDEO_MAX_COMPONENTS], scale[GST_VIDEO_MAX_COMPONENTS];
+  gst_video_color_range_offsets(GST_VIDEO_INFO_COLORIMETRY(&info).range, info.finfo, offset, scale);
+  const double r = color.r / 255.0, g = color.g / 255.0, b = color.b / 255.0;
+  const double y = kr * r + (1 - kr - kb) * g + kb * b;
+  Components value{};
+  value[0] = to_byte(offset[0] + scale[0] * y);
+  if (GST_VIDEO_INFO_N_COMPONENTS(&info) < 3) return value;
+  value[1] = to_byte(offset[1] + scale[1] * (b - y) / (2 * (1 - kb)));
+  value[2] = to_byte(offset[2] + scale[2] * (r - y) / (2 * (1 - kr)));
+  return value;
+}
+
+void FramePainter::set(int x, int y, const Components& value) {
+  const GstVideoFormatInfo* format = frame_.info.finfo;
+  for (guint c = 0; c < GST_VIDEO_FRAME_N_COMPONENTS(&frame_); ++c) {
+    auto* samples = static_cast<uint8_t*>(GST_VIDEO_FRAME_COMP_DATA(&frame_, c));
+    const ptrdiff_t row = y >> GST_VIDEO_FORMAT_INFO_H_SUB(format, c);
+    const ptrdiff_t column = x >> GST_VIDEO_FORMAT_INFO_W_SUB(format, c);
+    samples[row * GST_VIDEO_FRAME_COMP_STRIDE(&frame_, c) +
+            column * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame_, c)] = value[c];
+  }
+}
+
+void FramePainter::fill(const Eigen::Vector2d* corners_px, size_t count, const Components& value) {
+  Eigen::Vector2d low_px = corners_px[0], high_px = corners_px[0];
+  double area = 0;
+  for (size_t i = 0; i < count; ++i) {
+    if (!corners_px[i].allFinite()) return;
+    low_px = low_px.cwiseMin(corners_px[i]);
+    high_px = high_px.cwiseMax(corners_px[i]);
+    area += cross_product(corners_px[i], corners_px[(i + 1) % count]);
+  }
+  const double around = area < 0 ? -1 : 1;
+  constexpr double kOnBorder = 1e-9;
+  const int width = GST_VIDEO_FRAME_WIDTH(&frame_), height = GST_VIDEO_FRAME_HEIGHT(&frame_);
+  // Clamped as doubles: corners may lie further off than an int reaches.
+  const auto first = [](double low, int size) {
+    return static_cast<int>(std::ceil(std::clamp(low, 0.0, static_cast<double>(size))));
+  };
+  const auto last = [](double high, int size) {
+    return static_cast<int>(std::floor(std::clamp(high, -1.0, size - 1.0)));
+  };
+  const int right = last(high_px.x(), width), bottom = last(high_px.y(), height);
+  for (int y = first(low_px.y(), height); y <= bottom; ++y) {
+    for (int x = first(low_px.x(), width); x <= right; ++x) {
+      const Eigen::Vector2d at_px(x, y);
+      bool inside = true;
+      for (size_t i = 0; i < count && inside; ++i) {
+        const Eigen::Vector2d& from_px = corners_px[i];
+        const Eigen::Vector2d& to_px = corners_px[(i + 1) % count];
+        inside = around * cross_product(to_px - from_px, at_px - from_px) >= -kOnBorder;
+      }
+      if (inside) set(x, y, value);
+    }
+  }
+}
+
+void FramePainter::draw(const Arrow& arrow) {
+  const ArrowShape shape = shape_of(arrow);
+  const Components value = components_of(arrow.color);
+  fill(shape.shaft_px.data(), shape.shaft_px.size(), value);
+  if (shape.has_head) fill(shape.head_px.data(), shape.head_px.size(), value);
+}
+
+void FramePainter::cross(const Eigen::Vector2d& centre_px, double size_px, double width_px,
+                         Rgb color) {
+  const Components value = components_of(color);
+  for (const double lean : {-1.0, 1.0}) {
+    const Eigen::Vector2d along(M_SQRT1_2, lean * M_SQRT1_2);
+    const Eigen::Vector2d side(-along.y(), along.x());
+    const Eigen::Vector2d a = size_px / 2 * along, b = width_px / 2 * side;
+    const std::array<Eigen::Vector2d, 4> stroke_px{centre_px - a - b, centre_px + a - b,
+                                                   centre_px + a + b, centre_px - a + b};
+    fill(stroke_px.data(), stroke_px.size(), value);
+  }
+}
+
+}  // namespace spidar

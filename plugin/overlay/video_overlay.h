@@ -1,0 +1,16 @@
+/// What is felt, drawn into the video itself.
+#pragma once
+
+#include <gst/video/video.h>
+
+#include "plugin/overlay/scene_view.h"
+
+namespace spidar {
+
+/// Draws one arrow a track, a cross where a point was lost, and the felt force as a white arrow
+/// with a black border from the middle of `visible` on. `frame` is mapped for writing and of a
+/// format that FrameLuma understands.
+void draw_overlay(const SceneView& scene, const VisiblePart& visible, double scale,
+                  double max_force_N, GstVideoFrame& frame);
+
+}  // namespace spidar

@@ -1,0 +1,263 @@
+#include "plugin/window/debug_window.h"
+
+#include <algorithm>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <cmath>
+#include <ctime>
+#include <imgui.h>
+#include <stdexcept>
+
+#include <GLFW/glfw3.h>
+
+namespace spidar {
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 800;
+constexpr double kText_px = 13;
+constexpr double kNote_s = 4;
+constexpr double kLongerArrows = 1.25, kForceStep_N = 0.1;
+
+DebugWindow& window_of(GLFWwindow* window) {
+  return *static_cast<DebugWindow*>(glfwGetWindowUserPointer(window));
+}
+
+/// Of text, in the coordinates of the window: where a screen has several pixels to one of them, as
+/// with Wayland, the frame buffer has them already.
+double text_scale(GLFWwindow* window) {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window, &x, &y);
+  int width = 0, pixels = 0, ignored = 0;
+  glfwGetWindowSize(window, &width, &ignored);
+  glfwGetFramebufferSize(window, &pixels, &ignored);
+  const double ratio = width > 0 && pixels > 0 ? static_cast<double>(pixels) / width : 1;
+  return std::clamp(std::max(x, y) / ratio, 0.5, 8.0);
+}
+
+}  // namespace
+
+DebugWindow::DebugWindow(std::shared_ptr<WindowSource> source, std::shared_ptr<FrameFeed> feed)
+    : source_(std::move(source)), feed_(std::move(feed)) {
+  source_->read(state_);
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
+  window_ = glfwCreateWindow(kWidth, kHeight, (state_.name + " - what is felt").c_str(), nullptr,
+                             nullptr);
+  if (!window_) {
+    const char* why = nullptr;
+    glfwGetError(&why);
+    throw std::runtime_error(why ? why : "no window");
+  }
+  glfwMakeContextCurrent(window_);
+  glfwSwapInterval(0);  // one thread draws all windows and keeps the pace
+  context_ = ImGui::CreateContext();
+  make_current();
+  scale_ = text_scale(window_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  ImFontConfig font;
+  font.SizePixels = static_cast<float>(std::round(kText_px * scale_));
+  io.Fonts->AddFontDefault(&font);
+  ImGui::GetStyle().ScaleAllSizes(static_cast<float>(scale_));
+  ImGui_ImplGlfw_InitForOpenGL(window_, false);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+  texture_.emplace();
+  install_callbacks();
+  feed_->want();
+}
+
+DebugWindow::~DebugWindow() {
+  make_current();
+  texture_.reset();
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext(context_);
+  glfwMakeContextCurrent(nullptr);
+  glfwDestroyWindow(window_);
+}
+
+void DebugWindow::make_current() const {
+  glfwMakeContextCurrent(window_);
+  ImGui::SetCurrentContext(context_);
+}
+
+/// Dear ImGui's own callbacks would speak to the context that is current, which may be that of
+/// another window.
+void DebugWindow::install_callbacks() {
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    window_of(w).make_current();
+    ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
+    if (action != GLFW_RELEASE && !ImGui::GetIO().WantTextInput) window_of(w).on_key(key);
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
+    window_of(w).make_current();
+    ImGui_ImplGlfw_CharCallback(w, character);
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
+    window_of(w).make_current();
+    ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+    window_of(w).make_current();
+    ImGui_ImplGlfw_ScrollCallback(w, x, y);
+  });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+    window_of(w).make_current();
+    ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+  });
+  glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
+    window_of(w).make_current();
+    ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+  });
+}
+
+void DebugWindow::on_key(int key) {
+  switch (key) {
+    case GLFW_KEY_SPACE:
+      change("mute", state_.value("mute", 0) != 0 ? 0 : 1);
+      break;
+    case GLFW_KEY_LEFT:
+      change("arrow-scale", state_.value("arrow-scale", 1) / kLongerArrows);
+      break;
+    case GLFW_KEY_RIGHT:
+      change("arrow-scale", state_.value("arrow-scale", 1) * kLongerArrows);
+      break;
+    case GLFW_KEY_UP:
+      change("max-force", state_.value("max-force", 0) + kForceStep_N);
+      break;
+    case GLFW_KEY_DOWN:
+      change("max-force", state_.value("max-force", 0) - kForceStep_N);
+      break;
+    case GLFW_KEY_S:
+      save_wanted_ = true;
+      break;
+    case GLFW_KEY_H:
+      help_ = !help_;
+      break;
+    case GLFW_KEY_Q:
+      glfwSetWindowShouldClose(window_, GLFW_TRUE);
+      break;
+    default:
+      break;
+  }
+}
+
+bool DebugWindow::is_done() const {
+  return source_gone_ || glfwWindowShouldClose(window_) != 0;
+}
+
+void DebugWindow::resize(int width, int height) {
+  glfwSetWindowSize(window_, width, height);
+}
+
+void DebugWindow::say(const std::string& note) {
+  note_ = note;
+  note_until_s_ = glfwGetTime() + kNote_s;
+}
+
+void DebugWindow::read() {
+  source_gone_ = !source_->read(state_);
+  const int64_t before_ns = facts_.running_ns;
+  if (feed_->take(picture_, facts_)) {
+    texture_->load(picture_, std::max(shown_width_, 1));
+    // Another stream, or the same from the beginning: what was learnt is not of it.
+    if (facts_.running_ns < before_ns) history_.forget();
+  }
+  feed_->want();
+  if (picture_.empty()) return;
+  Moment now;
+  now.time_s = glfwGetTime();
+  now.speed_px_s =
+      controller_speed_px_s(facts_.scene.motion, facts_.settings.axes, facts_.visible.height);
+  now.wanted_N = facts_.scene.wrench.force_N.norm();
+  if (state_.device) now.felt_N = state_.device->loop.last.commanded.force_N.norm();
+  history_.add(now);
+}
+
+void DebugWindow::draw_panels(int width, int height) {
+  const WindowLayout layout = lay_out(width, height, scale_);
+  const Brush brush{*ImGui::GetBackgroundDrawList(), scale_};
+  const ControllerSettings& controller = facts_.settings.controller;
+  ShownPicture picture;
+  if (!texture_->empty()) {
+    // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier.
+    picture.texture = reinterpret_cast<ImTextureID>(static_cast<uintptr_t>(texture_->id()));
+    const GstVideoInfo& info = picture_.info();
+    picture.frame_width = GST_VIDEO_INFO_WIDTH(&info);
+    picture.frame_height = GST_VIDEO_INFO_HEIGHT(&info);
+    picture.pixel_aspect =
+        static_cast<double>(GST_VIDEO_INFO_PAR_N(&info)) / GST_VIDEO_INFO_PAR_D(&info);
+  }
+  shown_width_ = static_cast<int>(layout.picture.width);
+  draw_picture(brush, layout.picture, picture, facts_, state_.value("arrow-scale", 1),
+               controller.max_force_N);
+  draw_grip(brush, layout.grip, state_);
+  draw_force(brush, layout.force, history_, controller.max_force_N);
+  draw_speed(brush, layout.speed, history_);
+  draw_gain(brush, layout.gain, history_, controller);
+  if (glfwGetTime() > note_until_s_) note_.clear();
+  draw_status(brush, layout.status, state_, facts_, note_);
+  draw_controls(layout.controls, state_,
+                [this](const std::string& setting, double value) { change(setting, value); });
+  if (help_) draw_help(scale_);
+}
+
+void DebugWindow::draw() {
+  make_current();
+  glfwGetFramebufferSize(window_, &width_, &height_);
+  read();
+  if (width_ <= 0 || height_ <= 0) return;  // minimised
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  int window_width = 0, window_height = 0;
+  glfwGetWindowSize(window_, &window_width, &window_height);
+  draw_panels(window_width, window_height);
+  ImGui::Render();
+  glViewport(0, 0, width_, height_);
+  glClearColor(0.07F, 0.07F, 0.08F, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (save_wanted_) save();
+}
+
+void DebugWindow::present() {
+  make_current();
+  glfwSwapBuffers(window_);
+}
+
+Screenshot DebugWindow::screenshot() const {
+  make_current();
+  Screenshot shot;
+  if (width_ <= 0 || height_ <= 0) return shot;
+  shot.width = width_;
+  shot.height = height_;
+  const size_t row = 3 * static_cast<size_t>(width_);
+  std::vector<uint8_t> upside_down(row * static_cast<size_t>(height_));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
+  for (int y = height_ - 1; y >= 0; --y) {
+    const auto first = upside_down.begin() + static_cast<ptrdiff_t>(row) * y;
+    shot.rgb.insert(shot.rgb.end(), first, first + static_cast<ptrdiff_t>(row));
+  }
+  return shot;
+}
+
+void DebugWindow::save() {
+  save_wanted_ = false;
+  char path[64];
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  std::strftime(path, sizeof path, "spidar-window-%Y%m%d-%H%M%S.png", &local);
+  const std::string problem = write_png(screenshot(), path);
+  say(problem.empty() ? std::string("saved ") + path : std::string(path) + ": " + problem);
+}
+
+}  // namespace spidar

@@ -1,0 +1,68 @@
+/// One window of GLFW and what is drawn in it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "plugin/window/frame_feed.h"
+#include "plugin/window/panels.h"
+#include "plugin/window/picture_texture.h"
+#include "plugin/window/window.h"
+#include "plugin/window/window_source.h"
+
+struct GLFWwindow;
+struct ImGuiContext;
+
+namespace spidar {
+
+/// Everything on the thread that called glfwInit().
+class DebugWindow {
+ public:
+  /// Throws std::runtime_error when there is no OpenGL 3.3 or no window to be had.
+  DebugWindow(std::shared_ptr<WindowSource> source, std::shared_ptr<FrameFeed> feed);
+  ~DebugWindow();
+  DebugWindow(const DebugWindow&) = delete;
+  DebugWindow& operator=(const DebugWindow&) = delete;
+
+  /// One frame of the window, which present() brings to the screen.
+  void draw();
+  void present();
+  /// By the user, or because there is nothing to look at any more.
+  bool is_done() const;
+  /// Of what was drawn and not yet presented.
+  Screenshot screenshot() const;
+
+  void resize(int width, int height);
+  void on_key(int key);
+
+ private:
+  void read();
+  void draw_panels(int width, int height);
+  void save();
+  void change(const std::string& setting, double value) { source_->set(setting, value); }
+  void say(const std::string& note);
+  void make_current() const;
+  void install_callbacks();
+
+  std::shared_ptr<WindowSource> source_;
+  std::shared_ptr<FrameFeed> feed_;
+  GLFWwindow* window_ = nullptr;
+  ImGuiContext* context_ = nullptr;
+  double scale_ = 1;
+  std::optional<PictureTexture> texture_;
+  int width_ = 0, height_ = 0;  // of the frame buffer drawn last
+
+  ElementState state_;
+  PictureCopy picture_;
+  FrameFacts facts_;
+  MotionHistory history_;
+  int shown_width_ = 0;  // of the picture in the window
+  bool source_gone_ = false;
+  bool help_ = false;
+  bool save_wanted_ = false;
+  std::string note_;
+  double note_until_s_ = 0;
+};
+
+}  // namespace spidar

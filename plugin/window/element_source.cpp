@@ -1,0 +1,163 @@
+#include "plugin/window/element_source.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plugin/motion_engine.h"
+#include "plugin/spidar_motion.h"
+
+namespace spidar {
+namespace {
+
+/// A reference for as long as the element is looked at, and no longer: drawing may take its time.
+class Held {
+ public:
+  explicit Held(GWeakRef& weak) : element_(static_cast<GstElement*>(g_weak_ref_get(&weak))) {}
+  ~Held() { gst_clear_object(&element_); }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+  GstElement* get() const { return element_; }
+
+ private:
+  GstElement* element_;
+};
+
+std::vector<Setting::Choice> choices_of(const GParamSpecEnum* spec) {
+  std::vector<Setting::Choice> choices;
+  for (guint i = 0; i < spec->enum_class->n_values; ++i) {
+    const GEnumValue& value = spec->enum_class->values[i];
+    choices.push_back({value.value, value.value_nick});
+  }
+  return choices;
+}
+
+/// False for a property that is no setting: not to be changed while playing, or no number.
+bool describe(const GParamSpec* spec, Setting& setting) {
+  if (spec->owner_type != GST_TYPE_SPIDAR_MOTION) return false;
+  if ((spec->flags & GST_PARAM_MUTABLE_PLAYING) == 0) return false;
+  if ((spec->flags & G_PARAM_READWRITE) != G_PARAM_READWRITE) return false;
+  setting.name = g_param_spec_get_name(const_cast<GParamSpec*>(spec));
+  setting.help = g_param_spec_get_blurb(const_cast<GParamSpec*>(spec));
+  if (G_IS_PARAM_SPEC_BOOLEAN(spec)) {
+    setting.kind = Setting::Kind::kSwitch;
+    setting.high = 1;
+  } else if (G_IS_PARAM_SPEC_ENUM(spec)) {
+    setting.kind = Setting::Kind::kChoice;
+    setting.choices = choices_of(G_PARAM_SPEC_ENUM(spec));
+  } else if (G_IS_PARAM_SPEC_DOUBLE(spec)) {
+    setting.kind = Setting::Kind::kNumber;
+    setting.low = G_PARAM_SPEC_DOUBLE(spec)->minimum;
+    setting.high = G_PARAM_SPEC_DOUBLE(spec)->maximum;
+  } else if (G_IS_PARAM_SPEC_UINT(spec)) {
+    setting.kind = Setting::Kind::kWhole;
+    setting.low = G_PARAM_SPEC_UINT(spec)->minimum;
+    setting.high = G_PARAM_SPEC_UINT(spec)->maximum;
+  } else if (G_IS_PARAM_SPEC_INT64(spec)) {
+    setting.kind = Setting::Kind::kWhole;
+    setting.low = static_cast<double>(G_PARAM_SPEC_INT64(spec)->minimum);
+    setting.high = static_cast<double>(G_PARAM_SPEC_INT64(spec)->maximum);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+double get_value(GObject* object, const Setting& setting) {
+  GValue value = G_VALUE_INIT, number = G_VALUE_INIT;
+  g_value_init(&number, G_TYPE_DOUBLE);
+  g_object_get_property(object, setting.name.c_str(), &value);
+  double result = 0;
+  if (G_VALUE_HOLDS_BOOLEAN(&value)) {
+    result = g_value_get_boolean(&value) ? 1 : 0;
+  } else if (G_VALUE_HOLDS_ENUM(&value)) {
+    result = g_value_get_enum(&value);
+  } else if (g_value_transform(&value, &number)) {
+    result = g_value_get_double(&number);
+  }
+  g_value_unset(&value);
+  g_value_unset(&number);
+  return result;
+}
+
+class ElementSource final : public WindowSource {
+ public:
+  explicit ElementSource(GstElement* element) { g_weak_ref_init(&element_, element); }
+  ~ElementSource() override { g_weak_ref_clear(&element_); }
+
+  bool read(ElementState& state) override {
+    const Held held(element_);
+    if (!held.get()) return false;
+    state.name = GST_OBJECT_NAME(held.get());
+    if (state.settings.empty()) list_settings(held.get(), state.settings);
+    for (Setting& setting : state.settings) {
+      setting.value = get_value(G_OBJECT(held.get()), setting);
+    }
+    DeviceView device;
+    const MotionEngine& engine = gst_spidar_motion_engine(GST_SPIDAR_MOTION(held.get()));
+    if (engine.look_at_device(device)) {
+      state.device = std::move(device);
+    } else {
+      state.device.reset();
+    }
+    return true;
+  }
+
+  void set(const std::string& name, double wanted) override {
+    const Held held(element_);
+    if (!held.get()) return;
+    const GParamSpec* spec =
+        g_object_class_find_property(G_OBJECT_GET_CLASS(held.get()), name.c_str());
+    Setting setting;
+    if (!spec || !describe(spec, setting)) return;
+    const double value = setting.kind == Setting::Kind::kChoice
+                             ? wanted
+                             : std::clamp(wanted, setting.low, setting.high);
+    const char* property = setting.name.c_str();
+    switch (G_PARAM_SPEC_VALUE_TYPE(spec)) {
+      case G_TYPE_DOUBLE:
+        g_object_set(held.get(), property, value, nullptr);
+        break;
+      case G_TYPE_INT64:
+        g_object_set(held.get(), property, static_cast<gint64>(std::llround(value)), nullptr);
+        break;
+      default:  // booleans, enumerations, and unsigned numbers in the range of an int
+        g_object_set(held.get(), property, static_cast<gint>(std::lround(value)), nullptr);
+    }
+  }
+
+  void complain(const std::string& what, const std::string& advice) override {
+    const Held held(element_);
+    if (!held.get()) return;
+    GST_ELEMENT_WARNING(held.get(), RESOURCE, NOT_FOUND, ("%s", what.c_str()),
+                        ("%s The video goes on without it.", advice.c_str()));
+  }
+
+  void closed() override {
+    const Held held(element_);
+    if (held.get()) g_object_set(held.get(), "debug-window", FALSE, nullptr);
+  }
+
+ private:
+  static void list_settings(GstElement* element, std::vector<Setting>& settings) {
+    guint count = 0;
+    GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
+    for (guint i = 0; i < count; ++i) {
+      Setting setting;
+      // A window that closes itself by a switch of its own would be odd.
+      if (describe(specs[i], setting) && setting.name != "debug-window") {
+        settings.push_back(std::move(setting));
+      }
+    }
+    g_free(specs);
+  }
+
+  GWeakRef element_;
+};
+
+}  // namespace
+
+std::shared_ptr<WindowSource> make_element_source(GstElement* element) {
+  return std::make_shared<ElementSource>(element);
+}
+
+}  // namespace spidar

@@ -1,0 +1,15 @@
+/// An element as a window sees it.
+#pragma once
+
+#include <memory>
+
+#include <gst/gst.h>
+
+#include "plugin/window/window_source.h"
+
+namespace spidar {
+
+/// Keeps no reference: the element may go while the window is open. `element` is a spidarmotion.
+std::shared_ptr<WindowSource> make_element_source(GstElement* element);
+
+}  // namespace spidar

@@ -1,0 +1,71 @@
+#include "plugin/window/picture_texture.h"
+
+#include <algorithm>
+
+#include <GLFW/glfw3.h>
+
+namespace spidar {
+
+PictureTexture::PictureTexture() {
+  glGenTextures(1, &id_);
+  glBindTexture(GL_TEXTURE_2D, id_);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+PictureTexture::~PictureTexture() {
+  glDeleteTextures(1, &id_);
+  if (converter_) gst_video_converter_free(converter_);
+  gst_clear_buffer(&converted_);
+}
+
+bool PictureTexture::prepare(const GstVideoInfo& source, int width, int height) {
+  if (converter_ && gst_video_info_is_equal(&source, &source_) &&
+      GST_VIDEO_INFO_WIDTH(&target_) == width && GST_VIDEO_INFO_HEIGHT(&target_) == height) {
+    return true;
+  }
+  if (converter_) gst_video_converter_free(converter_);
+  gst_clear_buffer(&converted_);
+  source_ = source;
+  gst_video_info_set_format(&target_, GST_VIDEO_FORMAT_RGBA, static_cast<guint>(width),
+                            static_cast<guint>(height));
+  converter_ =
+      gst_video_converter_new(&source_, &target_,
+                              gst_structure_new("options", GST_VIDEO_CONVERTER_OPT_RESAMPLER_METHOD,
+                                                GST_TYPE_VIDEO_RESAMPLER_METHOD,
+                                                GST_VIDEO_RESAMPLER_METHOD_LINEAR, nullptr));
+  converted_ = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&target_), nullptr);
+  return converter_ && converted_;
+}
+
+bool PictureTexture::load(const PictureCopy& picture, int most_width) {
+  if (picture.empty()) return false;
+  const GstVideoInfo& info = picture.info();
+  const int frame_width = GST_VIDEO_INFO_WIDTH(&info), frame_height = GST_VIDEO_INFO_HEIGHT(&info);
+  const int width = std::clamp(most_width, 1, frame_width);
+  const int height =
+      std::max(1, static_cast<int>(static_cast<int64_t>(frame_height) * width / frame_width));
+  GstVideoFrame source, target;
+  if (!prepare(info, width, height)) return false;
+  if (!gst_video_frame_map(&source, &source_, picture.buffer(), GST_MAP_READ)) return false;
+  if (!gst_video_frame_map(&target, &target_, converted_, GST_MAP_READWRITE)) {
+    gst_video_frame_unmap(&source);
+    return false;
+  }
+  gst_video_converter_frame(converter_, &source, &target);
+  glBindTexture(GL_TEXTURE_2D, id_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  const void* pixels = GST_VIDEO_FRAME_PLANE_DATA(&target, 0);
+  if (width == width_ && height == height_) {
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+  } else {
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+  }
+  width_ = width;
+  height_ = height;
+  gst_video_frame_unmap(&target);
+  gst_video_frame_unmap(&source);
+  return true;
+}
+
+}  // namespace spidar

@@ -1,0 +1,29 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stb/stb_image_write.h>
+
+#include "plugin/window/window.h"
+
+namespace spidar {
+
+std::string write_png(const Screenshot& picture, const std::string& path) {
+  if (picture.width <= 0 || picture.height <= 0) return "there is no picture";
+  std::FILE* file = std::fopen(path.c_str(), "wbe");
+  if (!file) return std::strerror(errno);
+  bool complete = true;
+  const auto write = [&](void* data, int size) {
+    const auto bytes = static_cast<size_t>(size);
+    if (std::fwrite(data, 1, bytes, file) != bytes) complete = false;
+  };
+  const bool encoded = stbi_write_png_to_func(
+                           [](void* context, void* data, int size) {
+                             (*static_cast<decltype(write)*>(context))(data, size);
+                           },
+                           const_cast<void*>(static_cast<const void*>(&write)), picture.width,
+                           picture.height, 3, picture.rgb.data(), 3 * picture.width) != 0;
+  const bool closed = std::fclose(file) == 0;
+  return encoded && complete && closed ? "" : "it cannot be written; is the disk full?";
+}
+
+}  // namespace spidar

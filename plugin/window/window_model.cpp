@@ -1,0 +1,57 @@
+#include "plugin/window/window_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace spidar {
+
+const Setting* ElementState::setting(const std::string& setting_name) const {
+  const auto found = std::find_if(settings.begin(), settings.end(),
+                                  [&](const Setting& s) { return s.name == setting_name; });
+  return found == settings.end() ? nullptr : &*found;
+}
+
+double ElementState::value(const std::string& setting_name, double otherwise) const {
+  const Setting* found = setting(setting_name);
+  return found ? found->value : otherwise;
+}
+
+void MotionHistory::add(const Moment& moment) {
+  moments_.push_back(moment);
+  largest_speed_px_s_ = std::max(largest_speed_px_s_, moment.speed_px_s);
+  while (moments_.front().time_s < moment.time_s - kMemory_s) moments_.pop_front();
+}
+
+void MotionHistory::forget() {
+  moments_.clear();
+  largest_speed_px_s_ = 0;
+}
+
+double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height) {
+  if (frame_height <= 0) return 0;
+  const Eigen::Vector2d velocity_px_s =
+      motion.velocity_px_s * (kReferenceHeight_px / static_cast<double>(frame_height));
+  const double radius_px = kReferenceHeight_px / 2;
+  return Eigen::Vector4d(velocity_px_s.x(), velocity_px_s.y(),
+                         gains.depth * motion.growth_1_s * radius_px,
+                         gains.roll * motion.roll_rad_s * radius_px)
+      .norm();
+}
+
+std::vector<double> gain_curve(const ControllerSettings& settings, double largest_px_s,
+                               double highest_px_s, int points) {
+  std::vector<double> curve;
+  try {
+    const std::unique_ptr<GainController> controller = make_controller(settings);
+    controller->force_N(std::max(largest_px_s, 0.0));
+    for (int i = 0; i < points; ++i) {
+      curve.push_back(controller->force_N(highest_px_s * i / std::max(points - 1, 1)));
+    }
+  } catch (const std::invalid_argument&) {
+    curve.clear();
+  }
+  return curve;
+}
+
+}  // namespace spidar

@@ -1,0 +1,234 @@
+#include "plugin/window/window_thread.h"
+
+#include <algorithm>
+#include <csignal>
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <GLFW/glfw3.h>
+
+namespace spidar {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kFallbackRate_Hz = 60;
+
+Clock::duration screen_period() {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  const int rate_Hz = mode && mode->refreshRate > 0 ? mode->refreshRate : kFallbackRate_Hz;
+  return std::chrono::nanoseconds(1'000'000'000 / rate_Hz);
+}
+
+std::string glfw_error() {
+  const char* why = nullptr;
+  glfwGetError(&why);
+  return why ? why : "unknown reason";
+}
+
+/// GLFW's state is that of the process: its timer runs when somebody else has initialised it.
+bool glfw_is_in_use() {
+  const bool in_use = glfwGetTimerFrequency() != 0;
+  glfwGetError(nullptr);
+  return in_use;
+}
+
+}  // namespace
+
+WindowThread& WindowThread::instance() {
+  static WindowThread* const thread = new WindowThread;
+  return *thread;
+}
+
+std::shared_ptr<Window::Entry> WindowThread::open(std::shared_ptr<WindowSource> source,
+                                                  std::shared_ptr<FrameFeed> feed) {
+  auto entry = std::make_shared<Window::Entry>();
+  entry->source = std::move(source);
+  entry->feed = std::move(feed);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  entries_.push_back(entry);
+  if (running_) {
+    wake_.notify_one();
+  } else {
+    start();
+  }
+  return entry;
+}
+
+/// With the mutex held. The new thread blocks all signals: an application's are for its own.
+void WindowThread::start() {
+  if (thread_.joinable()) thread_.join();  // it has left run() for good
+  running_ = true;
+  sigset_t all, previous;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &previous);
+  thread_ = std::thread([this] { run(); });
+  pthread_sigmask(SIG_SETMASK, &previous, nullptr);
+}
+
+void WindowThread::close(const std::shared_ptr<Window::Entry>& entry) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  entry->closing = true;
+  wake_.notify_one();
+  if (thread_.get_id() == std::this_thread::get_id()) return;  // closed by its own user
+  // The last window takes GLFW along: then all is as if there had been none.
+  const auto settled = [&] { return entry->gone && (!entries_.empty() || !running_); };
+  if (!changed_.wait_for(lock, Window::kPatience, settled)) return;
+  if (!running_ && thread_.joinable()) thread_.join();
+}
+
+std::optional<Screenshot> WindowThread::screenshot(const std::shared_ptr<Window::Entry>& entry,
+                                                   std::chrono::milliseconds timeout) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  entry->screenshot.reset();
+  entry->screenshot_wanted = true;
+  changed_.wait_for(lock, timeout, [&] { return entry->screenshot || entry->gone; });
+  entry->screenshot_wanted = false;
+  return std::move(entry->screenshot);
+}
+
+void WindowThread::request(const std::shared_ptr<Window::Entry>& entry,
+                           std::function<void(DebugWindow&)> what) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  entry->requests.push_back(std::move(what));
+}
+
+// --- window thread -----------------------------------------------------------------------------
+
+void WindowThread::run() {
+  pthread_setname_np(pthread_self(), "spidar-window");
+  // Drawing yields to decoding; of a thread on Linux, whatever POSIX says of processes.
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
+  if (glfw_is_in_use()) {
+    fail_all("The debug window needs GLFW, which this application uses itself.",
+             "GLFW serves one thread of a process only.");
+  } else if (!glfwInit()) {
+    fail_all("The debug window cannot be opened: " + glfw_error() + ".",
+             "It needs an X11 or Wayland display.");
+  } else {
+    serve();
+    glfwTerminate();
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  running_ = false;
+  changed_.notify_all();
+  // What was opened in the meantime.
+  if (!entries_.empty()) {
+    thread_.detach();
+    start();
+  }
+}
+
+void WindowThread::fail_all(const std::string& what, const std::string& advice) {
+  Entries failed;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    failed.swap(entries_);
+  }
+  for (const auto& entry : failed) {
+    entry->source->complain(what, advice);
+    finish(*entry);
+  }
+}
+
+void WindowThread::serve() {
+  const Clock::duration period = screen_period();
+  Clock::time_point next = Clock::now();
+  for (;;) {
+    Entries now;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      const auto is_closing = [](const auto& entry) { return entry->closing; };
+      wake_.wait_until(lock, next,
+                       [&] { return std::any_of(entries_.begin(), entries_.end(), is_closing); });
+      if (entries_.empty()) return;
+      now = entries_;
+    }
+    const Clock::time_point begin = Clock::now();
+    glfwPollEvents();
+    for (const auto& entry : now) draw(*entry);
+    // Where the processor draws, half of its time stays with others.
+    const Clock::time_point end = Clock::now();
+    next = std::max(begin + period, end + (end - begin));
+  }
+}
+
+bool WindowThread::create(Window::Entry& entry) {
+  try {
+    entry.window = std::make_unique<DebugWindow>(entry.source, entry.feed);
+    return true;
+  } catch (const std::exception& e) {
+    entry.source->complain(
+        std::string("The debug window cannot be opened with OpenGL 3.3: ") + e.what() + ".",
+        "Is there a driver for it, or Mesa's software renderer (libgl1-mesa-dri)?");
+    return false;
+  }
+}
+
+void WindowThread::draw(Window::Entry& entry) {
+  std::vector<std::function<void(DebugWindow&)>> requests;
+  bool closing, screenshot_wanted;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    requests.swap(entry.requests);
+    closing = entry.closing;
+    screenshot_wanted = entry.screenshot_wanted;
+  }
+  if (closing || (!entry.window && !create(entry))) {
+    finish(entry);
+    return;
+  }
+  for (const auto& request : requests) request(*entry.window);
+  if (entry.window->is_done()) {
+    entry.window.reset();
+    finish(entry);
+    entry.source->closed();
+    return;
+  }
+  entry.window->draw();
+  if (screenshot_wanted) {
+    Screenshot shot = entry.window->screenshot();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    entry.screenshot = std::move(shot);
+    changed_.notify_all();
+  }
+  entry.window->present();
+}
+
+void WindowThread::finish(Window::Entry& entry) {
+  entry.window.reset();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  entry.gone = true;
+  const auto is_it = [&](const auto& other) { return other.get() == &entry; };
+  entries_.erase(std::remove_if(entries_.begin(), entries_.end(), is_it), entries_.end());
+  changed_.notify_all();
+}
+
+// --- Window ------------------------------------------------------------------------------------
+
+bool windows_are_built_in() {
+  return true;
+}
+
+Window::Window(std::shared_ptr<WindowSource> source, std::shared_ptr<FrameFeed> feed)
+    : entry_(WindowThread::instance().open(std::move(source), std::move(feed))) {}
+
+Window::~Window() {
+  WindowThread::instance().close(entry_);
+}
+
+std::optional<Screenshot> Window::screenshot(std::chrono::milliseconds timeout) {
+  return WindowThread::instance().screenshot(entry_, timeout);
+}
+
+void Window::resize(int width, int height) {
+  WindowThread::instance().request(entry_, [=](DebugWindow& w) { w.resize(width, height); });
+}
+
+void Window::press(int key) {
+  WindowThread::instance().request(entry_, [=](DebugWindow& w) { w.on_key(key); });
+}
+
+}  // namespace spidar

@@ -1,0 +1,17 @@
+/* A program in C that reads the meta. */
+#include "plugin/gstspidarmotionmeta.h"
+
+gboolean read_motion_in_c (GstBuffer * buffer, GstSpidarMotion * motion);
+GArray *read_tracks_in_c (GstBuffer * buffer);
+
+gboolean
+read_motion_in_c (GstBuffer * buffer, GstSpidarMotion * motion)
+{
+  return gst_buffer_get_spidar_motion (buffer, motion);
+}
+
+GArray *
+read_tracks_in_c (GstBuffer * buffer)
+{
+  return gst_buffer_get_spidar_tracks (buffer);
+}

@@ -1,0 +1,195 @@
+// The meta that travels with the frame, read as a program in C reads it.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugin/gstspidarmotionmeta.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+extern "C" {
+gboolean read_motion_in_c(GstBuffer* buffer, GstSpidarMotion* motion);
+GArray* read_tracks_in_c(GstBuffer* buffer);
+}
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+
+std::vector<GstSpidarMotionTrack> tracks_of(GstBuffer* buffer) {
+  std::vector<GstSpidarMotionTrack> tracks;
+  GArray* array = read_tracks_in_c(buffer);
+  if (!array) return tracks;
+  for (guint i = 0; i < array->len; ++i) {
+    tracks.push_back(g_array_index(array, GstSpidarMotionTrack, i));
+  }
+  g_array_unref(array);
+  return tracks;
+}
+
+class Meta : public testing::Test {
+ protected:
+  void open(const std::string& properties) {
+    h = std::make_unique<ElementHarness>("device=none " + properties);
+    h->set_caps(make_caps("I420", 320, 240));
+  }
+
+  /// What comes out of the next frame, (3, −1) pixels further on.
+  GstBuffer* push_next(GstBuffer** pushed = nullptr) {
+    const int n = frames++;
+    GstBuffer* frame = make_frame(h->info(), 3.0 * n, -1.0 * n);
+    if (pushed) *pushed = gst_buffer_ref(frame);
+    EXPECT_EQ(h->push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    return gst_harness_pull(h->harness());
+  }
+
+  std::unique_ptr<ElementHarness> h;
+  int frames = 0;
+};
+
+TEST_F(Meta, SaysWhatTheMessageSaysAndTheTracks) {
+  open("attach-meta=true");
+  gst_buffer_unref(push_next());
+  GstBuffer* out = push_next();
+  GstSpidarMotion motion;
+  ASSERT_TRUE(read_motion_in_c(out, &motion));
+  const MotionMessage& message = h->motions().back();
+  EXPECT_EQ(motion.width, 320u);
+  EXPECT_EQ(motion.height, 240u);
+  EXPECT_EQ(motion.running_time, kFrame);
+  EXPECT_EQ(motion.interval, kFrame);
+  EXPECT_EQ(motion.velocity_x, message.velocity_x);
+  EXPECT_EQ(motion.velocity_y, message.velocity_y);
+  EXPECT_EQ(motion.force_x, message.wrench.force_N.x());
+  EXPECT_EQ(motion.force_y, message.wrench.force_N.y());
+  EXPECT_EQ(motion.torque_z, message.wrench.torque_Nm.z());
+  const auto tracks = tracks_of(out);
+  EXPECT_EQ(tracks.size(), message.tracked);
+  EXPECT_GT(tracks.size(), 20u);
+  for (const GstSpidarMotionTrack& track : tracks) {
+    EXPECT_NEAR(track.to_x - track.from_x, 3, 0.5) << track.id;
+    EXPECT_NEAR(track.to_y - track.from_y, -1, 0.5) << track.id;
+  }
+  gst_buffer_unref(out);
+}
+
+TEST_F(Meta, TheFirstFrameHasNothingToCompareWith) {
+  open("attach-meta=true");
+  GstBuffer* out = push_next();
+  GstSpidarMotion motion;
+  ASSERT_TRUE(read_motion_in_c(out, &motion));
+  EXPECT_EQ(motion.interval, 0u);
+  EXPECT_TRUE(tracks_of(out).empty());
+  gst_buffer_unref(out);
+}
+
+TEST_F(Meta, NeitherCopiesNorTouchesThePicture) {
+  open("attach-meta=true");
+  GstBuffer* frame;
+  GstBuffer* out = push_next(&frame);  // held by somebody else: not writable
+  EXPECT_NE(out, frame);
+  EXPECT_EQ(gst_buffer_peek_memory(out, 0), gst_buffer_peek_memory(frame, 0));
+  GstSpidarMotion motion;
+  EXPECT_FALSE(read_motion_in_c(frame, &motion)) << "not ours to change";
+  EXPECT_EQ(read_tracks_in_c(frame), nullptr);
+  EXPECT_TRUE(read_motion_in_c(out, &motion));
+  gst_buffer_unref(out);
+  gst_buffer_unref(frame);
+
+  GstBuffer* mine = make_frame(h->info(), 3, 0);
+  h->push(mine, kFrame);
+  out = gst_harness_pull(h->harness());
+  EXPECT_EQ(out, mine) << "a buffer that nobody else holds stays the same";
+  gst_buffer_unref(out);
+}
+
+TEST_F(Meta, IsThereOnlyWhenAskedForAndWithTheOverlayToo) {
+  open("");
+  GstSpidarMotion motion;
+  for (const auto& [meta, overlay] :
+       {std::pair{false, false}, {true, false}, {true, true}, {false, true}}) {
+    g_object_set(h->element(), "attach-meta", meta, "overlay", overlay, nullptr);
+    GstBuffer* out = push_next();
+    EXPECT_EQ(read_motion_in_c(out, &motion) != FALSE, meta);
+    gst_buffer_unref(out);
+  }
+}
+
+TEST_F(Meta, OfAnElementBeforeIsReplaced) {
+  open("attach-meta=true");
+  GstBuffer* first = push_next();
+  GstBuffer* frame = gst_buffer_copy_deep(first);
+  gst_buffer_unref(first);
+  h->push(frame, kFrame);
+  GstBuffer* out = gst_harness_pull(h->harness());
+  gpointer state = nullptr;
+  int metas = 0;
+  while (GstMeta* meta = gst_buffer_iterate_meta(out, &state)) {
+    metas += gst_meta_info_is_custom(meta->info) != FALSE;
+  }
+  EXPECT_EQ(metas, 1);
+  GstSpidarMotion motion;
+  read_motion_in_c(out, &motion);
+  EXPECT_EQ(motion.running_time, kFrame);
+  gst_buffer_unref(out);
+}
+
+TEST_F(Meta, GoesAlongWithACopyButNotWithAPartOfOne) {
+  open("attach-meta=true");
+  gst_buffer_unref(push_next());
+  GstBuffer* out = push_next();
+  GstBuffer* copy = gst_buffer_copy(out);
+  GstBuffer* part = gst_buffer_copy_region(
+      out, static_cast<GstBufferCopyFlags>(GST_BUFFER_COPY_META | GST_BUFFER_COPY_MEMORY), 100,
+      100);
+  GstSpidarMotion a, b;
+  ASSERT_TRUE(read_motion_in_c(out, &a));
+  ASSERT_TRUE(read_motion_in_c(copy, &b));
+  EXPECT_EQ(a.velocity_x, b.velocity_x);
+  EXPECT_EQ(tracks_of(out).size(), tracks_of(copy).size());
+  EXPECT_FALSE(read_motion_in_c(part, &b));
+  gst_buffer_unref(part);
+  gst_buffer_unref(copy);
+  gst_buffer_unref(out);
+}
+
+TEST_F(Meta, IsScaledWithThePicture) {
+  open("attach-meta=true");
+  gst_buffer_unref(push_next());
+  GstBuffer* out = push_next();
+  GstVideoInfo in_info, out_info;
+  gst_video_info_set_format(&in_info, GST_VIDEO_FORMAT_I420, 320, 240);
+  gst_video_info_set_format(&out_info, GST_VIDEO_FORMAT_RGB, 640, 120);
+  GstVideoMetaTransform scale{&in_info, &out_info};
+  GstMeta* meta =
+      reinterpret_cast<GstMeta*>(gst_buffer_get_custom_meta(out, GST_SPIDAR_MOTION_META_NAME));
+  GstBuffer* scaled = gst_buffer_new();
+  EXPECT_TRUE(meta->info->transform_func(scaled, meta, out,
+                                         gst_video_meta_transform_scale_get_quark(), &scale));
+  GstSpidarMotion before, after;
+  ASSERT_TRUE(read_motion_in_c(out, &before));
+  ASSERT_TRUE(read_motion_in_c(scaled, &after));
+  EXPECT_EQ(after.width, 640u);
+  EXPECT_EQ(after.height, 120u);
+  EXPECT_DOUBLE_EQ(after.velocity_x, 2 * before.velocity_x);
+  EXPECT_DOUBLE_EQ(after.velocity_y, before.velocity_y / 2);
+  EXPECT_EQ(after.force_x, before.force_x) << "what is felt does not change";
+  const auto a = tracks_of(out), b = tracks_of(scaled);
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    EXPECT_DOUBLE_EQ(b[i].from_x, 2 * a[i].from_x + 0.5);
+    EXPECT_DOUBLE_EQ(b[i].to_y, a[i].to_y / 2 - 0.25);
+    EXPECT_EQ(b[i].id, a[i].id);
+  }
+  // Anything else that is done to a picture: unknown.
+  EXPECT_FALSE(
+      meta->info->transform_func(scaled, meta, out, g_quark_from_static_string("turned"), nullptr));
+  gst_buffer_unref(scaled);
+  gst_buffer_unref(out);
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,370 @@
+// What is drawn into the video: pixels are read back.
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugin/overlay/arrow.h"
+#include "plugin/overlay/scene_view.h"
+#include "plugin/overlay/video_overlay.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+using Pixel = std::array<int, 3>;
+
+/// A grey frame in memory that is watched on both sides.
+class Canvas {
+ public:
+  Canvas(const char* format, int width, int height, const char* colorimetry = nullptr) {
+    init_gstreamer();
+    GstCaps* caps = make_caps(format, width, height);
+    if (colorimetry) {
+      gst_caps_set_simple(caps, "colorimetry", G_TYPE_STRING, colorimetry, nullptr);
+    }
+    gst_video_info_from_caps(&info_, caps);
+    gst_caps_unref(caps);
+    buffer_ = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info_) + 2 * kGuard, nullptr);
+    gst_buffer_memset(buffer_, 0, kGrey, gst_buffer_get_size(buffer_));
+    gst_buffer_resize(buffer_, kGuard, static_cast<gssize>(GST_VIDEO_INFO_SIZE(&info_)));
+  }
+  ~Canvas() { gst_buffer_unref(buffer_); }
+
+  template <typename Work>
+  void with_frame(Work&& work) {
+    GstVideoFrame frame;
+    ASSERT_TRUE(gst_video_frame_map(&frame, &info_, buffer_, GST_MAP_READWRITE));
+    work(frame);
+    gst_video_frame_unmap(&frame);
+  }
+
+  void draw(const SceneView& scene, double scale = 1, double max_force_N = 3) {
+    with_frame([&](GstVideoFrame& frame) {
+      draw_overlay(scene, visible_part(frame), scale, max_force_N, frame);
+    });
+  }
+
+  /// As many of the three as the format has; the others 0.
+  Pixel at(int x, int y) {
+    Pixel pixel{};
+    with_frame([&](GstVideoFrame& frame) {
+      for (guint c = 0; c < std::min(GST_VIDEO_FRAME_N_COMPONENTS(&frame), 3u); ++c) {
+        const auto* data = static_cast<const guint8*>(GST_VIDEO_FRAME_COMP_DATA(&frame, c));
+        const ptrdiff_t row = y >> GST_VIDEO_FORMAT_INFO_H_SUB(info_.finfo, c);
+        const ptrdiff_t column = x >> GST_VIDEO_FORMAT_INFO_W_SUB(info_.finfo, c);
+        pixel[c] = data[row * GST_VIDEO_FRAME_COMP_STRIDE(&frame, c) +
+                        column * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, c)];
+      }
+    });
+    return pixel;
+  }
+
+  Pixel untouched() const {
+    Pixel pixel{};
+    for (guint c = 0; c < std::min(GST_VIDEO_INFO_N_COMPONENTS(&info_), 3u); ++c) pixel[c] = kGrey;
+    return pixel;
+  }
+
+  bool guards_hold() {
+    gsize offset, most;
+    gst_buffer_get_sizes(buffer_, &offset, &most);
+    const gsize size = gst_buffer_get_size(buffer_);
+    gst_buffer_resize(buffer_, -static_cast<gssize>(kGuard), static_cast<gssize>(most));
+    GstMapInfo map;
+    gst_buffer_map(buffer_, &map, GST_MAP_READ);
+    bool hold = true;
+    for (gsize i = 0; i < kGuard; ++i) {
+      hold = hold && map.data[i] == kGrey && map.data[kGuard + size + i] == kGrey;
+    }
+    gst_buffer_unmap(buffer_, &map);
+    gst_buffer_resize(buffer_, kGuard, static_cast<gssize>(size));
+    return hold;
+  }
+
+  static constexpr guint8 kGrey = 77;
+
+ private:
+  static constexpr gsize kGuard = 4096;
+  GstVideoInfo info_;
+  GstBuffer* buffer_;
+};
+
+SceneView one_track(ImagePoint from, ImagePoint to, TrackOwner owner = TrackOwner::kUnknown) {
+  SceneView scene;
+  scene.tracks.push_back({1, from, to, owner, 0, false});
+  return scene;
+}
+
+/// Red, in each format's own numbers: BT.601, YUV in the limited range and grey in the full one, as
+/// caps of this size have it.
+Pixel red(const std::string& format) {
+  if (format.find("RGB") == 0 || format.find("BGR") == 0) return {255, 0, 0};
+  if (format == "GRAY8") return {76, 0, 0};  // 255 · 0.299
+  // Y = 16 + 219 · 0.299; U = 128 − 224 · 0.299 / (2 · 0.886); V = 128 + 224 / 2.
+  return {81, 90, 240};
+}
+
+class OverlayFormats : public testing::TestWithParam<const char*> {};
+
+TEST_P(OverlayFormats, AnArrowHasTailHeadAndColourWhereTheyMustBe) {
+  for (const auto& [width, height] : {std::pair{64, 48}, {65, 49}, {67, 33}}) {
+    SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+    Canvas canvas(GetParam(), width, height);
+    canvas.draw(one_track({10, 20}, {16, 20}), 4);
+    EXPECT_EQ(canvas.at(10, 20), red(GetParam())) << "tail";
+    EXPECT_EQ(canvas.at(22, 20), red(GetParam())) << "shaft";
+    EXPECT_EQ(canvas.at(34, 20), red(GetParam())) << "tip: four times the displacement";
+    // The head is max(min(12, 4 · 1.5) / 2, 1.5) = 3 px to either side where it begins, 6 px before
+    // the tip; the shaft is less than one.
+    EXPECT_EQ(canvas.at(29, 18), red(GetParam()));
+    EXPECT_EQ(canvas.at(29, 22), red(GetParam()));
+    for (const auto& [x, y] :
+         {std::pair{7, 20}, {37, 20}, {22, 17}, {22, 24}, {29, 15}, {29, 26}}) {
+      EXPECT_EQ(canvas.at(x, y), canvas.untouched()) << x << "," << y;
+    }
+    EXPECT_TRUE(canvas.guards_hold());
+  }
+}
+
+TEST_P(OverlayFormats, WhatIsOutsideTheFrameIsClipped) {
+  const float far = 1e9F;
+  Canvas canvas(GetParam(), 33, 17);
+  for (const auto& [from, to] : {std::pair<ImagePoint, ImagePoint>{{-5, 3}, {40, 3}},
+                                 {{3, -9}, {3, 30}},
+                                 {{30, 16}, {50, 40}},
+                                 {{0, 0}, {-7, -7}},
+                                 {{-far, 8}, {far, 8}},
+                                 {{8, far}, {8, far}},
+                                 {{32, 16}, {32, 16}}}) {
+    canvas.draw(one_track(from, to));
+  }
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  canvas.draw(one_track({none, 1}, {2, 2}));
+  EXPECT_TRUE(canvas.guards_hold());
+  EXPECT_NE(canvas.at(0, 3), canvas.untouched());
+  EXPECT_NE(canvas.at(3, 12), canvas.untouched());
+  EXPECT_NE(canvas.at(32, 16), canvas.untouched()) << "the last pixel of an odd frame";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OverlayFormats,
+                         testing::Values("GRAY8", "I420", "YV12", "NV12", "NV21", "Y42B", "Y444",
+                                         "BGR", "RGB", "BGRx", "RGBx", "BGRA", "RGBA"),
+                         [](const auto& p) { return std::string(p.param); });
+
+TEST(Overlay, FollowsTheColorimetryOfTheFrame) {
+  Canvas canvas("I420", 64, 48, "bt709");
+  canvas.draw(one_track({10, 20}, {34, 20}));
+  // Y = 16 + 219 · 0.2126, U = 128 − 224 · 0.2126 / (2 · 0.9278), V = 240.
+  EXPECT_EQ(canvas.at(20, 20), (Pixel{63, 102, 240}));
+}
+
+TEST(Overlay, ColoursSayTheDirectionAndTheOwner) {
+  const auto expect = [](Rgb got, int r, int g, int b) {
+    EXPECT_TRUE(got ==
+                (Rgb{static_cast<uint8_t>(r), static_cast<uint8_t>(g), static_cast<uint8_t>(b)}))
+        << int{got.r} << " " << int{got.g} << " " << int{got.b};
+  };
+  expect(direction_color({1, 0}, 1), 255, 0, 0);
+  expect(direction_color({0, -1}, 1), 128, 255, 0);  // up: 90 degrees, half way yellow to green
+  expect(direction_color({-1, 0}, 1), 0, 255, 255);
+  expect(direction_color({0, 1}, 1), 128, 0, 255);
+  expect(direction_color({1, 0}, 0), 255, 255, 255);
+
+  Canvas background("RGB", 640, 480), object("RGB", 640, 480);
+  background.draw(one_track({100, 99}, {200, 99}, TrackOwner::kBackground));
+  object.draw(one_track({100, 99}, {200, 99}, TrackOwner::kObject));
+  EXPECT_EQ(object.at(150, 99), (Pixel{255, 0, 0}));
+  EXPECT_EQ(background.at(150, 99), (Pixel{255, 140, 140}));  // 255 (1 − 0.45)
+  // 2.5 px against 1.5 px wide.
+  EXPECT_EQ(object.at(150, 100), (Pixel{255, 0, 0}));
+  EXPECT_EQ(background.at(150, 100), background.untouched());
+}
+
+TEST(Overlay, TheFeltForceIsOneBoldArrowFromTheMiddle) {
+  Canvas canvas("RGB", 641, 481);
+  SceneView scene;
+  scene.wrench.force_N = {0, 3, 0};  // up, the most there is
+  canvas.draw(scene);
+  // Tail at (320, 240), a fifth of 481 lines long.
+  EXPECT_EQ(canvas.at(320, 239), (Pixel{255, 255, 255}));
+  EXPECT_EQ(canvas.at(320, 240 - 94), (Pixel{255, 255, 255}));
+  EXPECT_EQ(canvas.at(316, 200), (Pixel{0, 0, 0})) << "its border";
+  EXPECT_EQ(canvas.at(320, 260), canvas.untouched());
+  EXPECT_EQ(canvas.at(320, 240 - 105), canvas.untouched());
+
+  Canvas still("RGB", 641, 481);
+  still.draw(SceneView());
+  EXPECT_EQ(still.at(320, 240), still.untouched());
+  Canvas off("RGB", 641, 481);
+  off.draw(scene, 1, 0);  // max-force 0
+  EXPECT_EQ(off.at(320, 240), off.untouched());
+}
+
+FrameAnalysis analysis_of(const std::vector<Track>& tracks) {
+  FrameAnalysis analysis;
+  analysis.tracks = &tracks;
+  analysis.interval_ns = 40'000'000;
+  return analysis;
+}
+
+TEST(Scene, TellsNewAndLostPoints) {
+  SceneViewer viewer;
+  const VisiblePart visible{10, 20, 320, 240};
+  const std::vector<Track> first{{1, {0, 0}, {1, 0}}, {2, {5, 5}, {6, 5}}};
+  const std::vector<Track> second{{3, {9, 9}, {9, 9}}, {1, {1, 0}, {2, 0}}};
+  for (const SceneTrack& track : viewer.see(analysis_of(first), visible).tracks) {
+    EXPECT_FALSE(track.is_new) << "nothing to compare with";
+  }
+  const SceneView& scene = viewer.see(analysis_of(second), visible);
+  ASSERT_EQ(scene.tracks.size(), 2u);
+  EXPECT_TRUE(scene.tracks[0].is_new);
+  EXPECT_FALSE(scene.tracks[1].is_new);
+  EXPECT_EQ(scene.tracks[1].to.x_px, 12) << "in the frame, not in its visible part";
+  EXPECT_EQ(scene.tracks[1].to.y_px, 20);
+  ASSERT_EQ(scene.lost.size(), 1u);
+  EXPECT_EQ(scene.lost[0].x_px, 16);
+  viewer.see(FrameAnalysis(), visible);  // a restart
+  EXPECT_TRUE(viewer.see(analysis_of(first), visible).lost.empty());
+}
+
+TEST(Scene, TellsTheBackgroundFromObjects) {
+  Background background;
+  background.model.kind = ModelKind::kTranslation;
+  background.model.shift_px = {4, 0};
+  background.sigma_px = 0.1;
+  MovingObject left, right;  // boxes overlap at the centre of the frame
+  left.id = 7;
+  right.id = 8;
+  left.tracks = right.tracks = 3;
+  left.position_px = {-10, 0};
+  right.position_px = {10, 0};
+  left.size_px = right.size_px = {40, 40};
+  left.relative_px_s = {-100, 0};  // 4 px a frame
+  right.relative_px_s = {0, 100};
+  const std::vector<MovingObject> objects{left, right};
+  const std::vector<Track> tracks{{1, {20, 20}, {24.2F, 20}},   // background within 3 σ
+                                  {2, {160, 120}, {160, 120}},  // with the left object
+                                  {3, {160, 120}, {164, 124}},  // with the right one
+                                  {4, {20, 220}, {20, 220}}};   // alone
+  FrameAnalysis analysis = analysis_of(tracks);
+  analysis.background = &background;
+  analysis.object_list = &objects;
+  SceneViewer viewer;
+  const SceneView& scene = viewer.see(analysis, {0, 0, 321, 241});
+  EXPECT_EQ(scene.tracks[0].owner, TrackOwner::kBackground);
+  EXPECT_EQ(scene.tracks[1].owner, TrackOwner::kObject);
+  EXPECT_EQ(scene.tracks[1].object, 7u);
+  EXPECT_EQ(scene.tracks[2].object, 8u);
+  EXPECT_EQ(scene.tracks[3].owner, TrackOwner::kUnknown);
+  EXPECT_EQ(scene.objects.size(), 2u);
+}
+
+/// Bytes of `a` that differ in `b`.
+size_t differences(GstBuffer* a, GstBuffer* b) {
+  GstMapInfo x, y;
+  gst_buffer_map(a, &x, GST_MAP_READ);
+  gst_buffer_map(b, &y, GST_MAP_READ);
+  size_t count = x.size == y.size ? 0 : x.size;
+  for (gsize i = 0; i < x.size && i < y.size; ++i) count += x.data[i] != y.data[i];
+  gst_buffer_unmap(a, &x);
+  gst_buffer_unmap(b, &y);
+  return count;
+}
+
+TEST(OverlayElement, WritesToNoFrameThatSomebodyElseHolds) {
+  ElementHarness h("device=none overlay=true");
+  h.set_caps(make_caps("I420", 323, 241));
+  for (int n = 0; n < 3; ++n) {
+    GstBuffer* frame = make_frame(h.info(), 3.0 * n, 0, 13);
+    GstBuffer* before = gst_buffer_copy_deep(frame);
+    ASSERT_EQ(h.push(gst_buffer_ref(frame), static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    EXPECT_NE(out, frame);
+    EXPECT_EQ(differences(frame, before), 0u);
+    // Nothing is known of the first one; later on some twenty points and more move by 3 px: arrows
+    // of 12 px by 1.5 px and more.
+    GstVideoFrame drawn, plain;
+    gst_video_frame_map(&drawn, &h.info(), out, GST_MAP_READ);
+    gst_video_frame_map(&plain, &h.info(), before, GST_MAP_READ);
+    int red_pixels = 0;
+    for (int y = 0; y < 241; ++y) {
+      for (int x = 0; x < 323; ++x) {
+        const auto v = [&](const GstVideoFrame& f) {
+          return static_cast<const guint8*>(
+              GST_VIDEO_FRAME_COMP_DATA(&f, 2))[y / 2 * GST_VIDEO_FRAME_COMP_STRIDE(&f, 2) + x / 2];
+        };
+        red_pixels += v(drawn) > 200 && v(plain) == 128;
+      }
+    }
+    if (n == 0) {
+      EXPECT_EQ(red_pixels, 0);
+    } else {
+      EXPECT_GT(red_pixels, 20 * 12);
+    }
+    gst_video_frame_unmap(&drawn);
+    gst_video_frame_unmap(&plain);
+    gst_buffer_unref(before);
+    gst_buffer_unref(out);
+    gst_buffer_unref(frame);
+  }
+  // What is drawn is not measured again.
+  EXPECT_NEAR(h.motions()[2].velocity_x, 75, 2.5);
+}
+
+TEST(OverlayElement, CanBeTurnedOnAndOffWhilePlaying) {
+  ElementHarness h("device=none");
+  h.set_caps(make_caps("NV12", 320, 240));
+  for (int n = 0; n < 9; ++n) {
+    const bool on = n / 3 == 1;
+    if (n % 3 == 0) g_object_set(h.element(), "overlay", on ? TRUE : FALSE, nullptr);
+    GstBuffer* frame = make_frame(h.info(), 2.0 * n, 0);
+    GstBuffer* before = gst_buffer_copy_deep(frame);
+    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    EXPECT_EQ(differences(out, before) > 0, on) << "frame " << n;
+    gst_buffer_unref(before);
+    gst_buffer_unref(out);
+  }
+}
+
+TEST(OverlayElement, DrawsWithinTheVisiblePart) {
+  ElementHarness h("device=none overlay=true");
+  h.set_caps(make_caps("GRAY8", 640, 480));
+  for (int n = 0; n < 2; ++n) {
+    GstBuffer* frame = make_frame(h.info(), 0, 0);
+    GstBuffer* before = gst_buffer_copy_deep(frame);
+    GstVideoCropMeta* crop = gst_buffer_add_video_crop_meta(frame);
+    crop->x = 200;
+    crop->y = 100;
+    crop->width = 300;
+    crop->height = 200;
+    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    GstMapInfo a, b;
+    gst_buffer_map(out, &a, GST_MAP_READ);
+    gst_buffer_map(before, &b, GST_MAP_READ);
+    int inside = 0, outside = 0;
+    for (int y = 0; y < 480; ++y) {
+      for (int x = 0; x < 640; ++x) {
+        if (a.data[y * 640 + x] == b.data[y * 640 + x]) continue;
+        ++(x >= 200 && x < 500 && y >= 100 && y < 300 ? inside : outside);
+      }
+    }
+    EXPECT_EQ(outside, 0);
+    EXPECT_EQ(inside > 20, n == 1) << inside;
+    gst_buffer_unmap(out, &a);
+    gst_buffer_unmap(before, &b);
+    gst_buffer_unref(before);
+    gst_buffer_unref(out);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,67 @@
+"""The meta as Python reads it, after elements that change the picture, and examples/read_meta.py:
+check_meta.py EXAMPLE"""
+import re
+import subprocess
+import sys
+
+try:
+    import gi
+    gi.require_version("Gst", "1.0")
+    from gi.repository import Gst
+except (ImportError, ValueError) as missing:
+    print(f"skipped: {missing}; Debian has it in python3-gi and gir1.2-gstreamer-1.0")
+    sys.exit(77)
+
+
+def check_example():
+    lines = subprocess.run([sys.executable, sys.argv[1]], check=True, stdout=subprocess.PIPE,
+                           text=True).stdout.splitlines()
+    row = re.compile(
+        r" *([0-9.]+) s  velocity +(\S+) +(\S+) px/s  force +(\S+) +(\S+) N  ([0-9]+) tracks")
+    rows = [[float(value) for value in row.fullmatch(line).groups()] for line in lines]
+    assert len(rows) == 30, f"{len(rows)} frames, not 30"
+    # The ball flies: after the first frame there are tracks, and the force goes the way of the
+    # motion, whose y axis points down.
+    for seconds, velocity_x, velocity_y, force_x, force_y, tracks in rows[1:]:
+        assert tracks > 0, f"no tracks at {seconds} s"
+        assert velocity_x * force_x - velocity_y * force_y > 0, \
+            f"force against motion at {seconds} s"
+
+
+def metas_after(elements):
+    """What is read of each frame behind `elements`: None without the meta."""
+    pipeline = Gst.parse_launch(
+        "videotestsrc pattern=ball num-buffers=5 ! video/x-raw,format=I420,width=320,height=240 "
+        f"! spidarmotion device=none attach-meta=true ! {elements} ! fakesink name=sink")
+    found = []
+
+    def read(_pad, info):
+        meta = info.get_buffer().get_custom_meta("GstSpidarMotionMeta")
+        frame = meta and meta.get_structure()
+        found.append(frame and (frame.get_value("width"), frame.get_value("height"),
+                                frame.get_value("velocity-x"), frame.get_value("tracks").unpack()))
+        return Gst.PadProbeReturn.OK
+
+    pipeline.get_by_name("sink").get_static_pad("sink").add_probe(Gst.PadProbeType.BUFFER, read)
+    pipeline.set_state(Gst.State.PLAYING)
+    message = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE,
+                                              Gst.MessageType.EOS | Gst.MessageType.ERROR)
+    pipeline.set_state(Gst.State.NULL)
+    assert message.type == Gst.MessageType.EOS, message.parse_error()
+    return found
+
+
+Gst.init(None)
+check_example()
+plain = metas_after("identity")
+assert len(plain) == 5 and all(plain) and plain[-1][3]
+assert metas_after("queue ! videoconvert ! video/x-raw,format=BGRx") == plain
+scaled = metas_after("videoconvert ! videoscale ! video/x-raw,width=640,height=120")
+for (_, _, velocity, tracks), after in zip(plain, scaled, strict=True):
+    assert after[:3] == (640, 120, 2 * velocity), after[:3]
+    for (number, x, _, _, y, _), (same, scaled_x, _, _, scaled_y, _) in zip(tracks, after[3],
+                                                                           strict=True):
+        assert number == same
+        # In units of pixels whose first centre is (0, 0): (x + 1/2) 2 - 1/2.
+        assert abs(scaled_x - (2 * x + 0.5)) < 1e-9 and abs(scaled_y - (y / 2 - 0.25)) < 1e-9
+assert metas_after("videocrop left=10") == [None] * 5, "coordinates of another picture"

@@ -1,0 +1,73 @@
+/// An X server of the test's own, without a screen.
+#pragma once
+
+#include <csignal>
+#include <cstdlib>
+#include <string>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace spidar::test {
+
+/// Xvfb on a free display. DISPLAY names it, and WAYLAND_DISPLAY is unset, for as long as it lives;
+/// no window may be open then.
+class VirtualDisplay {
+ public:
+  VirtualDisplay() {
+    // Two that start at the same time may choose the same display; one of them gives up then.
+    for (int attempt = 0; attempt < 5 && name_.empty(); ++attempt) start();
+    if (name_.empty()) return;
+    setenv("DISPLAY", name_.c_str(), 1);
+    unsetenv("WAYLAND_DISPLAY");
+  }
+
+  ~VirtualDisplay() {
+    unsetenv("DISPLAY");
+    stop();
+  }
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+
+  bool runs() const { return !name_.empty(); }
+  static constexpr const char* kWhyNot = "Xvfb does not start: is the package xvfb installed?";
+
+  /// It answers nobody until thaw(): neither does what waits for it.
+  void freeze() const { kill(process_, SIGSTOP); }
+  void thaw() const { kill(process_, SIGCONT); }
+
+ private:
+  void start() {
+    int ends[2];
+    if (pipe(ends) != 0) return;
+    process_ = fork();
+    if (process_ == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      const std::string display_fd = std::to_string(ends[1]);
+      execlp("Xvfb", "Xvfb", "-displayfd", display_fd.c_str(), "-screen", "0", "1280x800x24",
+             "-noreset", "-nolisten", "tcp", nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    char number[16] = {};
+    const ssize_t length = read(ends[0], number, sizeof number - 1);  // ends with a new line
+    close(ends[0]);
+    if (length >= 2) {
+      name_ = ":" + std::string(number, static_cast<size_t>(length) - 1);
+    } else {
+      stop();
+    }
+  }
+
+  void stop() {
+    if (process_ <= 0) return;
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+    process_ = -1;
+  }
+
+  pid_t process_ = -1;
+  std::string name_;
+};
+
+}  // namespace spidar::test

@@ -1,0 +1,67 @@
+/// An element that is not there, for windows.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plugin/window/window_source.h"
+
+namespace spidar::test {
+
+class FakeSource final : public WindowSource {
+ public:
+  explicit FakeSource(ElementState state = {}) : state_(std::move(state)) {
+    if (state_.name.empty()) state_.name = "fake";
+  }
+
+  bool read(ElementState& state) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state = state_;
+    return true;
+  }
+  void set(const std::string& setting, double value) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sets_.emplace_back(setting, value);
+    changed_.notify_all();
+  }
+  void complain(const std::string& what, const std::string&) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    complaints_.push_back(what);
+    changed_.notify_all();
+  }
+  void closed() override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_closed_ = true;
+    changed_.notify_all();
+  }
+
+  using Sets = std::vector<std::pair<std::string, double>>;
+  /// Waits until there are as many, however long that takes.
+  Sets wait_for_sets(size_t count) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return sets_.size() >= count; });
+    return sets_;
+  }
+  void wait_until_closed() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return is_closed_; });
+  }
+  std::vector<std::string> wait_for_complaint() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return !complaints_.empty(); });
+    return complaints_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  ElementState state_;
+  Sets sets_;
+  std::vector<std::string> complaints_;
+  bool is_closed_ = false;
+};
+
+}  // namespace spidar::test

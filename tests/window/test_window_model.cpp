@@ -1,0 +1,164 @@
+// What a debug window is made of, without a window.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugin/window/frame_feed.h"
+#include "plugin/window/layout.h"
+#include "plugin/window/window_model.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr double kRounding = 1e-9;
+
+TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
+  for (const auto& [width, height] :
+       {std::pair{1280, 800}, {640, 480}, {3840, 2160}, {20, 10}, {1, 1}, {0, 0}, {500, 2000}}) {
+    for (const double scale : {0.5, 1.0, 2.0, 8.0}) {
+      SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height) + " at " +
+                   std::to_string(scale));
+      const WindowLayout l = lay_out(width, height, scale);
+      const std::vector<Rect> panels{l.picture, l.force, l.speed,   l.status,
+                                     l.grip,    l.gain,  l.controls};
+      for (size_t i = 0; i < panels.size(); ++i) {
+        const Rect& a = panels[i];
+        EXPECT_GE(a.width, 0);
+        EXPECT_GE(a.height, 0);
+        EXPECT_GE(a.x, 0);
+        EXPECT_GE(a.y, 0);
+        EXPECT_LE(a.right(), std::max(width, 1) + kRounding);
+        EXPECT_LE(a.bottom(), std::max(height, 1) + kRounding);
+        for (size_t k = 0; k < i; ++k) {
+          const Rect& b = panels[k];
+          const bool apart = a.right() <= b.x + kRounding || b.right() <= a.x + kRounding ||
+                             a.bottom() <= b.y + kRounding || b.bottom() <= a.y + kRounding;
+          EXPECT_TRUE(apart) << i << " and " << k;
+        }
+      }
+    }
+  }
+}
+
+TEST(Layout, ThePictureKeepsItsShapeAndItsPlace) {
+  const Rect panel{10, 20, 400, 300};
+  // Pixels twice as wide as high: 100 × 100 of them are 2 : 1.
+  const PictureMap map = map_picture(panel, 5, 6, 100, 100, 2);
+  EXPECT_NEAR(map.shown.width, 400, kRounding);
+  EXPECT_NEAR(map.shown.height, 200, kRounding);
+  EXPECT_NEAR(map.shown.y, 70, kRounding);
+  // The first pixel shown is (5, 6); its centre is half a pixel from the corner.
+  EXPECT_NEAR((map({5, 6}) - Eigen::Vector2d(12, 71)).norm(), 0, kRounding);
+  EXPECT_NEAR((map({104, 105}) - Eigen::Vector2d(408, 269)).norm(), 0, kRounding);
+}
+
+TEST(Layout, TensionBarsShowTheirShareOfTheRange) {
+  DeviceView device;
+  device.geometry.count = 3;
+  device.geometry.exit_m[0] = {0.1, 0, 0};
+  device.geometry.exit_m[1] = {-0.1, 0.1, 0};
+  device.geometry.exit_m[2] = {0, -0.1, 0};
+  device.min_tension_N.head<3>() << 0.5, 0.5, 0;
+  device.max_tension_N.head<3>() << 5, 5, 0;  // the last one has no range
+  device.loop.last.tension_N.head<3>() << 2, 9, 1;
+  const Rect panel{0, 0, 300, 300};
+  const auto bars = tension_bars(GripProjection(panel, device.geometry), device, 2);
+  ASSERT_EQ(bars.size(), 3u);
+  EXPECT_NEAR(bars[0].filled.height, 0.4 * bars[0].range.height, kRounding);
+  EXPECT_NEAR(bars[0].filled.bottom(), bars[0].range.bottom(), kRounding);
+  EXPECT_NEAR(bars[0].range.bottom() - bars[0].least_y, 0.1 * bars[0].range.height, kRounding);
+  EXPECT_NEAR(bars[1].filled.height, bars[1].range.height, kRounding) << "not above its range";
+  EXPECT_EQ(bars[2].filled.height, 0);
+  EXPECT_GT(bars[0].range.x, bars[1].range.x);
+}
+
+TEST(Layout, TheGripIsSeenFromTheRightAndAbove) {
+  StringGeometry geometry;
+  geometry.count = 1;
+  geometry.exit_m[0] = {0.1, 0, 0};
+  const GripProjection project({0, 0, 200, 100}, geometry);
+  const Eigen::Vector2d centre = project(Eigen::Vector3d::Zero());
+  EXPECT_NEAR((centre - Eigen::Vector2d(100, 50)).norm(), 0, kRounding);
+  EXPECT_GT(project({0.1, 0, 0}).x(), centre.x());
+  EXPECT_LT(project({0, 0.1, 0}).y(), centre.y()) << "up is up";
+  EXPECT_LT(project({0, 0, 0.1}).x(), centre.x()) << "near is left";
+  EXPECT_GT(project({0, 0, 0.1}).y(), centre.y()) << "and down";
+}
+
+TEST(History, RemembersFiveSecondsAndTheLargestSpeed) {
+  MotionHistory history;
+  for (int i = 0; i <= 100; ++i) history.add({0.1 * i, i == 3 ? 500.0 : 10.0, 0, 0});
+  EXPECT_NEAR(history.moments().front().time_s, 5, 0.1 + kRounding);
+  EXPECT_NEAR(history.moments().back().time_s, 10, kRounding);
+  EXPECT_EQ(history.largest_speed_px_s(), 500) << "also when it is not shown any more";
+  history.forget();
+  EXPECT_TRUE(history.moments().empty());
+  EXPECT_EQ(history.largest_speed_px_s(), 0);
+}
+
+TEST(GainCurve, IsThatOfTheController) {
+  ControllerSettings settings;  // eq. 15: 2 · 3 / π · atan(0.01 v)
+  const std::vector<double> nonlinear = gain_curve(settings, 400, 200, 3);
+  ASSERT_EQ(nonlinear.size(), 3u);
+  EXPECT_EQ(nonlinear[0], 0);
+  EXPECT_NEAR(nonlinear[1], 1.5, kRounding);
+  EXPECT_NEAR(nonlinear[2], 6 / M_PI * std::atan(2.0), kRounding);
+  settings.kind = ControllerKind::kLinear;  // eq. 12: k = 3 / 400
+  const std::vector<double> linear = gain_curve(settings, 400, 200, 3);
+  EXPECT_NEAR(linear[2], 1.5, kRounding);
+  settings.max_force_N = -1;
+  EXPECT_TRUE(gain_curve(settings, 400, 200, 3).empty());
+}
+
+TEST(GainCurve, SpeedIsThatOfTheReferenceFrame) {
+  ImageMotion motion;
+  motion.velocity_px_s = {30, 40};
+  EXPECT_NEAR(controller_speed_px_s(motion, {}, 960), 25, kRounding);
+  motion.velocity_px_s.setZero();
+  motion.growth_1_s = 0.5;  // by half of 480 px
+  motion.roll_rad_s = 0.5;
+  EXPECT_NEAR(controller_speed_px_s(motion, {1, 0}, 960), 120, kRounding);
+  EXPECT_EQ(controller_speed_px_s(motion, {}, 0), 0);
+}
+
+TEST(FrameFeed, GivesTheNewestFrameOnce) {
+  init_gstreamer();
+  GstVideoInfo info;
+  GstCaps* caps = make_caps("I420", 35, 17);
+  gst_video_info_from_caps(&info, caps);
+  gst_caps_unref(caps);
+  FrameFeed feed;
+  PictureCopy picture;
+  FrameFacts facts;
+  EXPECT_FALSE(feed.wanted()) << "no copies are made while nobody looks";
+  EXPECT_FALSE(feed.take(picture, facts));
+  feed.want();
+  for (int n = 0; n < 3; ++n) {
+    GstBuffer* buffer = make_frame(info, n, 0, 7);
+    GstVideoFrame frame;
+    gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ);
+    EXPECT_EQ(feed.wanted(), n == 0);
+    facts.running_ns = n;
+    EXPECT_TRUE(feed.give(frame, facts));
+    EXPECT_EQ(GST_MINI_OBJECT_REFCOUNT_VALUE(buffer), 2) << "that of the map; the copy is our own";
+    gst_video_frame_unmap(&frame);
+    gst_buffer_unref(buffer);
+  }
+  facts = {};
+  ASSERT_TRUE(feed.take(picture, facts));
+  EXPECT_EQ(facts.running_ns, 2);
+  GstVideoFrame copy;
+  ASSERT_TRUE(gst_video_frame_map(&copy, &picture.info(), picture.buffer(), GST_MAP_READ));
+  const auto* luma = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&copy, 0));
+  const int stride = GST_VIDEO_FRAME_PLANE_STRIDE(&copy, 0);
+  EXPECT_EQ(luma[16 * stride + 34], static_cast<guint8>(std::lround(texture(34 - 2, 16))));
+  gst_video_frame_unmap(&copy);
+  EXPECT_FALSE(feed.take(picture, facts));
+}
+
+}  // namespace
+}  // namespace spidar::test
