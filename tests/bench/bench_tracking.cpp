@@ -13,7 +13,6 @@
 #include <gst/gst.h>
 #include <opencv2/core/utility.hpp>
 
-#include "tests/bench/call_timer.h"
 #include "tests/bench/tracking/film_frames.h"
 #include "tests/bench/tracking/middlebury.h"
 #include "tests/bench/tracking/options.h"
@@ -163,12 +162,12 @@ void list() {
 int main(int argc, char** argv) {
   gst_init(nullptr, nullptr);
   cv::setNumThreads(1);
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a table when it is known, into files too
   try {
     if (argc == 2 && std::string(argv[1]) == "--list") {
       list();
       return 0;
     }
-    pin_to_one_core();
     Benchmark(parse_options(argc, argv)).run();
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "bench_tracking: %s\n%s", error.what(), kUsage);
