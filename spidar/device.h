@@ -8,6 +8,7 @@
 
 #include "core/api.h"
 #include "core/grip/string_geometry.h"
+#include "spidar/link_fault.h"
 
 namespace spidar {
 
@@ -48,6 +49,9 @@ class SPIDAR_API Device {
 
   /// Motors to zero, then releases the board. Safe to call twice, and after kLost.
   virtual void close() noexcept = 0;
+
+  /// How the link to the board has been; all zero for a device without one. Any thread.
+  virtual LinkHealth health() const noexcept { return {}; }
 
   /// For messages: "sim", "usb:3", …
   virtual const std::string& name() const noexcept = 0;

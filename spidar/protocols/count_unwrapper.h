@@ -22,16 +22,12 @@ class CountUnwrapper {
   /// Counter values as the board gives them become counts that continue the last ones. False, and
   /// nothing taken over, when one of them jumped.
   bool follow(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
-    std::array<int32_t, kMaxStrings> next = count_;
-    for (size_t i = 0; i < channels; ++i) {
-      const int32_t step = signed_difference(raw[i] - raw_[i]);
-      if (step > kMaxStep || step < -kMaxStep) return false;
-      next[i] =
-          static_cast<int32_t>(static_cast<uint32_t>(count_[i]) + static_cast<uint32_t>(step));
-    }
-    count_ = next;
-    raw_ = raw;
-    return true;
+    return move(raw, channels, kMaxStep);
+  }
+
+  /// The same after a break, in which strings may have moved further.
+  void resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
+    move(raw, channels, INT32_MAX);
   }
 
   /// Takes the counter values for the counts, sign extended: at a first reading.
@@ -47,6 +43,20 @@ class CountUnwrapper {
   const std::array<int32_t, kMaxStrings>& counts() const noexcept { return count_; }
 
  private:
+  bool move(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
+            int32_t max_step) noexcept {
+    std::array<int32_t, kMaxStrings> next = count_;
+    for (size_t i = 0; i < channels; ++i) {
+      const int32_t step = signed_difference(raw[i] - raw_[i]);
+      if (step > max_step || step < -max_step) return false;
+      next[i] =
+          static_cast<int32_t>(static_cast<uint32_t>(count_[i]) + static_cast<uint32_t>(step));
+    }
+    count_ = next;
+    raw_ = raw;
+    return true;
+  }
+
   int32_t signed_difference(uint32_t difference) const noexcept {
     const uint32_t sign = uint32_t{1} << (bits_ - 1);
     const uint32_t low = difference & ((sign << 1) - 1);

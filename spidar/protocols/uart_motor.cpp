@@ -10,11 +10,20 @@ std::array<uint8_t, kCommands> command_lengths(size_t motors, size_t forces) noe
   // Numbers 0 … 11: none, info, lengths, all, sensor, direct, current, interpolate, force control,
   // set parameter, reset sensor, get parameter.
   const std::array<size_t, kCommands> length{
-      1,     1,     kSetLengthsLength, 5 + n + std::max(n, jacobian),  1, 1 + 2 * n,
-      1 + n, 4 + n, 4 + n + jacobian,  2 + std::max<size_t>(2 * n, 8),  // the longest parameter:
-                                                                        // two per motor, or two
-                                                                        // baud rates
-      3,     2,
+      1,
+      1,
+      kSetLengthsLength,
+      5 + n + std::max(n, jacobian),
+      1,
+      1 + 2 * n,
+      1 + n,
+      4 + n,
+      4 + n + jacobian,
+      2 + std::max<size_t>(2 * n, 8),  // the longest parameter:
+                                       // two per motor, or two
+                                       // baud rates
+      3,
+      2,
   };
   std::array<uint8_t, kCommands> bytes{};
   for (size_t i = 0; i < kCommands; ++i)
