@@ -14,6 +14,14 @@
 namespace spidar::test {
 namespace {
 
+void tick_until_running(HapticSession& session) {
+  int64_t now_ns = 0;
+  while (session.loop().snapshot().last.device != DeviceState::kRunning) {
+    now_ns += kTick_ns;
+    session.loop().tick(now_ns, now_ns);
+  }
+}
+
 class Boards : public testing::TestWithParam<Kind>, public BoardBench {
  protected:
   Boards() : BoardBench(GetParam()) {}
@@ -219,9 +227,12 @@ TEST_P(Boards, OpenSaysWhatIsWrong) {
 }
 
 TEST_P(Boards, TheHapticLoopDrivesIt) {
-  HapticSession session(profile, this->device(true));
-  while (session.loop().snapshot().last.device != DeviceState::kRunning) {
-  }
+  SessionSettings by_hand;
+  by_hand.threaded = false;
+  HapticSession session(profile, this->device(), by_hand);
+  EXPECT_TRUE(motors.all_zero());
+  tick_until_running(session);
+  EXPECT_EQ(session.loop().snapshot().counters.exchange_errors, 0u);
   if (counts()) {
     EXPECT_FALSE(motors.all_zero());
   }
@@ -350,9 +361,10 @@ TEST(DeviceFactory, RefusesNegativeVoltsForBoardsWithoutThem) {
 TEST(WireSimulation, HoldsTheGripWhereTheSimulationDoes) {
   for (const char* spec : {"sim", "sim:sh4", "sim:simple", "sim:uart"}) {
     const Profile profile = load_profile("spidar-g6x3-v2-r");
-    HapticSession session(profile, make_device(spec, profile));
-    while (session.loop().snapshot().last.device != DeviceState::kRunning) {
-    }
+    SessionSettings by_hand;
+    by_hand.threaded = false;
+    HapticSession session(profile, make_device(spec, profile), by_hand);
+    tick_until_running(session);
     const LoopSnapshot snapshot = session.loop().snapshot();
     EXPECT_EQ(snapshot.counters.exchange_errors, 0u) << spec;
     EXPECT_EQ(snapshot.counters.pose_errors, 0u) << spec;
