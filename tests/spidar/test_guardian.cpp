@@ -1,0 +1,172 @@
+/// Motors come to zero when the process that drives them is killed.
+///
+/// The process to be killed is this program again, with a device and a file to say that it pulls.
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <spawn.h>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/board_device.h"
+#include "spidar/device_factory.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/support/pseudo_terminal.h"
+#include "tests/support/recorded_motors.h"
+
+extern char** environ;
+
+namespace spidar::test {
+namespace {
+
+constexpr const char* kUsbProfile = "spidar-g6x3-v2-r";
+constexpr const char* kUartProfile = "spidar-g6x5-r";
+
+/// Pulls until it is killed.
+[[noreturn]] void pull_for_ever(const char* spec, const char* profile) {
+  const auto device = make_device(spec, load_profile(profile));
+  device->open();
+  MotorVolts volts;
+  volts.volt.fill(1);
+  DeviceReading reading;
+  for (;;) device->exchange(volts, reading);
+}
+
+class Victim {
+ public:
+  Victim(const std::string& spec, const std::string& profile) {
+    std::string name = "/proc/self/exe", word = "--pull", device = spec, of = profile;
+    char* arguments[] = {name.data(), word.data(), device.data(), of.data(), nullptr};
+    EXPECT_EQ(posix_spawn(&process_, name.c_str(), nullptr, nullptr, arguments, environ), 0);
+  }
+  ~Victim() { end(SIGKILL); }
+
+  void end(int signal) {
+    if (process_ < 0) return;
+    kill(process_, signal);
+    waitpid(process_, nullptr, 0);
+    process_ = -1;
+  }
+  /// Runs without having ended by itself.
+  bool lives() const { return process_ > 0 && waitpid(process_, nullptr, WNOHANG) == 0; }
+
+ private:
+  pid_t process_ = -1;
+};
+
+/// Waits for as long as it takes; the test's own time limit is the only one.
+template <typename Condition>
+void wait_for(const Condition& condition) {
+  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsKilled) {
+  for (const UsbKind kind : {UsbKind::kSh4, UsbKind::kSimple}) {
+    for (const int signal : {SIGKILL, SIGTERM, SIGSEGV}) {
+      UsbPort& port = plug(0, kind);
+      Victim victim("usb", kUsbProfile);
+      wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });
+      ASSERT_TRUE(victim.lives());
+      victim.end(signal);
+      wait_for([&] { return port.at_rest(); });
+      clear_bus();
+    }
+  }
+}
+
+TEST(Guardian, StopsTheMouseWhenTheHostIsKilled) {
+  UsbPort& port = plug(0, UsbKind::kMouse);
+  Victim victim("mouse", "spidar-g6x3-v1-r");
+  // Equal volts of all strings cancel out up to rounding: look for the reports instead.
+  wait_for([&] { return port.updates > 2 || !victim.lives(); });
+  ASSERT_TRUE(victim.lives());
+  port.digit[0] = 500;
+  victim.end(SIGKILL);
+  wait_for([&] { return port.at_rest(); });
+  clear_bus();
+}
+
+TEST(Guardian, ZeroesUartBoardsWhenTheHostIsKilled) {
+  MotorBench bench;
+  RecordedMotors motors(bench);
+  UartLine line({motors, {{2, {7, 1, 8, 0, 4, 0}}}});
+  Victim victim("uart:" + line.path(), kUartProfile);
+  wait_for([&] { return bench.digit[7] != 0 || !victim.lives(); });
+  ASSERT_TRUE(victim.lives());
+  victim.end(SIGKILL);
+  wait_for([&] { return bench.all_zero(); });
+}
+
+TEST(Guardian, GoesAwayWhenTheDeviceIsClosed) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  {
+    const auto device = make_device("usb", load_profile(kUsbProfile));
+    for (int i = 0; i < 3; ++i) {
+      device->open();
+      device->close();
+    }
+    device->open();
+  }
+  // All of its children have been waited for.
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+  EXPECT_TRUE(port.at_rest());
+  clear_bus();
+}
+
+TEST(Guardian, IsTriedWhenTheMotorsCannotBeZeroed) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  const auto device = make_device("usb", load_profile(kUsbProfile));
+  device->open();
+  port.digit[0] = 100;
+  port.fault = LinkFault::kStall;
+  device->close();  // the guardian has given up, too
+  EXPECT_FALSE(port.at_rest());
+  clear_bus();
+}
+
+TEST(Guardian, IsNeededUnlessNotWanted) {
+  plug(0, UsbKind::kSh4);
+  const std::string before = std::getenv("SPIDAR_GUARDIAN");
+  setenv("SPIDAR_GUARDIAN", "/nowhere/spidar-guardian", 1);
+  const Profile profile = load_profile(kUsbProfile);
+  try {
+    make_device("usb", profile)->open();
+    FAIL();
+  } catch (const DeviceError& error) {
+    EXPECT_STREQ(error.what(),
+                 "usb: no guardian to zero the motors should this process be killed: "
+                 "/nowhere/spidar-guardian: No such file or directory; install spidar-guardian, or "
+                 "name it in SPIDAR_GUARDIAN");
+  }
+  BoardSettings settings;
+  settings.guardian = false;
+  EXPECT_NO_THROW(make_device("usb", profile, settings)->open());
+  setenv("SPIDAR_GUARDIAN", before.c_str(), 1);
+  clear_bus();
+}
+
+}  // namespace
+}  // namespace spidar::test
+
+int main(int argc, char** argv) {
+  if (argc == 4 && std::strcmp(argv[1], "--pull") == 0)
+    spidar::test::pull_for_ever(argv[2], argv[3]);
+  // Before anything looks at the bus: this process, its victims and their guardians share one.
+  std::string name = (std::filesystem::temp_directory_path() / "spidar-bus-XXXXXX").string();
+  const int file = mkstemp(name.data());
+  if (file < 0) return 1;
+  close(file);
+  setenv("SPIDAR_EMULATED_BUS", name.c_str(), 1);
+  testing::InitGoogleTest(&argc, argv);
+  const int result = RUN_ALL_TESTS();
+  std::filesystem::remove(name);
+  return result;
+}
