@@ -85,6 +85,8 @@ class MotionEngine {
   void end_of_stream();
   /// kClosed with device=none.
   DeviceState device_state() const;
+  /// ": unplugged", ": time-out", …: what happened to the link last; empty when there is no link.
+  std::string device_fault() const;
   /// −1 when all strings are well, or with device=none.
   int faulty_string() const;
 

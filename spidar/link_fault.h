@@ -58,6 +58,12 @@ struct LinkHealth {
   int64_t round_trip_p99_ns = 0;
   int64_t round_trip_max_ns = 0;
 
+  /// All faults but time-outs.
+  uint64_t errors() const noexcept {
+    uint64_t sum = 0;
+    for (size_t i = 2; i < kLinkFaults; ++i) sum += faults[i];
+    return sum;
+  }
   uint64_t count(LinkFault fault) const noexcept { return faults[static_cast<size_t>(fault)]; }
 };
 

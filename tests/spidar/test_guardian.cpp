@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <spawn.h>
 #include <string>
 #include <sys/wait.h>
@@ -18,6 +17,7 @@
 #include "spidar/boards/board_device.h"
 #include "spidar/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/shared_bus.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"
 
@@ -159,14 +159,8 @@ TEST(Guardian, IsNeededUnlessNotWanted) {
 int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "--pull") == 0)
     spidar::test::pull_for_ever(argv[2], argv[3]);
-  // Before anything looks at the bus: this process, its victims and their guardians share one.
-  std::string name = (std::filesystem::temp_directory_path() / "spidar-bus-XXXXXX").string();
-  const int file = mkstemp(name.data());
-  if (file < 0) return 1;
-  close(file);
-  setenv("SPIDAR_EMULATED_BUS", name.c_str(), 1);
+  // This process, its victims and their guardians have one bus.
+  const spidar::test::SharedBus shared;
   testing::InitGoogleTest(&argc, argv);
-  const int result = RUN_ALL_TESTS();
-  std::filesystem::remove(name);
-  return result;
+  return RUN_ALL_TESTS();
 }
