@@ -1,5 +1,6 @@
 #include "spidar/device_factory.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -39,6 +40,15 @@ std::unique_ptr<Board> make_uart(const std::string& spec, const std::string& pat
   return std::make_unique<UartBoard>(spec, profile, std::move(lines));
 }
 
+BoardSettings resolved(BoardSettings settings, const Profile& profile) {
+  if (settings.count_zero != CountZero::kByProfile) return settings;
+  const bool calibrated =
+      std::any_of(profile.drives.begin(), profile.drives.end(),
+                  [](const StringDrive& drive) { return drive.home_offset_m != 0; });
+  settings.count_zero = calibrated ? CountZero::kNever : CountZero::kFirstOpen;
+  return settings;
+}
+
 }  // namespace
 
 std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
@@ -57,7 +67,7 @@ std::unique_ptr<Device> make_device(const std::string& spec, const Profile& prof
   if (!board)
     throw DeviceError("unknown device \"" + spec +
                       "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse");
-  return std::make_unique<BoardDevice>(std::move(board), settings);
+  return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
 }
 
 }  // namespace spidar

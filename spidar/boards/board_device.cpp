@@ -58,9 +58,9 @@ void BoardDevice::open() {
       for (const LastWill& will : board_->last_wills())
         guardians_.push_back(std::make_unique<Guardian>(board_->name(), will));
     }
-    const bool zero = settings_.count_zero == CountZero::kEveryOpen ||
-                      (settings_.count_zero == CountZero::kFirstOpen && !zeroed_);
-    if (zero) board_->zero_counts();
+    const CountZero when = settings_.count_zero;
+    if (when == CountZero::kEveryOpen || (when != CountZero::kNever && !zeroed_))
+      board_->zero_counts();
     zeroed_ = true;
     last_ = {};
     errors_in_a_row_ = 0;

@@ -30,6 +30,7 @@ class SPIDAR_API BoardDevice final : public Device {
   /// close() takes the volts down in so many milliseconds, when that was not done before.
   static constexpr int kRamp_ms = 20;
 
+  /// CountZero::kByProfile is for make_device(), here it means kFirstOpen.
   BoardDevice(std::unique_ptr<Board> board, const BoardSettings& settings);
   ~BoardDevice() override;
 

@@ -3,16 +3,16 @@
 
 namespace spidar {
 
-/// When counts become zero where the grip is. Never means: as the board counts, which is what a
-/// calibrated home offset refers to.
+/// When counts become zero where the grip is.
 enum class CountZero {
-  kFirstOpen,  ///< not when it is taken back after it was lost
+  kByProfile,  ///< kNever for a profile with home offsets, else kFirstOpen
+  kFirstOpen,  ///< not when the board is taken back after it was lost
   kEveryOpen,
-  kNever,
+  kNever,  ///< as the board counts, which is what calibrated home offsets refer to
 };
 
 struct BoardSettings {
-  CountZero count_zero = CountZero::kFirstOpen;
+  CountZero count_zero = CountZero::kByProfile;
   /// A process of its own zeroes the motors when this one is killed.
   bool guardian = true;
   /// Exchanges on a thread of their own. Without, exchange() blocks until the board has answered.

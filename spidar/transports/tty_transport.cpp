@@ -61,7 +61,9 @@ void TtyTransport::fail(const std::string& what) {
   close();
   std::string advice;
   if (error == EACCES)
-    advice = "; join the group of that file (dialout), or install the udev rule 70-spidar.rules";
+    advice =
+        "; join the group of that file (dialout), or name the adapter in the udev rule "
+        "70-spidar.rules";
   if (error == ENOENT) advice = "; serial lines are /dev/ttyUSB0, /dev/serial/by-id/…";
   if (error == ENOTTY) advice = "; it is no serial line";
   if (error == EWOULDBLOCK) advice = "; another program uses it";

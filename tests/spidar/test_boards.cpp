@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "examples/example_board.h"
 #include "spidar/device_factory.h"
 #include "spidar/emulation/wire_simulation.h"
 #include "spidar/haptic_session.h"
@@ -272,6 +273,45 @@ TEST(Uart, TooFewMotorsAreSaid) {
               std::string::npos)
         << error.what();
   }
+}
+
+/// The other end of the example in docs/adding-a-board.md.
+class EmulatedExample final : public EmulatedBoard {
+ public:
+  explicit EmulatedExample(EmulatedMotors& motors) : motors_(motors) {}
+  void receive(ByteView bytes) noexcept override {
+    std::array<int, kMaxStrings> digits{};
+    for (size_t i = 0; i < digits.size(); ++i) digits[i] = bytes.u16(2 * i);
+    motors_.put_out(digits);
+    due_ = true;
+  }
+  size_t reply(MutableBytes bytes) noexcept override {
+    if (!due_ || bytes.size < 16) return 0;
+    due_ = false;
+    for (size_t i = 0; i < kMaxStrings; ++i)
+      bytes.put_u16(2 * i, static_cast<uint16_t>(motors_.counts()[i]));
+    return 16;
+  }
+
+ private:
+  EmulatedMotors& motors_;
+  bool due_ = false;
+};
+
+TEST(ExampleBoard, IsABoard) {
+  BoardBench bench(Kind::kSh4);
+  BoardDevice device(std::make_unique<ExampleBoard>(
+                         "example", bench.profile,
+                         bench.transport_to(std::make_unique<EmulatedExample>(bench.recorded))),
+                     {CountZero::kFirstOpen, false, false});
+  device.open();
+  bench.motors.count[6] = -9;
+  DeviceReading reading;
+  ASSERT_EQ(device.exchange(all_volts(1), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(bench.motors.digit[7], 415);
+  EXPECT_EQ(reading.count[6], -9);
+  device.close();
+  EXPECT_TRUE(bench.motors.all_zero());
 }
 
 /// A wire that does not answer before it is told to.

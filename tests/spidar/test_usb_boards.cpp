@@ -211,6 +211,20 @@ TEST_P(EachUsbBoard, TheLoopLosesItAndTakesItBack) {
   EXPECT_FALSE(port.at_rest());
 }
 
+TEST_F(UsbBoards, CountsOfACalibratedProfileAreTheBoards) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  port.count[0] = 600;
+  Profile calibrated = profile;
+  for (const bool offsets : {false, true}) {
+    calibrated.drives[4].home_offset_m = offsets ? 0.01 : 0;
+    const auto board = make_device("usb", calibrated, unguarded(false));
+    board->open();
+    DeviceReading reading;
+    ASSERT_EQ(board->exchange({}, reading), ExchangeStatus::kOk);
+    EXPECT_EQ(reading.count[0], offsets ? 600 : 0);
+  }
+}
+
 TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
   UsbPort& other = plug(0, UsbKind::kMouse);
   other.fault = LinkFault::kTimeout;  // does not answer to the question for its state
