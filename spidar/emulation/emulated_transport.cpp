@@ -12,7 +12,6 @@ EmulatedTransport::EmulatedTransport(std::unique_ptr<EmulatedBoard> board,
 
 void EmulatedTransport::open() {
   if (wire_->fault == LinkFault::kGone) throw DeviceError("emulated board: not plugged in");
-  ++wire_->opened;
   open_ = true;
 }
 

@@ -15,7 +15,6 @@ struct EmulatedWire {
   /// Of every exchange; what it is decides whether packets arrive: with kStall and kGone they do
   /// not. kBabble, kShort, kWrongReply spoil the reply.
   std::atomic<LinkFault> fault{LinkFault::kNone};
-  std::atomic<int> opened{0};
 };
 
 /// Time does not pass in it: a reply is there at once or not at all.

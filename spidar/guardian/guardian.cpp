@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "spidar/device.h"
-#include "spidar/guardian/guardian_words.h"
 
 extern char** environ;
 

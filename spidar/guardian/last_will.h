@@ -27,4 +27,7 @@ struct LastWill {
   std::array<char, 256> path{};  ///< of the device file, zero-terminated
 };
 
+/// What the host says at last when the will is not to be carried out.
+constexpr char kDismissed = 'q';
+
 }  // namespace spidar

@@ -15,7 +15,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "spidar/guardian/guardian_words.h"
 #include "spidar/guardian/last_will.h"
 
 namespace {

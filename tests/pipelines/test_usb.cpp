@@ -1,24 +1,19 @@
 // Pipelines with boards on an emulated USB that are pulled out and put back while a film plays.
 #include <cerrno>
+#include <chrono>
 #include <csignal>
-#include <spawn.h>
 #include <string>
-#include <sys/wait.h>
 #include <thread>
-#include <vector>
 
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
-
-extern char** environ;
+#include "tests/support/child_process.h"
 
 namespace spidar::test {
 namespace {
-
-constexpr const char* kElement = "spidarmotion device=usb profile=spidar-g6x3-v2-r";
 
 /// Waits for as long as it takes; the test's own time limit is the only one.
 template <typename Condition>
@@ -66,9 +61,8 @@ TEST_P(UsbPipeline, PlaysOnWhenTheBoardIsPulledOutAndTakesItBack) {
   UsbPort& port = plug(0, GetParam());
   GError* error = nullptr;
   GstElement* pipeline = gst_parse_launch(
-      (std::string("videotestsrc pattern=ball ! video/x-raw,width=160,height=120 ! ") + kElement +
-       " ! fakesink sync=true")
-          .c_str(),
+      "videotestsrc pattern=ball ! video/x-raw,width=160,height=120 ! "
+      "spidarmotion device=usb profile=spidar-g6x3-v2-r ! fakesink sync=true",
       &error);
   ASSERT_EQ(error, nullptr) << error->message;
   GstBus* bus = gst_element_get_bus(pipeline);
@@ -92,36 +86,18 @@ TEST_P(UsbPipeline, PlaysOnWhenTheBoardIsPulledOutAndTakesItBack) {
 #ifdef EMULATED_BUS_LIBRARY
 
 /// gst-launch-1.0, which knows nothing of an emulated bus.
-class Launch {
+class Launch : public ChildProcess {
  public:
-  explicit Launch(const std::string& elements) {
-    const std::string line = std::string("exec gst-launch-1.0 -q ") + elements;
-    std::string shell = "/bin/sh", option = "-c", command = line;
-    char* arguments[] = {shell.data(), option.data(), command.data(), nullptr};
-    std::string preload = "LD_PRELOAD=" EMULATED_BUS_LIBRARY;
-    std::vector<char*> environment{preload.data()};
-    for (char** entry = environ; *entry; ++entry) environment.push_back(*entry);
-    environment.push_back(nullptr);
-    EXPECT_EQ(
-        posix_spawn(&process_, shell.c_str(), nullptr, nullptr, arguments, environment.data()), 0);
-  }
-  ~Launch() { end(SIGKILL); }
-  void end(int signal) {
-    if (process_ < 0) return;
-    kill(process_, signal);
-    waitpid(process_, nullptr, 0);
-    process_ = -1;
-  }
-  bool lives() const { return process_ > 0 && waitpid(process_, nullptr, WNOHANG) == 0; }
-
- private:
-  pid_t process_ = -1;
+  Launch()
+      : ChildProcess({"gst-launch-1.0", "-q", "videotestsrc", "!", "spidarmotion", "device=usb",
+                      "profile=spidar-g6x3-v2-r", "!", "fakesink", "sync=true"},
+                     {"LD_PRELOAD=" EMULATED_BUS_LIBRARY}) {}
 };
 
 TEST_P(UsbPipeline, GstLaunchRestsTheMotorsHoweverItEnds) {
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     UsbPort& port = plug(0, GetParam());
-    Launch launch(std::string("videotestsrc ! ") + kElement + " ! fakesink sync=true");
+    Launch launch;
     const auto pulls = [&] { return !port.at_rest() || !launch.lives(); };
     wait_for(pulls);
     ASSERT_TRUE(launch.lives());

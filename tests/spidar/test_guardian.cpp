@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <spawn.h>
 #include <string>
 #include <sys/wait.h>
 #include <thread>
@@ -18,10 +17,9 @@
 #include "spidar/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
+#include "tests/support/child_process.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"
-
-extern char** environ;
 
 namespace spidar::test {
 namespace {
@@ -39,26 +37,11 @@ constexpr const char* kUartProfile = "spidar-g6x5-r";
   for (;;) device->exchange(volts, reading);
 }
 
-class Victim {
+/// This program, pulling.
+class Victim : public ChildProcess {
  public:
-  Victim(const std::string& spec, const std::string& profile) {
-    std::string name = "/proc/self/exe", word = "--pull", device = spec, of = profile;
-    char* arguments[] = {name.data(), word.data(), device.data(), of.data(), nullptr};
-    EXPECT_EQ(posix_spawn(&process_, name.c_str(), nullptr, nullptr, arguments, environ), 0);
-  }
-  ~Victim() { end(SIGKILL); }
-
-  void end(int signal) {
-    if (process_ < 0) return;
-    kill(process_, signal);
-    waitpid(process_, nullptr, 0);
-    process_ = -1;
-  }
-  /// Runs without having ended by itself.
-  bool lives() const { return process_ > 0 && waitpid(process_, nullptr, WNOHANG) == 0; }
-
- private:
-  pid_t process_ = -1;
+  Victim(const std::string& spec, const std::string& profile)
+      : ChildProcess({"/proc/self/exe", "--pull", spec, profile}) {}
 };
 
 /// Waits for as long as it takes; the test's own time limit is the only one.
