@@ -17,13 +17,13 @@ UartBoard::UartBoard(std::string name, const Profile& profile,
       strings_(static_cast<size_t>(profile.geometry.count)),
       lines_(std::move(lines)) {}
 
-void UartBoard::find_stations(Transport& line) {
+void UartBoard::find_stations(Transport& line, int64_t patience_ns) {
   std::array<uint8_t, uart_motor::kEnquiryLength> enquiry{};
   std::array<uint8_t, uart_motor::kInfoLength> reply{};
   const size_t before = stations_.size();
   for (int id = 0; id < uart_motor::kMaxBoards; ++id) {
     uart_motor::encode_enquiry(id, enquiry);
-    const Transfer transfer = line.exchange({enquiry}, reply, monotonic_now_ns() + kEnquiry_ns);
+    const Transfer transfer = line.exchange({enquiry}, reply, monotonic_now_ns() + patience_ns);
     Station station{&line, id, {}, motors_};
     if (transfer.fault != LinkFault::kNone ||
         !uart_motor::decode_info({reply.data(), transfer.received}, id, station.info)) {
@@ -38,18 +38,26 @@ void UartBoard::find_stations(Transport& line) {
     constexpr std::array<uint8_t, 5> kZeros{};
     std::array<uint8_t, uart_motor::kSetLengthsLength> lengths{};
     uart_motor::encode_lengths(stations_[i].id, stations_[i].info, lengths);
-    line.exchange({lengths, kZeros}, {}, monotonic_now_ns() + kEnquiry_ns);
+    line.exchange({lengths, kZeros}, {}, monotonic_now_ns() + patience_ns);
+  }
+}
+
+void UartBoard::find_all(int64_t patience_ns) {
+  stations_.clear();
+  motors_ = 0;
+  for (const auto& line : lines_) {
+    line->recover();
+    find_stations(*line, patience_ns);
   }
 }
 
 void UartBoard::open() {
-  stations_.clear();
-  motors_ = 0;
   try {
-    for (const auto& line : lines_) {
-      line->open();
-      line->recover();
-      find_stations(*line);
+    for (const auto& line : lines_) line->open();
+    // A busy computer may miss an answer.
+    for (const int64_t patience_ns : {kEnquiry_ns, 5 * kEnquiry_ns}) {
+      find_all(patience_ns);
+      if (motors_ >= strings_) break;
     }
     if (motors_ < strings_ || motors_ > kMaxStrings)
       throw DeviceError(name_ + ": " + std::to_string(stations_.size()) +

@@ -38,7 +38,9 @@ class SPIDAR_API UartBoard final : public Board {
     size_t first = 0;  ///< string of its first motor
   };
 
-  void find_stations(Transport& line);
+  /// Waits for each board up to `patience_ns`.
+  void find_stations(Transport& line, int64_t patience_ns);
+  void find_all(int64_t patience_ns);
   LinkFault exchange(const Station& station, const MotorVolts& volts, uart_motor::Reading& reading,
                      int64_t deadline_ns) noexcept;
   LinkFault exchange_all(const MotorVolts& volts, std::array<uint32_t, kMaxStrings>& raw,

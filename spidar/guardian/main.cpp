@@ -2,7 +2,7 @@
 // socket as standard input.
 //
 // The kernel closes a dead process' files in no promised order and releases the board while it does
-// so: claiming is tried for a second.
+// so: claiming is tried for a second. When a new host is faster, it has zeroed the motors itself.
 
 #include <cerrno>
 #include <csignal>
@@ -10,6 +10,7 @@
 #include <ctime>
 #include <fcntl.h>
 #include <linux/usbdevice_fs.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -49,6 +50,7 @@ bool send_usb(int file, LastWill& will) {
 }
 
 bool send_terminal(int file, const LastWill& will) {
+  if (flock(file, LOCK_EX | LOCK_NB) != 0) return false;
   for (uint32_t i = 0; i < will.packets; ++i) {
     if (write(file, will.packet[i].data(), will.length[i]) != ssize_t{will.length[i]})
       return errno == EIO || errno == ENXIO;

@@ -21,6 +21,9 @@ struct Transfer {
 /// One connection. One thread at a time.
 class SPIDAR_API Transport {
  public:
+  /// For so long open() waits for a connection that something else has.
+  static constexpr int64_t kBusyPatience_ns = 300'000'000;
+
   virtual ~Transport() = default;
 
   /// Claims the connection. Throws DeviceError, naming what to do. After close() or kGone it may be

@@ -14,6 +14,7 @@ namespace {
 constexpr int kInterface = 0;
 constexpr int64_t kDrain_ns = 2'000'000;
 constexpr int64_t kCancelCheck_ns = 1'000'000;
+constexpr int64_t kBusyCheck_ns = 10'000'000;
 
 LinkFault fault_of_submit(int error) noexcept {
   switch (error) {
@@ -73,6 +74,17 @@ bool has_endpoint(const libusb_interface_descriptor& setting, uint8_t address, b
     if (endpoint.bEndpointAddress == address && (endpoint.bmAttributes & 3) == type) return true;
   }
   return false;
+}
+
+/// A process that was killed a moment ago may still have the board, or its guardian.
+int claim(libusb_device_handle* handle) {
+  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
+  int error = libusb_claim_interface(handle, kInterface);
+  while (error == LIBUSB_ERROR_BUSY && monotonic_now_ns() < until_ns) {
+    sleep_until_ns(monotonic_now_ns() + kBusyCheck_ns);
+    error = libusb_claim_interface(handle, kInterface);
+  }
+  return error;
 }
 
 /// The alternate setting of interface 0 that has both pipes; −1 when there is none.
@@ -136,7 +148,7 @@ void UsbTransport::open() {
                       "something else, or its firmware is not loaded");
   }
   libusb_set_auto_detach_kernel_driver(handle_, 1);
-  error = libusb_claim_interface(handle_, kInterface);
+  error = claim(handle_);
   if (error == LIBUSB_SUCCESS && setting > 0)
     error = libusb_set_interface_alt_setting(handle_, kInterface, setting);
   if (error != LIBUSB_SUCCESS) {

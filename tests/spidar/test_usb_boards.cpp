@@ -197,15 +197,15 @@ TEST_P(EachUsbBoard, UnpluggedAndBackAgain) {
   }
 }
 
-TEST_P(EachUsbBoard, TheLoopLosesItAndTakesItBack) {
-  UsbPort& port = plug(0, GetParam());
+TEST_F(UsbBoards, TheLoopLosesItAndTakesItBack) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
   HapticSession session(profile, device());
   const auto state = [&] { return session.loop().snapshot().last.device; };
   while (state() != DeviceState::kRunning) std::this_thread::yield();
   EXPECT_FALSE(port.at_rest());
   unplug(0, EPROTO);
   while (state() != DeviceState::kLost) std::this_thread::yield();
-  plug(0, GetParam());
+  plug(0, UsbKind::kSh4);
   while (state() != DeviceState::kRunning) std::this_thread::yield();
   EXPECT_EQ(session.loop().snapshot().counters.times_lost, 1u);
   EXPECT_FALSE(port.at_rest());
