@@ -50,6 +50,10 @@ class SPIDAR_API Device {
   /// Motors to zero, then releases the board. Safe to call twice, and after kLost.
   virtual void close() noexcept = 0;
 
+  /// The board's own counters are zero from now on, where the grip is; not while exchanging. False
+  /// when it has no command for that, or does not obey: switching it on clears them.
+  virtual bool clear_counters() { return false; }
+
   /// How the link to the board has been; all zero for a device without one. Any thread.
   virtual LinkHealth health() const noexcept { return {}; }
 

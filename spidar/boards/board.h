@@ -32,6 +32,9 @@ class SPIDAR_API Board {
   /// From now on counts are zero where the grip is. After open().
   virtual void zero_counts() noexcept = 0;
 
+  /// As Device::clear_counters().
+  virtual bool clear_counters() noexcept { return false; }
+
   /// Releases the board; its motors keep what they have.
   virtual void close() noexcept = 0;
 

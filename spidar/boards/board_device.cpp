@@ -14,6 +14,11 @@ namespace {
 /// A fault of the wire may be of one packet; several in a row are not.
 constexpr int kErrorsToRecover = 3;
 
+/// A stall goes on until it is ended, and a reply that is late would be taken for the next one.
+bool needs_recovery(LinkFault fault) noexcept {
+  return fault == LinkFault::kStall || fault == LinkFault::kTimeout;
+}
+
 bool wait_until(sem_t& semaphore, int64_t monotonic_ns) noexcept {
   const timespec until{static_cast<time_t>(monotonic_ns / kSecond_ns),
                        static_cast<long>(monotonic_ns % kSecond_ns)};
@@ -123,7 +128,7 @@ BoardDevice::Reply BoardDevice::answer(const Request& request) noexcept {
     round_trip_.add(monotonic_now_ns() - begin_ns);
     errors_in_a_row_ = 0;
   } else if (reply.fault != LinkFault::kGone &&
-             (reply.fault == LinkFault::kStall || ++errors_in_a_row_ % kErrorsToRecover == 0)) {
+             (needs_recovery(reply.fault) || ++errors_in_a_row_ % kErrorsToRecover == 0)) {
     board_->recover();
   }
   return reply;
@@ -198,6 +203,14 @@ void BoardDevice::close() noexcept {
   if (!zero)
     for (const auto& guardian : guardians_) guardian->carry_out();
   guardians_.clear();
+}
+
+bool BoardDevice::clear_counters() {
+  if (!open_) return false;
+  stop();
+  const bool cleared = board_->clear_counters();
+  if (settings_.threaded) start();
+  return cleared;
 }
 
 LinkHealth BoardDevice::health() const noexcept {

@@ -27,6 +27,7 @@ class SPIDAR_API CyverseBoard : public Board {
   void recover() noexcept final { transport_->recover(); }
   /// On the host: the board's own counters are left as they are.
   void zero_counts() noexcept final { counts_.zero(); }
+  bool clear_counters() noexcept final;
   void close() noexcept final { transport_->close(); }
   std::vector<LastWill> last_wills() const final;
   int rotary() const noexcept final { return rotary_; }
@@ -45,6 +46,8 @@ class SPIDAR_API CyverseBoard : public Board {
   virtual LinkFault reset(int64_t deadline_ns) noexcept = 0;
   virtual LinkFault exchange(const DacDigits& digits, Readout& readout,
                              int64_t deadline_ns) noexcept = 0;
+  /// False when the board has no command for that.
+  virtual bool send_clear(int64_t deadline_ns) noexcept = 0;
   /// The packet that takes all motors to zero.
   virtual std::vector<uint8_t> zero_packet() const = 0;
 

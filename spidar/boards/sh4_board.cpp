@@ -32,6 +32,10 @@ LinkFault Sh4Board::exchange(const DacDigits& digits, Readout& readout,
   return LinkFault::kNone;
 }
 
+bool Sh4Board::send_clear(int64_t) noexcept {
+  return false;
+}
+
 std::vector<uint8_t> Sh4Board::zero_packet() const {
   sh4::Packet zero;
   sh4::encode_update({}, zero);

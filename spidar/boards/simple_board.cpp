@@ -36,6 +36,12 @@ LinkFault SimpleBoard::exchange(const DacDigits& digits, Readout& readout,
   return LinkFault::kNone;
 }
 
+bool SimpleBoard::send_clear(int64_t deadline_ns) noexcept {
+  usb_simple::Packet clear;
+  usb_simple::encode_clear_counters(kAllChannels, clear);
+  return transport().exchange({clear}, {}, deadline_ns).fault == LinkFault::kNone;
+}
+
 std::vector<uint8_t> SimpleBoard::zero_packet() const {
   usb_simple::Packet zero;
   usb_simple::encode_set_dac({}, zero);

@@ -9,6 +9,9 @@ namespace {
 
 constexpr int64_t kEnquiry_ns = 10'000'000;  // the published wait
 
+static_assert(LastWill::kMaxPackets >= uart_motor::kMaxBoards);
+static_assert(LastWill::kMaxLength >= uart_motor::kMaxCycleLength);
+
 }  // namespace
 
 UartBoard::UartBoard(std::string name, const Profile& profile,
@@ -138,7 +141,7 @@ std::vector<LastWill> UartBoard::last_wills() const {
     std::optional<LastWill> will = line->last_will();
     if (!will) continue;
     for (const Station& station : stations_) {
-      if (station.line != line.get() || will->packets == LastWill::kMaxPackets) continue;
+      if (station.line != line.get()) continue;
       auto& packet = will->packet[will->packets];
       const size_t length =
           uart_motor::encode_current(station.id, station.info, {}, MutableBytes(packet));

@@ -13,7 +13,7 @@ struct LastWill {
     kUsb,       ///< usbfs: bulk or interrupt packets to one endpoint
     kTerminal,  ///< a tty
   };
-  static constexpr size_t kMaxPackets = 4;
+  static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
   static constexpr size_t kMaxLength = 512;
   static constexpr uint32_t kMagic = 0x53504731;  // "SPG1": this layout
 

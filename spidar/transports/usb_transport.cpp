@@ -222,6 +222,7 @@ Transfer UsbTransport::exchange(std::initializer_list<ByteView> packets, Mutable
     const libusb_transfer& out = *slots_[i].transfer;
     fault = fault_of(out.status);
     if (fault == LinkFault::kNone && out.actual_length != out.length) fault = LinkFault::kShort;
+    if (fault == LinkFault::kStall) out_stalled_ = true;
     if (fault != LinkFault::kNone) return {fault, 0};
   }
   if (reply.size == 0) return {};
@@ -234,7 +235,9 @@ Transfer UsbTransport::exchange(std::initializer_list<ByteView> packets, Mutable
 
 void UsbTransport::recover() noexcept {
   if (!handle_) return;
-  libusb_clear_halt(handle_, pipes_.out);
+  // Unasked the published hosts reset the pipe of the replies only.
+  if (out_stalled_) libusb_clear_halt(handle_, pipes_.out);
+  out_stalled_ = false;
   libusb_clear_halt(handle_, pipes_.in);
   // Replies to what timed out, of which a board keeps a few.
   std::array<uint8_t, kMaxLength> old{};

@@ -61,6 +61,7 @@ class SPIDAR_API UsbTransport final : public Transport {
   UsbDeviceInfo device_;
   UsbContext context_;
   libusb_device_handle* handle_ = nullptr;
+  bool out_stalled_ = false;
   std::array<Slot, kMaxPackets + 1> slots_;  ///< the last is the reply's
 };
 

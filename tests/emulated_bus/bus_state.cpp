@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
-#include <new>
+#include <string>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,9 +16,28 @@
 namespace spidar::test {
 namespace {
 
+UsbPort& plug_into(BusState& state, size_t port, UsbKind kind, const char* serial) {
+  UsbPort& p = state.port[port];
+  for (auto& digit : p.digit) digit = 0;
+  p.fault = LinkFault::kNone;
+  p.serial = {};
+  std::strncpy(p.serial.data(), serial, p.serial.size() - 1);
+  p.address = ++state.last_address;
+  p.kind = kind;
+  return p;
+}
+
+UsbKind kind_named(const std::string& name) {
+  if (name == "sh4") return UsbKind::kSh4;
+  if (name == "simple") return UsbKind::kSimple;
+  return name == "mouse" ? UsbKind::kMouse : UsbKind::kNone;
+}
+
 /// Fresh pages are zeros, which is how all of BusState begins.
 BusState* map_state() {
-  const char* path = std::getenv("SPIDAR_EMULATED_BUS");
+  const char* named = std::getenv("SPIDAR_EMULATED_BUS");
+  const UsbKind kind = kind_named(named ? named : "");
+  const char* path = kind == UsbKind::kNone ? named : nullptr;
   const int file = path ? real_open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600) : -1;
   if (path && (file < 0 || ftruncate(file, sizeof(BusState)) != 0)) {
     std::fprintf(stderr, "emulated bus: %s: %s\n", path, std::strerror(errno));
@@ -28,7 +47,9 @@ BusState* map_state() {
   void* memory = mmap(nullptr, sizeof(BusState), PROT_READ | PROT_WRITE, flags, file, 0);
   if (memory == MAP_FAILED) std::abort();
   set_lock_file(file);
-  return static_cast<BusState*>(memory);
+  auto* state = static_cast<BusState*>(memory);
+  if (kind != UsbKind::kNone) plug_into(*state, 0, kind, "");
+  return state;
 }
 
 }  // namespace
@@ -39,14 +60,7 @@ BusState& bus() {
 }
 
 UsbPort& plug(size_t port, UsbKind kind, const char* serial) {
-  UsbPort& p = bus().port[port];
-  for (auto& digit : p.digit) digit = 0;
-  p.fault = LinkFault::kNone;
-  p.serial = {};
-  std::strncpy(p.serial.data(), serial, p.serial.size() - 1);
-  p.address = ++bus().last_address;
-  p.kind = kind;
-  return p;
+  return plug_into(bus(), port, kind, serial);
 }
 
 void unplug(size_t port, int errno_first) {

@@ -46,7 +46,8 @@ struct BusState {
 };
 
 /// The bus of this process: shared with the processes that have the same $SPIDAR_EMULATED_BUS, a
-/// file that is made when it is not there; without, its own.
+/// file that is made when it is not there; without, its own. When that is "sh4", "simple" or
+/// "mouse", its own with such a board.
 SPIDAR_API BusState& bus();
 
 /// The device is in the list of the bus from now on, as 1-1, 1-2, …, at rest.
