@@ -101,8 +101,8 @@ TEST_F(UartLines, SilenceIsATimeOutAndPasses) {
 
 TEST_F(UartLines, AHangUpIsAnUnplug) {
   std::optional<UartLine> line(std::in_place, EmulatedUart(first_motors, {{0, kB3M}}));
-  UartLine survivor({second_motors, {{0, kB3M}}});
-  const auto board = device("uart:" + line->path() + "," + survivor.path());
+  std::optional<UartLine> survivor(std::in_place, EmulatedUart(second_motors, {{0, kB3M}}));
+  const auto board = device("uart:" + line->path() + "," + survivor->path());
   board->open();
   DeviceReading reading;
   exchange_until(*board, 1, ExchangeStatus::kOk, reading);
@@ -110,10 +110,15 @@ TEST_F(UartLines, AHangUpIsAnUnplug) {
   line.reset();
   exchange_until(*board, 1, ExchangeStatus::kLost, reading);
   EXPECT_FALSE(second.all_zero());
-  // The boards of the line that is left are taken down.
+  // The boards of the line that is left are taken down slowly.
+  const int full = second.digit[0];
   board->close();
   while (!second.all_zero()) {
   }
+  survivor.reset();
+  const std::vector<int>& put_out = second.history;
+  for (size_t i = 1; i < put_out.size(); ++i)
+    EXPECT_LE(put_out[i - 1] - put_out[i], full / BoardDevice::kRamp_ms + 1) << i;
 }
 
 TEST_F(UartLines, OpenSaysWhatIsWrong) {
