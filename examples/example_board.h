@@ -39,6 +39,7 @@ class ExampleBoard final : public Board {
   std::vector<LastWill> last_wills() const override {
     return wills(*transport_, {std::array<uint8_t, 16>{}});
   }
+  std::string description() const override { return "example"; }
   const std::string& name() const noexcept override { return name_; }
 
  private:

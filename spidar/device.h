@@ -54,6 +54,10 @@ class SPIDAR_API Device {
   /// when it has no command for that, or does not obey: switching it on clears them.
   virtual bool clear_counters() { return false; }
 
+  /// What open() found, for people: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3". Empty while
+  /// closed, and for devices that are no more than their name.
+  virtual std::string description() const { return {}; }
+
   /// How the link to the board has been; all zero for a device without one. Any thread.
   virtual LinkHealth health() const noexcept { return {}; }
 

@@ -42,6 +42,9 @@ class SPIDAR_API Board {
   /// After open().
   virtual std::vector<LastWill> last_wills() const = 0;
 
+  /// What open() found, for people.
+  virtual std::string description() const = 0;
+
   /// Rotary ID switch; −1 when the board has none. After open().
   virtual int rotary() const noexcept { return -1; }
 

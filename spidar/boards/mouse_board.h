@@ -28,6 +28,7 @@ class SPIDAR_API MouseBoard final : public Board {
   void zero_counts() noexcept override {}
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
+  std::string description() const override { return "SPIDAR-mouse"; }
   const std::string& name() const noexcept override { return name_; }
 
  private:

@@ -36,6 +36,10 @@ bool Sh4Board::send_clear(int64_t) noexcept {
   return false;
 }
 
+std::string Sh4Board::description() const {
+  return "CyVerse USB 2.0 SH4, rotary switch " + std::to_string(rotary());
+}
+
 std::vector<uint8_t> Sh4Board::zero_packet() const {
   sh4::Packet zero;
   sh4::encode_update({}, zero);

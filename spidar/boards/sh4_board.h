@@ -17,6 +17,8 @@ class SPIDAR_API Sh4Board final : public CyverseBoard {
   /// Throws DeviceError when the profile wants negative volts.
   Sh4Board(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
 
+  std::string description() const override;
+
  private:
   /// The echo may be of a packet before: how far back is not published.
   static constexpr size_t kEchoes = 4;

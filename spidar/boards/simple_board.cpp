@@ -42,6 +42,10 @@ bool SimpleBoard::send_clear(int64_t deadline_ns) noexcept {
   return transport().exchange({clear}, {}, deadline_ns).fault == LinkFault::kNone;
 }
 
+std::string SimpleBoard::description() const {
+  return "CyVerse USB 2.0 Simple, rotary switch " + std::to_string(rotary());
+}
+
 std::vector<uint8_t> SimpleBoard::zero_packet() const {
   usb_simple::Packet zero;
   usb_simple::encode_set_dac({}, zero);

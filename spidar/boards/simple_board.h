@@ -16,6 +16,8 @@ class SPIDAR_API SimpleBoard final : public CyverseBoard {
   /// Throws DeviceError when the profile wants negative volts.
   SimpleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
 
+  std::string description() const override;
+
  private:
   LinkFault reset(int64_t deadline_ns) noexcept override;
   LinkFault exchange(const DacDigits& digits, Readout& readout,

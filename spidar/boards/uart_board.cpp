@@ -135,6 +135,15 @@ void UartBoard::close() noexcept {
   for (const auto& line : lines_) line->close();
 }
 
+std::string UartBoard::description() const {
+  std::string text = "UART motor boards:";
+  for (const Station& station : stations_)
+    text += (text.back() == ':' ? " number " : ", number ") + std::to_string(station.id) +
+            " of model " + std::to_string(station.info.model) + " with " +
+            std::to_string(station.info.motors) + " motors";
+  return text;
+}
+
 std::vector<LastWill> UartBoard::last_wills() const {
   std::vector<LastWill> result;
   for (const auto& line : lines_) {

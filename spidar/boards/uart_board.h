@@ -28,6 +28,7 @@ class SPIDAR_API UartBoard final : public Board {
   void zero_counts() noexcept override { counts_.zero(); }
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
+  std::string description() const override;
   const std::string& name() const noexcept override { return name_; }
 
  private:

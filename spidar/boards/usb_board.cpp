@@ -63,6 +63,7 @@ void UsbBoard::open_one(const Candidate& candidate) {
   candidate.kind->transport->select(candidate.device);
   candidate.kind->board->open();
   used_ = candidate.kind;
+  used_path_ = candidate.device.path;
 }
 
 void UsbBoard::open() {
@@ -101,6 +102,10 @@ void UsbBoard::open_matching(const std::vector<Candidate>& found) {
           ? "there are several boards, name one of"
           : "no board has the bus path, serial number or rotary switch " + id_ + "; there are";
   throw DeviceError(name_ + ": " + what + listed + trouble);
+}
+
+std::string UsbBoard::description() const {
+  return used_ ? "at " + used_path_ + ": " + used_->board->description() : "";
 }
 
 LinkFault UsbBoard::cycle(const MotorVolts& volts, DeviceReading& reading,

@@ -32,6 +32,7 @@ class SPIDAR_API UsbBoard final : public Board {
   bool clear_counters() noexcept override { return used_ && used_->board->clear_counters(); }
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
+  std::string description() const override;
   int rotary() const noexcept override { return used_ ? used_->board->rotary() : -1; }
   const std::string& name() const noexcept override { return name_; }
 
@@ -56,6 +57,7 @@ class SPIDAR_API UsbBoard final : public Board {
   const std::string id_;
   std::vector<Kind> kinds_;
   Kind* used_ = nullptr;
+  std::string used_path_;
 };
 
 }  // namespace spidar

@@ -56,6 +56,7 @@ class WireSimulation final : public Device {
     return device_.exchange(volts, reading);
   }
   void close() noexcept override { device_.close(); }
+  std::string description() const override { return device_.description(); }
   const std::string& name() const noexcept override { return device_.name(); }
   LinkHealth health() const noexcept override { return device_.health(); }
 

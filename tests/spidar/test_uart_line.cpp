@@ -74,7 +74,11 @@ TEST_F(UartLines, TwoBoardsOnOneLineAndOnTwo) {
     UartLine line({first_motors, stations});
     const auto board =
         device("uart:" + line.path() + (two_lines ? "," + other->path() : std::string()));
+    EXPECT_EQ(board->description(), "");
     board->open();
+    EXPECT_EQ(board->description(),
+              "UART motor boards: number 1 of model 5 with 4 motors, number " +
+                  std::to_string(two_lines ? 1 : 6) + " of model 5 with 4 motors");
     MotorBench& last = two_lines ? second : first;
     const size_t at = two_lines ? 1 : 5;  // motor 5 of all
     last.count[at] = 0;

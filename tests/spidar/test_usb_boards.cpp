@@ -90,11 +90,15 @@ TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {
   struct Case {
     const char* spec;
     size_t port;
+    const char* description;
   };
-  for (const Case c :
-       {Case{"usb:1-2", 1}, Case{"usb:SN-5", 0}, Case{"usb:9", 2}, Case{"usb:7", 1}}) {
+  const char* simple_board = "at 1-2: CyVerse USB 2.0 Simple, rotary switch 7";
+  for (const Case c : {Case{"usb:1-2", 1, simple_board}, Case{"usb:7", 1, simple_board},
+                       Case{"usb:SN-5", 0, "at 1-1: CyVerse USB 2.0 SH4, rotary switch 3"},
+                       Case{"usb:9", 2, "at 1-3: CyVerse USB 2.0 SH4, rotary switch 9"}}) {
     const auto board = device(c.spec, false);
     ASSERT_EQ(opening(*board), "") << c.spec;
+    EXPECT_EQ(board->description(), c.description);
     DeviceReading reading;
     ASSERT_EQ(board->exchange(all_volts(1), reading), ExchangeStatus::kOk) << c.spec;
     for (size_t port = 0; port < 3; ++port)
