@@ -139,6 +139,11 @@ DeviceState MotionEngine::device_state() const {
   return session_ ? session_->loop().snapshot().last.device : DeviceState::kClosed;
 }
 
+std::string MotionEngine::device_fault() const {
+  const LinkFault fault = session_ ? session_->device().health().last_fault : LinkFault::kNone;
+  return fault == LinkFault::kNone ? "" : std::string(": ") + to_string(fault);
+}
+
 int MotionEngine::faulty_string() const {
   return session_ ? session_->loop().snapshot().last.faulty_string : -1;
 }
