@@ -3,7 +3,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/tracking/opencv_tracker.h"
+#include "core/tracking/tracker.h"
 
 namespace spidar {
 namespace {
@@ -21,6 +21,7 @@ void validate_rest(const AnalyzerSettings& settings) {
 
 AnalyzerSettings paper_settings() {
   AnalyzerSettings settings;
+  settings.tracker.kind = TrackerKind::kOpenCv;
   settings.motion = MotionKind::kMean;
   settings.filter.min_cutoff_Hz = 0;
   settings.controller.kind = ControllerKind::kNonlinear;
@@ -29,12 +30,14 @@ AnalyzerSettings paper_settings() {
 
 struct MotionAnalyzer::Impl {
   explicit Impl(const AnalyzerSettings& given)
-      : settings(given), tracker(given.tracker), controller(make_controller(given.controller)) {
+      : settings(given),
+        tracker(make_tracker(given.tracker)),
+        controller(make_controller(given.controller)) {
     validate_rest(given);
   }
 
   AnalyzerSettings settings;
-  OpenCvTracker tracker;
+  std::unique_ptr<Tracker> tracker;
   MotionEstimator motion;
   MotionFilter filter;
   std::unique_ptr<GainController> controller;
@@ -50,7 +53,11 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   validate(settings.tracker);
   validate(settings.controller);
   validate_rest(settings);
-  impl_->tracker.configure(settings.tracker);
+  if (settings.tracker.kind == impl_->settings.tracker.kind) {
+    impl_->tracker->configure(settings.tracker);
+  } else {
+    impl_->tracker = make_tracker(settings.tracker);
+  }
   if (settings.controller.kind == impl_->settings.controller.kind) {
     impl_->controller->configure(settings.controller);
   } else {
@@ -62,7 +69,7 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
 FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_time_ns) {
   if (impl_->last_running_time_ns && running_time_ns <= *impl_->last_running_time_ns) restart();
   const std::optional<int64_t> last_ns = impl_->last_running_time_ns;
-  const TrackedFrame& tracked = impl_->tracker.track(frame);
+  const TrackedFrame& tracked = impl_->tracker->track(frame);
   impl_->last_running_time_ns = running_time_ns;
 
   FrameAnalysis analysis;
@@ -96,7 +103,7 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
 }
 
 void MotionAnalyzer::restart() {
-  impl_->tracker.restart();
+  impl_->tracker->restart();
   impl_->controller->reset();
   impl_->last_running_time_ns.reset();
 }

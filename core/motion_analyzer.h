@@ -29,7 +29,8 @@ struct AnalyzerSettings {
   ControllerSettings controller;
 };
 
-/// The paper to the letter: mean velocity of all points, unfiltered, nonlinear controller.
+/// The paper to the letter: OpenCV's tracker, mean velocity of all points, unfiltered, nonlinear
+/// controller.
 SPIDAR_API AnalyzerSettings paper_settings();
 
 /// What was found in one frame.
@@ -61,8 +62,8 @@ class SPIDAR_API MotionAnalyzer {
   ~MotionAnalyzer();
 
   /// Takes effect with the next frame; what the controller has learnt stays unless its kind
-  /// changes. Throws std::invalid_argument when a setting is out of range, and then changes
-  /// nothing.
+  /// changes, and so do the tracks. Throws std::invalid_argument when a setting is out of range,
+  /// and then changes nothing.
   void configure(const AnalyzerSettings& settings);
 
   /// Frames in the order in which they are shown. A running time that does not rise restarts, for

@@ -6,6 +6,33 @@
 namespace spidar {
 namespace {
 
+GType tracker_type() {
+  static const GType type = [] {
+    static const GEnumValue values[] = {
+        {static_cast<int>(TrackerKind::kPatch),
+         "Small windows from coarse to fine, one strongest point a cell", "patch"},
+        {static_cast<int>(TrackerKind::kOpenCv),
+         "OpenCV's Shi-Tomasi points and pyramidal Lucas-Kanade (eq. 1-8)", "opencv"},
+        {0, nullptr, nullptr}};
+    return g_enum_register_static("GstSpidarMotionTracker", values);
+  }();
+  return type;
+}
+
+GType quality_type() {
+  static const GType type = [] {
+    static const GEnumValue values[] = {
+        {static_cast<int>(TrackerQuality::kFast), "Half the points, in the reduced picture only",
+         "fast"},
+        {static_cast<int>(TrackerQuality::kBalanced), "Refined in the frame where it helps",
+         "balanced"},
+        {static_cast<int>(TrackerQuality::kFine), "As many points as are asked for", "fine"},
+        {0, nullptr, nullptr}};
+    return g_enum_register_static("GstSpidarMotionQuality", values);
+  }();
+  return type;
+}
+
 GType on_device_error_type() {
   static const GType type = [] {
     static const GEnumValue values[] = {
@@ -57,6 +84,13 @@ void install_motion_properties(GObjectClass* c) {
                             "the path of a .toml file; read from NULL to READY",
                             defaults.profile.c_str(), kReady));
   install_feel_properties(c);
+  install(kPropTracker,
+          g_param_spec_enum("tracker", "Tracker", "How points are followed", tracker_type(),
+                            static_cast<int>(tracker.kind), kControllable));
+  install(kPropQuality,
+          g_param_spec_enum("quality", "Quality",
+                            "Time against error of tracker=patch; docs/tracking.md has the figures",
+                            quality_type(), static_cast<int>(tracker.quality), kControllable));
   install(kPropMaxFeatures,
           g_param_spec_uint("max-features", "Maximum features", "Points followed at once", 1, 10000,
                             static_cast<guint>(tracker.max_features), kControllable));
@@ -105,6 +139,8 @@ void install_motion_properties(GObjectClass* c) {
                              "Frames, analysis time, state and timing of the haptic loop",
                              GST_TYPE_STRUCTURE, kRead));
 
+  gst_type_mark_as_plugin_api(tracker_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
+  gst_type_mark_as_plugin_api(quality_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
   gst_type_mark_as_plugin_api(on_device_error_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
 }
 
@@ -116,6 +152,12 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
       return true;
     case kPropProfile:
       p.profile = string_of(value);
+      return true;
+    case kPropTracker:
+      tracker.kind = static_cast<TrackerKind>(g_value_get_enum(value));
+      return true;
+    case kPropQuality:
+      tracker.quality = static_cast<TrackerQuality>(g_value_get_enum(value));
       return true;
     case kPropMaxFeatures:
       tracker.max_features = static_cast<int>(g_value_get_uint(value));
@@ -157,6 +199,12 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       return true;
     case kPropProfile:
       g_value_set_string(value, p.profile.c_str());
+      return true;
+    case kPropTracker:
+      g_value_set_enum(value, static_cast<int>(tracker.kind));
+      return true;
+    case kPropQuality:
+      g_value_set_enum(value, static_cast<int>(tracker.quality));
       return true;
     case kPropMaxFeatures:
       g_value_set_uint(value, static_cast<guint>(tracker.max_features));

@@ -44,6 +44,8 @@ enum PropertyId : guint {
   kPropRollGain,
   kPropFilterMinCutoff,
   kPropFilterBeta,
+  kPropTracker,
+  kPropQuality,
   kPropMaxFeatures,
   kPropQualityLevel,
   kPropMinDistance,

@@ -58,8 +58,12 @@ v_int16x8 quarter(const v_int16x8& value) {
   return (value + cv::v_setall_s16(2)) >> 2;
 }
 
-int total(const v_int32x4& sums) {
-  return cv::v_reduce_sum(sums);
+/// No lane overflows with a side of up to 24; their sum may.
+int64_t total(const v_int32x4& sums) {
+  cv::v_int64x2 low;
+  cv::v_int64x2 high;
+  cv::v_expand(sums, low, high);
+  return cv::v_reduce_sum(low + high);
 }
 
 }  // namespace

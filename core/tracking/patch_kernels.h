@@ -36,13 +36,13 @@ struct WindowSource {
 
 /// Σ over a template of its derivatives' products and of the derivatives, in derivative units.
 struct TemplateSums {
-  int xx = 0;
-  int xy = 0;
-  int yy = 0;
-  int x = 0;
-  int y = 0;
-  int pixel = 0;          ///< Σ of the pixels in difference units
-  int pixel_squared = 0;  ///< and of their squares
+  int64_t xx = 0;
+  int64_t xy = 0;
+  int64_t yy = 0;
+  int64_t x = 0;
+  int64_t y = 0;
+  int64_t pixel = 0;          ///< Σ of the pixels in difference units
+  int64_t pixel_squared = 0;  ///< and of their squares
 
   bool operator==(const TemplateSums& o) const {
     return xx == o.xx && xy == o.xy && yy == o.yy && x == o.x && y == o.y && pixel == o.pixel &&
@@ -52,12 +52,12 @@ struct TemplateSums {
 
 /// Σ over a window of d = now − gain · template, in difference units, and its products.
 struct DifferenceSums {
-  int x = 0;              ///< Σ d · ∂/∂x
-  int y = 0;              ///< Σ d · ∂/∂y
-  int difference = 0;     ///< Σ d
-  int squared = 0;        ///< Σ d²
-  int pixel = 0;          ///< Σ of the pixels of now, in difference units
-  int pixel_squared = 0;  ///< and of their squares
+  int64_t x = 0;              ///< Σ d · ∂/∂x
+  int64_t y = 0;              ///< Σ d · ∂/∂y
+  int64_t difference = 0;     ///< Σ d
+  int64_t squared = 0;        ///< Σ d²
+  int64_t pixel = 0;          ///< Σ of the pixels of now, in difference units
+  int64_t pixel_squared = 0;  ///< and of their squares
 
   bool operator==(const DifferenceSums& o) const {
     return x == o.x && y == o.y && difference == o.difference && squared == o.squared &&

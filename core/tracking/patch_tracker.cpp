@@ -16,8 +16,23 @@
 namespace spidar {
 namespace {
 
-/// Of the points asked for, on the grid; the rest is for places that want more.
-constexpr double kGridShare = 0.75;
+/// What a quality pays for.
+struct Budget {
+  double grid_share;  ///< of the points asked for, on the grid; the rest is for denser places
+  bool refines;       ///< with larger windows, in the reduced picture and in the frame
+};
+
+Budget budget_of(TrackerQuality quality) {
+  switch (quality) {
+    case TrackerQuality::kFast:
+      return {0.5, false};
+    case TrackerQuality::kBalanced:
+      return {0.75, true};
+    case TrackerQuality::kFine:
+      return {1, true};
+  }
+  return {0.75, true};
+}
 
 /// The same thing has a residual below this share of its contrast, see WindowMatch.
 constexpr float kSameThing = 0.5f;
@@ -79,6 +94,7 @@ bool same_pixels(const PaddedImage& a, const PaddedImage& b) {
 
 struct PatchTracker::Impl {
   TrackerSettings settings;
+  Budget budget = budget_of(settings.quality);
 
   int width = 0;  // of the frame before; 0: there is none
   int height = 0;
@@ -90,6 +106,8 @@ struct PatchTracker::Impl {
   std::vector<FineTemplate> fine;  // of the points, in the frame before
   PointGrid grid;
   std::vector<Corner> candidates;
+  std::vector<float> moved_x;  // buffers of median_motion()
+  std::vector<float> moved_y;
   float strongest = 0;       // corner of late
   float strongest_next = 0;  // since the turn began
   int frames_in_turn = 0;
@@ -113,6 +131,8 @@ struct PatchTracker::Impl {
   void drop_lost();
   void add_points(bool everywhere);
   void read_fine_templates(const ImageView& frame);
+  /// With factor 1 the reduced picture is the frame, and the search has refined it there.
+  bool uses_fine() const { return budget.refines && factor > 1; }
 };
 
 void PatchTracker::Impl::track(const ImageView& frame) {
@@ -124,7 +144,7 @@ void PatchTracker::Impl::track(const ImageView& frame) {
   std::swap(before, now);
   reduce_blocks(frame, factor, now.levels[0]);
   const PaddedImage& base = now.levels[0];
-  const double cells = kGridShare * settings.max_features;
+  const double cells = budget.grid_share * settings.max_features;
   const double even_px = std::sqrt(base.width() * base.height() / cells);
   const double asked_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
   grid.lay_out(base.width(), base.height(), static_cast<int>(std::max(even_px, asked_px)));
@@ -163,7 +183,9 @@ bool PatchTracker::Impl::try_from(Point& point, ImagePoint expected, const Searc
   if (match.residual > kSameThing) return false;
   point.match = match;
   point.found = comes_back(point, search);
-  if (point.found) refine_point(before, now, point.at, search.gain, point.match);
+  if (point.found && budget.refines) {
+    refine_point(before, now, point.at, search.gain, point.match);
+  }
   return point.found;
 }
 
@@ -186,21 +208,21 @@ void PatchTracker::Impl::search_expected(SearchSettings search) {
 }
 
 ImagePoint PatchTracker::Impl::median_motion(size_t& found) {
-  std::vector<float> x;
-  std::vector<float> y;
+  moved_x.clear();
+  moved_y.clear();
   for (const Point& point : points) {
     if (!point.found) continue;
-    x.push_back(point.match.to.x_px - point.at.x_px);
-    y.push_back(point.match.to.y_px - point.at.y_px);
+    moved_x.push_back(point.match.to.x_px - point.at.x_px);
+    moved_y.push_back(point.match.to.y_px - point.at.y_px);
   }
-  found = x.size();
-  if (x.empty()) return {0, 0};
+  found = moved_x.size();
+  if (found == 0) return {0, 0};
   const auto median = [](std::vector<float>& values) {
     const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
   };
-  return {median(x), median(y)};
+  return {median(moved_x), median(moved_y)};
 }
 
 void PatchTracker::Impl::search_lost(SearchSettings search) {
@@ -257,8 +279,8 @@ ImagePoint PatchTracker::Impl::refined(const Point& point, const FineTemplate& w
   const ImagePoint moved = point.match.to - point.at;
   const ImagePoint coarse{point.frame.x_px + scale * moved.x_px,
                           point.frame.y_px + scale * moved.y_px};
-  if (factor == 1) return coarse;
-  if (scale * scale * was.strength() < kFineStrength * point.match.strength) return coarse;
+  if (!uses_fine() || scale * scale * was.strength() < kFineStrength * point.match.strength)
+    return coarse;
   MatchSettings settings_px;
   settings_px.iterations = 3;
   settings_px.step_px = 0.03f;
@@ -340,7 +362,7 @@ void PatchTracker::Impl::add_points(bool everywhere) {
 
 void PatchTracker::Impl::read_fine_templates(const ImageView& frame) {
   fine.resize(points.size());
-  if (factor == 1) return;  // the search has refined it there
+  if (!uses_fine()) return;
   const ReadablePixels pixels(frame);
   for (size_t i = 0; i < points.size(); ++i) fine[i].read(pixels, points[i].frame);
 }
@@ -365,6 +387,7 @@ void PatchTracker::restart() {
 void PatchTracker::configure(const TrackerSettings& settings) {
   validate(settings);
   impl_->settings = settings;
+  impl_->budget = budget_of(settings.quality);
 }
 
 }  // namespace spidar

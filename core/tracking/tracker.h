@@ -14,15 +14,29 @@ namespace spidar {
 /// one setting means the same at 360p and at 2160p.
 constexpr double kReferenceHeight_px = 480.0;
 
+enum class TrackerKind {
+  kPatch,   ///< small windows from coarse to fine, see PatchTracker
+  kOpenCv,  ///< the paper's: OpenCV's Shi–Tomasi points and Lucas–Kanade
+};
+
+/// How much time a frame may take, for kPatch.
+enum class TrackerQuality {
+  kFast,      ///< half the points, in the reduced picture only
+  kBalanced,  ///< refined in the frame where it helps
+  kFine,      ///< as many points as are asked for
+};
+
 struct TrackerSettings {
   int max_features = 200;       ///< 1 … 10000 points followed at once
   double quality_level = 0.01;  ///< Shi–Tomasi: share of the strongest corner's eigenvalue, 0 … 1
   /// Between two features when they are selected, in pixels of the reference frame; finite and ≥ 0.
   double min_distance_px = 10.0;
+  TrackerKind kind = TrackerKind::kPatch;
+  TrackerQuality quality = TrackerQuality::kBalanced;
 
   bool operator==(const TrackerSettings& o) const {
     return max_features == o.max_features && quality_level == o.quality_level &&
-           min_distance_px == o.min_distance_px;
+           min_distance_px == o.min_distance_px && kind == o.kind && quality == o.quality;
   }
   bool operator!=(const TrackerSettings& o) const { return !(*this == o); }
 };
@@ -70,8 +84,12 @@ class SPIDAR_API Tracker {
   /// Forgets the frame before: the next one starts anew and shows no motion.
   virtual void restart() = 0;
 
-  /// Takes effect with the next frame. Throws as validate() does, and then changes nothing.
+  /// Takes effect with the next frame; the kind stays. Throws as validate() does, and then changes
+  /// nothing.
   virtual void configure(const TrackerSettings& settings) = 0;
 };
+
+/// Of `settings.kind`. Throws as validate() does.
+SPIDAR_API std::unique_ptr<Tracker> make_tracker(const TrackerSettings& settings);
 
 }  // namespace spidar

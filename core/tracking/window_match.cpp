@@ -12,7 +12,7 @@ constexpr float kGainNoticed = 0.1f;
 constexpr float kMostGain = 1.99f;
 constexpr float kLeastGain = 0.25f;
 
-float variance(int sum, int squared, float n) {
+float variance(int64_t sum, int64_t squared, float n) {
   const float mean = static_cast<float>(sum) / n;
   return std::max(0.0f, static_cast<float>(squared) / n - mean * mean);
 }

@@ -9,22 +9,24 @@
 
 #include "core/motion/motion_estimator.h"
 #include "core/tracking/opencv_tracker.h"
+#include "core/tracking/patch_tracker.h"
 #include "tests/support/motion_cases.h"
 
 namespace spidar {
 namespace {
 
-struct TrackerKind {
+struct NamedTracker {
   std::string name;
   std::function<std::unique_ptr<Tracker>()> make;
 };
-std::ostream& operator<<(std::ostream& out, const TrackerKind& kind) {
+std::ostream& operator<<(std::ostream& out, const NamedTracker& kind) {
   return out << kind.name;
 }
 
 /// Another tracker is a line here.
-const std::vector<TrackerKind> kTrackers = {
+const std::vector<NamedTracker> kTrackers = {
     {"opencv", [] { return std::make_unique<OpenCvTracker>(); }},
+    {"patch", [] { return std::make_unique<PatchTracker>(); }},
 };
 
 constexpr int kWidth = 480;
@@ -32,7 +34,7 @@ constexpr int kHeight = 270;
 constexpr int kFrames = 8;  // light steps and cuts come at the sixth
 constexpr int64_t kFrame_ns = 40'000'000;
 
-class HardFrames : public testing::TestWithParam<TrackerKind> {
+class HardFrames : public testing::TestWithParam<NamedTracker> {
  protected:
   /// Runs a film; says what is felt of it where that is anything.
   static void expect_nothing(const std::string& name) {

@@ -5,12 +5,25 @@
 #include "tests/bench/tracking/peers.h"
 
 namespace spidar::bench {
+namespace {
+
+std::unique_ptr<Tracker> make_patch(TrackerQuality quality) {
+  TrackerSettings settings;
+  settings.quality = quality;
+  return std::make_unique<PatchTracker>(settings);
+}
+
+}  // namespace
 
 const std::vector<Pipeline>& pipelines() {
   static const std::vector<Pipeline> all = {
       {"naive", "naive wiring of OpenCV", false, make_naive},
       {"opencv", "tracker=opencv", true, [] { return std::make_unique<OpenCvTracker>(); }},
-      {"patch", "tracker=patch", true, [] { return std::make_unique<PatchTracker>(); }},
+      {"fast", "tracker=patch quality=fast", true,
+       [] { return make_patch(TrackerQuality::kFast); }},
+      {"balanced", "tracker=patch", true, [] { return make_patch(TrackerQuality::kBalanced); }},
+      {"fine", "tracker=patch quality=fine", true,
+       [] { return make_patch(TrackerQuality::kFine); }},
       {"dis", "DIS ultrafast at 480 px", true, make_dis_ultrafast},
       {"farneback", "Farneback at 480 px", true, make_farneback},
       {"phase", "phase correlation at 480 px", true, make_phase_correlation},
