@@ -1,20 +1,42 @@
 #include "core/motion_analyzer.h"
 
 #include <optional>
+#include <stdexcept>
 
 #include "core/tracking/opencv_tracker.h"
 
 namespace spidar {
+namespace {
+
+/// What the parts of the analyzer do not look at themselves.
+void validate_rest(const AnalyzerSettings& settings) {
+  validate(settings.filter);
+  validate(settings.axes);
+  if (!settings.pointer.allFinite()) {
+    throw std::invalid_argument("the pointer's coordinates must be finite");
+  }
+}
+
+}  // namespace
+
+AnalyzerSettings paper_settings() {
+  AnalyzerSettings settings;
+  settings.motion = MotionKind::kMean;
+  settings.filter.min_cutoff_Hz = 0;
+  settings.controller.kind = ControllerKind::kNonlinear;
+  return settings;
+}
 
 struct MotionAnalyzer::Impl {
   explicit Impl(const AnalyzerSettings& given)
       : settings(given), tracker(given.tracker), controller(make_controller(given.controller)) {
-    validate(given.axes);
+    validate_rest(given);
   }
 
   AnalyzerSettings settings;
   OpenCvTracker tracker;
   MotionEstimator motion;
+  MotionFilter filter;
   std::unique_ptr<GainController> controller;
   std::optional<int64_t> last_running_time_ns;
 };
@@ -27,7 +49,7 @@ MotionAnalyzer::~MotionAnalyzer() = default;
 void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   validate(settings.tracker);
   validate(settings.controller);
-  validate(settings.axes);
+  validate_rest(settings);
   impl_->tracker.configure(settings.tracker);
   if (settings.controller.kind == impl_->settings.controller.kind) {
     impl_->controller->configure(settings.controller);
@@ -44,24 +66,32 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   impl_->last_running_time_ns = running_time_ns;
 
   FrameAnalysis analysis;
+  analysis.width = frame.width;
+  analysis.height = frame.height;
   analysis.features = tracked.features;
   analysis.restarted = tracked.restarted || !last_ns;
   if (analysis.restarted) {
     impl_->motion.reset();
+    impl_->filter.reset();
     return analysis;
   }
 
+  const AnalyzerSettings& settings = impl_->settings;
   analysis.interval_ns = running_time_ns - *last_ns;
-  const SceneMotion scene = impl_->motion.estimate(impl_->settings.motion, tracked.tracks,
-                                                   frame.width, frame.height, analysis.interval_ns);
+  const SceneMotion scene =
+      impl_->motion.estimate(settings.motion, tracked.tracks, frame.width, frame.height,
+                             analysis.interval_ns, settings.pointer);
   analysis.motion = scene.felt;
   analysis.model = scene.model;
   analysis.objects = scene.objects;
   analysis.tracks = &tracked.tracks;
   analysis.background = scene.background;
-  analysis.objects_seen = scene.objects_seen;
+  analysis.object_list = scene.object_list;
+  const double interval_s = static_cast<double>(analysis.interval_ns) * 1e-9;
+  const ImageMotion steady =
+      impl_->filter.filter(scene.felt, frame.height, interval_s, settings.filter);
   analysis.wrench =
-      render_motion(*impl_->controller, analysis.motion, impl_->settings.axes, frame.height);
+      render_motion(*impl_->controller, steady, settings.axes, frame.height, interval_s);
   return analysis;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/api.h"
 #include "core/force/gain_controller.h"
+#include "core/force/motion_filter.h"
 #include "core/force/motion_rendering.h"
 #include "core/image_view.h"
 #include "core/motion/image_motion.h"
@@ -19,15 +20,24 @@ namespace spidar {
 
 struct AnalyzerSettings {
   TrackerSettings tracker;
-  MotionKind motion = MotionKind::kMean;
+  MotionKind motion = MotionKind::kObject;
+  /// Place of the picture that kObjects is felt at: (0, 0) is its top left corner, (1, 1) its
+  /// bottom right one; finite.
+  Eigen::Vector2d pointer{0.5, 0.5};
+  FilterSettings filter;
   AxisGains axes;
   ControllerSettings controller;
 };
 
+/// The paper to the letter: mean velocity of all points, unfiltered, nonlinear controller.
+SPIDAR_API AnalyzerSettings paper_settings();
+
 /// What was found in one frame.
 struct FrameAnalysis {
+  int width = 0;  ///< of the frame, px
+  int height = 0;
   int features = 0;    ///< points looked for in the next frame
-  ImageMotion motion;  ///< the one that is felt, in unscaled px/s of the frame given
+  ImageMotion motion;  ///< the one that is felt, unfiltered, in unscaled px/s of the frame given
   /// Model of the background; nothing when `motion` needs none, and after a restart.
   std::optional<ModelKind> model;
   int objects = 0;         ///< known beside the background; 0 when `motion` looks for none
@@ -36,14 +46,14 @@ struct FrameAnalysis {
   /// Since the frame that this one was compared with; 0 after a restart.
   int64_t interval_ns = 0;
 
-  // What it was found from, valid until the next call of analyze() or restart().
-  const std::vector<Track>* tracks = nullptr;               ///< null after a restart
-  const Background* background = nullptr;                   ///< null when `motion` needs none
-  const std::vector<MovingObject>* objects_seen = nullptr;  ///< null when `motion` looks for none
+  // What it was found from, not copied: valid until the next analyze().
+  const std::vector<Track>* tracks = nullptr;              ///< null after a restart
+  const Background* background = nullptr;                  ///< null when `model` is nothing
+  const std::vector<MovingObject>* object_list = nullptr;  ///< null when `motion` looks for none
 };
 
-/// image → features → tracks → motion model → motion → gain controller → wrench. One thread at a
-/// time.
+/// image → features → tracks → motion model → motion → filter → gain controller → wrench. One
+/// thread at a time.
 class SPIDAR_API MotionAnalyzer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
@@ -56,8 +66,9 @@ class SPIDAR_API MotionAnalyzer {
   void configure(const AnalyzerSettings& settings);
 
   /// Frames in the order in which they are shown. A running time that does not rise restarts, for
-  /// there is no Δt to divide by. A cut in the picture or a new size restarts the tracks only: the
-  /// largest speed of eq. 13 is one over the whole video, whatever its scenes.
+  /// there is no Δt to divide by. A cut in the picture or a new size restarts tracks and filter
+  /// only: the largest speed of eq. 13 is one over the whole video, whatever its scenes, and so is
+  /// what the adaptive controller has learnt.
   /// Throws std::invalid_argument for a frame that Tracker::track() refuses.
   FrameAnalysis analyze(const ImageView& frame, int64_t running_time_ns);
 

@@ -97,7 +97,7 @@ StepError write_measured(const BallScene& scene, const fs::path& path) {
   const BallSettings& settings = scene.settings();
   std::vector<uint8_t> pixels(static_cast<size_t>(settings.width * settings.height));
   const spidar::ImageView view{pixels.data(), settings.width, settings.height, settings.width};
-  spidar::MotionAnalyzer analyzer;
+  spidar::MotionAnalyzer analyzer(spidar::paper_settings());
   CurveFile curve(path);
   Row row;
   row.position_px = height_px(scene, 0);

@@ -4,6 +4,9 @@
 #include <charconv>
 #include <cstring>
 #include <initializer_list>
+#include <string_view>
+
+#include "core/analysis_json.h"
 
 namespace spidar {
 namespace {
@@ -11,6 +14,10 @@ namespace {
 constexpr const char* kHeader =
     "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
     "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm\n";
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
 
 template <typename Number>
 void append(std::string& row, Number value) {
@@ -25,7 +32,8 @@ std::string FrameTrace::open(const std::string& path) {
   close();
   file_ = std::fopen(path.c_str(), "we");
   if (!file_) return std::strerror(errno);
-  if (std::fputs(kHeader, file_) < 0 || std::fflush(file_) != 0) {
+  json_ = ends_with(path, ".jsonl");
+  if ((!json_ && std::fputs(kHeader, file_) < 0) || std::fflush(file_) != 0) {
     const std::string reason = std::strerror(errno);
     close();
     return reason;
@@ -33,23 +41,31 @@ std::string FrameTrace::open(const std::string& path) {
   return {};
 }
 
-bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns,
-                       const FrameAnalysis& frame) {
-  std::string row;
-  row.reserve(256);
-  append(row, running_time_ns);
-  append(row, stream_time_ns);
-  append(row, frame.features);
-  append(row, frame.motion.tracked);
+void FrameTrace::append_csv(int64_t running_time_ns, int64_t stream_time_ns,
+                            const FrameAnalysis& frame) {
+  append(line_, running_time_ns);
+  append(line_, stream_time_ns);
+  append(line_, frame.features);
+  append(line_, frame.motion.tracked);
   const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
   const Eigen::Vector3d& force = frame.wrench.force_N;
   const Eigen::Vector3d& torque = frame.wrench.torque_Nm;
   for (double value : {velocity.x(), velocity.y(), force.x(), force.y(), force.z(), torque.x(),
                        torque.y(), torque.z()}) {
-    append(row, value);
+    append(line_, value);
   }
-  row.back() = '\n';
-  if (std::fwrite(row.data(), 1, row.size(), file_) == row.size()) return true;
+  line_.back() = '\n';
+}
+
+bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns,
+                       const FrameAnalysis& frame) {
+  line_.clear();
+  if (json_) {
+    append_json(frame, running_time_ns, stream_time_ns, {}, line_);
+  } else {
+    append_csv(running_time_ns, stream_time_ns, frame);
+  }
+  if (std::fwrite(line_.data(), 1, line_.size(), file_) == line_.size()) return true;
   close();
   return false;
 }

@@ -1,4 +1,4 @@
-/// One row a frame, for those who want to look at it later.
+/// One line a frame, for those who want to look at it later.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,9 @@
 
 namespace spidar {
 
-/// CSV with a header line. Numbers are written without regard to the locale, with the digits that
-/// reading them back needs.
+/// CSV with a header line, or where the name ends in .jsonl what append_json() writes, with objects
+/// and background. Numbers are written without regard to the locale, with the digits that reading
+/// them back needs.
 class FrameTrace {
  public:
   ~FrameTrace() { close(); }
@@ -26,7 +27,11 @@ class FrameTrace {
   bool close();
 
  private:
+  void append_csv(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame);
+
   std::FILE* file_ = nullptr;
+  bool json_ = false;
+  std::string line_;  ///< of the frame before: its memory is used again
 };
 
 }  // namespace spidar

@@ -30,6 +30,7 @@ void MotionEngine::open(const MotionProperties& properties) {
   apply(properties.analyzer);
   if (properties.device == "none") return;
   const Profile profile = load_profile(properties.profile);
+  grip_pointer_ = GripPointer(profile.geometry);
   SessionSettings settings;
   settings.limits.max_force_N = properties.analyzer.controller.max_force_N;
   settings.trace_path = properties.haptic_trace;
@@ -125,6 +126,13 @@ bool MotionEngine::look_at_device(DeviceView& view) const {
   view.min_tension_N = profile_.min_tension_N();
   view.max_tension_N = profile_.max_tension_N();
   return true;
+}
+
+std::optional<Eigen::Vector2d> MotionEngine::grip_place() const {
+  if (!session_) return std::nullopt;
+  const TickRecord tick = session_->loop().snapshot().last;
+  if (tick.device != DeviceState::kRunning) return std::nullopt;
+  return grip_pointer_.place(tick.pose.position_m);
 }
 
 DeviceState MotionEngine::device_state() const {

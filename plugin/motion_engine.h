@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <gst/video/video.h>
@@ -12,6 +13,7 @@
 #include "plugin/device_view.h"
 #include "plugin/frame_luma.h"
 #include "plugin/frame_trace.h"
+#include "plugin/grip_pointer.h"
 #include "plugin/motion_properties.h"
 #include "plugin/motion_stats.h"
 #include "plugin/playback_follower.h"
@@ -89,6 +91,8 @@ class MotionEngine {
   void run_out(GstClockTime running_time);
   /// Nothing more comes.
   void end_of_stream();
+  /// Where the grip points at the picture; nothing while no device runs.
+  std::optional<Eigen::Vector2d> grip_place() const;
   /// kClosed with device=none.
   DeviceState device_state() const;
   /// −1 when all strings are well, or with device=none.
@@ -112,6 +116,7 @@ class MotionEngine {
   bool muted_ = false;
 
   // Streaming thread.
+  GripPointer grip_pointer_;
   MotionAnalyzer analyzer_;
   double max_force_N_ = -1;
   FrameLuma luma_;

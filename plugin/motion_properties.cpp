@@ -1,39 +1,10 @@
 #include "plugin/motion_properties.h"
 
+#include "plugin/feel_properties.h"
 #include "spidar/profile.h"
 
 namespace spidar {
 namespace {
-
-GType controller_type() {
-  static const GType type = [] {
-    static const GEnumValue values[] = {
-        {static_cast<int>(ControllerKind::kLinear),
-         "Linear: full force at the largest speed seen so far (eq. 11-13)", "linear"},
-        {static_cast<int>(ControllerKind::kNonlinear),
-         "Nonlinear: arctangent of the speed (eq. 14-15)", "nonlinear"},
-        {0, nullptr, nullptr}};
-    return g_enum_register_static("GstSpidarMotionController", values);
-  }();
-  return type;
-}
-
-GType motion_type() {
-  static const GType type = [] {
-    static const GEnumValue values[] = {
-        {static_cast<int>(MotionKind::kMean), "Mean velocity of all tracked points (eq. 9-10)",
-         "mean"},
-        {static_cast<int>(MotionKind::kObject),
-         "The dominant object against the background; at rest where only the camera moves",
-         "object"},
-        {static_cast<int>(MotionKind::kObjects),
-         "All objects against the background, weighted by their area", "objects"},
-        {static_cast<int>(MotionKind::kCamera), "What the camera does: ride along", "camera"},
-        {0, nullptr, nullptr}};
-    return g_enum_register_static("GstSpidarMotionMotion", values);
-  }();
-  return type;
-}
 
 GType on_device_error_type() {
   static const GType type = [] {
@@ -70,7 +41,6 @@ MotionProperties::MotionProperties() : profile(kDefaultProfile) {}
 
 void install_motion_properties(GObjectClass* c) {
   const MotionProperties defaults;
-  const ControllerSettings& gain = defaults.analyzer.controller;
   const TrackerSettings& tracker = defaults.analyzer.tracker;
   const auto install = [c](PropertyId id, GParamSpec* spec) {
     g_object_class_install_property(c, id, spec);
@@ -86,30 +56,7 @@ void install_motion_properties(GObjectClass* c) {
                             "Geometry and drives of the device: a name of the shipped profiles or "
                             "the path of a .toml file; read from NULL to READY",
                             defaults.profile.c_str(), kReady));
-  install(kPropController,
-          g_param_spec_enum("controller", "Controller", "How speed becomes force",
-                            controller_type(), static_cast<int>(gain.kind), kControllable));
-  install(kPropMotion, g_param_spec_enum("motion", "Motion", "Which motion of the picture is felt",
-                                         motion_type(), static_cast<int>(defaults.analyzer.motion),
-                                         kControllable));
-  install(kPropMaxForce, g_param_spec_double("max-force", "Maximum force",
-                                             "Largest force on the grip, N (Fmax of eq. 12 and 15)",
-                                             0.0, 20.0, gain.max_force_N, kControllable));
-  install(kPropAlpha,
-          g_param_spec_double("alpha", "Alpha",
-                              "Steepness of the nonlinear controller, seconds per pixel of a frame "
-                              "480 lines high: half the maximum force is reached at 1/alpha px/s",
-                              1e-6, 10.0, gain.alpha_s_px, kControllable));
-  install(kPropDepthGain,
-          g_param_spec_double("depth-gain", "Depth gain",
-                              "Force towards the viewer of what grows: 1 feels a growth like the "
-                              "speed that it gives half a frame's height away; 0 is off",
-                              0.0, 100.0, defaults.analyzer.axes.depth, kControllable));
-  install(kPropRollGain,
-          g_param_spec_double("roll-gain", "Roll gain",
-                              "Torque about the view axis of what turns: 1 feels a turn like the "
-                              "speed that it gives half a frame's height away; 0 is off",
-                              0.0, 100.0, defaults.analyzer.axes.roll, kControllable));
+  install_feel_properties(c);
   install(kPropMaxFeatures,
           g_param_spec_uint("max-features", "Maximum features", "Points followed at once", 1, 10000,
                             static_cast<guint>(tracker.max_features), kControllable));
@@ -136,11 +83,12 @@ void install_motion_properties(GObjectClass* c) {
           g_param_spec_boolean("post-messages", "Post messages",
                                "Post a 'spidar-motion' element message for each frame",
                                defaults.post_messages, kPlaying));
-  install(kPropTrace,
-          g_param_spec_string("trace", "Trace",
-                              "Write motion and force to this file, CSV with a row a frame; opened "
-                              "from READY to PAUSED",
-                              nullptr, kReady));
+  install(kPropTrace, g_param_spec_string(
+                          "trace", "Trace",
+                          "Write motion and force to this file, a line a frame: CSV, or JSON with "
+                          "background and objects when its name ends in .jsonl; opened from "
+                          "READY to PAUSED",
+                          nullptr, kReady));
   install(kPropHapticTrace,
           g_param_spec_string("haptic-trace", "Haptic trace",
                               "Write forces, string tensions and pose to this file, CSV with a row "
@@ -157,13 +105,10 @@ void install_motion_properties(GObjectClass* c) {
                              "Frames, analysis time, state and timing of the haptic loop",
                              GST_TYPE_STRUCTURE, kRead));
 
-  gst_type_mark_as_plugin_api(controller_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
-  gst_type_mark_as_plugin_api(motion_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
   gst_type_mark_as_plugin_api(on_device_error_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
 }
 
 bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
-  ControllerSettings& gain = p.analyzer.controller;
   TrackerSettings& tracker = p.analyzer.tracker;
   switch (id) {
     case kPropDevice:
@@ -171,24 +116,6 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
       return true;
     case kPropProfile:
       p.profile = string_of(value);
-      return true;
-    case kPropController:
-      gain.kind = static_cast<ControllerKind>(g_value_get_enum(value));
-      return true;
-    case kPropMotion:
-      p.analyzer.motion = static_cast<MotionKind>(g_value_get_enum(value));
-      return true;
-    case kPropMaxForce:
-      gain.max_force_N = g_value_get_double(value);
-      return true;
-    case kPropAlpha:
-      gain.alpha_s_px = g_value_get_double(value);
-      return true;
-    case kPropDepthGain:
-      p.analyzer.axes.depth = g_value_get_double(value);
-      return true;
-    case kPropRollGain:
-      p.analyzer.axes.roll = g_value_get_double(value);
       return true;
     case kPropMaxFeatures:
       tracker.max_features = static_cast<int>(g_value_get_uint(value));
@@ -218,12 +145,11 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
       p.mute = g_value_get_boolean(value);
       return true;
     default:
-      return set_display_property(p.display, id, value);
+      return set_feel_property(p, id, value) || set_display_property(p.display, id, value);
   }
 }
 
 bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
-  const ControllerSettings& gain = p.analyzer.controller;
   const TrackerSettings& tracker = p.analyzer.tracker;
   switch (id) {
     case kPropDevice:
@@ -231,24 +157,6 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       return true;
     case kPropProfile:
       g_value_set_string(value, p.profile.c_str());
-      return true;
-    case kPropController:
-      g_value_set_enum(value, static_cast<int>(gain.kind));
-      return true;
-    case kPropMotion:
-      g_value_set_enum(value, static_cast<int>(p.analyzer.motion));
-      return true;
-    case kPropMaxForce:
-      g_value_set_double(value, gain.max_force_N);
-      return true;
-    case kPropAlpha:
-      g_value_set_double(value, gain.alpha_s_px);
-      return true;
-    case kPropDepthGain:
-      g_value_set_double(value, p.analyzer.axes.depth);
-      return true;
-    case kPropRollGain:
-      g_value_set_double(value, p.analyzer.axes.roll);
       return true;
     case kPropMaxFeatures:
       g_value_set_uint(value, static_cast<guint>(tracker.max_features));
@@ -278,7 +186,7 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       g_value_set_boolean(value, p.mute);
       return true;
     default:
-      return get_display_property(p.display, id, value);
+      return get_feel_property(p, id, value) || get_display_property(p.display, id, value);
   }
 }
 

@@ -12,11 +12,13 @@
 namespace spidar {
 
 enum class OnDeviceError { kWarn, kError };
+enum class PointerKind { kFixed, kGrip };
 
 struct MotionProperties {
   std::string device = "sim";
   std::string profile;
-  AnalyzerSettings analyzer;
+  AnalyzerSettings analyzer;  ///< its pointer is the fixed one
+  PointerKind pointer = PointerKind::kFixed;
   GstClockTimeDiff ts_offset_ns = 0;
   OnDeviceError on_device_error = OnDeviceError::kWarn;
   bool post_messages = true;
@@ -33,10 +35,15 @@ enum PropertyId : guint {
   kPropProfile,
   kPropController,
   kPropMotion,
+  kPropPointer,
+  kPropPointerX,
+  kPropPointerY,
   kPropMaxForce,
   kPropAlpha,
   kPropDepthGain,
   kPropRollGain,
+  kPropFilterMinCutoff,
+  kPropFilterBeta,
   kPropMaxFeatures,
   kPropQualityLevel,
   kPropMinDistance,

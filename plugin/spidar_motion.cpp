@@ -7,6 +7,10 @@
  * Lucas-Kanade), turns the motion into force and torque, and gives them to the grip of a SPIDAR-G
  * at the moment the frame is shown. The video itself is passed on untouched.
  *
+ * By default the object that stands out most against the background is felt (#spidarmotion:motion),
+ * steadied by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
+ * filter-min-cutoff=0 it is the mean velocity of all points, as in the paper.
+ *
  * A frame is shown at base time + running time + pipeline latency (+ #spidarmotion:ts-offset); its
  * force is felt then, between two frames it is interpolated. Before PLAYING, in PAUSED and after
  * the end there is none.
@@ -48,6 +52,7 @@ using spidar::MotionDisplay;
 using spidar::MotionEngine;
 using spidar::MotionProperties;
 using spidar::OnDeviceError;
+using spidar::PointerKind;
 
 struct _GstSpidarMotion {
   GstVideoFilter parent;
@@ -203,14 +208,19 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
   spidar::AnalyzerSettings settings;
   spidar::DisplayProperties display;
+  PointerKind pointer;
   bool post_messages;
   OnDeviceError on_device_error;
   GST_OBJECT_LOCK(self);
   settings = self->properties->analyzer;
   display = self->properties->display;
+  pointer = self->properties->pointer;
   post_messages = self->properties->post_messages;
   on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
+  if (pointer == PointerKind::kGrip) {
+    settings.pointer = self->engine->grip_place().value_or(settings.pointer);
+  }
 
   FrameReport report;
   const bool processed = guarded(self, "analysing a frame", [&] {

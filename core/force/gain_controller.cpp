@@ -5,21 +5,18 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/force/adaptive_controller.h"
+#include "core/force/require_not_negative.h"
+
 namespace spidar {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-void require_not_negative(const char* name, double value) {
-  if (!std::isfinite(value) || value < 0) {
-    throw std::invalid_argument(std::string(name) + " must be finite and not negative, got " +
-                                std::to_string(value));
-  }
-}
-
 }  // namespace
 
-double LinearController::force_N(double speed_px_s) {
+double LinearController::force_N(const MeasuredSpeed& measured) {
+  const double speed_px_s = measured.speed_px_s;
   max_speed_px_s_ = std::max(max_speed_px_s_, speed_px_s);
   // The quotient first: exactly max_force_N at the largest speed, and no overflow of k.
   return max_speed_px_s_ > 0 ? max_force_N_ * (speed_px_s / max_speed_px_s_) : 0;
@@ -29,8 +26,8 @@ double LinearController::gain_N_s_px() const {
   return max_speed_px_s_ > 0 ? max_force_N_ / max_speed_px_s_ : 0;
 }
 
-double NonlinearController::force_N(double speed_px_s) {
-  return 2 * max_force_N_ / kPi * std::atan(alpha_s_px_ * speed_px_s);
+double NonlinearController::force_N(const MeasuredSpeed& measured) {
+  return 2 * max_force_N_ / kPi * std::atan(alpha_s_px_ * measured.speed_px_s);
 }
 
 void validate(const ControllerSettings& settings) {
@@ -40,15 +37,22 @@ void validate(const ControllerSettings& settings) {
 
 std::unique_ptr<GainController> make_controller(const ControllerSettings& settings) {
   validate(settings);
-  if (settings.kind == ControllerKind::kLinear) {
-    return std::make_unique<LinearController>(settings.max_force_N);
+  switch (settings.kind) {
+    case ControllerKind::kLinear:
+      return std::make_unique<LinearController>(settings.max_force_N);
+    case ControllerKind::kNonlinear:
+      return std::make_unique<NonlinearController>(settings.max_force_N, settings.alpha_s_px);
+    case ControllerKind::kAdaptive:
+      return std::make_unique<AdaptiveController>(settings.max_force_N, settings.alpha_s_px);
   }
-  return std::make_unique<NonlinearController>(settings.max_force_N, settings.alpha_s_px);
+  throw std::invalid_argument("there is no controller kind " +
+                              std::to_string(static_cast<int>(settings.kind)));
 }
 
-Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s) {
+Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s,
+                     double interval_s, double noise_px_s) {
   const double speed_px_s = velocity_px_s.norm();
-  const double force_N = controller.force_N(speed_px_s);
+  const double force_N = controller.force_N({speed_px_s, interval_s, noise_px_s});
   Wrench wrench;
   if (speed_px_s > 0) {
     const Eigen::Vector2d direction = velocity_px_s / speed_px_s;

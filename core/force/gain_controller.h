@@ -10,12 +10,23 @@
 
 namespace spidar {
 
-enum class ControllerKind { kLinear, kNonlinear };
+enum class ControllerKind { kLinear, kNonlinear, kAdaptive };
 
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::kNonlinear;
   double max_force_N = 3.0;  ///< Fmax of eq. 12 and 15, finite and ≥ 0
   double alpha_s_px = 0.01;  ///< α of eq. 15, per px/s of the reference frame, finite and ≥ 0
+};
+
+/// What a controller is told of one frame, in px/s of the reference frame.
+struct MeasuredSpeed {
+  // A bare number is a speed of which nothing else is known.
+  MeasuredSpeed(double speed, double interval = 0, double noise = 0)
+      : speed_px_s(speed), interval_s(interval), noise_px_s(noise) {}
+
+  double speed_px_s;  ///< ≥ 0
+  double interval_s;  ///< running time since the frame before, ≥ 0; 0: not known
+  double noise_px_s;  ///< standard error of each coordinate of the velocity, ≥ 0; 0: not known
 };
 
 /// Gain from speed to force. The paper's equations are one-dimensional; here they act on the speed
@@ -24,9 +35,9 @@ class SPIDAR_API GainController {
  public:
   virtual ~GainController() = default;
 
-  /// Force for a speed ≥ 0 in px/s of the reference frame; 0 … max_force_N. May learn from the
-  /// speed, so call it once a frame, in the order of the frames.
-  virtual double force_N(double speed_px_s) = 0;
+  /// Force for a speed, 0 … max_force_N. May learn from the speed, so call it once a frame, in the
+  /// order of the frames.
+  virtual double force_N(const MeasuredSpeed& speed) = 0;
 
   /// Other limits from now on; what was learnt stays. `settings.kind` does not matter here.
   virtual void configure(const ControllerSettings& settings) = 0;
@@ -39,7 +50,7 @@ class SPIDAR_API GainController {
 class SPIDAR_API LinearController final : public GainController {
  public:
   explicit LinearController(double max_force_N) : max_force_N_(max_force_N) {}
-  double force_N(double speed_px_s) override;
+  double force_N(const MeasuredSpeed& speed) override;
   void configure(const ControllerSettings& settings) override {
     max_force_N_ = settings.max_force_N;
   }
@@ -57,7 +68,7 @@ class SPIDAR_API NonlinearController final : public GainController {
  public:
   NonlinearController(double max_force_N, double alpha_s_px)
       : max_force_N_(max_force_N), alpha_s_px_(alpha_s_px) {}
-  double force_N(double speed_px_s) override;
+  double force_N(const MeasuredSpeed& speed) override;
   void configure(const ControllerSettings& settings) override {
     max_force_N_ = settings.max_force_N;
     alpha_s_px_ = settings.alpha_s_px;
@@ -75,7 +86,9 @@ SPIDAR_API void validate(const ControllerSettings& settings);
 /// The controller of `settings.kind`. Throws as validate() does.
 SPIDAR_API std::unique_ptr<GainController> make_controller(const ControllerSettings& settings);
 
-/// Force of an image velocity in the reference frame's px/s (I: y down) on the grip (D: y up).
-SPIDAR_API Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s);
+/// Force of an image velocity in the reference frame's px/s (I: y down) on the grip (D: y up);
+/// interval and noise as in MeasuredSpeed.
+SPIDAR_API Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s,
+                                double interval_s = 0, double noise_px_s = 0);
 
 }  // namespace spidar

@@ -51,6 +51,15 @@ ModelKind next(ModelKind kind, int step) {
 
 }  // namespace
 
+BackgroundEstimator::BackgroundEstimator() {
+  evidence_.points.reserve(kMostDisplacements);
+  evidence_.weights.reserve(kMostDisplacements);
+  cell_of_.reserve(kMostDisplacements);
+  cell_size_.reserve(kColumns * kRows);
+  residuals_px_.reserve(kMostDisplacements);
+  reset();
+}
+
 void BackgroundEstimator::reset() {
   background_ = Background();
   noise_px_ = kLeastNoise_px;
@@ -104,7 +113,7 @@ bool BackgroundEstimator::score(ModelKind kind, Scored& scored) {
     if (covered_ < least) return false;
     ++fitted_;
   }
-  const auto model = fit_robustly(kind, evidence_);
+  const auto model = fitter_.fit(kind, evidence_);
   if (!model) return false;
   scored.model = *model;
   scored.coverage = kind == ModelKind::kStill ? 1 : coverage_of(*model);
@@ -147,14 +156,14 @@ void BackgroundEstimator::descend(Scored& current) {
 /// From the median of the inliers' residuals. More noise than before is believed only when no rung
 /// explains the tracks better.
 void BackgroundEstimator::learn_noise(const MotionModel& model, bool nothing_better) {
-  std::vector<double> residuals_px;
+  residuals_px_.clear();
   for (const Displacement& point : evidence_.points) {
     const double e = (point.moved_px - model.displacement_px(point.at_px)).norm();
-    if (e < 2 * kMostNoise_px * scale_) residuals_px.push_back(e);
+    if (e < 2 * kMostNoise_px * scale_) residuals_px_.push_back(e);
   }
-  if (residuals_px.size() < kLeastForNoise) return;
-  const auto middle = residuals_px.begin() + static_cast<ptrdiff_t>(residuals_px.size() / 2);
-  std::nth_element(residuals_px.begin(), middle, residuals_px.end());
+  if (residuals_px_.size() < kLeastForNoise) return;
+  const auto middle = residuals_px_.begin() + static_cast<ptrdiff_t>(residuals_px_.size() / 2);
+  std::nth_element(residuals_px_.begin(), middle, residuals_px_.end());
   // The median of a Rayleigh distribution is σ √(2 ln 2).
   const double found_px = *middle / std::sqrt(2 * std::log(2.0)) / scale_;
   const double noise_px = std::min(std::max(found_px, kLeastNoise_px), kMostNoise_px);

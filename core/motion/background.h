@@ -31,7 +31,7 @@ struct Background {
 /// the one in use stops explaining the tracks, and not in every frame when that does not help.
 class SPIDAR_API BackgroundEstimator {
  public:
-  BackgroundEstimator() { reset(); }
+  BackgroundEstimator();
 
   /// Displacements between two frames of `width` × `height` pixels, as displacements() makes them.
   const Background& estimate(const std::vector<Displacement>& points, int width, int height);
@@ -58,6 +58,8 @@ class SPIDAR_API BackgroundEstimator {
   void learn_noise(const MotionModel& model, bool nothing_better);
 
   WeightedTracks evidence_;
+  RobustFitter fitter_;
+  std::vector<double> residuals_px_;
   std::vector<int> cell_of_;    ///< of each point
   std::vector<int> cell_size_;  ///< points in it
   double effective_points_ = 0;

@@ -18,6 +18,8 @@ struct ImageMotion {
   double growth_1_s = 0;
   double roll_rad_s = 0;  ///< turn from x to y: clockwise as seen on the screen
   int tracked = 0;        ///< points it was measured with
+  /// Standard error of each coordinate of the velocity; 0: not known.
+  double noise_px_s = 0;
 };
 
 /// The paper's frame velocity (eq. 9–10): mean over all tracks of displacement / Δt.

@@ -17,9 +17,22 @@ namespace spidar {
 enum class MotionKind {
   kMean,     ///< mean velocity of all points: the paper's eq. 9–10
   kObject,   ///< the dominant object against the background
-  kObjects,  ///< all objects against the background, weighted by their area
+  kObjects,  ///< all objects against the background, weighted by area and nearness to the pointer
   kCamera,   ///< what the camera does
 };
+
+/// How far from the pointer an object is still felt: σ of the Gaussian kernel, a share of the
+/// frame's height.
+constexpr double kPointerReach = 0.25;
+
+/// Mean motion of the objects, each weighted by area_px2() · exp(−d² / 2σ²), d the distance of
+/// `pointer_px` (from the frame's centre) from the nearest edge of the object's box, 0 within it.
+/// An object at the pointer counts by its size alone; what is a quarter of the frame's height away
+/// counts 0.61, half of it 0.14, all of it 0.0003 of that. A single object is felt as it is,
+/// wherever it is: the pointer chooses, it does not weaken. Objects at rest count, those out of
+/// sight do not.
+SPIDAR_API ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
+                                         const Eigen::Vector2d& pointer_px, int frame_height);
 
 /// What the tracks of one frame say.
 struct SceneMotion {
@@ -29,24 +42,35 @@ struct SceneMotion {
   /// Of the camera: where the background goes to the left it goes to the right, where the
   /// background grows it goes in. Zero with kMean.
   ImageMotion camera;
-  int objects = 0;  ///< that are known, seen or not; 0 with kMean
-  /// The same in full, valid until the estimator's next call; null with kMean.
+  int objects = 0;  ///< that are known, seen or not; 0 with kMean and kCamera
+  /// What was found, in detail: valid until the next estimate(). Null with
+  /// kMean; no objects with kCamera either.
   const Background* background = nullptr;
-  const std::vector<MovingObject>* objects_seen = nullptr;
+  const std::vector<MovingObject>* object_list = nullptr;  ///< in the order of birth
+  /// The object that `object` follows, one of the list; null while there is none.
+  const MovingObject* dominant = nullptr;
 };
 
-/// tracks → motion. Keeps what must be known of the frames before.
+/// tracks → motion. Keeps what must be known of the frames before. Takes no memory from the heap
+/// but when it is made.
 class SPIDAR_API MotionEstimator {
  public:
+  MotionEstimator() { points_.reserve(kMostDisplacements); }
+
   /// Tracks between two frames of `width` × `height` pixels that are shown `interval_ns` apart, >
-  /// 0.
+  /// 0. `pointer` is a place of the picture, (0, 0) its top left and (1, 1) its bottom right
+  /// corner; it may lie outside. Only kObjects looks at it. Another kind than in the frame before
+  /// begins anew where it needs what that one did not keep.
   SceneMotion estimate(MotionKind kind, const std::vector<Track>& tracks, int width, int height,
-                       int64_t interval_ns);
+                       int64_t interval_ns, const Eigen::Vector2d& pointer = {0.5, 0.5});
 
   /// A cut, a seek: the next frame has nothing to do with the one before.
   void reset();
 
  private:
+  void drop_unneeded(MotionKind kind);
+
+  MotionKind kind_ = MotionKind::kMean;
   std::vector<Displacement> points_;
   BackgroundEstimator background_;
   ObjectTracker objects_;

@@ -33,7 +33,9 @@ constexpr size_t kStraysPerTrack = 16;
 /// Disjoint sets over 0 … n − 1.
 class Sets {
  public:
-  explicit Sets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), size_t{0}); }
+  Sets(size_t n, std::pmr::memory_resource* memory) : parent_(n, memory) {
+    std::iota(parent_.begin(), parent_.end(), size_t{0});
+  }
   size_t find(size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -45,7 +47,7 @@ class Sets {
   }
 
  private:
-  std::vector<size_t> parent_;
+  std::pmr::vector<size_t> parent_;
 };
 
 bool agree(const Displacement& a, const Displacement& b, const ClusterSettings& settings) {
@@ -58,39 +60,45 @@ bool agree(const Displacement& a, const Displacement& b, const ClusterSettings& 
   return (a.moved_px - b.moved_px).squaredNorm() < tolerance_px * tolerance_px;
 }
 
+}  // namespace
+
+ClusterFinder::ClusterFinder() {
+  evidence_.points.reserve(kMostDisplacements);
+  evidence_.weights.reserve(kMostDisplacements);
+}
+
 /// Translation, or similarity when that is better by GRIC.
-MotionModel own_motion(WeightedTracks& evidence) {
-  const auto translation = fit_robustly(ModelKind::kTranslation, evidence);
+MotionModel ClusterFinder::own_motion() {
+  const auto translation = fitter_.fit(ModelKind::kTranslation, evidence_);
   if (!translation) return MotionModel();
-  evidence.sigma_px = std::max(evidence.sigma_px, kObjectNoiseShare * translation->shift_px.norm());
-  const double n = static_cast<double>(evidence.points.size());
-  const double cost = robust_cost(*translation, evidence);
-  if (cost <= kExplained * n || evidence.points.size() < kLeastForSimilarity) return *translation;
-  const auto similarity = fit_robustly(ModelKind::kSimilarity, evidence);
+  evidence_.sigma_px =
+      std::max(evidence_.sigma_px, kObjectNoiseShare * translation->shift_px.norm());
+  const double n = static_cast<double>(evidence_.points.size());
+  const double cost = robust_cost(*translation, evidence_);
+  if (cost <= kExplained * n || evidence_.points.size() < kLeastForSimilarity) return *translation;
+  const auto similarity = fitter_.fit(ModelKind::kSimilarity, evidence_);
   // Two parameters more, and two more so that it does not flicker.
   const double price = 4 * std::log(4 * n);
-  if (similarity && robust_cost(*similarity, evidence) + price < cost) return *similarity;
+  if (similarity && robust_cost(*similarity, evidence_) + price < cost) return *similarity;
   return *translation;
 }
 
-}  // namespace
-
-Cluster describe_cluster(const std::vector<Displacement>& points, std::vector<int> group,
-                         double sigma_px) {
-  Cluster cluster;
-  cluster.group = std::move(group);
+Cluster ClusterFinder::describe(const std::vector<Displacement>& points, Indices group,
+                                double sigma_px) {
+  Cluster cluster(std::move(group));
   if (cluster.group.empty()) return cluster;
-  WeightedTracks evidence;
-  for (const int i : cluster.group) evidence.points.push_back(points[static_cast<size_t>(i)]);
-  evidence.weights.assign(cluster.group.size(), 1.0);
-  evidence.sigma_px = kObjectNoise * sigma_px;
-  cluster.motion = own_motion(evidence);
+  evidence_.points.clear();
+  for (const int i : cluster.group) evidence_.points.push_back(points[static_cast<size_t>(i)]);
+  evidence_.weights.assign(cluster.group.size(), 1.0);
+  evidence_.sigma_px = kObjectNoise * sigma_px;
+  cluster.motion = own_motion();
 
+  cluster.members.reserve(cluster.group.size());
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300);
   Eigen::Vector2d high = -low;
   for (size_t k = 0; k < cluster.group.size(); ++k) {
-    const Displacement& point = evidence.points[k];
-    if (point_cost(cluster.motion, point, evidence.sigma_px) >= kMostCost) continue;
+    const Displacement& point = evidence_.points[k];
+    if (point_cost(cluster.motion, point, evidence_.sigma_px) >= kMostCost) continue;
     cluster.members.push_back(cluster.group[k]);
     cluster.position_px += point.at_px;
     low = low.cwiseMin(point.at_px);
@@ -103,25 +111,27 @@ Cluster describe_cluster(const std::vector<Displacement>& points, std::vector<in
   return cluster;
 }
 
-std::vector<Cluster> find_clusters(const std::vector<Displacement>& points,
-                                   const std::vector<int>& candidates,
-                                   const ClusterSettings& settings) {
+std::pmr::vector<Cluster> ClusterFinder::find(const std::vector<Displacement>& points,
+                                              const Indices& candidates,
+                                              const ClusterSettings& settings) {
+  std::pmr::memory_resource* const memory = candidates.get_allocator().resource();
   const auto point = [&](size_t k) -> const Displacement& {
     return points[static_cast<size_t>(candidates[k])];
   };
-  Sets sets(candidates.size());
+  Sets sets(candidates.size(), memory);
   for (size_t i = 0; i < candidates.size(); ++i) {
     for (size_t j = 0; j < i; ++j) {
       if (agree(point(i), point(j), settings)) sets.join(i, j);
     }
   }
-  std::vector<std::vector<int>> groups(candidates.size());
+  std::pmr::vector<Indices> groups(candidates.size(), memory);
   for (size_t i = 0; i < candidates.size(); ++i) groups[sets.find(i)].push_back(candidates[i]);
 
-  std::vector<Cluster> clusters;
-  for (std::vector<int>& group : groups) {
+  std::pmr::vector<Cluster> clusters(memory);
+  clusters.reserve(candidates.size() / kLeastInCluster);
+  for (Indices& group : groups) {
     if (group.size() < kLeastInCluster) continue;
-    Cluster cluster = describe_cluster(points, std::move(group), settings.sigma_px);
+    Cluster cluster = describe(points, std::move(group), settings.sigma_px);
     if (cluster.members.size() < kLeastInCluster) continue;
     double evidence = 0;
     for (const int i : cluster.members) {
@@ -137,8 +147,9 @@ std::vector<Cluster> find_clusters(const std::vector<Displacement>& points,
       std::remove_if(clusters.begin(), clusters.end(),
                      [least](const Cluster& cluster) { return cluster.members.size() < least; }),
       clusters.end());
-  std::stable_sort(clusters.begin(), clusters.end(), [](const Cluster& a, const Cluster& b) {
-    return a.members.size() > b.members.size();
+  std::sort(clusters.begin(), clusters.end(), [](const Cluster& a, const Cluster& b) {
+    if (a.members.size() != b.members.size()) return a.members.size() > b.members.size();
+    return a.group.front() < b.group.front();  // no two are equal: the order is determined
   });
   return clusters;
 }

@@ -20,6 +20,9 @@ constexpr double kCoast_s = 0.1;
 constexpr size_t kLeastToSee = 2;
 constexpr int kLeastVotes = 2;
 
+/// For the candidates and groups of kMostDisplacements and the tracks of kMostObjects.
+constexpr size_t kFrameMemory_bytes = 512 * 1024;
+
 bool same_motion(const Eigen::Vector2d& a_px, const Eigen::Vector2d& b_px, double sigma_px) {
   const double fastest_px = std::max(a_px.norm(), b_px.norm());
   return (a_px - b_px).norm() < kSameMotion * fastest_px + kMovingSigmas * sigma_px;
@@ -31,24 +34,43 @@ bool owns(const std::vector<uint32_t>& sorted, uint32_t id) {
 
 }  // namespace
 
+ObjectTracker::ObjectTracker() : memory_(kFrameMemory_bytes) {
+  relative_.reserve(kMostDisplacements);
+  lives_.reserve(kMostObjects);
+  objects_.reserve(kMostObjects);
+  spare_.resize(kMostObjects);
+  for (Life& life : spare_) {
+    life.track_ids.reserve(2 * kMostDisplacements);
+    life.group.reserve(kMostDisplacements);
+  }
+}
+
+void ObjectTracker::reset() {
+  drop([](const Life&) { return true; });
+  objects_.clear();
+}
+
 /// Displacements against the background, and the groups in them.
-void ObjectTracker::find_relative(const std::vector<Displacement>& points, const Frame& frame) {
+ObjectTracker::Clusters ObjectTracker::find_relative(const std::vector<Displacement>& points,
+                                                     const Frame& frame) {
   relative_ = points;
-  std::vector<int> moving;
+  Indices moving(memory_.resource());
+  moving.reserve(points.size());
   const double least_px = kMovingSigmas * frame.sigma_px;
   for (size_t i = 0; i < relative_.size(); ++i) {
     Displacement& point = relative_[i];
     point.moved_px -= frame.background->model.displacement_px(point.at_px);
     if (point.moved_px.squaredNorm() > least_px * least_px) moving.push_back(static_cast<int>(i));
   }
-  clusters_ = find_clusters(relative_, moving, {frame.reach_px, frame.sigma_px});
+  return finder_.find(relative_, moving, {frame.reach_px, frame.sigma_px});
 }
 
 /// A group is the object that most of its tracks were on. Several groups may be one object, when
 /// they move alike.
-void ObjectTracker::claim_by_tracks(const Frame& frame) {
-  std::vector<Cluster> left;
-  for (Cluster& cluster : clusters_) {
+void ObjectTracker::claim_by_tracks(Clusters& clusters, const Frame& frame) {
+  Clusters left(memory_.resource());
+  left.reserve(clusters.size());
+  for (Cluster& cluster : clusters) {
     Life* best = nullptr;
     int most_votes = 0;
     for (Life& life : lives_) {
@@ -74,7 +96,7 @@ void ObjectTracker::claim_by_tracks(const Frame& frame) {
     if (!best->claimed) best->object.relative_px_s = cluster.moved_px / frame.interval_s;
     best->claimed = true;
   }
-  clusters_ = std::move(left);
+  clusters = std::move(left);
 }
 
 bool ObjectTracker::belongs(const Cluster& cluster, const Life& life, const Frame& frame) {
@@ -85,9 +107,10 @@ bool ObjectTracker::belongs(const Cluster& cluster, const Life& life, const Fram
 
 /// A group without known tracks is the object that was to be expected there. What was seen only
 /// once is not expected anywhere.
-void ObjectTracker::claim_by_place(const Frame& frame) {
-  std::vector<Cluster> left;
-  for (Cluster& cluster : clusters_) {
+void ObjectTracker::claim_by_place(Clusters& clusters, const Frame& frame) {
+  Clusters left(memory_.resource());
+  left.reserve(clusters.size());
+  for (Cluster& cluster : clusters) {
     Life* nearest = nullptr;
     double nearest_px = frame.reach_px;
     for (Life& life : lives_) {
@@ -105,19 +128,24 @@ void ObjectTracker::claim_by_place(const Frame& frame) {
     nearest->group.insert(nearest->group.end(), cluster.group.begin(), cluster.group.end());
     nearest->claimed = true;
   }
-  clusters_ = std::move(left);
+  clusters = std::move(left);
 }
 
-void ObjectTracker::bear(const Frame& frame) {
-  for (const Cluster& cluster : clusters_) {
+void ObjectTracker::bear(const Clusters& clusters, const Frame& frame) {
+  for (const Cluster& cluster : clusters) {
     if (lives_.size() >= kMostObjects) return;
     const bool part_of_another = std::any_of(lives_.begin(), lives_.end(), [&](const Life& life) {
       return belongs(cluster, life, frame);
     });
     if (part_of_another || !cluster.is_coherent()) continue;
-    Life life;
+    Life life = std::move(spare_.back());
+    spare_.pop_back();
+    life.object = MovingObject();
     life.object.id = next_id_++;
-    life.group = cluster.group;
+    life.frames_seen = 0;
+    life.resting_s = 0;
+    life.claimed = false;
+    life.group.assign(cluster.group.begin(), cluster.group.end());
     see(life, cluster, frame);
     life.group.clear();
     lives_.push_back(std::move(life));
@@ -135,6 +163,7 @@ void ObjectTracker::see(Life& life, const Cluster& cluster, const Frame& frame) 
   object.roll_rad_s = cluster.motion.roll_rad() / frame.interval_s;
   object.model = cluster.motion.kind;
   object.tracks = static_cast<int>(cluster.members.size());
+  object.noise_px_s = frame.sigma_px / std::sqrt(object.tracks) / frame.interval_s;
   life.track_ids.clear();
   const auto keep = [&](int i) { life.track_ids.push_back(relative_[static_cast<size_t>(i)].id); };
   std::for_each(life.group.begin(), life.group.end(), keep);
@@ -147,7 +176,7 @@ void ObjectTracker::see(Life& life, const Cluster& cluster, const Frame& frame) 
 /// One frame more: where it is now, or that it is out of sight.
 void ObjectTracker::live(Life& life, const Frame& frame) {
   // Those of its tracks that do not stand out now may be slow, not gone.
-  std::vector<int> tracks = life.group;
+  Indices tracks(life.group.begin(), life.group.end(), memory_.resource());
   for (size_t i = 0; i < relative_.size(); ++i) {
     if (owns(life.track_ids, relative_[i].id)) tracks.push_back(static_cast<int>(i));
   }
@@ -155,7 +184,7 @@ void ObjectTracker::live(Life& life, const Frame& frame) {
   tracks.erase(std::unique(tracks.begin(), tracks.end()), tracks.end());
 
   MovingObject& object = life.object;
-  const Cluster cluster = describe_cluster(relative_, std::move(tracks), frame.sigma_px);
+  const Cluster cluster = finder_.describe(relative_, std::move(tracks), frame.sigma_px);
   if (cluster.members.size() >= kLeastToSee) {
     see(life, cluster, frame);
   } else {
@@ -173,20 +202,30 @@ void ObjectTracker::live(Life& life, const Frame& frame) {
 
 template <typename Dead>
 void ObjectTracker::drop(Dead&& dead) {
-  lives_.erase(std::remove_if(lives_.begin(), lives_.end(), dead), lives_.end());
+  size_t kept = 0;
+  for (size_t i = 0; i < lives_.size(); ++i) {
+    if (dead(lives_[i])) {
+      spare_.push_back(std::move(lives_[i]));
+    } else {
+      if (kept < i) lives_[kept] = std::move(lives_[i]);
+      ++kept;
+    }
+  }
+  lives_.resize(kept);
 }
 
 const std::vector<MovingObject>& ObjectTracker::update(const std::vector<Displacement>& points,
                                                        const Background& background, int width,
                                                        int height, double interval_s) {
   const Frame frame{&background, interval_s, kReach * std::min(width, height), background.sigma_px};
-  find_relative(points, frame);
-  claim_by_tracks(frame);
-  claim_by_place(frame);
+  memory_.release();
+  Clusters clusters = find_relative(points, frame);
+  claim_by_tracks(clusters, frame);
+  claim_by_place(clusters, frame);
   drop([](const Life& life) { return life.frames_seen < kBornAfter && !life.claimed; });
   for (Life& life : lives_) live(life, frame);
   drop([](const Life& life) { return life.unseen_s > kForgotten_s || life.resting_s > kAtRest_s; });
-  bear(frame);
+  bear(clusters, frame);
 
   objects_.clear();
   for (const Life& life : lives_) {

@@ -8,6 +8,7 @@
 
 #include "core/api.h"
 #include "core/motion/background.h"
+#include "core/motion/frame_memory.h"
 #include "core/motion/motion_models.h"
 #include "core/motion/object_clusters.h"
 
@@ -24,6 +25,7 @@ struct MovingObject {
   double roll_rad_s = 0;                                     ///< … the background
   ModelKind model = ModelKind::kTranslation;                 ///< translation or similarity
   int tracks = 0;                                            ///< 0 while it is out of sight
+  double noise_px_s = 0;  ///< standard error of each coordinate of relative_px_s
   /// Area × speed, smoothed over kProminence_s: what one would look at.
   double prominence = 0;
 
@@ -40,6 +42,8 @@ struct MovingObject {
 /// at rest for kAtRest_s; until then it may stand still.
 class SPIDAR_API ObjectTracker {
  public:
+  ObjectTracker();
+
   /// Tracks between two frames of `width` × `height` pixels that are shown `interval_s` apart, and
   /// the background that they have. Valid until the next call; in the order of birth.
   const std::vector<MovingObject>& update(const std::vector<Displacement>& points,
@@ -47,10 +51,7 @@ class SPIDAR_API ObjectTracker {
                                           double interval_s);
 
   /// A cut, a seek: nothing is known.
-  void reset() {
-    lives_.clear();
-    objects_.clear();
-  }
+  void reset();
 
   static constexpr double kForgotten_s = 0.5;
   static constexpr double kAtRest_s = 1.0;
@@ -66,6 +67,7 @@ class SPIDAR_API ObjectTracker {
     std::vector<int> group;  ///< that it has in this frame, indices of its points
     bool claimed = false;    ///< by a group of this frame
   };
+  using Clusters = std::pmr::vector<Cluster>;
   struct Frame {
     const Background* background;
     double interval_s;
@@ -73,20 +75,22 @@ class SPIDAR_API ObjectTracker {
     double sigma_px;
   };
 
-  void find_relative(const std::vector<Displacement>& points, const Frame& frame);
-  void claim_by_tracks(const Frame& frame);
+  Clusters find_relative(const std::vector<Displacement>& points, const Frame& frame);
+  void claim_by_tracks(Clusters& clusters, const Frame& frame);
   /// In place and motion.
   static bool belongs(const Cluster& cluster, const Life& life, const Frame& frame);
-  void claim_by_place(const Frame& frame);
-  void bear(const Frame& frame);
+  void claim_by_place(Clusters& clusters, const Frame& frame);
+  void bear(const Clusters& clusters, const Frame& frame);
   void live(Life& life, const Frame& frame);
   template <typename Dead>
   void drop(Dead&& dead);
   void see(Life& life, const Cluster& cluster, const Frame& frame);
 
+  FrameMemory memory_;
+  ClusterFinder finder_;
   std::vector<Displacement> relative_;  ///< to the background
-  std::vector<Cluster> clusters_;       ///< that no object has claimed yet
   std::vector<Life> lives_;
+  std::vector<Life> spare_;  ///< their memory is for those to be born
   std::vector<MovingObject> objects_;
   uint32_t next_id_ = 1;
 };

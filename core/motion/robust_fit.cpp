@@ -20,8 +20,9 @@ struct Candidate {
 /// distributions of <random> are not.
 class Sampler {
  public:
-  explicit Sampler(const std::vector<double>& weights) {
-    sums_.reserve(weights.size());
+  /// `sums` is memory to use.
+  Sampler(const std::vector<double>& weights, std::vector<double>& sums) : sums_(sums) {
+    sums_.clear();
     double sum = 0;
     for (const double weight : weights) sums_.push_back(sum += weight);
   }
@@ -36,7 +37,7 @@ class Sampler {
   double sum() const { return sums_.back(); }
 
  private:
-  std::vector<double> sums_;
+  std::vector<double>& sums_;
   std::minstd_rand random_;
 };
 
@@ -80,36 +81,44 @@ double robust_cost(const MotionModel& model, const WeightedTracks& evidence, dou
   return cost;
 }
 
-std::optional<MotionModel> fit_robustly(ModelKind kind, const WeightedTracks& evidence) {
+RobustFitter::RobustFitter() {
+  constexpr auto kMostToSample = static_cast<size_t>(least_points(ModelKind::kHomography));
+  weight_sums_.reserve(kMostDisplacements);
+  inliers_.reserve(kMostDisplacements);
+  sample_.reserve(kMostToSample);
+  ones_.reserve(kMostToSample);
+}
+
+std::optional<MotionModel> RobustFitter::fit(ModelKind kind, const WeightedTracks& evidence) {
   const auto size = static_cast<size_t>(least_points(kind));
   const size_t n = evidence.points.size();
   if (size == 0) return MotionModel();
   if (n < size) return std::nullopt;
 
-  Sampler sampler(evidence.weights);
-  std::vector<Displacement> sample(size);
-  const std::vector<double> ones(size, 1.0);
-  std::vector<double> inliers(n);
+  Sampler sampler(evidence.weights, weight_sums_);
+  sample_.resize(size);
+  ones_.assign(size, 1.0);
+  inliers_.resize(n);
   std::optional<Candidate> best;
   int needed = kSamplesForEachPoint * static_cast<int>(size);
   for (int k = 0; k < needed; ++k) {
-    for (Displacement& point : sample) point = evidence.points[sampler.draw()];
-    const auto model = fit_model(kind, sample, ones);
+    for (Displacement& point : sample_) point = evidence.points[sampler.draw()];
+    const auto model = fit_model(kind, sample_, ones_);
     if (!model) continue;
     const double limit = best ? best->cost : 1e300;
     const double cost = robust_cost(*model, evidence, limit);
     if (!(cost < limit)) continue;
     best = {*model, cost};
-    inlier_weights(best->model, evidence, inliers);
-    refit(evidence, inliers, *best);
+    inlier_weights(best->model, evidence, inliers_);
+    refit(evidence, inliers_, *best);
     double share = 0;
-    for (const double weight : inliers) share += weight;
+    for (const double weight : inliers_) share += weight;
     share /= sampler.sum();
     needed = std::min(needed, samples_needed(share, static_cast<int>(size)));
   }
   if (!best) return std::nullopt;
   for (int k = 0; k < kFinalRefits; ++k) {
-    if (!refit(evidence, inliers, *best)) break;
+    if (!refit(evidence, inliers_, *best)) break;
   }
   return best->model;
 }

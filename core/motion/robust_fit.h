@@ -31,11 +31,23 @@ inline double point_cost(const MotionModel& model, const Displacement& point, do
 SPIDAR_API double robust_cost(const MotionModel& model, const WeightedTracks& evidence,
                               double limit = 1e300);
 
-/// The model of least robust_cost() among those that a bounded number of random samples lead to
-/// (MSAC: Torr and Zisserman 2000; refined locally: Chum, Matas and Kittler 2003). Points are drawn
-/// by their weights. The same evidence gives the same model, bit for bit. At most 32 samples a
-/// parameter pair, fewer when a good model is found early (99 % confidence). Nothing when the
-/// points do not determine the model.
-SPIDAR_API std::optional<MotionModel> fit_robustly(ModelKind kind, const WeightedTracks& evidence);
+/// Finds the model of least robust_cost() among those that a bounded number of random samples lead
+/// to (MSAC: Torr and Zisserman 2000; refined locally: Chum, Matas and Kittler 2003). Points are
+/// drawn by their weights. The same evidence gives the same model, bit for bit. Keeps nothing from
+/// one fit to the next but its memory, which is enough for kMostDisplacements.
+class SPIDAR_API RobustFitter {
+ public:
+  RobustFitter();
+
+  /// At most 32 samples a parameter pair, fewer when a good model is found early (99 % confidence).
+  /// Nothing when the points do not determine the model.
+  std::optional<MotionModel> fit(ModelKind kind, const WeightedTracks& evidence);
+
+ private:
+  std::vector<double> weight_sums_;
+  std::vector<double> inliers_;
+  std::vector<Displacement> sample_;
+  std::vector<double> ones_;
+};
 
 }  // namespace spidar

@@ -2,15 +2,14 @@
 #pragma once
 
 #include "core/image_view.h"
+#include "core/tracking/pixel_scale.h"
+#include "core/tracking/tracker.h"
 
 namespace cv {
 class Mat;
 }
 
 namespace spidar {
-
-/// Width and height that the tracker accepts at least, px.
-constexpr int kMinSide_px = 16;
 
 /// Whole number of frame pixels to one pixel of the reduced picture, so that its longer side is
 /// about 480 px: motion is found as well as at full size in a fraction of the time. At least 1, and
@@ -21,11 +20,5 @@ int reduction_factor(int width, int height);
 /// block are left out, so that the scale is exactly `factor`. With factor 1 `reduced` refers to the
 /// memory of `frame`.
 void reduce_luma(const ImageView& frame, int factor, cv::Mat& reduced);
-
-/// Coordinate in the frame of a coordinate in the reduced picture. Both count from the centre of
-/// the first pixel, which is why the scale alone is not enough.
-inline float to_frame_px(float reduced_px, int factor) {
-  return (reduced_px + 0.5f) * static_cast<float>(factor) - 0.5f;
-}
 
 }  // namespace spidar

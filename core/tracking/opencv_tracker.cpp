@@ -1,7 +1,5 @@
 #include "core/tracking/opencv_tracker.h"
 
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include <opencv2/core.hpp>
@@ -23,18 +21,6 @@ constexpr int kSelectionInterval = 5;
 /// points it is rather a small object that was lost.
 constexpr double kFoundAfterCut = 0.1;
 constexpr size_t kMinForCut = 10;
-
-void require_usable(const ImageView& frame) {
-  if (frame.data && frame.width >= kMinSide_px && frame.height >= kMinSide_px &&
-      frame.stride_bytes >= frame.width) {
-    return;
-  }
-  throw std::invalid_argument(
-      "a frame needs data, at least " + std::to_string(kMinSide_px) + "x" +
-      std::to_string(kMinSide_px) + " pixels and a stride of at least its width; got " +
-      (frame.data ? "" : "no data, ") + std::to_string(frame.width) + "x" +
-      std::to_string(frame.height) + " with stride " + std::to_string(frame.stride_bytes));
-}
 
 }  // namespace
 

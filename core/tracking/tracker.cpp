@@ -22,4 +22,16 @@ void validate(const TrackerSettings& settings) {
   }
 }
 
+void require_usable(const ImageView& frame) {
+  if (frame.data && frame.width >= kMinSide_px && frame.height >= kMinSide_px &&
+      frame.stride_bytes >= frame.width) {
+    return;
+  }
+  throw std::invalid_argument(
+      "a frame needs data, at least " + std::to_string(kMinSide_px) + "x" +
+      std::to_string(kMinSide_px) + " pixels and a stride of at least its width; got " +
+      (frame.data ? "" : "no data, ") + std::to_string(frame.width) + "x" +
+      std::to_string(frame.height) + " with stride " + std::to_string(frame.stride_bytes));
+}
+
 }  // namespace spidar

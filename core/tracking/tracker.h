@@ -30,6 +30,13 @@ struct TrackerSettings {
 /// Throws std::invalid_argument when a value is out of the range given in TrackerSettings.
 SPIDAR_API void validate(const TrackerSettings& settings);
 
+/// Width and height that a tracker accepts at least, px.
+constexpr int kMinSide_px = 16;
+
+/// Throws std::invalid_argument when the frame has no pixels, less than kMinSide_px a side, or a
+/// stride below its width.
+void require_usable(const ImageView& frame);
+
 /// Position in the image frame I, pixels of the frame given to track(); x right, y down, the centre
 /// of the first pixel is (0, 0).
 struct ImagePoint {
@@ -57,8 +64,7 @@ class SPIDAR_API Tracker {
 
   /// Compares `frame` with the one given before. A frame of another size restarts the tracks, and
   /// so does a cut, that is, a frame in which hardly any point is found again. The result is valid
-  /// until the next call. Throws std::invalid_argument when the frame has no pixels, less than 16 a
-  /// side, or a stride below its width.
+  /// until the next call. Throws as require_usable() does.
   virtual const TrackedFrame& track(const ImageView& frame) = 0;
 
   /// Forgets the frame before: the next one starts anew and shows no motion.

@@ -39,7 +39,7 @@ const SceneView& SceneViewer::see(const FrameAnalysis& analysis, const VisiblePa
   scene_.objects.clear();
   scene_.motion = analysis.motion;
   scene_.wrench = analysis.wrench;
-  if (analysis.objects_seen) scene_.objects = *analysis.objects_seen;
+  if (analysis.object_list) scene_.objects = *analysis.object_list;
   if (!analysis.tracks) {
     compares_ = false;
     return scene_;

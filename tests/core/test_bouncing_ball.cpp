@@ -50,7 +50,8 @@ bool impact_between(const BallScene& scene, double from_s, double to_s) {
   return std::any_of(impacts.begin(), impacts.end(), [&](double t) { return t > from_s; });
 }
 
-std::vector<FrameAnalysis> analyze(const BallScene& scene, const AnalyzerSettings& settings = {}) {
+std::vector<FrameAnalysis> analyze(const BallScene& scene,
+                                   const AnalyzerSettings& settings = paper_settings()) {
   Picture picture(scene.settings().width, scene.settings().height, 5);
   MotionAnalyzer analyzer(settings);
   std::vector<FrameAnalysis> frames;
@@ -228,7 +229,7 @@ TEST(BouncingBall, NonlinearForceIsEquation15OfTheAnalyticVelocity) {
 
 TEST(BouncingBall, LinearForceIsEquations11To13OfTheAnalyticVelocity) {
   const BallScene scene(ball(false));
-  AnalyzerSettings settings;
+  AnalyzerSettings settings = paper_settings();
   settings.controller.kind = ControllerKind::kLinear;
   const std::vector<FrameAnalysis> frames = analyze(scene, settings);
   double largest_px_s = 0;

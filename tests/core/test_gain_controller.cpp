@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/force/adaptive_controller.h"
 #include "core/force/gain_controller.h"
 
 namespace spidar {
@@ -100,6 +101,8 @@ TEST(MakeController, MakesTheKindAskedFor) {
       dynamic_cast<LinearController*>(make_controller({ControllerKind::kLinear, 3, 0.01}).get()));
   const auto nonlinear = make_controller({ControllerKind::kNonlinear, 2, 0.02});
   EXPECT_NEAR(nonlinear->force_N(50), 1.0, kRounding);
+  EXPECT_TRUE(
+      dynamic_cast<AdaptiveController*>(make_controller({ControllerKind::kAdaptive}).get()));
 }
 
 TEST(MakeController, RefusesWhatIsNotAForceOrAFactor) {
@@ -108,6 +111,7 @@ TEST(MakeController, RefusesWhatIsNotAForceOrAFactor) {
   for (const double bad : {-1.0, nan, infinity}) {
     EXPECT_THROW(make_controller({ControllerKind::kLinear, bad, 0.01}), std::invalid_argument);
     EXPECT_THROW(make_controller({ControllerKind::kNonlinear, 3, bad}), std::invalid_argument);
+    EXPECT_THROW(make_controller({ControllerKind::kAdaptive, 3, bad}), std::invalid_argument);
   }
 }
 

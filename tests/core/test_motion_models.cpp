@@ -136,7 +136,7 @@ TEST_P(EachModel, IsFoundAmongAsManyStrays) {
     for (int i = 0; i < 100; ++i) evidence.points.push_back(source.stray());
     evidence.weights = ones(200);
     evidence.sigma_px = kSigma_px;
-    auto found = fit_robustly(kind, evidence);
+    auto found = RobustFitter().fit(kind, evidence);
     ASSERT_TRUE(found) << "seed " << seed;
     // Those beyond 2 σ, e⁻² = 14 %, are left out, and with them some of what is known: the variance
     // of a mean of Gaussians cut at 2 σ in the plane is 1 / P(χ²₄ < 4) = 1.7 times larger. The
@@ -147,7 +147,7 @@ TEST_P(EachModel, IsFoundAmongAsManyStrays) {
       EXPECT_LT(std::abs(error), 4 * std::sqrt(1.7 * bound[static_cast<Eigen::Index>(j)]))
           << "seed " << seed << ", parameter " << j;
     }
-    const auto again = fit_robustly(kind, evidence);
+    const auto again = RobustFitter().fit(kind, evidence);
     EXPECT_EQ(again->shift_px, found->shift_px);
     EXPECT_EQ(again->linear, found->linear);
     EXPECT_EQ(again->perspective_1_px, found->perspective_1_px);
@@ -163,7 +163,7 @@ TEST_P(EachModel, NeedsItsPoints) {
   if (enough == 0) return;
   const std::vector<Displacement> fewer(points.begin(), points.end() - 1);
   EXPECT_FALSE(fit_model(kind, fewer, ones(enough - 1)));
-  EXPECT_FALSE(fit_robustly(kind, {fewer, ones(enough - 1), 0.1}));
+  EXPECT_FALSE(RobustFitter().fit(kind, {fewer, ones(enough - 1), 0.1}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ladder, EachModel,
@@ -182,7 +182,7 @@ TEST(MotionModels, PointsOnALineDoNotDetermineAnAffineModel) {
   EXPECT_TRUE(fit_model(ModelKind::kSimilarity, line, ones(20)));
   EXPECT_FALSE(fit_model(ModelKind::kAffine, line, ones(20)));
   EXPECT_FALSE(fit_model(ModelKind::kHomography, line, ones(20)));
-  EXPECT_FALSE(fit_robustly(ModelKind::kHomography, {line, ones(20), 0.1}));
+  EXPECT_FALSE(RobustFitter().fit(ModelKind::kHomography, {line, ones(20), 0.1}));
 }
 
 TEST(MotionModels, PointsInOnePlaceDetermineAShiftOnly) {

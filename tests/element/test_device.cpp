@@ -8,6 +8,7 @@
 #include "spidar/haptic_loop.h"
 #include "spidar/simulated_device.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test {
@@ -104,6 +105,36 @@ TEST_F(DeviceTest, AFaultyStringIsNamedOnceAndInTheStats) {
   EXPECT_TRUE(gst_structure_get_int(stats, "faulty-string", &faulty));
   EXPECT_EQ(faulty, 5);
   gst_structure_free(stats);
+}
+
+TEST_F(DeviceTest, TheGripPointsAtWhatIsFelt) {
+  open("device=sim motion=objects pointer=grip");
+  constexpr int kWidth = 320, kHeight = 240;
+  MovingScene scene(kWidth, kHeight);
+  scene.plain_background();
+  scene.add_disc(36);
+  scene.add_disc(36);
+  tick(300);  // strings are taut
+  Pose hand;
+  for (const double side : {-1.0, 1.0}) {
+    // Half of the way from the middle of the picture to its edge, which is half of the way to the
+    // frame: 59 mm / 2.
+    hand.position_m.x() = side * 0.059 / 4;
+    device().set_hand(hand);
+    // The simulated grip moves in real time: it takes as long as it takes.
+    while (side * loop().snapshot().last.pose.position_m.x() < 0.9 * 0.059 / 4) tick();
+    h->engine().restart();
+    for (int n = 0; n < 6; ++n, ++frames) {
+      // Apart from each other by 2 px a frame each.
+      const ImageView view = scene.draw({}, {{{-80.0 - 2 * n, 0}}, {{80.0 + 2 * n, 0}}});
+      h->push(gst_buffer_new_memdup(view.data, kWidth * kHeight),
+              static_cast<GstClockTime>(frames) * kFrame);
+    }
+    // 50 px/s. The pointer is at least 0.9 · 80 px from the middle, the edge of the other disc 80 +
+    // 10 − 36 px on the other side of it: together 126 px or 2.1 σ, which leaves that one exp(−2.1²
+    // / 2) = 0.11 of the weight, and (1 − 0.11) / (1 + 0.11) = 0.80 of the speed.
+    EXPECT_GT(side * h->motions().back().velocity_x, 0.75 * 50) << side;
+  }
 }
 
 TEST_F(DeviceTest, MaxForceHoldsAtOnceWhilePlaying) {

@@ -255,7 +255,7 @@ TEST(Scene, TellsTheBackgroundFromObjects) {
                                   {4, {20, 220}, {20, 220}}};   // alone
   FrameAnalysis analysis = analysis_of(tracks);
   analysis.background = &background;
-  analysis.objects_seen = &objects;
+  analysis.object_list = &objects;
   SceneViewer viewer;
   const SceneView& scene = viewer.see(analysis, {0, 0, 321, 241});
   EXPECT_EQ(scene.tracks[0].owner, TrackOwner::kBackground);

@@ -63,16 +63,25 @@ std::string error_at_ready(const char* properties) {
 TEST(Properties, DefaultsAreTheDocumentedOnes) {
   GstElement* element = make_element("");
   gchar *device, *profile;
-  gdouble max_force, alpha, quality, distance;
+  gdouble max_force, alpha, quality, distance, pointer_x, pointer_y, min_cutoff, beta;
+  gint motion, pointer;
   gint64 ts_offset;
   gboolean qos;
   g_object_get(element, "device", &device, "profile", &profile, "max-force", &max_force, "alpha",
                &alpha, "quality-level", &quality, "min-distance", &distance, "ts-offset",
-               &ts_offset, "qos", &qos, nullptr);
+               &ts_offset, "qos", &qos, "motion", &motion, "pointer", &pointer, "pointer-x",
+               &pointer_x, "pointer-y", &pointer_y, "filter-min-cutoff", &min_cutoff, "filter-beta",
+               &beta, nullptr);
   EXPECT_STREQ(device, "sim");
   EXPECT_STREQ(profile, "spidar-gcc");
   EXPECT_EQ(max_force, 3.0);
   EXPECT_EQ(alpha, 0.01);
+  EXPECT_EQ(motion, static_cast<gint>(MotionKind::kObject));
+  EXPECT_EQ(pointer, static_cast<gint>(PointerKind::kFixed));
+  EXPECT_EQ(pointer_x, 0.5);
+  EXPECT_EQ(pointer_y, 0.5);
+  EXPECT_EQ(min_cutoff, 1.0);
+  EXPECT_EQ(beta, 0.08);
   EXPECT_EQ(ts_offset, 0);
   EXPECT_FALSE(qos);
   EXPECT_TRUE(gst_base_transform_is_passthrough(GST_BASE_TRANSFORM(element)));
@@ -83,25 +92,22 @@ TEST(Properties, DefaultsAreTheDocumentedOnes) {
 
 TEST(Properties, EverySettingReadsBackWhatWasWritten) {
   GstElement* element = make_element(
-      "device=none profile=spidar-g6c controller=linear motion=camera max-force=1.5 alpha=0.02 "
-      "depth-gain=2.5 roll-gain=0 max-features=50 "
+      "device=none profile=spidar-g6c controller=adaptive motion=camera pointer=grip "
+      "pointer-x=0.25 "
+      "pointer-y=1 max-force=1.5 alpha=0.02 filter-min-cutoff=4 filter-beta=0.5 depth-gain=2.5 "
+      "roll-gain=0 max-features=50 "
       "quality-level=0.05 min-distance=4 ts-offset=-5000000 on-device-error=error "
       "post-messages=false trace=/a haptic-trace=/b");
-  for (const auto& [name, text] : {std::pair{"device", "none"},
-                                   {"profile", "spidar-g6c"},
-                                   {"controller", "linear"},
-                                   {"motion", "camera"},
-                                   {"max-force", "1.5"},
-                                   {"alpha", "0.02"},
-                                   {"depth-gain", "2.5"},
-                                   {"roll-gain", "0"},
-                                   {"max-features", "50"},
-                                   {"quality-level", "0.05"},
-                                   {"min-distance", "4"},
-                                   {"ts-offset", "-5000000"},
-                                   {"on-device-error", "error"},
-                                   {"post-messages", "FALSE"},
-                                   {"trace", "/a"},
+  for (const auto& [name, text] : {std::pair{"device", "none"}, {"profile", "spidar-g6c"},
+                                   {"controller", "adaptive"},  {"motion", "camera"},
+                                   {"pointer", "grip"},         {"pointer-x", "0.25"},
+                                   {"pointer-y", "1"},          {"filter-min-cutoff", "4"},
+                                   {"filter-beta", "0.5"},      {"max-force", "1.5"},
+                                   {"alpha", "0.02"},           {"depth-gain", "2.5"},
+                                   {"roll-gain", "0"},          {"max-features", "50"},
+                                   {"quality-level", "0.05"},   {"min-distance", "4"},
+                                   {"ts-offset", "-5000000"},   {"on-device-error", "error"},
+                                   {"post-messages", "FALSE"},  {"trace", "/a"},
                                    {"haptic-trace", "/b"}}) {
     GValue value = G_VALUE_INIT, wanted = G_VALUE_INIT;
     g_object_get_property(G_OBJECT(element), name, &value);

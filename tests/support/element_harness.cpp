@@ -35,10 +35,13 @@ MotionMessage parse_motion_message(GstMessage* message) {
 ElementHarness::ElementHarness(const std::string& properties)
     : ElementHarness(properties, nullptr, nullptr) {}
 
+// What is felt of a frame is then a plain function of that frame.
+static const std::string kPaper = "spidarmotion motion=mean filter-min-cutoff=0 ";
+
 ElementHarness::ElementHarness(const std::string& properties, PlaybackSync::Now now, void* user) {
   init_gstreamer();
   GError* error = nullptr;
-  GstElement* element = gst_parse_launch(("spidarmotion " + properties).c_str(), &error);
+  GstElement* element = gst_parse_launch((kPaper + properties).c_str(), &error);
   if (!element || error) g_error("%s", error ? error->message : "no element");
   gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)).set_manual(now, user);
   bus_ = gst_bus_new();

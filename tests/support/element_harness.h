@@ -24,7 +24,8 @@ struct MotionMessage {
 };
 MotionMessage parse_motion_message(GstMessage* message);
 
-/// Owns the harness and the element's bus.
+/// Owns the harness and the element's bus. The element feels as the paper does, motion=mean without
+/// a filter, unless its properties say otherwise.
 class ElementHarness {
  public:
   /// `properties` as in a launch line, e.g. "device=none alpha=0.02".

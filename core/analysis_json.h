@@ -1,0 +1,34 @@
+/// What was found in a frame, for other programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/api.h"
+#include "core/motion_analyzer.h"
+
+namespace spidar {
+
+struct JsonOptions {
+  bool points = false;  ///< the tracks too
+};
+
+/// Appends one JSON object and a line end. Keys carry their units; positions are pixels from the
+/// centre of the frame, x right, y down:
+///
+///     running_time_ns, stream_time_ns, interval_ns, width_px, height_px, restarted, features,
+///     motion: {velocity_px_s: [x, y], growth_1_s, roll_rad_s, tracked},
+///     wrench: {force_N: [x, y, z], torque_Nm: [x, y, z]},
+///     background: {model, shift_px, linear: [[xx, xy], [yx, yy]], perspective_1_px, sigma_px,
+///                  coverage} or null,
+///     objects: [{id, position_px, size_px, velocity_px_s, on_screen_px_s, growth_1_s, roll_rad_s,
+///                model, tracks, prominence}, …],
+///     points: [[id, x, y, moved x, moved y], …] where they are in this frame, if asked for
+///
+/// (see ImageMotion, MotionModel and MovingObject; an object's velocity is against the background).
+/// Numbers in the "C" locale, as short as they can be read back exactly; what is not finite, which
+/// JSON has no number for, is null. Does not allocate when `line` has the capacity.
+SPIDAR_API void append_json(const FrameAnalysis& frame, int64_t running_time_ns,
+                            int64_t stream_time_ns, const JsonOptions& options, std::string& line);
+
+}  // namespace spidar

@@ -1,0 +1,61 @@
+#include "core/force/motion_filter.h"
+
+#include <cmath>
+
+#include "core/force/motion_rendering.h"
+#include "core/force/require_not_negative.h"
+
+namespace spidar {
+namespace {
+
+/// `x` in px/s of the reference frame.
+template <int N>
+Eigen::Matrix<double, N, 1> steady(OneEuroFilter<N>& filter, const Eigen::Matrix<double, N, 1>& x,
+                                   double interval_s, const FilterSettings& settings) {
+  const auto y = filter.filter(x, interval_s, settings.min_cutoff_Hz, settings.beta_s_px);
+  if (!x.isZero(0) || y.norm() > MotionFilter::kRest_px_s) return y;
+  filter.restart_at(x);
+  return x;
+}
+
+double steady(OneEuroFilter<1>& filter, double x_px_s, double interval_s,
+              const FilterSettings& settings) {
+  using Scalar = Eigen::Matrix<double, 1, 1>;
+  return steady<1>(filter, Scalar(x_px_s), interval_s, settings)[0];
+}
+
+}  // namespace
+
+void validate(const FilterSettings& settings) {
+  require_not_negative("min_cutoff_Hz", settings.min_cutoff_Hz);
+  require_not_negative("beta_s_px", settings.beta_s_px);
+}
+
+ImageMotion MotionFilter::filter(const ImageMotion& motion, int frame_height, double interval_s,
+                                 const FilterSettings& settings) {
+  if (settings.min_cutoff_Hz == 0) {
+    reset();
+    return motion;
+  }
+  const double to_reference = kReferenceHeight_px / frame_height;
+  ImageMotion steadier = motion;
+  steadier.velocity_px_s =
+      steady<2>(velocity_, to_reference * motion.velocity_px_s, interval_s, settings) /
+      to_reference;
+  steadier.growth_1_s =
+      steady(growth_, kRim_px * motion.growth_1_s, interval_s, settings) / kRim_px;
+  steadier.roll_rad_s = steady(roll_, kRim_px * motion.roll_rad_s, interval_s, settings) / kRim_px;
+  const double share = velocity_.share();
+  noise_px_s_ = std::hypot((1 - share) * noise_px_s_, share * to_reference * motion.noise_px_s);
+  steadier.noise_px_s = noise_px_s_ / to_reference;
+  return steadier;
+}
+
+void MotionFilter::reset() {
+  velocity_.reset();
+  growth_.reset();
+  roll_.reset();
+  noise_px_s_ = 0;
+}
+
+}  // namespace spidar

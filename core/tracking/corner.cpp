@@ -1,0 +1,151 @@
+#include "core/tracking/corner.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <opencv2/core/hal/intrin.hpp>
+
+namespace spidar {
+namespace {
+
+/// Σ of products of derivatives, each twice the derivative: a central difference is not halved.
+struct Tensor {
+  int xx = 0;
+  int xy = 0;
+  int yy = 0;
+
+  Tensor& operator+=(const Tensor& o) {
+    xx += o.xx;
+    xy += o.xy;
+    yy += o.yy;
+    return *this;
+  }
+};
+
+/// Smaller eigenvalue of the window's mean tensor, (grey / px)²; 0 for an edge.
+float strength(const Tensor& t) {
+  constexpr float kTwice = 4;  // both derivatives
+  constexpr float kScale = 1 / (kTwice * kCornerWindow_px * kCornerWindow_px);
+  const auto xx = static_cast<float>(t.xx);
+  const auto xy = static_cast<float>(t.xy);
+  const auto yy = static_cast<float>(t.yy);
+  const float difference = xx - yy;
+  const float root = std::sqrt(difference * difference + 4 * xy * xy);
+  const float smaller = xx + yy - root;
+  const float larger = xx + yy + root;
+  return smaller > kLeastRoundness * larger ? 0.5f * kScale * smaller : 0.0f;
+}
+
+constexpr int kBlock_px = kCornerStep_px;
+constexpr int kMostBlocks = kMostCornerBox_px / kBlock_px;
+using BlockRow = std::array<Tensor, kMostBlocks>;
+
+#if CV_SIMD128
+/// Tensors of two blocks side by side.
+void two_blocks(const uint8_t* pixels, ptrdiff_t stride, Tensor* to) {
+  cv::v_int32x4 xx = cv::v_setzero_s32();
+  cv::v_int32x4 xy = xx;
+  cv::v_int32x4 yy = xx;
+  const auto load = [](const uint8_t* p) { return cv::v_reinterpret_as_s16(cv::v_load_expand(p)); };
+  for (int y = 0; y < kBlock_px; ++y) {
+    const uint8_t* row = pixels + y * stride;
+    const cv::v_int16x8 gx = load(row + 1) - load(row - 1);
+    const cv::v_int16x8 gy = load(row + stride) - load(row - stride);
+    xx = cv::v_dotprod(gx, gx, xx);
+    xy = cv::v_dotprod(gx, gy, xy);
+    yy = cv::v_dotprod(gy, gy, yy);
+  }
+  std::array<int, 12> sums;
+  cv::v_store(sums.data(), xx);
+  cv::v_store(sums.data() + 4, xy);
+  cv::v_store(sums.data() + 8, yy);
+  to[0] = {sums[0] + sums[1], sums[4] + sums[5], sums[8] + sums[9]};
+  to[1] = {sums[2] + sums[3], sums[6] + sums[7], sums[10] + sums[11]};
+}
+#endif
+
+Tensor one_block(const uint8_t* pixels, ptrdiff_t stride) {
+  Tensor sum;
+  for (int y = 0; y < kBlock_px; ++y) {
+    for (int x = 0; x < kBlock_px; ++x) {
+      const uint8_t* p = pixels + y * stride + x;
+      const int gx = p[1] - p[-1];
+      const int gy = p[stride] - p[-stride];
+      sum += {gx * gx, gx * gy, gy * gy};
+    }
+  }
+  return sum;
+}
+
+void row_of_blocks(const uint8_t* pixels, ptrdiff_t stride, int blocks, BlockRow& to) {
+  int k = 0;
+#if CV_SIMD128
+  for (; k + 2 <= blocks; k += 2) {
+    two_blocks(pixels + k * kBlock_px, stride, &to[static_cast<size_t>(k)]);
+  }
+#endif
+  for (; k < blocks; ++k) {
+    to[static_cast<size_t>(k)] = one_block(pixels + k * kBlock_px, stride);
+  }
+}
+
+/// Between its first and last pixel: half a pixel beside the middle one.
+ImagePoint window_centre(int x0, int y0) {
+  constexpr float kHalf_px = (kCornerWindow_px - 1) / 2.0f;
+  return {static_cast<float>(x0) + kHalf_px, static_cast<float>(y0) + kHalf_px};
+}
+
+}  // namespace
+
+Corner best_corner(const PaddedImage& image, const PixelBox& box) {
+  const int columns = std::min(box.x1 - box.x0, kMostCornerBox_px) / kBlock_px;
+  const int rows = std::min(box.y1 - box.y0, kMostCornerBox_px) / kBlock_px;
+  Corner best;
+  if (columns < 2) return best;
+  std::array<BlockRow, 2> bands;
+  for (int j = 0; j < rows; ++j) {
+    const int y0 = box.y0 + j * kBlock_px;
+    BlockRow& below = bands[static_cast<size_t>(j % 2)];
+    row_of_blocks(image.row(y0) + box.x0, image.stride(), columns, below);
+    if (j == 0) continue;
+    const BlockRow& above = bands[static_cast<size_t>((j + 1) % 2)];
+    for (size_t i = 0; i + 1 < static_cast<size_t>(columns); ++i) {
+      Tensor window = above[i];
+      window += above[i + 1];
+      window += below[i];
+      window += below[i + 1];
+      const float found = strength(window);
+      if (found <= best.strength) continue;
+      best = {window_centre(box.x0 + static_cast<int>(i) * kBlock_px, y0 - kBlock_px), found};
+    }
+  }
+  return best;
+}
+
+namespace plain {
+
+Corner best_corner(const PaddedImage& image, const PixelBox& box) {
+  const int x1 = std::min(box.x1, box.x0 + kMostCornerBox_px);
+  const int y1 = std::min(box.y1, box.y0 + kMostCornerBox_px);
+  Corner best;
+  for (int y0 = box.y0; y0 + kCornerWindow_px <= y1; y0 += kCornerStep_px) {
+    for (int x0 = box.x0; x0 + kCornerWindow_px <= x1; x0 += kCornerStep_px) {
+      Tensor window;
+      for (int y = y0; y < y0 + kCornerWindow_px; ++y) {
+        for (int x = x0; x < x0 + kCornerWindow_px; ++x) {
+          const int gx = image.row(y)[x + 1] - image.row(y)[x - 1];
+          const int gy = image.row(y + 1)[x] - image.row(y - 1)[x];
+          window += {gx * gx, gx * gy, gy * gy};
+        }
+      }
+      const float found = strength(window);
+      if (found > best.strength) best = {window_centre(x0, y0), found};
+    }
+  }
+  return best;
+}
+
+}  // namespace plain
+
+}  // namespace spidar

@@ -1,0 +1,203 @@
+#include "core/tracking/gray_pyramid.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <opencv2/core/hal/intrin.hpp>
+
+#include "core/tracking/tracker.h"
+
+namespace spidar {
+namespace {
+
+constexpr int kBaseSide_px = 480;
+
+#if CV_SIMD128
+using cv::v_int16x8;
+using cv::v_int32x4;
+using cv::v_uint16x8;
+using cv::v_uint8x16;
+
+/// Sums of the 8 pairs of neighbours in 16 pixels.
+v_uint16x8 pair_sums(const uint8_t* pixels) {
+  const v_uint16x8 pairs = cv::v_reinterpret_as_u16(cv::v_load(pixels));
+  return (pairs & cv::v_setall_u16(0xFF)) + (pairs >> 8);
+}
+
+/// Of `rows` rows, `step` bytes apart.
+v_uint16x8 pair_sums(const uint8_t* pixels, ptrdiff_t step, int rows) {
+  v_uint16x8 sum = pair_sums(pixels);
+  for (int k = 1; k < rows; ++k) sum = sum + pair_sums(pixels + k * step);
+  return sum;
+}
+
+/// 16 values to the 8 sums of neighbours. Values below 2¹⁵ and sums too.
+v_uint16x8 add_neighbours(const v_uint16x8& a, const v_uint16x8& b) {
+  const v_int16x8 ones = cv::v_setall_s16(1);
+  return cv::v_reinterpret_as_u16(cv::v_pack(cv::v_dotprod(cv::v_reinterpret_as_s16(a), ones),
+                                             cv::v_dotprod(cv::v_reinterpret_as_s16(b), ones)));
+}
+
+/// Sums of 8 blocks of kFactor × rows pixels.
+template <int kFactor>
+v_uint16x8 block_sums(const uint8_t* pixels, ptrdiff_t step, int rows) {
+  if constexpr (kFactor == 2) {
+    return pair_sums(pixels, step, rows);
+  } else {
+    constexpr int kHalf_px = 4 * kFactor;
+    return add_neighbours(block_sums<kFactor / 2>(pixels, step, rows),
+                          block_sums<kFactor / 2>(pixels + kHalf_px, step, rows));
+  }
+}
+
+/// Σ / count, rounded, of 8 sums; `count` is a power of 2.
+void store_means(const v_uint16x8& sums, unsigned count, uint8_t* to) {
+  const auto half = static_cast<uint16_t>(count / 2);
+  const auto inverse = static_cast<uint16_t>(65536 / count);
+  cv::v_pack_store(to, cv::v_mul_hi(sums + cv::v_setall_u16(half), cv::v_setall_u16(inverse)));
+}
+#endif
+
+/// Blocks of one row of blocks.
+struct BlockRow {
+  const uint8_t* pixels;
+  ptrdiff_t step;  ///< between the rows that count
+  int factor;
+  int rows;     ///< that count
+  int columns;  ///< blocks
+
+  unsigned count() const { return static_cast<unsigned>(rows * factor); }
+};
+
+uint8_t block_mean(const BlockRow& row, int x) {
+  unsigned sum = 0;
+  for (int k = 0; k < row.rows; ++k) {
+    const uint8_t* pixels = row.pixels + k * row.step + x * row.factor;
+    for (int i = 0; i < row.factor; ++i) sum += pixels[i];
+  }
+  return static_cast<uint8_t>((sum + row.count() / 2u) / row.count());
+}
+
+#if CV_SIMD128
+template <int kFactor>
+int reduce_by_power_of_2(const BlockRow& row, uint8_t* to) {
+  int x = 0;
+  for (; x + 8 <= row.columns; x += 8) {
+    const v_uint16x8 sums = block_sums<kFactor>(row.pixels + x * kFactor, row.step, row.rows);
+    store_means(sums, row.count(), to + x);
+  }
+  return x;
+}
+
+/// Blocks that were done from the left; the rest has no vector code.
+int reduce_with_vectors(const BlockRow& row, uint8_t* to) {
+  switch (row.factor) {
+    case 2:
+      return reduce_by_power_of_2<2>(row, to);
+    case 4:
+      return reduce_by_power_of_2<4>(row, to);
+    case 8:
+      return reduce_by_power_of_2<8>(row, to);
+    case 16:
+      return reduce_by_power_of_2<16>(row, to);
+    default:
+      return 0;
+  }
+}
+#endif
+
+}  // namespace
+
+int halving_factor(int width, int height) {
+  const int side = std::max(width, height);
+  int factor = 1;
+  // Nearest on a logarithmic scale: the factor doubles at √2 times the next one's side.
+  while (side * side >= 2 * (factor * kBaseSide_px) * (factor * kBaseSide_px) &&
+         std::min(width, height) / (2 * factor) >= kMinSide_px) {
+    factor *= 2;
+  }
+  return factor;
+}
+
+void PaddedImage::resize(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width;
+  height_ = height;
+  // Vector loads may reach 16 bytes further than they use.
+  stride_ = (width + 2 * kPad_px + 15) / 16 * 16;
+  offset_ = kPad_px * stride_ + kPad_px;
+  memory_.assign(static_cast<size_t>(stride_) * static_cast<size_t>(height + 2 * kPad_px) + 16, 0);
+}
+
+void PaddedImage::repeat_border() {
+  const auto left = static_cast<size_t>(kPad_px);
+  const auto right = static_cast<size_t>(stride_ - kPad_px - width_);
+  for (int y = 0; y < height_; ++y) {
+    uint8_t* pixels = row(y);
+    std::memset(pixels - kPad_px, pixels[0], left);
+    std::memset(pixels + width_, pixels[width_ - 1], right);
+  }
+  for (int y = 1; y <= kPad_px; ++y) {
+    const auto bytes = static_cast<size_t>(stride_);
+    std::memcpy(row(-y) - kPad_px, row(0) - kPad_px, bytes);
+    std::memcpy(row(height_ - 1 + y) - kPad_px, row(height_ - 1) - kPad_px, bytes);
+  }
+}
+
+void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
+  reduced.resize(frame.width / factor, frame.height / factor);
+  BlockRow row{nullptr, row_step(factor) * frame.stride_bytes, factor, rows_used(factor),
+               reduced.width()};
+  for (int y = 0; y < reduced.height(); ++y) {
+    row.pixels = frame.data + y * factor * frame.stride_bytes;
+    uint8_t* to = reduced.row(y);
+    if (factor == 1) {
+      std::memcpy(to, row.pixels, static_cast<size_t>(row.columns));
+      continue;
+    }
+    int x = 0;
+#if CV_SIMD128
+    x = reduce_with_vectors(row, to);
+#endif
+    for (; x < row.columns; ++x) to[x] = block_mean(row, x);
+  }
+}
+
+void halve(const PaddedImage& image, PaddedImage& half) {
+  reduce_blocks(image.view(), 2, half);
+}
+
+void GrayPyramid::build_from_base() {
+  levels[0].repeat_border();
+  for (size_t k = 1; k < levels.size(); ++k) {
+    halve(levels[k - 1], levels[k]);
+    levels[k].repeat_border();
+  }
+}
+
+namespace plain {
+
+void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
+  reduced.resize(frame.width / factor, frame.height / factor);
+  for (int y = 0; y < reduced.height(); ++y) {
+    for (int x = 0; x < reduced.width(); ++x) {
+      int sum = 0;
+      int count = 0;
+      for (int j = 0; j < factor; j += row_step(factor)) {
+        for (int i = 0; i < factor; ++i) {
+          sum += frame.data[(y * factor + j) * frame.stride_bytes + x * factor + i];
+          ++count;
+        }
+      }
+      reduced.row(y)[x] = static_cast<uint8_t>((sum + count / 2) / count);
+    }
+  }
+}
+
+void halve(const PaddedImage& image, PaddedImage& half) {
+  plain::reduce_blocks(image.view(), 2, half);
+}
+
+}  // namespace plain
+
+}  // namespace spidar

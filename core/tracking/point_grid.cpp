@@ -1,0 +1,144 @@
+#include "core/tracking/point_grid.h"
+
+#include <algorithm>
+
+namespace spidar {
+namespace {
+
+/// Neighbours that move differently by more than this share of their motion, and this many pixels,
+/// are not one thing: a zoom by 10 % a frame stays below it.
+constexpr float kDifferent = 0.2f;
+constexpr float kDifferent_px = 0.75f;
+constexpr uint8_t kDenseFrames = 12;
+/// Points that came in from next door may stay.
+constexpr int kMostInCell = 2;
+
+bool alike(ImagePoint a, ImagePoint b) {
+  const auto squared = [](float x, float y) { return x * x + y * y; };
+  const float motion = std::max(squared(a.x_px, a.y_px), squared(b.x_px, b.y_px));
+  return squared(a.x_px - b.x_px, a.y_px - b.y_px) <=
+         kDifferent_px * kDifferent_px + kDifferent * kDifferent * motion;
+}
+
+int points_in(unsigned taken) {
+  int count = 0;
+  for (; taken != 0; taken &= taken - 1) ++count;
+  return count;
+}
+
+size_t lowest_quarter(unsigned taken) {
+  size_t quarter = 0;
+  while ((taken & (1u << quarter)) == 0) ++quarter;
+  return quarter;
+}
+
+/// A window that is found here may move by a pixel and still be inside.
+constexpr int kBorder_px = 2;
+
+}  // namespace
+
+void PointGrid::lay_out(int width, int height, int cell_px) {
+  cell_px = std::max(cell_px / 2 * 2, kCornerWindow_px);
+  if (width == width_ && height == height_ && cell_px == cell_px_) return;
+  width_ = width;
+  height_ = height;
+  cell_px_ = cell_px;
+  columns_ = (width + cell_px - 1) / cell_px;
+  rows_ = (height + cell_px - 1) / cell_px;
+  cells_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), {});
+}
+
+void PointGrid::begin_frame() {
+  turn_ = (turn_ + 1) % kTurns;
+  for (Cell& cell : cells_) {
+    cell.taken = 0;
+    cell.search = false;
+    if (cell.dense_frames > 0) --cell.dense_frames;
+  }
+}
+
+int PointGrid::place(float px, int count) const {
+  return std::clamp(static_cast<int>(px) / cell_px_, 0, count - 1);
+}
+
+int PointGrid::quarter_of(ImagePoint at) const {
+  const auto second_half = [this](float px) {
+    return static_cast<int>(px) % cell_px_ >= cell_px_ / 2 ? 1 : 0;
+  };
+  return second_half(at.x_px) + 2 * second_half(at.y_px);
+}
+
+template <typename Each>
+void PointGrid::around(int column, int row, Each&& each) const {
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, rows_ - 1); ++y) {
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, columns_ - 1); ++x) {
+      each(cells_[index(x, y)]);
+    }
+  }
+}
+
+bool PointGrid::occupy(ImagePoint at, ImagePoint moved) {
+  Cell& cell = cells_[cell_of(at)];
+  const int quarter = quarter_of(at);
+  const bool crowded = cell.dense_frames == 0 && points_in(cell.taken) >= kMostInCell;
+  if (crowded || cell.has(quarter)) return false;
+  cell.moved[static_cast<size_t>(quarter)] = moved;
+  cell.taken = static_cast<uint8_t>(cell.taken | 1 << quarter);
+  return true;
+}
+
+void PointGrid::compare_neighbours() {
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      Cell& cell = cells_[index(column, row)];
+      if (cell.taken == 0) continue;
+      const ImagePoint moved = cell.moved[lowest_quarter(cell.taken)];
+      int cells = 0;
+      int points = 0;
+      bool differs = false;
+      around(column, row, [&](const Cell& other) {
+        ++cells;
+        for (size_t k = 0; k < kQuarters; ++k) {
+          if (!other.has(static_cast<int>(k))) continue;
+          ++points;
+          differs = differs || !alike(moved, other.moved[k]);
+        }
+      });
+      const bool alone = 2 * points < cells && !alike(moved, {0, 0});
+      if (!differs && !alone) continue;
+      cell.dense_frames = kDenseFrames;
+      cell.search = true;
+    }
+  }
+}
+
+bool PointGrid::is_supported(ImagePoint at, ImagePoint moved) const {
+  const Cell& own = cells_[cell_of(at)];
+  const auto quarter = static_cast<size_t>(quarter_of(at));
+  int beside = 0;
+  int agree = 0;
+  around(column_of(at), row_of(at), [&](const Cell& other) {
+    for (size_t k = 0; k < kQuarters; ++k) {
+      if (!other.has(static_cast<int>(k)) || (&other == &own && k == quarter)) continue;
+      ++beside;
+      if (alike(moved, other.moved[k])) ++agree;
+    }
+  });
+  return agree > 0 || beside == 0;
+}
+
+PixelBox PointGrid::box(int quarter_x, int quarter_y, int quarters) const {
+  const int half_px = cell_px_ / 2;
+  // Of a window of 8 px the middle is 3.5 px from its first.
+  constexpr int kBefore_px = kCornerWindow_px / 2 - 1;
+  constexpr int kAfter_px = kCornerWindow_px / 2;
+  const auto first = [&](int quarter) {
+    return std::max(quarter * half_px - kBefore_px, kBorder_px);
+  };
+  const auto last = [&](int quarter, int size) {
+    return std::min((quarter + quarters) * half_px + kAfter_px, size - kBorder_px);
+  };
+  return {first(quarter_x), first(quarter_y), last(quarter_x, width_), last(quarter_y, height_)};
+}
+
+}  // namespace spidar

@@ -1,0 +1,162 @@
+#include "core/tracking/pyramid_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/tracking/corner.h"
+#include "core/tracking/pixel_scale.h"
+#include "core/tracking/window_match.h"
+
+namespace spidar {
+namespace {
+
+using SearchTemplate = WindowTemplate<kSearchWindow_px>;
+
+/// Coarse levels only have to lead into the basin of the next finer one.
+constexpr MatchSettings kCoarse{3, 0.15f, 5, 1};
+constexpr MatchSettings kBase{6, 0.06f, 5, 1};
+constexpr MatchSettings kRefine{3, 0.02f, 1, 1};
+/// A larger window may see something else beside: then its residual grows.
+constexpr float kRefineWorse = 0.1f;
+/// A point that is followed may become less of a corner than a new one.
+constexpr float kKeptRoundness = kLeastRoundness / 2;
+/// Of the strength asked for, at coarse levels.
+constexpr float kCoarseStrength = 0.25f;
+
+/// The whole window of `side` px, so that no repeated border takes part in what is measured.
+bool is_inside(const PaddedImage& image, ImagePoint centre, int side) {
+  const float kHalf = static_cast<float>(side) / 2;
+  return centre.x_px >= kHalf && centre.y_px >= kHalf &&
+         centre.x_px <= static_cast<float>(image.width()) - 1 - kHalf &&
+         centre.y_px <= static_cast<float>(image.height()) - 1 - kHalf;
+}
+
+}  // namespace
+
+bool find_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from,
+                ImagePoint expected, const SearchSettings& settings, PointMatch& match) {
+  const float first_scale = 1.0f / static_cast<float>(1 << settings.first_level);
+  ImagePoint moved{expected.x_px * first_scale, expected.y_px * first_scale};
+  SearchTemplate window;
+  for (int level = settings.first_level; level >= 0; --level) {
+    const auto l = static_cast<size_t>(level);
+    const ImagePoint centre = to_reduced(from, 1 << level);
+    const bool is_base = level == 0;
+    const float least = settings.least_strength * (is_base ? 1 : kCoarseStrength);
+    const bool usable =
+        window.read(ReadablePixels(before.levels[l]), centre) && window.strength() >= least;
+    if (is_base && !(usable && window.roundness() >= kKeptRoundness)) return false;
+    if (usable) {
+      MatchSettings matching = is_base ? kBase : kCoarse;
+      matching.gain = settings.gain;
+      WindowMatch found{{centre.x_px + moved.x_px, centre.y_px + moved.y_px}, 0};
+      const bool ended = window.find(ReadablePixels(now.levels[l]), matching, found);
+      if (is_base && !ended) return false;
+      if (ended) {
+        moved = {found.centre.x_px - centre.x_px, found.centre.y_px - centre.y_px};
+        match.residual = found.residual;
+        match.variance_px2 = found.variance_px2;
+      }
+    }
+    if (!is_base) moved = {2 * moved.x_px, 2 * moved.y_px};
+  }
+  match.to = {from.x_px + moved.x_px, from.y_px + moved.y_px};
+  match.strength = window.strength();
+  return is_inside(now.levels[0], match.to, kSearchWindow_px);
+}
+
+bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from, float gain,
+                  PointMatch& match) {
+  const PaddedImage& was = before.levels[0];
+  const PaddedImage& is = now.levels[0];
+  if (!is_inside(was, from, kRefineWindow_px) || !is_inside(is, match.to, kRefineWindow_px)) {
+    return false;
+  }
+  WindowTemplate<kRefineWindow_px> window;
+  if (!window.read(ReadablePixels(was), from)) return false;
+  MatchSettings settings = kRefine;
+  settings.gain = gain;
+  WindowMatch found{match.to, 0};
+  if (!window.find(ReadablePixels(is), settings, found)) return false;
+  if (found.residual > match.residual + kRefineWorse) return false;
+  match.to = found.centre;
+  match.variance_px2 = found.variance_px2;
+  return true;
+}
+
+bool find_by_blocks(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from,
+                    ImagePoint& moved) {
+  constexpr int kLevel = 3;
+  constexpr int kReach_px = 12;
+  constexpr int kSide_px = 8;
+  constexpr int kNear_px = 2;  // the same minimum
+  /// Mean absolute difference, grey levels.
+  constexpr int kMostDifference = 24;
+  const PaddedImage& a = before.levels[kLevel];
+  const PaddedImage& b = now.levels[kLevel];
+  if (a.width() < kSide_px || a.height() < kSide_px) return false;
+  const ImagePoint centre = to_reduced(from, 1 << kLevel);
+  const auto corner = [](float middle, int size) {
+    const int first = static_cast<int>(std::lround(middle - (kSide_px - 1) / 2.0f));
+    return std::clamp(first, 0, size - kSide_px);
+  };
+  const int x0 = corner(centre.x_px, a.width());
+  const int y0 = corner(centre.y_px, a.height());
+
+  struct Best {
+    int difference = std::numeric_limits<int>::max();
+    int dx = 0;
+    int dy = 0;
+  };
+  Best best;
+  int second = std::numeric_limits<int>::max();
+  const auto first_y = std::max(-kReach_px, -y0);
+  const auto last_y = std::min(kReach_px, b.height() - kSide_px - y0);
+  const auto first_x = std::max(-kReach_px, -x0);
+  const auto last_x = std::min(kReach_px, b.width() - kSide_px - x0);
+  for (int dy = first_y; dy <= last_y; ++dy) {
+    for (int dx = first_x; dx <= last_x; ++dx) {
+      const int difference = vectors::absolute_difference(a.row(y0) + x0, a.stride(),
+                                                          b.row(y0 + dy) + x0 + dx, b.stride());
+      const bool elsewhere = std::abs(dx - best.dx) > kNear_px || std::abs(dy - best.dy) > kNear_px;
+      if (difference < best.difference) {
+        if (elsewhere) second = best.difference;
+        best = {difference, dx, dy};
+      } else if (elsewhere) {
+        second = std::min(second, difference);
+      }
+    }
+  }
+  moved = {static_cast<float>(best.dx * (1 << kLevel)),
+           static_cast<float>(best.dy * (1 << kLevel))};
+  return best.difference < kMostDifference * kSide_px * kSide_px &&
+         static_cast<int64_t>(best.difference) * 10 < static_cast<int64_t>(second) * 9;
+}
+
+float contrast_gain(const GrayPyramid& before, const GrayPyramid& now) {
+  constexpr float kNoticed = 0.1f;
+  const auto deviation = [](const PaddedImage& image) {
+    int64_t sum = 0;
+    int64_t squared = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      const uint8_t* row = image.row(y);
+      for (int x = 0; x < image.width(); ++x) {
+        sum += row[x];
+        squared += row[x] * row[x];
+      }
+    }
+    const auto n = static_cast<double>(image.width()) * image.height();
+    const double mean = static_cast<double>(sum) / n;
+    return std::sqrt(std::max(0.0, static_cast<double>(squared) / n - mean * mean));
+  };
+  const double was = deviation(before.levels.back());
+  const double is = deviation(now.levels.back());
+  // Below a grey level there is nothing but rounding to compare.
+  if (was < 1 || is < 1) return 1;
+  const auto gain = static_cast<float>(is / was);
+  return std::abs(gain - 1) < kNoticed ? 1.0f : gain;
+}
+
+}  // namespace spidar

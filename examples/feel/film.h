@@ -1,0 +1,44 @@
+/// The motion of a film as it was measured, so that it can be felt with one controller after the
+/// other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/motion_analyzer.h"
+
+namespace spidar {
+
+struct FilmFrame {
+  /// Running time since the frame that this one was compared with; 0: a cut, or the first frame.
+  double interval_s = 0;
+  ImageMotion motion;  ///< not filtered
+};
+
+struct Film {
+  std::string name;
+  int height = 0;  ///< pixels
+  std::vector<FilmFrame> frames;
+};
+
+/// Takes frames in the order in which they are shown.
+class FilmRecorder {
+ public:
+  FilmRecorder(std::string name, const AnalyzerSettings& settings) : analyzer_(settings) {
+    film_.name = std::move(name);
+  }
+
+  void add(const ImageView& frame, int64_t running_time_ns) {
+    const FrameAnalysis analysis = analyzer_.analyze(frame, running_time_ns);
+    film_.height = frame.height;
+    film_.frames.push_back({static_cast<double>(analysis.interval_ns) * 1e-9, analysis.motion});
+  }
+
+  const Film& film() const { return film_; }
+
+ private:
+  MotionAnalyzer analyzer_;
+  Film film_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,127 @@
+#include "examples/track/luma_reader.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include <gst/app/gstappsink.h>
+#include <gst/gst.h>
+#include <gst/video/video.h>
+
+namespace {
+
+/// 8-bit formats whose first plane is the luma; others are converted to the first of them.
+constexpr const char* kPipeline =
+    "uridecodebin name=source expose-all-streams=false caps=video/x-raw(ANY) ! videoconvert ! "
+    "video/x-raw,format={GRAY8,I420,YV12,NV12,NV21,Y42B,Y444,NV16,NV24,Y41B} ! "
+    "appsink name=sink sync=false max-buffers=4";
+
+/// `video` as a URI; a name that is none must be a file.
+std::string uri_of(const std::string& video) {
+  if (gst_uri_is_valid(video.c_str())) return video;
+  if (!std::filesystem::is_regular_file(video)) {
+    throw std::runtime_error(video + ": is neither a file nor a URI");
+  }
+  char* uri = gst_filename_to_uri(video.c_str(), nullptr);
+  const std::string result = uri;
+  g_free(uri);
+  return result;
+}
+
+std::string last_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  const size_t end = text.rfind('\n');
+  return end == std::string::npos ? text : text.substr(end + 1);
+}
+
+}  // namespace
+
+struct LumaReader::Impl {
+  std::string name;
+  GstElement* pipeline = nullptr;
+  GstElement* sink = nullptr;
+  GstSample* sample = nullptr;  ///< that `mapped` belongs to
+  GstVideoFrame mapped{};
+
+  void release() {
+    if (!sample) return;
+    gst_video_frame_unmap(&mapped);
+    gst_sample_unref(sample);
+    sample = nullptr;
+  }
+  ~Impl() {
+    release();
+    if (sink) gst_object_unref(sink);
+    if (!pipeline) return;
+    gst_element_set_state(pipeline, GST_STATE_NULL);
+    gst_object_unref(pipeline);
+  }
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw std::runtime_error(name + ": " + reason);
+  }
+  void fail_on_error() const {
+    GstBus* bus = gst_element_get_bus(pipeline);
+    GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR);
+    gst_object_unref(bus);
+    if (!message) return;
+    GError* error = nullptr;
+    char* detail = nullptr;
+    gst_message_parse_error(message, &error, &detail);
+    std::string reason = error->message;
+    // The last line says what was missing, those before where in the sources.
+    if (detail) reason += " (" + last_line(detail) + ")";
+    g_error_free(error);
+    g_free(detail);
+    gst_message_unref(message);
+    fail(reason);
+  }
+};
+
+LumaReader::LumaReader(const std::string& video) : impl_(std::make_unique<Impl>()) {
+  impl_->name = video;
+  const std::string uri = uri_of(video);
+  GError* error = nullptr;
+  impl_->pipeline = gst_parse_launch(kPipeline, &error);
+  if (error) {
+    const std::string reason = error->message;
+    g_error_free(error);
+    impl_->fail("GStreamer: " + reason);
+  }
+  GstElement* source = gst_bin_get_by_name(GST_BIN(impl_->pipeline), "source");
+  g_object_set(source, "uri", uri.c_str(), nullptr);
+  gst_object_unref(source);
+  impl_->sink = gst_bin_get_by_name(GST_BIN(impl_->pipeline), "sink");
+  gst_element_set_state(impl_->pipeline, GST_STATE_PLAYING);
+}
+
+LumaReader::~LumaReader() = default;
+
+bool LumaReader::next(Frame& frame) {
+  impl_->release();
+  // Comes back without a sample at the end, and when the pipeline fails.
+  GstSample* sample = nullptr;
+  while (!sample) {
+    sample = gst_app_sink_try_pull_sample(GST_APP_SINK(impl_->sink), 100 * GST_MSECOND);
+    if (sample) break;
+    impl_->fail_on_error();
+    if (gst_app_sink_is_eos(GST_APP_SINK(impl_->sink))) return false;
+  }
+  GstVideoInfo info;
+  GstBuffer* buffer = gst_sample_get_buffer(sample);
+  if (!gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) ||
+      !gst_video_frame_map(&impl_->mapped, &info, buffer, GST_MAP_READ)) {
+    gst_sample_unref(sample);
+    impl_->fail("a frame cannot be read");
+  }
+  impl_->sample = sample;
+  const GstSegment* segment = gst_sample_get_segment(sample);
+  const GstClockTime pts = GST_BUFFER_PTS(buffer);
+  const GstClockTime running = gst_segment_to_running_time(segment, GST_FORMAT_TIME, pts);
+  if (!GST_CLOCK_TIME_IS_VALID(running)) impl_->fail("a frame has no time");
+  frame.running_time_ns = static_cast<int64_t>(running);
+  frame.stream_time_ns =
+      static_cast<int64_t>(gst_segment_to_stream_time(segment, GST_FORMAT_TIME, pts));
+  frame.luma = {static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&impl_->mapped, 0)),
+                GST_VIDEO_FRAME_WIDTH(&impl_->mapped), GST_VIDEO_FRAME_HEIGHT(&impl_->mapped),
+                GST_VIDEO_FRAME_PLANE_STRIDE(&impl_->mapped, 0)};
+  return true;
+}

@@ -1,0 +1,18 @@
+#!/bin/sh
+# Measures anew what docs/tracking.md shows: its tables and its picture. About ten minutes.
+#   tests/bench/tracking.sh BUILD [option of bench_tracking...]
+# for example  tests/bench/tracking.sh build --full --middlebury FOLDER
+set -eu
+cd "$(dirname "$0")/../.."
+build=${1:?usage: tests/bench/tracking.sh BUILD [option of bench_tracking...]}
+shift
+page=docs/tracking.md
+meson compile -C "$build" bench_tracking
+"$build/tests/bench/bench_tracking" --csv "$build/tracking.csv" "$@" >"$build/tracking.txt"
+awk -v tables="$build/tracking.txt" '
+    /^<!-- end of the tables -->/ { inside = 0 }
+    !inside
+    /^<!-- tables/ { inside = 1; while ((getline line < tables) > 0) print line; print "" }
+' "$page" >"$build/tracking.md"
+cp "$build/tracking.md" "$page"
+gnuplot -e "csv='$build/tracking.csv'; picture='docs/figures/tracking.png'" tests/bench/tracking.gp

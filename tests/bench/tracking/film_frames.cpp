@@ -1,0 +1,147 @@
+#include "tests/bench/tracking/film_frames.h"
+
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+#include <gst/app/gstappsink.h>
+#include <gst/app/gstappsrc.h>
+#include <gst/gst.h>
+#include <gst/video/video.h>
+
+namespace spidar::bench {
+namespace {
+
+using test::Picture;
+
+struct Unref {
+  void operator()(void* object) const { gst_object_unref(object); }
+};
+using Element = std::unique_ptr<GstElement, Unref>;
+
+/// Stopped when it goes.
+class Pipeline {
+ public:
+  explicit Pipeline(const std::string& line) {
+    GError* error = nullptr;
+    pipeline_.reset(gst_parse_launch(line.c_str(), &error));
+    if (!error) return;
+    const std::string reason = error->message;
+    g_error_free(error);
+    throw std::runtime_error("GStreamer: " + reason);
+  }
+  ~Pipeline() {
+    if (pipeline_) gst_element_set_state(pipeline_.get(), GST_STATE_NULL);
+  }
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  void play() { gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING); }
+  Element by_name(const char* name) const {
+    return Element(gst_bin_get_by_name(GST_BIN(pipeline_.get()), name));
+  }
+  /// What went wrong, if anything did.
+  std::string problem() const {
+    GstBus* bus = gst_element_get_bus(pipeline_.get());
+    GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR);
+    gst_object_unref(bus);
+    if (!message) return "no picture";
+    GError* error = nullptr;
+    gst_message_parse_error(message, &error, nullptr);
+    const std::string reason = error->message;
+    g_error_free(error);
+    gst_message_unref(message);
+    return reason;
+  }
+
+ private:
+  Element pipeline_;
+};
+
+Picture picture_of(GstSample* sample) {
+  GstVideoInfo info;
+  GstVideoFrame frame;
+  if (!gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) ||
+      !gst_video_frame_map(&frame, &info, gst_sample_get_buffer(sample), GST_MAP_READ)) {
+    gst_sample_unref(sample);
+    throw std::runtime_error("GStreamer gave a picture that cannot be read");
+  }
+  Picture picture(GST_VIDEO_FRAME_WIDTH(&frame), GST_VIDEO_FRAME_HEIGHT(&frame));
+  const auto* from = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
+  for (int y = 0; y < picture.height; ++y) {
+    std::memcpy(&picture.at(0, y), from + ptrdiff_t{y} * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0),
+                static_cast<size_t>(picture.width));
+  }
+  gst_video_frame_unmap(&frame);
+  gst_sample_unref(sample);
+  return picture;
+}
+
+/// Grey as I420, which is what the encoder takes as it is.
+GstBuffer* buffer_of(const Picture& picture, int n) {
+  const size_t luma = picture.pixels.size();
+  const size_t chroma = luma / 2;
+  GstBuffer* buffer = gst_buffer_new_allocate(nullptr, luma + chroma, nullptr);
+  gst_buffer_fill(buffer, 0, picture.pixels.data(), luma);
+  gst_buffer_memset(buffer, luma, 128, chroma);
+  GST_BUFFER_PTS(buffer) = gst_util_uint64_scale(static_cast<guint64>(n), GST_SECOND, 30);
+  GST_BUFFER_DURATION(buffer) = GST_SECOND / 30;
+  return buffer;
+}
+
+}  // namespace
+
+std::vector<Picture> draw_all(test::Film& film, int frames) {
+  std::vector<Picture> pictures;
+  for (int n = 0; n < frames; ++n) {
+    const ImageView view = film.draw(n);
+    Picture picture(view.width, view.height);
+    for (int y = 0; y < view.height; ++y) {
+      std::memcpy(&picture.at(0, y), view.data + y * view.stride_bytes,
+                  static_cast<size_t>(view.width));
+    }
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
+std::vector<Picture> coded(const std::vector<Picture>& frames) {
+  const Picture& first = frames.front();
+  constexpr double kBitsPerPixel = 0.06;
+  const double kbit_s = kBitsPerPixel * 30e-3 * first.width * first.height;
+  const std::string size =
+      "width=" + std::to_string(first.width) + ",height=" + std::to_string(first.height);
+  Pipeline pipeline(
+      "appsrc name=source format=time max-bytes=0 caps=video/x-raw,format=I420," + size +
+      ",framerate=30/1,colorimetry=bt709 ! x264enc speed-preset=veryfast bitrate=" +
+      std::to_string(static_cast<int>(kbit_s)) + " ! avdec_h264 ! appsink name=sink sync=false");
+  pipeline.play();
+  const Element source = pipeline.by_name("source");
+  for (size_t n = 0; n < frames.size(); ++n) {
+    gst_app_src_push_buffer(GST_APP_SRC(source.get()), buffer_of(frames[n], static_cast<int>(n)));
+  }
+  gst_app_src_end_of_stream(GST_APP_SRC(source.get()));
+  const Element sink = pipeline.by_name("sink");
+  std::vector<Picture> result;
+  while (GstSample* sample = gst_app_sink_pull_sample(GST_APP_SINK(sink.get()))) {
+    result.push_back(picture_of(sample));
+  }
+  if (result.size() != frames.size()) {
+    throw std::runtime_error("x264 and avdec_h264 gave " + std::to_string(result.size()) + " of " +
+                             std::to_string(frames.size()) + " frames: " + pipeline.problem());
+  }
+  return result;
+}
+
+Picture read_picture(const std::string& file) {
+  Pipeline pipeline(
+      "filesrc name=file ! decodebin ! videoconvert ! video/x-raw,format=GRAY8 ! "
+      "appsink name=sink sync=false");
+  g_object_set(pipeline.by_name("file").get(), "location", file.c_str(), nullptr);
+  pipeline.play();
+  GstSample* sample = gst_app_sink_pull_sample(GST_APP_SINK(pipeline.by_name("sink").get()));
+  if (!sample) throw std::runtime_error(file + ": " + pipeline.problem());
+  return picture_of(sample);
+}
+
+}  // namespace spidar::bench

@@ -1,0 +1,154 @@
+#include "tests/bench/tracking/peers.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+namespace spidar::bench {
+namespace {
+
+constexpr int kWidth_px = 480;
+constexpr int kGrid_px = 16;
+
+cv::Mat as_mat(const ImageView& frame) {
+  return cv::Mat(frame.height, frame.width, CV_8U, const_cast<uint8_t*>(frame.data),
+                 static_cast<size_t>(frame.stride_bytes));
+}
+
+ImagePoint point(const cv::Point2f& p) {
+  return {p.x, p.y};
+}
+
+/// What all have in common: frames of one size, and none before the first.
+class Peer : public Tracker {
+ public:
+  const TrackedFrame& track(const ImageView& frame) override {
+    result_.tracks.clear();
+    result_.restarted = fresh_;
+    follow(as_mat(frame), fresh_);
+    fresh_ = false;
+    return result_;
+  }
+  void restart() override { fresh_ = true; }
+  void configure(const TrackerSettings&) override {}
+
+ protected:
+  /// `first`: there is no frame before.
+  virtual void follow(const cv::Mat& frame, bool first) = 0;
+
+  TrackedFrame result_;
+
+ private:
+  bool fresh_ = true;
+};
+
+class Naive final : public Peer {
+  void follow(const cv::Mat& luma, bool first) override {
+    // What the conversion costs does not depend on the picture; the luma is that of all pipelines.
+    bgr_.create(luma.size(), CV_8UC3);
+    cv::cvtColor(bgr_, converted_, cv::COLOR_BGR2GRAY);
+    if (!first && !from_.empty()) {
+      cv::calcOpticalFlowPyrLK(before_, luma, from_, to_, found_, error_, cv::Size(21, 21), 3);
+      for (size_t i = 0; i < from_.size(); ++i) {
+        if (found_[i]) result_.tracks.push_back({next_id_++, point(from_[i]), point(to_[i])});
+      }
+    }
+    const TrackerSettings settings;
+    cv::goodFeaturesToTrack(luma, from_, settings.max_features, settings.quality_level,
+                            settings.min_distance_px * luma.rows / kReferenceHeight_px);
+    result_.features = static_cast<int>(from_.size());
+    before_ = luma;  // the caller keeps its frames
+  }
+
+  cv::Mat bgr_;
+  cv::Mat converted_;
+  cv::Mat before_;
+  std::vector<cv::Point2f> from_;
+  std::vector<cv::Point2f> to_;
+  std::vector<uint8_t> found_;
+  std::vector<float> error_;
+  uint32_t next_id_ = 0;
+};
+
+/// At a width of 480 px, with tracks on a grid.
+class Reduced : public Peer {
+  void follow(const cv::Mat& luma, bool first) final {
+    std::swap(before_, now_);
+    const double factor = std::max(1.0, luma.cols / static_cast<double>(kWidth_px));
+    const cv::Size size(static_cast<int>(luma.cols / factor), static_cast<int>(luma.rows / factor));
+    cv::resize(luma, now_, size, 0, 0, cv::INTER_AREA);
+    result_.features = (size.width / kGrid_px) * (size.height / kGrid_px);
+    if (first) return;
+    find(before_, now_);
+    const auto scale = static_cast<float>(factor);
+    uint32_t id = 0;
+    for (int y = kGrid_px / 2; y + kGrid_px / 2 <= size.height; y += kGrid_px) {
+      for (int x = kGrid_px / 2; x + kGrid_px / 2 <= size.width; x += kGrid_px, ++id) {
+        const cv::Point2f moved = moved_px(x, y) * scale;
+        // Pixels count from the centre of the first one.
+        const cv::Point2f from = (cv::Point2f(cv::Point(x, y)) + cv::Point2f(0.5f, 0.5f)) * scale -
+                                 cv::Point2f(0.5f, 0.5f);
+        result_.tracks.push_back({id, point(from), point(from + moved)});
+      }
+    }
+  }
+
+  cv::Mat before_;
+  cv::Mat now_;
+
+ protected:
+  virtual void find(const cv::Mat& before, const cv::Mat& now) = 0;
+  virtual cv::Point2f moved_px(int x, int y) const = 0;
+};
+
+class Dense : public Reduced {
+ protected:
+  cv::Point2f moved_px(int x, int y) const override { return flow_.at<cv::Point2f>(y, x); }
+  cv::Mat flow_;
+};
+
+class Dis final : public Dense {
+  void find(const cv::Mat& before, const cv::Mat& now) override { dis_->calc(before, now, flow_); }
+  cv::Ptr<cv::DISOpticalFlow> dis_ =
+      cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
+};
+
+class Farneback final : public Dense {
+  void find(const cv::Mat& before, const cv::Mat& now) override {
+    cv::calcOpticalFlowFarneback(before, now, flow_, 0.5, 3, 15, 3, 5, 1.2, 0);
+  }
+};
+
+class PhaseCorrelation final : public Reduced {
+  void find(const cv::Mat& before, const cv::Mat& now) override {
+    if (window_.size() != now.size()) cv::createHanningWindow(window_, now.size(), CV_32F);
+    before.convertTo(before_32f_, CV_32F);
+    now.convertTo(now_32f_, CV_32F);
+    moved_ = cv::phaseCorrelate(before_32f_, now_32f_, window_);
+  }
+  cv::Point2f moved_px(int, int) const override { return moved_; }
+
+  cv::Mat window_;
+  cv::Mat before_32f_;
+  cv::Mat now_32f_;
+  cv::Point2f moved_;
+};
+
+}  // namespace
+
+std::unique_ptr<Tracker> make_naive() {
+  return std::make_unique<Naive>();
+}
+std::unique_ptr<Tracker> make_dis_ultrafast() {
+  return std::make_unique<Dis>();
+}
+std::unique_ptr<Tracker> make_farneback() {
+  return std::make_unique<Farneback>();
+}
+std::unique_ptr<Tracker> make_phase_correlation() {
+  return std::make_unique<PhaseCorrelation>();
+}
+
+}  // namespace spidar::bench

@@ -1,0 +1,44 @@
+/// The tables, as Markdown, and the same figures as CSV.
+#pragma once
+
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/bench/tracking/pipelines.h"
+#include "tests/bench/tracking/score.h"
+
+namespace spidar::bench {
+
+/// Scores by case, one for each pipeline.
+using CaseScores = std::vector<std::pair<std::string, std::vector<Score>>>;
+
+/// What stands in tables: quantiles, shares in per cent.
+struct Figures {
+  double ms_median, ms_p99;
+  double epe_median, epe_mean, epe_p95;
+  double lost, wrong;
+  double mean_error;  ///< of A, mean
+  double object_median, object_p95, missed;
+  double ghosts;
+};
+Figures figures(const Score& score);
+
+/// All usual cases of one size together.
+void print_usual(const std::string& size, const std::vector<Pipeline>& pipelines,
+                 const std::vector<Score>& scores);
+/// Tracks wrong and lost, object velocity, object missed; a row a case.
+void print_hard(const std::vector<Pipeline>& pipelines, const CaseScores& cases);
+/// The largest motion where there is none.
+void print_silent(const std::vector<Pipeline>& pipelines, const CaseScores& cases);
+void print_pairs(const std::vector<Pipeline>& pipelines, const std::vector<Score>& scores);
+
+constexpr const char* kCsvHeader =
+    "width,height,case,pipeline,ms_median,ms_p99,epe_median_px,epe_mean_px,epe_p95_px,lost_percent,"
+    "wrong_percent,mean_error_px,object_median_px,object_p95_px,missed_percent,ghosts_percent,"
+    "largest_mean_px,largest_object_px\n";
+void write_csv(std::FILE* file, int width, int height, const std::string& name,
+               const std::vector<Pipeline>& pipelines, const std::vector<Score>& scores);
+
+}  // namespace spidar::bench

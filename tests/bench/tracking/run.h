@@ -1,0 +1,45 @@
+/// Runs pipelines over the same frames.
+#pragma once
+
+#include <vector>
+
+#include "tests/bench/tracking/middlebury.h"
+#include "tests/bench/tracking/pipelines.h"
+#include "tests/bench/tracking/score.h"
+#include "tests/support/known_motion.h"
+#include "tests/support/picture.h"
+
+namespace spidar::bench {
+
+/// A pipeline in use: memory and ids last from film to film, as they do in a player.
+class Runner {
+ public:
+  explicit Runner(const Pipeline& pipeline);
+
+  const Pipeline& pipeline() const { return *pipeline_; }
+
+  /// One film. The time is that of the thread, of the tracks and of motion=object together; the
+  /// first frame is not in it. `errors` false: only the time is added.
+  void run(const test::Film& film, const std::vector<test::Picture>& frames, bool errors,
+           Score& score);
+
+  /// A pair of frames with the displacement of every pixel.
+  void run(const FlowPair& pair, Score& score);
+
+ private:
+  void link(int height);
+
+  const Pipeline* pipeline_;
+  std::unique_ptr<Tracker> tracker_;
+  MotionEstimator motion_;
+  TrackedFrame linked_;
+  std::vector<Track> before_;
+  uint32_t next_id_ = 0;
+};
+
+/// All over one film, one after the other, `rounds` times, so that what disturbs hits all.
+/// A score for each.
+std::vector<Score> run_all(std::vector<Runner>& runners, const test::Film& film,
+                           const std::vector<test::Picture>& frames, int rounds);
+
+}  // namespace spidar::bench

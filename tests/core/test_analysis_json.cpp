@@ -1,0 +1,130 @@
+// A frame's analysis as JSON, read back by somebody else's parser.
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/analysis_json.h"
+#include "count_allocations.h"
+#include "tests/support/moving_scene.h"
+
+namespace spidar::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr JsonOptions kWithPoints{true};
+
+json parsed(const FrameAnalysis& frame, const JsonOptions& options = kWithPoints) {
+  std::string line;
+  append_json(frame, 40'000'000, -1, options, line);
+  EXPECT_EQ(line.find('\n'), line.size() - 1) << line;
+  return json::parse(line);
+}
+
+void expect_vector(const json& found, const Eigen::Vector2d& expected) {
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].get<double>(), expected.x());
+  EXPECT_EQ(found[1].get<double>(), expected.y());
+}
+
+TEST(AnalysisJson, HasEverythingThatWasFoundToTheLastBit) {
+  MovingScene scene(320, 180);
+  scene.add_disc(40);
+  AnalyzerSettings settings;
+  settings.motion = MotionKind::kObject;
+  MotionAnalyzer analyzer(settings);
+  FrameAnalysis frame;
+  for (int n = 0; n < 6; ++n) {
+    const Placement camera{{2.0 * n, 1.0 * n}, 1 + 0.01 * n};
+    frame = analyzer.analyze(scene.draw(camera, {{{-60.0 + 9 * n, 10}}}), 40'000'000 * n);
+  }
+  const json j = parsed(frame);
+  EXPECT_EQ(j["running_time_ns"], 40'000'000);
+  EXPECT_EQ(j["stream_time_ns"], -1);
+  EXPECT_EQ(j["interval_ns"], 40'000'000);
+  EXPECT_EQ(j["width_px"], 320);
+  EXPECT_EQ(j["height_px"], 180);
+  EXPECT_EQ(j["restarted"], false);
+  EXPECT_EQ(j["features"], frame.features);
+  expect_vector(j["motion"]["velocity_px_s"], frame.motion.velocity_px_s);
+  EXPECT_EQ(j["motion"]["tracked"], frame.motion.tracked);
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<size_t>(i);
+    EXPECT_EQ(j["wrench"]["force_N"][k].get<double>(), frame.wrench.force_N[i]);
+    EXPECT_EQ(j["wrench"]["torque_Nm"][k].get<double>(), frame.wrench.torque_Nm[i]);
+  }
+
+  ASSERT_NE(frame.background, nullptr);
+  const MotionModel& model = frame.background->model;
+  ASSERT_GE(model.kind, ModelKind::kSimilarity);
+  EXPECT_EQ(j["background"]["model"], to_string(model.kind));
+  expect_vector(j["background"]["shift_px"], model.shift_px);
+  for (int i = 0; i < 2; ++i) {
+    expect_vector(j["background"]["linear"][static_cast<size_t>(i)], model.linear.row(i));
+  }
+  EXPECT_EQ(j["background"]["coverage"].get<double>(), frame.background->coverage);
+
+  ASSERT_NE(frame.object_list, nullptr);
+  ASSERT_EQ(frame.objects, 1);
+  ASSERT_EQ(j["objects"].size(), 1u);
+  const MovingObject& object = frame.object_list->front();
+  EXPECT_EQ(j["objects"][0]["id"], object.id);
+  expect_vector(j["objects"][0]["position_px"], object.position_px);
+  expect_vector(j["objects"][0]["velocity_px_s"], object.relative_px_s);
+  expect_vector(j["objects"][0]["on_screen_px_s"], object.on_screen_px_s);
+  EXPECT_EQ(j["objects"][0]["tracks"], object.tracks);
+
+  ASSERT_NE(frame.tracks, nullptr);
+  ASSERT_EQ(j["points"].size(), frame.tracks->size());
+  ASSERT_GT(j["points"].size(), 20u);
+  const Track& track = frame.tracks->front();
+  EXPECT_EQ(j["points"][0][0], track.id);
+  EXPECT_EQ(j["points"][0][1].get<float>(), track.to.x_px - 159.5f);
+  EXPECT_EQ(j["points"][0][2].get<float>(), track.to.y_px - 89.5f);
+  EXPECT_EQ(j["points"][0][3].get<float>(), track.to.x_px - track.from.x_px);
+  EXPECT_FALSE(parsed(frame, {}).contains("points"));
+}
+
+TEST(AnalysisJson, WhatIsNotKnownIsNullOrEmpty) {
+  FrameAnalysis frame;
+  frame.restarted = true;
+  const json j = parsed(frame);
+  EXPECT_EQ(j["restarted"], true);
+  EXPECT_TRUE(j["background"].is_null());
+  EXPECT_EQ(j["objects"], json::array());
+  EXPECT_EQ(j["points"], json::array());
+}
+
+TEST(AnalysisJson, NumbersThatJsonDoesNotHaveAreNull) {
+  FrameAnalysis frame;
+  frame.motion.velocity_px_s = {std::nan(""), -std::numeric_limits<double>::infinity()};
+  frame.motion.growth_1_s = 1e-300;
+  frame.motion.roll_rad_s = -0.1;
+  const json j = parsed(frame);
+  EXPECT_TRUE(j["motion"]["velocity_px_s"][0].is_null());
+  EXPECT_TRUE(j["motion"]["velocity_px_s"][1].is_null());
+  EXPECT_EQ(j["motion"]["growth_1_s"].get<double>(), 1e-300);
+  EXPECT_EQ(j["motion"]["roll_rad_s"].get<double>(), -0.1);
+}
+
+TEST(AnalysisJson, DoesNotAllocateWhereThereIsRoom) {
+  const std::vector<Track> tracks(200);
+  const std::vector<MovingObject> objects(16);
+  const Background background;
+  FrameAnalysis frame;
+  frame.tracks = &tracks;
+  frame.object_list = &objects;
+  frame.background = &background;
+  std::string line;
+  append_json(frame, 1, 1, kWithPoints, line);
+  line.clear();
+  const size_t before = allocations;
+  append_json(frame, 1, 1, kWithPoints, line);
+  EXPECT_EQ(allocations, before);
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,267 @@
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/force/adaptive_controller.h"
+#include "core/force/motion_filter.h"
+#include "core/force/motion_rendering.h"
+#include "core/motion_analyzer.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+constexpr double kFrame_s = 0.04;
+constexpr int kHeight = 480;
+/// A few operations on numbers up to 1000.
+constexpr double kRounding = 1e-11;
+const double kTwoPi = 2 * std::acos(-1.0);
+
+using Filter1 = OneEuroFilter<1>;
+using Filter2 = OneEuroFilter<2>;
+using Scalar = Filter1::Vector;
+
+ImageMotion moving(double x_px_s, double y_px_s, double growth_1_s = 0, double roll_rad_s = 0) {
+  ImageMotion motion;
+  motion.velocity_px_s << x_px_s, y_px_s;
+  motion.growth_1_s = growth_1_s;
+  motion.roll_rad_s = roll_rad_s;
+  return motion;
+}
+
+TEST(OneEuroFilter, FollowsThePaperStepByStep) {
+  // Algorithm 1 and 2 of Casiez et al., in their own terms.
+  const auto alpha = [](double cutoff_Hz, double period_s) {
+    const double tau_s = 1 / (kTwoPi * cutoff_Hz);
+    return 1 / (1 + tau_s / period_s);
+  };
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 20);
+  std::uniform_real_distribution<double> interval(0.005, 0.2);
+  Filter1 filter;
+  double x_hat = noise(random), dx_hat = 0;
+  filter.filter(Scalar(x_hat), 1, 1, 1);
+  for (int n = 0; n < 200; ++n) {
+    const double x = noise(random) + n;
+    const double period_s = interval(random);
+    const double dx = (x - x_hat) / period_s;
+    dx_hat = alpha(1, period_s) * dx + (1 - alpha(1, period_s)) * dx_hat;
+    const double a = alpha(1.5 + 0.02 * std::fabs(dx_hat), period_s);
+    x_hat = a * x + (1 - a) * x_hat;
+    ASSERT_NEAR(filter.filter(Scalar(x), period_s, 1.5, 0.02)[0], x_hat, kRounding)
+        << "seed 3, step " << n;
+  }
+}
+
+TEST(OneEuroFilter, ARampIsLateByTheCutoffsTimeWhateverTheFrameRate) {
+  for (const double interval_s : {1.0 / 60, 1.0 / 24, 0.1}) {
+    Filter1 filter;
+    const double slope = 50;
+    double y = 0;
+    double t_s = 0;
+    // After 3 s the start is forgotten: (1 − smoothing)^n < e^-20 at 2 Hz.
+    for (; t_s < 3; t_s += interval_s) y = filter.filter(Scalar(slope * t_s), interval_s, 2, 0)[0];
+    EXPECT_NEAR(t_s - interval_s - y / slope, 1 / (kTwoPi * 2), 1e-8) << interval_s;
+  }
+}
+
+TEST(OneEuroFilter, DoesNotDependOnHowTheAxesLie) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 30);
+  Filter2 straight, turned;
+  Eigen::Matrix2d turn;
+  turn << 0.6, -0.8, 0.8, 0.6;
+  for (int n = 0; n < 100; ++n) {
+    const double x = noise(random);
+    const Eigen::Vector2d v(x, noise(random));
+    const Eigen::Vector2d a = straight.filter(v, kFrame_s, 2, 0.01);
+    const Eigen::Vector2d b = turned.filter(turn * v, kFrame_s, 2, 0.01);
+    ASSERT_LT((turn * a - b).norm(), kRounding) << "seed 5, step " << n;
+  }
+}
+
+TEST(OneEuroFilter, LessJitterAtRestLessDelayInMotion) {
+  const FilterSettings defaults;
+  std::mt19937 random(9);
+  std::normal_distribution<double> noise(0, 1);
+  Filter1 filter;
+  double in = 0, out = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const double x = noise(random);
+    const double y =
+        filter.filter(Scalar(x), kFrame_s, defaults.min_cutoff_Hz, defaults.beta_s_px)[0];
+    in += x * x;
+    out += y * y;
+  }
+  // White noise through y += s (x − y) keeps s / (2 − s) of its variance. The rate of that noise,
+  // at least 1 / Δt rms, keeps √(0.2 / 1.8) = 1/3 after its own low-pass of 1 Hz: β raises the
+  // cutoff, by no more than twice that in the mean. The variance of 4000 draws is known to
+  // 2 √(2 / 4000) = 4 %.
+  const auto kept = [](double cutoff_Hz) {
+    const double turns = kTwoPi * cutoff_Hz * kFrame_s;
+    const double s = turns / (1 + turns);
+    return s / (2 - s);
+  };
+  EXPECT_GT(out / in, 0.96 * kept(defaults.min_cutoff_Hz));
+  EXPECT_LT(out / in, 1.04 * kept(defaults.min_cutoff_Hz + defaults.beta_s_px * 2 / 3 / kFrame_s));
+
+  // 1000 px/s², as in a fall: late by the time of a cutoff that β has raised.
+  filter.reset();
+  double y = 0;
+  double t_s = 0;
+  for (; t_s < 3; t_s += kFrame_s) {
+    y = filter.filter(Scalar(1000 * t_s), kFrame_s, defaults.min_cutoff_Hz, defaults.beta_s_px)[0];
+  }
+  const double cutoff_Hz = defaults.min_cutoff_Hz + 1000 * defaults.beta_s_px;
+  // The rate is taken from the value filtered: on a ramp it is the slope and what the rest of the
+  // delay makes of it, (x − ŷ) / Δt = slope (1 + delay / Δt), so the cutoff is higher still.
+  EXPECT_LT(t_s - kFrame_s - y / 1000, 1 / (kTwoPi * cutoff_Hz));
+}
+
+TEST(OneEuroFilter, ByDefaultItsDelayIsNotFelt) {
+  const FilterSettings defaults;
+  for (const double slope_px_s2 : {3.0, 30.0, 300.0, 3000.0}) {
+    Filter1 filter;
+    double worst_px_s = 0;
+    for (int n = 0; n < 150; ++n) {
+      const double x = slope_px_s2 * n * kFrame_s;
+      const double y =
+          filter.filter(Scalar(x), kFrame_s, defaults.min_cutoff_Hz, defaults.beta_s_px)[0];
+      if (n > 25) worst_px_s = std::max(worst_px_s, std::fabs(x - y));  // the rate is known
+    }
+    EXPECT_LT(worst_px_s, AdaptiveController::kLeast_px_s) << slope_px_s2;
+  }
+}
+
+TEST(MotionFilter, WithoutACutoffItIsTheVerySameMotion) {
+  MotionFilter filter;
+  const FilterSettings off{0, 0.01};
+  for (int n = 0; n < 5; ++n) {
+    const ImageMotion motion = moving(1.1 * n, -n / 3.0, n / 7.0, n / 11.0);
+    const ImageMotion same = filter.filter(motion, 360, kFrame_s, off);
+    EXPECT_EQ(same.velocity_px_s, motion.velocity_px_s);
+    EXPECT_EQ(same.growth_1_s, motion.growth_1_s);
+    EXPECT_EQ(same.roll_rad_s, motion.roll_rad_s);
+  }
+}
+
+TEST(MotionFilter, TheFirstMotionAfterAResetPasses) {
+  MotionFilter filter;
+  const FilterSettings settings;
+  filter.filter(moving(500, 0), kHeight, kFrame_s, settings);
+  filter.reset();
+  const ImageMotion first = filter.filter(moving(-30, 4, 0.1, 0.2), kHeight, kFrame_s, settings);
+  EXPECT_NEAR((first.velocity_px_s - Eigen::Vector2d(-30, 4)).norm(), 0, kRounding);
+  EXPECT_NEAR(first.growth_1_s, 0.1, kRounding);
+  EXPECT_NEAR(first.roll_rad_s, 0.2, kRounding);
+}
+
+TEST(MotionFilter, FeelsTheSameInEverySizeOfTheFrame) {
+  MotionFilter small, large;
+  for (int n = 0; n < 20; ++n) {
+    const double v = 100 * std::sin(n);
+    const ImageMotion a = small.filter(moving(v, n), 240, kFrame_s, {});
+    const ImageMotion b = large.filter(moving(4 * v, 4 * n), 960, kFrame_s, {});
+    EXPECT_LT((4 * a.velocity_px_s - b.velocity_px_s).norm(), kRounding) << n;
+  }
+}
+
+TEST(MotionFilter, ComesToRestExactly) {
+  MotionFilter filter;
+  const FilterSettings settings;
+  filter.filter(moving(300, 200, 1, 1), kHeight, kFrame_s, settings);
+  ImageMotion left;
+  // A step of 40 ms leaves 1 / (1 + 2π 1 Hz 40 ms) = 0.8 of it or less: from 361 px/s to 0.1 px/s
+  // in ln 3610 / ln 1.25 = 37 of them.
+  for (int n = 0; n < 37; ++n) left = filter.filter(moving(0, 0), kHeight, kFrame_s, settings);
+  EXPECT_EQ(left.velocity_px_s, Eigen::Vector2d(0, 0));
+  EXPECT_EQ(left.growth_1_s, 0);
+  EXPECT_EQ(left.roll_rad_s, 0);
+}
+
+TEST(MotionFilter, TheNoiseIsThatOfWhatIsLeft) {
+  // A steady motion with noise that is independent from frame to frame, many times over.
+  constexpr int kRuns = 4000;
+  std::mt19937 random(21);
+  std::normal_distribution<double> noise(0, 2);
+  const FilterSettings fixed{2, 0};
+  double squares = 0, stated = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    MotionFilter filter;
+    ImageMotion steady;
+    for (int n = 0; n < 6; ++n) {
+      const double x = 50 + noise(random);
+      ImageMotion motion = moving(x, noise(random));
+      motion.noise_px_s = 2;
+      steady = filter.filter(motion, 240, kFrame_s, fixed);
+    }
+    squares += (steady.velocity_px_s - Eigen::Vector2d(50, 0)).squaredNorm() / 2;
+    stated = steady.noise_px_s;
+  }
+  // A standard deviation from 8000 draws is known to 1 / √16000 = 0.8 %; four of that.
+  EXPECT_NEAR(std::sqrt(squares / kRuns), stated, 0.032 * stated) << "seed 21";
+  EXPECT_LT(stated, 0.6 * 2);
+  // Not known stays not known, and what is reset has the noise of the first value.
+  MotionFilter filter;
+  EXPECT_EQ(filter.filter(moving(10, 0), kHeight, kFrame_s, {}).noise_px_s, 0);
+  EXPECT_EQ(filter.filter(moving(20, 0), kHeight, kFrame_s, {}).noise_px_s, 0);
+}
+
+TEST(MotionFilter, RefusesWhatIsNotASetting) {
+  for (const double bad :
+       {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(validate(FilterSettings{bad, 0}), std::invalid_argument);
+    EXPECT_THROW(validate(FilterSettings{1, bad}), std::invalid_argument);
+    AnalyzerSettings settings;
+    settings.filter.beta_s_px = bad;
+    EXPECT_THROW(MotionAnalyzer{settings}, std::invalid_argument);
+  }
+  EXPECT_NO_THROW(validate(FilterSettings{0, 0}));
+}
+
+/// A still picture with new sensor noise in each frame.
+class NoisyPicture {
+ public:
+  explicit NoisyPicture(double sigma) : picture_(480, 270), noise_(0, sigma) {}
+  ImageView next() {
+    picture_.fill([this](double x, double y) {
+      return std::clamp(texture_.at(x, y) + noise_(random_), 0.0, 255.0);
+    });
+    return picture_.view();
+  }
+
+ private:
+  test::Picture picture_;
+  test::Texture texture_{8, 8};
+  std::mt19937 random_{17};
+  std::normal_distribution<double> noise_;
+};
+
+TEST(StillHand, FeelsNothingOnANoisyStillPicture) {
+  // Noise of 4 grey levels, as of a camera in a dim room.
+  NoisyPicture picture(4);
+  AnalyzerSettings mean = paper_settings();
+  mean.filter = {};
+  mean.controller.kind = ControllerKind::kAdaptive;
+  MotionAnalyzer by_default{AnalyzerSettings()};
+  MotionAnalyzer by_mean(mean);
+  for (int n = 0; n < 20; ++n) {
+    const ImageView view = picture.next();
+    const Wrench wrench = by_default.analyze(view, n * 40'000'000).wrench;
+    EXPECT_EQ(wrench.stacked(), (Eigen::Matrix<double, 6, 1>::Zero())) << n;
+    const FrameAnalysis frame = by_mean.analyze(view, n * 40'000'000);
+    EXPECT_EQ(frame.wrench.force_N, Eigen::Vector3d(0, 0, 0)) << n;
+    // The mean itself is not at rest: that is what the dead zone is for.
+    if (n > 0) {
+      EXPECT_NE(frame.motion.velocity_px_s, Eigen::Vector2d(0, 0)) << n;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spidar

@@ -1,0 +1,96 @@
+#include "tests/support/film_studio.h"
+
+#include <cmath>
+#include <utility>
+
+#include "tests/support/photo_sheet.h"
+
+namespace spidar::test {
+
+using Eigen::Affine2d;
+using Eigen::Matrix2d;
+using Eigen::Translation2d;
+using Eigen::Vector2d;
+
+Pose still() {
+  return [](double) { return Affine2d::Identity(); };
+}
+
+Pose straight(const Vector2d& start_px, const Vector2d& step_px) {
+  return [=](double t) { return Affine2d(Translation2d(start_px + t * step_px)); };
+}
+
+Pose growing(const Matrix2d& generator) {
+  return [=](double t) {
+    Matrix2d term = Matrix2d::Identity();
+    Matrix2d sum = term;
+    for (int k = 1; k <= 20; ++k) {  // 1/20! is below what a double keeps
+      term = term * generator * (t / k);
+      sum += term;
+    }
+    return Affine2d(sum);
+  };
+}
+
+Film FilmStudio::still_film() {
+  return behind(background(), still());
+}
+
+Film FilmStudio::behind(std::shared_ptr<const SplineSheet> sheet, Pose pose) const {
+  Film film(width_, height_);
+  film.background = {std::move(sheet), std::move(pose)};
+  film.noise_seed = seed_ * 1000;
+  return film;
+}
+
+Film FilmStudio::camera(Pose pose) {
+  return behind(background(), std::move(pose));
+}
+
+Film FilmStudio::pan(double x, double y) {
+  return camera(straight({0, 0}, unit_ * Vector2d(x, y)));
+}
+
+Film FilmStudio::usual_object(double x, double y) {
+  Film film = still_film();
+  film.objects = {object(kShare, crossing({x, y}))};
+  return film;
+}
+
+Film FilmStudio::pan_with_object() {
+  Film film = pan(-4, 1.5);
+  film.objects = {object(kShare, crossing({9, 2.5}))};
+  return film;
+}
+
+FilmObject FilmStudio::object(double share, Pose pose, const std::string& name) {
+  constexpr double kPi = 3.14159265358979323846;
+  const double radius_px = std::sqrt(share * width_ * height_ / kPi);
+  return {sheet(name, 0.6), {radius_px, radius_px}, std::move(pose)};
+}
+
+Pose FilmStudio::crossing(const Vector2d& step, const Vector2d& middle) const {
+  return straight(unit_ * (middle - (kFilmFrames - 1) / 2.0 * step), unit_ * step);
+}
+
+std::shared_ptr<const SplineSheet> FilmStudio::background(const std::string& name) {
+  return sheet(name, 1.5);
+}
+
+std::shared_ptr<const SplineSheet> FilmStudio::plain() const {
+  return std::make_shared<SplineSheet>(plain_sheet(120));
+}
+
+std::shared_ptr<const SplineSheet> FilmStudio::sheet(const std::string& name, double frames_wide) {
+  std::shared_ptr<const SplineSheet>& found = sheets_[name];
+  if (!found) {
+    // Of the name, so that a film looks the same whichever others are made.
+    uint32_t seed = seed_;
+    for (const char c : name) seed = 31 * seed + static_cast<uint32_t>(c);
+    found = std::make_shared<SplineSheet>(
+        photo_sheet(100 * seed, frames_wide * width_, frames_wide * height_));
+  }
+  return found;
+}
+
+}  // namespace spidar::test

@@ -1,0 +1,88 @@
+/// A film whose every motion is known: things that move in front of a background.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "tests/support/picture.h"
+#include "tests/support/spline_sheet.h"
+
+namespace spidar::test {
+
+/// Where something is at a time, in frames: from its own pixels to those of the picture, both from
+/// the centre of the frame, x right, y down.
+using Pose = std::function<Eigen::Affine2d(double frame)>;
+
+/// A textured ellipse.
+struct FilmObject {
+  std::shared_ptr<const SplineSheet> sheet;
+  Eigen::Vector2d radii_px;
+  Pose pose;
+
+  Eigen::Vector2d centre_px(double frame) const { return pose(frame).translation(); }
+};
+
+struct FilmBackground {
+  std::shared_ptr<const SplineSheet> sheet;
+  Pose pose;
+};
+
+/// Grey levels become gain · grey + offset.
+struct Light {
+  double gain = 1;
+  double offset = 0;
+};
+
+class Film {
+ public:
+  Film(int width, int height) : picture_(width, height) {}
+
+  FilmBackground background;
+  std::vector<FilmObject> objects;  ///< the last ones are in front
+  /// Frame from which on another scene is shown; < 0: none.
+  int cut_at = -1;
+  FilmBackground after_cut;
+  double shutter = 0;  ///< share of the time between frames in which a frame is exposed
+  double blur_px = 0;  ///< σ of a Gaussian
+  double noise = 0;    ///< σ, grey levels
+  uint32_t noise_seed = 1;
+  std::function<Light(int frame)> light;
+
+  int width() const { return picture_.width; }
+  int height() const { return picture_.height; }
+  Eigen::Vector2d middle_px() const { return {(width() - 1) / 2.0, (height() - 1) / 2.0}; }
+
+  /// Valid until the next call.
+  ImageView draw(int frame);
+
+  /// There is something in this frame that was in the one before.
+  bool is_comparable(int frame) const { return frame != cut_at; }
+  /// Where what is seen at `from_px` (pixels of the frame before) goes until this frame.
+  Eigen::Vector2d displacement_px(int frame, const Eigen::Vector2d& from_px) const;
+  /// The same of an object against the background.
+  Eigen::Vector2d object_displacement_px(int frame, const FilmObject& object,
+                                         const Eigen::Vector2d& from_px) const;
+  /// The object shows at least half of its area in this frame and the two before.
+  bool is_in_view(int frame, const FilmObject& object) const;
+
+ private:
+  const FilmBackground& background_at(int frame) const {
+    return cut_at >= 0 && frame >= cut_at ? after_cut : background;
+  }
+  int exposures_at(int frame) const;
+  void add_exposure(double time, const FilmBackground& behind, float weight);
+  void add_object(double time, const FilmObject& object);
+  void blur();
+  void develop(int frame);
+
+  Picture picture_;
+  std::vector<float> sharp_;    ///< one exposure, by rows
+  std::vector<float> exposed_;  ///< their sum
+};
+
+}  // namespace spidar::test

@@ -1,0 +1,38 @@
+/// Films for measuring trackers: what they are good at and what is hard.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/support/film_studio.h"
+#include "tests/support/known_motion.h"
+
+namespace spidar::test {
+
+enum class CaseGroup {
+  kUsual,   ///< averaged over
+  kHard,    ///< has an object or a camera to find, each on its own
+  kSilent,  ///< nothing is to be felt
+};
+
+/// Lengths below are at a width of 640 px; a wider film shows the same with more detail.
+struct MotionCase {
+  std::string name;
+  CaseGroup group;
+  bool coded;  ///< is to be seen through a video codec
+  std::function<Film(int width, int height, uint32_t seed)> film;
+};
+
+/// Speeds of the usual object, px a frame: mean 13.
+constexpr double kSlow_px = 2;
+constexpr double kNormal_px = 11;
+constexpr double kFast_px = 26;
+
+const std::vector<MotionCase>& motion_cases();
+
+/// Throws std::invalid_argument that names those there are.
+const MotionCase& motion_case(const std::string& name);
+
+}  // namespace spidar::test

@@ -1,0 +1,30 @@
+/// What moves in a film without a photograph at hand.
+#pragma once
+
+#include <cstdint>
+
+#include "tests/support/spline_sheet.h"
+
+namespace spidar::test {
+
+/// Looks like a photograph to whoever follows points: things of all sizes that hide each other,
+/// with edges, some of them flat, some grained.
+///
+/// Dead leaves (Lee, Mumford, Huang: Occlusion models for natural images, Int. J. Computer Vision
+/// 41, 2001): ellipses and rectangles whose number goes with radius⁻³, so that every octave covers
+/// the same area, each with a grey level of its own. On most of them lies noise of the same
+/// variance in every octave. Both have amplitude spectra that go with 1/f as those of photographs
+/// do.
+SplineSheet photo_sheet(uint32_t seed, double width_px, double height_px);
+
+/// One grey level.
+SplineSheet plain_sheet(double grey);
+
+/// Dark on one side of a line through `through_px`, bright on the other, which `normal` points to.
+SplineSheet edge_sheet(double width_px, double height_px, const Eigen::Vector2d& through_px,
+                       const Eigen::Vector2d& normal);
+
+/// A lattice of blobs that repeats every `period_px`.
+SplineSheet periodic_sheet(double width_px, double height_px, double period_px);
+
+}  // namespace spidar::test
