@@ -117,6 +117,13 @@ GstStructure* MotionEngine::stats() const {
   return structure;
 }
 
+std::optional<Eigen::Vector2d> MotionEngine::grip_place() const {
+  if (!session_) return std::nullopt;
+  const TickRecord tick = session_->loop().snapshot().last;
+  if (tick.device != DeviceState::kRunning) return std::nullopt;
+  return grip_pointer_.place(tick.pose.position_m);
+}
+
 bool MotionEngine::look_at_device(DeviceView& view) const {
   const std::lock_guard<std::mutex> lock(session_mutex_);
   if (!session_) return false;
@@ -128,15 +135,13 @@ bool MotionEngine::look_at_device(DeviceView& view) const {
   return true;
 }
 
-std::optional<Eigen::Vector2d> MotionEngine::grip_place() const {
-  if (!session_) return std::nullopt;
-  const TickRecord tick = session_->loop().snapshot().last;
-  if (tick.device != DeviceState::kRunning) return std::nullopt;
-  return grip_pointer_.place(tick.pose.position_m);
-}
-
 DeviceState MotionEngine::device_state() const {
   return session_ ? session_->loop().snapshot().last.device : DeviceState::kClosed;
+}
+
+std::string MotionEngine::device_fault() const {
+  const LinkFault fault = session_ ? session_->device().health().last_fault : LinkFault::kNone;
+  return fault == LinkFault::kNone ? "" : std::string(": ") + to_string(fault);
 }
 
 int MotionEngine::faulty_string() const {

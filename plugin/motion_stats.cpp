@@ -63,6 +63,13 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
                     G_TYPE_DOUBLE, us(session.timing().lateness.quantile_ns(0.999)),
                     "skew-ms-median", G_TYPE_DOUBLE, ms(loop.skew().quantile_ns(0.5)),
                     "skew-ms-p99", G_TYPE_DOUBLE, ms(loop.skew().quantile_ns(0.99)), nullptr);
+  const LinkHealth link = session.device().health();
+  gst_structure_set(structure, "link-fault", G_TYPE_STRING, to_string(link.last_fault),
+                    "link-timeouts", G_TYPE_UINT64, link.count(LinkFault::kTimeout), "link-errors",
+                    G_TYPE_UINT64, link.errors(), "link-late-replies", G_TYPE_UINT64,
+                    link.late_replies, "round-trip-us-median", G_TYPE_DOUBLE,
+                    us(link.round_trip_median_ns), "round-trip-us-p99", G_TYPE_DOUBLE,
+                    us(link.round_trip_p99_ns), nullptr);
 }
 
 }  // namespace spidar

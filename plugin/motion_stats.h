@@ -41,7 +41,9 @@ class MotionStats {
 /// Adds device, device-state, scheduling (string), real-time (boolean), ticks, overruns,
 /// exchange-errors, pose-errors, times-lost (uint64), faulty-string (int, −1 when none),
 /// wakeup-us-median, wakeup-us-p999, skew-ms-median, skew-ms-p99 (double; skew: force at the device
-/// after its frame was due on the screen).
+/// after its frame was due on the screen), link-fault (string: the last one, see LinkFault),
+/// link-timeouts, link-errors (all other faults), link-late-replies (uint64), round-trip-us-median,
+/// round-trip-us-p99 (double; zero for a device without a link).
 void describe_session(const HapticSession& session, GstStructure* structure);
 
 }  // namespace spidar

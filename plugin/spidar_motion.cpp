@@ -165,12 +165,12 @@ static bool check_device(GstSpidarMotion* self, OnDeviceError policy) {
     if (before == DeviceState::kLost) GST_INFO_OBJECT(self, "device is back");
     return true;
   }
-  const char* text = "The haptic device does not answer.";
+  const std::string text = "The haptic device does not answer" + self->engine->device_fault() + ".";
   if (policy == OnDeviceError::kError) {
-    GST_ELEMENT_ERROR(self, RESOURCE, WRITE, ("%s", text), ("on-device-error=error"));
+    GST_ELEMENT_ERROR(self, RESOURCE, WRITE, ("%s", text.c_str()), ("on-device-error=error"));
     return false;
   }
-  GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("%s The video goes on without it.", text),
+  GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("%s The video goes on without it.", text.c_str()),
                       ("It is taken back when it returns."));
   return true;
 }
@@ -207,14 +207,14 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
                                                           GstVideoFrame* frame) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
   spidar::AnalyzerSettings settings;
-  spidar::DisplayProperties display;
   PointerKind pointer;
+  spidar::DisplayProperties display;
   bool post_messages;
   OnDeviceError on_device_error;
   GST_OBJECT_LOCK(self);
   settings = self->properties->analyzer;
-  display = self->properties->display;
   pointer = self->properties->pointer;
+  display = self->properties->display;
   post_messages = self->properties->post_messages;
   on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);

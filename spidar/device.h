@@ -8,6 +8,7 @@
 
 #include "core/api.h"
 #include "core/grip/string_geometry.h"
+#include "spidar/link_fault.h"
 
 namespace spidar {
 
@@ -48,6 +49,17 @@ class SPIDAR_API Device {
 
   /// Motors to zero, then releases the board. Safe to call twice, and after kLost.
   virtual void close() noexcept = 0;
+
+  /// The board's own counters are zero from now on, where the grip is; not while exchanging. False
+  /// when it has no command for that, or does not obey: switching it on clears them.
+  virtual bool clear_counters() { return false; }
+
+  /// What open() found, for people: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3". Empty while
+  /// closed, and for devices that are no more than their name.
+  virtual std::string description() const { return {}; }
+
+  /// How the link to the board has been; all zero for a device without one. Any thread.
+  virtual LinkHealth health() const noexcept { return {}; }
 
   /// For messages: "sim", "usb:3", …
   virtual const std::string& name() const noexcept = 0;

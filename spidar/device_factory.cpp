@@ -1,20 +1,73 @@
 #include "spidar/device_factory.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
+#include "spidar/boards/board_device.h"
+#include "spidar/boards/uart_board.h"
+#include "spidar/boards/usb_board.h"
+#include "spidar/emulation/wire_simulation.h"
+#include "spidar/protocols/uart_motor.h"
 #include "spidar/simulated_device.h"
+#include "spidar/transports/tty_transport.h"
 
 namespace spidar {
+namespace {
 
-std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile) {
-  if (spec == "sim") {
-    try {
-      return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock);
-    } catch (const std::invalid_argument& error) {
-      throw DeviceError("sim: cannot simulate profile \"" + profile.name + "\": " + error.what());
-    }
+std::unique_ptr<Device> make_simulation(const std::string& spec, const std::string& board,
+                                        const Profile& profile) {
+  try {
+    if (!board.empty()) return make_wire_simulation(board, profile);
+    return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock);
+  } catch (const std::invalid_argument& error) {
+    throw DeviceError(spec + ": cannot simulate profile \"" + profile.name + "\": " + error.what());
   }
-  throw DeviceError("unknown device \"" + spec + "\"; known are: sim");
+}
+
+/// `paths` are separated by commas.
+std::unique_ptr<Board> make_uart(const std::string& spec, const std::string& paths,
+                                 const Profile& profile) {
+  std::vector<std::unique_ptr<Transport>> lines;
+  for (size_t begin = 0; begin <= paths.size();) {
+    const size_t end = std::min(paths.find(',', begin), paths.size());
+    if (end == begin) throw DeviceError(spec + ": a path is empty; write uart:/dev/ttyUSB0");
+    lines.push_back(
+        std::make_unique<TtyTransport>(paths.substr(begin, end - begin), uart_motor::kBaud));
+    begin = end + 1;
+  }
+  return std::make_unique<UartBoard>(spec, profile, std::move(lines));
+}
+
+BoardSettings resolved(BoardSettings settings, const Profile& profile) {
+  if (settings.count_zero != CountZero::kByProfile) return settings;
+  const bool calibrated =
+      std::any_of(profile.drives.begin(), profile.drives.end(),
+                  [](const StringDrive& drive) { return drive.home_offset_m != 0; });
+  settings.count_zero = calibrated ? CountZero::kNever : CountZero::kFirstOpen;
+  return settings;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
+                                    const BoardSettings& settings) {
+  const size_t colon = spec.find(':');
+  const std::string kind = spec.substr(0, colon);
+  const std::string rest = colon == std::string::npos ? "" : spec.substr(colon + 1);
+  const bool named = colon == std::string::npos || !rest.empty();
+  std::unique_ptr<Board> board;
+  if (kind == "sim" && named) return make_simulation(spec, rest, profile);
+  if (kind == "usb" && named)
+    board = std::make_unique<UsbBoard>(UsbFamily::kCyverse, spec, rest, profile);
+  if (kind == "mouse" && named)
+    board = std::make_unique<UsbBoard>(UsbFamily::kMouse, spec, rest, profile);
+  if (kind == "uart" && !rest.empty()) board = make_uart(spec, rest, profile);
+  if (!board)
+    throw DeviceError("unknown device \"" + spec +
+                      "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse");
+  return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
 }
 
 }  // namespace spidar

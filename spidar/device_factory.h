@@ -5,13 +5,22 @@
 #include <string>
 
 #include "core/api.h"
+#include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
 #include "spidar/profile.h"
 
 namespace spidar {
 
-/// `spec`: "sim". Throws DeviceError that lists what can be named. Nothing is opened.
-/// ("none" is not a device: who asks for it needs no loop.)
-SPIDAR_API std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile);
+/// `spec` is one of
+///   sim                     the simulated device
+///   sim:sh4, sim:simple, sim:uart, sim:mouse
+///                           the same behind the packets of that board
+///   usb, usb:ID             CyVerse board; ID: rotary switch, serial number or bus path
+///   uart:PATH[,PATH]        UART motor boards on serial lines
+///   mouse, mouse:ID         SPIDAR-mouse; ID: serial number or bus path
+/// Nothing is opened. Throws DeviceError that lists what can be named, or says why the board cannot
+/// drive the profile. ("none" is not a device: who asks for it needs no loop.)
+SPIDAR_API std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
+                                               const BoardSettings& settings = {});
 
 }  // namespace spidar

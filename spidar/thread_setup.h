@@ -3,6 +3,7 @@
 
 #include <csignal>
 
+#include "core/api.h"
 #include "spidar/scheduling.h"
 
 namespace spidar {
@@ -12,7 +13,7 @@ namespace spidar {
 constexpr int kRealTimePriority = 80;
 
 /// Asks for SCHED_FIFO for the calling thread, with kRealTimePriority or as much as is allowed.
-Scheduling request_real_time();
+SPIDAR_API Scheduling request_real_time();
 
 /// Timers of the calling thread fire when they are due. The kernel's default is up to 50 µs later,
 /// so that processors sleep longer. A real-time thread has no slack anyway.

@@ -72,7 +72,7 @@ case ${1-} in
         -Db_sanitize=address,undefined -Dbenchmarks=disabled -- -t 4
     say "thread sanitizer: what runs on several threads; left out is the element, for GLib and GStreamer" \
         "are not built with it and their locks would be taken for races"
-    threaded=(haptic_session shared_memory simulated_faults tick_trace)
+    threaded=(haptic_session shared_memory simulated_faults tick_trace boards usb_boards uart_line guardian)
     targets=("${threaded[@]/#/tests/spidar/test_}" tests/examples/test_play_{numbers,traces})
     build_and_test build-ci-thread "${sanitized[@]}" \
         -Db_sanitize=thread -Dbenchmarks=disabled -Dplugin=disabled -- \

@@ -46,7 +46,10 @@ class Bench {
  public:
   Bench(const CalibrateOptions& options, const Profile& profile) : geometry_(profile.geometry) {
     if (options.device != "sim") {
-      device_ = make_device(options.device, profile);
+      // Offsets are those of the board's own counters.
+      BoardSettings as_counted;
+      as_counted.count_zero = CountZero::kNever;
+      device_ = make_device(options.device, profile, as_counted);
       return;
     }
     Profile real = profile;

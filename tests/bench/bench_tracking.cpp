@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -12,7 +13,6 @@
 #include <gst/gst.h>
 #include <opencv2/core/utility.hpp>
 
-#include "tests/bench/call_timer.h"
 #include "tests/bench/tracking/film_frames.h"
 #include "tests/bench/tracking/middlebury.h"
 #include "tests/bench/tracking/options.h"
@@ -92,8 +92,8 @@ class Benchmark {
   }
 
  private:
-  std::vector<Runner> runners() const {
-    std::vector<Runner> all;
+  std::deque<Runner> runners() const {
+    std::deque<Runner> all;
     for (const Pipeline& pipeline : pipelines_) all.emplace_back(pipeline);
     return all;
   }
@@ -109,7 +109,7 @@ class Benchmark {
       if (each->group == group)
         scores.emplace_back(each->name, std::vector<Score>(pipelines_.size()));
     }
-    std::vector<Runner> all = runners();
+    std::deque<Runner> all = runners();
     const int scenes =
         group == CaseGroup::kUsual ? options_.scenes : std::max(options_.scenes, kHardScenes);
     for (int scene = 1; scene <= scenes; ++scene) {
@@ -132,7 +132,7 @@ class Benchmark {
   }
 
   void run_pairs() {
-    std::vector<Runner> all = runners();
+    std::deque<Runner> all = runners();
     std::vector<Score> scores(all.size());
     for (const FlowPair& pair : pairs_) {
       for (size_t k = 0; k < all.size(); ++k) all[k].run(pair, scores[k]);
@@ -162,12 +162,12 @@ void list() {
 int main(int argc, char** argv) {
   gst_init(nullptr, nullptr);
   cv::setNumThreads(1);
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a table when it is known, into files too
   try {
     if (argc == 2 && std::string(argv[1]) == "--list") {
       list();
       return 0;
     }
-    pin_to_one_core();
     Benchmark(parse_options(argc, argv)).run();
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "bench_tracking: %s\n%s", error.what(), kUsage);

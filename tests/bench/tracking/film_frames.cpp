@@ -113,7 +113,7 @@ std::vector<Picture> coded(const std::vector<Picture>& frames) {
       "width=" + std::to_string(first.width) + ",height=" + std::to_string(first.height);
   Pipeline pipeline(
       "appsrc name=source format=time max-bytes=0 caps=video/x-raw,format=I420," + size +
-      ",framerate=30/1,colorimetry=bt709 ! x264enc speed-preset=veryfast bitrate=" +
+      ",framerate=30/1,colorimetry=bt709 ! x264enc threads=1 speed-preset=veryfast bitrate=" +
       std::to_string(static_cast<int>(kbit_s)) + " ! avdec_h264 ! appsink name=sink sync=false");
   pipeline.play();
   const Element source = pipeline.by_name("source");

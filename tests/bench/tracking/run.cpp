@@ -85,7 +85,7 @@ void Runner::run(const FlowPair& pair, Score& score) {
       kReferenceWidth_px / pair.before.width);
 }
 
-std::vector<Score> run_all(std::vector<Runner>& runners, const test::Film& film,
+std::vector<Score> run_all(std::deque<Runner>& runners, const test::Film& film,
                            const std::vector<test::Picture>& frames, int rounds) {
   std::vector<Score> scores(runners.size());
   for (int round = 0; round < rounds; ++round) {

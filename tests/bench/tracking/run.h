@@ -1,6 +1,7 @@
 /// Runs pipelines over the same frames.
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "tests/bench/tracking/middlebury.h"
@@ -39,7 +40,7 @@ class Runner {
 
 /// All over one film, one after the other, `rounds` times, so that what disturbs hits all.
 /// A score for each.
-std::vector<Score> run_all(std::vector<Runner>& runners, const test::Film& film,
+std::vector<Score> run_all(std::deque<Runner>& runners, const test::Film& film,
                            const std::vector<test::Picture>& frames, int rounds);
 
 }  // namespace spidar::bench

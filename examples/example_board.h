@@ -1,0 +1,63 @@
+/// A board of sixty lines, which docs/adding-a-board.md talks about. It does not exist: it takes a
+/// packet of eight 16-bit digits and answers with eight 16-bit counters.
+#pragma once
+
+#include "spidar/boards/board.h"
+#include "spidar/boards/digits.h"
+#include "spidar/boards/opening.h"
+#include "spidar/protocols/count_unwrapper.h"
+
+namespace spidar {
+
+class ExampleBoard final : public Board {
+ public:
+  ExampleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
+      : name_(std::move(name)), dac_(unipolar_dac(profile)), transport_(std::move(transport)) {
+    require_positive_motors(name_, profile);
+  }
+
+  void open() override {
+    transport_->open();
+    Raw raw{};
+    const LinkFault fault =
+        open_exchange([&](int64_t until) { return exchange({}, raw, until); }, *transport_);
+    if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+    counts_.begin(raw, kMaxStrings);
+  }
+  LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
+                  int64_t deadline_ns) noexcept override {
+    Raw raw{};
+    const LinkFault fault = exchange(volts, raw, deadline_ns);
+    if (fault != LinkFault::kNone) return fault;
+    if (!counts_.follow(raw, kMaxStrings)) return LinkFault::kCounterJump;
+    reading.count = counts_.counts();
+    return LinkFault::kNone;
+  }
+  void recover() noexcept override { transport_->recover(); }
+  void zero_counts() noexcept override { counts_.zero(); }
+  void close() noexcept override { transport_->close(); }
+  std::vector<LastWill> last_wills() const override {
+    return wills(*transport_, {std::array<uint8_t, 16>{}});
+  }
+  std::string description() const override { return "example"; }
+  const std::string& name() const noexcept override { return name_; }
+
+ private:
+  using Raw = std::array<uint32_t, kMaxStrings>;
+
+  LinkFault exchange(const MotorVolts& volts, Raw& raw, int64_t deadline_ns) noexcept {
+    std::array<uint8_t, 16> out{}, in{};
+    for (size_t i = 0; i < raw.size(); ++i)
+      MutableBytes(out).put_u16(2 * i, static_cast<uint16_t>(dac_.digit(volts.volt[i])));
+    const LinkFault fault = transport_->exchange({out}, in, deadline_ns).fault;
+    for (size_t i = 0; i < raw.size(); ++i) raw[i] = ByteView(in).u16(2 * i);
+    return fault;
+  }
+
+  const std::string name_;
+  const DacScale dac_;
+  const std::unique_ptr<Transport> transport_;
+  CountUnwrapper counts_{16};
+};
+
+}  // namespace spidar

@@ -1,0 +1,229 @@
+#include "spidar/boards/board_device.h"
+
+#include <cerrno>
+#include <cmath>
+#include <pthread.h>
+#include <utility>
+
+#include "spidar/monotonic.h"
+#include "spidar/thread_setup.h"
+
+namespace spidar {
+namespace {
+
+/// A fault of the wire may be of one packet; several in a row are not.
+constexpr int kErrorsToRecover = 3;
+
+/// A stall goes on until it is ended, and a reply that is late would be taken for the next one.
+bool needs_recovery(LinkFault fault) noexcept {
+  return fault == LinkFault::kStall || fault == LinkFault::kTimeout;
+}
+
+bool wait_until(sem_t& semaphore, int64_t monotonic_ns) noexcept {
+  const timespec until{static_cast<time_t>(monotonic_ns / kSecond_ns),
+                       static_cast<long>(monotonic_ns % kSecond_ns)};
+  while (sem_clockwait(&semaphore, CLOCK_MONOTONIC, &until) != 0) {
+    if (errno != EINTR) return false;
+  }
+  return true;
+}
+
+ExchangeStatus status_of(LinkFault fault) noexcept {
+  switch (fault) {
+    case LinkFault::kNone:
+      return ExchangeStatus::kOk;
+    case LinkFault::kTimeout:
+      return ExchangeStatus::kTimeout;
+    case LinkFault::kGone:
+      return ExchangeStatus::kLost;
+    default:
+      return ExchangeStatus::kBadReply;
+  }
+}
+
+}  // namespace
+
+BoardDevice::BoardDevice(std::unique_ptr<Board> board, const BoardSettings& settings)
+    : board_(std::move(board)), settings_(settings) {
+  sem_init(&requested_, 0, 0);
+  sem_init(&replied_, 0, 0);
+}
+
+BoardDevice::~BoardDevice() {
+  close();
+  sem_destroy(&requested_);
+  sem_destroy(&replied_);
+}
+
+void BoardDevice::open() {
+  close();
+  board_->open();
+  try {
+    if (settings_.guardian) {
+      for (const LastWill& will : board_->last_wills())
+        guardians_.push_back(std::make_unique<Guardian>(board_->name(), will));
+    }
+    const CountZero when = settings_.count_zero;
+    if (when == CountZero::kEveryOpen || (when != CountZero::kNever && !zeroed_))
+      board_->zero_counts();
+    zeroed_ = true;
+    last_ = {};
+    errors_in_a_row_ = 0;
+    if (settings_.threaded) start();
+  } catch (...) {
+    guardians_.clear();
+    board_->close();
+    throw;
+  }
+  open_ = true;
+}
+
+void BoardDevice::start() {
+  stop_ = false;
+  const SignalsBlocked blocked;
+  thread_ = std::thread([this] {
+    pthread_setname_np(pthread_self(), "spidar-link");
+    request_exact_timers();
+    request_real_time();
+    run();
+  });
+}
+
+void BoardDevice::stop() noexcept {
+  if (!thread_.joinable()) return;
+  stop_ = true;
+  sem_post(&requested_);
+  thread_.join();
+  Request request;
+  Reply reply;
+  while (requests_.pop(request)) {
+  }
+  while (replies_.pop(reply)) {
+  }
+  while (sem_trywait(&requested_) == 0) {
+  }
+  while (sem_trywait(&replied_) == 0) {
+  }
+}
+
+void BoardDevice::run() noexcept {
+  while (!stop_) {
+    if (sem_wait(&requested_) != 0) continue;
+    Request request;
+    if (stop_ || !requests_.pop(request)) continue;
+    const Reply reply = answer(request);
+    // Room for as many as there can be requests, and one more.
+    replies_.push(reply);
+    sem_post(&replied_);
+  }
+}
+
+BoardDevice::Reply BoardDevice::answer(const Request& request) noexcept {
+  Reply reply;
+  reply.number = request.number;
+  const int64_t begin_ns = monotonic_now_ns();
+  reply.fault = board_->cycle(request.volts, reply.reading, begin_ns + kTransfer_ns);
+  count(reply.fault);
+  if (reply.fault == LinkFault::kNone) {
+    round_trip_.add(monotonic_now_ns() - begin_ns);
+    errors_in_a_row_ = 0;
+  } else if (reply.fault != LinkFault::kGone &&
+             (needs_recovery(reply.fault) || ++errors_in_a_row_ % kErrorsToRecover == 0)) {
+    board_->recover();
+  }
+  return reply;
+}
+
+void BoardDevice::count(LinkFault fault) noexcept {
+  faults_[static_cast<size_t>(fault)].fetch_add(1, std::memory_order_relaxed);
+  if (fault != LinkFault::kNone) last_fault_.store(fault, std::memory_order_relaxed);
+}
+
+ExchangeStatus BoardDevice::exchange(const MotorVolts& volts, DeviceReading& reading) noexcept {
+  if (!open_) return ExchangeStatus::kLost;
+  last_ = volts;
+  Request request{++number_, volts};
+  Reply reply;
+  if (!settings_.threaded) {
+    reply = answer(request);
+    if (reply.fault == LinkFault::kNone) reading = reply.reading;
+    return status_of(reply.fault);
+  }
+  // A queue that is full holds older volts for a board that does not answer.
+  if (requests_.push(request)) sem_post(&requested_);
+  const int64_t until_ns = monotonic_now_ns() + kReplyWait_ns;
+  bool answered = false;
+  Reply newest;
+  do {
+    while (replies_.pop(reply)) {
+      if (reply.number != number_) late_.fetch_add(1, std::memory_order_relaxed);
+      if (!answered || reply.fault == LinkFault::kNone || newest.fault != LinkFault::kNone)
+        newest = reply;
+      answered = true;
+    }
+    if (answered && reply.number == number_) break;
+  } while (wait_until(replied_, until_ns));
+  if (!answered) return ExchangeStatus::kTimeout;
+  if (newest.fault == LinkFault::kNone) reading = newest.reading;
+  return status_of(newest.fault);
+}
+
+/// True when the motors have got their zero.
+bool BoardDevice::bring_to_zero() noexcept {
+  const MotorVolts from = last_;
+  double largest_V = 0;
+  for (const double volt : from.volt) largest_V = std::fmax(largest_V, std::fabs(volt));
+  DeviceReading reading;
+  for (int left = largest_V > 0 ? kRamp_ms - 1 : 0; left > 0; --left) {
+    MotorVolts volts;
+    for (size_t i = 0; i < volts.volt.size(); ++i) volts.volt[i] = from.volt[i] * left / kRamp_ms;
+    const int64_t now_ns = monotonic_now_ns();
+    // Of several lines one may be dead: the others are taken down all the same.
+    board_->cycle(volts, reading, now_ns + kTransfer_ns);
+    if (settings_.threaded) sleep_until_ns(now_ns + kSecond_ns / 1000);
+  }
+  for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
+    const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
+    // A counter that jumped or an answer that is strange comes from a board that was told.
+    if (fault == LinkFault::kNone || fault == LinkFault::kCounterJump ||
+        fault == LinkFault::kWrongReply)
+      return true;
+    if (fault == LinkFault::kGone) break;
+    board_->recover();
+  }
+  return false;
+}
+
+void BoardDevice::close() noexcept {
+  if (!open_) return;
+  open_ = false;
+  stop();
+  const bool zero = bring_to_zero();
+  board_->close();
+  // They try on for a while, which a board that is gone ends at once.
+  if (!zero)
+    for (const auto& guardian : guardians_) guardian->carry_out();
+  guardians_.clear();
+}
+
+bool BoardDevice::clear_counters() {
+  if (!open_) return false;
+  stop();
+  const bool cleared = board_->clear_counters();
+  if (settings_.threaded) start();
+  return cleared;
+}
+
+LinkHealth BoardDevice::health() const noexcept {
+  LinkHealth health;
+  for (size_t i = 0; i < kLinkFaults; ++i)
+    health.faults[i] = faults_[i].load(std::memory_order_relaxed);
+  health.last_fault = last_fault_.load(std::memory_order_relaxed);
+  health.late_replies = late_.load(std::memory_order_relaxed);
+  health.round_trip_median_ns = round_trip_.quantile_ns(0.5);
+  health.round_trip_p99_ns = round_trip_.quantile_ns(0.99);
+  health.round_trip_max_ns = round_trip_.max_ns();
+  return health;
+}
+
+}  // namespace spidar

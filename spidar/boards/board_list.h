@@ -1,0 +1,37 @@
+/// Boards that there are, without opening any.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/api.h"
+
+namespace spidar {
+
+/// How far a driver has been tried.
+enum class Trial {
+  kHardware,  ///< on the real board
+  kEmulated,  ///< on an emulated one that follows the published description
+  kInferred,  ///< parts of it are guesses that an emulation cannot confirm
+};
+
+/// "tried on hardware", "emulated", "inferred".
+SPIDAR_API const char* to_string(Trial trial) noexcept;
+
+/// One that make_device() takes.
+struct BoardInfo {
+  std::string device;  ///< for make_device(): "usb:1-2", "sim"
+  std::string name;    ///< "CyVerse USB 2.0 SH4"
+  std::string path;    ///< on the bus: "1-2"; empty for the simulated ones
+  std::string serial;  ///< empty when it has none
+  std::string usb_id;  ///< "0cec:0205"; empty when not on USB
+  Trial trial = Trial::kEmulated;
+  std::string note;        ///< what is inferred, or why it cannot be used; may be empty
+  bool accessible = true;  ///< this process may open it
+};
+
+/// What is plugged in, then the simulated ones. Nothing is opened, sent or energised. Serial lines
+/// do not say what is behind them and are not listed. A machine without USB has none.
+SPIDAR_API std::vector<BoardInfo> list_boards();
+
+}  // namespace spidar

@@ -1,0 +1,65 @@
+/// What the two CyVerse boards have in common: eight D/A converters from zero volts, eight
+/// counters, a rotary switch.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/api.h"
+#include "spidar/boards/board.h"
+#include "spidar/boards/digits.h"
+#include "spidar/protocols/count_unwrapper.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+class SPIDAR_API CyverseBoard : public Board {
+ public:
+  /// Throws DeviceError when the profile wants negative volts.
+  CyverseBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
+               int counter_bits);
+
+  void open() final;
+  LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
+                  int64_t deadline_ns) noexcept final;
+  void recover() noexcept final { transport_->recover(); }
+  /// On the host: the board's own counters are left as they are.
+  void zero_counts() noexcept final { counts_.zero(); }
+  bool clear_counters() noexcept final;
+  void close() noexcept final { transport_->close(); }
+  std::vector<LastWill> last_wills() const final;
+  int rotary() const noexcept final { return rotary_; }
+  const std::string& name() const noexcept final { return name_; }
+
+ protected:
+  using DacDigits = std::array<uint16_t, kMaxStrings>;
+
+  struct Readout {
+    std::array<uint32_t, kMaxStrings> counter{};
+    uint16_t inputs = 0;
+    int rotary = -1;
+  };
+
+  /// Before the first exchange after opening.
+  virtual LinkFault reset(int64_t deadline_ns) noexcept = 0;
+  virtual LinkFault exchange(const DacDigits& digits, Readout& readout,
+                             int64_t deadline_ns) noexcept = 0;
+  /// False when the board has no command for that.
+  virtual bool send_clear(int64_t deadline_ns) noexcept = 0;
+  /// The packet that takes all motors to zero.
+  virtual std::vector<uint8_t> zero_packet() const = 0;
+
+  Transport& transport() noexcept { return *transport_; }
+
+ private:
+  const std::string name_;
+  const DacScale dac_;
+  const std::unique_ptr<Transport> transport_;
+  CountUnwrapper counts_;
+  bool counted_ = false;
+  int rotary_ = -1;
+};
+
+}  // namespace spidar

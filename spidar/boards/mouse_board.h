@@ -1,0 +1,48 @@
+/// The SPIDAR-mouse: two force axes, no encoders.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/api.h"
+#include "spidar/boards/board.h"
+#include "spidar/profile.h"
+#include "spidar/protocols/spidar_mouse.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// Stands in for the strings of any profile: their pull at the centre, where it says that the grip
+/// is, is the force; only x and y of it are felt.
+class SPIDAR_API MouseBoard final : public Board {
+ public:
+  MouseBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
+
+  void open() override;
+  LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
+                  int64_t deadline_ns) noexcept override;
+  void recover() noexcept override { transport_->recover(); }
+  /// Nothing is counted.
+  void zero_counts() noexcept override {}
+  void close() noexcept override;
+  std::vector<LastWill> last_wills() const override;
+  std::string description() const override { return "SPIDAR-mouse"; }
+  const std::string& name() const noexcept override { return name_; }
+
+ private:
+  /// The published program sends a force every 4 ms.
+  static constexpr int kCyclesPerReport = 4;
+
+  const std::string name_;
+  const std::unique_ptr<Transport> transport_;
+  Eigen::Matrix<double, 2, kMaxStrings> force_per_volt_;  ///< N/V, at the centre
+  std::array<int32_t, kMaxStrings> home_count_{};
+  bool started_ = false;
+  int cycle_ = 0;
+  mouse::Report out_{};
+  mouse::Report in_{};
+};
+
+}  // namespace spidar

@@ -1,0 +1,33 @@
+/// The CyVerse USB 2.0 Simple board: D/A and latch out, counters in.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/api.h"
+#include "spidar/boards/cyverse_board.h"
+#include "spidar/protocols/usb_simple.h"
+
+namespace spidar {
+
+class SPIDAR_API SimpleBoard final : public CyverseBoard {
+ public:
+  /// Throws DeviceError when the profile wants negative volts.
+  SimpleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
+
+  std::string description() const override;
+
+ private:
+  LinkFault reset(int64_t deadline_ns) noexcept override;
+  LinkFault exchange(const DacDigits& digits, Readout& readout,
+                     int64_t deadline_ns) noexcept override;
+  bool send_clear(int64_t deadline_ns) noexcept override;
+  std::vector<uint8_t> zero_packet() const override;
+
+  usb_simple::Packet set_dac_{};
+  usb_simple::Packet latch_{};
+  usb_simple::Packet in_{};
+};
+
+}  // namespace spidar

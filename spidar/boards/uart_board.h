@@ -1,0 +1,62 @@
+/// UART motor boards, on one line or on several, that make one SPIDAR.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/api.h"
+#include "spidar/boards/board.h"
+#include "spidar/boards/digits.h"
+#include "spidar/protocols/count_unwrapper.h"
+#include "spidar/protocols/uart_motor.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// Strings are numbered by line, then by board number, then by motor.
+class SPIDAR_API UartBoard final : public Board {
+ public:
+  UartBoard(std::string name, const Profile& profile,
+            std::vector<std::unique_ptr<Transport>> lines);
+
+  void open() override;
+  LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
+                  int64_t deadline_ns) noexcept override;
+  void recover() noexcept override;
+  void zero_counts() noexcept override { counts_.zero(); }
+  void close() noexcept override;
+  std::vector<LastWill> last_wills() const override;
+  std::string description() const override;
+  const std::string& name() const noexcept override { return name_; }
+
+ private:
+  struct Station {
+    Transport* line = nullptr;
+    int id = 0;
+    uart_motor::BoardInfo info;
+    size_t first = 0;  ///< string of its first motor
+  };
+
+  /// Waits for each board up to `patience_ns`.
+  void find_stations(Transport& line, int64_t patience_ns);
+  void find_all(int64_t patience_ns);
+  LinkFault exchange(const Station& station, const MotorVolts& volts, uart_motor::Reading& reading,
+                     int64_t deadline_ns) noexcept;
+  LinkFault exchange_all(const MotorVolts& volts, std::array<uint32_t, kMaxStrings>& raw,
+                         int64_t deadline_ns) noexcept;
+
+  const std::string name_;
+  const size_t strings_;
+  const DacScale dac_ = uart_dac();
+  const std::vector<std::unique_ptr<Transport>> lines_;
+  std::vector<Station> stations_;
+  size_t motors_ = 0;
+  CountUnwrapper counts_{16};
+  bool counted_ = false;
+  std::array<uint8_t, uart_motor::kMaxCycleLength> out_{};
+  std::array<uint8_t, uart_motor::kMaxReplyLength> in_{};
+};
+
+}  // namespace spidar

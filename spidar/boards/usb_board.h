@@ -1,0 +1,63 @@
+/// Boards on USB: whichever is plugged in.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/api.h"
+#include "spidar/boards/board.h"
+#include "spidar/profile.h"
+#include "spidar/transports/usb_transport.h"
+
+namespace spidar {
+
+enum class UsbFamily {
+  kCyverse,  ///< SH4 or Simple
+  kMouse,    ///< SPIDAR-mouse, whose USB id other things have too
+};
+
+/// Finds its board on every open(), for an address changes when a board is plugged in again.
+class SPIDAR_API UsbBoard final : public Board {
+ public:
+  /// `id`: bus path, serial number, or the rotary switch's 0 … 15; empty: the only one there is.
+  /// Throws DeviceError when the boards cannot drive the profile.
+  UsbBoard(UsbFamily family, std::string name, std::string id, const Profile& profile);
+
+  void open() override;
+  LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
+                  int64_t deadline_ns) noexcept override;
+  void recover() noexcept override;
+  void zero_counts() noexcept override;
+  bool clear_counters() noexcept override { return used_ && used_->board->clear_counters(); }
+  void close() noexcept override;
+  std::vector<LastWill> last_wills() const override;
+  std::string description() const override;
+  int rotary() const noexcept override { return used_ ? used_->board->rotary() : -1; }
+  const std::string& name() const noexcept override { return name_; }
+
+ private:
+  struct Kind {
+    uint16_t vendor = 0;
+    uint16_t product = 0;
+    UsbTransport* transport = nullptr;  // of the board
+    std::unique_ptr<Board> board;
+  };
+  struct Candidate {
+    Kind* kind = nullptr;
+    UsbDeviceInfo device;
+  };
+
+  std::vector<Candidate> candidates();
+  void open_one(const Candidate& candidate);
+  void open_matching(const std::vector<Candidate>& found);
+
+  const UsbFamily family_;
+  const std::string name_;
+  const std::string id_;
+  std::vector<Kind> kinds_;
+  Kind* used_ = nullptr;
+  std::string used_path_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,47 @@
+#include "spidar/emulation/emulated_transport.h"
+
+#include <utility>
+
+#include "spidar/device.h"
+
+namespace spidar {
+
+EmulatedTransport::EmulatedTransport(std::unique_ptr<EmulatedBoard> board,
+                                     std::shared_ptr<EmulatedWire> wire)
+    : board_(std::move(board)), wire_(std::move(wire)) {}
+
+void EmulatedTransport::open() {
+  if (wire_->fault == LinkFault::kGone) throw DeviceError("emulated board: not plugged in");
+  open_ = true;
+}
+
+Transfer EmulatedTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                                     int64_t) noexcept {
+  const LinkFault fault = wire_->fault.load(std::memory_order_relaxed);
+  if (!open_ || fault == LinkFault::kGone) return {LinkFault::kGone, 0};
+  if (fault == LinkFault::kStall) return {fault, 0};
+  for (const ByteView packet : packets) board_->receive(packet);
+  if (reply.size == 0) return {};
+  const size_t received = board_->reply(reply);
+  switch (fault) {
+    case LinkFault::kNone:
+      break;
+    case LinkFault::kShort:
+      return {fault, received / 2};
+    case LinkFault::kWrongReply:
+      for (size_t i = 0; i < received; ++i) reply.data[i] ^= 0xA5;
+      return {LinkFault::kNone, received};
+    default:
+      return {fault, 0};
+  }
+  if (received == 0) return {LinkFault::kTimeout, 0};
+  return {received < reply.size ? LinkFault::kShort : LinkFault::kNone, received};
+}
+
+void EmulatedTransport::recover() noexcept {
+  std::array<uint8_t, 512> old{};
+  while (board_->reply(old) > 0) {
+  }
+}
+
+}  // namespace spidar

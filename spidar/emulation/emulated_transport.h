@@ -1,0 +1,38 @@
+/// A transport without a wire, to an emulated board.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "core/api.h"
+#include "spidar/emulation/emulated_board.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// What happens on the wire; outlives the transport. Any thread.
+struct EmulatedWire {
+  /// Of every exchange; what it is decides whether packets arrive: with kStall and kGone they do
+  /// not. kBabble, kShort, kWrongReply spoil the reply.
+  std::atomic<LinkFault> fault{LinkFault::kNone};
+};
+
+/// Time does not pass in it: a reply is there at once or not at all.
+class SPIDAR_API EmulatedTransport final : public Transport {
+ public:
+  EmulatedTransport(std::unique_ptr<EmulatedBoard> board, std::shared_ptr<EmulatedWire> wire);
+
+  void open() override;
+  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override;
+  void recover() noexcept override;
+  std::optional<LastWill> last_will() const override { return std::nullopt; }
+  void close() noexcept override { open_ = false; }
+
+ private:
+  const std::unique_ptr<EmulatedBoard> board_;
+  const std::shared_ptr<EmulatedWire> wire_;
+  bool open_ = false;
+};
+
+}  // namespace spidar

@@ -1,0 +1,47 @@
+/// UART motor boards on one line as a program.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/api.h"
+#include "spidar/emulation/emulated_board.h"
+#include "spidar/protocols/uart_motor.h"
+
+namespace spidar {
+
+/// Takes the line's bytes as they come, in pieces or together, as the boards' interrupts do.
+class SPIDAR_API EmulatedUart final : public EmulatedBoard {
+ public:
+  struct Station {
+    int id = 0;
+    uart_motor::BoardInfo info;
+  };
+
+  /// `motors` are numbered in the order of the stations.
+  EmulatedUart(EmulatedMotors& motors, std::vector<Station> stations)
+      : motors_(motors), stations_(std::move(stations)) {}
+
+  void receive(ByteView bytes) noexcept override;
+  size_t reply(MutableBytes bytes) noexcept override;
+
+ private:
+  void begin(uint8_t header) noexcept;
+  void end_of_command() noexcept;
+  void put_reply(ByteView reply) noexcept;
+
+  EmulatedMotors& motors_;
+  const std::vector<Station> stations_;
+  std::array<int, kMaxStrings> digits_{};
+  // The command under way.
+  const Station* station_ = nullptr;
+  size_t first_ = 0;  // motor of the station's first
+  std::array<uint8_t, 256> command_{};
+  size_t length_ = 0;  // of the whole command
+  size_t taken_ = 0;
+  // Replies that wait to be read.
+  std::array<uint8_t, 1024> reply_{};
+  size_t due_ = 0;
+};
+
+}  // namespace spidar

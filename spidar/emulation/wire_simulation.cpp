@@ -1,0 +1,114 @@
+#include "spidar/emulation/wire_simulation.h"
+
+#include <utility>
+#include <vector>
+
+#include "spidar/boards/board_device.h"
+#include "spidar/boards/digits.h"
+#include "spidar/boards/mouse_board.h"
+#include "spidar/boards/sh4_board.h"
+#include "spidar/boards/simple_board.h"
+#include "spidar/boards/uart_board.h"
+#include "spidar/emulation/emulated_uart.h"
+#include "spidar/emulation/emulated_usb.h"
+#include "spidar/simulated_device.h"
+
+namespace spidar {
+namespace {
+
+/// The simulated device's motors and encoders, wired to a board.
+class SimulatedMotors final : public EmulatedMotors {
+ public:
+  SimulatedMotors(const Profile& profile, const DacScale& dac)
+      : device_(profile, SimulatedDevice::Time::kClock), dac_(dac) {
+    device_.open();
+  }
+  ~SimulatedMotors() override { device_.close(); }
+
+  void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
+    MotorVolts volts;
+    for (size_t i = 0; i < digits.size(); ++i) volts.volt[i] = dac_.volt(digits[i]);
+    device_.exchange(volts, reading_);
+  }
+  std::array<int32_t, kMaxStrings> counts() noexcept override { return reading_.count; }
+
+ private:
+  SimulatedDevice device_;
+  const DacScale dac_;
+  DeviceReading reading_;
+};
+
+/// A mouse has neither strings nor encoders: its force goes nowhere.
+class NoMotors final : public EmulatedMotors {
+ public:
+  void put_out(const std::array<int, kMaxStrings>&) noexcept override {}
+  std::array<int32_t, kMaxStrings> counts() noexcept override { return {}; }
+};
+
+/// Owns what its transport's board is connected to.
+class WireSimulation final : public Device {
+ public:
+  WireSimulation(std::unique_ptr<EmulatedMotors> motors, std::unique_ptr<Board> board)
+      : motors_(std::move(motors)), device_(std::move(board), settings()) {}
+
+  void open() override { device_.open(); }
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    return device_.exchange(volts, reading);
+  }
+  void close() noexcept override { device_.close(); }
+  std::string description() const override { return device_.description(); }
+  const std::string& name() const noexcept override { return device_.name(); }
+  LinkHealth health() const noexcept override { return device_.health(); }
+
+ private:
+  static BoardSettings settings() {
+    BoardSettings settings;
+    // The simulated user begins at the centre, as counted from the profile's home offsets.
+    settings.count_zero = CountZero::kNever;
+    settings.guardian = false;
+    settings.threaded = false;
+    return settings;
+  }
+
+  const std::unique_ptr<EmulatedMotors> motors_;
+  BoardDevice device_;
+};
+
+}  // namespace
+
+std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Profile& profile,
+                                             std::shared_ptr<EmulatedWire> wire) {
+  const std::string name = "sim:" + kind;
+  const auto transport_to = [&wire](std::unique_ptr<EmulatedBoard> board) {
+    return std::make_unique<EmulatedTransport>(std::move(board), wire);
+  };
+  std::unique_ptr<EmulatedMotors> motors;
+  std::unique_ptr<Board> board;
+  if (kind == "sh4") {
+    motors = std::make_unique<SimulatedMotors>(profile, unipolar_dac(profile));
+    board = std::make_unique<Sh4Board>(name, profile,
+                                       transport_to(std::make_unique<EmulatedSh4>(*motors)));
+  } else if (kind == "simple") {
+    motors = std::make_unique<SimulatedMotors>(profile, unipolar_dac(profile));
+    board = std::make_unique<SimpleBoard>(name, profile,
+                                          transport_to(std::make_unique<EmulatedSimple>(*motors)));
+  } else if (kind == "uart") {
+    // Two boards of four motors, as the published pair makes a SPIDAR-G.
+    constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
+    motors = std::make_unique<SimulatedMotors>(profile, uart_dac());
+    std::vector<std::unique_ptr<Transport>> lines;
+    lines.push_back(transport_to(std::make_unique<EmulatedUart>(
+        *motors, std::vector<EmulatedUart::Station>{{0, kB3M}, {1, kB3M}})));
+    board = std::make_unique<UartBoard>(name, profile, std::move(lines));
+  } else if (kind == "mouse") {
+    motors = std::make_unique<NoMotors>();
+    board = std::make_unique<MouseBoard>(name, profile,
+                                         transport_to(std::make_unique<EmulatedMouse>(*motors)));
+  } else {
+    throw DeviceError("unknown simulated board \"" + kind +
+                      "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse");
+  }
+  return std::make_unique<WireSimulation>(std::move(motors), std::move(board));
+}
+
+}  // namespace spidar

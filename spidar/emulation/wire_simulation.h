@@ -1,0 +1,23 @@
+/// The simulated device behind a board's protocol.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/api.h"
+#include "spidar/device.h"
+#include "spidar/emulation/emulated_transport.h"
+#include "spidar/profile.h"
+
+namespace spidar {
+
+/// `board`: "sh4", "simple", "uart" or "mouse". The grip, its hand and its motors are those of
+/// SimulatedDevice; volts and counts take the way over the packets, and the board's code is the one
+/// that drives the real board. Without a thread and without a guardian. `wire` makes faults.
+/// Throws DeviceError for another board, or when the board cannot drive the profile, and
+/// std::invalid_argument as SimulatedDevice does.
+SPIDAR_API std::unique_ptr<Device> make_wire_simulation(
+    const std::string& board, const Profile& profile,
+    std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>());
+
+}  // namespace spidar

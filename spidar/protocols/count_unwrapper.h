@@ -1,0 +1,71 @@
+/// Counters of few bits as counts that go on.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/grip/string_geometry.h"
+
+namespace spidar {
+
+/// Follows up to kMaxStrings counters of `bits` bits by the shorter way round.
+class CountUnwrapper {
+ public:
+  /// More than that between two readings is not a hand: a quarter of 16 bits is 0.28 m at 17 µm a
+  /// count, for which a hand at 10 m/s needs 28 ms; a board is lost after 20.
+  static constexpr int32_t kMaxStep = 1 << 14;
+
+  /// 16 … 31 bits.
+  explicit CountUnwrapper(int bits) noexcept : bits_(bits) {}
+
+  /// Counter values as the board gives them become counts that continue the last ones. False, and
+  /// nothing taken over, when one of them jumped.
+  bool follow(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
+    return move(raw, channels, kMaxStep);
+  }
+
+  /// The same after a break, in which strings may have moved further.
+  void resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
+    move(raw, channels, INT32_MAX);
+  }
+
+  /// Takes the counter values for the counts, sign extended: at a first reading.
+  void begin(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
+    raw_ = raw;
+    count_ = {};
+    for (size_t i = 0; i < channels; ++i) count_[i] = signed_difference(raw[i]);
+  }
+
+  /// Here is zero.
+  void zero() noexcept { count_ = {}; }
+
+  const std::array<int32_t, kMaxStrings>& counts() const noexcept { return count_; }
+
+ private:
+  bool move(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
+            int32_t max_step) noexcept {
+    std::array<int32_t, kMaxStrings> next = count_;
+    for (size_t i = 0; i < channels; ++i) {
+      const int32_t step = signed_difference(raw[i] - raw_[i]);
+      if (step > max_step || step < -max_step) return false;
+      next[i] =
+          static_cast<int32_t>(static_cast<uint32_t>(count_[i]) + static_cast<uint32_t>(step));
+    }
+    count_ = next;
+    raw_ = raw;
+    return true;
+  }
+
+  int32_t signed_difference(uint32_t difference) const noexcept {
+    const uint32_t sign = uint32_t{1} << (bits_ - 1);
+    const uint32_t low = difference & ((sign << 1) - 1);
+    return static_cast<int32_t>(low ^ sign) - static_cast<int32_t>(sign);
+  }
+
+  int bits_;
+  std::array<uint32_t, kMaxStrings> raw_{};
+  std::array<int32_t, kMaxStrings> count_{};
+};
+
+}  // namespace spidar

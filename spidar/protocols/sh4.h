@@ -1,0 +1,48 @@
+/// Packets of the CyVerse USB 2.0 SH4 board.
+///
+/// Source: haselab-net/SpringheadOne src/Device/DRUsb20Sh4.cpp, which talks to the board through
+/// Windows' ezusb.sys. That its pipes are endpoints 2 and 6, that the D/A takes 12 bits, and that
+/// the echo is of the same or an earlier packet is inferred. Pure: bytes in, bytes out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/api.h"
+#include "spidar/protocols/bytes.h"
+
+namespace spidar::sh4 {
+
+constexpr uint16_t kVendor = 0x0CEC;
+constexpr uint16_t kProduct = 0x0205;
+constexpr uint8_t kEndpointOut = 0x02;
+constexpr uint8_t kEndpointIn = 0x86;
+constexpr size_t kPacketSize = 512;
+constexpr size_t kChannels = 8;
+constexpr double kAdc_V = 24.0 / 4096;  ///< volts per digit of the A/D
+
+using Packet = std::array<uint8_t, kPacketSize>;
+using DacDigits = std::array<uint16_t, kChannels>;
+
+/// What the board answers.
+struct Reading {
+  DacDigits dac_echo{};
+  /// 16 bits, counting the other way round than the Simple board does: its host negates them.
+  std::array<uint16_t, kChannels> counter{};
+  std::array<uint16_t, kChannels> adc{};  ///< digits of kAdc_V
+  uint16_t inputs = 0;                    ///< bits 4–7: rotary switch
+  uint32_t info = 0;                      ///< meaning not published
+
+  int rotary() const noexcept { return inputs >> 4 & 0xF; }
+};
+
+/// The one command: put out D/A digits, answer with all readings.
+SPIDAR_API void encode_update(const DacDigits& digits, Packet& packet) noexcept;
+/// False when it is not that command, or not of kPacketSize.
+SPIDAR_API bool decode_update(ByteView packet, DacDigits& digits) noexcept;
+
+SPIDAR_API void encode_reading(const Reading& reading, Packet& packet) noexcept;
+/// False when it is not of kPacketSize.
+SPIDAR_API bool decode_reading(ByteView packet, Reading& reading) noexcept;
+
+}  // namespace spidar::sh4

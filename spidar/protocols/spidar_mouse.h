@@ -1,0 +1,54 @@
+/// Reports of the SPIDAR-mouse: a HID with two force axes.
+///
+/// Source: micuat/SPIDAR-mouse-UNIX src/spidarMouse.cpp. The id is that of Microchip's
+/// demonstrations, so other things have it too; the endpoints are theirs (inferred). Pure: bytes
+/// in, bytes out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/api.h"
+#include "spidar/protocols/bytes.h"
+
+namespace spidar::mouse {
+
+constexpr uint16_t kVendor = 0x04D8;
+constexpr uint16_t kProduct = 0x003F;
+constexpr uint8_t kEndpointOut = 0x01;
+constexpr uint8_t kEndpointIn = 0x81;
+constexpr size_t kReportSize = 64;
+/// Of the total force. The published program bounds each axis by this, the diagonal reaches more.
+constexpr double kMaxForce_N = 1.5;
+constexpr double kMinForce_N = 0.3;
+
+using Report = std::array<uint8_t, kReportSize>;
+
+enum class Command : uint8_t {
+  kStart = 0x80,
+  kQuery = 0x82,  ///< the demonstrations of Microchip do not answer to it
+  kForce = 0x97,
+  kStop = 0x99,
+};
+
+/// Force on the hand, x right, y away from the user (its sign is inferred).
+struct Force {
+  double x_N = 0;
+  double y_N = 0;
+};
+
+SPIDAR_API void encode_query(Report& report) noexcept;
+/// With the published constants from force to duty.
+SPIDAR_API void encode_start(Report& report) noexcept;
+/// Shortened to kMaxForce_N; not a number counts as zero. The grip is said to be at the centre.
+SPIDAR_API void encode_force(const Force& force, Report& report) noexcept;
+SPIDAR_API void encode_stop(Report& report) noexcept;
+
+/// What a report to the device says. False when it is none of the commands, or not of kReportSize.
+SPIDAR_API bool decode_command(ByteView report, Command& command, Force& force) noexcept;
+
+/// The answer to kQuery begins with its number (inferred).
+SPIDAR_API bool is_state(ByteView report) noexcept;
+SPIDAR_API void encode_state(Report& report) noexcept;
+
+}  // namespace spidar::mouse

@@ -1,0 +1,101 @@
+/// Packets of the UART motor boards: 2 Mbaud, 8N1, up to eight boards on a half-duplex bus.
+///
+/// Sources: Springhead/Springhead core/src/HumanInterface/DRUartMotorDriver* and its
+/// PIC/commandTemplate.h; haselab-net/StuffedV3 PIC/. Pure: bytes in, bytes out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/api.h"
+#include "spidar/protocols/bytes.h"
+
+namespace spidar::uart_motor {
+
+constexpr int kBaud = 2'000'000;
+constexpr int kMaxBoards = 8;
+constexpr size_t kMaxMotors = 8;
+constexpr double kDigitsPerVolt = 4096.0 / 3.3;
+constexpr int kMaxDigit = 4095;  ///< of either sign
+constexpr size_t kCommands = 12;
+
+enum class Command : uint8_t {
+  kBoardInfo = 1,
+  kSetCommandLength = 2,
+  kCurrent = 6,
+};
+
+/// What a board says it is. One that fits has 1 … kMaxMotors motors.
+struct BoardInfo {
+  uint8_t model = 0;  ///< 5: B3M, 7: B5M
+  uint8_t targets = 0;
+  uint8_t motors = 0;
+  uint8_t currents = 0;
+  uint8_t forces = 0;
+  uint8_t touches = 0;
+};
+
+/// Answer to kCurrent.
+struct Reading {
+  std::array<uint16_t, kMaxMotors> position{};  ///< 16-bit counter
+  std::array<int16_t, kMaxMotors> velocity{};   ///< counts; unit of time not published
+};
+
+constexpr uint8_t header(int board, Command command) noexcept {
+  return static_cast<uint8_t>((board & 7) | static_cast<int>(command) << 3);
+}
+
+/// Zeros before an enquiry, so that a board in the midst of a packet comes to its end.
+constexpr size_t kZerosBefore = 40;
+/// And after it: their time on the wire is the reply's.
+constexpr size_t kZerosAfter = 26;
+constexpr size_t kEnquiryLength = kZerosBefore + 1 + kZerosAfter;
+constexpr size_t kInfoLength = 7;
+constexpr size_t kSetLengthsLength = 1 + kCommands;
+
+constexpr size_t current_command_length(size_t motors) noexcept {
+  return 1 + 2 * motors;
+}
+constexpr size_t current_reply_length(size_t motors, size_t forces) noexcept {
+  return 1 + 4 * motors + 2 * forces;
+}
+/// With the zeros whose time is the reply's.
+constexpr size_t current_cycle_length(size_t motors, size_t forces) noexcept {
+  const size_t command = current_command_length(motors);
+  const size_t reply = current_reply_length(motors, forces);
+  const size_t zeros = reply + 20 > command + 5 ? reply + 20 - command : 5;
+  return command + zeros;
+}
+constexpr size_t kMaxCycleLength = current_cycle_length(kMaxMotors, kMaxMotors);
+constexpr size_t kMaxReplyLength = current_reply_length(kMaxMotors, kMaxMotors);
+
+/// Lengths of a board's commands, in the order of their numbers.
+SPIDAR_API std::array<uint8_t, kCommands> command_lengths(size_t motors, size_t forces) noexcept;
+
+SPIDAR_API void encode_enquiry(int board, std::array<uint8_t, kEnquiryLength>& packet) noexcept;
+/// False when it is not the reply of that board or makes no sense.
+SPIDAR_API bool decode_info(ByteView reply, int board, BoardInfo& info) noexcept;
+SPIDAR_API void encode_info(const BoardInfo& info, int board,
+                            std::array<uint8_t, kInfoLength>& reply) noexcept;
+
+/// So that every board can skip the packets of the others.
+SPIDAR_API void encode_lengths(int board, const BoardInfo& info,
+                               std::array<uint8_t, kSetLengthsLength>& packet) noexcept;
+
+/// One servo cycle of one board. Digits are cut to ±kMaxDigit. Returns the length, 0 when `packet`
+/// is too small or the board has too many motors.
+SPIDAR_API size_t encode_current(int board, const BoardInfo& info,
+                                 const std::array<int, kMaxMotors>& digits,
+                                 MutableBytes packet) noexcept;
+/// False when `command` is not the CURRENT command of that board.
+SPIDAR_API bool decode_current(ByteView command, int board, const BoardInfo& info,
+                               std::array<int, kMaxMotors>& digits) noexcept;
+
+/// False when it is not that board's reply, or of another length.
+SPIDAR_API bool decode_reading(ByteView reply, int board, const BoardInfo& info,
+                               Reading& reading) noexcept;
+/// Returns the length, 0 when `reply` is too small.
+SPIDAR_API size_t encode_reading(const Reading& reading, int board, const BoardInfo& info,
+                                 MutableBytes reply) noexcept;
+
+}  // namespace spidar::uart_motor

@@ -1,0 +1,83 @@
+#include "spidar/protocols/usb_simple.h"
+
+namespace spidar::usb_simple {
+namespace {
+
+constexpr uint8_t kControl = 0xA2;
+constexpr uint8_t kControlDirection = 0x1A;
+constexpr uint8_t kControlClear = 0x19;
+constexpr uint8_t kSetDac = 0x52;
+constexpr uint8_t kLatch = 0x51;
+constexpr size_t kDigitsAt = 1;
+constexpr size_t kInputsAt = 3 * kChannels;
+
+void encode_control(uint8_t what, uint8_t channels, Packet& packet) noexcept {
+  packet.fill(0);
+  packet[0] = kControl;
+  packet[1] = what;
+  packet[2] = channels;
+}
+
+int32_t sign_extended(uint32_t counter24) noexcept {
+  constexpr uint32_t kSign = 1u << 23;
+  return static_cast<int32_t>(counter24 ^ kSign) - static_cast<int32_t>(kSign);
+}
+
+}  // namespace
+
+void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept {
+  encode_control(kControlDirection, channels, packet);
+}
+
+void encode_clear_counters(uint8_t channels, Packet& packet) noexcept {
+  encode_control(kControlClear, channels, packet);
+}
+
+void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept {
+  packet.fill(0);
+  packet[0] = kSetDac;
+  for (size_t i = 0; i < kChannels; ++i) MutableBytes(packet).put_u16(kDigitsAt + 2 * i, digits[i]);
+}
+
+void encode_latch(Packet& packet) noexcept {
+  packet.fill(0);
+  packet[0] = kLatch;
+}
+
+bool decode_command(ByteView packet, HostPacket& command) noexcept {
+  if (packet.size != kPacketSize) return false;
+  switch (packet.u8(0)) {
+    case kControl:
+      if (packet.u8(1) != kControlDirection && packet.u8(1) != kControlClear) return false;
+      command.command =
+          packet.u8(1) == kControlClear ? Command::kClearCounters : Command::kEncoderDirection;
+      command.channels = packet.u8(2);
+      return true;
+    case kSetDac:
+      command.command = Command::kSetDac;
+      for (size_t i = 0; i < kChannels; ++i) command.digits[i] = packet.u16(kDigitsAt + 2 * i);
+      return true;
+    case kLatch:
+      command.command = Command::kLatchCounters;
+      return true;
+    default:
+      return false;
+  }
+}
+
+void encode_reading(const Reading& reading, Packet& packet) noexcept {
+  packet.fill(0);
+  const MutableBytes bytes(packet);
+  for (size_t i = 0; i < kChannels; ++i)
+    bytes.put_u24(3 * i, static_cast<uint32_t>(reading.counter[i]) & 0xFFFFFF);
+  bytes.put_u8(kInputsAt, reading.inputs);
+}
+
+bool decode_reading(ByteView packet, Reading& reading) noexcept {
+  if (packet.size != kPacketSize) return false;
+  for (size_t i = 0; i < kChannels; ++i) reading.counter[i] = sign_extended(packet.u24(3 * i));
+  reading.inputs = packet.u8(kInputsAt);
+  return true;
+}
+
+}  // namespace spidar::usb_simple

@@ -1,0 +1,162 @@
+#include "spidar/transports/tty_transport.h"
+
+#include <algorithm>
+#include <asm/termbits.h>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <linux/serial.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+#include <utility>
+
+#include "spidar/device.h"
+#include "spidar/monotonic.h"
+
+namespace spidar {
+namespace {
+
+constexpr int64_t kBusyCheck_ns = 10'000'000;
+
+LinkFault fault_of(int error) noexcept {
+  // EIO and ENXIO are what a USB adapter that was pulled out gives.
+  return error == EIO || error == ENXIO || error == ENODEV || error == EBADF ? LinkFault::kGone
+                                                                             : LinkFault::kBusError;
+}
+
+/// Raw 8N1 at any speed: termios2, for 2 Mbaud and more is not among the constants everywhere.
+bool set_raw(int file, int baud) noexcept {
+  termios2 settings{};
+  if (ioctl(file, TCGETS2, &settings) != 0) return false;
+  settings.c_iflag = 0;
+  settings.c_oflag = 0;
+  settings.c_lflag = 0;
+  settings.c_cflag = CS8 | CREAD | CLOCAL | BOTHER;
+  settings.c_ispeed = static_cast<speed_t>(baud);
+  settings.c_ospeed = static_cast<speed_t>(baud);
+  settings.c_cc[VMIN] = 0;
+  settings.c_cc[VTIME] = 0;
+  return ioctl(file, TCSETS2, &settings) == 0;
+}
+
+/// FTDI adapters collect bytes for 16 ms otherwise. Other drivers do not know it, and pseudo
+/// terminals need it not.
+void ask_for_low_latency(int file) noexcept {
+  serial_struct serial{};
+  if (ioctl(file, TIOCGSERIAL, &serial) != 0) return;
+  serial.flags |= ASYNC_LOW_LATENCY;
+  ioctl(file, TIOCSSERIAL, &serial);
+}
+
+/// False, and errno, when another process has the line. One that was killed a moment ago may still
+/// have it, or its guardian.
+bool lock(int file) noexcept {
+  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
+  while (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK || monotonic_now_ns() > until_ns) return false;
+    sleep_until_ns(monotonic_now_ns() + kBusyCheck_ns);
+  }
+  return true;
+}
+
+}  // namespace
+
+TtyTransport::TtyTransport(std::string path, int baud) : path_(std::move(path)), baud_(baud) {}
+
+TtyTransport::~TtyTransport() {
+  close();
+}
+
+void TtyTransport::fail(const std::string& what) {
+  const int error = errno;
+  close();
+  std::string advice;
+  if (error == EACCES)
+    advice =
+        "; join the group of that file (dialout), or name the adapter in the udev rule "
+        "70-spidar.rules";
+  if (error == ENOENT) advice = "; serial lines are /dev/ttyUSB0, /dev/serial/by-id/…";
+  if (error == ENOTTY) advice = "; it is no serial line";
+  if (error == EWOULDBLOCK) advice = "; another program uses it";
+  throw DeviceError("uart:" + path_ + ": " + what + ": " + std::strerror(error) + advice);
+}
+
+void TtyTransport::open() {
+  close();
+  file_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (file_ < 0) fail("cannot be opened");
+  if (!lock(file_)) fail("cannot be locked");
+  if (!set_raw(file_, baud_)) fail("cannot be set to " + std::to_string(baud_) + " baud");
+  ask_for_low_latency(file_);
+  // DTR and RTS low, as published; not every line has them.
+  const int lines = TIOCM_DTR | TIOCM_RTS;
+  ioctl(file_, TIOCMBIC, &lines);
+}
+
+LinkFault TtyTransport::wait_for(short events, int64_t deadline_ns) noexcept {
+  for (;;) {
+    const int64_t left_ns = deadline_ns - monotonic_now_ns();
+    if (left_ns <= 0) return LinkFault::kTimeout;
+    pollfd file{file_, events, 0};
+    const timespec wait{static_cast<time_t>(left_ns / kSecond_ns),
+                        static_cast<long>(left_ns % kSecond_ns)};
+    const int ready = ppoll(&file, 1, &wait, nullptr);
+    if (ready < 0 && errno != EINTR) return fault_of(errno);
+    if (ready <= 0) continue;
+    if (file.revents & events) return LinkFault::kNone;
+    return LinkFault::kGone;  // hung up
+  }
+}
+
+Transfer TtyTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                                int64_t deadline_ns) noexcept {
+  if (file_ < 0) return {LinkFault::kGone, 0};
+  // Bytes that nobody asked for would be taken for the reply.
+  int unread = 0;
+  ioctl(file_, FIONREAD, &unread);
+  if (unread > 0) ioctl(file_, TCFLSH, TCIFLUSH);
+  for (ByteView packet : packets) {
+    while (packet.size > 0) {
+      const ssize_t sent = write(file_, packet.data, packet.size);
+      if (sent < 0 && errno != EAGAIN && errno != EINTR) return {fault_of(errno), 0};
+      if (sent <= 0) {
+        const LinkFault fault = wait_for(POLLOUT, deadline_ns);
+        if (fault != LinkFault::kNone) return {fault, 0};
+        continue;
+      }
+      packet.data += sent;
+      packet.size -= static_cast<size_t>(sent);
+    }
+  }
+  size_t received = 0;
+  while (received < reply.size) {
+    const LinkFault fault = wait_for(POLLIN, deadline_ns);
+    if (fault == LinkFault::kTimeout && received > 0) return {LinkFault::kShort, received};
+    if (fault != LinkFault::kNone) return {fault, received};
+    const ssize_t got = read(file_, reply.data + received, reply.size - received);
+    if (got < 0 && errno != EAGAIN && errno != EINTR) return {fault_of(errno), received};
+    if (got > 0) received += static_cast<size_t>(got);
+    if (got == 0) return {LinkFault::kGone, received};
+  }
+  return {unread > 0 ? LinkFault::kBabble : LinkFault::kNone, received};
+}
+
+void TtyTransport::recover() noexcept {
+  if (file_ >= 0) ioctl(file_, TCFLSH, TCIOFLUSH);
+}
+
+std::optional<LastWill> TtyTransport::last_will() const {
+  LastWill will;
+  will.wire = LastWill::Wire::kTerminal;
+  std::copy_n(path_.begin(), std::min(path_.size(), will.path.size() - 1), will.path.begin());
+  return will;
+}
+
+void TtyTransport::close() noexcept {
+  if (file_ >= 0) ::close(file_);
+  file_ = -1;
+}
+
+}  // namespace spidar

@@ -1,0 +1,35 @@
+/// Bytes over a serial line, by termios.
+#pragma once
+
+#include <string>
+
+#include "core/api.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// Raw, 8N1, no flow control, low latency where the driver knows it.
+class SPIDAR_API TtyTransport final : public Transport {
+ public:
+  /// `baud` as in a terminal's settings, any number that the driver takes.
+  TtyTransport(std::string path, int baud);
+  ~TtyTransport() override;
+
+  void open() override;
+  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override;
+  /// Drops what was received and what is not sent yet.
+  void recover() noexcept override;
+  std::optional<LastWill> last_will() const override;
+  void close() noexcept override;
+
+ private:
+  [[noreturn]] void fail(const std::string& what);
+  LinkFault wait_for(short events, int64_t deadline_ns) noexcept;
+
+  const std::string path_;
+  const int baud_;
+  int file_ = -1;
+};
+
+}  // namespace spidar

@@ -1,0 +1,269 @@
+#include "spidar/transports/usb_transport.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <libusb.h>
+
+#include "spidar/device.h"
+#include "spidar/monotonic.h"
+
+namespace spidar {
+namespace {
+
+constexpr int kInterface = 0;
+constexpr int64_t kDrain_ns = 2'000'000;
+constexpr int64_t kCancelCheck_ns = 1'000'000;
+constexpr int64_t kBusyCheck_ns = 10'000'000;
+
+LinkFault fault_of_submit(int error) noexcept {
+  switch (error) {
+    case LIBUSB_ERROR_NO_DEVICE:
+    case LIBUSB_ERROR_NOT_FOUND:
+      return LinkFault::kGone;
+    case LIBUSB_ERROR_PIPE:
+      return LinkFault::kStall;
+    default:
+      return LinkFault::kBusError;
+  }
+}
+
+LinkFault fault_of(libusb_transfer_status status) noexcept {
+  switch (status) {
+    case LIBUSB_TRANSFER_COMPLETED:
+      return LinkFault::kNone;
+    case LIBUSB_TRANSFER_STALL:
+      return LinkFault::kStall;
+    case LIBUSB_TRANSFER_NO_DEVICE:
+      return LinkFault::kGone;
+    case LIBUSB_TRANSFER_OVERFLOW:
+      return LinkFault::kBabble;
+    case LIBUSB_TRANSFER_TIMED_OUT:
+    case LIBUSB_TRANSFER_CANCELLED:
+      return LinkFault::kTimeout;
+    case LIBUSB_TRANSFER_ERROR:
+      break;
+  }
+  return LinkFault::kBusError;
+}
+
+extern "C" void LIBUSB_CALL mark_done(libusb_transfer* transfer) {
+  *static_cast<int*>(transfer->user_data) = 1;
+}
+
+/// What to do about an error of opening or claiming.
+std::string advice(int error) {
+  switch (error) {
+    case LIBUSB_ERROR_ACCESS:
+      return "; install the udev rule 70-spidar.rules (spidar/udev/ in the sources) into "
+             "/etc/udev/rules.d, run udevadm control --reload, and plug the board in again";
+    case LIBUSB_ERROR_BUSY:
+      return "; another program uses it";
+    case LIBUSB_ERROR_NO_DEVICE:
+    case LIBUSB_ERROR_NOT_FOUND:
+      return "; it was unplugged";
+    default:
+      return "";
+  }
+}
+
+bool has_endpoint(const libusb_interface_descriptor& setting, uint8_t address, bool interrupt) {
+  const int type = interrupt ? LIBUSB_TRANSFER_TYPE_INTERRUPT : LIBUSB_TRANSFER_TYPE_BULK;
+  for (int i = 0; i < setting.bNumEndpoints; ++i) {
+    const libusb_endpoint_descriptor& endpoint = setting.endpoint[i];
+    if (endpoint.bEndpointAddress == address && (endpoint.bmAttributes & 3) == type) return true;
+  }
+  return false;
+}
+
+/// A process that was killed a moment ago may still have the board, or its guardian.
+int claim(libusb_device_handle* handle) {
+  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
+  int error = libusb_claim_interface(handle, kInterface);
+  while (error == LIBUSB_ERROR_BUSY && monotonic_now_ns() < until_ns) {
+    sleep_until_ns(monotonic_now_ns() + kBusyCheck_ns);
+    error = libusb_claim_interface(handle, kInterface);
+  }
+  return error;
+}
+
+/// The alternate setting of interface 0 that has both pipes; −1 when there is none.
+int setting_with(libusb_device* device, const UsbPipes& pipes) {
+  libusb_config_descriptor* config = nullptr;
+  if (libusb_get_active_config_descriptor(device, &config) != LIBUSB_SUCCESS) return -1;
+  int found = -1;
+  if (config->bNumInterfaces > kInterface) {
+    const libusb_interface& interface = config->interface[kInterface];
+    for (int i = interface.num_altsetting - 1; i >= 0; --i) {
+      const libusb_interface_descriptor& setting = interface.altsetting[i];
+      if (has_endpoint(setting, pipes.out, pipes.interrupt) &&
+          has_endpoint(setting, pipes.in, pipes.interrupt))
+        found = setting.bAlternateSetting;
+    }
+  }
+  libusb_free_config_descriptor(config);
+  return found;
+}
+
+}  // namespace
+
+UsbTransport::UsbTransport(std::string name, const UsbPipes& pipes)
+    : name_(std::move(name)), pipes_(pipes) {
+  for (Slot& slot : slots_) {
+    slot.transfer = libusb_alloc_transfer(0);
+    if (!slot.transfer) throw DeviceError(name_ + ": no memory for USB transfers");
+  }
+}
+
+UsbTransport::~UsbTransport() {
+  close();
+  for (Slot& slot : slots_) libusb_free_transfer(slot.transfer);
+}
+
+void UsbTransport::open() {
+  close();
+  context_ = make_usb_context();
+  libusb_device** list = nullptr;
+  const ssize_t count = libusb_get_device_list(context_.get(), &list);
+  int error = LIBUSB_ERROR_NO_DEVICE;
+  int setting = -1;
+  for (ssize_t i = 0; i < count && !handle_; ++i) {
+    if (libusb_get_bus_number(list[i]) != device_.bus ||
+        libusb_get_device_address(list[i]) != device_.address)
+      continue;
+    setting = setting_with(list[i], pipes_);
+    error = libusb_open(list[i], &handle_);
+  }
+  if (list) libusb_free_device_list(list, 1);
+  const std::string file = device_.device_file();
+  if (!handle_) {
+    context_.reset();
+    throw DeviceError(name_ + ": cannot open " + file + ": " + libusb_strerror(error) +
+                      advice(error));
+  }
+  if (setting < 0) {
+    close();
+    throw DeviceError(name_ + ": " + file +
+                      " does not have the endpoints of this board; it is "
+                      "something else, or its firmware is not loaded");
+  }
+  libusb_set_auto_detach_kernel_driver(handle_, 1);
+  error = claim(handle_);
+  if (error == LIBUSB_SUCCESS && setting > 0)
+    error = libusb_set_interface_alt_setting(handle_, kInterface, setting);
+  if (error != LIBUSB_SUCCESS) {
+    close();
+    throw DeviceError(name_ + ": cannot claim " + file + ": " + libusb_strerror(error) +
+                      advice(error));
+  }
+}
+
+LinkFault UsbTransport::submit(Slot& slot, uint8_t endpoint, size_t length) noexcept {
+  const auto bytes = static_cast<int>(length);
+  if (pipes_.interrupt) {
+    libusb_fill_interrupt_transfer(slot.transfer, handle_, endpoint, slot.bytes.data(), bytes,
+                                   mark_done, &slot.done, 0);
+  } else {
+    libusb_fill_bulk_transfer(slot.transfer, handle_, endpoint, slot.bytes.data(), bytes, mark_done,
+                              &slot.done, 0);
+  }
+  slot.done = 0;
+  const int error = libusb_submit_transfer(slot.transfer);
+  if (error == LIBUSB_SUCCESS) return LinkFault::kNone;
+  slot.done = 1;
+  return fault_of_submit(error);
+}
+
+bool UsbTransport::in_flight() const noexcept {
+  return std::any_of(slots_.begin(), slots_.end(), [](const Slot& s) { return s.done == 0; });
+}
+
+/// Handles events until nothing is in flight, which from the deadline on is cancelled.
+void UsbTransport::finish(int64_t deadline_ns) noexcept {
+  bool cancelled = false;
+  while (in_flight()) {
+    const int64_t left_ns = deadline_ns - monotonic_now_ns();
+    if (left_ns <= 0 && !cancelled) {
+      for (Slot& slot : slots_)
+        if (slot.done == 0) libusb_cancel_transfer(slot.transfer);
+      cancelled = true;
+    }
+    const int64_t wait_ns = cancelled ? kCancelCheck_ns : left_ns;
+    timeval wait{static_cast<time_t>(wait_ns / kSecond_ns),
+                 static_cast<suseconds_t>(wait_ns % kSecond_ns / 1000)};
+    for (Slot& slot : slots_) {
+      if (slot.done != 0) continue;
+      libusb_handle_events_timeout_completed(context_.get(), &wait, &slot.done);
+      break;
+    }
+  }
+}
+
+Transfer UsbTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                                int64_t deadline_ns) noexcept {
+  if (!handle_) return {LinkFault::kGone, 0};
+  if (packets.size() > kMaxPackets || reply.size > kMaxLength) return {LinkFault::kWrongReply, 0};
+  LinkFault fault = LinkFault::kNone;
+  Slot& in = slots_.back();
+  if (reply.size > 0) fault = submit(in, pipes_.in, reply.size);
+  size_t used = 0;
+  for (const ByteView packet : packets) {
+    if (fault != LinkFault::kNone) break;
+    Slot& slot = slots_[used++];
+    const size_t length = std::min(packet.size, kMaxLength);
+    std::copy_n(packet.data, length, slot.bytes.begin());
+    fault = submit(slot, pipes_.out, length);
+  }
+  // A packet that is not sent has no reply.
+  finish(fault == LinkFault::kNone ? deadline_ns : 0);
+  if (fault != LinkFault::kNone) return {fault, 0};
+
+  for (size_t i = 0; i < used; ++i) {
+    const libusb_transfer& out = *slots_[i].transfer;
+    fault = fault_of(out.status);
+    if (fault == LinkFault::kNone && out.actual_length != out.length) fault = LinkFault::kShort;
+    if (fault == LinkFault::kStall) out_stalled_ = true;
+    if (fault != LinkFault::kNone) return {fault, 0};
+  }
+  if (reply.size == 0) return {};
+  fault = fault_of(in.transfer->status);
+  const auto received = static_cast<size_t>(std::max(in.transfer->actual_length, 0));
+  if (fault == LinkFault::kNone && received < reply.size) fault = LinkFault::kShort;
+  std::copy_n(in.bytes.begin(), std::min(received, reply.size), reply.data);
+  return {fault, received};
+}
+
+void UsbTransport::recover() noexcept {
+  if (!handle_) return;
+  // Unasked the published hosts reset the pipe of the replies only.
+  if (out_stalled_) libusb_clear_halt(handle_, pipes_.out);
+  out_stalled_ = false;
+  libusb_clear_halt(handle_, pipes_.in);
+  // Replies to what timed out, of which a board keeps a few.
+  std::array<uint8_t, kMaxLength> old{};
+  for (int i = 0; i < 4; ++i) {
+    const Transfer transfer = exchange({}, old, monotonic_now_ns() + kDrain_ns);
+    if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort) break;
+  }
+}
+
+std::optional<LastWill> UsbTransport::last_will() const {
+  LastWill will;
+  will.wire = LastWill::Wire::kUsb;
+  will.interface_number = kInterface;
+  will.endpoint = pipes_.out;
+  const std::string file = device_.device_file();
+  std::copy_n(file.begin(), std::min(file.size(), will.path.size() - 1), will.path.begin());
+  return will;
+}
+
+void UsbTransport::close() noexcept {
+  if (handle_) {
+    libusb_release_interface(handle_, kInterface);
+    libusb_close(handle_);
+    handle_ = nullptr;
+  }
+  context_.reset();
+}
+
+}  // namespace spidar

@@ -1,0 +1,68 @@
+/// Packets over USB, by libusb.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "core/api.h"
+#include "spidar/transports/transport.h"
+#include "spidar/transports/usb_bus.h"
+
+struct libusb_device_handle;
+struct libusb_transfer;
+
+namespace spidar {
+
+/// Endpoints that a board is spoken to by, all on interface 0.
+struct UsbPipes {
+  uint8_t out = 0;
+  uint8_t in = 0;
+  bool interrupt = false;  ///< else bulk
+};
+
+/// All transfers of an exchange are given to the kernel at once, the reply's first, so that an
+/// exchange costs one round of the bus. Events are handled by the thread that exchanges, which
+/// cancels at the deadline and waits for what was cancelled: libusb and the kernel decide how long
+/// that takes. Not for a thread that must not wait; see BoardDevice.
+class SPIDAR_API UsbTransport final : public Transport {
+ public:
+  /// `name` is for messages.
+  UsbTransport(std::string name, const UsbPipes& pipes);
+  ~UsbTransport() override;
+
+  /// Which device open() opens.
+  void select(const UsbDeviceInfo& device) { device_ = device; }
+
+  void open() override;
+  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override;
+  void recover() noexcept override;
+  std::optional<LastWill> last_will() const override;
+  void close() noexcept override;
+
+ private:
+  static constexpr size_t kMaxPackets = 2;
+  static constexpr size_t kMaxLength = 512;
+
+  /// One transfer and its buffer.
+  struct Slot {
+    libusb_transfer* transfer = nullptr;
+    std::array<uint8_t, kMaxLength> bytes{};
+    int done = 1;  // as libusb wants it: not in flight
+  };
+
+  LinkFault submit(Slot& slot, uint8_t endpoint, size_t length) noexcept;
+  void finish(int64_t deadline_ns) noexcept;
+  bool in_flight() const noexcept;
+
+  const std::string name_;
+  const UsbPipes pipes_;
+  UsbDeviceInfo device_;
+  UsbContext context_;
+  libusb_device_handle* handle_ = nullptr;
+  bool out_stalled_ = false;
+  std::array<Slot, kMaxPackets + 1> slots_;  ///< the last is the reply's
+};
+
+}  // namespace spidar

@@ -1,0 +1,63 @@
+/// The boards of an emulated USB, in memory that processes can share.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/api.h"
+#include "spidar/link_fault.h"
+
+namespace spidar::test {
+
+enum class UsbKind : int { kNone, kSh4, kSimple, kMouse };
+
+/// One socket of the bus and what is plugged into it. All of it may be changed at any time, by any
+/// process.
+struct UsbPort {
+  std::atomic<UsbKind> kind{UsbKind::kNone};
+  std::atomic<int> address{0};  ///< a new one every time something is plugged in
+  std::array<char, 32> serial{};
+
+  std::array<std::atomic<int>, 8> digit{};      ///< what the D/A puts out; mouse: mN, x and y
+  std::array<std::atomic<int32_t>, 8> count{};  ///< what the encoders say
+  std::atomic<uint16_t> inputs{0};              ///< bits 4–7: rotary switch
+  std::atomic<uint64_t> updates{0};             ///< how often the digits were set
+
+  /// Of all transfers until it is changed. kGone is for unplug() alone.
+  std::atomic<LinkFault> fault{LinkFault::kNone};
+  std::atomic<bool> forbidden{false};   ///< open() gives EACCES
+  std::atomic<bool> has_driver{false};  ///< a kernel driver that must be detached first
+  std::atomic<uint64_t> halts_cleared{0};
+
+  bool at_rest() const {
+    for (const auto& d : digit)
+      if (d != 0) return false;
+    return true;
+  }
+};
+
+constexpr size_t kPorts = 4;
+
+struct BusState {
+  std::atomic<int> last_address{0};
+  std::array<UsbPort, kPorts> port;
+};
+
+/// The bus of this process: shared with the processes that have the same $SPIDAR_EMULATED_BUS, a
+/// file that is made when it is not there; without, its own. When that is "sh4", "simple" or
+/// "mouse", its own with such a board.
+SPIDAR_API BusState& bus();
+
+/// The device is in the list of the bus from now on, as 1-1, 1-2, …, at rest.
+SPIDAR_API UsbPort& plug(size_t port, UsbKind kind, const char* serial = "");
+
+/// Pulls it out. What is in flight fails with `errno_first` (EPROTO is common) or, when that is
+/// zero, with ESHUTDOWN; what comes later with ENODEV.
+SPIDAR_API void unplug(size_t port, int errno_first = 0);
+
+/// Everything pulled out and forgotten.
+SPIDAR_API void clear_bus();
+
+}  // namespace spidar::test

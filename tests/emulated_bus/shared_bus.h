@@ -1,0 +1,29 @@
+/// An emulated bus that this process shares with those it starts.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+
+namespace spidar::test {
+
+/// To be made before anything looks at the bus.
+class SharedBus {
+ public:
+  SharedBus() {
+    const int file = mkstemp(path_.data());
+    if (file < 0) throw std::runtime_error("no file for the emulated bus: " + path_);
+    close(file);
+    setenv("SPIDAR_EMULATED_BUS", path_.c_str(), 1);
+  }
+  ~SharedBus() { std::filesystem::remove(path_); }
+  SharedBus(const SharedBus&) = delete;
+  SharedBus& operator=(const SharedBus&) = delete;
+
+ private:
+  std::string path_ = (std::filesystem::temp_directory_path() / "spidar-bus-XXXXXX").string();
+};
+
+}  // namespace spidar::test

@@ -1,0 +1,126 @@
+// libudev as far as libusb uses it, listing the emulated bus. There are no events: who wants to see
+// what was plugged in later lists again in a new context, as on a machine without udevd.
+#include <array>
+#include <cstring>
+#include <string>
+#include <sys/eventfd.h>
+#include <unistd.h>
+#include <vector>
+
+#include "core/api.h"
+#include "tests/emulated_bus/bus_state.h"
+
+using namespace spidar::test;
+
+// As opaque to libusb as the real ones.
+struct udev {};
+struct udev_monitor {
+  int file = -1;
+};
+struct udev_list_entry {
+  std::string syspath;
+  udev_list_entry* next = nullptr;
+};
+struct udev_enumerate {
+  std::vector<udev_list_entry> entries;
+};
+struct udev_device {
+  std::string name;
+  std::string node;
+};
+
+namespace {
+
+const std::string kSysfs = "/sys/bus/usb/devices/";
+
+udev_device* device_in(size_t port) {
+  std::array<char, 32> node{};
+  snprintf(node.data(), node.size(), "/dev/bus/usb/001/%03d", bus().port[port].address.load());
+  return new udev_device{"1-" + std::to_string(port + 1), node.data()};
+}
+
+}  // namespace
+
+extern "C" {
+
+SPIDAR_API udev* udev_new() {
+  return new udev;
+}
+SPIDAR_API udev* udev_unref(udev* u) {
+  delete u;
+  return nullptr;
+}
+
+SPIDAR_API udev_monitor* udev_monitor_new_from_netlink(udev*, const char*) {
+  return new udev_monitor{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+}
+SPIDAR_API int udev_monitor_filter_add_match_subsystem_devtype(udev_monitor*, const char*,
+                                                               const char*) {
+  return 0;
+}
+SPIDAR_API int udev_monitor_enable_receiving(udev_monitor*) {
+  return 0;
+}
+SPIDAR_API int udev_monitor_get_fd(udev_monitor* monitor) {
+  return monitor->file;
+}
+SPIDAR_API udev_device* udev_monitor_receive_device(udev_monitor*) {
+  return nullptr;
+}
+SPIDAR_API udev_monitor* udev_monitor_unref(udev_monitor* monitor) {
+  close(monitor->file);
+  delete monitor;
+  return nullptr;
+}
+
+SPIDAR_API udev_enumerate* udev_enumerate_new(udev*) {
+  return new udev_enumerate;
+}
+SPIDAR_API int udev_enumerate_add_match_subsystem(udev_enumerate*, const char*) {
+  return 0;
+}
+SPIDAR_API int udev_enumerate_add_match_property(udev_enumerate*, const char*, const char*) {
+  return 0;
+}
+SPIDAR_API int udev_enumerate_scan_devices(udev_enumerate* list) {
+  for (size_t i = 0; i < kPorts; ++i)
+    if (bus().port[i].kind != UsbKind::kNone)
+      list->entries.push_back({kSysfs + "1-" + std::to_string(i + 1), nullptr});
+  for (size_t i = 0; i + 1 < list->entries.size(); ++i)
+    list->entries[i].next = &list->entries[i + 1];
+  return 0;
+}
+SPIDAR_API udev_list_entry* udev_enumerate_get_list_entry(udev_enumerate* list) {
+  return list->entries.empty() ? nullptr : list->entries.data();
+}
+SPIDAR_API udev_enumerate* udev_enumerate_unref(udev_enumerate* list) {
+  delete list;
+  return nullptr;
+}
+SPIDAR_API udev_list_entry* udev_list_entry_get_next(udev_list_entry* entry) {
+  return entry->next;
+}
+SPIDAR_API const char* udev_list_entry_get_name(udev_list_entry* entry) {
+  return entry->syspath.c_str();
+}
+
+SPIDAR_API udev_device* udev_device_new_from_syspath(udev*, const char* path) {
+  for (size_t i = 0; i < kPorts; ++i)
+    if (path == kSysfs + "1-" + std::to_string(i + 1) && bus().port[i].kind != UsbKind::kNone)
+      return device_in(i);
+  return nullptr;
+}
+SPIDAR_API const char* udev_device_get_devnode(udev_device* device) {
+  return device->node.c_str();
+}
+SPIDAR_API const char* udev_device_get_sysname(udev_device* device) {
+  return device->name.c_str();
+}
+SPIDAR_API const char* udev_device_get_action(udev_device*) {
+  return "add";
+}
+SPIDAR_API udev_device* udev_device_unref(udev_device* device) {
+  delete device;
+  return nullptr;
+}
+}

@@ -1,0 +1,330 @@
+// usbfs for libusb 1.0: what its Linux backend asks of a device file, no more.
+//
+// Readiness: the file is one end of a socket pair whose send buffer is kept full while there is
+// nothing to reap, so that poll(POLLOUT) waits; closing the other end with data unread makes
+// POLLERR, which is how a device that was pulled out looks.
+#include "tests/emulated_bus/usb_files.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <fcntl.h>
+#include <linux/usbdevice_fs.h>
+#include <memory>
+#include <mutex>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#include <vector>
+
+#include "spidar/emulation/emulated_usb.h"
+#include "tests/emulated_bus/bus_state.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr uint8_t kIn = 0x80;
+
+/// Motors and encoders of a port.
+class PortMotors final : public EmulatedMotors {
+ public:
+  explicit PortMotors(UsbPort& port) : port_(port) {}
+  void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
+    for (size_t i = 0; i < digits.size(); ++i) port_.digit[i] = digits[i];
+    ++port_.updates;
+  }
+  std::array<int32_t, kMaxStrings> counts() noexcept override {
+    std::array<int32_t, kMaxStrings> counts{};
+    for (size_t i = 0; i < counts.size(); ++i) counts[i] = port_.count[i];
+    return counts;
+  }
+  uint16_t inputs() noexcept override { return port_.inputs; }
+
+ private:
+  UsbPort& port_;
+};
+
+std::unique_ptr<EmulatedBoard> make_board(UsbKind kind, EmulatedMotors& motors) {
+  if (kind == UsbKind::kSimple) return std::make_unique<EmulatedSimple>(motors);
+  if (kind == UsbKind::kMouse) return std::make_unique<EmulatedMouse>(motors);
+  return std::make_unique<EmulatedSh4>(motors);
+}
+
+struct UsbFile {
+  explicit UsbFile(size_t number)
+      : port_number(number),
+        port(bus().port[number]),
+        address(port.address),
+        motors(port),
+        board(make_board(port.kind, motors)) {}
+
+  const size_t port_number;
+  UsbPort& port;
+  const int address;
+  PortMotors motors;
+  std::unique_ptr<EmulatedBoard> board;
+  int file = -1;
+  int other_end = -1;
+  bool full = false;
+  bool connected = true;
+  bool claimed = false;
+  std::deque<usbdevfs_urb*> waiting;  // IN, for the board to say something
+  std::deque<usbdevfs_urb*> done;
+};
+
+std::mutex& mutex() {
+  static auto* const it = new std::mutex;
+  return *it;
+}
+
+constexpr size_t kMaxFiles = 4096;
+
+std::array<std::atomic<UsbFile*>, kMaxFiles>& files() {
+  static auto* const it = new std::array<std::atomic<UsbFile*>, kMaxFiles>{};
+  return *it;
+}
+
+UsbFile* find(int file) {
+  return file >= 0 && file < static_cast<int>(kMaxFiles) ? files()[static_cast<size_t>(file)].load()
+                                                         : nullptr;
+}
+
+int& lock_file() {
+  static int file = -1;
+  return file;
+}
+
+void make_ready(UsbFile& f) {
+  std::array<char, 4096> bytes;
+  if (f.full) recv(f.other_end, bytes.data(), bytes.size(), MSG_DONTWAIT);
+  f.full = false;
+}
+
+void make_unready(UsbFile& f) {
+  // More than a quarter of the smallest send buffer, from where on it counts as not writable.
+  const std::array<char, 2048> bytes{};
+  if (!f.full) send(f.file, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  f.full = true;
+}
+
+void finish(UsbFile& f, usbdevfs_urb* urb, int status, size_t length) {
+  urb->status = status;
+  urb->actual_length = static_cast<int>(length);
+  f.done.push_back(urb);
+  make_ready(f);
+}
+
+void disconnect(UsbFile& f, int errno_first) {
+  if (!f.connected) return;
+  f.connected = false;
+  for (usbdevfs_urb* urb : f.waiting) finish(f, urb, errno_first ? -errno_first : -ESHUTDOWN, 0);
+  f.waiting.clear();
+  make_unready(f);
+  syscall(SYS_close, f.other_end);
+}
+
+bool still_there(UsbFile& f) {
+  if (f.port.kind == UsbKind::kNone || f.port.address != f.address) disconnect(f, 0);
+  return f.connected;
+}
+
+int status_of(LinkFault fault) {
+  switch (fault) {
+    case LinkFault::kStall:
+      return -EPIPE;
+    case LinkFault::kBusError:
+      return -EPROTO;
+    default:
+      return 0;
+  }
+}
+
+/// What the board says, spoilt as the port's fault wants it, into the first reply that waits.
+void answer(UsbFile& f) {
+  while (!f.waiting.empty()) {
+    const LinkFault fault = f.port.fault;
+    if (fault == LinkFault::kTimeout) return;
+    usbdevfs_urb* urb = f.waiting.front();
+    auto* bytes = static_cast<uint8_t*>(urb->buffer);
+    size_t length = f.board->reply({bytes, static_cast<size_t>(urb->buffer_length)});
+    if (length == 0) return;
+    int status = 0;
+    if (fault == LinkFault::kShort) length /= 2;
+    if (fault == LinkFault::kBabble) status = -EOVERFLOW;
+    if (fault == LinkFault::kWrongReply)
+      for (size_t i = 0; i < length; ++i) bytes[i] ^= 0xA5;
+    if (fault == LinkFault::kWrongEcho) bytes[0] ^= 0x10;
+    f.waiting.pop_front();
+    finish(f, urb, status, length);
+  }
+}
+
+int submit(UsbFile& f, usbdevfs_urb* urb) {
+  if (!f.claimed && urb->type != USBDEVFS_URB_TYPE_CONTROL) return -ENOENT;
+  if (const int status = status_of(f.port.fault)) {
+    finish(f, urb, status, 0);
+  } else if (urb->endpoint & kIn) {
+    f.waiting.push_back(urb);
+    answer(f);
+  } else {
+    const auto length = static_cast<size_t>(urb->buffer_length);
+    f.board->receive({static_cast<const uint8_t*>(urb->buffer), length});
+    finish(f, urb, 0, length);
+    answer(f);
+  }
+  return 0;
+}
+
+int reap(UsbFile& f, void** urb) {
+  if (f.done.empty()) return f.connected ? -EAGAIN : -ENODEV;
+  *urb = f.done.front();
+  f.done.pop_front();
+  if (f.done.empty() && f.connected) make_unready(f);
+  return 0;
+}
+
+int discard(UsbFile& f, void* urb) {
+  const auto at = std::find(f.waiting.begin(), f.waiting.end(), urb);
+  if (at == f.waiting.end()) return -EINVAL;
+  finish(f, *at, -ENOENT, 0);
+  f.waiting.erase(at);
+  return 0;
+}
+
+/// The synchronous transfer that libusb never uses, but spidar-guardian does.
+int bulk(UsbFile& f, usbdevfs_bulktransfer& transfer) {
+  if (!f.claimed) return -ENOENT;
+  if (const int status = status_of(f.port.fault)) return status;
+  if (transfer.ep & kIn) return -ETIMEDOUT;
+  f.board->receive({static_cast<const uint8_t*>(transfer.data), transfer.len});
+  return static_cast<int>(transfer.len);
+}
+
+/// Between processes by a lock that ends with its owner, within one by looking.
+int claim(UsbFile& f, bool detach) {
+  if (f.port.has_driver && !detach) return -EBUSY;
+  f.port.has_driver = false;
+  for (const auto& entry : files()) {
+    const UsbFile* other = entry.load();
+    if (other && other != &f && other->port_number == f.port_number && other->claimed)
+      return -EBUSY;
+  }
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = static_cast<off_t>(f.port_number);
+  lock.l_len = 1;
+  if (lock_file() >= 0 && fcntl(lock_file(), F_SETLK, &lock) != 0) return -EBUSY;
+  f.claimed = true;
+  return 0;
+}
+
+int release(UsbFile& f) {
+  if (!f.claimed) return 0;
+  f.claimed = false;
+  struct flock lock {};
+  lock.l_type = F_UNLCK;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = static_cast<off_t>(f.port_number);
+  lock.l_len = 1;
+  if (lock_file() >= 0) fcntl(lock_file(), F_SETLK, &lock);
+  return 0;
+}
+
+int handle(UsbFile& f, unsigned long request, void* argument) {
+  const bool there = still_there(f);
+  if (request == USBDEVFS_REAPURBNDELAY) return reap(f, static_cast<void**>(argument));
+  if (request == USBDEVFS_DISCARDURB) return discard(f, argument);
+  if (!there) return -ENODEV;
+  switch (request) {
+    case USBDEVFS_GET_CAPABILITIES:
+      *static_cast<uint32_t*>(argument) =
+          USBDEVFS_CAP_ZERO_PACKET | USBDEVFS_CAP_NO_PACKET_SIZE_LIM |
+          USBDEVFS_CAP_BULK_SCATTER_GATHER | USBDEVFS_CAP_REAP_AFTER_DISCONNECT;
+      return 0;
+    case USBDEVFS_SUBMITURB:
+      return submit(f, static_cast<usbdevfs_urb*>(argument));
+    case USBDEVFS_BULK:
+      return bulk(f, *static_cast<usbdevfs_bulktransfer*>(argument));
+    case USBDEVFS_CLAIMINTERFACE:
+      return claim(f, false);
+    case USBDEVFS_DISCONNECT_CLAIM:
+      return claim(f, true);
+    case USBDEVFS_RELEASEINTERFACE:
+      return release(f);
+    case USBDEVFS_CLEAR_HALT:
+      ++f.port.halts_cleared;
+      return 0;
+    case USBDEVFS_SETINTERFACE:
+    case USBDEVFS_RESET:
+      return 0;
+    default:  // USBDEVFS_IOCTL asks for the kernel driver back: there is none
+      return -ENODATA;
+  }
+}
+
+}  // namespace
+
+int real_open(const char* path, int flags, unsigned mode) {
+  return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
+}
+
+void set_lock_file(int file) {
+  lock_file() = file;
+}
+
+int open_usb_file(size_t port) {
+  if (bus().port[port].forbidden) {
+    errno = EACCES;
+    return -1;
+  }
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return -1;
+  const int smallest = 1;
+  setsockopt(ends[0], SOL_SOCKET, SO_SNDBUF, &smallest, sizeof smallest);
+  const std::lock_guard<std::mutex> lock(mutex());
+  auto* f = new UsbFile(port);
+  f->file = ends[0];
+  f->other_end = ends[1];
+  make_unready(*f);
+  files()[static_cast<size_t>(ends[0])] = f;
+  return ends[0];
+}
+
+bool usb_ioctl(int file, unsigned long request, void* argument, int& result) {
+  if (!find(file)) return false;
+  const std::lock_guard<std::mutex> lock(mutex());
+  UsbFile* f = find(file);
+  if (!f) return false;
+  result = handle(*f, request, argument);
+  if (result < 0) {
+    errno = -result;
+    result = -1;
+  }
+  return true;
+}
+
+void forget_usb_file(int file) {
+  if (!find(file)) return;
+  const std::lock_guard<std::mutex> lock(mutex());
+  UsbFile* f = find(file);
+  if (!f) return;
+  files()[static_cast<size_t>(file)] = nullptr;
+  release(*f);
+  if (f->connected) syscall(SYS_close, f->other_end);
+  delete f;
+}
+
+void disconnect_files(size_t port, int errno_first) {
+  const std::lock_guard<std::mutex> lock(mutex());
+  for (const auto& entry : files()) {
+    UsbFile* f = entry.load();
+    if (f && f->port_number == port) disconnect(*f, errno_first);
+  }
+}
+
+}  // namespace spidar::test

@@ -1,0 +1,27 @@
+/// Device files of the emulated USB, as usbfs has them.
+#pragma once
+
+#include <cstddef>
+
+namespace spidar::test {
+
+/// open(2) without emulation.
+int real_open(const char* path, int flags, unsigned mode);
+
+/// Claims are locks in this file, so that they end with the process that has them; −1: claims are
+/// of this process only.
+void set_lock_file(int file);
+
+/// A descriptor for the device in that port, or −1 and errno.
+int open_usb_file(size_t port);
+
+/// As ioctl(2), for a descriptor of open_usb_file(); false when it is not one.
+bool usb_ioctl(int file, unsigned long request, void* argument, int& result);
+
+/// Before close(2) of any descriptor.
+void forget_usb_file(int file);
+
+/// All open files of the port find their device gone.
+void disconnect_files(size_t port, int errno_first);
+
+}  // namespace spidar::test

@@ -1,0 +1,136 @@
+// Fuzz target of the boards' packets; CONTRIBUTING.md says how to run it under libFuzzer.
+// The first byte chooses a decoder and its parameters, the rest is the packet. Whatever it is,
+// nothing is read beyond it, and what is accepted says the same when it is written and read again.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "numbers.h"
+#include "spidar/protocols/count_unwrapper.h"
+#include "spidar/protocols/sh4.h"
+#include "spidar/protocols/spidar_mouse.h"
+#include "spidar/protocols/uart_motor.h"
+#include "spidar/protocols/usb_simple.h"
+
+using namespace spidar;
+
+namespace {
+
+void fuzz_sh4(ByteView bytes) {
+  sh4::Packet packet;
+  sh4::Reading reading;
+  if (sh4::decode_reading(bytes, reading)) {
+    sh4::Reading again;
+    sh4::encode_reading(reading, packet);
+    require(sh4::decode_reading(packet, again), "fuzz_protocols: an SH4 reading is refused");
+    require(again.counter == reading.counter && again.dac_echo == reading.dac_echo &&
+                again.adc == reading.adc && again.inputs == reading.inputs,
+            "fuzz_protocols: an SH4 reading is another");
+    require(reading.rotary() >= 0 && reading.rotary() < 16, "fuzz_protocols: rotary switch");
+  }
+  sh4::DacDigits digits{}, digits_again{};
+  if (!sh4::decode_update(bytes, digits)) return;
+  sh4::encode_update(digits, packet);
+  require(sh4::decode_update(packet, digits_again) && digits == digits_again,
+          "fuzz_protocols: SH4 digits are others");
+}
+
+void fuzz_simple(ByteView bytes) {
+  usb_simple::Packet packet;
+  usb_simple::Reading reading;
+  if (usb_simple::decode_reading(bytes, reading)) {
+    usb_simple::Reading again;
+    usb_simple::encode_reading(reading, packet);
+    require(usb_simple::decode_reading(packet, again) && again.counter == reading.counter &&
+                again.inputs == reading.inputs,
+            "fuzz_protocols: a Simple reading is another");
+  }
+  usb_simple::HostPacket command;
+  usb_simple::decode_command(bytes, command);
+}
+
+void fuzz_uart(ByteView bytes, int board) {
+  uart_motor::BoardInfo info;
+  const ByteView head(bytes.data, bytes.size < 7 ? bytes.size : 7);
+  // Sizes that no decoder has checked must be harmless too.
+  info.motors = bytes.u8(3);
+  info.forces = bytes.u8(5);
+  const ByteView rest(bytes.data + head.size, bytes.size - head.size);
+  uart_motor::Reading reading;
+  std::array<int, uart_motor::kMaxMotors> digits{};
+  uart_motor::decode_reading(rest, board, info, reading);
+  uart_motor::decode_current(rest, board, info, digits);
+  if (!uart_motor::decode_info(head, board, info)) return;
+  std::array<uint8_t, uart_motor::kMaxReplyLength> reply{};
+  if (uart_motor::decode_reading(rest, board, info, reading)) {
+    const size_t length = uart_motor::encode_reading(reading, board, info, reply);
+    uart_motor::Reading again;
+    require(uart_motor::decode_reading({reply.data(), length}, board, info, again) &&
+                again.position == reading.position && again.velocity == reading.velocity,
+            "fuzz_protocols: a UART reading is another");
+  }
+  std::array<uint8_t, uart_motor::kMaxCycleLength> command{};
+  if (uart_motor::decode_current(rest, board, info, digits))
+    require(uart_motor::encode_current(board, info, digits, command) > 0,
+            "fuzz_protocols: UART digits are refused");
+}
+
+void fuzz_mouse(ByteView bytes) {
+  mouse::Command command{};
+  mouse::Force force;
+  if (!mouse::decode_command(bytes, command, force) || command != mouse::Command::kForce) return;
+  mouse::Report report;
+  mouse::encode_force(force, report);
+  require(mouse::decode_command(report, command, force), "fuzz_protocols: a force is refused");
+  // Magnitude and direction are single precision: three roundings of 6e-8.
+  require(std::hypot(force.x_N, force.y_N) <= mouse::kMaxForce_N * (1 + 2e-7),
+          "fuzz_protocols: the mouse pulls too hard");
+}
+
+void fuzz_counts(ByteView bytes, int bits) {
+  CountUnwrapper unwrapper(bits);
+  std::array<uint32_t, kMaxStrings> raw{};
+  for (size_t at = 0; at < bytes.size; at += 4 * kMaxStrings) {
+    for (size_t i = 0; i < kMaxStrings; ++i) raw[i] = bytes.u32(at + 4 * i);
+    const auto before = unwrapper.counts();
+    const bool followed = unwrapper.follow(raw, kMaxStrings);
+    for (size_t i = 0; i < kMaxStrings; ++i) {
+      const int64_t step = int64_t{unwrapper.counts()[i]} - before[i];
+      require(followed || step == 0, "fuzz_protocols: a count jumped");
+      require(std::abs(step) <= CountUnwrapper::kMaxStep || std::abs(step) > (int64_t{1} << 31),
+              "fuzz_protocols: a count went too far");
+    }
+    if (!followed) unwrapper.begin(raw, kMaxStrings);
+  }
+}
+
+/// Its beginning: packets are taken in their own length only, which a fuzzer seldom meets.
+ByteView first(ByteView bytes, size_t size) {
+  return {bytes.data, bytes.size < size ? bytes.size : size};
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  if (size == 0) return 0;
+  const ByteView rest(data + 1, size - 1);
+  switch (data[0] % 5) {
+    case 0:
+      fuzz_sh4(data[0] & 128 ? rest : first(rest, sh4::kPacketSize));
+      break;
+    case 1:
+      fuzz_simple(data[0] & 128 ? rest : first(rest, usb_simple::kPacketSize));
+      break;
+    case 2:
+      fuzz_uart(rest, data[0] >> 5);
+      break;
+    case 3:
+      fuzz_mouse(data[0] & 128 ? rest : first(rest, mouse::kReportSize));
+      break;
+    default:
+      fuzz_counts(rest, data[0] & 128 ? 16 : 24);
+      break;
+  }
+  return 0;
+}

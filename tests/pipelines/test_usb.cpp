@@ -1,0 +1,126 @@
+// Pipelines with boards on an emulated USB that are pulled out and put back while a film plays.
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <thread>
+
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/shared_bus.h"
+#include "tests/support/child_process.h"
+
+namespace spidar::test {
+namespace {
+
+/// Waits for as long as it takes; the test's own time limit is the only one.
+template <typename Condition>
+void wait_for(const Condition& condition) {
+  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+class UsbPipeline : public testing::TestWithParam<UsbKind> {
+ protected:
+  ~UsbPipeline() override { clear_bus(); }
+};
+INSTANTIATE_TEST_SUITE_P(, UsbPipeline, testing::Values(UsbKind::kSh4, UsbKind::kSimple),
+                         [](const auto& kind) {
+                           return kind.param == UsbKind::kSh4 ? "sh4" : "simple";
+                         });
+
+/// The text of the next warning; the pipeline must not fail.
+std::string next_warning(GstBus* bus) {
+  GstMessage* message = gst_bus_timed_pop_filtered(
+      bus, GST_CLOCK_TIME_NONE,
+      static_cast<GstMessageType>(GST_MESSAGE_WARNING | GST_MESSAGE_ERROR | GST_MESSAGE_EOS));
+  std::string text = GST_MESSAGE_TYPE_NAME(message);
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING) {
+    GError* error = nullptr;
+    gst_message_parse_warning(message, &error, nullptr);
+    text = error->message;
+    g_clear_error(&error);
+  }
+  gst_message_unref(message);
+  return text;
+}
+
+/// Frames go on coming.
+void wait_for_frames(GstBus* bus, int frames) {
+  gst_bus_set_flushing(bus, TRUE);
+  gst_bus_set_flushing(bus, FALSE);
+  while (frames > 0) {
+    GstMessage* message = gst_bus_timed_pop_filtered(bus, GST_CLOCK_TIME_NONE, GST_MESSAGE_ELEMENT);
+    if (gst_message_has_name(message, "spidar-motion")) --frames;
+    gst_message_unref(message);
+  }
+}
+
+TEST_P(UsbPipeline, PlaysOnWhenTheBoardIsPulledOutAndTakesItBack) {
+  UsbPort& port = plug(0, GetParam());
+  GError* error = nullptr;
+  GstElement* pipeline = gst_parse_launch(
+      "videotestsrc pattern=ball ! video/x-raw,width=160,height=120 ! "
+      "spidarmotion device=usb profile=spidar-g6x3-v2-r ! fakesink sync=true",
+      &error);
+  ASSERT_EQ(error, nullptr) << error->message;
+  GstBus* bus = gst_element_get_bus(pipeline);
+  ASSERT_NE(gst_element_set_state(pipeline, GST_STATE_PLAYING), GST_STATE_CHANGE_FAILURE);
+  wait_for([&] { return !port.at_rest(); });
+
+  unplug(0, EPROTO);
+  EXPECT_EQ(next_warning(bus),
+            "The haptic device does not answer: unplugged. The video goes on without it.");
+  wait_for_frames(bus, 5);
+  plug(0, GetParam());
+  wait_for([&] { return !port.at_rest(); });
+  wait_for_frames(bus, 5);
+
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  EXPECT_TRUE(port.at_rest());
+  gst_object_unref(bus);
+  gst_object_unref(pipeline);
+}
+
+#ifdef EMULATED_BUS_LIBRARY
+
+/// gst-launch-1.0, which knows nothing of an emulated bus.
+class Launch : public ChildProcess {
+ public:
+  Launch()
+      : ChildProcess({"gst-launch-1.0", "-q", "videotestsrc", "!", "spidarmotion", "device=usb",
+                      "profile=spidar-g6x3-v2-r", "!", "fakesink", "sync=true"},
+                     {"LD_PRELOAD=" EMULATED_BUS_LIBRARY}) {}
+};
+
+TEST_P(UsbPipeline, GstLaunchRestsTheMotorsHoweverItEnds) {
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    UsbPort& port = plug(0, GetParam());
+    Launch launch;
+    const auto pulls = [&] { return !port.at_rest() || !launch.lives(); };
+    wait_for(pulls);
+    ASSERT_TRUE(launch.lives());
+    if (signal == SIGINT) {
+      unplug(0);
+      plug(0, GetParam());
+      wait_for(pulls);
+      ASSERT_TRUE(launch.lives());
+    }
+    launch.end(signal);
+    wait_for([&] { return port.at_rest(); });
+    clear_bus();
+  }
+}
+
+#endif
+
+}  // namespace
+}  // namespace spidar::test
+
+int main(int argc, char** argv) {
+  const spidar::test::SharedBus shared;
+  gst_init(nullptr, nullptr);
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,293 @@
+/// Packets of the boards, written by hand from the published descriptions.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "spidar/protocols/count_unwrapper.h"
+#include "spidar/protocols/sh4.h"
+#include "spidar/protocols/spidar_mouse.h"
+#include "spidar/protocols/uart_motor.h"
+#include "spidar/protocols/usb_simple.h"
+
+namespace spidar {
+namespace {
+
+template <size_t N>
+std::vector<uint8_t> bytes_of(const std::array<uint8_t, N>& packet) {
+  return {packet.begin(), packet.end()};
+}
+
+/// `head`, then zeros up to `size`.
+std::vector<uint8_t> padded(std::vector<uint8_t> head, size_t size) {
+  head.resize(size, 0);
+  return head;
+}
+
+ByteView view(const std::vector<uint8_t>& bytes) {
+  return {bytes.data(), bytes.size()};
+}
+
+// --- SH4
+
+const sh4::DacDigits kDigits{0, 1, 0x0123, 0x0FFF, 256, 255, 2048, 4000};
+const std::vector<uint8_t> kDigitBytes{0x00, 0x00, 0x01, 0x00, 0x23, 0x01, 0xFF, 0x0F,
+                                       0x00, 0x01, 0xFF, 0x00, 0x00, 0x08, 0xA0, 0x0F};
+
+TEST(Sh4, UpdateIsOneFourteenThenDigits) {
+  std::vector<uint8_t> expected{0x01, 0x0E};
+  expected.insert(expected.end(), kDigitBytes.begin(), kDigitBytes.end());
+  sh4::Packet packet;
+  packet.fill(0xEE);
+  sh4::encode_update(kDigits, packet);
+  EXPECT_EQ(bytes_of(packet), padded(expected, 512));
+
+  sh4::DacDigits digits{};
+  ASSERT_TRUE(sh4::decode_update(packet, digits));
+  EXPECT_EQ(digits, kDigits);
+  packet[1] = 0x0D;
+  EXPECT_FALSE(sh4::decode_update(packet, digits));
+}
+
+TEST(Sh4, ReadingHasEchoCountersAdcInputsInfo) {
+  std::vector<uint8_t> bytes = kDigitBytes;
+  const std::vector<uint8_t> rest{
+      0x00, 0x80, 0xFF, 0xFF, 0x01, 0x00, 0x00, 0x01, 0, 0, 0, 0, 0, 0, 0x34, 0x12,  // counters
+      0xFF, 0x0F, 0,    0,    0,    0,    0,    0,    0, 0, 0, 0, 0, 0, 0x01, 0x00,  // A/D
+      0xA5, 0x80,                                                                    // inputs
+      0x78, 0x56, 0x34, 0x12};                                                       // info
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  sh4::Reading reading;
+  ASSERT_TRUE(sh4::decode_reading(view(padded(bytes, 512)), reading));
+  EXPECT_EQ(reading.dac_echo, kDigits);
+  EXPECT_EQ(reading.counter[0], 0x8000);
+  EXPECT_EQ(reading.counter[1], 0xFFFF);
+  EXPECT_EQ(reading.counter[3], 0x0100);
+  EXPECT_EQ(reading.counter[7], 0x1234);
+  EXPECT_EQ(reading.adc[0], 4095);
+  EXPECT_EQ(reading.adc[7], 1);
+  EXPECT_EQ(reading.inputs, 0x80A5);
+  EXPECT_EQ(reading.rotary(), 0xA);
+  EXPECT_EQ(reading.info, 0x12345678u);
+
+  sh4::Packet packet;
+  sh4::encode_reading(reading, packet);
+  EXPECT_EQ(bytes_of(packet), padded(bytes, 512));
+  EXPECT_FALSE(sh4::decode_reading(view(padded(bytes, 511)), reading));
+  EXPECT_FALSE(sh4::decode_reading(view(padded(bytes, 513)), reading));
+}
+
+// --- Simple
+
+TEST(UsbSimple, CommandsAreThoseOfTheFactSheet) {
+  usb_simple::Packet packet;
+  usb_simple::HostPacket said;
+  usb_simple::encode_encoder_direction(0xFF, packet);
+  EXPECT_EQ(bytes_of(packet), padded({0xA2, 0x1A, 0xFF}, 32));
+  ASSERT_TRUE(usb_simple::decode_command(packet, said));
+  EXPECT_EQ(said.command, usb_simple::Command::kEncoderDirection);
+  EXPECT_EQ(said.channels, 0xFF);
+
+  usb_simple::encode_clear_counters(0xFF, packet);
+  EXPECT_EQ(bytes_of(packet), padded({0xA2, 0x19, 0xFF}, 32));
+  ASSERT_TRUE(usb_simple::decode_command(packet, said));
+  EXPECT_EQ(said.command, usb_simple::Command::kClearCounters);
+
+  std::vector<uint8_t> set_dac{0x52};
+  set_dac.insert(set_dac.end(), kDigitBytes.begin(), kDigitBytes.end());
+  usb_simple::encode_set_dac(kDigits, packet);
+  EXPECT_EQ(bytes_of(packet), padded(set_dac, 32));
+  ASSERT_TRUE(usb_simple::decode_command(packet, said));
+  EXPECT_EQ(said.command, usb_simple::Command::kSetDac);
+  EXPECT_EQ(said.digits, kDigits);
+
+  usb_simple::encode_latch(packet);
+  EXPECT_EQ(bytes_of(packet), padded({0x51}, 32));
+  ASSERT_TRUE(usb_simple::decode_command(packet, said));
+  EXPECT_EQ(said.command, usb_simple::Command::kLatchCounters);
+
+  EXPECT_FALSE(usb_simple::decode_command(view(padded({0x50}, 32)), said));
+  EXPECT_FALSE(usb_simple::decode_command(view(padded({0xA2, 0x1B}, 32)), said));
+  EXPECT_FALSE(usb_simple::decode_command(view(padded({0x51}, 31)), said));
+}
+
+TEST(UsbSimple, ReadingHasTwentyFourBitCountersAndInputs) {
+  const std::vector<uint8_t> bytes =
+      padded({0x00, 0x00, 0x00, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0x00, 0x00, 0x80, 0x01,
+              0x02, 0x03, 0,    0,    0,    0,    0,    0,    0xFE, 0xFF, 0xFF, 0xA3},
+             32);
+  usb_simple::Reading reading;
+  ASSERT_TRUE(usb_simple::decode_reading(view(bytes), reading));
+  const std::array<int32_t, 8> expected{0, -1, 8388607, -8388608, 0x030201, 0, 0, -2};
+  EXPECT_EQ(reading.counter, expected);
+  EXPECT_EQ(reading.inputs, 0xA3);
+  EXPECT_EQ(reading.rotary(), 10);
+  usb_simple::Packet packet;
+  usb_simple::encode_reading(reading, packet);
+  EXPECT_EQ(bytes_of(packet), bytes);
+  EXPECT_FALSE(usb_simple::decode_reading(view(padded({}, 31)), reading));
+}
+
+// --- UART
+
+const uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
+const uart_motor::BoardInfo kB5M{7, 1, 8, 0, 4, 0};
+
+TEST(UartMotor, EnquiryHasFortyZerosBeforeAndTwentySixAfter) {
+  std::array<uint8_t, uart_motor::kEnquiryLength> packet{};
+  uart_motor::encode_enquiry(3, packet);
+  std::vector<uint8_t> expected(67, 0);
+  expected[40] = 3 | 1 << 3;
+  EXPECT_EQ(bytes_of(packet), expected);
+
+  uart_motor::BoardInfo info;
+  ASSERT_TRUE(uart_motor::decode_info(view({0x0B, 5, 1, 4, 4, 0, 0}), 3, info));
+  EXPECT_EQ(info.model, 5);
+  EXPECT_EQ(info.motors, 4);
+  EXPECT_EQ(info.currents, 4);
+  EXPECT_FALSE(uart_motor::decode_info(view({0x0A, 5, 1, 4, 4, 0, 0}), 3, info));  // board 2
+  EXPECT_FALSE(uart_motor::decode_info(view({0x0B, 0, 1, 4, 4, 0, 0}), 3, info));  // no model
+  EXPECT_FALSE(uart_motor::decode_info(view({0x0B, 5, 1, 9, 4, 0, 0}), 3, info));  // nine motors
+  EXPECT_FALSE(uart_motor::decode_info(view({0x0B, 5, 1, 4, 4, 0}), 3, info));     // short
+}
+
+TEST(UartMotor, LengthsAreThoseOfTheFirmware) {
+  std::array<uint8_t, uart_motor::kSetLengthsLength> packet{};
+  uart_motor::encode_lengths(1, kB3M, packet);
+  // After the header, in the order of the commands' numbers, for four motors and no force sensor.
+  EXPECT_EQ(bytes_of(packet),
+            (std::vector<uint8_t>{0x11, 1, 1, 13, 21, 1, 17, 9, 12, 12, 18, 3, 2}));
+  EXPECT_EQ(uart_motor::current_command_length(4), 9u);
+  EXPECT_EQ(uart_motor::current_reply_length(4, 0), 17u);
+  EXPECT_EQ(uart_motor::current_cycle_length(4, 0), 37u);  // "37 bytes per B3M cycle"
+  EXPECT_EQ(uart_motor::current_command_length(8), 17u);
+  EXPECT_EQ(uart_motor::current_reply_length(8, 4), 41u);
+}
+
+TEST(UartMotor, CurrentIsSignedLittleEndianThenZerosForTheReply) {
+  std::array<uint8_t, uart_motor::kMaxCycleLength> packet{};
+  packet.fill(0xEE);
+  const size_t length = uart_motor::encode_current(2, kB3M, {1, -1, 5000, -4096}, packet);
+  const std::vector<uint8_t> sent(packet.begin(), packet.begin() + static_cast<long>(length));
+  // 5000 and −4096 are cut to ±4095.
+  EXPECT_EQ(sent, padded({0x32, 0x01, 0x00, 0xFF, 0xFF, 0xFF, 0x0F, 0x01, 0xF0}, 37));
+  std::array<int, 8> digits{};
+  ASSERT_TRUE(uart_motor::decode_current(view(sent), 2, kB3M, digits));
+  EXPECT_EQ(digits, (std::array<int, 8>{1, -1, 4095, -4095}));
+  EXPECT_FALSE(uart_motor::decode_current(view(sent), 1, kB3M, digits));
+  EXPECT_EQ(uart_motor::encode_current(2, kB3M, {}, MutableBytes(packet.data(), 36)), 0u);
+}
+
+TEST(UartMotor, ReplyHasPositionsThenVelocities) {
+  const std::vector<uint8_t> reply{0x32, 0x01, 0x00, 0xFF, 0xFF, 0x00, 0x80, 0x34, 0x12,
+                                   0xFE, 0xFF, 0,    0,    0,    0,    0x07, 0x00};
+  uart_motor::Reading reading;
+  ASSERT_TRUE(uart_motor::decode_reading(view(reply), 2, kB3M, reading));
+  EXPECT_EQ(reading.position[0], 1);
+  EXPECT_EQ(reading.position[1], 0xFFFF);
+  EXPECT_EQ(reading.position[2], 0x8000);
+  EXPECT_EQ(reading.position[3], 0x1234);
+  EXPECT_EQ(reading.velocity[0], -2);
+  EXPECT_EQ(reading.velocity[3], 7);
+  EXPECT_FALSE(uart_motor::decode_reading(view(reply), 3, kB3M, reading));
+  EXPECT_FALSE(uart_motor::decode_reading(view(reply), 2, kB5M, reading));
+  std::array<uint8_t, uart_motor::kMaxReplyLength> packet{};
+  EXPECT_EQ(uart_motor::encode_reading(reading, 2, kB3M, packet), reply.size());
+  EXPECT_TRUE(std::equal(reply.begin(), reply.end(), packet.begin()));
+}
+
+// --- mouse
+
+/// Little-endian bytes of floats, by the machine's own representation.
+std::vector<uint8_t> floats(const std::vector<float>& values) {
+  std::vector<uint8_t> bytes(4 * values.size());
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+std::vector<uint8_t> mouse_report(uint8_t command, const std::vector<float>& values) {
+  std::vector<uint8_t> bytes = floats(values);
+  bytes.insert(bytes.begin(), command);
+  return padded(bytes, 64);
+}
+
+TEST(SpidarMouse, ReportsAreThePublishedOnes) {
+  mouse::Report report;
+  mouse::encode_query(report);
+  EXPECT_EQ(bytes_of(report), padded({0x82}, 64));
+  EXPECT_TRUE(mouse::is_state(report));
+  mouse::encode_stop(report);
+  EXPECT_EQ(bytes_of(report), padded({0x99}, 64));
+  EXPECT_FALSE(mouse::is_state(report));
+  mouse::encode_start(report);
+  EXPECT_EQ(bytes_of(report), mouse_report(0x80, {0.3F, 1.5F, 47.9867F, 13.1215F}));
+  mouse::encode_force({0.6, -0.8}, report);
+  EXPECT_EQ(bytes_of(report), mouse_report(0x97, {0, 0, 1.0F, 0.6F, -0.8F}));
+}
+
+TEST(SpidarMouse, TotalForceIsLimited) {
+  mouse::Report report;
+  mouse::encode_force({3, 4}, report);
+  EXPECT_EQ(bytes_of(report), mouse_report(0x97, {0, 0, 1.5F, 0.6F, 0.8F}));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const mouse::Force force : {mouse::Force{0, 0}, mouse::Force{nan, 1},
+                                   mouse::Force{std::numeric_limits<double>::infinity(), 0}}) {
+    mouse::encode_force(force, report);
+    EXPECT_EQ(bytes_of(report), padded({0x97}, 64));
+  }
+  mouse::Command command{};
+  mouse::Force force;
+  mouse::encode_force({0.6, -0.8}, report);
+  ASSERT_TRUE(mouse::decode_command(report, command, force));
+  EXPECT_EQ(command, mouse::Command::kForce);
+  // Two roundings of single precision.
+  EXPECT_NEAR(force.x_N, 0.6, 2e-7);
+  EXPECT_NEAR(force.y_N, -0.8, 2e-7);
+  EXPECT_FALSE(mouse::decode_command(view(padded({0x81}, 64)), command, force));
+}
+
+// --- counters
+
+using Raw = std::array<uint32_t, kMaxStrings>;
+
+TEST(CountUnwrapper, GoesOnWhereTheCounterWraps) {
+  CountUnwrapper unwrapper(16);
+  unwrapper.begin(Raw{0x7FF0, 0x8010, 5}, 3);
+  EXPECT_EQ(unwrapper.counts()[0], 0x7FF0);
+  EXPECT_EQ(unwrapper.counts()[1], -0x7FF0);
+  ASSERT_TRUE(unwrapper.follow(Raw{0x8010, 0x7FF0, 4}, 3));
+  EXPECT_EQ(unwrapper.counts()[0], 0x8010);
+  EXPECT_EQ(unwrapper.counts()[1], -0x8010);
+  EXPECT_EQ(unwrapper.counts()[2], 4);
+  // Ten times round and back.
+  uint32_t at = 4;
+  for (int step = 0; step < 80; ++step)
+    ASSERT_TRUE(unwrapper.follow(Raw{0x8010, 0x7FF0, at = (at + 8192) & 0xFFFF}, 3));
+  EXPECT_EQ(unwrapper.counts()[2], 4 + 80 * 8192);
+  for (int step = 0; step < 80; ++step)
+    ASSERT_TRUE(unwrapper.follow(Raw{0x8010, 0x7FF0, at = (at - 8192) & 0xFFFF}, 3));
+  EXPECT_EQ(unwrapper.counts()[2], 4);
+}
+
+TEST(CountUnwrapper, RefusesJumpsAndKeepsWhatItHad) {
+  for (const int bits : {16, 24}) {
+    CountUnwrapper unwrapper(bits);
+    unwrapper.begin(Raw{100, 200}, 2);
+    EXPECT_TRUE(unwrapper.follow(Raw{100 + 16384, 200}, 2));
+    EXPECT_FALSE(unwrapper.follow(Raw{100, 200 + 16385}, 2)) << bits;
+    EXPECT_EQ(unwrapper.counts()[0], 100 + 16384);
+    EXPECT_EQ(unwrapper.counts()[1], 200);
+  }
+  CountUnwrapper unwrapper(24);
+  unwrapper.begin(Raw{0xFFFFFF}, 1);
+  EXPECT_EQ(unwrapper.counts()[0], -1);
+  ASSERT_TRUE(unwrapper.follow(Raw{3}, 1));
+  EXPECT_EQ(unwrapper.counts()[0], 3);
+}
+
+}  // namespace
+}  // namespace spidar

@@ -1,0 +1,148 @@
+/// UART boards over pseudo-terminals.
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/board_device.h"
+#include "spidar/device_factory.h"
+#include "tests/support/pseudo_terminal.h"
+#include "tests/support/recorded_motors.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
+constexpr uart_motor::BoardInfo kB5M{7, 1, 8, 0, 4, 0};
+
+MotorVolts all_volts(double volt) {
+  MotorVolts volts;
+  volts.volt.fill(volt);
+  return volts;
+}
+
+class UartLines : public testing::Test {
+ protected:
+  /// Guarded by nobody, and exchanging on this thread.
+  std::unique_ptr<Device> device(const std::string& spec) const {
+    BoardSettings settings;
+    settings.guardian = false;
+    settings.threaded = false;
+    return make_device(spec, profile, settings);
+  }
+
+  /// The line's thread is a scheduler away: a slow machine may miss deadlines, not answers.
+  static void exchange_until(Device& board, double volt, ExchangeStatus wanted,
+                             DeviceReading& reading) {
+    while (board.exchange(all_volts(volt), reading) != wanted) {
+    }
+  }
+
+  const Profile profile = load_profile("spidar-g6x5-r");
+  MotorBench first, second;
+  RecordedMotors first_motors{first}, second_motors{second};
+};
+
+TEST_F(UartLines, OneBoardOfEightMotors) {
+  UartLine line({first_motors, {{4, kB5M}}});
+  const auto board = device("uart:" + line.path());
+  board->open();
+  EXPECT_TRUE(first.all_zero());
+  DeviceReading reading;
+  for (int i = 1; i <= 100; ++i) {
+    first.count[7] = 500 * i;
+    exchange_until(*board, -1.0, ExchangeStatus::kOk, reading);
+  }
+  EXPECT_EQ(reading.count[7], 50'000);
+  // Bit for bit: −1 V is −1241.2 digits.
+  EXPECT_EQ(first.digit[0], -1241);
+  board->close();
+  EXPECT_TRUE(first.all_zero());
+}
+
+TEST_F(UartLines, TwoBoardsOnOneLineAndOnTwo) {
+  for (const bool two_lines : {false, true}) {
+    std::vector<EmulatedUart::Station> stations{{1, kB3M}};
+    std::optional<UartLine> other;
+    if (two_lines) {
+      other.emplace(EmulatedUart(second_motors, {{1, kB3M}}));
+    } else {
+      stations.push_back({6, kB3M});
+    }
+    UartLine line({first_motors, stations});
+    const auto board =
+        device("uart:" + line.path() + (two_lines ? "," + other->path() : std::string()));
+    EXPECT_EQ(board->description(), "");
+    board->open();
+    EXPECT_EQ(board->description(),
+              "UART motor boards: number 1 of model 5 with 4 motors, number " +
+                  std::to_string(two_lines ? 1 : 6) + " of model 5 with 4 motors");
+    MotorBench& last = two_lines ? second : first;
+    const size_t at = two_lines ? 1 : 5;  // motor 5 of all
+    last.count[at] = 0;
+    DeviceReading reading;
+    exchange_until(*board, 0.5, ExchangeStatus::kOk, reading);
+    last.count[at] = -77;
+    exchange_until(*board, 0.5, ExchangeStatus::kOk, reading);
+    EXPECT_EQ(reading.count[5], -77) << two_lines;
+    EXPECT_EQ(last.digit[at], static_cast<int>(std::lround(0.5 * 4096 / 3.3)));
+  }
+}
+
+TEST_F(UartLines, SilenceIsATimeOutAndPasses) {
+  UartLine line({first_motors, {{0, kB5M}}});
+  const auto board = device("uart:" + line.path());
+  board->open();
+  DeviceReading reading;
+  line.set_silent(true);
+  exchange_until(*board, 1, ExchangeStatus::kTimeout, reading);
+  EXPECT_GE(board->health().count(LinkFault::kTimeout), 1u);
+  line.set_silent(false);
+  exchange_until(*board, 1, ExchangeStatus::kOk, reading);
+}
+
+TEST_F(UartLines, AHangUpIsAnUnplug) {
+  std::optional<UartLine> line(std::in_place, EmulatedUart(first_motors, {{0, kB3M}}));
+  std::optional<UartLine> survivor(std::in_place, EmulatedUart(second_motors, {{0, kB3M}}));
+  const auto board = device("uart:" + line->path() + "," + survivor->path());
+  board->open();
+  DeviceReading reading;
+  exchange_until(*board, 1, ExchangeStatus::kOk, reading);
+  EXPECT_FALSE(second.all_zero());
+  line.reset();
+  exchange_until(*board, 1, ExchangeStatus::kLost, reading);
+  EXPECT_FALSE(second.all_zero());
+  // The boards of the line that is left are taken down slowly.
+  const int full = second.digit[0];
+  board->close();
+  while (!second.all_zero()) {
+  }
+  survivor.reset();
+  const std::vector<int>& put_out = second.history;
+  for (size_t i = 1; i < put_out.size(); ++i)
+    EXPECT_LE(put_out[i - 1] - put_out[i], full / BoardDevice::kRamp_ms + 1) << i;
+}
+
+TEST_F(UartLines, OpenSaysWhatIsWrong) {
+  const auto opening = [&](const std::string& spec) -> std::string {
+    try {
+      device(spec)->open();
+      return {};
+    } catch (const DeviceError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(opening("uart:/nowhere/tty"),
+            "uart:/nowhere/tty: cannot be opened: No such file or directory; serial lines are "
+            "/dev/ttyUSB0, /dev/serial/by-id/…");
+  EXPECT_NE(opening("uart:/dev/null").find("it is no serial line"), std::string::npos)
+      << opening("uart:/dev/null");
+  UartLine line({first_motors, {}});
+  EXPECT_NE(opening("uart:" + line.path()).find("0 motor boards answer, with 0 motors"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace spidar::test

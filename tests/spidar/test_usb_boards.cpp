@@ -1,0 +1,269 @@
+/// USB boards through unmodified libusb, on an emulated bus.
+#include <algorithm>
+#include <cerrno>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/board_device.h"
+#include "spidar/boards/board_list.h"
+#include "spidar/device_factory.h"
+#include "spidar/haptic_session.h"
+#include "tests/emulated_bus/bus_state.h"
+
+namespace spidar::test {
+namespace {
+
+MotorVolts all_volts(double volt) {
+  MotorVolts volts;
+  volts.volt.fill(volt);
+  return volts;
+}
+
+/// What open() says; empty when it works.
+std::string opening(Device& device) {
+  try {
+    device.open();
+    return {};
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+}
+
+/// Exchanges until the answer is that, however slow the machine is.
+void exchange_until(Device& device, ExchangeStatus wanted, DeviceReading& reading) {
+  while (device.exchange(all_volts(1), reading) != wanted) {
+  }
+}
+
+class UsbBoards : public testing::Test {
+ protected:
+  UsbBoards() { clear_bus(); }
+  ~UsbBoards() override { clear_bus(); }
+
+  static BoardSettings unguarded(bool threaded = true) {
+    BoardSettings settings;
+    settings.guardian = false;
+    settings.threaded = threaded;
+    return settings;
+  }
+  std::unique_ptr<Device> device(const std::string& spec = "usb", bool threaded = true) const {
+    return make_device(spec, profile, unguarded(threaded));
+  }
+
+  const Profile profile = load_profile("spidar-g6x3-v2-r");
+};
+
+class EachUsbBoard : public UsbBoards, public testing::WithParamInterface<UsbKind> {};
+INSTANTIATE_TEST_SUITE_P(, EachUsbBoard, testing::Values(UsbKind::kSh4, UsbKind::kSimple),
+                         [](const auto& kind) {
+                           return kind.param == UsbKind::kSh4 ? "sh4" : "simple";
+                         });
+
+TEST_F(UsbBoards, AreListedWithoutBeingOpened) {
+  plug(0, UsbKind::kSh4, "A1");
+  plug(2, UsbKind::kSimple).forbidden = true;
+  plug(3, UsbKind::kMouse);
+  const std::vector<BoardInfo> boards = list_boards();
+  ASSERT_GE(boards.size(), 4u);
+  EXPECT_EQ(boards[0].device, "usb:1-1");
+  EXPECT_EQ(boards[0].name, "CyVerse USB 2.0 SH4");
+  EXPECT_EQ(boards[0].path, "1-1");
+  EXPECT_EQ(boards[0].serial, "A1");
+  EXPECT_EQ(boards[0].usb_id, "0cec:0205");
+  EXPECT_EQ(boards[0].trial, Trial::kEmulated);
+  EXPECT_TRUE(boards[0].accessible);
+  EXPECT_EQ(boards[1].device, "usb:1-3");
+  EXPECT_FALSE(boards[1].accessible);
+  EXPECT_NE(boards[1].note.find("70-spidar.rules"), std::string::npos);
+  EXPECT_EQ(boards[2].device, "mouse:1-4");
+  EXPECT_EQ(boards[2].trial, Trial::kInferred);
+  EXPECT_EQ(boards[3].device, "sim");
+  for (const UsbPort& port : bus().port) EXPECT_EQ(port.updates, 0u);
+}
+
+TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {
+  plug(0, UsbKind::kSh4, "SN-5").inputs = 0x30;
+  plug(1, UsbKind::kSimple).inputs = 0x70;
+  plug(2, UsbKind::kSh4).inputs = 0x90;
+  struct Case {
+    const char* spec;
+    size_t port;
+    const char* description;
+  };
+  const char* simple_board = "at 1-2: CyVerse USB 2.0 Simple, rotary switch 7";
+  for (const Case c : {Case{"usb:1-2", 1, simple_board}, Case{"usb:7", 1, simple_board},
+                       Case{"usb:SN-5", 0, "at 1-1: CyVerse USB 2.0 SH4, rotary switch 3"},
+                       Case{"usb:9", 2, "at 1-3: CyVerse USB 2.0 SH4, rotary switch 9"}}) {
+    const auto board = device(c.spec, false);
+    ASSERT_EQ(opening(*board), "") << c.spec;
+    EXPECT_EQ(board->description(), c.description);
+    DeviceReading reading;
+    ASSERT_EQ(board->exchange(all_volts(1), reading), ExchangeStatus::kOk) << c.spec;
+    for (size_t port = 0; port < 3; ++port)
+      EXPECT_EQ(bus().port[port].at_rest(), port != c.port) << c.spec << " port " << port;
+  }
+  EXPECT_EQ(opening(*device("usb")),
+            "usb: there are several boards, name one of usb:1-1 usb:1-3 usb:1-2");
+  EXPECT_EQ(opening(*device("usb:4")),
+            "usb:4: no board has the bus path, serial number or rotary switch 4; there are usb:1-1 "
+            "(rotary switch 3) usb:1-3 (rotary switch 9) usb:1-2 (rotary switch 7)");
+}
+
+TEST_F(UsbBoards, OpenSaysWhatToDo) {
+  EXPECT_EQ(opening(*device()), "usb: no CyVerse board (0cec:0205 or 0cec:0203) is plugged in");
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  port.forbidden = true;
+  const std::string denied = opening(*device());
+  EXPECT_NE(denied.find("/dev/bus/usb/001/"), std::string::npos) << denied;
+  EXPECT_NE(denied.find("install the udev rule 70-spidar.rules"), std::string::npos) << denied;
+  port.forbidden = false;
+  const auto first = device();
+  ASSERT_EQ(opening(*first), "");
+  const std::string busy = opening(*device());
+  EXPECT_NE(busy.find("another program uses it"), std::string::npos) << busy;
+}
+
+TEST_F(UsbBoards, AKernelDriverIsDetached) {
+  plug(0, UsbKind::kSh4).has_driver = true;
+  const auto board = device();
+  EXPECT_EQ(opening(*board), "");
+}
+
+TEST_P(EachUsbBoard, ExchangesTenThousandTimes) {
+  UsbPort& port = plug(0, GetParam());
+  const auto board = device("usb", false);
+  ASSERT_EQ(opening(*board), "");
+  DeviceReading reading;
+  for (int i = 1; i <= 10'000; ++i) {
+    port.count[5] = 20 * i;
+    ASSERT_EQ(board->exchange(all_volts(1e-3 * (i % 1000)), reading), ExchangeStatus::kOk) << i;
+    ASSERT_EQ(reading.count[5], 20 * i);
+  }
+  EXPECT_EQ(port.digit[0], 0);  // 10 000 is 0 of a thousand
+  EXPECT_EQ(board->health().count(LinkFault::kNone), 10'000u);
+  EXPECT_GT(board->health().round_trip_median_ns, 0);
+}
+
+TEST_P(EachUsbBoard, EveryFaultIsNamedAndPasses) {
+  UsbPort& port = plug(0, GetParam());
+  const auto board = device("usb", false);
+  ASSERT_EQ(opening(*board), "");
+  std::vector<LinkFault> faults{LinkFault::kTimeout, LinkFault::kStall, LinkFault::kShort,
+                                LinkFault::kBabble, LinkFault::kBusError};
+  if (GetParam() == UsbKind::kSh4) faults.push_back(LinkFault::kWrongEcho);
+  DeviceReading reading;
+  for (const LinkFault fault : faults) {
+    const uint64_t halts = port.halts_cleared;
+    port.fault = fault;
+    // Of three in a row, so that the board is reset as well.
+    for (int i = 0; i < 3; ++i) {
+      const ExchangeStatus status = board->exchange(all_volts(1), reading);
+      EXPECT_EQ(status,
+                fault == LinkFault::kTimeout ? ExchangeStatus::kTimeout : ExchangeStatus::kBadReply)
+          << to_string(fault);
+    }
+    EXPECT_EQ(board->health().count(fault), 3u) << to_string(fault);
+    EXPECT_EQ(board->health().last_fault, fault);
+    EXPECT_GT(port.halts_cleared, halts) << to_string(fault);
+    port.fault = LinkFault::kNone;
+    // A reply that was under way when the fault ended may still be in the board.
+    int tries = 0;
+    while (board->exchange(all_volts(1), reading) != ExchangeStatus::kOk) ASSERT_LT(++tries, 3);
+  }
+}
+
+TEST_P(EachUsbBoard, UnpluggedAndBackAgain) {
+  for (const int first : {0, EPROTO}) {
+    plug(1, GetParam());
+    const auto board = device();
+    ASSERT_EQ(opening(*board), "");
+    DeviceReading reading;
+    exchange_until(*board, ExchangeStatus::kOk, reading);
+    // In flight for as long as the board says nothing.
+    bus().port[1].fault = LinkFault::kTimeout;
+    exchange_until(*board, ExchangeStatus::kTimeout, reading);
+    unplug(1, first);
+    exchange_until(*board, ExchangeStatus::kLost, reading);
+    EXPECT_GE(board->health().count(LinkFault::kGone), 1u);
+    EXPECT_NE(opening(*board).find("no CyVerse board"), std::string::npos);
+
+    UsbPort& again = plug(1, GetParam());
+    again.count[0] = 12;
+    ASSERT_EQ(opening(*board), "");
+    EXPECT_TRUE(again.at_rest());
+    exchange_until(*board, ExchangeStatus::kOk, reading);
+    EXPECT_EQ(reading.count[0], 12);
+    board->close();
+    EXPECT_TRUE(again.at_rest());
+    clear_bus();
+  }
+}
+
+TEST_F(UsbBoards, TheLoopLosesItAndTakesItBack) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  HapticSession session(profile, device());
+  const auto state = [&] { return session.loop().snapshot().last.device; };
+  while (state() != DeviceState::kRunning) std::this_thread::yield();
+  EXPECT_FALSE(port.at_rest());
+  unplug(0, EPROTO);
+  while (state() != DeviceState::kLost) std::this_thread::yield();
+  plug(0, UsbKind::kSh4);
+  while (state() != DeviceState::kRunning) std::this_thread::yield();
+  EXPECT_EQ(session.loop().snapshot().counters.times_lost, 1u);
+  EXPECT_FALSE(port.at_rest());
+}
+
+TEST_F(UsbBoards, CountsOfACalibratedProfileAreTheBoards) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  port.count[0] = 600;
+  Profile calibrated = profile;
+  for (const bool offsets : {false, true}) {
+    calibrated.drives[4].home_offset_m = offsets ? 0.01 : 0;
+    const auto board = make_device("usb", calibrated, unguarded(false));
+    board->open();
+    DeviceReading reading;
+    ASSERT_EQ(board->exchange({}, reading), ExchangeStatus::kOk);
+    EXPECT_EQ(reading.count[0], offsets ? 600 : 0);
+  }
+}
+
+TEST_P(EachUsbBoard, CountersAreClearedWhereThereIsACommandForThat) {
+  UsbPort& port = plug(0, GetParam());
+  for (auto& count : port.count) count = 700;
+  BoardSettings as_counted = unguarded();
+  as_counted.count_zero = CountZero::kNever;
+  const auto board = make_device("usb", profile, as_counted);
+  EXPECT_FALSE(board->clear_counters());  // not open
+  board->open();
+  DeviceReading reading;
+  exchange_until(*board, ExchangeStatus::kOk, reading);
+  EXPECT_EQ(reading.count[7], 700);
+  const bool can = GetParam() == UsbKind::kSimple;
+  EXPECT_EQ(board->clear_counters(), can);
+  exchange_until(*board, ExchangeStatus::kOk, reading);
+  EXPECT_EQ(reading.count[7], can ? 0 : 700);
+}
+
+TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
+  UsbPort& other = plug(0, UsbKind::kMouse);
+  other.fault = LinkFault::kTimeout;  // does not answer to the question for its state
+  const auto mouse = device("mouse", false);
+  const std::string what = opening(*mouse);
+  EXPECT_NE(what.find("is no SPIDAR-mouse"), std::string::npos) << what;
+  EXPECT_EQ(other.updates, 0u);
+  UsbPort& right = plug(1, UsbKind::kMouse);
+  ASSERT_EQ(opening(*mouse), "");
+  DeviceReading reading;
+  MotorVolts volts;
+  volts.volt[2] = 1;
+  for (int i = 0; i < 4; ++i) ASSERT_EQ(mouse->exchange(volts, reading), ExchangeStatus::kOk);
+  EXPECT_FALSE(right.at_rest());
+  EXPECT_TRUE(other.at_rest());
+  mouse->close();
+  EXPECT_TRUE(right.at_rest());
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,48 @@
+/// Motors and encoders of an emulated board that a test looks at and turns.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <vector>
+
+#include "spidar/emulation/emulated_board.h"
+
+namespace spidar::test {
+
+/// What was put out, and what the encoders say; outlives the board. Atomics: any thread.
+struct MotorBench {
+  std::array<std::atomic<int>, kMaxStrings> digit{};
+  std::array<std::atomic<int32_t>, kMaxStrings> count{};
+  std::atomic<uint16_t> inputs{0};
+  std::atomic<int> updates{0};
+  /// Of the first motor, every update. While no board runs.
+  std::vector<int> history;
+
+  bool all_zero() const {
+    for (const auto& d : digit)
+      if (d != 0) return false;
+    return true;
+  }
+};
+
+class RecordedMotors final : public EmulatedMotors {
+ public:
+  explicit RecordedMotors(MotorBench& bench) : bench_(bench) {}
+
+  void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
+    for (size_t i = 0; i < digits.size(); ++i) bench_.digit[i] = digits[i];
+    bench_.history.push_back(digits[0]);
+    ++bench_.updates;
+  }
+  std::array<int32_t, kMaxStrings> counts() noexcept override {
+    std::array<int32_t, kMaxStrings> counts{};
+    for (size_t i = 0; i < counts.size(); ++i) counts[i] = bench_.count[i];
+    return counts;
+  }
+  uint16_t inputs() noexcept override { return bench_.inputs; }
+
+ private:
+  MotorBench& bench_;
+};
+
+}  // namespace spidar::test
