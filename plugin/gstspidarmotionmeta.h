@@ -24,60 +24,49 @@ typedef struct {
 } GstSpidarMotionTrack;
 
 typedef struct {
-  guint width, height;              /* of the frame that lengths are pixels of */
-  guint64 running_time;             /* ns */
-  guint64 interval;                 /* ns since the frame before; 0: nothing to compare with */
-  gdouble velocity_x, velocity_y;   /* of the motion that is felt, px/s */
-  gdouble growth;                   /* 1/s */
-  gdouble roll;                     /* rad/s, clockwise as seen */
+  guint width, height;                  /* of the frame that lengths are pixels of */
+  guint64 running_time;                 /* ns */
+  guint64 interval;                     /* ns since the frame before; 0: nothing to compare with */
+  gdouble velocity_x, velocity_y;       /* of the motion that is felt, px/s */
+  gdouble growth;                       /* 1/s */
+  gdouble roll;                         /* rad/s, clockwise as seen */
   gdouble force_x, force_y, force_z;    /* wanted, N: x right, y up, z towards the viewer */
   gdouble torque_x, torque_y, torque_z; /* N m */
 } GstSpidarMotion;
 
 /* FALSE when the buffer has no such meta: not analysed, or nothing set attach-meta. */
-static inline gboolean
-gst_buffer_get_spidar_motion (GstBuffer * buffer, GstSpidarMotion * motion)
-{
-  GstCustomMeta *meta = gst_buffer_get_custom_meta (buffer, GST_SPIDAR_MOTION_META_NAME);
-  memset (motion, 0, sizeof *motion);
-  if (meta == NULL)
-    return FALSE;
-  return gst_structure_get (gst_custom_meta_get_structure (meta),
-      "width", G_TYPE_UINT, &motion->width,
-      "height", G_TYPE_UINT, &motion->height,
-      "running-time", G_TYPE_UINT64, &motion->running_time,
-      "interval", G_TYPE_UINT64, &motion->interval,
-      "velocity-x", G_TYPE_DOUBLE, &motion->velocity_x,
-      "velocity-y", G_TYPE_DOUBLE, &motion->velocity_y,
-      "growth", G_TYPE_DOUBLE, &motion->growth,
-      "roll", G_TYPE_DOUBLE, &motion->roll,
-      "force-x", G_TYPE_DOUBLE, &motion->force_x,
-      "force-y", G_TYPE_DOUBLE, &motion->force_y,
-      "force-z", G_TYPE_DOUBLE, &motion->force_z,
-      "torque-x", G_TYPE_DOUBLE, &motion->torque_x,
-      "torque-y", G_TYPE_DOUBLE, &motion->torque_y,
-      "torque-z", G_TYPE_DOUBLE, &motion->torque_z, NULL);
+static inline gboolean gst_buffer_get_spidar_motion(GstBuffer* buffer, GstSpidarMotion* motion) {
+  GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
+  memset(motion, 0, sizeof *motion);
+  if (meta == NULL) return FALSE;
+  return gst_structure_get(
+      gst_custom_meta_get_structure(meta), "width", G_TYPE_UINT, &motion->width, "height",
+      G_TYPE_UINT, &motion->height, "running-time", G_TYPE_UINT64, &motion->running_time,
+      "interval", G_TYPE_UINT64, &motion->interval, "velocity-x", G_TYPE_DOUBLE,
+      &motion->velocity_x, "velocity-y", G_TYPE_DOUBLE, &motion->velocity_y, "growth",
+      G_TYPE_DOUBLE, &motion->growth, "roll", G_TYPE_DOUBLE, &motion->roll, "force-x",
+      G_TYPE_DOUBLE, &motion->force_x, "force-y", G_TYPE_DOUBLE, &motion->force_y, "force-z",
+      G_TYPE_DOUBLE, &motion->force_z, "torque-x", G_TYPE_DOUBLE, &motion->torque_x, "torque-y",
+      G_TYPE_DOUBLE, &motion->torque_y, "torque-z", G_TYPE_DOUBLE, &motion->torque_z, NULL);
 }
 
 /* The tracks of a frame as GstSpidarMotionTrack; NULL without the meta, else to be freed with
  * g_array_unref(). */
-static inline GArray *
-gst_buffer_get_spidar_tracks (GstBuffer * buffer)
-{
-  GstCustomMeta *meta = gst_buffer_get_custom_meta (buffer, GST_SPIDAR_MOTION_META_NAME);
-  GVariant *tracks = NULL;
+static inline GArray* gst_buffer_get_spidar_tracks(GstBuffer* buffer) {
+  GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
+  GVariant* tracks = NULL;
   GVariantIter iter;
   GstSpidarMotionTrack track;
-  GArray *result;
-  if (meta == NULL || !gst_structure_get (gst_custom_meta_get_structure (meta),
-          "tracks", G_TYPE_VARIANT, &tracks, NULL))
+  GArray* result;
+  if (meta == NULL || !gst_structure_get(gst_custom_meta_get_structure(meta), "tracks",
+                                         G_TYPE_VARIANT, &tracks, NULL))
     return NULL;
-  result = g_array_new (FALSE, FALSE, sizeof (GstSpidarMotionTrack));
-  g_variant_iter_init (&iter, tracks);
-  while (g_variant_iter_next (&iter, "(uddddu)", &track.id, &track.from_x, &track.from_y,
-          &track.to_x, &track.to_y, &track.object))
-    g_array_append_val (result, track);
-  g_variant_unref (tracks);
+  result = g_array_new(FALSE, FALSE, sizeof(GstSpidarMotionTrack));
+  g_variant_iter_init(&iter, tracks);
+  while (g_variant_iter_next(&iter, "(uddddu)", &track.id, &track.from_x, &track.from_y,
+                             &track.to_x, &track.to_y, &track.object))
+    g_array_append_val(result, track);
+  g_variant_unref(tracks);
   return result;
 }
 

@@ -23,6 +23,7 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
     FrameFacts facts;
     facts.running_ns = static_cast<int64_t>(report.running_time);
     facts.analysis_ms = 1e-6 * static_cast<double>(report.took_ns);
+    facts.interval_s = 1e-9 * static_cast<double>(report.analysis.interval_ns);
     facts.visible = visible;
     facts.scene = scene;
     facts.settings = settings;

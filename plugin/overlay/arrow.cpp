@@ -80,18 +80,29 @@ std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style)
   return arrows;
 }
 
-Arrow felt_arrow(const Wrench& wrench, const ArrowStyle& style) {
-  Arrow arrow;
-  arrow.tail_px = style.centre_px;
-  arrow.tip_px = style.centre_px;
-  arrow.width_px = width_px(kFelt_px, style);
-  arrow.color = kWhite;
-  if (style.max_force_N > 0) {
-    const double px_N = kFeltLength * style.height_px / style.max_force_N;
-    // Up is y > 0 in the device and y < 0 in the picture.
-    arrow.tip_px += px_N * Eigen::Vector2d(wrench.force_N.x(), -wrench.force_N.y());
-  }
-  return arrow;
+double felt_width_px(const ArrowStyle& style) {
+  return width_px(kFelt_px, style);
+}
+
+std::optional<FeltArrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style) {
+  if (!(style.max_force_N > 0)) return std::nullopt;
+  const double px_N = kFeltLength * style.height_px / style.max_force_N;
+  // Up is y > 0 in the device and y < 0 in the picture.
+  const Eigen::Vector2d along_px = px_N * Eigen::Vector2d(wrench.force_N.x(), -wrench.force_N.y());
+  FeltArrow felt;
+  felt.arrow.width_px = felt_width_px(style);
+  if (along_px.norm() < felt.arrow.width_px) return std::nullopt;
+  felt.arrow.tail_px = style.centre_px;
+  felt.arrow.tip_px = style.centre_px + along_px;
+  felt.arrow.color = kWhite;
+  const double margin_px = felt.arrow.width_px / 4;
+  const Eigen::Vector2d margin_along_px = margin_px * along_px.normalized();
+  felt.border = felt.arrow;
+  felt.border.tail_px -= margin_along_px;
+  felt.border.tip_px += 2 * margin_along_px;
+  felt.border.width_px += 2 * margin_px;
+  felt.border.color = kBlack;
+  return felt;
 }
 
 }  // namespace spidar

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -48,10 +49,17 @@ struct ArrowStyle {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< where the felt arrow begins
 };
 
+/// Width of the felt arrow's shaft.
+double felt_width_px(const ArrowStyle& style);
+
 /// One arrow a track, tail at `from`: objects bold and in full colour, the background pale.
 std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style);
 
-/// The force that is felt, from the centre on, white; it lies in the picture as it pushes the hand.
-Arrow felt_arrow(const Wrench& wrench, const ArrowStyle& style);
+/// The force that is felt, from the centre on, white, with a black one under it as its border; it
+/// lies in the picture as it pushes the hand. Nothing when it is too short to show a direction.
+struct FeltArrow {
+  Arrow border, arrow;
+};
+std::optional<FeltArrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style);
 
 }  // namespace spidar

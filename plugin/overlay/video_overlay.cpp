@@ -15,20 +15,14 @@ void draw_overlay(const SceneView& scene, const VisiblePart& visible, double sca
   FramePainter painter(frame);
   for (const Arrow& arrow : track_arrows(scene, style)) painter.draw(arrow);
 
-  Arrow felt = felt_arrow(scene.wrench, style);
+  const double cross_px = felt_width_px(style);
   for (const ImagePoint& lost : scene.lost) {
-    painter.cross({lost.x_px, lost.y_px}, felt.width_px, felt.width_px / 4, kWhite);
+    painter.cross({lost.x_px, lost.y_px}, cross_px, cross_px / 4, kWhite);
   }
-  if ((felt.tip_px - felt.tail_px).norm() < felt.width_px) return;  // too small to show a direction
-  Arrow border = felt;
-  const Eigen::Vector2d unit = (felt.tip_px - felt.tail_px).normalized();
-  const double margin_px = felt.width_px / 4;
-  border.tail_px -= margin_px * unit;
-  border.tip_px += 2 * margin_px * unit;
-  border.width_px += 2 * margin_px;
-  border.color = kBlack;
-  painter.draw(border);
-  painter.draw(felt);
+  if (const std::optional<FeltArrow> felt = felt_arrow(scene.wrench, style)) {
+    painter.draw(felt->border);
+    painter.draw(felt->arrow);
+  }
 }
 
 }  // namespace spidar

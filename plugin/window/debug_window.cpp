@@ -164,7 +164,8 @@ void DebugWindow::say(const std::string& note) {
 void DebugWindow::read() {
   source_gone_ = !source_->read(state_);
   const int64_t before_ns = facts_.running_ns;
-  if (feed_->take(picture_, facts_)) {
+  const bool is_new = feed_->take(picture_, facts_);
+  if (is_new) {
     texture_->load(picture_, std::max(shown_width_, 1));
     // Another stream, or the same from the beginning: what was learnt is not of it.
     if (facts_.running_ns < before_ns) history_.forget();
@@ -173,6 +174,7 @@ void DebugWindow::read() {
   if (picture_.empty()) return;
   Moment now;
   now.time_s = glfwGetTime();
+  now.interval_s = is_new ? facts_.interval_s : 0;
   now.speed_px_s =
       controller_speed_px_s(facts_.scene.motion, facts_.settings.axes, facts_.visible.height);
   now.wanted_N = facts_.scene.wrench.force_N.norm();

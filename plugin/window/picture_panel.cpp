@@ -25,19 +25,6 @@ void draw_arrow(const Brush& brush, const Arrow& arrow) {
                                color);
 }
 
-void draw_felt(const Brush& brush, const Arrow& felt) {
-  const Eigen::Vector2d along_px = felt.tip_px - felt.tail_px;
-  if (along_px.norm() < felt.width_px) return;  // too small to show a direction
-  Arrow border = felt;
-  const double margin_px = felt.width_px / 4;
-  border.tail_px -= margin_px * along_px.normalized();
-  border.tip_px += 2 * margin_px * along_px.normalized();
-  border.width_px += 2 * margin_px;
-  border.color = kBlack;
-  draw_arrow(brush, border);
-  draw_arrow(brush, felt);
-}
-
 void draw_points(const Brush& brush, const PictureMap& map, const SceneView& scene) {
   const auto radius = static_cast<float>(3 * brush.scale);
   const auto width = static_cast<float>(brush.scale);
@@ -101,7 +88,10 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   draw_points(brush, map, facts.scene);
   draw_objects(brush, map, facts);
   style.centre_px = {map.shown.x + map.shown.width / 2, map.shown.y + map.shown.height / 2};
-  draw_felt(brush, felt_arrow(facts.scene.wrench, style));
+  if (const std::optional<FeltArrow> felt = felt_arrow(facts.scene.wrench, style)) {
+    draw_arrow(brush, felt->border);
+    draw_arrow(brush, felt->arrow);
+  }
   brush.list.PopClipRect();
 }
 

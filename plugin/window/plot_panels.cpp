@@ -88,8 +88,7 @@ void draw_gain(const Brush& brush, const Rect& panel, const MotionHistory& histo
   char title[64];
   std::snprintf(title, sizeof title, "gain: 0 to %.0f px/s, 0 to %.1f N", highest_px_s, highest_N);
   const Plot plot(brush, panel, title);
-  const std::vector<double> curve_N =
-      gain_curve(controller, history.largest_speed_px_s(), highest_px_s, kCurvePoints);
+  const std::vector<double> curve_N = gain_curve(controller, history, highest_px_s, kCurvePoints);
   std::vector<ImVec2> points;
   for (size_t i = 0; i < curve_N.size(); ++i) {
     points.push_back(plot.at(static_cast<double>(i) / (kCurvePoints - 1), curve_N[i] / highest_N));

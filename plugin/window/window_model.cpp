@@ -39,12 +39,15 @@ double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, 
       .norm();
 }
 
-std::vector<double> gain_curve(const ControllerSettings& settings, double largest_px_s,
+std::vector<double> gain_curve(const ControllerSettings& settings, const MotionHistory& history,
                                double highest_px_s, int points) {
   std::vector<double> curve;
   try {
     const std::unique_ptr<GainController> controller = make_controller(settings);
-    controller->force_N(std::max(largest_px_s, 0.0));
+    controller->force_N(history.largest_speed_px_s());
+    for (const Moment& moment : history.moments()) {
+      if (moment.interval_s > 0) controller->force_N({moment.speed_px_s, moment.interval_s});
+    }
     for (int i = 0; i < points; ++i) {
       curve.push_back(controller->force_N(highest_px_s * i / std::max(points - 1, 1)));
     }

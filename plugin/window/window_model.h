@@ -41,6 +41,7 @@ struct ElementState {
 /// What one analysed frame adds to the picture itself.
 struct FrameFacts {
   int64_t running_ns = 0;
+  double interval_s = 0;  ///< since the frame before; 0: nothing to compare with
   double analysis_ms = 0;
   VisiblePart visible;
   SceneView scene;
@@ -50,7 +51,8 @@ struct FrameFacts {
 /// A moment of the plots.
 struct Moment {
   double time_s = 0;
-  double speed_px_s = 0;  ///< as the gain controller sees it, of the reference frame
+  double interval_s = 0;  ///< of the frame before, when a new one has come; 0 otherwise
+  double speed_px_s = 0;  ///< of the reference frame, before the filter
   double wanted_N = 0;    ///< by the controller, of the newest frame
   double felt_N = 0;      ///< commanded by the loop, after safety
 };
@@ -73,12 +75,13 @@ class MotionHistory {
   double largest_speed_px_s_ = 0;
 };
 
-/// Speed that the gain controller is given for this motion (see render_motion()), px/s.
+/// Speed that the gain controller would be given for this motion (see render_motion()), px/s.
 double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height);
 
-/// Force in N at `points` speeds from 0 to `highest_px_s`, of a controller that has seen
-/// `largest_px_s`. Empty when the settings are out of range.
-std::vector<double> gain_curve(const ControllerSettings& settings, double largest_px_s,
+/// Force in N at `points` speeds from 0 to `highest_px_s`, of a controller that has learnt from
+/// this history: the linear one all there is to know, the adaptive one what kMemory_s seconds tell.
+/// Empty when the settings are out of range.
+std::vector<double> gain_curve(const ControllerSettings& settings, const MotionHistory& history,
                                double highest_px_s, int points);
 
 }  // namespace spidar

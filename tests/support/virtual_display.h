@@ -33,10 +33,14 @@ class VirtualDisplay {
   static constexpr const char* kWhyNot = "Xvfb does not start: is the package xvfb installed?";
 
   /// It answers nobody until thaw(): neither does what waits for it.
-  void freeze() const { kill(process_, SIGSTOP); }
-  void thaw() const { kill(process_, SIGCONT); }
+  void freeze() const { signal(SIGSTOP); }
+  void thaw() const { signal(SIGCONT); }
 
  private:
+  void signal(int number) const {
+    if (process_ > 0) kill(process_, number);  // others are no business of ours
+  }
+
   void start() {
     int ends[2];
     if (pipe(ends) != 0) return;
@@ -61,7 +65,7 @@ class VirtualDisplay {
 
   void stop() {
     if (process_ <= 0) return;
-    kill(process_, SIGKILL);
+    signal(SIGKILL);
     waitpid(process_, nullptr, 0);
     process_ = -1;
   }

@@ -91,7 +91,7 @@ TEST(Layout, TheGripIsSeenFromTheRightAndAbove) {
 
 TEST(History, RemembersFiveSecondsAndTheLargestSpeed) {
   MotionHistory history;
-  for (int i = 0; i <= 100; ++i) history.add({0.1 * i, i == 3 ? 500.0 : 10.0, 0, 0});
+  for (int i = 0; i <= 100; ++i) history.add({0.1 * i, 0, i == 3 ? 500.0 : 10.0, 0, 0});
   EXPECT_NEAR(history.moments().front().time_s, 5, 0.1 + kRounding);
   EXPECT_NEAR(history.moments().back().time_s, 10, kRounding);
   EXPECT_EQ(history.largest_speed_px_s(), 500) << "also when it is not shown any more";
@@ -101,17 +101,25 @@ TEST(History, RemembersFiveSecondsAndTheLargestSpeed) {
 }
 
 TEST(GainCurve, IsThatOfTheController) {
+  MotionHistory history;
+  history.add({0, 0.04, 400, 0, 0});
+  history.add({0.02, 0, 400, 0, 0});
   ControllerSettings settings;  // eq. 15: 2 · 3 / π · atan(0.01 v)
-  const std::vector<double> nonlinear = gain_curve(settings, 400, 200, 3);
+  const std::vector<double> nonlinear = gain_curve(settings, history, 200, 3);
   ASSERT_EQ(nonlinear.size(), 3u);
   EXPECT_EQ(nonlinear[0], 0);
   EXPECT_NEAR(nonlinear[1], 1.5, kRounding);
   EXPECT_NEAR(nonlinear[2], 6 / M_PI * std::atan(2.0), kRounding);
   settings.kind = ControllerKind::kLinear;  // eq. 12: k = 3 / 400
-  const std::vector<double> linear = gain_curve(settings, 400, 200, 3);
+  const std::vector<double> linear = gain_curve(settings, history, 200, 3);
   EXPECT_NEAR(linear[2], 1.5, kRounding);
+  // The same as one that was given the frame, once.
+  settings.kind = ControllerKind::kAdaptive;
+  const auto adaptive = make_controller(settings);
+  adaptive->force_N({400, 0.04});
+  EXPECT_NEAR(gain_curve(settings, history, 200, 3)[1], adaptive->force_N(100), kRounding);
   settings.max_force_N = -1;
-  EXPECT_TRUE(gain_curve(settings, 400, 200, 3).empty());
+  EXPECT_TRUE(gain_curve(settings, history, 200, 3).empty());
 }
 
 TEST(GainCurve, SpeedIsThatOfTheReferenceFrame) {

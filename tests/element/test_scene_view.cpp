@@ -1,0 +1,71 @@
+// Which track belongs to what.
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugin/overlay/scene_view.h"
+
+namespace spidar::test {
+namespace {
+
+FrameAnalysis analysis_of(const std::vector<Track>& tracks) {
+  FrameAnalysis analysis;
+  analysis.tracks = &tracks;
+  analysis.interval_ns = 40'000'000;
+  return analysis;
+}
+
+TEST(Scene, TellsNewAndLostPoints) {
+  SceneViewer viewer;
+  const VisiblePart visible{10, 20, 320, 240};
+  const std::vector<Track> first{{1, {0, 0}, {1, 0}}, {2, {5, 5}, {6, 5}}};
+  const std::vector<Track> second{{3, {9, 9}, {9, 9}}, {1, {1, 0}, {2, 0}}};
+  for (const SceneTrack& track : viewer.see(analysis_of(first), visible).tracks) {
+    EXPECT_FALSE(track.is_new) << "nothing to compare with";
+  }
+  const SceneView& scene = viewer.see(analysis_of(second), visible);
+  ASSERT_EQ(scene.tracks.size(), 2u);
+  EXPECT_TRUE(scene.tracks[0].is_new);
+  EXPECT_FALSE(scene.tracks[1].is_new);
+  EXPECT_EQ(scene.tracks[1].to.x_px, 12) << "in the frame, not in its visible part";
+  EXPECT_EQ(scene.tracks[1].to.y_px, 20);
+  ASSERT_EQ(scene.lost.size(), 1u);
+  EXPECT_EQ(scene.lost[0].x_px, 16);
+  viewer.see(FrameAnalysis(), visible);  // a restart
+  EXPECT_TRUE(viewer.see(analysis_of(first), visible).lost.empty());
+}
+
+TEST(Scene, TellsTheBackgroundFromObjects) {
+  Background background;
+  background.model.kind = ModelKind::kTranslation;
+  background.model.shift_px = {4, 0};
+  background.sigma_px = 0.1;
+  MovingObject left, right;  // boxes overlap at the centre of the frame
+  left.id = 7;
+  right.id = 8;
+  left.tracks = right.tracks = 3;
+  left.position_px = {-10, 0};
+  right.position_px = {10, 0};
+  left.size_px = right.size_px = {40, 40};
+  left.relative_px_s = {-100, 0};  // 4 px a frame
+  right.relative_px_s = {0, 100};
+  const std::vector<MovingObject> objects{left, right};
+  const std::vector<Track> tracks{{1, {20, 20}, {24.2F, 20}},   // background within 3 σ
+                                  {2, {160, 120}, {160, 120}},  // with the left object
+                                  {3, {160, 120}, {164, 124}},  // with the right one
+                                  {4, {20, 220}, {20, 220}}};   // alone
+  FrameAnalysis analysis = analysis_of(tracks);
+  analysis.background = &background;
+  analysis.object_list = &objects;
+  SceneViewer viewer;
+  const SceneView& scene = viewer.see(analysis, {0, 0, 321, 241});
+  EXPECT_EQ(scene.tracks[0].owner, TrackOwner::kBackground);
+  EXPECT_EQ(scene.tracks[1].owner, TrackOwner::kObject);
+  EXPECT_EQ(scene.tracks[1].object, 7u);
+  EXPECT_EQ(scene.tracks[2].object, 8u);
+  EXPECT_EQ(scene.tracks[3].owner, TrackOwner::kUnknown);
+  EXPECT_EQ(scene.objects.size(), 2u);
+}
+
+}  // namespace
+}  // namespace spidar::test
