@@ -27,7 +27,7 @@ build_and_test() {
     rm -f "$folder"/*.xml "$folder"/meson-logs/testlog*
     say "building in $folder/"
     if { [[ -f $folder/build.ninja ]] || meson setup "$folder" "${setup[@]}"; } &&
-        { [[ " $* " == *" --suite "* ]] || ninja -C "$folder" -j"$(nproc)"; }; then
+        { [[ " $* " == *" --suite "* ]] || ninja -C "$folder" -j"$(nproc)" "${targets[@]}"; }; then
         say "testing $folder/"
         # Of a suite, meson builds here what it needs.
         meson test -C "$folder" --print-errorlogs "${@:2}" || true
