@@ -144,6 +144,7 @@ TEST_P(Boards, EveryFaultIsNamedCountedAndForgotten) {
     EXPECT_EQ(device->health().count(fault), before + 1) << to_string(fault);
     EXPECT_EQ(device->health().last_fault, fault);
     wire->fault = LinkFault::kNone;
+    if (fault == LinkFault::kGone) device->open();
     EXPECT_EQ(exchange(), ExchangeStatus::kOk) << "after " << to_string(fault);
   }
 }
@@ -205,6 +206,39 @@ TEST_P(BoardsThatCount, CountsAreZeroedByPolicyOnly) {
     device->open();
     ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
     EXPECT_EQ(reading.count[3], c.again);
+  }
+}
+
+TEST_P(BoardsThatCount, ABoardThatWasWithoutPowerIsNotTakenBack) {
+  for (const CountZero policy : {CountZero::kFirstOpen, CountZero::kNever, CountZero::kEveryOpen}) {
+    motors.count[3] = 5000;
+    const auto device = this->device(false, policy);
+    DeviceReading reading;
+    device->open();
+    wire->fault = LinkFault::kGone;
+    EXPECT_EQ(device->exchange({}, reading), ExchangeStatus::kLost);
+    wire->fault = LinkFault::kNone;
+    motors.count[3] = 3;  // began anew
+    if (policy == CountZero::kEveryOpen) {
+      device->open();
+      ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+      EXPECT_EQ(reading.count[3], 0);
+      continue;
+    }
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      try {
+        device->open();
+        FAIL();
+      } catch (const DeviceError& error) {
+        EXPECT_NE(std::string(error.what()).find("was without power"), std::string::npos);
+      }
+    }
+    EXPECT_EQ(device->health().last_fault, LinkFault::kCounterJump);
+    // Had it its power after all, nothing is lost.
+    motors.count[3] = 5100;
+    device->open();
+    ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+    EXPECT_EQ(reading.count[3], policy == CountZero::kNever ? 5100 : 100);
   }
 }
 
