@@ -20,12 +20,13 @@ class CountUnwrapper {
   explicit CountUnwrapper(int bits) noexcept : bits_(bits) {}
 
   /// Counter values as the board gives them become counts that continue the last ones. False, and
-  /// nothing taken over, when one of them jumped.
-  bool follow(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
+  /// nothing taken over, when one of them moved further than `max_step`.
+  bool follow(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
+              int32_t max_step = kMaxStep) noexcept {
     std::array<int32_t, kMaxStrings> next = count_;
     for (size_t i = 0; i < channels; ++i) {
       const int32_t step = signed_difference(raw[i] - raw_[i]);
-      if (step > kMaxStep || step < -kMaxStep) return false;
+      if (step > max_step || step < -max_step) return false;
       next[i] =
           static_cast<int32_t>(static_cast<uint32_t>(count_[i]) + static_cast<uint32_t>(step));
     }
