@@ -4,8 +4,8 @@
 
 #include "spidar/boards/board.h"
 #include "spidar/boards/digits.h"
+#include "spidar/boards/encoder_counts.h"
 #include "spidar/boards/opening.h"
-#include "spidar/protocols/count_unwrapper.h"
 
 namespace spidar {
 
@@ -22,19 +22,20 @@ class ExampleBoard final : public Board {
     const LinkFault fault =
         open_exchange([&](int64_t until) { return exchange({}, raw, until); }, *transport_);
     if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
-    counts_.begin(raw, kMaxStrings);
+    counts_.open(raw, kMaxStrings);
   }
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
                   int64_t deadline_ns) noexcept override {
     Raw raw{};
     const LinkFault fault = exchange(volts, raw, deadline_ns);
     if (fault != LinkFault::kNone) return fault;
-    if (!counts_.follow(raw, kMaxStrings)) return LinkFault::kCounterJump;
+    if (!counts_.follow(raw, monotonic_now_ns())) return LinkFault::kCounterJump;
     reading.count = counts_.counts();
     return LinkFault::kNone;
   }
   void recover() noexcept override { transport_->recover(); }
   void zero_counts() noexcept override { counts_.zero(); }
+  bool counts_restarted() const noexcept override { return counts_.restarted(); }
   void close() noexcept override { transport_->close(); }
   std::vector<LastWill> last_wills() const override {
     return wills(*transport_, {std::array<uint8_t, 16>{}});
@@ -57,7 +58,7 @@ class ExampleBoard final : public Board {
   const std::string name_;
   const DacScale dac_;
   const std::unique_ptr<Transport> transport_;
-  CountUnwrapper counts_{16};
+  EncoderCounts counts_{16};
 };
 
 }  // namespace spidar

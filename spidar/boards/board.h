@@ -32,6 +32,10 @@ class SPIDAR_API Board {
   /// From now on counts are zero where the grip is. After open().
   virtual void zero_counts() noexcept = 0;
 
+  /// The board's counters have begun anew since it was open before, as they do without power: they
+  /// do not say where the grip is. Until zero_counts().
+  virtual bool counts_restarted() const noexcept { return false; }
+
   /// As Device::clear_counters().
   virtual bool clear_counters() noexcept { return false; }
 

@@ -67,6 +67,12 @@ void BoardDevice::open() {
     if (when == CountZero::kEveryOpen || (when != CountZero::kNever && !zeroed_))
       board_->zero_counts();
     zeroed_ = true;
+    if (board_->counts_restarted()) {
+      count(LinkFault::kCounterJump);
+      throw DeviceError(board_->name() +
+                        ": was without power, its counters do not say any more where the grip is: "
+                        "hold the grip at the centre, and stop and start again");
+    }
     last_ = {};
     errors_in_a_row_ = 0;
     if (settings_.threaded) start();

@@ -29,12 +29,7 @@ void CyverseBoard::open() {
     transport_->close();
     throw DeviceError(no_answer(name_, fault));
   }
-  if (counted_) {
-    counts_.resume(readout.counter, kMaxStrings);
-  } else {
-    counts_.begin(readout.counter, kMaxStrings);
-  }
-  counted_ = true;
+  counts_.open(readout.counter, kMaxStrings);
   rotary_ = readout.rotary;
 }
 
@@ -46,7 +41,7 @@ LinkFault CyverseBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
   Readout readout;
   const LinkFault fault = exchange(digits, readout, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
-  if (!counts_.follow(readout.counter, kMaxStrings)) return LinkFault::kCounterJump;
+  if (!counts_.follow(readout.counter, monotonic_now_ns())) return LinkFault::kCounterJump;
   reading.count = counts_.counts();
   reading.inputs = readout.inputs;
   return LinkFault::kNone;
@@ -57,7 +52,7 @@ bool CyverseBoard::clear_counters() noexcept {
   Readout readout;
   if (!send_clear(deadline_ns) || exchange({}, readout, deadline_ns) != LinkFault::kNone)
     return false;
-  counts_.begin(readout.counter, kMaxStrings);
+  counts_.begin(readout.counter);
   return true;
 }
 

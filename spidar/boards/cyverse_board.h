@@ -10,7 +10,7 @@
 #include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/digits.h"
-#include "spidar/protocols/count_unwrapper.h"
+#include "spidar/boards/encoder_counts.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar {
@@ -27,6 +27,7 @@ class SPIDAR_API CyverseBoard : public Board {
   void recover() noexcept final { transport_->recover(); }
   /// On the host: the board's own counters are left as they are.
   void zero_counts() noexcept final { counts_.zero(); }
+  bool counts_restarted() const noexcept final { return counts_.restarted(); }
   bool clear_counters() noexcept final;
   void close() noexcept final { transport_->close(); }
   std::vector<LastWill> last_wills() const final;
@@ -57,8 +58,7 @@ class SPIDAR_API CyverseBoard : public Board {
   const std::string name_;
   const DacScale dac_;
   const std::unique_ptr<Transport> transport_;
-  CountUnwrapper counts_;
-  bool counted_ = false;
+  EncoderCounts counts_;
   int rotary_ = -1;
 };
 

@@ -75,12 +75,7 @@ void UartBoard::open() {
       fault = exchange_all({}, raw, monotonic_now_ns() + 10 * kEnquiry_ns);
     }
     if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
-    if (counted_) {
-      counts_.resume(raw, motors_);
-    } else {
-      counts_.begin(raw, motors_);
-    }
-    counted_ = true;
+    counts_.open(raw, motors_);
   } catch (...) {
     close();
     throw;
@@ -121,7 +116,7 @@ LinkFault UartBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
   std::array<uint32_t, kMaxStrings> raw{};
   const LinkFault fault = exchange_all(volts, raw, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
-  if (!counts_.follow(raw, motors_)) return LinkFault::kCounterJump;
+  if (!counts_.follow(raw, monotonic_now_ns())) return LinkFault::kCounterJump;
   reading.count = counts_.counts();
   reading.inputs = 0;
   return LinkFault::kNone;

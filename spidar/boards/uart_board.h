@@ -9,7 +9,7 @@
 #include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/digits.h"
-#include "spidar/protocols/count_unwrapper.h"
+#include "spidar/boards/encoder_counts.h"
 #include "spidar/protocols/uart_motor.h"
 #include "spidar/transports/transport.h"
 
@@ -26,6 +26,7 @@ class SPIDAR_API UartBoard final : public Board {
                   int64_t deadline_ns) noexcept override;
   void recover() noexcept override;
   void zero_counts() noexcept override { counts_.zero(); }
+  bool counts_restarted() const noexcept override { return counts_.restarted(); }
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   std::string description() const override;
@@ -53,8 +54,7 @@ class SPIDAR_API UartBoard final : public Board {
   const std::vector<std::unique_ptr<Transport>> lines_;
   std::vector<Station> stations_;
   size_t motors_ = 0;
-  CountUnwrapper counts_{16};
-  bool counted_ = false;
+  EncoderCounts counts_{16};
   std::array<uint8_t, uart_motor::kMaxCycleLength> out_{};
   std::array<uint8_t, uart_motor::kMaxReplyLength> in_{};
 };

@@ -29,6 +29,9 @@ class SPIDAR_API UsbBoard final : public Board {
                   int64_t deadline_ns) noexcept override;
   void recover() noexcept override;
   void zero_counts() noexcept override;
+  bool counts_restarted() const noexcept override {
+    return used_ && used_->board->counts_restarted();
+  }
   bool clear_counters() noexcept override { return used_ && used_->board->clear_counters(); }
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;

@@ -18,7 +18,9 @@ void EmulatedTransport::open() {
 Transfer EmulatedTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                                      int64_t) noexcept {
   const LinkFault fault = wire_->fault.load(std::memory_order_relaxed);
-  if (!open_ || fault == LinkFault::kGone) return {LinkFault::kGone, 0};
+  // What was pulled out has to be opened again.
+  if (fault == LinkFault::kGone) open_ = false;
+  if (!open_) return {LinkFault::kGone, 0};
   if (fault == LinkFault::kStall) return {fault, 0};
   for (const ByteView packet : packets) board_->receive(packet);
   if (reply.size == 0) return {};

@@ -20,14 +20,27 @@ class CountUnwrapper {
   explicit CountUnwrapper(int bits) noexcept : bits_(bits) {}
 
   /// Counter values as the board gives them become counts that continue the last ones. False, and
-  /// nothing taken over, when one of them jumped.
-  bool follow(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
-    return move(raw, channels, kMaxStep);
+  /// nothing taken over, when one of them moved further than `max_step`.
+  bool follow(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
+              int32_t max_step = kMaxStep) noexcept {
+    std::array<int32_t, kMaxStrings> next = count_;
+    for (size_t i = 0; i < channels; ++i) {
+      const int32_t step = signed_difference(raw[i] - raw_[i]);
+      if (step > max_step || step < -max_step) return false;
+      next[i] =
+          static_cast<int32_t>(static_cast<uint32_t>(count_[i]) + static_cast<uint32_t>(step));
+    }
+    count_ = next;
+    raw_ = raw;
+    return true;
   }
 
-  /// The same after a break, in which strings may have moved further.
-  void resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
-    move(raw, channels, INT32_MAX);
+  /// The same after a break in which the board was not read. False, and nothing taken over, when
+  /// its counters seem to have begun anew, as they do when it loses its power: all of them are near
+  /// zero now and were not before, or one of them jumped. Call begin() when that is what is wanted.
+  bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
+    const bool anew = near_zero(raw, channels) && !near_zero(raw_, channels);
+    return !anew && follow(raw, channels);
   }
 
   /// Takes the counter values for the counts, sign extended: at a first reading.
@@ -43,17 +56,14 @@ class CountUnwrapper {
   const std::array<int32_t, kMaxStrings>& counts() const noexcept { return count_; }
 
  private:
-  bool move(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
-            int32_t max_step) noexcept {
-    std::array<int32_t, kMaxStrings> next = count_;
+  /// 17 mm at 17 µm a count: what strings go slack by while a board without power is switched on.
+  static constexpr int32_t kNearZero = 1024;
+
+  bool near_zero(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) const noexcept {
     for (size_t i = 0; i < channels; ++i) {
-      const int32_t step = signed_difference(raw[i] - raw_[i]);
-      if (step > max_step || step < -max_step) return false;
-      next[i] =
-          static_cast<int32_t>(static_cast<uint32_t>(count_[i]) + static_cast<uint32_t>(step));
+      const int32_t count = signed_difference(raw[i]);
+      if (count > kNearZero || count < -kNearZero) return false;
     }
-    count_ = next;
-    raw_ = raw;
     return true;
   }
 

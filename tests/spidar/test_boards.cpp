@@ -144,6 +144,7 @@ TEST_P(Boards, EveryFaultIsNamedCountedAndForgotten) {
     EXPECT_EQ(device->health().count(fault), before + 1) << to_string(fault);
     EXPECT_EQ(device->health().last_fault, fault);
     wire->fault = LinkFault::kNone;
+    if (fault == LinkFault::kGone) device->open();
     EXPECT_EQ(exchange(), ExchangeStatus::kOk) << "after " << to_string(fault);
   }
 }
@@ -205,6 +206,39 @@ TEST_P(BoardsThatCount, CountsAreZeroedByPolicyOnly) {
     device->open();
     ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
     EXPECT_EQ(reading.count[3], c.again);
+  }
+}
+
+TEST_P(BoardsThatCount, ABoardThatWasWithoutPowerIsNotTakenBack) {
+  for (const CountZero policy : {CountZero::kFirstOpen, CountZero::kNever, CountZero::kEveryOpen}) {
+    motors.count[3] = 5000;
+    const auto device = this->device(false, policy);
+    DeviceReading reading;
+    device->open();
+    wire->fault = LinkFault::kGone;
+    EXPECT_EQ(device->exchange({}, reading), ExchangeStatus::kLost);
+    wire->fault = LinkFault::kNone;
+    motors.count[3] = 3;  // began anew
+    if (policy == CountZero::kEveryOpen) {
+      device->open();
+      ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+      EXPECT_EQ(reading.count[3], 0);
+      continue;
+    }
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      try {
+        device->open();
+        FAIL();
+      } catch (const DeviceError& error) {
+        EXPECT_NE(std::string(error.what()).find("was without power"), std::string::npos);
+      }
+    }
+    EXPECT_EQ(device->health().last_fault, LinkFault::kCounterJump);
+    // Had it its power after all, nothing is lost.
+    motors.count[3] = 5100;
+    device->open();
+    ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+    EXPECT_EQ(reading.count[3], policy == CountZero::kNever ? 5100 : 100);
   }
 }
 
@@ -273,6 +307,22 @@ TEST(Uart, TooFewMotorsAreSaid) {
               std::string::npos)
         << error.what();
   }
+}
+
+TEST(EncoderCounts, AllowWhatAHandCanSinceTheLastReading) {
+  constexpr int64_t kMs = 1'000'000;
+  int64_t now_ns = 5 * kMs;
+  EncoderCounts counts(16);
+  counts.open({5000}, 1);
+  EXPECT_TRUE(counts.follow({5000}, now_ns));
+  EXPECT_TRUE(counts.follow({5000 + 4096}, now_ns += kMs));
+  EXPECT_FALSE(counts.follow({5000}, now_ns += kMs - 1));  // 2048 for less than a millisecond
+  // The counters began anew: that does not pass by waiting for it.
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(counts.follow({0}, now_ns += kMs));
+  EXPECT_EQ(counts.counts()[0], 9096);
+  // After a break of many milliseconds a quarter of the range, after a longer one no more.
+  EXPECT_FALSE(counts.follow({9096 + 16385}, now_ns += 100 * kMs));
+  EXPECT_TRUE(counts.follow({9096 + 16384}, now_ns += 7 * kMs));
 }
 
 /// The other end of the example in docs/adding-a-board.md.
