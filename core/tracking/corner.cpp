@@ -9,32 +9,47 @@
 namespace spidar {
 namespace {
 
-/// Σ of products of derivatives, each twice the derivative: a central difference is not halved.
+/// Σ of derivatives and of their products; each derivative is twice the true one, for a central
+/// difference is not halved.
 struct Tensor {
   int xx = 0;
   int xy = 0;
   int yy = 0;
+  int x = 0;
+  int y = 0;
 
+  void add(int gx, int gy) {
+    xx += gx * gx;
+    xy += gx * gy;
+    yy += gy * gy;
+    x += gx;
+    y += gy;
+  }
   Tensor& operator+=(const Tensor& o) {
     xx += o.xx;
     xy += o.xy;
     yy += o.yy;
+    x += o.x;
+    y += o.y;
     return *this;
   }
 };
 
-/// Smaller eigenvalue of the window's mean tensor, (grey / px)²; 0 for an edge.
+/// Smaller eigenvalue of the window's mean tensor about its mean, (grey / px)²; 0 for an edge.
+/// About its mean, because windows are compared without their mean: a slope alone shows nothing.
 float strength(const Tensor& t) {
   constexpr float kTwice = 4;  // both derivatives
-  constexpr float kScale = 1 / (kTwice * kCornerWindow_px * kCornerWindow_px);
-  const auto xx = static_cast<float>(t.xx);
-  const auto xy = static_cast<float>(t.xy);
-  const auto yy = static_cast<float>(t.yy);
+  constexpr float kPixels = kCornerWindow_px * kCornerWindow_px;
+  const auto x = static_cast<float>(t.x);
+  const auto y = static_cast<float>(t.y);
+  const float xx = static_cast<float>(t.xx) - x * x / kPixels;
+  const float xy = static_cast<float>(t.xy) - x * y / kPixels;
+  const float yy = static_cast<float>(t.yy) - y * y / kPixels;
   const float difference = xx - yy;
   const float root = std::sqrt(difference * difference + 4 * xy * xy);
   const float smaller = xx + yy - root;
   const float larger = xx + yy + root;
-  return smaller > kLeastRoundness * larger ? 0.5f * kScale * smaller : 0.0f;
+  return smaller > kLeastRoundness * larger ? 0.5f / (kTwice * kPixels) * smaller : 0.0f;
 }
 
 constexpr int kBlock_px = kCornerStep_px;
@@ -47,6 +62,9 @@ void two_blocks(const uint8_t* pixels, ptrdiff_t stride, Tensor* to) {
   cv::v_int32x4 xx = cv::v_setzero_s32();
   cv::v_int32x4 xy = xx;
   cv::v_int32x4 yy = xx;
+  cv::v_int32x4 sx = xx;
+  cv::v_int32x4 sy = xx;
+  const cv::v_int16x8 ones = cv::v_setall_s16(1);
   const auto load = [](const uint8_t* p) { return cv::v_reinterpret_as_s16(cv::v_load_expand(p)); };
   for (int y = 0; y < kBlock_px; ++y) {
     const uint8_t* row = pixels + y * stride;
@@ -55,13 +73,21 @@ void two_blocks(const uint8_t* pixels, ptrdiff_t stride, Tensor* to) {
     xx = cv::v_dotprod(gx, gx, xx);
     xy = cv::v_dotprod(gx, gy, xy);
     yy = cv::v_dotprod(gy, gy, yy);
+    sx = cv::v_dotprod(gx, ones, sx);
+    sy = cv::v_dotprod(gy, ones, sy);
   }
-  std::array<int, 12> sums;
-  cv::v_store(sums.data(), xx);
-  cv::v_store(sums.data() + 4, xy);
-  cv::v_store(sums.data() + 8, yy);
-  to[0] = {sums[0] + sums[1], sums[4] + sums[5], sums[8] + sums[9]};
-  to[1] = {sums[2] + sums[3], sums[6] + sums[7], sums[10] + sums[11]};
+  // Of four lanes the first two are those of the left block.
+  std::array<int, 4> lanes;
+  const auto split = [&](const cv::v_int32x4& sums, int Tensor::*part) {
+    cv::v_store(lanes.data(), sums);
+    to[0].*part = lanes[0] + lanes[1];
+    to[1].*part = lanes[2] + lanes[3];
+  };
+  split(xx, &Tensor::xx);
+  split(xy, &Tensor::xy);
+  split(yy, &Tensor::yy);
+  split(sx, &Tensor::x);
+  split(sy, &Tensor::y);
 }
 #endif
 
@@ -70,9 +96,7 @@ Tensor one_block(const uint8_t* pixels, ptrdiff_t stride) {
   for (int y = 0; y < kBlock_px; ++y) {
     for (int x = 0; x < kBlock_px; ++x) {
       const uint8_t* p = pixels + y * stride + x;
-      const int gx = p[1] - p[-1];
-      const int gy = p[stride] - p[-stride];
-      sum += {gx * gx, gx * gy, gy * gy};
+      sum.add(p[1] - p[-1], p[stride] - p[-stride]);
     }
   }
   return sum;
@@ -134,9 +158,8 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box) {
       Tensor window;
       for (int y = y0; y < y0 + kCornerWindow_px; ++y) {
         for (int x = x0; x < x0 + kCornerWindow_px; ++x) {
-          const int gx = image.row(y)[x + 1] - image.row(y)[x - 1];
-          const int gy = image.row(y + 1)[x] - image.row(y - 1)[x];
-          window += {gx * gx, gx * gy, gy * gy};
+          window.add(image.row(y)[x + 1] - image.row(y)[x - 1],
+                     image.row(y + 1)[x] - image.row(y - 1)[x]);
         }
       }
       const float found = strength(window);

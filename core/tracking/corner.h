@@ -9,8 +9,8 @@ namespace spidar {
 /// Centre of a window of kCornerWindow_px and how well it can be followed.
 struct Corner {
   ImagePoint at;
-  /// Smaller eigenvalue of the mean structure tensor of the window, (grey / px)²; 0 when there is
-  /// nothing or but an edge.
+  /// Smaller eigenvalue of the mean structure tensor of the window about its mean, (grey / px)²; 0
+  /// when there is nothing or but an edge.
   float strength = 0;
 };
 
@@ -21,7 +21,7 @@ constexpr int kCornerStep_px = 4;
 
 /// Smaller eigenvalue over the larger one, at least: what looks less round is an edge, along which
 /// only its noise would be followed.
-constexpr float kLeastRoundness = 0.02f;
+constexpr float kLeastRoundness = 0.05f;
 
 /// A piece of an image, in pixels; x1, y1 are the first outside.
 struct PixelBox {

@@ -8,6 +8,7 @@
 
 #include "core/tracking/corner.h"
 #include "core/tracking/gray_pyramid.h"
+#include "core/tracking/light_change.h"
 #include "core/tracking/pixel_scale.h"
 #include "core/tracking/point_grid.h"
 #include "core/tracking/pyramid_search.h"
@@ -27,15 +28,26 @@ Budget budget_of(TrackerQuality quality) {
     case TrackerQuality::kFast:
       return {0.5, false};
     case TrackerQuality::kBalanced:
-      return {0.75, true};
+      return {0.5, true};
     case TrackerQuality::kFine:
-      return {1, true};
+      return {0.75, true};
   }
-  return {0.75, true};
+  return {0.5, true};
 }
+
+/// Cells become smaller while less than this share of the points asked for is in use …
+constexpr double kFewInUse = 0.35;
+/// … and larger again from this one on.
+constexpr double kManyInUse = 0.9;
+constexpr double kCellStep = 0.7071067811865476;  // twice as many cells
+constexpr double kLeastCellScale = 0.3;
 
 /// The same thing has a residual below this share of its contrast, see WindowMatch.
 constexpr float kSameThing = 0.5f;
+/// Where it was not expected more is asked for: smooth windows look like many others.
+constexpr float kSameThingElsewhere = 0.35f;
+/// A larger window may see something else beside: then its residual grows by this.
+constexpr float kWiderWorse = 0.1f;
 /// Followed back, a point comes to where it was, pixels of the reduced picture.
 constexpr float kReturn_px = 0.5f;
 
@@ -66,11 +78,12 @@ struct Point {
   ImagePoint at;     ///< in the reduced picture
   ImagePoint frame;  ///< in the frame
   ImagePoint from;   ///< where that was in the frame before
-  ImagePoint moved;  ///< since the frame before, in the reduced picture
+  ImagePoint moved;  ///< since the frame before, in the reduced picture; expected of a new one
   bool is_new = true;
 
-  bool found = false;      ///< in this frame
-  bool has_place = false;  ///< on the grid
+  bool found = false;        ///< in this frame
+  bool has_place = false;    ///< on the grid
+  bool is_surprise = false;  ///< found, but not from where it was expected
   PointMatch match;
 };
 
@@ -81,6 +94,10 @@ ImagePoint operator-(ImagePoint a, ImagePoint b) {
 bool nearer_than(ImagePoint a, ImagePoint b, float px) {
   const ImagePoint d = a - b;
   return d.x_px * d.x_px + d.y_px * d.y_px < px * px;
+}
+
+ImagePoint operator+(ImagePoint a, ImagePoint b) {
+  return {a.x_px + b.x_px, a.y_px + b.y_px};
 }
 
 bool same_pixels(const PaddedImage& a, const PaddedImage& b) {
@@ -105,6 +122,7 @@ struct PatchTracker::Impl {
   std::vector<Point> points;       // the oldest first
   std::vector<FineTemplate> fine;  // of the points, in the frame before
   PointGrid grid;
+  double cell_scale = 1;  // see adapt_cells()
   std::vector<Corner> candidates;
   std::vector<float> moved_x;  // buffers of median_motion()
   std::vector<float> moved_y;
@@ -116,13 +134,16 @@ struct PatchTracker::Impl {
   TrackedFrame result;
 
   void track(const ImageView& frame);
+  int cell_px() const;
+  void adapt_cells();
   void stand_still();
   bool follow(const ImageView& frame);
   float least_strength() const;
   void search_expected(SearchSettings search);
   void search_lost(SearchSettings search);
   ImagePoint median_motion(size_t& found);
-  bool try_from(Point& point, ImagePoint expected, const SearchSettings& search);
+  bool try_from(Point& point, ImagePoint expected, const SearchSettings& search, float most);
+  bool look_wider(Point& point, float gain);
   bool comes_back(const Point& point, const SearchSettings& search) const;
   ImagePoint refined(const Point& point, const FineTemplate& was, const ImageView& frame,
                      float gain) const;
@@ -131,6 +152,7 @@ struct PatchTracker::Impl {
   void drop_lost();
   void add_points(bool everywhere);
   void read_fine_templates(const ImageView& frame);
+  bool is_in_picture(ImagePoint p) const;
   /// With factor 1 the reduced picture is the frame, and the search has refined it there.
   bool uses_fine() const { return budget.refines && factor > 1; }
 };
@@ -144,10 +166,8 @@ void PatchTracker::Impl::track(const ImageView& frame) {
   std::swap(before, now);
   reduce_blocks(frame, factor, now.levels[0]);
   const PaddedImage& base = now.levels[0];
-  const double cells = budget.grid_share * settings.max_features;
-  const double even_px = std::sqrt(base.width() * base.height() / cells);
-  const double asked_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
-  grid.lay_out(base.width(), base.height(), static_cast<int>(std::max(even_px, asked_px)));
+  if (!comparable) cell_scale = 1;
+  grid.lay_out(base.width(), base.height(), cell_px());
 
   result.tracks.clear();
   result.restarted = !comparable;
@@ -157,12 +177,36 @@ void PatchTracker::Impl::track(const ImageView& frame) {
     return;
   }
   now.build_from_base();
+  if (comparable && only_light_changed(before, now)) {
+    stand_still();
+    read_fine_templates(frame);
+    return;
+  }
   grid.begin_frame();
   if (!comparable) points.clear();
   if (comparable) result.restarted = !follow(frame);
   add_points(result.restarted);
   read_fine_templates(frame);
   result.features = static_cast<int>(points.size());
+}
+
+int PatchTracker::Impl::cell_px() const {
+  const PaddedImage& base = now.levels[0];
+  const double cells = budget.grid_share * settings.max_features;
+  const double even_px = std::sqrt(base.width() * base.height() / cells);
+  const double asked_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
+  return static_cast<int>(std::max(cell_scale * even_px, asked_px));
+}
+
+/// Where most of the picture shows nothing to follow the rest may have more of the points.
+void PatchTracker::Impl::adapt_cells() {
+  const auto in_use = static_cast<double>(points.size());
+  const double most = settings.max_features;
+  if (in_use < kFewInUse * most && cell_scale > kLeastCellScale) {
+    cell_scale *= kCellStep;
+  } else if (in_use > kManyInUse * most && cell_scale < 1) {
+    cell_scale /= kCellStep;
+  }
 }
 
 void PatchTracker::Impl::stand_still() {
@@ -177,16 +221,29 @@ float PatchTracker::Impl::least_strength() const {
   return std::max(kLeastStrength, static_cast<float>(settings.quality_level) * strongest);
 }
 
-bool PatchTracker::Impl::try_from(Point& point, ImagePoint expected, const SearchSettings& search) {
+bool PatchTracker::Impl::try_from(Point& point, ImagePoint expected, const SearchSettings& search,
+                                  float most) {
   PointMatch match;
   if (!find_point(before, now, point.at, expected, search, match)) return false;
-  if (match.residual > kSameThing) return false;
+  if (match.residual > most) return false;
   point.match = match;
-  point.found = comes_back(point, search);
-  if (point.found && budget.refines) {
-    refine_point(before, now, point.at, search.gain, point.match);
-  }
+  point.found = comes_back(point, search) && look_wider(point, search.gain);
   return point.found;
+}
+
+/// Refines with a larger window, and asks it about points that were found for the first time or
+/// elsewhere: false when it does not see the same thing.
+bool PatchTracker::Impl::look_wider(Point& point, float gain) {
+  const bool in_doubt = point.is_new || point.is_surprise;
+  if (!in_doubt && !budget.refines) return true;
+  PointMatch wide;
+  if (!refine_point(before, now, point.at, gain, point.match, wide)) return true;
+  if (in_doubt && wide.residual > kSameThing) return false;
+  if (budget.refines && wide.residual < point.match.residual + kWiderWorse) {
+    point.match.to = wide.to;
+    point.match.variance_px2 = wide.variance_px2;
+  }
+  return true;
 }
 
 bool PatchTracker::Impl::comes_back(const Point& point, const SearchSettings& search) const {
@@ -203,7 +260,8 @@ void PatchTracker::Impl::search_expected(SearchSettings search) {
   search.first_level = kExpectedLevel;
   for (Point& point : points) {
     point.found = false;
-    try_from(point, point.moved, search);
+    point.is_surprise = false;
+    try_from(point, point.moved, search, kSameThing);
   }
 }
 
@@ -235,15 +293,19 @@ void PatchTracker::Impl::search_lost(SearchSettings search) {
   ImagePoint jumped = common;
   for (Point& point : points) {
     if (point.found) continue;
+    point.is_surprise = true;
+    // Where the others go it would leave: what looks like it elsewhere is not it.
+    if (found > 0 && !is_in_picture(point.at + jumped)) continue;
     search.first_level = kExpectedLevel;
-    if (found > 0 && try_from(point, jumped, search)) continue;
+    if (found > 0 && try_from(point, jumped, search, kSameThingElsewhere)) continue;
     search.first_level = GrayPyramid::kLevels - 1;
-    if (try_from(point, {0, 0}, search)) continue;
+    if (try_from(point, {0, 0}, search, kSameThingElsewhere)) continue;
     if (block_searches >= kMostBlockSearches || in_vain > kMostBlockSearches / 2) continue;
     ++block_searches;
     ImagePoint moved;
     search.first_level = 2;
-    if (find_by_blocks(before, now, point.at, moved) && try_from(point, moved, search)) {
+    if (find_by_blocks(before, now, point.at, moved) &&
+        try_from(point, moved, search, kSameThingElsewhere)) {
       jumped = point.match.to - point.at;
       ++found;
       in_vain = 0;
@@ -251,6 +313,14 @@ void PatchTracker::Impl::search_lost(SearchSettings search) {
       ++in_vain;
     }
   }
+}
+
+bool PatchTracker::Impl::is_in_picture(ImagePoint p) const {
+  const PaddedImage& base = now.levels[0];
+  constexpr float kHalf_px = kSearchWindow_px / 2.0f;
+  return p.x_px >= kHalf_px && p.y_px >= kHalf_px &&
+         p.x_px <= static_cast<float>(base.width()) - 1 - kHalf_px &&
+         p.y_px <= static_cast<float>(base.height()) - 1 - kHalf_px;
 }
 
 bool PatchTracker::Impl::follow(const ImageView& frame) {
@@ -319,7 +389,10 @@ void PatchTracker::Impl::settle(const ImageView& frame, float gain) {
 /// or else an object whose other points come with the next frames.
 void PatchTracker::Impl::report() {
   for (const Point& point : points) {
-    if (!point.found || !grid.is_supported(point.at, point.moved)) continue;
+    if (!point.found) continue;
+    const PointGrid::Support support = grid.support(point.at, point.moved);
+    const bool alone = support.beside == 0 && !point.is_surprise;
+    if (support.alike == 0 && !alone) continue;
     result.tracks.push_back({point.id, point.from, point.frame});
   }
 }
@@ -343,6 +416,7 @@ void PatchTracker::Impl::add_points(bool everywhere) {
   }
   strongest = everywhere ? strongest_next : std::max(strongest, strongest_next);
   if (++frames_in_turn >= PointGrid::kTurns) {
+    adapt_cells();
     strongest = strongest_next;
     strongest_next = 0;
     frames_in_turn = 0;
@@ -354,6 +428,7 @@ void PatchTracker::Impl::add_points(bool everywhere) {
     Point point;
     point.id = next_id++;
     point.at = corner.at;
+    point.moved = grid.motion_near(corner.at);
     point.frame = to_frame(corner.at, factor);
     points.push_back(point);
   }

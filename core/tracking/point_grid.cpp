@@ -13,11 +13,14 @@ constexpr uint8_t kDenseFrames = 12;
 /// Points that came in from next door may stay.
 constexpr int kMostInCell = 2;
 
-bool alike(ImagePoint a, ImagePoint b) {
+/// What turns or grows by 0.05 a frame is still one thing, whose points a cell apart move so.
+constexpr float kTurn = 0.05f;
+
+bool alike(ImagePoint a, ImagePoint b, float least_px = kDifferent_px) {
   const auto squared = [](float x, float y) { return x * x + y * y; };
   const float motion = std::max(squared(a.x_px, a.y_px), squared(b.x_px, b.y_px));
   return squared(a.x_px - b.x_px, a.y_px - b.y_px) <=
-         kDifferent_px * kDifferent_px + kDifferent * kDifferent * motion;
+         least_px * least_px + kDifferent * kDifferent * motion;
 }
 
 int points_in(unsigned taken) {
@@ -32,8 +35,10 @@ size_t lowest_quarter(unsigned taken) {
   return quarter;
 }
 
-/// A window that is found here may move by a pixel and still be inside.
-constexpr int kBorder_px = 2;
+/// So that the larger window that refines a point is inside, too; less where there is no room.
+int border_px(int size) {
+  return std::clamp((size - kCornerWindow_px) / 4, 2, 5);
+}
 
 }  // namespace
 
@@ -112,19 +117,32 @@ void PointGrid::compare_neighbours() {
   }
 }
 
-bool PointGrid::is_supported(ImagePoint at, ImagePoint moved) const {
+PointGrid::Support PointGrid::support(ImagePoint at, ImagePoint moved) const {
   const Cell& own = cells_[cell_of(at)];
   const auto quarter = static_cast<size_t>(quarter_of(at));
-  int beside = 0;
-  int agree = 0;
+  Support support;
+  const float least_px = kDifferent_px + kTurn * static_cast<float>(cell_px_);
   around(column_of(at), row_of(at), [&](const Cell& other) {
     for (size_t k = 0; k < kQuarters; ++k) {
       if (!other.has(static_cast<int>(k)) || (&other == &own && k == quarter)) continue;
-      ++beside;
-      if (alike(moved, other.moved[k])) ++agree;
+      ++support.beside;
+      if (alike(moved, other.moved[k], least_px)) ++support.alike;
     }
   });
-  return agree > 0 || beside == 0;
+  return support;
+}
+
+ImagePoint PointGrid::motion_near(ImagePoint at) const {
+  const Cell& own = cells_[cell_of(at)];
+  if (own.taken != 0) return own.moved[lowest_quarter(own.taken)];
+  ImagePoint moved;
+  bool found = false;
+  around(column_of(at), row_of(at), [&](const Cell& other) {
+    if (found || other.taken == 0) return;
+    found = true;
+    moved = other.moved[lowest_quarter(other.taken)];
+  });
+  return moved;
 }
 
 PixelBox PointGrid::box(int quarter_x, int quarter_y, int quarters) const {
@@ -132,13 +150,14 @@ PixelBox PointGrid::box(int quarter_x, int quarter_y, int quarters) const {
   // Of a window of 8 px the middle is 3.5 px from its first.
   constexpr int kBefore_px = kCornerWindow_px / 2 - 1;
   constexpr int kAfter_px = kCornerWindow_px / 2;
-  const auto first = [&](int quarter) {
-    return std::max(quarter * half_px - kBefore_px, kBorder_px);
+  const auto first = [&](int quarter, int size) {
+    return std::max(quarter * half_px - kBefore_px, border_px(size));
   };
   const auto last = [&](int quarter, int size) {
-    return std::min((quarter + quarters) * half_px + kAfter_px, size - kBorder_px);
+    return std::min((quarter + quarters) * half_px + kAfter_px, size - border_px(size));
   };
-  return {first(quarter_x), first(quarter_y), last(quarter_x, width_), last(quarter_y, height_)};
+  return {first(quarter_x, width_), first(quarter_y, height_), last(quarter_x, width_),
+          last(quarter_y, height_)};
 }
 
 }  // namespace spidar

@@ -33,8 +33,15 @@ class PointGrid {
   /// most cells around have no point, points will be dense for some frames.
   void compare_neighbours();
 
-  /// Whether a point next to this one moves alike, or there is none that could.
-  bool is_supported(ImagePoint at, ImagePoint moved) const;
+  /// Points in the cell of a point and around it, and those of them that move as it does.
+  struct Support {
+    int beside = 0;
+    int alike = 0;
+  };
+  Support support(ImagePoint at, ImagePoint moved) const;
+
+  /// What a new point there may be expected to do: what one next to it did; (0, 0) without any.
+  ImagePoint motion_near(ImagePoint at) const;
 
   /// Calls `found(PixelBox)` for each place that wants a point and is searched in this frame;
   /// `everywhere`: in all cells. Boxes are such that windows in them are inside the picture and

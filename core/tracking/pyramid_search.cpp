@@ -18,8 +18,6 @@ using SearchTemplate = WindowTemplate<kSearchWindow_px>;
 constexpr MatchSettings kCoarse{3, 0.15f, 5, 1};
 constexpr MatchSettings kBase{6, 0.06f, 5, 1};
 constexpr MatchSettings kRefine{3, 0.02f, 1, 1};
-/// A larger window may see something else beside: then its residual grows.
-constexpr float kRefineWorse = 0.1f;
 /// A point that is followed may become less of a corner than a new one.
 constexpr float kKeptRoundness = kLeastRoundness / 2;
 /// Of the strength asked for, at coarse levels.
@@ -68,7 +66,7 @@ bool find_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint fr
 }
 
 bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from, float gain,
-                  PointMatch& match) {
+                  const PointMatch& match, PointMatch& wide) {
   const PaddedImage& was = before.levels[0];
   const PaddedImage& is = now.levels[0];
   if (!is_inside(was, from, kRefineWindow_px) || !is_inside(is, match.to, kRefineWindow_px)) {
@@ -80,9 +78,7 @@ bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint 
   settings.gain = gain;
   WindowMatch found{match.to, 0};
   if (!window.find(ReadablePixels(is), settings, found)) return false;
-  if (found.residual > match.residual + kRefineWorse) return false;
-  match.to = found.centre;
-  match.variance_px2 = found.variance_px2;
+  wide = {found.centre, found.residual, found.variance_px2, window.strength()};
   return true;
 }
 
@@ -133,30 +129,6 @@ bool find_by_blocks(const GrayPyramid& before, const GrayPyramid& now, ImagePoin
            static_cast<float>(best.dy * (1 << kLevel))};
   return best.difference < kMostDifference * kSide_px * kSide_px &&
          static_cast<int64_t>(best.difference) * 10 < static_cast<int64_t>(second) * 9;
-}
-
-float contrast_gain(const GrayPyramid& before, const GrayPyramid& now) {
-  constexpr float kNoticed = 0.1f;
-  const auto deviation = [](const PaddedImage& image) {
-    int64_t sum = 0;
-    int64_t squared = 0;
-    for (int y = 0; y < image.height(); ++y) {
-      const uint8_t* row = image.row(y);
-      for (int x = 0; x < image.width(); ++x) {
-        sum += row[x];
-        squared += row[x] * row[x];
-      }
-    }
-    const auto n = static_cast<double>(image.width()) * image.height();
-    const double mean = static_cast<double>(sum) / n;
-    return std::sqrt(std::max(0.0, static_cast<double>(squared) / n - mean * mean));
-  };
-  const double was = deviation(before.levels.back());
-  const double is = deviation(now.levels.back());
-  // Below a grey level there is nothing but rounding to compare.
-  if (was < 1 || is < 1) return 1;
-  const auto gain = static_cast<float>(is / was);
-  return std::abs(gain - 1) < kNoticed ? 1.0f : gain;
 }
 
 }  // namespace spidar

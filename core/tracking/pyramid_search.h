@@ -28,20 +28,18 @@ struct SearchSettings {
 bool find_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from,
                 ImagePoint expected, const SearchSettings& settings, PointMatch& match);
 
-/// Brings `match` nearer to the truth with a window of four times the pixels. False, and nothing
-/// changed, when it would reach over the border or sees more than one thing.
 constexpr int kRefineWindow_px = 16;
-bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from, float gain,
-                  PointMatch& match);
 
-/// Displacement of least absolute difference within about 8 px of a coarse level, that is
-/// 64 px of the base: for points that have jumped further than Gauss–Newton finds. False when
+/// The same with a window of four times the pixels, from `match` on: `wide` is then nearer to the
+/// truth, unless that window sees more than one thing, which its residual tells. False when it
+/// would reach over the border.
+bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from, float gain,
+                  const PointMatch& match, PointMatch& wide);
+
+/// Displacement of least absolute difference within 12 px of the coarsest level, that is 96 px of
+/// the base: for points that have jumped further than Gauss–Newton finds. False when
 /// nothing looks alike or two places look alike.
 bool find_by_blocks(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from,
                     ImagePoint& moved);
-
-/// Contrast of `now` over that of `before`; 1 when they differ by less than what things that come
-/// and go change.
-float contrast_gain(const GrayPyramid& before, const GrayPyramid& now);
 
 }  // namespace spidar

@@ -203,8 +203,8 @@ TEST(MotionAnalyzer, ACutKeepsWhatTheAdaptiveControllerHasLearntAndARestartDoesN
 }
 
 TEST(MotionAnalyzer, TheFilterBeginsAnewAfterACut) {
-  AnalyzerSettings settings;
-  settings.motion = MotionKind::kMean;
+  AnalyzerSettings settings = paper_settings();
+  settings.filter = FilterSettings();
   MotionAnalyzer analyzer(settings);
   MotionAnalyzer unfiltered(paper_settings());
   int64_t time_ns = 0;

@@ -204,12 +204,14 @@ TEST(ObjectMotion, ADiscThatComesNearerAndTurnsIsFeltSo) {
     for (int n = 0; n < 8; ++n) {
       const Placement disc{{0, 0}, std::pow(1.02, sign * n), 0.02 * sign * n};
       const FrameAnalysis frame = analyzer.analyze(scene.draw({}, {disc}), n * kFrame_ns);
-      if (n < 2) continue;
-      // A mean right to 0.03 px, of points that are 30 px from the middle on average.
+      if (n < 3) continue;  // the points become denser once something moves
+      // A mean right to 0.03 px, of points that are 30 px from the middle on average; and of the
+      // turn, which the plain background behind the rim does not share, a third of the points
+      // (within 11 px of it: half the diagonal of a window of 16 px) may lose a quarter.
       EXPECT_NEAR(frame.motion.growth_1_s * kFrame_s, std::pow(1.02, sign) * std::cos(0.02) - 1,
                   kMean_px / 30)
           << n;
-      EXPECT_NEAR(frame.motion.roll_rad_s * kFrame_s, 0.02 * sign, kMean_px / 30) << n;
+      EXPECT_NEAR(frame.motion.roll_rad_s * kFrame_s, 0.02 * sign, kMean_px / 30 + 0.02 / 12) << n;
       // Nearer: towards the viewer. Clockwise on the screen: against the device's sense of turn.
       EXPECT_GT(sign * frame.wrench.force_N.z(), 0.5) << n;
       EXPECT_LT(sign * frame.wrench.torque_Nm.z(), -0.5 * kTorqueArm_m) << n;

@@ -135,7 +135,7 @@ TYPED_TEST(EveryTracker, APeriodicTextureDoesNotJumpAPeriod) {
     });
     const TrackedFrame& frame = tracker.track(picture.view());
     if (n == 0) continue;
-    ASSERT_GE(frame.tracks.size(), 100u);
+    ASSERT_GE(frame.tracks.size(), 50u);
     for (const Track& track : frame.tracks) {
       EXPECT_NEAR(dx(track), 2, kTrackTolerance_px) << n;
       EXPECT_NEAR(dy(track), -1, kTrackTolerance_px) << n;
@@ -282,10 +282,10 @@ int found_on_entering_ball(uint32_t seed, bool textured_background) {
 }
 
 TYPED_TEST(EveryTracker, AnObjectThatEntersAnEmptyPictureIsFound) {
-  // A disc of 70 px has room for some hundred points 7.5 px apart, or forty in quarters of cells of
-  // 39 px, 150 of which cover the picture: half of them at least.
+  // A disc of 70 px has room for some hundred points 7.5 px apart, or 27 in quarters of cells of
+  // 48 px, 100 of which cover the picture: half of them at least.
   const bool has_cells = std::is_same_v<TypeParam, PatchTracker>;
-  EXPECT_GE(found_on_entering_ball<TypeParam>(1, false), has_cells ? 20 : 50);
+  EXPECT_GE(found_on_entering_ball<TypeParam>(1, false), has_cells ? 13 : 50);
 }
 
 TYPED_TEST(EveryTracker, AnObjectThatEntersAFullPictureGetsItsShareOfThePoints) {
@@ -324,9 +324,9 @@ TYPED_TEST(EveryTracker, SettingsTakeEffectWithTheNextFrame) {
   MovingTexture scene(640, 360, 1, 0);
   TrackerSettings settings;
   TypeParam tracker(settings);
-  // How many of them there are is up to the tracker; with texture everywhere at least half.
+  // How many of them there are is up to the tracker; with texture everywhere a third at least.
   const auto in_use = [](int features, int most) {
-    return features <= most && 2 * features >= most;
+    return features <= most && 3 * features >= most;
   };
   EXPECT_PRED2(in_use, tracker.track(scene.frame(0)).features, 200);
   settings.max_features = 20;
