@@ -112,7 +112,10 @@ int pull_command(int argc, char** argv) {
   ChosenDevice chosen = choose_device(options);
   require_strings(chosen.board, "pull");
   const Pull pull = parse(options, chosen.profile);
-  if (!yes && !confirm(question(pull, *chosen.device))) return kFailed;
+  if (!yes && !confirm(question(pull, *chosen.device))) {
+    std::cerr << "nothing was pulled\n";
+    return kFailed;
+  }
   catch_signals();
   const Lengths lengths = run(chosen, pull);
   if (!lengths.complete) {

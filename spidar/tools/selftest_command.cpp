@@ -119,8 +119,10 @@ int selftest_command(int argc, char** argv) {
   const bool simulated = options.common.device.compare(0, 3, "sim") == 0;
   if (!options.yes && !simulated &&
       !confirm("Pull the strings of " + chosen.device->name() +
-               " one after the other? The grip will move; hold it at the centre, loosely."))
+               " one after the other? The grip will move; hold it at the centre, loosely.")) {
+    std::cerr << "nothing was pulled\n";
     return kFailed;
+  }
   catch_signals();
   WiringTestSettings settings;
   settings.pull_N = options.newton;
