@@ -21,7 +21,8 @@ tension. NEWTON is within the profile's limits for that string.
   --profile NAME  profile of the device, a name or a file
   --json          how the lengths changed, as JSON
 
-Exit status: 0 pulled, 1 no device, no answer, or not wanted, 2 wrong usage, 130 interrupted.
+Exit status: 0 pulled, 1 no device, no answer, or not wanted, 2 wrong usage,
+130 interrupted.
 )";
 
 /// Up and down.

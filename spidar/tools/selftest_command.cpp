@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl selftest DEVICE [OPTION]...
 
-Pulls one string after the other, 0.6 s each, and tells from the encoders which motor and which
+Pulls one string after the other, half a second each, and tells from the encoders which motor and which
 encoder is at which string, and which is reversed. Hold the grip at the centre, loosely.
 
   --newton N             pull by so much above the smallest tension, 0.1 to 2 (default 0.5)
@@ -33,7 +33,8 @@ encoder is at which string, and which is reversed. Hold the grip at the centre, 
                          reverse-motor, cut-motor, cut-encoder
   --help
 
-Exit status: 0 wired as the profile says, 1 not so, not wanted, or no device, 2 wrong usage, 130 interrupted.
+Exit status: 0 wired as the profile says, 1 not so, not wanted, or no device, 2 wrong usage, 130
+interrupted.
 )";
 
 struct SelftestOptions {

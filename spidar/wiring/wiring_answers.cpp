@@ -51,15 +51,16 @@ class WiringTest {
     StringVector pulled_N = rest_N_;
     pulled_N[motor] = std::min(rest_N_[motor] + settings_.pull_N, profile_.drives[k].max_tension_N);
     answers.pulled_N[motor] = pulled_N[motor] - rest_N_[motor];
-    StringVector before, pulled, after;
-    if (!average(before)) return false;
+    StringVector pulled, after;
+    if (!rested_ && !average(at_rest_)) return false;
     pulling_ = motor;
-    begin_ = before;
     if (!hold_.go(pulled_N, settings_.ramp_s) || !stay() || !average(pulled)) return false;
     pulling_ = -1;
     if (!hold_.go(rest_N_, settings_.ramp_s) || !stay() || !average(after)) return false;
     // Against both rests, so that a hand that drifts away slowly does not count.
-    answers.counts.col(motor) = pulled - 0.5 * (before + after);
+    answers.counts.col(motor) = pulled - 0.5 * (at_rest_ + after);
+    at_rest_ = after;
+    rested_ = true;
     return true;
   }
 
@@ -75,6 +76,7 @@ class WiringTest {
     without_N[motor] = 0;
     if (!hold_.go(without_N, settings_.ramp_s)) return false;
     hold_.reverse_motor(motor);
+    rested_ = false;
     return hold_.go(rest_N_, settings_.ramp_s) && stay();
   }
 
@@ -105,7 +107,7 @@ class WiringTest {
     if (pulling_ < 0) return;
     for (int j = 0; j < profile_.geometry.count; ++j) {
       const double moved_m =
-          metres_per_count(j) * (reading.count[static_cast<size_t>(j)] - begin_[j]);
+          metres_per_count(j) * (reading.count[static_cast<size_t>(j)] - at_rest_[j]);
       if (std::fabs(moved_m) < kRunaway_m) continue;
       char text[200];
       std::snprintf(text, sizeof text,
@@ -126,7 +128,8 @@ class WiringTest {
   const StringVector rest_N_;
   StringHold hold_;
   int pulling_ = -1;
-  StringVector begin_ = StringVector::Zero();  // counts when that began
+  StringVector at_rest_ = StringVector::Zero();  // newest average of the counts
+  bool rested_ = false;                          // it is of the tensions as they are
 };
 
 }  // namespace
