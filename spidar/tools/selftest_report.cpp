@@ -1,5 +1,6 @@
 #include "spidar/tools/selftest_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <ostream>
 #include <string>
@@ -89,7 +90,13 @@ double own_answer_m(const Profile& profile, const WiringAnswers& answers, int i)
   return drive.encoder_sign * drive.metres_per_count * answers.counts(i, i);
 }
 
+bool silent(const WiringReport& report) {
+  return std::all_of(report.channel.begin(), report.channel.begin() + report.count,
+                     [](const WiringChannel& channel) { return channel.motor_string < 0; });
+}
+
 const char* verdict(const WiringReport& report) {
+  if (silent(report)) return "no answer";
   if (!report.understood()) return "unclear";
   return report.as_profile() ? "as in the profile" : "not as in the profile";
 }
@@ -114,6 +121,9 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
   out << '\n';
   if (report.understood())
     for (const std::string& fault : faults_of(profile, report)) out << fault << '\n';
+  else if (silent(report))
+    out << "No encoder moves, whichever motor pulls. Switch the motors' supply on, and hold the "
+           "grip so that the strings are taut.\n";
   else
     out << "The answers do not look like those of this profile, however it is wired. Hold the grip "
            "at the centre, loosely and still, and check the profile.\n";

@@ -154,6 +154,14 @@ TEST(Spidarctl, SelftestOfADeviceThatIsRightSucceeds) {
   expect_contains(outcome.text, "\"wiring\" : \"as in the profile\"");
 }
 
+TEST(Spidarctl, SelftestSaysWhenTheMotorsHaveNoSupply) {
+  std::string cut = "cut-motor:0";
+  for (int i = 1; i < 8; ++i) cut += ";cut-motor:" + std::to_string(i);
+  const Outcome outcome = run("selftest sim:simple --sim-wiring '" + cut + "'");
+  EXPECT_EQ(outcome.status, 1);
+  expect_contains(outcome.text, "Switch the motors' supply on");
+}
+
 TEST(Spidarctl, JsonIsOneObject) {
   const Outcome outcome =
       run_shell(std::string(SPIDARCTL) + " calibrate sim --centre --json 2>/dev/null");
