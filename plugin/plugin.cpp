@@ -1,9 +1,11 @@
 #include <gst/gst.h>
 
+#include "plugin/device_provider.h"
 #include "plugin/spidar_motion.h"
 
 static gboolean plugin_init(GstPlugin* plugin) {
-  return GST_ELEMENT_REGISTER(spidarmotion, plugin);
+  return GST_ELEMENT_REGISTER(spidarmotion, plugin) &&
+         GST_DEVICE_PROVIDER_REGISTER(spidardeviceprovider, plugin);
 }
 
 #define PACKAGE "gst-spidar"

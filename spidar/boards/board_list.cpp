@@ -1,13 +1,21 @@
 #include "spidar/boards/board_list.h"
 
+#include <unistd.h>
+
 #include "spidar/device.h"
+#include "spidar/profile.h"
 #include "spidar/protocols/sh4.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/protocols/usb_simple.h"
+#include "spidar/transports/tty_list.h"
 #include "spidar/transports/usb_bus.h"
 
 namespace spidar {
 namespace {
+
+/// The CyVerse boards put out positive volts only, which the default profile is not made for.
+constexpr const char* kPositiveProfile = "spidar-g6x3-v2-r";
+constexpr const char* kUartProfile = "spidar-g6x4";
 
 struct Known {
   uint16_t vendor;
@@ -28,13 +36,32 @@ constexpr Known kKnown[] = {
      "other devices have this id; asked when it is opened"},
 };
 
-constexpr const char* kSimulated[][2] = {
-    {"sim", "simulated SPIDAR"},
-    {"sim:sh4", "simulated SPIDAR behind the SH4 board's packets"},
-    {"sim:simple", "simulated SPIDAR behind the Simple board's packets"},
-    {"sim:uart", "simulated SPIDAR behind the UART boards' packets"},
-    {"sim:mouse", "simulated SPIDAR-mouse"},
+constexpr const char* kSimulated[][3] = {
+    {"sim", "simulated SPIDAR", kDefaultProfile},
+    {"sim:sh4", "simulated SPIDAR behind the SH4 board's packets", kPositiveProfile},
+    {"sim:simple", "simulated SPIDAR behind the Simple board's packets", kPositiveProfile},
+    {"sim:uart", "simulated SPIDAR behind the UART boards' packets", kUartProfile},
+    {"sim:mouse", "simulated SPIDAR-mouse", kDefaultProfile},
 };
+
+bool begins(const std::string& text, const std::string& with) {
+  return text.compare(0, with.size(), with) == 0;
+}
+
+bool is_mouse(const std::string& device) {
+  return device == "sim:mouse" || device == "mouse" || begins(device, "mouse:");
+}
+
+BoardInfo uart_board(const std::string& device, const std::string& path) {
+  BoardInfo board;
+  board.device = device;
+  board.name = "UART motor boards";
+  board.path = path;
+  board.accessible = access(path.c_str(), R_OK | W_OK) == 0;
+  if (!board.accessible) board.note = "no permission: join the group dialout";
+  board.profile = kUartProfile;
+  return board;
+}
 
 }  // namespace
 
@@ -63,12 +90,47 @@ std::vector<BoardInfo> list_boards() {
       const std::string spec = std::string(known.device) + ":" + device.path;
       boards.push_back({spec, known.name, device.path, device.serial, known.usb_id, known.trial,
                         device.accessible ? known.note : "no permission: udev rule 70-spidar.rules",
-                        device.accessible});
+                        device.accessible, is_mouse(spec) ? kDefaultProfile : kPositiveProfile,
+                        !is_mouse(spec)});
     }
   }
+  for (const TtyLine& line : list_tty_lines())
+    if (line.named) boards.push_back(uart_board("uart:" + line.path, line.path));
   for (const auto& simulated : kSimulated)
-    boards.push_back({simulated[0], simulated[1], "", "", "", Trial::kEmulated, "", true});
+    boards.push_back({simulated[0], simulated[1], "", "", "", Trial::kEmulated, "", true,
+                      simulated[2], !is_mouse(simulated[0])});
   return boards;
+}
+
+BoardInfo board_info(const std::string& device) {
+  const std::vector<BoardInfo> boards = list_boards();
+  const size_t colon = device.find(':');
+  const std::string kind = device.substr(0, colon);
+  const std::string id = colon == std::string::npos ? "" : device.substr(colon + 1);
+  const BoardInfo* only = nullptr;
+  int of_kind = 0;
+  for (const BoardInfo& board : boards) {
+    if (board.device == device) return board;
+    if (kind == "sim" || !begins(board.device, kind + ":")) continue;
+    if (!id.empty() && board.serial == id) return board;
+    only = &board;
+    ++of_kind;
+  }
+  if (id.empty() && of_kind == 1) return *only;
+  BoardInfo unknown;
+  unknown.device = device;
+  if (kind == "usb") {
+    unknown.name = "CyVerse USB 2.0";
+    unknown.profile = kPositiveProfile;
+  } else if (kind == "mouse") {
+    unknown.name = "SPIDAR-mouse";
+    unknown.trial = Trial::kInferred;
+    unknown.profile = kDefaultProfile;
+    unknown.has_strings = false;
+  } else if (kind == "uart" && !id.empty()) {
+    return uart_board(device, id.substr(0, id.find(',')));
+  }
+  return unknown;
 }
 
 }  // namespace spidar

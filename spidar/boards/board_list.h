@@ -28,10 +28,18 @@ struct BoardInfo {
   Trial trial = Trial::kEmulated;
   std::string note;        ///< what is inferred, or why it cannot be used; may be empty
   bool accessible = true;  ///< this process may open it
+  /// To begin with, when nobody says which device hangs on the board: one that it can drive.
+  std::string profile;
+  bool has_strings = true;  ///< else it takes a force, and has no encoders
 };
 
 /// What is plugged in, then the simulated ones. Nothing is opened, sent or energised. Serial lines
-/// do not say what is behind them and are not listed. A machine without USB has none.
+/// do not say what is behind them: listed are those that a udev rule calls /dev/spidar…. A machine
+/// without USB has none.
 SPIDAR_API std::vector<BoardInfo> list_boards();
+
+/// What is known of a device by what it is called, which need not be plugged in; nothing is opened.
+/// Empty name: make_device() does not know it either.
+SPIDAR_API BoardInfo board_info(const std::string& device);
 
 }  // namespace spidar

@@ -1,13 +1,6 @@
-#include "spidar/tools/calibrate_command.h"
-
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -21,25 +14,16 @@
 #include "spidar/simulated_device.h"
 #include "spidar/tools/calibrate_options.h"
 #include "spidar/tools/calibrate_report.h"
+#include "spidar/tools/commands.h"
 #include "spidar/tools/hand_motion.h"
+#include "spidar/tools/terminal.h"
 
 namespace spidar {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr int kDone = 0, kNotCalibrated = 3, kInterrupted = 130;
+constexpr int kNotCalibrated = 3;
 constexpr double kHoldSeconds = 2;
 constexpr double kSamplePeriod_s = 0.002;
-
-std::atomic<bool> interrupted{false};
-
-/// The strings are released before the program ends, whoever ends it.
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = true; };
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-}
 
 /// The device that is calibrated, and the hand of a simulated one.
 class Bench {
@@ -96,14 +80,6 @@ class Progress {
   int last_ = -1;
 };
 
-/// Before anybody moves a grip for nothing.
-void check_folder_of(const std::string& file) {
-  const fs::path parent = fs::absolute(file).parent_path();
-  if (access(parent.c_str(), W_OK) != 0)
-    throw ProfileError(file + ": cannot be written: " + parent.string() + ": " +
-                       std::strerror(errno));
-}
-
 CountSamples record(const CalibrateOptions& options, const Profile& profile) {
   Bench bench(options, profile);
   std::cerr << (options.centre ? "Hold the grip still at the centre, not turned.\n"
@@ -117,7 +93,7 @@ CountSamples record(const CalibrateOptions& options, const Profile& profile) {
     sleep_until_ns(static_cast<int64_t>(1e9 * (*begin_s + time_s)));
     if (!options.centre) bench.move_hand(time_s);
     progress.show(time_s);
-    return !interrupted;
+    return !interrupted();
   };
   return record_counts(bench.device(), profile, settings, next_tick);
 }
@@ -140,7 +116,7 @@ int calibrate_command(int argc, char** argv) {
   if (!options.output.empty()) check_folder_of(options.output);
   catch_signals();
   const CountSamples counts = record(options, profile);
-  if (interrupted) {
+  if (interrupted()) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;
   }

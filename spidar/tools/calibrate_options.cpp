@@ -1,9 +1,6 @@
 #include "spidar/tools/calibrate_options.h"
 
 #include <cmath>
-#include <cstdlib>
-#include <getopt.h>
-#include <sstream>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -34,36 +31,9 @@ the profile (nothing is written), 130 interrupted.
 
 namespace {
 
-enum Option { kProfile = 1, kMove, kCentre, kFree, kOutput, kJson, kSimStart, kHelp };
-
-constexpr double kMinSeconds = 1;
-constexpr double kMaxSeconds = 600;
-
-std::vector<std::string> parts_of(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
-  return parts;
-}
-
-double number(const std::string& option, const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value))
-    throw UsageError(option + ": \"" + text + "\" is not a number");
-  return value;
-}
-
-double seconds(const std::string& text) {
-  const double value = number("--move", text);
-  if (!(value >= kMinSeconds && value <= kMaxSeconds))
-    throw UsageError("--move: " + text + " s, must be from 1 to 600 s");
-  return value;
-}
-
 CalibrationSettings free_parameters(const std::string& text) {
   CalibrationSettings settings;
-  for (const std::string& part : parts_of(text)) {
+  for (const std::string& part : split_at_commas(text)) {
     if (part != "exits" && part != "scale")
       throw UsageError("--free: \"" + part + "\" is unknown; known are exits, scale");
     (part == "exits" ? settings.free_exits : settings.free_scale) = true;
@@ -72,26 +42,18 @@ CalibrationSettings free_parameters(const std::string& text) {
 }
 
 Pose start_pose(const std::string& text) {
-  const std::vector<std::string> parts = parts_of(text);
+  const std::vector<std::string> parts = split_at_commas(text);
   if (parts.size() != 6)
     throw UsageError("--sim-start: \"" + text +
                      "\" must be six numbers: X,Y,Z in millimetres, RX,RY,RZ in degrees");
   Eigen::Matrix<double, 6, 1> value;
   for (size_t i = 0; i < 6; ++i)
-    value[static_cast<Eigen::Index>(i)] = number("--sim-start", parts[i]);
+    value[static_cast<Eigen::Index>(i)] = parse_number("--sim-start", parts[i]);
   Pose pose;
   pose.position_m = 1e-3 * value.head<3>();
   const Eigen::Vector3d turn = M_PI / 180 * value.tail<3>();
   if (turn.norm() > 0) pose.orientation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
   return pose;
-}
-
-std::string output_file(const std::string& text) {
-  const std::string ending = ".toml";
-  if (text.size() <= ending.size() ||
-      text.compare(text.size() - ending.size(), ending.size(), ending) != 0)
-    throw UsageError("--output: \"" + text + "\" must end in .toml, as profile files do");
-  return text;
 }
 
 void check_together(const CalibrateOptions& options, bool moving) {
@@ -105,57 +67,25 @@ void check_together(const CalibrateOptions& options, bool moving) {
 }  // namespace
 
 CalibrateOptions parse_calibrate_options(int argc, char** argv) {
-  static const option kLong[] = {{"profile", required_argument, nullptr, kProfile},
-                                 {"move", required_argument, nullptr, kMove},
-                                 {"centre", no_argument, nullptr, kCentre},
-                                 {"free", required_argument, nullptr, kFree},
-                                 {"output", required_argument, nullptr, kOutput},
-                                 {"json", no_argument, nullptr, kJson},
-                                 {"sim-start", required_argument, nullptr, kSimStart},
-                                 {"help", no_argument, nullptr, kHelp},
-                                 {}};
   CalibrateOptions options;
   bool moving = false;
-  opterr = 0;
-  optind = 1;
-  for (int found; (found = getopt_long(argc, argv, ":", kLong, nullptr)) != -1;) {
-    switch (found) {
-      case kProfile:
-        options.profile = optarg;
-        break;
-      case kMove:
-        options.seconds = seconds(optarg);
-        moving = true;
-        break;
-      case kCentre:
-        options.centre = true;
-        break;
-      case kFree:
-        options.settings = free_parameters(optarg);
-        break;
-      case kOutput:
-        options.output = output_file(optarg);
-        break;
-      case kJson:
-        options.json = true;
-        break;
-      case kSimStart:
-        options.sim_start = start_pose(optarg);
-        break;
-      case kHelp:
-        options.help = true;
-        return options;
-      case ':':
-        throw UsageError(std::string(argv[optind - 1]) + " needs a value");
-      default:
-        throw UsageError(std::string(argv[optind - 1]) + " is not an option");
-    }
-  }
-  if (optind + 1 != argc)
-    throw UsageError(optind >= argc ? "no DEVICE given; see spidarctl list"
-                                    : std::string(argv[optind + 1]) + ": one DEVICE only");
-  options.device = argv[optind];
-  check_together(options, moving);
+  const DeviceOptions given = parse_device_options(
+      argc, argv,
+      {{"move", true,
+        [&](const std::string& text) {
+          options.seconds = parse_number("--move", text, 1, 600, "s");
+          moving = true;
+        }},
+       {"centre", false, [&](const std::string&) { options.centre = true; }},
+       {"free", true, [&](const std::string& text) { options.settings = free_parameters(text); }},
+       {"output", true,
+        [&](const std::string& text) { options.output = parse_profile_file("--output", text); }},
+       {"sim-start", true, [&](const std::string& text) { options.sim_start = start_pose(text); }},
+       json_option(options.json)});
+  options.help = given.help;
+  options.device = given.device;
+  if (!given.profile.empty()) options.profile = given.profile;
+  if (!options.help) check_together(options, moving);
   return options;
 }
 

@@ -2,20 +2,14 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "core/grip/pose.h"
 #include "spidar/calibration.h"
 #include "spidar/profile.h"
+#include "spidar/tools/command_line.h"
 
 namespace spidar {
-
-/// A command line that cannot be followed. what() says what was wrong and what would be right.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct CalibrateOptions {
   std::string device;

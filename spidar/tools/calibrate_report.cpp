@@ -6,9 +6,8 @@
 #include <cstdlib>
 #include <ostream>
 
-#include <toml++/toml.h>
-
 #include "spidar/grip_model.h"
+#include "spidar/tools/json_text.h"
 
 namespace spidar {
 namespace {
@@ -83,12 +82,6 @@ void print_exits(std::ostream& out, int strings, const CalibrationResult& result
                   triple(1e6 * result.exit_sd_m.col(i), "%6.1f").c_str());
 }
 
-toml::array to_array(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  toml::array array;
-  for (Eigen::Index i = 0; i < values.size(); ++i) array.push_back(values[i]);
-  return array;
-}
-
 }  // namespace
 
 void print_result(std::ostream& out, const Profile& profile, const CalibrationResult& result,
@@ -152,7 +145,7 @@ void print_result_json(std::ostream& out, const Profile& profile, const Calibrat
   for (const UndeterminedCombination& one : result.undetermined)
     undetermined.push_back(toml::table{{"sd_m", one.sd_m}, {"combination", one.text}});
   document.insert("undetermined", undetermined);
-  out << toml::json_formatter(document) << '\n';
+  out << json_text(document);
 }
 
 }  // namespace spidar

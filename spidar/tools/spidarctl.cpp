@@ -1,57 +1,60 @@
-// Looks after SPIDARs: what there is, and where their encoders are zero.
+// Looks after SPIDARs: what there is, what it does, and where its encoders are zero.
 
-#include <cstring>
 #include <exception>
 #include <iostream>
 #include <string>
 
-#include "spidar/profile.h"
-#include "spidar/tools/calibrate_command.h"
-#include "spidar/tools/calibrate_options.h"
+#include "spidar/tools/command_line.h"
+#include "spidar/tools/commands.h"
 
 namespace {
 
 using namespace spidar;
 
-constexpr int kFailed = 1, kWrongUsage = 2;
+struct Command {
+  const char* name;
+  int (*run)(int argc, char** argv);
+};
+
+constexpr Command kCommands[] = {
+    {"list", list_command},         {"info", info_command},           {"monitor", monitor_command},
+    {"rest", rest_command},         {"zero", zero_command},           {"pull", pull_command},
+    {"selftest", selftest_command}, {"calibrate", calibrate_command},
+};
 
 constexpr const char* kHelp = R"(usage: spidarctl COMMAND
 
   list        devices and profiles that there are
-  calibrate   find the string lengths at which the encoders are zero;
-              see spidarctl calibrate --help
+  info        what a device is and what it reads
+  monitor     where the grip is, live
+  rest        hold the strings at their smallest tension
+  zero        take the motors to zero
+  pull        pull one string
+  selftest    find motors and encoders that are swapped or reversed
+  calibrate   find the string lengths at which the encoders are zero
   --help
   --version
+
+spidarctl COMMAND --help says more.
 )";
 
-int list_command(int argc, char** argv) {
-  if (argc > 1) throw UsageError(std::string(argv[1]) + ": list takes no arguments");
-  std::cout << "devices\n  sim  simulated, made of its profile and equations\n\nprofiles\n";
-  for (const std::string& name : list_profiles()) {
-    std::cout << "  " << name << "  ";
-    try {
-      std::cout << load_profile(name).description << '\n';
-    } catch (const ProfileError& error) {
-      std::cout << "cannot be used: " << error.what() << '\n';
-    }
-  }
-  return 0;
-}
-
 int run(int argc, char** argv) {
-  const std::string command = argc > 1 ? argv[1] : "";
-  if (command == "list") return list_command(argc - 1, argv + 1);
-  if (command == "calibrate") return calibrate_command(argc - 1, argv + 1);
-  if (command == "--version") {
+  const std::string name = argc > 1 ? argv[1] : "";
+  std::string known;
+  for (const Command& command : kCommands) {
+    if (name == command.name) return command.run(argc - 1, argv + 1);
+    known += (known.empty() ? "" : ", ") + std::string(command.name);
+  }
+  if (name == "--version") {
     std::cout << "spidarctl " SPIDAR_VERSION "\n";
-    return 0;
+    return kDone;
   }
-  if (command == "--help") {
+  if (name == "--help") {
     std::cout << kHelp;
-    return 0;
+    return kDone;
   }
-  throw UsageError((command.empty() ? "no command" : command + " is not a command") +
-                   std::string("; commands are list, calibrate"));
+  throw UsageError((name.empty() ? "no command" : name + " is not a command") + "; commands are " +
+                   known);
 }
 
 }  // namespace

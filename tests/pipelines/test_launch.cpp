@@ -222,5 +222,31 @@ TEST_F(Launch, StateChangesInAnyOrder) {
   gst_object_unref(pipeline);
 }
 
+TEST_F(Launch, TheSimulatedDeviceOfTheMonitorPlays) {
+  GstDeviceMonitor* monitor = gst_device_monitor_new();
+  ASSERT_NE(gst_device_monitor_add_filter(monitor, "Haptic/SPIDAR", nullptr), 0u)
+      << "the plugin has no device provider";
+  GstElement* element = nullptr;
+  GList* devices = gst_device_monitor_get_devices(monitor);
+  for (GList* item = devices; item; item = item->next) {
+    GstStructure* properties = gst_device_get_properties(GST_DEVICE(item->data));
+    if (g_strcmp0(gst_structure_get_string(properties, "device"), "sim") == 0)
+      element = gst_device_create_element(GST_DEVICE(item->data), nullptr);
+    gst_structure_free(properties);
+  }
+  g_list_free_full(devices, gst_object_unref);
+  gst_object_unref(monitor);
+  ASSERT_NE(element, nullptr);
+  GstElement* pipeline = gst_pipeline_new(nullptr);
+  GstElement* source = gst_parse_bin_from_description(
+      "videotestsrc pattern=ball num-buffers=10 ! video/x-raw,width=320,height=240", TRUE, nullptr);
+  GstElement* sink = gst_element_factory_make("fakesink", nullptr);
+  gst_bin_add_many(GST_BIN(pipeline), source, element, sink, nullptr);
+  ASSERT_TRUE(gst_element_link_many(source, element, sink, nullptr));
+  const Outcome outcome = run_to_end(pipeline);
+  EXPECT_TRUE(outcome.eos) << outcome.error;
+  EXPECT_GT(outcome.motions, 0);
+}
+
 }  // namespace
 }  // namespace spidar::test

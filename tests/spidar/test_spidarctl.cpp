@@ -1,8 +1,11 @@
 // What a user sees of spidarctl: exit status, messages, files.
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -64,9 +67,27 @@ TEST(Spidarctl, HelpAndListSucceed) {
 
 TEST(Spidarctl, WrongUsageIsNamed) {
   const std::pair<const char*, const char*> cases[] = {
-      {"", "commands are list, calibrate"},
+      {"", "commands are list, info, monitor, rest, zero, pull, selftest, calibrate"},
       {"dance", "dance is not a command"},
       {"list me", "me: list takes no arguments"},
+      {"info", "no DEVICE given"},
+      {"info sim sim", "one DEVICE only"},
+      {"rest sim --json", "--json is not an option"},
+      {"zero -x sim", "-x is not an option"},
+      {"monitor sim --taut=1", "takes no value"},
+      {"monitor sim --seconds 0", "must be from 0.001 to 86400 s"},
+      {"pull sim", "no STRING given"},
+      {"pull sim 1 2", "no SECONDS given"},
+      {"pull sim 1 2 3 4", "4: one argument too many"},
+      {"pull sim 8 1 1 --yes", "STRING: 8, must be from 0 to 7"},
+      {"pull sim 1.5 1 1 --yes", "not a whole number"},
+      {"pull sim 1 5 1 --yes", "NEWTON: 5 N, must be from 0.05 to 4.2 N"},
+      {"pull sim 1 1 11 --yes", "must be from 0.01 to 10 s"},
+      {"pull sim 1 1 1 </dev/null", "no terminal to ask on"},
+      {"selftest sim --newton 5", "must be from 0.1 to 2 N"},
+      {"selftest sim --write-profile mine", "must end in .toml"},
+      {"selftest sim --sim-wiring swap:1", "is not a wiring fault"},
+      {"selftest usb --sim-wiring cut-motor:1", "is for simulated devices"},
       {"calibrate", "no DEVICE given"},
       {"calibrate sim sim", "one DEVICE only"},
       {"calibrate sim --move x", "--move: \"x\" is not a number"},
@@ -91,6 +112,11 @@ TEST(Spidarctl, WrongUsageIsNamed) {
 TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
   const std::pair<const char*, const char*> cases[] = {
       {"calibrate nothing", "unknown device \"nothing\""},
+      {"info nothing", "unknown device \"nothing\""},
+      {"rest sim:mouse", "is for devices with strings"},
+      {"monitor sim:sh4 --profile spidar-gcc", "wants negative volts"},
+      {"zero uart:/no/such/line", "/no/such/line"},
+      {"selftest sim --write-profile /no/such/folder/a.toml", "cannot be written"},
       {"calibrate sim --profile nobody", "unknown profile \"nobody\""},
       {"calibrate sim --output /no/such/folder/a.toml", "cannot be written"},
   };
@@ -121,6 +147,21 @@ TEST(Spidarctl, MotionFindsWhereTheCountersWereCleared) {
   EXPECT_LT(error_m.cwiseAbs().maxCoeff(), 3 * 50e-6);
 }
 
+TEST(Spidarctl, SelftestOfADeviceThatIsRightSucceeds) {
+  const Outcome outcome =
+      run_shell(std::string(SPIDARCTL) + " selftest sim:sh4 --json 2>/dev/null");
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  expect_contains(outcome.text, "\"wiring\" : \"as in the profile\"");
+}
+
+TEST(Spidarctl, SelftestSaysWhenTheMotorsHaveNoSupply) {
+  std::string cut = "cut-motor:0";
+  for (int i = 1; i < 8; ++i) cut += ";cut-motor:" + std::to_string(i);
+  const Outcome outcome = run("selftest sim:simple --sim-wiring '" + cut + "'");
+  EXPECT_EQ(outcome.status, 1);
+  expect_contains(outcome.text, "Switch the motors' supply on");
+}
+
 TEST(Spidarctl, JsonIsOneObject) {
   const Outcome outcome =
       run_shell(std::string(SPIDARCTL) + " calibrate sim --centre --json 2>/dev/null");
@@ -128,6 +169,83 @@ TEST(Spidarctl, JsonIsOneObject) {
   EXPECT_EQ(outcome.text.find("Hold"), std::string::npos);
   EXPECT_EQ(outcome.text.front(), '{');
   expect_contains(outcome.text, "\"status\" : \"solved\"");
+}
+
+TEST(Spidarctl, ListTellsDevicesApart) {
+  const Outcome list = run("list");
+  expect_contains(list.text, "sim:sh4 ");
+  expect_contains(list.text, "; emulated");
+  const Outcome json = run("list --json");
+  EXPECT_EQ(json.status, 0);
+  expect_contains(json.text, "\"device\" : \"sim:uart\"");
+  expect_contains(json.text, "\"evidence\" : \"emulated\"");
+}
+
+TEST(Spidarctl, InfoReadsEachBoard) {
+  for (const std::string device : {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse"}) {
+    SCOPED_TRACE(device);
+    const Outcome outcome = run("info " + device);
+    EXPECT_EQ(outcome.status, 0);
+    expect_contains(outcome.text, "device    " + device + "\n");
+    expect_contains(outcome.text, "inputs    0x0000");
+  }
+  expect_contains(run("info sim:sh4 --json").text, "\"profile\" : \"spidar-g6x3-v2-r\"");
+}
+
+TEST(Spidarctl, MonitorShowsTheGrip) {
+  const Outcome text = run("monitor sim:uart --taut --seconds 0.15");
+  EXPECT_EQ(text.status, 0);
+  expect_contains(text.text, "inputs");
+  expect_contains(text.text, "   0.1 ");
+  const Outcome json = run("monitor sim --seconds 0.15 --json");
+  EXPECT_EQ(json.status, 0);
+  EXPECT_EQ(std::count(json.text.begin(), json.text.end(), '\n'), 2) << json.text;
+  // The motors are at zero, so that the simulated hand holds the grip at the centre.
+  expect_contains(json.text, "\"position_m\" : [0.0,0.0,0.0]");
+}
+
+TEST(Spidarctl, RestAndZeroLeaveTheMotorsAtZero) {
+  const Outcome rest = run("rest sim:simple --seconds 0.05");
+  EXPECT_EQ(rest.status, 0);
+  expect_contains(rest.text, "at rest\n");
+  expect_contains(rest.text, "the strings are released\n");
+  const Outcome zero = run("zero sim:sh4");
+  EXPECT_EQ(zero.status, 0);
+  expect_contains(zero.text, "sim:sh4: the motors are at zero");
+}
+
+TEST(Spidarctl, PullShortensItsString) {
+  const Outcome outcome =
+      run_shell(std::string(SPIDARCTL) + " pull sim:sh4 2 1 0.2 --yes --json 2>&1");
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  const std::string key = "\"length_change_m\" : [";
+  const size_t begin = outcome.text.find(key);
+  ASSERT_NE(begin, std::string::npos) << outcome.text;
+  std::istringstream numbers(outcome.text.substr(begin + key.size()));
+  std::array<double, 3> change_m{};
+  char comma = 0;
+  for (double& one : change_m) numbers >> one >> comma;
+  // 0.7 N more than at rest against the hand's 300 N/m, and a turn that shortens it further.
+  EXPECT_LT(change_m[2], -0.7 / 300 / 2);
+}
+
+TEST(Spidarctl, SelftestWritesHowTheDeviceIsWired) {
+  const OutputFile file;
+  const Outcome outcome =
+      run("selftest sim:uart --sim-wiring 'swap-strings:1,6;reverse-motor:0;reverse-encoder:3' "
+          "--write-profile " +
+          file.path());
+  EXPECT_EQ(outcome.status, 1) << outcome.text;
+  expect_contains(outcome.text, "strings 1 and 6 are swapped\n");
+  expect_contains(outcome.text, "motor 0 is reversed\n");
+  expect_contains(outcome.text, "encoder 3 is reversed\n");
+  expect_contains(outcome.text, "wiring: not as in the profile");
+  const spidar::Profile given = spidar::load_profile("spidar-g6x4");
+  const spidar::Profile written = spidar::load_profile(file.path());
+  EXPECT_EQ(written.geometry.exit_m[1], given.geometry.exit_m[6]);
+  EXPECT_EQ(written.geometry.exit_m[6], given.geometry.exit_m[1]);
+  EXPECT_EQ(written.drives[0].motor_sign, -given.drives[0].motor_sign);
+  EXPECT_EQ(written.drives[3].encoder_sign, -given.drives[3].encoder_sign);
 }
 
 // Interrupted when it has begun, however long that takes.

@@ -1,13 +1,18 @@
 /// UART boards over pseudo-terminals.
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "spidar/boards/board_device.h"
 #include "spidar/device_factory.h"
+#include "spidar/transports/tty_list.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"
 
@@ -142,6 +147,22 @@ TEST_F(UartLines, OpenSaysWhatIsWrong) {
   UartLine line({first_motors, {}});
   EXPECT_NE(opening("uart:" + line.path()).find("0 motor boards answer, with 0 motors"),
             std::string::npos);
+}
+
+TEST(TtyList, IsOfAdaptersAndOfLinesThatAreNamed) {
+  std::string folder = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  for (const char* name : {"ttyUSB1", "ttyS0", "spidar0", "ttyACM0", "null"})
+    std::ofstream(folder + "/" + name) << "";
+  const std::vector<TtyLine> lines = list_tty_lines(folder);
+  std::filesystem::remove_all(folder);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0].path, folder + "/spidar0");
+  EXPECT_TRUE(lines[0].named);
+  EXPECT_EQ(lines[1].path, folder + "/ttyACM0");
+  EXPECT_FALSE(lines[1].named);
+  EXPECT_EQ(lines[2].path, folder + "/ttyUSB1");
+  EXPECT_TRUE(list_tty_lines("/nowhere").empty());
 }
 
 }  // namespace

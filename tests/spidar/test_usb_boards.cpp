@@ -83,6 +83,26 @@ TEST_F(UsbBoards, AreListedWithoutBeingOpened) {
   for (const UsbPort& port : bus().port) EXPECT_EQ(port.updates, 0u);
 }
 
+TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
+  EXPECT_EQ(board_info("usb").name, "CyVerse USB 2.0");
+  EXPECT_EQ(board_info("mouse").trial, Trial::kInferred);
+  EXPECT_FALSE(board_info("sim:mouse").has_strings);
+  EXPECT_TRUE(board_info("foo").name.empty());
+  plug(0, UsbKind::kSh4, "A1");
+  EXPECT_EQ(board_info("usb").device, "usb:1-1");
+  EXPECT_EQ(board_info("usb:A1").path, "1-1");
+  EXPECT_EQ(board_info("usb:1-1").name, "CyVerse USB 2.0 SH4");
+  plug(1, UsbKind::kSimple);
+  EXPECT_EQ(board_info("usb").path, "");
+  const BoardInfo line = board_info("uart:/no/such/line");
+  EXPECT_EQ(line.path, "/no/such/line");
+  EXPECT_FALSE(line.accessible);
+  // What a board begins with is a profile that it can drive.
+  for (const std::string device : {"usb:1-1", "usb:1-2", "usb:5", "uart:/dev/ttyUSB0", "mouse",
+                                   "sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse"})
+    EXPECT_NO_THROW(make_device(device, load_profile(board_info(device).profile))) << device;
+}
+
 TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {
   plug(0, UsbKind::kSh4, "SN-5").inputs = 0x30;
   plug(1, UsbKind::kSimple).inputs = 0x70;

@@ -1,0 +1,29 @@
+#include "spidar/tools/chosen_device.h"
+
+#include "spidar/device_factory.h"
+
+namespace spidar {
+
+ChosenDevice choose_device(const DeviceOptions& options, CountZero count_zero) {
+  ChosenDevice chosen;
+  chosen.board = board_info(options.device);
+  const std::string& begin = chosen.board.profile;
+  const std::string name = !options.profile.empty() ? options.profile
+                           : !begin.empty()         ? begin
+                                                    : kDefaultProfile;
+  chosen.profile = load_profile(name);
+  BoardSettings settings;
+  settings.count_zero = count_zero;
+  // Nothing here is so urgent that an exchange cannot be waited for.
+  settings.threaded = false;
+  chosen.device = make_device(options.device, chosen.profile, settings);
+  return chosen;
+}
+
+void require_strings(const BoardInfo& board, const std::string& command) {
+  if (!board.has_strings)
+    throw DeviceError(board.device + ": " + command +
+                      " is for devices with strings and encoders; this one has neither");
+}
+
+}  // namespace spidar

@@ -1,0 +1,28 @@
+/// The device that a command is about.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "spidar/boards/board_list.h"
+#include "spidar/boards/board_settings.h"
+#include "spidar/device.h"
+#include "spidar/profile.h"
+#include "spidar/tools/command_line.h"
+
+namespace spidar {
+
+struct ChosenDevice {
+  BoardInfo board;
+  Profile profile;
+  std::unique_ptr<Device> device;  ///< not open yet
+};
+
+/// Throws ProfileError, DeviceError.
+ChosenDevice choose_device(const DeviceOptions& options,
+                           CountZero count_zero = CountZero::kByProfile);
+
+/// Throws DeviceError that says that `command` is for strings when the board has none.
+void require_strings(const BoardInfo& board, const std::string& command);
+
+}  // namespace spidar

@@ -1,0 +1,18 @@
+/// What spidarctl can do. Each takes its own command line, argv[0] being its name, and returns the
+/// exit status. They throw UsageError, DeviceError, ProfileError.
+#pragma once
+
+namespace spidar {
+
+constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
+
+int calibrate_command(int argc, char** argv);
+int info_command(int argc, char** argv);
+int list_command(int argc, char** argv);
+int monitor_command(int argc, char** argv);
+int pull_command(int argc, char** argv);
+int rest_command(int argc, char** argv);
+int selftest_command(int argc, char** argv);
+int zero_command(int argc, char** argv);
+
+}  // namespace spidar

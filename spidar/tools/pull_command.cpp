@@ -1,0 +1,130 @@
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "spidar/haptic_loop.h"
+#include "spidar/tools/chosen_device.h"
+#include "spidar/tools/commands.h"
+#include "spidar/tools/json_text.h"
+#include "spidar/tools/readout.h"
+#include "spidar/tools/terminal.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kHelp = R"(usage: spidarctl pull DEVICE STRING NEWTON SECONDS [OPTION]...
+
+Pulls one string (numbered from 0) with NEWTON for SECONDS, at most 10, the others at their smallest
+tension. NEWTON is within the profile's limits for that string.
+
+  --yes           do not ask
+  --profile NAME  profile of the device, a name or a file
+  --json          how the lengths changed, as JSON
+
+Exit status: 0 pulled, 1 no device, no answer, or not wanted, 2 wrong usage,
+130 interrupted.
+)";
+
+/// Up and down.
+constexpr double kRamp_s = 0.1;
+
+struct Pull {
+  int string = 0;
+  double tension_N = 0;
+  double seconds = 0;
+};
+
+Pull parse(const DeviceOptions& options, const Profile& profile) {
+  Pull pull;
+  const double string =
+      parse_number("STRING", options.operands[0], 0, profile.geometry.count - 1, "");
+  if (string != std::floor(string))
+    throw UsageError("STRING: " + options.operands[0] + " is not a whole number");
+  pull.string = static_cast<int>(string);
+  const StringDrive& drive = profile.drives[static_cast<size_t>(pull.string)];
+  pull.tension_N =
+      parse_number("NEWTON", options.operands[1], drive.min_tension_N, drive.max_tension_N, "N");
+  pull.seconds = parse_number("SECONDS", options.operands[2], 0.01, 10, "s");
+  return pull;
+}
+
+struct Lengths {
+  StringVector before_m = StringVector::Zero(), pulled_m = StringVector::Zero();
+  bool complete = false;
+};
+
+Lengths run(ChosenDevice& chosen, const Pull& pull) {
+  const Profile& profile = chosen.profile;
+  const Readout readout(profile);
+  Lengths lengths;
+  StringVector pulled_N = profile.min_tension_N();
+  pulled_N[pull.string] = pull.tension_N;
+  const auto newest = [&](StringVector& into) {
+    return [&readout, &into](const DeviceReading& reading) {
+      into = readout.lengths_m(reading);
+      return true;
+    };
+  };
+  StringHold hold(*chosen.device, profile, every_millisecond());
+  lengths.complete = hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s) &&
+                     hold.stay(kRamp_s, newest(lengths.before_m)) && hold.go(pulled_N, kRamp_s) &&
+                     hold.stay(pull.seconds, newest(lengths.pulled_m)) &&
+                     hold.go(profile.min_tension_N(), kRamp_s);
+  hold.release();
+  return lengths;
+}
+
+void print(const Pull& pull, const Profile& profile, const Lengths& lengths) {
+  std::printf("string %d: %.2f N for %g s\nlengths changed by", pull.string, pull.tension_N,
+              pull.seconds);
+  for (int i = 0; i < profile.geometry.count; ++i)
+    std::printf(" %+.2f", 1e3 * (lengths.pulled_m[i] - lengths.before_m[i]));
+  std::printf(" mm\n");
+}
+
+void print_json(const Pull& pull, const Profile& profile, const Lengths& lengths) {
+  const int count = profile.geometry.count;
+  const StringVector change_m = lengths.pulled_m - lengths.before_m;
+  std::cout << json_text(toml::table{{"string", pull.string},
+                                     {"tension_N", pull.tension_N},
+                                     {"seconds", pull.seconds},
+                                     {"length_m", to_array(lengths.pulled_m.head(count))},
+                                     {"length_change_m", to_array(change_m.head(count))}});
+}
+
+std::string question(const Pull& pull, const Device& device) {
+  char text[160];
+  std::snprintf(text, sizeof text, "Pull string %d of %s with %.2f N for %g s? The grip will move.",
+                pull.string, device.name().c_str(), pull.tension_N, pull.seconds);
+  return text;
+}
+
+}  // namespace
+
+int pull_command(int argc, char** argv) {
+  bool json = false, yes = false;
+  const DeviceOptions options = parse_device_options(
+      argc, argv, {{"yes", false, [&](const std::string&) { yes = true; }}, json_option(json)},
+      {"STRING", "NEWTON", "SECONDS"});
+  if (options.help) {
+    std::cout << kHelp;
+    return kDone;
+  }
+  ChosenDevice chosen = choose_device(options);
+  require_strings(chosen.board, "pull");
+  const Pull pull = parse(options, chosen.profile);
+  if (!yes && !confirm(question(pull, *chosen.device))) {
+    std::cerr << "nothing was pulled\n";
+    return kFailed;
+  }
+  catch_signals();
+  const Lengths lengths = run(chosen, pull);
+  if (!lengths.complete) {
+    std::cerr << "interrupted; the strings are released\n";
+    return kInterrupted;
+  }
+  (json ? print_json : print)(pull, chosen.profile, lengths);
+  return kDone;
+}
+
+}  // namespace spidar

@@ -1,0 +1,43 @@
+#include <iostream>
+#include <limits>
+
+#include "spidar/haptic_loop.h"
+#include "spidar/tools/chosen_device.h"
+#include "spidar/tools/commands.h"
+#include "spidar/tools/terminal.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kHelp = R"(usage: spidarctl rest DEVICE [--seconds S] [--profile NAME]
+
+Holds the strings at their smallest tension until it is interrupted, or for S seconds, and releases
+them by a ramp.
+)";
+
+}  // namespace
+
+int rest_command(int argc, char** argv) {
+  double seconds = std::numeric_limits<double>::infinity();
+  const DeviceOptions options = parse_device_options(
+      argc, argv, {{"seconds", true, [&](const std::string& text) {
+                      seconds = parse_number("--seconds", text, 0.001, 86400, "s");
+                    }}});
+  if (options.help) {
+    std::cout << kHelp;
+    return kDone;
+  }
+  ChosenDevice chosen = choose_device(options);
+  require_strings(chosen.board, "rest");
+  catch_signals();
+  StringHold hold(*chosen.device, chosen.profile, every_millisecond());
+  if (hold.go(chosen.profile.min_tension_N(), HapticLoop::kEnergise_s)) {
+    std::cerr << chosen.device->name() << ": at rest\n";
+    hold.stay(seconds);
+  }
+  hold.release();
+  std::cerr << chosen.device->name() << ": the strings are released\n";
+  return kDone;
+}
+
+}  // namespace spidar

@@ -1,0 +1,143 @@
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "spidar/device_factory.h"
+#include "spidar/emulation/miswired_device.h"
+#include "spidar/profile_writer.h"
+#include "spidar/tools/chosen_device.h"
+#include "spidar/tools/commands.h"
+#include "spidar/tools/selftest_report.h"
+#include "spidar/tools/terminal.h"
+#include "spidar/wiring/wiring_answers.h"
+#include "spidar/wiring/wiring_report.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kHelp = R"(usage: spidarctl selftest DEVICE [OPTION]...
+
+Pulls one string after the other, half a second each, and tells from the encoders which motor and which
+encoder is at which string, and which is reversed. Hold the grip at the centre, loosely.
+
+  --newton N             pull by so much above the smallest tension, 0.1 to 2 (default 0.5)
+  --write-profile FILE.toml
+                         write the profile as the device is wired, when a profile can say it:
+                         signs, and strings that are at other channels with motor and encoder
+  --yes                  do not ask
+  --profile NAME         profile of the device, a name or a file
+  --json                 report as JSON
+  --sim-wiring FAULTS    simulated device: wired like that, e.g.
+                         "swap-motors:1,2;reverse-encoder:4"; also swap-encoders, swap-strings,
+                         reverse-motor, cut-motor, cut-encoder
+  --help
+
+Exit status: 0 wired as the profile says, 1 not so, not wanted, or no device, 2 wrong usage, 130
+interrupted.
+)";
+
+struct SelftestOptions {
+  DeviceOptions common;
+  double newton = 0.5;
+  std::string output;
+  std::string sim_wiring;
+  bool yes = false;
+  bool json = false;
+};
+
+SelftestOptions parse(int argc, char** argv) {
+  SelftestOptions options;
+  options.common = parse_device_options(
+      argc, argv,
+      {{"newton", true,
+        [&](const std::string& text) {
+          options.newton = parse_number("--newton", text, 0.1, 2, "N");
+        }},
+       {"write-profile", true,
+        [&](const std::string& text) {
+          options.output = parse_profile_file("--write-profile", text);
+        }},
+       {"yes", false, [&](const std::string&) { options.yes = true; }},
+       json_option(options.json),
+       {"sim-wiring", true, [&](const std::string& text) { options.sim_wiring = text; }}});
+  const std::string& device = options.common.device;
+  if (!options.sim_wiring.empty() && !options.common.help && device != "sim" &&
+      device.compare(0, 4, "sim:") != 0)
+    throw UsageError("--sim-wiring is for simulated devices, not " + device);
+  return options;
+}
+
+bool can_drive(const std::string& device, const Profile& profile) {
+  try {
+    make_device(device, profile);
+    return true;
+  } catch (const DeviceError&) {
+    return false;
+  }
+}
+
+/// Boards from zero volts cannot: they refuse such a profile.
+bool can_reverse(const std::string& device, Profile profile) {
+  profile.drives[0].motor_sign = -1;
+  return can_drive(device, profile);
+}
+
+void miswire(const std::string& faults, ChosenDevice& chosen) {
+  if (faults.empty()) return;
+  try {
+    const Miswiring wiring = parse_miswiring(faults, chosen.profile.geometry.count);
+    chosen.device = make_miswired(std::move(chosen.device), wiring);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--sim-wiring: ") + error.what());
+  }
+}
+
+void write(const SelftestOptions& options, const Profile& profile, const WiringReport& report) {
+  if (!report.fixable()) {
+    std::cerr << options.output << " is not written: a profile cannot say what was found\n";
+    return;
+  }
+  const Profile rewired = rewired_profile(profile, report, "spidarctl selftest");
+  save_profile(rewired, options.output);
+  std::cerr << "written: " << options.output << '\n';
+  if (profile.calibration && !rewired.calibration)
+    std::cerr << "its counts are to be calibrated again: spidarctl calibrate\n";
+}
+
+}  // namespace
+
+int selftest_command(int argc, char** argv) {
+  const SelftestOptions options = parse(argc, argv);
+  if (options.common.help) {
+    std::cout << kHelp;
+    return kDone;
+  }
+  ChosenDevice chosen = choose_device(options.common);
+  require_strings(chosen.board, "selftest");
+  miswire(options.sim_wiring, chosen);
+  if (!options.output.empty()) check_folder_of(options.output);
+  const bool simulated = options.common.device.compare(0, 3, "sim") == 0;
+  if (!options.yes && !simulated &&
+      !confirm("Pull the strings of " + chosen.device->name() +
+               " one after the other? The grip will move; hold it at the centre, loosely.")) {
+    std::cerr << "nothing was pulled\n";
+    return kFailed;
+  }
+  catch_signals();
+  WiringTestSettings settings;
+  settings.pull_N = options.newton;
+  settings.try_reversed = can_reverse(options.common.device, chosen.profile);
+  const WiringAnswers answers =
+      ask_wiring(*chosen.device, chosen.profile, every_millisecond(), settings);
+  if (!answers.complete) {
+    std::cerr << "interrupted; the strings are released\n";
+    return kInterrupted;
+  }
+  const WiringReport report = judge_wiring(chosen.profile, answers);
+  (options.json ? print_wiring_json : print_wiring)(std::cout, chosen.profile, answers, report);
+  if (!options.output.empty()) write(options, chosen.profile, report);
+  return report.as_profile() ? kDone : kFailed;
+}
+
+}  // namespace spidar

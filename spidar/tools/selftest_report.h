@@ -1,0 +1,15 @@
+/// What `spidarctl selftest` found, for people and programs.
+#pragma once
+
+#include <iosfwd>
+
+#include "spidar/wiring/wiring_report.h"
+
+namespace spidar {
+
+void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
+                  const WiringReport& report);
+void print_wiring_json(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
+                       const WiringReport& report);
+
+}  // namespace spidar

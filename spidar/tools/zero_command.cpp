@@ -1,0 +1,36 @@
+#include <iostream>
+
+#include "spidar/tools/chosen_device.h"
+#include "spidar/tools/commands.h"
+#include "spidar/tools/terminal.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kHelp = R"(usage: spidarctl zero DEVICE [--profile NAME]
+
+Puts out zero volts on every motor at once, whatever they had: a board keeps its last value when the
+program that drove it is gone.
+)";
+
+}  // namespace
+
+int zero_command(int argc, char** argv) {
+  const DeviceOptions options = parse_device_options(argc, argv);
+  if (options.help) {
+    std::cout << kHelp;
+    return kDone;
+  }
+  ChosenDevice chosen = choose_device(options);
+  bool answered = false;
+  {
+    StringHold hold(*chosen.device, chosen.profile, every_millisecond());
+    hold.stay(0.02, [&](const DeviceReading&) { return answered = true; });
+  }
+  if (!answered)
+    throw DeviceError(chosen.device->name() + ": did not answer; switch its supply off");
+  std::cout << chosen.device->name() << ": the motors are at zero\n";
+  return kDone;
+}
+
+}  // namespace spidar

@@ -1,0 +1,72 @@
+#include "spidar/wiring/string_hold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "spidar/haptic_loop.h"
+#include "spidar/safety.h"
+
+namespace spidar {
+namespace {
+
+constexpr double kTick_s = 1e-9 * kTick_ns;
+
+}  // namespace
+
+StringHold::StringHold(Device& device, const Profile& profile, Pace pace)
+    : device_(device), profile_(profile), pace_(std::move(pace)) {
+  device_.open();
+}
+
+StringHold::~StringHold() {
+  device_.close();
+}
+
+/// False when there is no new reading.
+bool StringHold::exchange() {
+  const ExchangeStatus status = device_.exchange(to_volts(tension_N_, profile_), reading_);
+  errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
+  if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)
+    throw DeviceError(device_.name() + ": does not answer any more; check cable and power");
+  return status == ExchangeStatus::kOk;
+}
+
+bool StringHold::go(const StringVector& tension_N, double seconds) {
+  const StringVector from_N = tension_N_;
+  const StringVector to_N =
+      tension_N.cwiseMax(StringVector::Zero()).cwiseMin(profile_.max_tension_N());
+  const auto ticks = static_cast<int64_t>(std::max(std::ceil(seconds / kTick_s), 1.0));
+  for (int64_t tick = 1; tick <= ticks; ++tick) {
+    if (!pace_()) return false;
+    const double share = static_cast<double>(tick) / static_cast<double>(ticks);
+    tension_N_ = from_N + share * (to_N - from_N);
+    exchange();
+  }
+  return true;
+}
+
+bool StringHold::stay(double seconds, const std::function<bool(const DeviceReading&)>& seen) {
+  // Half a tick: the sum of many rounds.
+  for (double left_s = seconds; left_s > kTick_s / 2; left_s -= kTick_s) {
+    if (!pace_()) return false;
+    if (exchange() && seen && !seen(reading_)) return true;
+  }
+  return true;
+}
+
+void StringHold::release() {
+  const StringVector from_N = tension_N_;
+  constexpr int kTicks = static_cast<int>(HapticLoop::kRelease_s / kTick_s + 0.5);
+  for (int left = kTicks - 1; left >= 0; --left) {
+    pace_();
+    tension_N_ = from_N * left / kTicks;
+    exchange();
+  }
+}
+
+void StringHold::reverse_motor(int string) {
+  profile_.drives[static_cast<size_t>(string)].motor_sign *= -1;
+}
+
+}  // namespace spidar

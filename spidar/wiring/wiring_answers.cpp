@@ -1,0 +1,150 @@
+#include "spidar/wiring/wiring_answers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "spidar/haptic_loop.h"
+
+namespace spidar {
+namespace {
+
+constexpr double kRunaway_m = 0.03;
+
+class WiringTest {
+ public:
+  WiringTest(Device& device, const Profile& profile, const Pace& pace,
+             const WiringTestSettings& settings)
+      : device_(device),
+        profile_(profile),
+        settings_(settings),
+        rest_N_(profile.min_tension_N()),
+        hold_(device, profile, pace) {}
+
+  WiringAnswers run() {
+    WiringAnswers answers;
+    answers.complete = hold_.go(rest_N_, HapticLoop::kEnergise_s) && stay() && ask_all(answers);
+    hold_.release();
+    return answers;
+  }
+
+ private:
+  bool ask_all(WiringAnswers& answers) {
+    for (int i = 0; i < profile_.geometry.count; ++i) {
+      if (!ask(i, answers)) return false;
+      if (settings_.try_reversed && !answered(answers, i) && !ask_reversed(i, answers))
+        return false;
+    }
+    return true;
+  }
+
+  bool answered(const WiringAnswers& answers, int motor) const {
+    double largest_m = 0;
+    for (int j = 0; j < profile_.geometry.count; ++j)
+      largest_m = std::max(largest_m, std::fabs(answers.counts(j, motor)) * metres_per_count(j));
+    return largest_m >= smallest_answer_m(profile_);
+  }
+
+  bool ask(int motor, WiringAnswers& answers) {
+    const auto k = static_cast<size_t>(motor);
+    StringVector pulled_N = rest_N_;
+    pulled_N[motor] = std::min(rest_N_[motor] + settings_.pull_N, profile_.drives[k].max_tension_N);
+    answers.pulled_N[motor] = pulled_N[motor] - rest_N_[motor];
+    StringVector pulled, after;
+    if (!rested_ && !average(at_rest_)) return false;
+    pulling_ = motor;
+    if (!hold_.go(pulled_N, settings_.ramp_s) || !stay() || !average(pulled)) return false;
+    pulling_ = -1;
+    if (!hold_.go(rest_N_, settings_.ramp_s) || !stay() || !average(after)) return false;
+    // Against both rests, so that a hand that drifts away slowly does not count.
+    answers.counts.col(motor) = pulled - 0.5 * (at_rest_ + after);
+    at_rest_ = after;
+    rested_ = true;
+    return true;
+  }
+
+  /// Keeps the other sign when that is the one that pulls.
+  bool ask_reversed(int motor, WiringAnswers& answers) {
+    if (!turn(motor) || !ask(motor, answers)) return false;
+    answers.reversed[static_cast<size_t>(motor)] = answered(answers, motor);
+    return answered(answers, motor) || turn(motor);
+  }
+
+  bool turn(int motor) {
+    StringVector without_N = rest_N_;
+    without_N[motor] = 0;
+    if (!hold_.go(without_N, settings_.ramp_s)) return false;
+    hold_.reverse_motor(motor);
+    rested_ = false;
+    return hold_.go(rest_N_, settings_.ramp_s) && stay();
+  }
+
+  bool stay() {
+    return hold_.stay(settings_.settle_s, [this](const DeviceReading& reading) {
+      watch(reading);
+      return true;
+    });
+  }
+
+  bool average(StringVector& counts) {
+    counts.setZero();
+    int readings = 0;
+    const bool whole = hold_.stay(settings_.average_s, [&](const DeviceReading& reading) {
+      watch(reading);
+      for (int j = 0; j < profile_.geometry.count; ++j)
+        counts[j] += reading.count[static_cast<size_t>(j)];
+      ++readings;
+      return true;
+    });
+    if (readings == 0 && whole)
+      throw DeviceError(device_.name() + ": does not answer; check cable and power");
+    if (readings > 0) counts /= readings;
+    return whole;
+  }
+
+  void watch(const DeviceReading& reading) const {
+    if (pulling_ < 0) return;
+    for (int j = 0; j < profile_.geometry.count; ++j) {
+      const double moved_m =
+          metres_per_count(j) * (reading.count[static_cast<size_t>(j)] - at_rest_[j]);
+      if (std::fabs(moved_m) < kRunaway_m) continue;
+      char text[200];
+      std::snprintf(text, sizeof text,
+                    ": encoder %d ran by %.0f mm when motor %d pulled; hold the grip, and if it "
+                    "was held, the motor's wires are reversed",
+                    j, 1e3 * std::fabs(moved_m), pulling_);
+      throw DeviceError(device_.name() + text);
+    }
+  }
+
+  double metres_per_count(int j) const {
+    return profile_.drives[static_cast<size_t>(j)].metres_per_count;
+  }
+
+  Device& device_;
+  const Profile& profile_;
+  const WiringTestSettings settings_;
+  const StringVector rest_N_;
+  StringHold hold_;
+  int pulling_ = -1;
+  StringVector at_rest_ = StringVector::Zero();  // newest average of the counts
+  bool rested_ = false;                          // it is of the tensions as they are
+};
+
+}  // namespace
+
+double smallest_answer_m(const Profile& profile) {
+  constexpr double kCounts = 8;
+  double coarsest_m = 0;
+  for (int i = 0; i < profile.geometry.count; ++i)
+    coarsest_m = std::max(coarsest_m, profile.drives[static_cast<size_t>(i)].metres_per_count);
+  return kCounts * coarsest_m;
+}
+
+WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pace,
+                         const WiringTestSettings& settings) {
+  return WiringTest(device, profile, pace, settings).run();
+}
+
+}  // namespace spidar

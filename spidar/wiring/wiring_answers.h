@@ -1,0 +1,46 @@
+/// What the encoders say when one motor after the other pulls.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+#include "spidar/device.h"
+#include "spidar/profile.h"
+#include "spidar/wiring/string_hold.h"
+
+namespace spidar {
+
+struct WiringTestSettings {
+  double pull_N = 0.5;   ///< above the smallest tension, as far as the string's largest allows
+  double ramp_s = 0.05;  ///< up and down
+  double settle_s = 0.1;
+  double average_s = 0.1;
+  /// A motor that does nothing is tried with the other sign: for boards that have negative volts.
+  bool try_reversed = false;
+};
+
+/// Counts of encoder (row) for a pull of motor (column).
+using CountChanges = Eigen::Matrix<double, kMaxStrings, kMaxStrings>;
+
+struct WiringAnswers {
+  CountChanges counts = CountChanges::Zero();
+  StringVector pulled_N = StringVector::Zero();  ///< by how much more each motor pulled
+  std::array<bool, kMaxStrings> reversed{};  ///< it did so with the other sign than the profile's
+  bool complete = false;                     ///< false: ended early by the pace
+};
+
+/// Pulls string after string, the others at their smallest tension, with a hand that holds the grip
+/// loosely. Takes half a second a string with the default settings, and as much again where a motor is
+/// tried with the other sign.
+///
+/// Throws DeviceError when the device is lost, or when a string runs away: 30 mm are more than a
+/// hand gives way, the motor unwinds the string or nobody holds the grip.
+SPIDAR_API WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pace,
+                                    const WiringTestSettings& settings = {});
+
+/// Smallest answer to a pull that is one, metres: some counts, which a hand's tremor makes, too.
+SPIDAR_API double smallest_answer_m(const Profile& profile);
+
+}  // namespace spidar

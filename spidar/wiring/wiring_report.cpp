@@ -1,0 +1,219 @@
+#include "spidar/wiring/wiring_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "spidar/grip_model.h"
+
+namespace spidar {
+namespace {
+
+/// A fault has to explain this much of the answers to be one.
+constexpr double kFaultCost = 2e-3;
+/// Of the strongest answers' median; less is none.
+constexpr double kSilent = 0.1;
+constexpr double kRotationShares[] = {0.1, 0.3, 1, 3, 10};
+
+using Assignment = std::array<int, kMaxStrings>;
+
+struct Explanation {
+  Assignment motor{}, encoder{};
+  std::array<bool, kMaxStrings> encoder_reversed{};
+  double correlation = 0;
+  double worth = -1;  // correlation less the cost of the faults
+};
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+class Judge {
+ public:
+  Judge(const Profile& profile, const WiringAnswers& answers)
+      : count_(profile.geometry.count), structure_(structure_matrix(profile.geometry, {})) {
+    for (int i = 0; i < count_; ++i) {
+      if (!(answers.pulled_N[i] > 0)) continue;
+      for (int j = 0; j < count_; ++j) {
+        const StringDrive& drive = profile.drives[static_cast<size_t>(j)];
+        answer_(j, i) = -drive.encoder_sign * drive.metres_per_count * answers.counts(j, i) /
+                        answers.pulled_N[i];
+      }
+    }
+    find_silent(profile, answers);
+  }
+
+  WiringReport report(const WiringAnswers& answers) {
+    Explanation best;
+    for (const double share : kRotationShares) {
+      expect(share);
+      Explanation found = search();
+      if (found.worth > best.worth) best = found;
+    }
+    WiringReport report;
+    report.count = count_;
+    report.correlation = best.correlation;
+    for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
+      WiringChannel& channel = report.channel[i];
+      if (!silent_motor_[i]) channel.motor_string = best.motor[i];
+      if (!silent_encoder_[i]) channel.encoder_string = best.encoder[i];
+      channel.motor_reversed = answers.reversed[i];
+      channel.encoder_reversed = !silent_encoder_[i] && best.encoder_reversed[i];
+    }
+    return report;
+  }
+
+ private:
+  void find_silent(const Profile& profile, const WiringAnswers& answers) {
+    std::vector<double> of_motors, of_encoders;
+    for (int i = 0; i < count_; ++i) {
+      of_motors.push_back(answer_.col(i).cwiseAbs().maxCoeff());
+      of_encoders.push_back(answer_.row(i).cwiseAbs().maxCoeff());
+    }
+    const double motor = kSilent * median(of_motors), encoder = kSilent * median(of_encoders);
+    const double pulled_N = std::max(answers.pulled_N.maxCoeff(), 1e-9);
+    const double least = smallest_answer_m(profile) / pulled_N;
+    for (size_t i = 0; i < of_motors.size(); ++i) {
+      silent_motor_[i] = of_motors[i] < std::max(motor, least);
+      silent_encoder_[i] = of_encoders[i] < std::max(encoder, least);
+      if (silent_motor_[i]) answer_.col(static_cast<Eigen::Index>(i)).setZero();
+    }
+    for (size_t i = 0; i < of_motors.size(); ++i)
+      if (silent_encoder_[i]) answer_.row(static_cast<Eigen::Index>(i)).setZero();
+  }
+
+  /// Shortening of string j for a pull of string i, up to a factor.
+  void expect(double rotation_share) {
+    const GripModel hand;
+    Eigen::Matrix<double, 6, 1> compliance;
+    compliance.head<3>().setConstant(1 / hand.hand_stiffness_N_m);
+    compliance.tail<3>().setConstant(rotation_share / hand.hand_stiffness_Nm_rad);
+    expected_ = structure_.transpose() * compliance.asDiagonal() * structure_;
+  }
+
+  Explanation explain(const Assignment& motor, const Assignment& encoder) const {
+    Explanation e;
+    e.motor = motor;
+    e.encoder = encoder;
+    double product = 0, norm2 = 0;
+    int faults = 0;
+    const double answer_norm = answer_.norm();
+    for (int j = 0; j < count_; ++j) {
+      const auto k = static_cast<size_t>(j);
+      if (silent_encoder_[k]) continue;
+      double row = 0;
+      for (int i = 0; i < count_; ++i) {
+        const auto m = static_cast<size_t>(i);
+        if (silent_motor_[m]) continue;
+        const double expected = expected_(encoder[k], motor[m]);
+        row += answer_(j, i) * expected;
+        norm2 += expected * expected;
+      }
+      e.encoder_reversed[k] = row < 0;
+      product += std::fabs(row);
+      faults += (row < 0) + (encoder[k] != j);
+    }
+    for (int i = 0; i < count_; ++i) {
+      const auto m = static_cast<size_t>(i);
+      faults += motor[m] != i;
+      // Exchanged together is one thing, not two.
+      if (motor[m] != i && motor[m] == encoder[m]) --faults;
+    }
+    const double norm = answer_norm * std::sqrt(norm2);
+    e.correlation = norm > 0 ? product / norm : 0;
+    e.worth = e.correlation - kFaultCost * faults;
+    return e;
+  }
+
+  Explanation search() const {
+    Assignment same{};
+    for (int i = 0; i < kMaxStrings; ++i) same[static_cast<size_t>(i)] = i;
+    Explanation best = explain(same, same);
+    for (;;) {
+      const Explanation from = best;
+      for (size_t a = 0; a < static_cast<size_t>(count_); ++a)
+        for (size_t b = a + 1; b < static_cast<size_t>(count_); ++b)
+          try_exchanges(from, a, b, best);
+      if (!(best.worth > from.worth)) return best;
+    }
+  }
+
+  void try_exchanges(const Explanation& from, size_t a, size_t b, Explanation& best) const {
+    const bool motors = !silent_motor_[a] && !silent_motor_[b];
+    const bool encoders = !silent_encoder_[a] && !silent_encoder_[b];
+    Assignment motor = from.motor, encoder = from.encoder;
+    std::swap(motor[a], motor[b]);
+    std::swap(encoder[a], encoder[b]);
+    const auto consider = [&](const Explanation& e) {
+      if (e.worth > best.worth) best = e;
+    };
+    if (motors) consider(explain(motor, from.encoder));
+    if (encoders) consider(explain(from.motor, encoder));
+    if (motors && encoders) consider(explain(motor, encoder));
+  }
+
+  const int count_;
+  const StructureMatrix structure_;
+  CountChanges answer_ = CountChanges::Zero();  // shortening, metres per newton
+  Eigen::Matrix<double, kMaxStrings, kMaxStrings> expected_;
+  std::array<bool, kMaxStrings> silent_motor_{}, silent_encoder_{};
+};
+
+}  // namespace
+
+bool WiringReport::as_profile() const noexcept {
+  for (int i = 0; i < count; ++i) {
+    const WiringChannel& c = channel[static_cast<size_t>(i)];
+    if (c.motor_string != i || c.encoder_string != i || c.motor_reversed || c.encoder_reversed)
+      return false;
+  }
+  return understood();
+}
+
+bool WiringReport::fixable() const noexcept {
+  for (int i = 0; i < count; ++i) {
+    const WiringChannel& c = channel[static_cast<size_t>(i)];
+    if (c.motor_string < 0 || c.motor_string != c.encoder_string) return false;
+  }
+  return understood();
+}
+
+WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers) {
+  return Judge(profile, answers).report(answers);
+}
+
+Profile rewired_profile(const Profile& profile, const WiringReport& report,
+                        const std::string& how) {
+  if (!report.fixable())
+    throw std::invalid_argument("wiring: a profile cannot say what is wrong with it");
+  Profile rewired = profile;
+  bool moved = false, motors = false, encoders = false;
+  for (size_t i = 0; i < static_cast<size_t>(report.count); ++i) {
+    const WiringChannel& channel = report.channel[i];
+    const auto from = static_cast<size_t>(channel.motor_string);
+    rewired.geometry.exit_m[i] = profile.geometry.exit_m[from];
+    rewired.geometry.grip_m[i] = profile.geometry.grip_m[from];
+    if (channel.motor_reversed) rewired.drives[i].motor_sign *= -1;
+    if (channel.encoder_reversed) rewired.drives[i].encoder_sign *= -1;
+    moved |= from != i;
+    motors |= channel.motor_reversed;
+    encoders |= channel.encoder_reversed;
+  }
+  if (moved || encoders) {
+    for (StringDrive& drive : rewired.drives) drive.home_offset_m = 0;
+    rewired.calibration.reset();
+  }
+  const auto measured = [&](const char* field) {
+    rewired.provenance.push_back({field, how, Evidence::kMeasured, ""});
+  };
+  if (moved) measured("geometry");
+  if (motors) measured("motor_sign");
+  if (encoders) measured("encoder_sign");
+  return rewired;
+}
+
+}  // namespace spidar
