@@ -53,6 +53,11 @@ void PointGrid::lay_out(int width, int height, int cell_px) {
   cells_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), {});
 }
 
+void PointGrid::reset() {
+  turn_ = 0;
+  std::fill(cells_.begin(), cells_.end(), Cell());
+}
+
 void PointGrid::begin_frame() {
   turn_ = (turn_ + 1) % kTurns;
   for (Cell& cell : cells_) {

@@ -20,6 +20,9 @@ class PointGrid {
   /// Forgets everything when one of them has changed.
   void lay_out(int width, int height, int cell_px);
 
+  /// Nothing is known of the picture any more.
+  void reset();
+
   /// A new frame: no cell has a point.
   void begin_frame();
 

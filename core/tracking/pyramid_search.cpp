@@ -16,7 +16,7 @@ using SearchTemplate = WindowTemplate<kSearchWindow_px>;
 
 /// Coarse levels only have to lead into the basin of the next finer one.
 constexpr MatchSettings kCoarse{3, 0.15f, 5, 1};
-constexpr MatchSettings kBase{6, 0.06f, 5, 1};
+constexpr MatchSettings kLast{6, 0.06f, 5, 1};
 constexpr MatchSettings kRefine{3, 0.02f, 1, 1};
 /// A point that is followed may become less of a corner than a new one.
 constexpr float kKeptRoundness = kLeastRoundness / 2;
@@ -35,50 +35,59 @@ bool is_inside(const PaddedImage& image, ImagePoint centre, int side) {
 
 bool find_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from,
                 ImagePoint expected, const SearchSettings& settings, PointMatch& match) {
-  const float first_scale = 1.0f / static_cast<float>(1 << settings.first_level);
-  ImagePoint moved{expected.x_px * first_scale, expected.y_px * first_scale};
+  const int first_level = std::max(settings.first_level, settings.last_level);
+  ImagePoint moved = expected;  // in pixels of the base
   SearchTemplate window;
-  for (int level = settings.first_level; level >= 0; --level) {
+  WindowMatch found;
+  for (int level = first_level; level >= settings.last_level; --level) {
     const auto l = static_cast<size_t>(level);
+    const auto scale = static_cast<float>(1 << level);
     const ImagePoint centre = to_reduced(from, 1 << level);
-    const bool is_base = level == 0;
-    const float least = settings.least_strength * (is_base ? 1 : kCoarseStrength);
+    const bool is_last = level == settings.last_level;
+    const float least = settings.least_strength * (is_last ? 1 : kCoarseStrength);
     const bool usable =
         window.read(ReadablePixels(before.levels[l]), centre) && window.strength() >= least;
-    if (is_base && !(usable && window.roundness() >= kKeptRoundness)) return false;
-    if (usable) {
-      MatchSettings matching = is_base ? kBase : kCoarse;
-      matching.gain = settings.gain;
-      WindowMatch found{{centre.x_px + moved.x_px, centre.y_px + moved.y_px}, 0};
-      const bool ended = window.find(ReadablePixels(now.levels[l]), matching, found);
-      if (is_base && !ended) return false;
-      if (ended) {
-        moved = {found.centre.x_px - centre.x_px, found.centre.y_px - centre.y_px};
-        match.residual = found.residual;
-        match.variance_px2 = found.variance_px2;
-      }
+    if (is_last && !(usable && window.roundness() >= kKeptRoundness)) return false;
+    if (!usable) continue;
+    MatchSettings matching = is_last ? kLast : kCoarse;
+    matching.gain = settings.gain;
+    found.centre = {centre.x_px + moved.x_px / scale, centre.y_px + moved.y_px / scale};
+    const bool ended = window.find(ReadablePixels(now.levels[l]), matching, found);
+    if (is_last && !(ended && is_inside(now.levels[l], found.centre, kSearchWindow_px))) {
+      return false;
     }
-    if (!is_base) moved = {2 * moved.x_px, 2 * moved.y_px};
+    if (!ended) continue;
+    moved = {scale * (found.centre.x_px - centre.x_px), scale * (found.centre.y_px - centre.y_px)};
   }
+  const auto scale = static_cast<float>(1 << settings.last_level);
   match.to = {from.x_px + moved.x_px, from.y_px + moved.y_px};
-  match.strength = window.strength();
-  return is_inside(now.levels[0], match.to, kSearchWindow_px);
+  match.residual = found.residual;
+  match.variance_px2 = scale * scale * found.variance_px2;
+  match.strength = window.strength() / (scale * scale);
+  return true;
 }
 
-bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from, float gain,
-                  const PointMatch& match, PointMatch& wide) {
-  const PaddedImage& was = before.levels[0];
-  const PaddedImage& is = now.levels[0];
-  if (!is_inside(was, from, kRefineWindow_px) || !is_inside(is, match.to, kRefineWindow_px)) {
+bool refine_point(const GrayPyramid& before, const GrayPyramid& now, ImagePoint from,
+                  const SearchSettings& settings, const PointMatch& match, PointMatch& wide) {
+  const int level = std::max(settings.last_level - 1, 0);
+  const auto scale = static_cast<float>(1 << level);
+  const PaddedImage& was = before.levels[static_cast<size_t>(level)];
+  const PaddedImage& is = now.levels[static_cast<size_t>(level)];
+  const ImagePoint centre = to_reduced(from, 1 << level);
+  WindowMatch found;
+  found.centre = to_reduced(match.to, 1 << level);
+  if (!is_inside(was, centre, kRefineWindow_px) || !is_inside(is, found.centre, kRefineWindow_px)) {
     return false;
   }
   WindowTemplate<kRefineWindow_px> window;
-  if (!window.read(ReadablePixels(was), from)) return false;
-  MatchSettings settings = kRefine;
-  settings.gain = gain;
-  WindowMatch found{match.to, 0};
-  if (!window.find(ReadablePixels(is), settings, found)) return false;
-  wide = {found.centre, found.residual, found.variance_px2, window.strength()};
+  if (!window.read(ReadablePixels(was), centre)) return false;
+  MatchSettings matching = kRefine;
+  matching.gain = settings.gain;
+  if (!window.find(ReadablePixels(is), matching, found)) return false;
+  wide.to = to_frame(found.centre, 1 << level);
+  wide.residual = found.residual;
+  wide.variance_px2 = scale * scale * found.variance_px2;
+  wide.strength = window.strength() / (scale * scale);
   return true;
 }
 

@@ -1,0 +1,34 @@
+/// A point of the patch tracker.
+#pragma once
+
+#include <cstdint>
+
+#include "core/tracking/pyramid_search.h"
+#include "core/tracking/tracker.h"
+
+namespace spidar {
+
+struct FollowedPoint {
+  uint32_t id = 0;
+  ImagePoint at;     ///< in the base of the pyramid
+  ImagePoint frame;  ///< in the frame
+  ImagePoint from;   ///< where that was in the frame before
+  ImagePoint moved;  ///< since the frame before, in the base; of a new one: expected
+  int level = 0;     ///< of the pyramid: where it was chosen and is looked for
+  bool is_new = true;
+
+  bool found = false;        ///< in this frame
+  bool is_surprise = false;  ///< found, but not from where it was expected
+  bool has_place = false;    ///< on the grid
+  PointMatch match;
+};
+
+inline ImagePoint operator-(ImagePoint a, ImagePoint b) {
+  return {a.x_px - b.x_px, a.y_px - b.y_px};
+}
+
+inline ImagePoint operator+(ImagePoint a, ImagePoint b) {
+  return {a.x_px + b.x_px, a.y_px + b.y_px};
+}
+
+}  // namespace spidar

@@ -1,0 +1,61 @@
+/// Which points of a picture are followed from now on.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/tracking/corner.h"
+#include "core/tracking/followed_point.h"
+#include "core/tracking/gray_pyramid.h"
+#include "core/tracking/point_grid.h"
+#include "core/tracking/tracker.h"
+
+namespace spidar {
+
+/// Fills a grid with the strongest corners of its cells. Cells become smaller where most of the
+/// picture shows nothing to follow, so that the rest may have more of the points.
+class PointChooser {
+ public:
+  struct Settings {
+    TrackerSettings tracker;
+    double grid_share = 0.5;     ///< of the points asked for, on the grid; the rest: denser places
+    double min_distance_px = 0;  ///< in the base
+  };
+
+  /// A picture that has nothing to do with those before.
+  void reset();
+
+  /// Lays out `grid` over `base`.
+  void lay_out(const PaddedImage& base, const Settings& settings, PointGrid& grid) const;
+
+  /// A point that is followed may become weaker than a new one, down to this, (grey / px)².
+  float least_kept_strength(const Settings& settings) const;
+
+  /// Adds points of `picture` where the grid wants them, `everywhere` or only in the cells whose
+  /// turn it is.
+  void choose(const GrayPyramid& picture, const Settings& settings, const PointGrid& grid,
+              bool everywhere, std::vector<FollowedPoint>& points);
+
+ private:
+  /// A corner, in pixels of the base, and the level of the pyramid that it is one of.
+  struct Candidate {
+    Corner corner;
+    int level = 0;
+  };
+
+  float least_strength(const Settings& settings) const;
+  void find_corners(const GrayPyramid& picture, int level, const PointGrid& grid, bool everywhere);
+  void find_candidates(const GrayPyramid& picture, const PointGrid& grid, bool everywhere,
+                       std::vector<FollowedPoint>& points);
+  void learn_strength(const std::vector<FollowedPoint>& points, bool everywhere);
+  void adapt_cells(size_t points, int most);
+
+  std::vector<Candidate> candidates_;
+  double cell_scale_ = 1;
+  float strongest_ = 0;       ///< corner of late
+  float strongest_next_ = 0;  ///< since the turn began
+  int frames_in_turn_ = 0;
+  uint32_t next_id_ = 0;
+};
+
+}  // namespace spidar
