@@ -87,6 +87,12 @@ void PointGrid::around(int column, int row, Each&& each) const {
   }
 }
 
+void PointGrid::lose(ImagePoint at) {
+  Cell& cell = cells_[cell_of(at)];
+  cell.search = true;
+  cell.dense_frames = kDenseFrames;
+}
+
 bool PointGrid::occupy(ImagePoint at, ImagePoint moved) {
   Cell& cell = cells_[cell_of(at)];
   const int quarter = quarter_of(at);

@@ -29,8 +29,9 @@ class PointGrid {
   /// False when the place is taken and the point should go.
   bool occupy(ImagePoint at, ImagePoint moved);
 
-  /// A point was lost there: search it in this frame.
-  void lose(ImagePoint at) { cells_[cell_of(at)].search = true; }
+  /// A point was lost there: something may have come over it. The cell is searched in this frame
+  /// and will be dense.
+  void lose(ImagePoint at);
 
   /// Compares neighbours after the last occupy(): where they differ, or where something moves and
   /// most cells around have no point, points will be dense for some frames.
