@@ -32,8 +32,8 @@ struct WiringAnswers {
 };
 
 /// Pulls string after string, the others at their smallest tension, with a hand that holds the grip
-/// loosely. Takes half a second a string with the default settings, and as much again where a motor is
-/// tried with the other sign.
+/// loosely. Takes half a second a string with the default settings, and as much again where a motor
+/// is tried with the other sign.
 ///
 /// Throws DeviceError when the device is lost, or when a string runs away: 30 mm are more than a
 /// hand gives way, the motor unwinds the string or nobody holds the grip.

@@ -11,8 +11,10 @@
 #include "core/grip/pose_solver.h"
 #include "core/grip/tension_solver.h"
 #include "core/motion/motion_estimator.h"
+#include "core/motion_analyzer.h"
 #include "count_allocations.h"
 #include "tension_cases.h"
+#include "tests/support/moving_scene.h"
 #include "track_samples.h"
 
 namespace spidar::test {
@@ -107,6 +109,24 @@ TEST(NoAllocation, Motion) {
     }
     const bool looks_for_objects = kind == MotionKind::kObject || kind == MotionKind::kObjects;
     EXPECT_EQ(most_objects > 2, looks_for_objects) << "the scene is lively";
+  }
+}
+
+TEST(NoAllocation, AFrameOfVideo) {
+  // From the picture to the wrench, the default way, after as many frames as everything needs to
+  // have been used once: cells have had their turns and points have been lost.
+  constexpr int kFirstFrames = 30;
+  MovingScene scene(kWidth, kHeight);
+  scene.add_disc(50);
+  MotionAnalyzer analyzer;
+  for (int n = 0; n < 60; ++n) {
+    const double x_px = -250 + 8 * n;
+    const ImageView picture = scene.draw({{1.5 * n, 0}}, {{{x_px, 20.0}}});
+    const size_t before = allocations;
+    analyzer.analyze(picture, (n + 1) * int64_t{33'333'333});
+    if (n >= kFirstFrames) {
+      ASSERT_EQ(allocations, before) << "frame " << n;
+    }
   }
 }
 

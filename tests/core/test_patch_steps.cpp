@@ -1,0 +1,327 @@
+// The steps of the patch tracker, each against its definition: the vector code gives the bits of
+// the plain one.
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/tracking/corner.h"
+#include "core/tracking/gray_pyramid.h"
+#include "core/tracking/light_change.h"
+#include "core/tracking/patch_kernels.h"
+#include "core/tracking/point_grid.h"
+#include "core/tracking/pyramid_search.h"
+#include "core/tracking/window_match.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+using test::Picture;
+using test::Texture;
+
+/// Grey levels of all sizes, black and white next to each other among them.
+Picture noise(int width, int height, uint32_t seed, int padding = 0) {
+  Picture picture(width, height, padding);
+  std::mt19937 random(seed);
+  picture.fill([&](double, double) {
+    const auto value = static_cast<uint32_t>(random());
+    return value % 4 == 0 ? (value & 16 ? 255.0 : 0.0) : static_cast<double>(value >> 24);
+  });
+  return picture;
+}
+
+void expect_same(const PaddedImage& a, const PaddedImage& b, const std::string& what) {
+  ASSERT_EQ(a.width(), b.width()) << what;
+  ASSERT_EQ(a.height(), b.height()) << what;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) ASSERT_EQ(a.row(y)[x], b.row(y)[x]) << what << " " << x;
+  }
+}
+
+TEST(PatchSteps, BlocksAreTheirRoundedMeans) {
+  for (const int width : {16, 37, 64, 131, 322}) {
+    for (const int height : {16, 31, 50}) {
+      const Picture picture = noise(width, height, 1, width % 5);
+      for (const int factor : {1, 2, 3, 4, 5, 8, 16}) {
+        PaddedImage fast;
+        PaddedImage plain;
+        reduce_blocks(picture.view(), factor, fast);
+        plain::reduce_blocks(picture.view(), factor, plain);
+        expect_same(fast, plain, std::to_string(width) + " / " + std::to_string(factor));
+        if (fast.width() < 2 || fast.height() < 2) continue;
+        PaddedImage half;
+        PaddedImage plain_half;
+        halve(fast, half);
+        plain::halve(fast, plain_half);
+        expect_same(half, plain_half, "half");
+      }
+    }
+  }
+}
+
+TEST(PatchSteps, TheBorderIsRepeatedInAllDirections) {
+  PaddedImage image;
+  plain::reduce_blocks(noise(40, 30, 3).view(), 1, image);
+  image.repeat_border();
+  for (int y = -PaddedImage::kPad_px; y < 30 + PaddedImage::kPad_px; ++y) {
+    for (int x = -PaddedImage::kPad_px; x < 40 + PaddedImage::kPad_px; ++x) {
+      const int inside_x = std::min(std::max(x, 0), 39);
+      const int inside_y = std::min(std::max(y, 0), 29);
+      ASSERT_EQ(image.row(y)[x], image.row(inside_y)[inside_x]) << x << ", " << y;
+    }
+  }
+}
+
+TEST(PatchSteps, FactorsMakeTheLongerSideAbout480) {
+  struct Case {
+    int width, height, factor;
+  };
+  for (const Case& c : {Case{640, 360, 1}, Case{678, 400, 1}, Case{679, 400, 2}, Case{1280, 720, 2},
+                        Case{1920, 1080, 4}, Case{1080, 1920, 4}, Case{3840, 2160, 8},
+                        Case{16, 16, 1}, Case{8192, 16, 1}, Case{8192, 64, 4}}) {
+    EXPECT_EQ(halving_factor(c.width, c.height), c.factor) << c.width << "x" << c.height;
+  }
+}
+
+TEST(PatchSteps, TheBestCornerIsTheStrongestWindow) {
+  std::mt19937 random(7);
+  for (int n = 0; n < 60; ++n) {
+    PaddedImage image;
+    Picture picture = noise(80, 70, static_cast<uint32_t>(n));
+    if (n % 2 == 0) {
+      const Texture texture(static_cast<uint32_t>(n), 9);
+      picture.fill([&](double x, double y) { return texture.at(x, y); });
+    }
+    plain::reduce_blocks(picture.view(), 1, image);
+    image.repeat_border();
+    const auto from = [&](int most) {
+      return static_cast<int>(random() % static_cast<uint32_t>(most));
+    };
+    PixelBox box;
+    box.x0 = 1 + from(40);
+    box.y0 = 1 + from(40);
+    box.x1 = std::min(box.x0 + from(70), 79);
+    box.y1 = std::min(box.y0 + from(70), 69);
+    const Corner fast = best_corner(image, box);
+    const Corner plain = plain::best_corner(image, box);
+    EXPECT_EQ(fast.strength, plain.strength) << "picture " << n;
+    EXPECT_EQ(fast.at.x_px, plain.at.x_px) << "picture " << n;
+    EXPECT_EQ(fast.at.y_px, plain.at.y_px) << "picture " << n;
+  }
+}
+
+TEST(PatchSteps, FlatsSlopesAndEdgesHaveNoCorner) {
+  const auto strength = [](auto&& grey) {
+    Picture picture(64, 64);
+    picture.fill(grey);
+    PaddedImage image;
+    plain::reduce_blocks(picture.view(), 1, image);
+    image.repeat_border();
+    return best_corner(image, {1, 1, 63, 63}).strength;
+  };
+  EXPECT_EQ(strength([](double, double) { return 90.0; }), 0);
+  EXPECT_EQ(strength([](double x, double y) { return 2 * x + y; }), 0);
+  EXPECT_EQ(strength([](double x, double) { return x < 30 ? 20.0 : 220.0; }), 0);
+  EXPECT_GT(strength([](double x, double y) { return x < 30 && y < 30 ? 20.0 : 220.0; }), 100);
+}
+
+template <int kSide>
+void expect_same_kernels(uint32_t seed) {
+  const Picture before = noise(64, 64, seed);
+  const Picture now = noise(64, 64, seed + 1000);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> share(0, 1);
+  const auto source = [&](const Picture& picture) {
+    const ptrdiff_t offset = static_cast<ptrdiff_t>(random() % 20) * picture.stride + random() % 20;
+    return WindowSource{picture.pixels.data() + offset, picture.stride,
+                        BilinearWeights::at(share(random), share(random))};
+  };
+  const WindowSource from = source(before);
+  TemplatePixels<kSide> fast;
+  TemplatePixels<kSide> plain;
+  EXPECT_EQ(vectors::read_template(from, fast), plain::read_template(from, plain)) << seed;
+  for (int k = 0; k < kSide * kSide; ++k) {
+    ASSERT_EQ(fast.pixel[k], plain.pixel[k]) << seed;
+    ASSERT_EQ(fast.dx[k], plain.dx[k]) << seed;
+    ASSERT_EQ(fast.dy[k], plain.dy[k]) << seed;
+  }
+  const WindowSource to = source(now);
+  for (const int gain : {kGainOne, kGainOne / 4, 2 * kGainOne - 1, 17'000}) {
+    EXPECT_EQ(vectors::compare(to, fast, gain), plain::compare(to, plain, gain)) << seed;
+  }
+  EXPECT_EQ(vectors::absolute_difference(from.pixels, from.stride, to.pixels, to.stride),
+            plain::absolute_difference(from.pixels, from.stride, to.pixels, to.stride));
+}
+
+TEST(PatchSteps, VectorsGiveTheBitsOfThePlainArithmetic) {
+  for (uint32_t seed = 1; seed <= 100; ++seed) {
+    expect_same_kernels<8>(seed);
+    expect_same_kernels<16>(seed);
+    expect_same_kernels<24>(seed);
+  }
+}
+
+TEST(PatchSteps, WeightsAddUpToOneAndNoneIsNegative) {
+  for (int x = 0; x <= 256; ++x) {
+    for (int y = 0; y <= 256; ++y) {
+      const BilinearWeights w =
+          BilinearWeights::at(static_cast<float>(x) / 256, static_cast<float>(y) / 256);
+      ASSERT_EQ(w.w00 + w.w01 + w.w10 + w.w11, 256);
+      ASSERT_GE(std::min(std::min(w.w00, w.w01), std::min(w.w10, w.w11)), 0) << x << ", " << y;
+    }
+  }
+}
+
+/// Grey of a smooth texture that has moved and whose light has changed.
+PaddedImage textured(double dx_px, double dy_px, double gain, double offset) {
+  const Texture texture(11, 12);
+  Picture picture(96, 96);
+  picture.fill([&](double x, double y) {
+    return 128 + offset + gain * (texture.at(x - dx_px, y - dy_px) - 128);
+  });
+  PaddedImage image;
+  plain::reduce_blocks(picture.view(), 1, image);
+  image.repeat_border();
+  return image;
+}
+
+TEST(PatchSteps, AWindowIsFoundWhateverTheLight) {
+  const PaddedImage before = textured(0, 0, 0.7, 0);
+  // Grey levels are rounded in both pictures, σ = 0.29 √2, and the gradient is of 5 levels / px on
+  // average over 256 px: 0.005 px. Interpolation between pixels of a texture with structures of
+  // 12 px errs by up to h²/8 f'' = 5 · 2π/24 / 8 = 0.16 levels, 0.03 px if all pixels agreed.
+  constexpr double kTolerance_px = 0.05;
+  for (const double gain : {1.0, 0.7, 1.3}) {
+    const PaddedImage now = textured(0.6, -1.3, 0.7 * gain, 12);
+    WindowTemplate<16> window;
+    ASSERT_TRUE(window.read(ReadablePixels(before), {47.25f, 50.5f}));
+    MatchSettings settings;
+    settings.gain = 0;
+    settings.iterations = 10;
+    settings.step_px = 0.003f;
+    WindowMatch match;
+    match.centre = {47.25f, 50.5f};
+    ASSERT_TRUE(window.find(ReadablePixels(now), settings, match)) << gain;
+    EXPECT_NEAR(match.centre.x_px, 47.85, kTolerance_px) << gain;
+    EXPECT_NEAR(match.centre.y_px, 49.2, kTolerance_px) << gain;
+    EXPECT_LT(match.residual, 0.1f) << gain;
+  }
+}
+
+TEST(PatchSteps, WindowsThatHaveNothingInCommonAreFarFromAResidualOfNone) {
+  PaddedImage before;
+  PaddedImage now;
+  plain::reduce_blocks(noise(96, 96, 5).view(), 1, before);
+  plain::reduce_blocks(noise(96, 96, 6).view(), 1, now);
+  WindowTemplate<16> window;
+  ASSERT_TRUE(window.read(ReadablePixels(before), {48, 48}));
+  WindowMatch match;
+  match.centre = {48, 48};
+  MatchSettings settings;
+  settings.iterations = 1;
+  // √2 for independent ones; its standard error over 256 px is 1/√512 of that, 0.06.
+  ASSERT_TRUE(window.find(ReadablePixels(now), settings, match));
+  EXPECT_NEAR(match.residual, std::sqrt(2.0), 4 * 0.06);
+}
+
+TEST(PatchSteps, BlocksFindAJumpOfManyPixels) {
+  const Texture texture(4, 24);
+  const auto pyramid = [&](double dx_px, double dy_px) {
+    Picture picture(480, 272);
+    picture.fill([&](double x, double y) { return texture.at(x - dx_px, y - dy_px); });
+    GrayPyramid levels;
+    plain::reduce_blocks(picture.view(), 1, levels.levels[0]);
+    levels.build_from_base();
+    return levels;
+  };
+  const GrayPyramid before = pyramid(0, 0);
+  ImagePoint moved;
+  ASSERT_TRUE(find_by_blocks(before, pyramid(72, -40), {200, 150}, moved));
+  EXPECT_EQ(moved.x_px, 72);
+  EXPECT_EQ(moved.y_px, -40);
+}
+
+TEST(PatchSteps, OnlyLightIsToldFromMotion) {
+  const auto pyramid = [](double dx_px, double gain, double offset) {
+    GrayPyramid levels;
+    levels.levels[0] = textured(dx_px, 0, gain, offset);
+    levels.build_from_base();
+    return levels;
+  };
+  const GrayPyramid before = pyramid(0, 0.7, 0);
+  EXPECT_TRUE(only_light_changed(before, pyramid(0, 0.9, 0)));
+  EXPECT_TRUE(only_light_changed(before, pyramid(0, 0.7, 20)));
+  EXPECT_FALSE(only_light_changed(before, before));
+  EXPECT_FALSE(only_light_changed(before, pyramid(1, 0.9, 0)));
+  EXPECT_EQ(contrast_gain(before, before), 1);
+  EXPECT_NEAR(contrast_gain(before, pyramid(0, 0.9, 0)), 0.9 / 0.7, 0.02);  // rounding to levels
+}
+
+class Grid : public testing::Test {
+ protected:
+  Grid() { grid_.lay_out(400, 240, 40); }
+
+  int wanted(bool everywhere) const {
+    int count = 0;
+    grid_.for_each_wanted(everywhere, [&](const PixelBox& box) {
+      ++count;
+      EXPECT_GE(box.x0, 1);
+      EXPECT_GE(box.y0, 1);
+      EXPECT_LE(box.x1, 399);
+      EXPECT_LE(box.y1, 239);
+    });
+    return count;
+  }
+
+  PointGrid grid_;
+};
+
+TEST_F(Grid, WantsAPointInEachCellAndLooksThroughThemInTurns) {
+  EXPECT_EQ(wanted(true), 60);
+  int in_turns = 0;
+  for (int n = 0; n < PointGrid::kTurns; ++n) {
+    grid_.begin_frame();
+    in_turns += wanted(false);
+  }
+  EXPECT_EQ(in_turns, 60);
+}
+
+TEST_F(Grid, IsDenseWhereNeighboursDiffer) {
+  grid_.begin_frame();
+  for (int x = 20; x < 400; x += 40) {
+    for (int y = 20; y < 240; y += 40) {
+      const bool moves = x == 180 && y == 100;
+      EXPECT_TRUE(
+          grid_.occupy({static_cast<float>(x), static_cast<float>(y)}, {moves ? 5.0f : 0.0f, 0}));
+    }
+  }
+  grid_.compare_neighbours();
+  // Of the moving point's cell and the eight around it three quarters each.
+  EXPECT_EQ(wanted(true), 27);
+  EXPECT_EQ(grid_.support({180, 100}, {5, 0}).alike, 0);
+  EXPECT_EQ(grid_.support({180, 100}, {5, 0}).beside, 8);
+  EXPECT_EQ(grid_.support({300, 100}, {0, 0}).alike, 8);
+  EXPECT_EQ(grid_.motion_near({190, 110}).x_px, 5);
+}
+
+TEST_F(Grid, KeepsTwoThatMeetInACellAndNotTheThird) {
+  grid_.begin_frame();
+  EXPECT_TRUE(grid_.occupy({10, 10}, {0, 0}));
+  EXPECT_FALSE(grid_.occupy({12, 12}, {0, 0}));  // the same quarter
+  EXPECT_TRUE(grid_.occupy({30, 10}, {0, 0}));
+  EXPECT_FALSE(grid_.occupy({30, 30}, {0, 0}));
+}
+
+TEST_F(Grid, SearchesACellThatLostItsPointAtOnce) {
+  grid_.begin_frame();
+  const int before = wanted(false);
+  grid_.lose({390, 230});  // in a cell whose turn it is or is not: then four quarters, or one …
+  EXPECT_GT(wanted(false), before);
+}
+
+}  // namespace
+}  // namespace spidar
