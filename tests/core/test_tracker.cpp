@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -164,6 +165,27 @@ TYPED_TEST(EveryTracker, APointKeepsItsIdAndStartsWhereItEnded) {
       EXPECT_GE(known * 2, frame.tracks.size()) << n;
     }
     last = now;
+  }
+}
+
+TYPED_TEST(EveryTracker, GivesTheSameForTheSameFrames) {
+  // Bit for bit, of two trackers and of one that has been restarted.
+  MovingTexture scene(640, 360, 2.3, -0.7);
+  auto first = std::make_unique<TypeParam>();
+  TypeParam second;
+  for (int round = 0; round < 2; ++round) {
+    for (int n = 0; n < 8; ++n) {
+      const std::vector<Track> expected = first->track(scene.frame(n)).tracks;
+      const std::vector<Track>& found = second.track(scene.frame(n)).tracks;
+      ASSERT_EQ(found.size(), expected.size()) << "frame " << n << ", round " << round;
+      for (size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].from.x_px, expected[i].from.x_px);
+        EXPECT_EQ(found[i].to.x_px, expected[i].to.x_px);
+        EXPECT_EQ(found[i].to.y_px, expected[i].to.y_px);
+      }
+    }
+    second.restart();
+    first = std::make_unique<TypeParam>();
   }
 }
 
