@@ -7,9 +7,10 @@
 namespace spidar::bench {
 namespace {
 
-std::unique_ptr<Tracker> make_patch(TrackerQuality quality) {
+std::unique_ptr<Tracker> make_patch(TrackerQuality quality, int points = 200) {
   TrackerSettings settings;
   settings.quality = quality;
+  settings.max_features = points;
   return std::make_unique<PatchTracker>(settings);
 }
 
@@ -24,6 +25,10 @@ const std::vector<Pipeline>& pipelines() {
       {"balanced", "tracker=patch", true, [] { return make_patch(TrackerQuality::kBalanced); }},
       {"fine", "tracker=patch quality=fine", true,
        [] { return make_patch(TrackerQuality::kFine); }},
+      {"points-50", "tracker=patch max-features=50", true,
+       [] { return make_patch(TrackerQuality::kBalanced, 50); }},
+      {"points-400", "tracker=patch max-features=400", true,
+       [] { return make_patch(TrackerQuality::kBalanced, 400); }},
       {"dis", "DIS ultrafast at 480 px", true, make_dis_ultrafast},
       {"farneback", "Farneback at 480 px", true, make_farneback},
       {"phase", "phase correlation at 480 px", true, make_phase_correlation},
