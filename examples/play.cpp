@@ -29,6 +29,7 @@ namespace {
 constexpr const char* kUsage =
     "usage: play [--output FOLDER] [--headless] VIDEO | URI | --ball [-- name=value ...]\n"
     "  --output FOLDER  where spidar-play.png goes; else the current folder\n"
+    "  --seconds N      stop after N seconds\n"
     "  --headless       no window for the video, even with a display\n"
     "  --window         the debug window: tracks, forces, grip, settings\n"
     "  --window-png FILE  the same, saved as a picture after five seconds of the video\n"
@@ -40,11 +41,24 @@ struct Options {
   fs::path output = ".";
   bool help = false;
   bool ball = false;
+  int seconds = 0;  ///< 0: to the end
   bool headless = false;
   bool window = false;
   std::string window_png;
   std::vector<std::string> assignments;
 };
+
+/// Throws std::invalid_argument.
+int whole_seconds(const std::string& text) {
+  constexpr size_t kMostDigits = 5;
+  const bool is_number = !text.empty() && text.size() <= kMostDigits &&
+                         text.find_first_not_of("0123456789") == std::string::npos;
+  if (!is_number || std::stoi(text) == 0) {
+    throw std::invalid_argument("--seconds needs a whole number from 1 to 99999, not '" + text +
+                                "'");
+  }
+  return std::stoi(text);
+}
 
 /// Throws std::invalid_argument.
 Options parse(const std::vector<std::string>& arguments) {
@@ -67,6 +81,8 @@ Options parse(const std::vector<std::string>& arguments) {
     } else if (argument == "--window-png" && i + 1 < arguments.size()) {
       options.window = true;
       options.window_png = arguments[++i];
+    } else if (argument == "--seconds" && i + 1 < arguments.size()) {
+      options.seconds = whole_seconds(arguments[++i]);
     } else if (argument == "--output" && i + 1 < arguments.size()) {
       options.output = arguments[++i];
     } else if (argument.size() > 1 && argument[0] == '-') {
@@ -177,7 +193,7 @@ int play(const Options& options) {
   });
 
   WindowPicture window_picture(filter, options.window_png);
-  const Ending ending = run_playback(pipeline, [&] {
+  const Ending ending = run_playback(pipeline, options.seconds, [&] {
     const Now now = record.now();
     window_picture.take_if_due(now.running_ns);
     return progress_line(now);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Plays a video whose motion is felt on a SPIDAR-G, simulated unless told otherwise, and ends with a
 # table and a picture of what was felt. Installs what is missing (Debian) and builds first.
-#   examples/play.sh                             a tree in the wind
+#   examples/play.sh                             people walking across a square
 #   examples/play.sh VIDEO                       a file, or a URI such as https://...
 #   examples/play.sh VIDEO -- controller=linear max-force=2    with properties of spidarmotion
 #   examples/play.sh --window                    with the debug window
@@ -32,11 +32,11 @@ build() {
     fi
 }
 
-# A clip like the paper's: prints the file name of a tree blown by the wind, out of Debian's package
+# Prints the file name of a clip of people walking, out of Debian's package
 # opencv-doc, downloaded once and not installed. Fails when it cannot be had.
-tree_clip() {
+street_clip() {
     local cache=${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar
-    local clip=$cache/tree.avi
+    local clip=$cache/vtest.avi
     if [[ ! -f $clip ]]; then
         mkdir -p "$cache"
         local work
@@ -44,8 +44,8 @@ tree_clip() {
         # The user _apt may not write here; apt would warn about it when run as root.
         if (cd "$work" && apt-get -qq -o APT::Sandbox::User="$(id -un)" download opencv-doc &&
             dpkg-deb --fsys-tarfile opencv-doc_*.deb |
-            tar -x ./usr/share/doc/opencv-doc/examples/data/tree.avi) >"$work/log" 2>&1; then
-            mv "$work/usr/share/doc/opencv-doc/examples/data/tree.avi" "$clip"
+            tar -x ./usr/share/doc/opencv-doc/examples/data/vtest.avi) >"$work/log" 2>&1; then
+            mv "$work/usr/share/doc/opencv-doc/examples/data/vtest.avi" "$clip"
         fi
         rm -rf "$work"
     fi
@@ -87,10 +87,11 @@ fi
 build
 
 if [[ $needs_clip == yes ]]; then
-    [[ -f ${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar/tree.avi ]] ||
-        echo "fetching a clip, once: tree.avi of Debian's package opencv-doc (95 MB)"
-    if clip=$(tree_clip); then
+    [[ -f ${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar/vtest.avi ]] ||
+        echo "fetching a clip, once: vtest.avi of Debian's package opencv-doc (95 MB)"
+    if clip=$(street_clip); then
         video=("$clip")
+        options=(--seconds 20 "${options[@]}")
     else
         echo "it cannot be had, perhaps for want of a network: playing a ball of videotestsrc"
         options+=(--ball)

@@ -117,7 +117,7 @@ void PatchTracker::Impl::track(const ImageView& frame) {
   }
   if (!comparable) begin_anew();
   chooser.lay_out(now.levels[0], choice, grid);
-  grid.begin_frame();
+  grid.begin_frame(chooser.is_scarce(choice, points.size()));
   if (comparable) result.restarted = !follow(frame);
   choose(frame);
 }
@@ -202,6 +202,8 @@ void PatchTracker::Impl::settle(const ImageView& frame, float gain) {
     point.has_place = grid.occupy(point.at, point.moved);
   }
   grid.compare_neighbours();
+  constexpr size_t kChangeLevel = 2;
+  grid.notice_changes(before.levels[kChangeLevel], now.levels[kChangeLevel], 1 << kChangeLevel);
 }
 
 /// A point that moves like none of its neighbours is followed, but nobody is told: it is an error,

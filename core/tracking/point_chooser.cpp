@@ -15,6 +15,9 @@ constexpr double kManyInUse = 0.9;
 constexpr double kCellStep = 0.7071067811865476;  // twice as many cells
 constexpr double kLeastCellScale = 0.3;
 
+/// Dense places may take points up to this share of those asked for.
+constexpr double kDenseShare = 0.85;
+
 /// Level of the pyramid: a window there is 32 px of the base.
 constexpr int kCoarsestCorner = 2;
 /// With so many points in the base none of a coarser level is wanted.
@@ -40,6 +43,11 @@ PixelBox at_level(const PixelBox& box, int level, const PaddedImage& image) {
   return scaled;
 }
 
+/// Points up to which dense places are filled.
+size_t dense_limit(const PointChooser::Settings& settings) {
+  return static_cast<size_t>(kDenseShare * settings.tracker.max_features);
+}
+
 }  // namespace
 
 void PointChooser::reset() {
@@ -57,6 +65,10 @@ void PointChooser::lay_out(const PaddedImage& base, const Settings& settings,
   grid.lay_out(base.width(), base.height(), static_cast<int>(cell_px));
 }
 
+bool PointChooser::is_scarce(const Settings& settings, size_t points) const {
+  return points >= dense_limit(settings);
+}
+
 float PointChooser::least_strength(const Settings& settings) const {
   return std::max(kLeastStrength, static_cast<float>(settings.tracker.quality_level) * strongest_);
 }
@@ -69,10 +81,10 @@ float PointChooser::least_kept_strength(const Settings& settings) const {
 void PointChooser::find_corners(const GrayPyramid& picture, int level, const PointGrid& grid,
                                 bool everywhere) {
   const PaddedImage& image = picture.levels[static_cast<size_t>(level)];
-  grid.for_each_wanted(everywhere, [&](const PixelBox& box) {
+  grid.for_each_wanted(everywhere, [&](const PixelBox& box, bool is_empty) {
     const Corner found = best_corner(image, at_level(box, level, image));
     if (found.strength <= kLeastStrength) return;
-    candidates_.push_back({{to_frame(found.at, 1 << level), found.strength}, level});
+    candidates_.push_back({{to_frame(found.at, 1 << level), found.strength}, level, is_empty});
   });
 }
 
@@ -124,10 +136,18 @@ void PointChooser::choose(const GrayPyramid& picture, const Settings& settings,
     strongest_next_ = 0;
     frames_in_turn_ = 0;
   }
+  // A cell's first point goes before a second one anywhere, and there is always room for some.
   const auto most = static_cast<size_t>(settings.tracker.max_features);
-  for (const auto& [corner, level] : candidates_) {
-    if (points.size() >= most) break;
-    if (corner.strength < least_strength(settings)) continue;
+  add(true, most, settings, grid, points);
+  add(false, dense_limit(settings), settings, grid, points);
+  if (points.size() > most) points.resize(most);
+}
+
+void PointChooser::add(bool first, size_t most, const Settings& settings, const PointGrid& grid,
+                       std::vector<FollowedPoint>& points) {
+  for (const auto& [corner, level, is_first] : candidates_) {
+    if (points.size() >= most) return;
+    if (is_first != first || corner.strength < least_strength(settings)) continue;
     FollowedPoint point;
     point.id = next_id_++;
     point.at = corner.at;
@@ -135,7 +155,6 @@ void PointChooser::choose(const GrayPyramid& picture, const Settings& settings,
     point.moved = grid.motion_near(corner.at);
     points.push_back(point);
   }
-  if (points.size() > most) points.resize(most);
 }
 
 }  // namespace spidar

@@ -28,6 +28,9 @@ class PointChooser {
   /// Lays out `grid` over `base`.
   void lay_out(const PaddedImage& base, const Settings& settings, PointGrid& grid) const;
 
+  /// Whether so many points are in use that dense cells have taken what they may.
+  bool is_scarce(const Settings& settings, size_t points) const;
+
   /// A point that is followed may become weaker than a new one, down to this, (grey / px)².
   float least_kept_strength(const Settings& settings) const;
 
@@ -41,9 +44,12 @@ class PointChooser {
   struct Candidate {
     Corner corner;
     int level = 0;
+    bool is_first = true;  ///< of its cell
   };
 
   float least_strength(const Settings& settings) const;
+  void add(bool first, size_t most, const Settings& settings, const PointGrid& grid,
+           std::vector<FollowedPoint>& points);
   void find_corners(const GrayPyramid& picture, int level, const PointGrid& grid, bool everywhere);
   void find_candidates(const GrayPyramid& picture, const PointGrid& grid, bool everywhere,
                        std::vector<FollowedPoint>& points);

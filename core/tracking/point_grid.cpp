@@ -1,6 +1,7 @@
 #include "core/tracking/point_grid.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace spidar {
 namespace {
@@ -9,6 +10,10 @@ namespace {
 /// are not one thing: a zoom by 10 % a frame stays below it.
 constexpr float kDifferent = 0.2f;
 constexpr float kDifferent_px = 0.75f;
+/// Of one pixel; noise is far less after 16 have become one.
+constexpr int kChanged_grey = 8;
+/// Pixels; fewer are a flicker.
+constexpr int kLeastChanged = 2;
 constexpr uint8_t kDenseFrames = 12;
 /// Points that came in from next door may stay.
 constexpr int kMostInCell = 2;
@@ -58,11 +63,13 @@ void PointGrid::reset() {
   std::fill(cells_.begin(), cells_.end(), Cell());
 }
 
-void PointGrid::begin_frame() {
+void PointGrid::begin_frame(bool scarce) {
+  most_in_cell_ = scarce ? 1 : kMostInCell;
   turn_ = (turn_ + 1) % kTurns;
   for (Cell& cell : cells_) {
     cell.taken = 0;
     cell.search = false;
+    cell.changing = 0;
     if (cell.dense_frames > 0) --cell.dense_frames;
   }
 }
@@ -96,7 +103,7 @@ void PointGrid::lose(ImagePoint at) {
 bool PointGrid::occupy(ImagePoint at, ImagePoint moved) {
   Cell& cell = cells_[cell_of(at)];
   const int quarter = quarter_of(at);
-  const bool crowded = cell.dense_frames == 0 && points_in(cell.taken) >= kMostInCell;
+  const bool crowded = cell.dense_frames == 0 && points_in(cell.taken) >= most_in_cell_;
   if (crowded || cell.has(quarter)) return false;
   cell.moved[static_cast<size_t>(quarter)] = moved;
   cell.taken = static_cast<uint8_t>(cell.taken | 1 << quarter);
@@ -124,6 +131,49 @@ void PointGrid::compare_neighbours() {
       if (!differs && !alone) continue;
       cell.dense_frames = kDenseFrames;
       cell.search = true;
+    }
+  }
+}
+
+bool PointGrid::find_change(const PaddedImage& before, const PaddedImage& now, int scale,
+                            const PixelBox& quarter, PixelBox& part) {
+  int changed = 0;
+  int x0 = quarter.x1;
+  int x1 = quarter.x0;
+  int y0 = quarter.y1;
+  int y1 = quarter.y0;
+  for (int y = quarter.y0 / scale; y < quarter.y1 / scale; ++y) {
+    for (int x = quarter.x0 / scale; x < quarter.x1 / scale; ++x) {
+      if (std::abs(before.row(y)[x] - now.row(y)[x]) < kChanged_grey) continue;
+      ++changed;
+      x0 = std::min(x0, x * scale);
+      x1 = std::max(x1, (x + 1) * scale);
+      y0 = std::min(y0, y * scale);
+      y1 = std::max(y1, (y + 1) * scale);
+    }
+  }
+  if (changed < kLeastChanged) return false;
+  // Room for a window whose middle has changed.
+  part.x0 = std::max(x0 - kCornerWindow_px / 2, quarter.x0);
+  part.y0 = std::max(y0 - kCornerWindow_px / 2, quarter.y0);
+  part.x1 = std::min(std::max(x1 + kCornerWindow_px / 2, part.x0 + kCornerWindow_px), quarter.x1);
+  part.y1 = std::min(std::max(y1 + kCornerWindow_px / 2, part.y0 + kCornerWindow_px), quarter.y1);
+  return true;
+}
+
+void PointGrid::notice_changes(const PaddedImage& before, const PaddedImage& now, int scale) {
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      Cell& cell = cells_[index(column, row)];
+      if (cell.taken != 0 && !alike(cell.moved[lowest_quarter(cell.taken)], {0, 0})) continue;
+      for (int quarter = 0; quarter < kQuarters; ++quarter) {
+        PixelBox& part = cell.changed[static_cast<size_t>(quarter)];
+        const PixelBox whole = box(2 * column + quarter % 2, 2 * row + quarter / 2, 1);
+        if (!find_change(before, now, scale, whole, part)) continue;
+        cell.changing = static_cast<uint8_t>(cell.changing | 1 << quarter);
+        cell.dense_frames = kDenseFrames;
+        cell.search = true;
+      }
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/tracking/corner.h"
+#include "core/tracking/gray_pyramid.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
@@ -23,8 +24,9 @@ class PointGrid {
   /// Nothing is known of the picture any more.
   void reset();
 
-  /// A new frame: no cell has a point.
-  void begin_frame();
+  /// A new frame: no cell has a point. `scarce`: there are hardly points left, and cells that are
+  /// not dense keep one only.
+  void begin_frame(bool scarce = false);
 
   /// False when the place is taken and the point should go.
   bool occupy(ImagePoint at, ImagePoint moved);
@@ -37,6 +39,11 @@ class PointGrid {
   /// most cells around have no point, points will be dense for some frames.
   void compare_neighbours();
 
+  /// Makes cells dense that look different from before though their points stand still: something
+  /// moves there that has none. Points are then wanted where the change is. The two pictures are
+  /// `scale` times as small as that of lay_out().
+  void notice_changes(const PaddedImage& before, const PaddedImage& now, int scale);
+
   /// Points in the cell of a point and around it, and those of them that move as it does.
   struct Support {
     int beside = 0;
@@ -47,9 +54,9 @@ class PointGrid {
   /// What a new point there may be expected to do: what one next to it did; (0, 0) without any.
   ImagePoint motion_near(ImagePoint at) const;
 
-  /// Calls `found(PixelBox)` for each place that wants a point and is searched in this frame;
-  /// `everywhere`: in all cells. Boxes are such that windows in them are inside the picture and
-  /// their centres inside the place.
+  /// Calls `found(PixelBox, bool is_empty)` for each place that wants a point and is searched in
+  /// this frame; `everywhere`: in all cells. `is_empty`: the cell has none yet. Boxes are such that
+  /// windows in them are inside the picture and their centres inside the place.
   template <typename Found>
   void for_each_wanted(bool everywhere, Found&& found) const {
     for (int row = 0; row < rows_; ++row) {
@@ -58,12 +65,14 @@ class PointGrid {
         const bool turn = (row + column) % kTurns == turn_;
         if (!everywhere && !turn && !cell.search) continue;
         if (cell.dense_frames == 0) {
-          if (cell.taken == 0) found(box(2 * column, 2 * row, 2));
+          if (cell.taken == 0) found(box(2 * column, 2 * row, 2), true);
           continue;
         }
         for (int quarter = 0; quarter < kQuarters; ++quarter) {
           if (cell.has(quarter)) continue;
-          found(box(2 * column + quarter % 2, 2 * row + quarter / 2, 1));
+          found(cell.changes(quarter) ? cell.changed[static_cast<size_t>(quarter)]
+                                      : box(2 * column + quarter % 2, 2 * row + quarter / 2, 1),
+                cell.taken == 0);
         }
       }
     }
@@ -80,6 +89,10 @@ class PointGrid {
     bool search = false;
     uint8_t dense_frames = 0;  ///< for how long
 
+    uint8_t changing = 0;                       ///< quarters that show a change, a bit each
+    std::array<PixelBox, kQuarters> changed{};  ///< where
+
+    bool changes(int quarter) const { return (changing & (1 << quarter)) != 0; }
     bool has(int quarter) const { return (taken & (1 << quarter)) != 0; }
   };
 
@@ -94,6 +107,9 @@ class PointGrid {
   /// Calls `each(cell)` for a cell and the eight around it.
   template <typename Each>
   void around(int column, int row, Each&& each) const;
+  /// The part of `quarter` that has changed; false when hardly anything has.
+  static bool find_change(const PaddedImage& before, const PaddedImage& now, int scale,
+                          const PixelBox& quarter, PixelBox& part);
   PixelBox box(int quarter_x, int quarter_y, int quarters) const;
 
   int width_ = 0;
@@ -102,6 +118,7 @@ class PointGrid {
   int columns_ = 0;
   int rows_ = 0;
   int turn_ = 0;
+  int most_in_cell_ = 0;  ///< that is not dense
   std::vector<Cell> cells_;
 };
 

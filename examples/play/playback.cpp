@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <unistd.h>
+#include <vector>
 
 #include <glib-unix.h>
 #include <gst/pbutils/pbutils.h>
@@ -129,6 +130,11 @@ gboolean on_signal(void* data) {
   return G_SOURCE_CONTINUE;
 }
 
+gboolean on_time_over(void* data) {
+  static_cast<Playback*>(data)->stop(Ending::kEndOfVideo);
+  return G_SOURCE_CONTINUE;
+}
+
 gboolean on_progress(void* data) {
   const auto& playback = *static_cast<Playback*>(data);
   playback.clear_line();
@@ -139,18 +145,23 @@ gboolean on_progress(void* data) {
 
 }  // namespace
 
-Ending run_playback(GstElement* pipeline, const std::function<std::string()>& progress) {
+Ending run_playback(GstElement* pipeline, int seconds,
+                    const std::function<std::string()>& progress) {
   gst_pb_utils_init();
   const bool on_terminal = isatty(STDOUT_FILENO) != 0;
   Playback playback{pipeline, progress, on_terminal, g_main_loop_new(nullptr, FALSE)};
 
   GstBus* const bus = gst_element_get_bus(pipeline);
   gst_bus_add_watch(bus, on_message, &playback);
-  const guint sources[] = {
+  std::vector<guint> sources = {
       g_unix_signal_add(SIGINT, on_signal, &playback),
       g_unix_signal_add(SIGTERM, on_signal, &playback),
       g_timeout_add(on_terminal ? 100 : 2000, on_progress, &playback),
   };
+
+  if (seconds > 0) {
+    sources.push_back(g_timeout_add_seconds(static_cast<guint>(seconds), on_time_over, &playback));
+  }
 
   // A failure is on the bus, with its reason.
   gst_element_set_state(pipeline, GST_STATE_PLAYING);

@@ -12,7 +12,9 @@ enum class Ending {
   kFailed,
 };
 
-/// Plays until the video ends, fails, or the user stops it. Errors and warnings of the pipeline go
-/// to standard error, `progress` to standard output: in place on a terminal, else a line now and
-/// then. The pipeline is still in PLAYING or PAUSED afterwards.
-Ending run_playback(GstElement* pipeline, const std::function<std::string()>& progress);
+/// Plays until the video ends, fails, the user stops it, or `seconds` have passed (0: never).
+/// Errors and warnings of the pipeline go to standard error, `progress` to standard output: in
+/// place on a terminal, else a line now and then. The pipeline is still in PLAYING or PAUSED
+/// afterwards.
+Ending run_playback(GstElement* pipeline, int seconds,
+                    const std::function<std::string()>& progress);

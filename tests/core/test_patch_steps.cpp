@@ -267,7 +267,7 @@ class Grid : public testing::Test {
 
   int wanted(bool everywhere) const {
     int count = 0;
-    grid_.for_each_wanted(everywhere, [&](const PixelBox& box) {
+    grid_.for_each_wanted(everywhere, [&](const PixelBox& box, bool) {
       ++count;
       EXPECT_GE(box.x0, 1);
       EXPECT_GE(box.y0, 1);
