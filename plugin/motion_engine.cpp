@@ -12,11 +12,14 @@ int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
 }
 
-/// How long a frame's wrench holds when no later frame is known (live): half a frame more than the
-/// frame lasts, for the next one may be a little late.
+/// How long a frame's wrench holds when no later frame is known (live): until the next one is due,
+/// and while it may be a little late. With SafetyLimits::ramp_s the force is gone 50 ms after a
+/// frame that does not come, and at any frame rate from 11/s on it does not dip between two that
+/// do.
 int64_t hold_time_ns(int64_t interval_ns) {
+  constexpr int64_t kLate_ns = 10 * 1000 * 1000;
   constexpr int64_t kLongest_ns = 100 * 1000 * 1000;
-  return std::min(interval_ns + interval_ns / 2, kLongest_ns);
+  return interval_ns > 0 ? std::min(interval_ns + kLate_ns, kLongest_ns) : 0;
 }
 
 }  // namespace

@@ -134,9 +134,10 @@ void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
   if (generation != timeline_generation_) forget_timeline(generation);
   while (const Scheduled* next = scheduled_.front()) {
     if (next->generation == timeline_generation_) {
-      const bool soon = timeline_.size() == 0 || newest_ns_ - kHorizon_ns <= running_ns;
+      const bool soon = timeline_.size() < 2 || before_newest_ns_ - kHorizon_ns <= running_ns;
       if (!playing || !soon) return;
       if (timeline_.push(next->entry)) {
+        before_newest_ns_ = newest_ns_;
         newest_ns_ = next->entry.time_ns;
       } else {
         ++counters_.refused_wrenches;
