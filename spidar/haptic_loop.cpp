@@ -83,7 +83,7 @@ void HapticLoop::close() noexcept {
   if (state_ == DeviceState::kClosed) return;
   device_.close();
   state_ = DeviceState::kClosed;
-  LoopSnapshot closed{{}, counters_};
+  LoopSnapshot closed{{}, counters_, limits_};
   closed.last.tick = counters_.ticks;
   closed.last.monotonic_ns = last_now_ns_;
   snapshot_.store(closed);
@@ -232,7 +232,7 @@ void HapticLoop::locate(const DeviceReading& reading, int64_t now_ns) noexcept {
 
 void HapticLoop::publish(const TickRecord& record) noexcept {
   records_.push(record);
-  snapshot_.store({record, counters_});
+  snapshot_.store({record, counters_, limits_});
 }
 
 }  // namespace spidar

@@ -36,7 +36,7 @@ class DeviceTest : public testing::Test {
   void tick(int count = 1) {
     for (int i = 0; i < count; ++i) {
       time_ns += kTick_ns;
-      loop().tick(time_ns, time_ns);
+      h->tick(time_ns);
     }
   }
 

@@ -72,9 +72,7 @@ void SteppedPipeline::seek(GstClockTime position) {
 
 TickRecord SteppedPipeline::tick() {
   HapticLoop& loop = engine_->session()->loop();
-  const int64_t now_ns = read_clock(clock_);
-  loop.tick(now_ns, now_ns);
-  return loop.snapshot().last;
+  return watch_.tick(loop, read_clock(clock_));
 }
 
 GstClockTime SteppedPipeline::await(guint waiters) {

@@ -58,6 +58,7 @@ class SteppedPipeline {
   GstElement* sink_;
   GstBus* bus_;
   MotionEngine* engine_;
+  TickWatch watch_;
   std::map<GstClockTime, Wrench> wrenches_;
 };
 
