@@ -209,7 +209,8 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.problem = FrameProblem::kNotShown;
     return report;
   }
-  if (GST_BUFFER_IS_DISCONT(frame.buffer)) {
+  // Sources and decoders mark every buffer, or the first of every group, when they play backwards.
+  if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) {
     restart();
   } else if (running_ns == last_running_ns_) {
     report.problem = FrameProblem::kSameTimestamp;
