@@ -114,6 +114,38 @@ TEST(Semantics, ForceIsThatOfTheSpeedShown) {
   }
 }
 
+TEST(Semantics, AnInstantChangeOfTheRateIsInTimeAndAsFast) {
+  SteppedPipeline normal(kPlayer);
+  normal.set_state(GST_STATE_PLAYING);
+  const std::vector<Eigen::Vector3d> usual_px_s = play(normal, 50);
+
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.set_state(GST_STATE_PLAYING);
+  play(pipeline, 5);
+  GstElement* source = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "source");
+  GstPad* pad = gst_element_get_static_pad(source, "src");
+  // What a demuxer makes of such a seek. Twice as fast from the time of frame 4 on.
+  const GstClockTime change = pipeline.running_time();
+  ASSERT_EQ(change, 4 * kFrame);
+  EXPECT_TRUE(gst_pad_push_event(pad, gst_event_new_instant_rate_change(2, GST_SEGMENT_FLAG_NONE)));
+  gst_object_unref(pad);
+  gst_object_unref(source);
+  for (int n = 0; n < 3; ++n) pipeline.step();  // the sink may wait for an old time already
+  for (size_t n = 0; n < 45; ++n) {
+    const TickRecord tick = pipeline.step();
+    const GstClockTime upstream = change + 2 * (pipeline.running_time() - change);
+    SCOPED_TRACE(upstream);
+    EXPECT_EQ(tick.found, Found::kExact);
+    EXPECT_EQ(tick.wanted.force_N, pipeline.wrenches().at(upstream).force_N);
+    const size_t frame = upstream / kFrame;
+    // What waited in the queue, a second at most, was analysed at the old rate.
+    if (frame < 35 || frame >= 50) continue;
+    const Eigen::Vector3d felt_px_s = velocity_px_s(tick.wanted.force_N);
+    EXPECT_LT((felt_px_s - 2 * usual_px_s[frame]).norm(), 2 * kTolerance_px_s);
+    EXPECT_GT(felt_px_s.norm(), 2 * kMoves_px_s);
+  }
+}
+
 TEST(Semantics, InReverseTheForcePointsTheOtherWay) {
   SteppedPipeline normal(kPlayer);
   normal.set_state(GST_STATE_PLAYING);
