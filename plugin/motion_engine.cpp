@@ -1,6 +1,7 @@
 #include "plugin/motion_engine.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "spidar/device_factory.h"
@@ -8,15 +9,21 @@
 namespace spidar {
 namespace {
 
+/// As many as the haptic loop takes.
+constexpr size_t kRecent = 256;
+
 int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
 }
 
-/// How long a frame's wrench holds when no later frame is known (live): half a frame more than the
-/// frame lasts, for the next one may be a little late.
+/// How long a frame's wrench holds when no later frame is known (live): until the next one is due,
+/// and while it may be a little late. With SafetyLimits::ramp_s the force is gone 50 ms after a
+/// frame that does not come, and at any frame rate from 11/s on it does not dip between two that
+/// do.
 int64_t hold_time_ns(int64_t interval_ns) {
+  constexpr int64_t kLate_ns = 10 * 1000 * 1000;
   constexpr int64_t kLongest_ns = 100 * 1000 * 1000;
-  return std::min(interval_ns + interval_ns / 2, kLongest_ns);
+  return interval_ns > 0 ? std::min(interval_ns + kLate_ns, kLongest_ns) : 0;
 }
 
 }  // namespace
@@ -89,8 +96,11 @@ void MotionEngine::set_offset(GstClockTimeDiff offset_ns) {
 }
 
 void MotionEngine::set_muted(bool muted) {
-  const std::lock_guard<std::mutex> lock(mute_mutex_);
-  if (muted && !muted_) flush();
+  const std::lock_guard<std::mutex> lock(schedule_mutex_);
+  if (muted && !muted_) {
+    flush();
+    recent_.clear();
+  }
   muted_ = muted;
 }
 
@@ -159,8 +169,38 @@ void MotionEngine::apply(const AnalyzerSettings& settings) {
 }
 
 void MotionEngine::schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench) {
-  const std::lock_guard<std::mutex> lock(mute_mutex_);
-  if (session_ && !muted_) session_->loop().schedule({running_ns, hold_ns, wrench});
+  const std::lock_guard<std::mutex> lock(schedule_mutex_);
+  if (!session_ || muted_) return;
+  if (recent_.size() == kRecent) recent_.pop_front();
+  recent_.push_back({running_ns, hold_ns, wrench});
+  schedule_at_sink(recent_.back());
+}
+
+void MotionEngine::schedule_at_sink(const TimedWrench& entry) {
+  TimedWrench shown = entry;
+  shown.time_ns = instant_rate_.at_sink(entry.time_ns);
+  session_->loop().schedule(shown);
+}
+
+void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
+                               GstClockTime upstream) {
+  const std::lock_guard<std::mutex> lock(schedule_mutex_);
+  instant_rate_.change(multiplier, running_time, upstream);
+  // What waits between here and the sink was analysed at the old rate, but is shown at other times.
+  // The frame on the screen is the first of them, so that the force goes on from there.
+  flush();
+  const std::lock_guard<std::mutex> session_lock(session_mutex_);
+  if (!session_) return;
+  size_t first = recent_.size();
+  while (first > 0 && recent_[first - 1].time_ns > static_cast<int64_t>(upstream)) --first;
+  for (size_t i = first > 0 ? first - 1 : 0; i < recent_.size(); ++i) schedule_at_sink(recent_[i]);
+}
+
+int64_t MotionEngine::pace(int64_t running_ns) {
+  if (last_running_ns_ < 0) return running_ns;
+  const std::lock_guard<std::mutex> lock(schedule_mutex_);
+  const auto since_ns = static_cast<double>(running_ns - last_running_ns_);
+  return last_paced_ns_ + std::llround(since_ns / instant_rate_.multiplier());
 }
 
 void MotionEngine::restart() {
@@ -169,6 +209,11 @@ void MotionEngine::restart() {
 
 void MotionEngine::restart_timing() {
   restart();
+  {
+    const std::lock_guard<std::mutex> lock(schedule_mutex_);
+    instant_rate_.reset();
+    recent_.clear();
+  }
   last_running_ns_ = -1;
   last_interval_ns_ = 0;
 }
@@ -202,11 +247,13 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   const int64_t running_ns = static_cast<int64_t>(report.running_time);
   if (GST_BUFFER_FLAG_IS_SET(frame.buffer, GST_BUFFER_FLAG_GAP)) {
     run_out(report.running_time);
+    last_paced_ns_ = pace(running_ns);
     last_running_ns_ = running_ns;
     report.problem = FrameProblem::kNotShown;
     return report;
   }
-  if (GST_BUFFER_IS_DISCONT(frame.buffer)) {
+  // Sources and decoders mark every buffer, or the first of every group, when they play backwards.
+  if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) {
     restart();
   } else if (running_ns == last_running_ns_) {
     report.problem = FrameProblem::kSameTimestamp;
@@ -224,11 +271,13 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   }
   apply(settings);
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
-  report.analysis = analyzer_.analyze(luma, running_ns);
+  const int64_t paced_ns = pace(running_ns);
+  report.analysis = analyzer_.analyze(luma, paced_ns);
   report.analyzed = true;
   report.took_ns = HapticSession::monotonic_now_ns() - begin_ns;
 
   last_running_ns_ = running_ns;
+  last_paced_ns_ = paced_ns;
   if (report.analysis.interval_ns > 0) last_interval_ns_ = report.analysis.interval_ns;
   schedule(running_ns, hold_time_ns(report.analysis.interval_ns), report.analysis.wrench);
   if (trace_.is_open()) {

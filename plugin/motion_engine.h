@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "plugin/frame_luma.h"
 #include "plugin/frame_trace.h"
 #include "plugin/grip_pointer.h"
+#include "plugin/instant_rate.h"
 #include "plugin/motion_properties.h"
 #include "plugin/motion_stats.h"
 #include "plugin/playback_follower.h"
@@ -69,6 +71,8 @@ class MotionEngine {
   void set_muted(bool muted);
   /// What was scheduled is forgotten at once.
   void flush();
+  /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
+  void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
   /// The pipeline will distribute a new base time: nothing is on the screen until then.
   void expect_base_time();
   /// Looks at the pipeline's clock now; a thread does that by itself.
@@ -101,7 +105,11 @@ class MotionEngine {
   int faulty_string() const;
 
  private:
+  /// Running times of here.
   void schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench);
+  void schedule_at_sink(const TimedWrench& entry);
+  /// Time of a frame on a scale on which the distance to the last frame is that of showing them.
+  int64_t pace(int64_t running_ns);
   void apply(const AnalyzerSettings& settings);
 
   GstElement* const element_;
@@ -114,8 +122,11 @@ class MotionEngine {
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;
-  std::mutex mute_mutex_;  // nothing is scheduled between muting and forgetting
+  // Nothing is scheduled between muting and forgetting, nor during a change of rate.
+  std::mutex schedule_mutex_;
   bool muted_ = false;
+  InstantRate instant_rate_;
+  std::deque<TimedWrench> recent_;  // scheduled with running times of here; the newest
 
   // Streaming thread.
   GripPointer grip_pointer_;
@@ -124,6 +135,7 @@ class MotionEngine {
   FrameLuma luma_;
   FrameTrace trace_;
   int64_t last_running_ns_ = -1;
+  int64_t last_paced_ns_ = 0;
   int64_t last_interval_ns_ = 0;
 
   MotionStats stats_;

@@ -305,6 +305,11 @@ static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* e
     gst_event_parse_latency(event, &latency);
     GST_DEBUG_OBJECT(trans, "latency is %" GST_TIME_FORMAT, GST_TIME_ARGS(latency));
     GST_SPIDAR_MOTION(trans)->engine->set_latency(latency);
+  } else if (GST_EVENT_TYPE(event) == GST_EVENT_INSTANT_RATE_SYNC_TIME) {
+    gdouble multiplier;
+    GstClockTime running_time, upstream;
+    gst_event_parse_instant_rate_sync_time(event, &multiplier, &running_time, &upstream);
+    GST_SPIDAR_MOTION(trans)->engine->change_rate(multiplier, running_time, upstream);
   }
   return GST_BASE_TRANSFORM_CLASS(gst_spidar_motion_parent_class)->src_event(trans, event);
 }

@@ -83,7 +83,7 @@ void HapticLoop::close() noexcept {
   if (state_ == DeviceState::kClosed) return;
   device_.close();
   state_ = DeviceState::kClosed;
-  LoopSnapshot closed{{}, counters_};
+  LoopSnapshot closed{{}, counters_, limits_};
   closed.last.tick = counters_.ticks;
   closed.last.monotonic_ns = last_now_ns_;
   snapshot_.store(closed);
@@ -134,9 +134,10 @@ void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
   if (generation != timeline_generation_) forget_timeline(generation);
   while (const Scheduled* next = scheduled_.front()) {
     if (next->generation == timeline_generation_) {
-      const bool soon = timeline_.size() == 0 || newest_ns_ - kHorizon_ns <= running_ns;
+      const bool soon = timeline_.size() < 2 || before_newest_ns_ - kHorizon_ns <= running_ns;
       if (!playing || !soon) return;
       if (timeline_.push(next->entry)) {
+        before_newest_ns_ = newest_ns_;
         newest_ns_ = next->entry.time_ns;
       } else {
         ++counters_.refused_wrenches;
@@ -231,7 +232,7 @@ void HapticLoop::locate(const DeviceReading& reading, int64_t now_ns) noexcept {
 
 void HapticLoop::publish(const TickRecord& record) noexcept {
   records_.push(record);
-  snapshot_.store({record, counters_});
+  snapshot_.store({record, counters_, limits_});
 }
 
 }  // namespace spidar

@@ -37,8 +37,9 @@ class SPIDAR_API HapticLoop {
   static constexpr int kMaxErrors = 20;
   /// Time counted for one tick at most, however late it is, so that a stall does not end in a step.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
-  /// Wrenches enter the timeline this long before they are due; later ones wait in the ring, so
-  /// that a long queue of frames before the screen does not push out the wrench that is due.
+  /// A wrench enters the timeline this long before the one in front of it is due, so that the slope
+  /// there is known at any frame rate; later ones wait in the ring, so that a long queue of frames
+  /// before the screen does not push out the wrench that is due.
   static constexpr int64_t kHorizon_ns = 100'000'000;
 
   /// `device` outlives the loop and is opened by open(). Throws std::invalid_argument when the
@@ -135,7 +136,8 @@ class SPIDAR_API HapticLoop {
   SafetyLimits limits_;
   WrenchTimeline timeline_;
   uint32_t timeline_generation_ = 0;
-  int64_t newest_ns_ = INT64_MIN;   // running time of the newest wrench in the timeline
+  int64_t newest_ns_ = INT64_MIN;  // running time of the newest wrench in the timeline
+  int64_t before_newest_ns_ = INT64_MIN;
   int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last
   WrenchSafety safety_;
   TensionSlew tension_slew_;

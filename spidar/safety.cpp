@@ -52,8 +52,8 @@ Wrench SlewLimit::apply(const Wrench& wanted, double dt_s, const SafetyLimits& l
 
 double StaleRamp::apply(bool fresh, double dt_s, const SafetyLimits& limits) noexcept {
   const double step = limits.ramp_s > 0 ? non_negative(dt_s) / limits.ramp_s : 1.0;
-  share_ = fresh ? std::min(share_ + step, 1.0) : std::max(share_ - step, 0.0);
-  return share_;
+  way_ = fresh ? std::min(way_ + step, 1.0) : std::max(way_ - step, 0.0);
+  return share();
 }
 
 Wrench WrenchSafety::apply(const Wrench& wanted, bool fresh, double dt_s,

@@ -51,17 +51,21 @@ class SPIDAR_API SlewLimit {
   Wrench last_;
 };
 
-/// Takes the wrench to rest when commands stop, and back in when they begin; never a step.
+/// Takes the wrench to rest when commands stop, and back in when they begin: level at both ends, so
+/// that neither is a step nor a corner, and a command that is a little late is hardly missed.
 class SPIDAR_API StaleRamp {
  public:
   /// Share of the wrench to apply after `dt_s` more, 0 … 1. `fresh`: there is a valid command now.
   /// A ramp_s of zero switches at once.
   double apply(bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
-  void reset() noexcept { share_ = 0; }
-  double share() const noexcept { return share_; }
+  void reset() noexcept { way_ = 0; }
+  double share() const noexcept { return way_ * way_ * (3 - 2 * way_); }
+
+  /// The steepest part is so much steeper than a straight line.
+  static constexpr double kSteepest = 1.5;
 
  private:
-  double share_ = 0;
+  double way_ = 0;  // 0 … 1, in ramp_s
 };
 
 /// The four steps in a row, from a wanted wrench to the commanded one.
@@ -69,7 +73,7 @@ class SPIDAR_API StaleRamp {
 /// On the way to rest the stale share is the last step, so that no slew setting, however low, keeps
 /// a force alive for longer than ramp_s. On the way in it comes before the slew limit, so that both
 /// together do not exceed that limit. A fresh command therefore changes by at most max_slew, a
-/// stale one falls by at most max_force / ramp_s.
+/// stale one falls by at most 1.5 max_force / ramp_s.
 class SPIDAR_API WrenchSafety {
  public:
   /// Wrench to apply `dt_s` after the last call. Not `fresh`: `wanted` is ignored, and the wrench

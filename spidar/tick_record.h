@@ -7,6 +7,7 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
+#include "spidar/safety.h"
 
 namespace spidar {
 
@@ -87,6 +88,7 @@ struct LoopCounters {
 struct LoopSnapshot {
   TickRecord last;
   LoopCounters counters;
+  SafetyLimits limits;  ///< that held in the last tick
 };
 
 }  // namespace spidar

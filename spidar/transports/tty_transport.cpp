@@ -79,7 +79,7 @@ void TtyTransport::fail(const std::string& what) {
         "70-spidar.rules";
   if (error == ENOENT) advice = "; serial lines are /dev/ttyUSB0, /dev/serial/by-id/…";
   if (error == ENOTTY) advice = "; it is no serial line";
-  if (error == EWOULDBLOCK) advice = "; another program uses it";
+  if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
   throw DeviceError("uart:" + path_ + ": " + what + ": " + std::strerror(error) + advice);
 }
 

@@ -58,7 +58,7 @@ std::string advice(int error) {
       return "; install the udev rule 70-spidar.rules (spidar/udev/ in the sources) into "
              "/etc/udev/rules.d, run udevadm control --reload, and plug the board in again";
     case LIBUSB_ERROR_BUSY:
-      return "; another program uses it";
+      return "; another program uses it, or another element of this one";
     case LIBUSB_ERROR_NO_DEVICE:
     case LIBUSB_ERROR_NOT_FOUND:
       return "; it was unplugged";

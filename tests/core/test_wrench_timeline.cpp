@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -47,7 +51,7 @@ TEST(WrenchTimeline, ShowsNothingBeforeTheFirstFrame) {
 }
 
 TEST(WrenchTimeline, IsExactAtTheTimeOfAFrame) {
-  const WrenchTimeline timeline = two_frames();
+  WrenchTimeline timeline = two_frames();
   const TimelineResult first = timeline.at(0);
   EXPECT_EQ(first.found, Found::kExact);
   EXPECT_TRUE(same_bits(first.wrench, wrench_of(1)));
@@ -57,28 +61,142 @@ TEST(WrenchTimeline, IsExactAtTheTimeOfAFrame) {
   EXPECT_EQ(last.frame_time_ns, kFrame_ns);
 }
 
-TEST(WrenchTimeline, InterpolatesLinearlyBetweenFrames) {
-  const WrenchTimeline timeline = two_frames();
+TEST(WrenchTimeline, IsLevelWhereTheNextFrameIsNotKnown) {
+  WrenchTimeline timeline = two_frames();
   for (const int64_t time_ns : {int64_t{1}, kFrame_ns / 4, kFrame_ns / 2, kFrame_ns - 1}) {
     const double s = static_cast<double>(time_ns) / static_cast<double>(kFrame_ns);
     const TimelineResult result = timeline.at(time_ns);
     EXPECT_EQ(result.found, Found::kInterpolated);
     EXPECT_EQ(result.frame_time_ns, 0);
+    const double share = s * s * (3 - 2 * s);
     const Eigen::Matrix<double, 6, 1> expected =
-        (1 - s) * wrench_of(1).stacked() + s * wrench_of(3).stacked();
+        (1 - share) * wrench_of(1).stacked() + share * wrench_of(3).stacked();
     // Values below 1, a few roundings of 2^-53.
     EXPECT_LT((result.wrench.stacked() - expected).cwiseAbs().maxCoeff(), 1e-15) << time_ns;
   }
 }
 
-TEST(WrenchTimeline, IsContinuousAtAFrame) {
-  WrenchTimeline timeline = two_frames();
-  timeline.push(timed(2 * kFrame_ns, -5));
-  const Eigen::Matrix<double, 6, 1> at = timeline.at(kFrame_ns).wrench.stacked();
-  for (const int64_t side_ns : {-1, 1}) {
-    const Eigen::Matrix<double, 6, 1> near = timeline.at(kFrame_ns + side_ns).wrench.stacked();
-    // One nanosecond of the steepest slope, 0.3 N · 8 in a frame, and rounding.
-    EXPECT_LT((near - at).cwiseAbs().maxCoeff(), 2.4 / static_cast<double>(kFrame_ns) + 1e-15);
+TEST(WrenchTimeline, IsAStraightLineWhereTheFramesAre) {
+  WrenchTimeline timeline;
+  // Unequal intervals, and a slope of 0.01 N/ms.
+  for (const int64_t ms : {0, 10, 50, 60, 100, 130}) {
+    timeline.push({1'000'000 * ms, 0, {{0.01 * static_cast<double>(ms), 0, 0}, {0, 0, 0}}});
+  }
+  // The first and the last frame have no neighbour to take the slope from.
+  for (int64_t ms = 10; ms <= 100; ++ms) {
+    EXPECT_NEAR(timeline.at(1'000'000 * ms).wrench.force_N.x(), 0.01 * static_cast<double>(ms),
+                1e-15);
+  }
+}
+
+/// Frames at uneven times, also very uneven ones, with jumps and rests.
+class RandomFrames : public testing::TestWithParam<uint32_t> {
+ protected:
+  void SetUp() override {
+    std::mt19937 random(GetParam());
+    std::uniform_real_distribution<double> force_N(-3, 3);
+    std::uniform_int_distribution<int> kind(0, 4);
+    int64_t time_ns = 0;
+    Wrench wrench;
+    for (int i = 0; i < 40; ++i) {
+      time_ns += kind(random) == 0 ? 1'000'000 : 4'000'000 * (1 + kind(random));
+      if (kind(random) != 0) {
+        for (int axis = 0; axis < 3; ++axis) {
+          wrench.force_N[axis] = force_N(random);
+          wrench.torque_Nm[axis] = 0.1 * force_N(random);
+        }
+      }
+      frames.push_back({time_ns, 0, wrench});
+    }
+  }
+
+  std::vector<TimedWrench> frames;
+};
+
+TEST_P(RandomFrames, AreMetExactlyAndNeverPassed) {
+  WrenchTimeline timeline;
+  for (const TimedWrench& frame : frames) timeline.push(frame);
+  for (size_t i = 0; i + 1 < frames.size(); ++i) {
+    ASSERT_TRUE(same_bits(timeline.at(frames[i].time_ns).wrench, frames[i].wrench));
+    const auto a = frames[i].wrench.stacked();
+    const auto b = frames[i + 1].wrench.stacked();
+    auto last = a;
+    for (int step = 1; step < 64; ++step) {
+      const int64_t interval_ns = frames[i + 1].time_ns - frames[i].time_ns;
+      const auto here = timeline.at(frames[i].time_ns + interval_ns * step / 64).wrench.stacked();
+      for (int axis = 0; axis < 6; ++axis) {
+        // Up only or down only. A few roundings of numbers up to 3.
+        const double way = b[axis] > a[axis] ? 1 : -1;
+        ASSERT_GE(way * (here[axis] - last[axis]), -4e-15) << "frame " << i << " of " << GetParam();
+        ASSERT_LE(way * (here[axis] - b[axis]), 4e-15) << "frame " << i << " of " << GetParam();
+      }
+      last = here;
+    }
+  }
+}
+
+TEST_P(RandomFrames, AreMetWithoutACorner) {
+  WrenchTimeline timeline;
+  for (const TimedWrench& frame : frames) timeline.push(frame);
+  constexpr int64_t kStep_ns = 1000;
+  for (size_t i = 1; i + 1 < frames.size(); ++i) {
+    const int64_t knot_ns = frames[i].time_ns;
+    const auto at = frames[i].wrench.stacked();
+    const auto before = timeline.at(knot_ns - kStep_ns).wrench.stacked();
+    const auto after = timeline.at(knot_ns + kStep_ns).wrench.stacked();
+    // On either side the chord of a step differs from the slope by at most h/2 |f''|. On a cubic
+    // between a and b, d apart, in T, with slopes of up to 2 |d|/T, |f''| ≤ 18 |d| / T²: 6 from the
+    // ends, and 4 and 2 times the slopes. |d| ≤ 6 N and T ≥ 1 ms. Rounding adds 4e-15 / h.
+    constexpr double kStep_s = 1e-9 * kStep_ns;
+    constexpr double kBent = 18 * 6 / (1e-3 * 1e-3);
+    const double bound = 2 * (kStep_s / 2 * kBent + 4e-15 / kStep_s);
+    // A corner between straight lines: up to 12 N / ms, a hundred times the bound.
+    const double corner = ((after - at) - (at - before)).cwiseAbs().maxCoeff() / kStep_s;
+    ASSERT_LT(corner, bound) << "frame " << i << " of " << GetParam();
+  }
+}
+
+TEST_P(RandomFrames, BecomeKnownWithoutAStep) {
+  // Each some time before its own, from two intervals to a fifth of one.
+  std::mt19937 random(GetParam() + 1000);
+  std::uniform_int_distribution<int64_t> percent(20, 200);
+  std::vector<int64_t> known_ns{frames[0].time_ns};
+  for (size_t i = 1; i < frames.size(); ++i) {
+    const int64_t ahead_ns = (frames[i].time_ns - frames[i - 1].time_ns) * percent(random) / 100;
+    known_ns.push_back(std::max(known_ns.back(), frames[i].time_ns - ahead_ns));
+  }
+  // A cubic from a to b in a fifth of a millisecond at least, at most twice as steep as the line:
+  // 6 N × 2 × 10 µs / 200 µs.
+  constexpr int64_t kStep_ns = 10'000;
+  constexpr double kSteepest = 2.0 * 6 * 1e-9 * kStep_ns / 0.2e-3;
+  WrenchTimeline timeline;
+  size_t known = 0;
+  auto last = frames[0].wrench.stacked();
+  for (int64_t time_ns = frames[0].time_ns; time_ns <= frames.back().time_ns; time_ns += kStep_ns) {
+    if (known == 0) timeline.push(frames[known++]);
+    const auto here = timeline.at(time_ns).wrench.stacked();
+    ASSERT_LE((here - last).cwiseAbs().maxCoeff(), kSteepest) << time_ns << " of " << GetParam();
+    for (; known < frames.size() && known_ns[known] <= time_ns; ++known) {
+      ASSERT_TRUE(timeline.push(frames[known]));
+      ASSERT_EQ(timeline.at(time_ns).wrench.stacked(), here) << time_ns << " of " << GetParam();
+    }
+    for (const TimedWrench& frame : frames) {
+      if (frame.time_ns == time_ns) {
+        ASSERT_EQ(here, frame.wrench.stacked()) << time_ns;
+      }
+    }
+    last = here;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(WrenchTimeline, RandomFrames, testing::Range(1u, 21u));
+
+TEST(WrenchTimeline, OneThatIsNotANumberSpoilsNoOther) {
+  WrenchTimeline timeline;
+  for (int i = 0; i < 5; ++i) timeline.push(timed(i * kFrame_ns, i == 2 ? std::nan("") : i));
+  for (int64_t time_ns = 0; time_ns <= 4 * kFrame_ns; time_ns += kFrame_ns / 4) {
+    const bool beside = time_ns > kFrame_ns && time_ns < 3 * kFrame_ns;
+    EXPECT_NE(timeline.at(time_ns).wrench.is_finite(), beside) << time_ns;
   }
 }
 
@@ -131,7 +249,7 @@ TEST(WrenchTimeline, ForgetsTheOldestWhenFull) {
 }
 
 TEST(WrenchTimeline, AnswersInAnyOrder) {
-  const WrenchTimeline timeline = two_frames();
+  WrenchTimeline timeline = two_frames();
   EXPECT_EQ(timeline.at(kFrame_ns).found, Found::kExact);
   EXPECT_EQ(timeline.at(1).found, Found::kInterpolated);
   EXPECT_EQ(timeline.at(-1).found, Found::kNothing);

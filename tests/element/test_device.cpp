@@ -36,7 +36,7 @@ class DeviceTest : public testing::Test {
   void tick(int count = 1) {
     for (int i = 0; i < count; ++i) {
       time_ns += kTick_ns;
-      loop().tick(time_ns, time_ns);
+      h->tick(time_ns);
     }
   }
 
@@ -44,6 +44,17 @@ class DeviceTest : public testing::Test {
     const int n = frames++;
     return h->push_moved(2.0 * n, 0, static_cast<GstClockTime>(n) * kFrame);
   }
+
+  /// Frames are shown from here on: frame n at 40 n ms of running time.
+  void play() {
+    tick(300);  // energised and located
+    PlaybackClock clock;
+    clock.playing = true;
+    clock.monotonic_ns = time_ns;
+    loop().set_playback_clock(clock);
+  }
+
+  double force_N() { return loop().snapshot().last.commanded.force_N.norm(); }
 
   int64_t time_ns = 1'000'000'000;
   int frames = 0;
@@ -147,13 +158,7 @@ TEST_F(DeviceTest, MaxForceHoldsAtOnceWhilePlaying) {
 
 TEST_F(DeviceTest, MuteRampsToRestAndHoldsIt) {
   open("device=sim");
-  tick(300);  // energised and located
-  // Frames are shown from here on: frame n at 40 n ms of running time.
-  PlaybackClock clock;
-  clock.playing = true;
-  clock.monotonic_ns = time_ns;
-  loop().set_playback_clock(clock);
-  const auto force_N = [&] { return loop().snapshot().last.commanded.force_N.norm(); };
+  play();
   const auto play_frame = [&] {
     push_next();
     tick(40);
@@ -163,11 +168,12 @@ TEST_F(DeviceTest, MuteRampsToRestAndHoldsIt) {
 
   g_object_set(h->element(), "mute", TRUE, nullptr);
   double before_N = force_N();
-  // Not a step: a stale command falls by at most max-force / ramp_s, 3 N / 40 ms, and is gone then.
+  // Not a step: a stale command falls by at most 1.5 max-force / ramp_s, 4.5 N / 40 ms, and is gone
+  // then.
   push_next();
   for (int ms = 0; ms < 40; ++ms) {
     tick();
-    EXPECT_LE(std::abs(force_N() - before_N), 3.0 / 40 + 1e-9) << ms;
+    EXPECT_LE(std::abs(force_N() - before_N), 4.5 / 40 + 1e-9) << ms;
     before_N = force_N();
   }
   EXPECT_NEAR(force_N(), 0, 1e-9);
@@ -178,6 +184,31 @@ TEST_F(DeviceTest, MuteRampsToRestAndHoldsIt) {
   g_object_set(h->element(), "mute", FALSE, nullptr);
   for (int n = 0; n < 4; ++n) play_frame();
   EXPECT_GT(force_N(), 0.5);
+}
+
+TEST_F(DeviceTest, AFrameALittleLateIsNotMissedAndOneThatDoesNotComeIsGoneIn50ms) {
+  open("device=sim");
+  play();
+  // Live and without latency: each frame is analysed when it is due, or up to 8 ms later.
+  const int late_ms[] = {0, 0, 0, 0, 0, 0, 8, 1, 0, 6, 8, 0};
+  double steady_N = 0;
+  int shown_ms = 0;
+  for (const int late : late_ms) {
+    for (const int due_ms = frames * 40 + late; shown_ms < due_ms; ++shown_ms) {
+      tick();
+      if (frames < 5) continue;
+      // The same motion in every frame but for what the tracker rounds, which shows in the tick
+      // after a frame; from then on nothing changes.
+      ASSERT_GE(force_N(), steady_N * (1 - 1e-12)) << "frame " << frames << ", " << shown_ms;
+    }
+    push_next();
+    tick();
+    ++shown_ms;
+    steady_N = force_N();
+  }
+  ASSERT_GT(steady_N, 0.5);
+  tick(frames * 40 + 50 - shown_ms);
+  EXPECT_EQ(force_N(), 0);
 }
 
 TEST_F(DeviceTest, IsAtRestWhenTheElementIsClosed) {

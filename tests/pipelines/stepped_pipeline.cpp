@@ -1,5 +1,7 @@
 #include "tests/pipelines/stepped_pipeline.h"
 
+#include <utility>
+
 #include <gst/base/gstbasesink.h>
 
 #include "plugin/spidar_motion.h"
@@ -70,11 +72,32 @@ void SteppedPipeline::seek(GstClockTime position) {
   wait_for_state();
 }
 
+void SteppedPipeline::seek(double rate, int flags, GstClockTime start, GstClockTime stop) {
+  if (!gst_element_seek(pipeline_, rate, GST_FORMAT_TIME, static_cast<GstSeekFlags>(flags),
+                        GST_SEEK_TYPE_SET, static_cast<gint64>(start), GST_SEEK_TYPE_SET,
+                        static_cast<gint64>(stop))) {
+    g_error("seek refused");
+  }
+  wait_for_state();
+}
+
+void SteppedPipeline::retime(std::function<GstClockTime(int, GstClockTime)> pts) {
+  pts_ = std::move(pts);
+  GstPad* pad = gst_element_get_static_pad(element_, "sink");
+  const auto probe = [](GstPad*, GstPadProbeInfo* info, gpointer user) {
+    auto* self = static_cast<SteppedPipeline*>(user);
+    auto* buffer = gst_buffer_make_writable(GST_PAD_PROBE_INFO_BUFFER(info));
+    GST_BUFFER_PTS(buffer) = self->pts_(self->frames_++, GST_BUFFER_PTS(buffer));
+    GST_PAD_PROBE_INFO_DATA(info) = buffer;
+    return GST_PAD_PROBE_OK;
+  };
+  gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, probe, this, nullptr);
+  gst_object_unref(pad);
+}
+
 TickRecord SteppedPipeline::tick() {
   HapticLoop& loop = engine_->session()->loop();
-  const int64_t now_ns = read_clock(clock_);
-  loop.tick(now_ns, now_ns);
-  return loop.snapshot().last;
+  return watch_.tick(loop, read_clock(clock_));
 }
 
 GstClockTime SteppedPipeline::await(guint waiters) {
@@ -111,6 +134,7 @@ GstClockTime SteppedPipeline::running_time() const {
 }
 
 void SteppedPipeline::take(GstMessage* message) {
+  messages_ |= GST_MESSAGE_TYPE(message);
   if (gst_message_has_name(message, "spidar-motion")) {
     const MotionMessage motion = parse_motion_message(message);
     // Running time begins anew with a seek, and what was before does not count any more.
@@ -118,6 +142,11 @@ void SteppedPipeline::take(GstMessage* message) {
     wrenches_[motion.running_time] = motion.wrench;
   }
   gst_message_unref(message);
+}
+
+void SteppedPipeline::await_message(GstMessageType type) {
+  while (!(messages_ & type)) take(gst_bus_timed_pop(bus_, GST_CLOCK_TIME_NONE));
+  messages_ &= ~static_cast<unsigned>(type);
 }
 
 void SteppedPipeline::await_analysed(size_t frames) {

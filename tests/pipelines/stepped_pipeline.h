@@ -2,6 +2,7 @@
 /// passes only when the test says so.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -25,6 +26,10 @@ class SteppedPipeline {
   void play_live();
   /// Flushing, to this position of the stream.
   void seek(GstClockTime position);
+  /// From `start` to `stop` of the stream at this rate. Returns when the state is reached again.
+  void seek(double rate, int flags, GstClockTime start, GstClockTime stop);
+  /// What the element is given for a timestamp, by number of the frame; before playing.
+  void retime(std::function<GstClockTime(int frame, GstClockTime pts)> pts);
 
   /// Waits until `waiters` elements wait for the clock; the earliest of their times.
   GstClockTime await(guint waiters = 1);
@@ -39,6 +44,8 @@ class SteppedPipeline {
   /// Of the frame that is to be shown now.
   GstClockTime running_time() const;
 
+  /// Waits for a message of this type since the last call.
+  void await_message(GstMessageType type);
   /// Waits until the element has seen so many frames.
   void await_analysed(size_t frames);
   /// Wrench of each frame since the start or the last seek, by running time, as the element told
@@ -46,6 +53,7 @@ class SteppedPipeline {
   const std::map<GstClockTime, Wrench>& wrenches();
 
   GstElement* element() const { return element_; }
+  GstElement* pipeline() const { return pipeline_; }
 
  private:
   void wait_for_state();
@@ -58,7 +66,11 @@ class SteppedPipeline {
   GstElement* sink_;
   GstBus* bus_;
   MotionEngine* engine_;
+  TickWatch watch_;
   std::map<GstClockTime, Wrench> wrenches_;
+  unsigned messages_ = 0;  // types seen
+  std::function<GstClockTime(int, GstClockTime)> pts_;
+  int frames_ = 0;  // streaming thread
 };
 
 }  // namespace spidar::test

@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include <gst/gst.h>
 #include <gtest/gtest.h>
+
+#include "tests/support/tick_watch.h"
 
 namespace spidar::test {
 namespace {
@@ -53,8 +56,45 @@ void take(Outcome& outcome, GstMessage* message) {
   g_clear_error(&error);
 }
 
+/// Records every tick of each spidarmotion in `bin`, also of those to come.
+class Traces {
+ public:
+  explicit Traces(GstElement* bin) {
+    std::string name = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    g_signal_connect(bin, "deep-element-added", G_CALLBACK(added), this);
+    GstIterator* all = gst_bin_iterate_recurse(GST_BIN(bin));
+    gst_iterator_foreach(
+        all,
+        [](const GValue* item, gpointer self) {
+          static_cast<Traces*>(self)->record(static_cast<GstElement*>(g_value_get_object(item)));
+        },
+        this);
+    gst_iterator_free(all);
+  }
+  ~Traces() {
+    for (const std::string& path : paths_) TickWatch().see_trace(path, {});
+    std::filesystem::remove_all(folder_);
+  }
+
+ private:
+  static void added(GstBin*, GstBin*, GstElement* element, Traces* self) { self->record(element); }
+
+  void record(GstElement* element) {
+    if (g_strcmp0(G_OBJECT_TYPE_NAME(element), "GstSpidarMotion") != 0) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    paths_.push_back((folder_ / std::to_string(paths_.size())).string());
+    g_object_set(element, "haptic-trace", paths_.back().c_str(), nullptr);
+  }
+
+  std::filesystem::path folder_;
+  std::mutex mutex_;
+  std::vector<std::string> paths_;
+};
+
 Outcome run_to_end(GstElement* pipeline) {
   Outcome outcome;
+  const Traces traces(pipeline);
   gst_element_set_state(pipeline, GST_STATE_PLAYING);
   GstBus* bus = gst_element_get_bus(pipeline);
   while (!outcome.eos && outcome.error.empty()) {

@@ -1,5 +1,6 @@
 // The wrench of a frame is there at the moment the frame is shown, and at no other. On a test
 // clock: nothing here depends on how fast the machine is.
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -53,11 +54,15 @@ TEST(Synchronisation, BetweenTwoFramesTheWrenchIsBetweenTheirs) {
   pipeline.await();  // the next frame has come through the element
   const TickRecord tick = pipeline.idle(kFrame / 4);
   ASSERT_TRUE(pipeline.wrenches().count(from) && pipeline.wrenches().count(from + kFrame));
-  const Wrench expected =
-      interpolate(pipeline.wrenches().at(from), pipeline.wrenches().at(from + kFrame), 0.25);
+  const Wrench& before = pipeline.wrenches().at(from);
+  const Wrench& after = pipeline.wrenches().at(from + kFrame);
   EXPECT_EQ(tick.found, Found::kInterpolated);
-  // Rounding of a product and a sum of numbers around 1.
-  EXPECT_LT((tick.wanted.force_N - expected.force_N).norm(), 1e-14);
+  // Where exactly depends on how far the analysis is ahead. A few roundings of numbers around 1.
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low_N, high_N] = std::minmax(before.force_N[axis], after.force_N[axis]);
+    EXPECT_GE(tick.wanted.force_N[axis], low_N - 1e-15);
+    EXPECT_LE(tick.wanted.force_N[axis], high_N + 1e-15);
+  }
 }
 
 TEST(Synchronisation, LiveWithLatency) {

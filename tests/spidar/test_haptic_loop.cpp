@@ -87,7 +87,7 @@ TEST(HapticLoop, PauseRampsToRest) {
   Wrench last = driver.run(5 * kFrame).commanded;
   ASSERT_EQ(last.force_N.x(), 1);
   driver.pause();
-  const double step_N = 1.0 / (SafetyLimits{}.ramp_s / 1e-3);
+  const double step_N = StaleRamp::kSteepest / (SafetyLimits{}.ramp_s / 1e-3);
   const int64_t paused = driver.now_ns;
   while (driver.now_ns < paused + kRamp) {
     const Wrench commanded = driver.tick().commanded;
@@ -117,7 +117,7 @@ TEST(HapticLoop, FlushForgets) {
   double last_N = driver.run(5 * kFrame).commanded.force_N.x();
   driver.loop->cancel_scheduled();
   EXPECT_EQ(driver.tick().found, Found::kNothing);
-  const double step_N = 1.0 / (SafetyLimits{}.ramp_s / 1e-3);
+  const double step_N = StaleRamp::kSteepest / (SafetyLimits{}.ramp_s / 1e-3);
   for (int i = 0; i < 200; ++i) {
     const TickRecord record = driver.tick();
     ASSERT_LE(last_N - record.commanded.force_N.x(), 2 * step_N + 1e-12) << "a step at tick " << i;
@@ -229,7 +229,8 @@ TEST(HapticLoop, StallDoesNotEndInAStep) {
   // Long enough for the ramp to have come to its end, not so long that the pose is out of date.
   const double after_N = driver.tick(45 * kMs).commanded.force_N.x();
   EXPECT_GT(after_N, before_N);
-  const double ramp_step = 1e-9 * HapticLoop::kMaxStep_ns / SafetyLimits{}.ramp_s;
+  const double ramp_step =
+      StaleRamp::kSteepest * 1e-9 * HapticLoop::kMaxStep_ns / SafetyLimits{}.ramp_s;
   EXPECT_LE(after_N - before_N, ramp_step * 1.0 + 1e-12);
 }
 

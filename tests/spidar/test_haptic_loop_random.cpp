@@ -134,7 +134,8 @@ void run_chaos(uint64_t seed, int ticks) {
 
     // Rates, see WrenchSafety. A lowered limit may cut off the rest, a lost device drops it.
     const double dt_s = 1e-9 * static_cast<double>(std::min(step_ns, HapticLoop::kMaxStep_ns));
-    const double rate_N_s = std::max(limits.max_slew_N_s, largest_N / limits.ramp_s);
+    const double rate_N_s =
+        std::max(limits.max_slew_N_s, StaleRamp::kSteepest * largest_N / limits.ramp_s);
     const double cut_off_N = std::max(0.0, last.force_N.norm() - limits.max_force_N);
     if (!was_lost && record.device != DeviceState::kLost) {
       ASSERT_LE((record.commanded.force_N - last.force_N).norm(),

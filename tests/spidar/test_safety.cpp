@@ -113,9 +113,10 @@ TEST(SlewLimit, LoweredTotalHoldsAtOnce) {
 TEST(StaleRamp, TakesRampSecondsEachWay) {
   StaleRamp ramp;
   EXPECT_EQ(ramp.share(), 0);
-  for (int i = 1; i <= 40; ++i) EXPECT_NEAR(ramp.apply(true, kTick_s, {}), i / 40.0, 1e-12);
+  const auto share = [](int i) { return i * i * (120 - 2.0 * i) / (40 * 40 * 40); };
+  for (int i = 1; i <= 40; ++i) EXPECT_NEAR(ramp.apply(true, kTick_s, {}), share(i), 1e-12);
   EXPECT_EQ(ramp.apply(true, kTick_s, {}), 1);
-  for (int i = 39; i >= 0; --i) EXPECT_NEAR(ramp.apply(false, kTick_s, {}), i / 40.0, 1e-12);
+  for (int i = 39; i >= 0; --i) EXPECT_NEAR(ramp.apply(false, kTick_s, {}), share(i), 1e-12);
   EXPECT_EQ(ramp.apply(false, kTick_s, {}), 0);
 }
 
@@ -187,7 +188,8 @@ TEST(WrenchSafety, HoldsItsLimitsForAnySequence) {
         << "seed " << kSeed << " call " << i;
     // Fresh: the slew limit. Stale: from at most what was ever allowed to zero in ramp_s. A limit
     // that was lowered may cut off the rest at once.
-    const double rate_N_s = fresh ? limits.max_slew_N_s : largest_N / limits.ramp_s;
+    const double rate_N_s =
+        fresh ? limits.max_slew_N_s : StaleRamp::kSteepest * largest_N / limits.ramp_s;
     const double cut_off_N = std::max(0.0, last.force_N.norm() - limits.max_force_N);
     ASSERT_LE((commanded.force_N - last.force_N).norm(), rate_N_s * dt_s + cut_off_N + 1e-12)
         << "seed " << kSeed << " call " << i;

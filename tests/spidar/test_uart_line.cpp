@@ -67,6 +67,23 @@ TEST_F(UartLines, OneBoardOfEightMotors) {
   EXPECT_TRUE(first.all_zero());
 }
 
+TEST_F(UartLines, AskedForTwiceInOneProcess) {
+  UartLine line({first_motors, {{4, kB5M}}});
+  const auto board = device("uart:" + line.path());
+  board->open();
+  const auto again = device("uart:" + line.path());
+  try {
+    again->open();
+    FAIL() << "two would pull at the same strings";
+  } catch (const DeviceError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find(line.path()), std::string::npos) << text;
+    EXPECT_NE(text.find("another element of this one"), std::string::npos) << text;
+  }
+  board->close();
+  again->open();
+}
+
 TEST_F(UartLines, TwoBoardsOnOneLineAndOnTwo) {
   for (const bool two_lines : {false, true}) {
     std::vector<EmulatedUart::Station> stations{{1, kB3M}};

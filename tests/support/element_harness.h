@@ -9,6 +9,7 @@
 #include <gst/video/video.h>
 
 #include "plugin/motion_engine.h"
+#include "tests/support/tick_watch.h"
 
 namespace spidar::test {
 
@@ -48,12 +49,15 @@ class ElementHarness {
   GstHarness* harness() const { return harness_; }
   const GstVideoInfo& info() const { return info_; }
   MotionEngine& engine();
+  /// Ticks the haptic loop of an element that waits for it, under watch.
+  TickRecord tick(int64_t now_ns) { return watch_.tick(engine().session()->loop(), now_ns); }
 
  private:
   void drain();
 
   GstHarness* harness_;
   GstBus* bus_;
+  TickWatch watch_;
   GstVideoInfo info_{};
   std::vector<MotionMessage> motions_;
   std::vector<std::string> warnings_;

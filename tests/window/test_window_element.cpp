@@ -52,7 +52,7 @@ class WindowElement : public testing::Test {
   void tick(int count) {
     for (int i = 0; i < count; ++i) {
       time_ns += kTick_ns;
-      h->engine().session()->loop().tick(time_ns, time_ns);
+      h->tick(time_ns);
     }
   }
 

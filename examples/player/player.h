@@ -1,0 +1,43 @@
+/// A film with its forces.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+
+#include "examples/player/keys.h"
+
+class Player {
+ public:
+  /// `uri` of the film. `headless`: neither seen nor heard, but in time. Throws std::runtime_error
+  /// when an element is missing.
+  Player(const std::string& uri, bool headless);
+  ~Player();
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
+
+  void play();
+  /// Returns when it is done: the film is at its new place.
+  void act(const Action& action);
+  /// The end of the film was reached: from the beginning again, or false.
+  bool again();
+
+  /// "0:12.48 / 3:45.00, 1x, playing, force on, delay 0 ms"
+  std::string status() const;
+  GstBus* bus() const { return bus_; }
+
+ private:
+  void seek(gint64 position);
+  void settle();
+  gint64 position() const;
+
+  GstElement* playbin_;
+  GstElement* motion_;
+  GstElement* video_sink_ = nullptr;
+  GstBus* bus_;
+  bool paused_ = false;
+  bool loop_ = false;
+  bool force_ = true;
+  size_t speed_;
+  int delay_ms_ = 0;
+};

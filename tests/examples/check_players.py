@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Drives a player through its standard input: check_players.py cpp|python PROGRAM..."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+# Keys, and what is to be seen of the status after each.
+CPP = [
+    (" ", "paused"),
+    ("\033[D", "0:00.00 / 0:04.00"),
+    (".", "0:00.04"),
+    ("f", "force off"),
+    ("d40\n", "delay 40 ms"),
+    ("d-15\n", "delay -15 ms"),
+    ("+", "1.5x"),
+    ("-", " 1x"),
+    ("l", "loop"),
+    ("x", None),
+    ("f", "force on"),
+    (" ", "playing"),
+    ("\033[C", "playing"),
+    ("q", ""),
+]
+PYTHON = [
+    (" \n", "paused"),
+    ("<\n", "0.0 s"),
+    ("f\n", "force off"),
+    ("d40\n", "delay 40 ms"),
+    ("+\n", "2x"),
+    (" \n", "playing"),
+    ("f\n", "force on"),
+    ("q\n", ""),
+]
+
+
+def make_clip(folder, frames):
+    """A ball at 25 frames/s; by a gst-launch-1.0 that does not see the plugin under test."""
+    clip = os.path.join(folder, f"{frames}.avi")
+    env = {k: v for k, v in os.environ.items() if not k.startswith("GST_PLUGIN_PATH")}
+    env["GST_REGISTRY"] = os.path.join(folder, "registry.bin")
+    subprocess.run(
+        ["gst-launch-1.0", "-q", "videotestsrc", f"num-buffers={frames}", "pattern=ball", "!",
+         "video/x-raw,width=320,height=240,framerate=25/1", "!", "jpegenc", "!", "avimux", "!",
+         "filesink", f"location={clip}"], env=env, check=True)
+    return clip
+
+
+def run(program, file, keys):
+    done = subprocess.run([*program, "--headless", file], input=keys, text=True,
+                          capture_output=True, timeout=60)
+    return done.returncode, done.stdout.splitlines(), done.stderr
+
+
+def check(program, script, first):
+    with tempfile.TemporaryDirectory() as folder:
+        code, lines, errors = run(program, make_clip(folder, 100), "".join(keys for keys, _ in script))
+        assert code == 0, errors
+        expected = [text for _, text in script if text is not None]
+        seen = lines[first:]
+        assert len(seen) >= len(expected), "\n".join(lines)
+        for text, line in zip(expected, seen):
+            assert text in line, f"'{text}' is not in '{line}'\n" + "\n".join(lines)
+        code, lines, _ = run(program, make_clip(folder, 10), "")  # to the end, without a key
+        assert code == 0
+        code, _, errors = run(program, os.path.join(folder, "none.avi"), "")
+        assert re.search("not found|No such file", errors), errors
+
+
+if __name__ == "__main__":
+    check(sys.argv[2:], CPP if sys.argv[1] == "cpp" else PYTHON, 1 if sys.argv[1] == "cpp" else 0)

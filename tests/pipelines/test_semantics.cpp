@@ -1,0 +1,249 @@
+// What people do with a player, and what streams do to them: what is felt is the motion that is
+// shown, at the time when it is shown. On a test clock; TickWatch looks at every tick besides.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/stepped_pipeline.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+/// Of two measurements of the same motion: a tenth of a pixel each (see test_frames.cpp), twice
+/// that on 480 lines, over 40 ms.
+constexpr double kTolerance_px_s = 2 * 0.1 * 2 / 0.04;
+constexpr double kMoves_px_s = 40;  // the ball does five times as much
+const std::string kBall =
+    "videotestsrc pattern=ball name=source ! video/x-raw,format=GRAY8,width=320,height=240,"
+    "framerate=25/1 ";
+const std::string kMotion =
+    "! spidarmotion name=motion motion=mean filter-min-cutoff=0 "
+    "controller=nonlinear max-force=3 alpha=0.0005 ";
+const std::string kSink = "! queue ! fakesink name=sink sync=true";
+const std::string kPlayer = kBall + kMotion + kSink;
+
+/// The tick at the time of the frame that is shown now found this frame's wrench, bit for bit.
+void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& tick) {
+  const auto frame = pipeline.wrenches().find(pipeline.running_time());
+  ASSERT_NE(frame, pipeline.wrenches().end()) << "at " << pipeline.running_time();
+  EXPECT_EQ(tick.running_ns, static_cast<int64_t>(frame->first));
+  EXPECT_EQ(tick.found, Found::kExact);
+  EXPECT_EQ(tick.wanted.force_N, frame->second.force_N);
+}
+
+/// The velocity that feels like this, px/s on 480 lines: equation 15, solved for it.
+Eigen::Vector3d velocity_px_s(const Eigen::Vector3d& force_N) {
+  const double speed = std::tan(std::acos(-1.0) / 2 * force_N.norm() / 3) / 0.0005;
+  return speed > 0 ? Eigen::Vector3d(speed * force_N.normalized()) : Eigen::Vector3d::Zero();
+}
+
+/// Shows `count` frames, and the velocity that is felt at each.
+std::vector<Eigen::Vector3d> play(SteppedPipeline& pipeline, int count) {
+  std::vector<Eigen::Vector3d> felt_px_s;
+  for (int n = 0; n < count; ++n) {
+    SCOPED_TRACE(n);
+    const TickRecord tick = pipeline.step();
+    expect_wrench_of_frame(pipeline, tick);
+    felt_px_s.push_back(velocity_px_s(tick.wanted.force_N));
+  }
+  return felt_px_s;
+}
+
+void expect_rest(SteppedPipeline& pipeline, GstClockTime after) {
+  EXPECT_EQ(pipeline.idle(after).commanded.stacked().norm(), 0);
+}
+
+/// A loop of 6 frames: shown, to its end.
+void play_segment(SteppedPipeline& pipeline) {
+  const std::vector<Eigen::Vector3d> felt_px_s = play(pipeline, 6);
+  EXPECT_EQ(felt_px_s[0].norm(), 0) << "the jump is no motion";
+  for (size_t n = 1; n < 6; ++n) EXPECT_GT(felt_px_s[n].norm(), kMoves_px_s) << n;
+}
+
+TEST(Semantics, SegmentSeeksLoopWithoutAGap) {
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.set_state(GST_STATE_PAUSED);
+  pipeline.seek(1.0, GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_SEGMENT, 0, 6 * kFrame);
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (GstClockTime pass = 0; pass < 3; ++pass) {
+    SCOPED_TRACE(pass);
+    pipeline.await_message(GST_MESSAGE_SEGMENT_DONE);
+    pipeline.seek(1.0, GST_SEEK_FLAG_SEGMENT, 0, 6 * kFrame);
+    play_segment(pipeline);
+    EXPECT_EQ(pipeline.running_time(), (6 * pass + 5) * kFrame);
+  }
+}
+
+TEST(Semantics, ASeekThatDoesNotFlushIsShownAfterWhatWasQueued) {
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.set_state(GST_STATE_PAUSED);
+  // The source pauses after 15 frames: one that waits for a full queue cannot be asked to seek.
+  pipeline.seek(1.0, GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_SEGMENT, 0, 15 * kFrame);
+  pipeline.set_state(GST_STATE_PLAYING);
+  play(pipeline, 5);
+  pipeline.await_message(GST_MESSAGE_SEGMENT_DONE);
+  pipeline.seek(1.0, GST_SEEK_FLAG_NONE, GST_SECOND, 2 * GST_SECOND);
+  const std::vector<Eigen::Vector3d> felt_px_s = play(pipeline, 20);
+  EXPECT_EQ(pipeline.running_time(), 24 * kFrame);
+  for (size_t n = 0; n < 20; ++n) {
+    // Frame 15 is the first after the jump, which is no motion.
+    EXPECT_EQ(felt_px_s[n].norm() > kMoves_px_s, n != 10) << n;
+  }
+}
+
+TEST(Semantics, ForceIsThatOfTheSpeedShown) {
+  SteppedPipeline normal(kPlayer);
+  normal.set_state(GST_STATE_PLAYING);
+  const std::vector<Eigen::Vector3d> usual_px_s = play(normal, 10);
+  for (const double rate : {0.25, 0.5, 4.0}) {
+    SCOPED_TRACE(rate);
+    SteppedPipeline pipeline(kPlayer);
+    pipeline.set_state(GST_STATE_PAUSED);
+    pipeline.seek(rate, GST_SEEK_FLAG_FLUSH, 0, GST_SECOND);
+    pipeline.set_state(GST_STATE_PLAYING);
+    const std::vector<Eigen::Vector3d> felt_px_s = play(pipeline, 10);
+    EXPECT_EQ(pipeline.running_time(),
+              static_cast<GstClockTime>(9 * static_cast<double>(kFrame) / rate));
+    for (size_t n = 1; n < 10; ++n) {
+      EXPECT_LT((felt_px_s[n] - rate * usual_px_s[n]).norm(), rate * kTolerance_px_s) << n;
+      EXPECT_GT(felt_px_s[n].norm(), kMoves_px_s) << n;
+    }
+  }
+}
+
+TEST(Semantics, AnInstantChangeOfTheRateIsInTimeAndAsFast) {
+  SteppedPipeline normal(kPlayer);
+  normal.set_state(GST_STATE_PLAYING);
+  const std::vector<Eigen::Vector3d> usual_px_s = play(normal, 50);
+
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.set_state(GST_STATE_PLAYING);
+  play(pipeline, 5);
+  GstElement* source = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "source");
+  GstPad* pad = gst_element_get_static_pad(source, "src");
+  // What a demuxer makes of such a seek. Twice as fast from the time of frame 4 on.
+  const GstClockTime change = pipeline.running_time();
+  ASSERT_EQ(change, 4 * kFrame);
+  EXPECT_TRUE(gst_pad_push_event(pad, gst_event_new_instant_rate_change(2, GST_SEGMENT_FLAG_NONE)));
+  gst_object_unref(pad);
+  gst_object_unref(source);
+  for (int n = 0; n < 3; ++n) pipeline.step();  // the sink may wait for an old time already
+  for (size_t n = 0; n < 45; ++n) {
+    const TickRecord tick = pipeline.step();
+    const GstClockTime upstream = change + 2 * (pipeline.running_time() - change);
+    SCOPED_TRACE(upstream);
+    EXPECT_EQ(tick.found, Found::kExact);
+    EXPECT_EQ(tick.wanted.force_N, pipeline.wrenches().at(upstream).force_N);
+    const size_t frame = upstream / kFrame;
+    // What waited in the queue, a second at most, was analysed at the old rate.
+    if (frame < 35 || frame >= 50) continue;
+    const Eigen::Vector3d felt_px_s = velocity_px_s(tick.wanted.force_N);
+    EXPECT_LT((felt_px_s - 2 * usual_px_s[frame]).norm(), 2 * kTolerance_px_s);
+    EXPECT_GT(felt_px_s.norm(), 2 * kMoves_px_s);
+  }
+}
+
+TEST(Semantics, InReverseTheForcePointsTheOtherWay) {
+  SteppedPipeline normal(kPlayer);
+  normal.set_state(GST_STATE_PLAYING);
+  const std::vector<Eigen::Vector3d> forwards_px_s = play(normal, 10);
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.set_state(GST_STATE_PAUSED);
+  pipeline.seek(-1.0, GST_SEEK_FLAG_FLUSH, 0, 10 * kFrame);
+  pipeline.set_state(GST_STATE_PLAYING);
+  const std::vector<Eigen::Vector3d> backwards_px_s = play(pipeline, 10);
+  EXPECT_EQ(backwards_px_s[0].norm(), 0);
+  for (size_t n = 1; n < 10; ++n) {
+    // Between frames 10 − n and 9 − n.
+    EXPECT_LT((backwards_px_s[n] + forwards_px_s[10 - n]).norm(), kTolerance_px_s) << n;
+    EXPECT_GT(backwards_px_s[n].norm(), kMoves_px_s) << n;
+  }
+}
+
+TEST(Semantics, VariableFrameRate) {
+  SteppedPipeline pipeline(kPlayer);
+  // 20 and 60 ms in turn.
+  pipeline.retime([](int n, GstClockTime pts) { return n % 2 ? pts - kFrame / 2 : pts; });
+  pipeline.set_state(GST_STATE_PLAYING);
+  const std::vector<Eigen::Vector3d> felt_px_s = play(pipeline, 12);
+  for (size_t n = 1; n < 12; n += 2) {
+    // The ball moves about as far from frame to frame: three times as fast in a third of the time.
+    EXPECT_GT(felt_px_s[n].norm(), 2 * felt_px_s[n - 1].norm()) << n;
+  }
+}
+
+TEST(Semantics, AGapInTheTimestampsIsSlowMotion) {
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.retime([](int n, GstClockTime pts) { return n < 5 ? pts : pts + GST_SECOND; });
+  pipeline.set_state(GST_STATE_PLAYING);
+  const std::vector<Eigen::Vector3d> felt_px_s = play(pipeline, 10);
+  // One picture after a second has moved as far as others in 40 ms.
+  EXPECT_LT(felt_px_s[5].norm(), felt_px_s[4].norm() / 10);
+  EXPECT_GT(felt_px_s[6].norm(), kMoves_px_s);
+}
+
+TEST(Semantics, ATimestampTwiceIsOneFrame) {
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.retime([](int n, GstClockTime pts) { return n == 5 ? pts - kFrame : pts; });
+  pipeline.set_state(GST_STATE_PLAYING);
+  play(pipeline, 5);
+  pipeline.step();  // frame 5, at once after frame 4
+  EXPECT_GT(play(pipeline, 4)[3].norm(), kMoves_px_s);
+}
+
+TEST(Semantics, TimestampsThatJumpBackAreFeltAgainWhenTheyAreNew) {
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.retime([](int n, GstClockTime pts) { return n < 8 ? pts : pts - 4 * kFrame; });
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 8; ++n) EXPECT_EQ(pipeline.step().found, Found::kExact) << n;
+  // Frames 8 to 11 have the times of 4 to 7 again, and are shown at once.
+  while (pipeline.await() < pipeline.now() + kFrame) pipeline.step();
+  EXPECT_GT(play(pipeline, 4)[3].norm(), kMoves_px_s);
+}
+
+TEST(Semantics, AnotherSizeInMidPlay) {
+  SteppedPipeline pipeline(
+      "videotestsrc pattern=ball ! capsfilter name=size "
+      "caps=video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 " +
+      kMotion + "! queue max-size-buffers=2 ! fakesink name=sink sync=true");
+  pipeline.set_state(GST_STATE_PLAYING);
+  play(pipeline, 6);
+  GstElement* size = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "size");
+  GstCaps* caps =
+      gst_caps_from_string("video/x-raw,format=GRAY8,width=640,height=480,framerate=25/1");
+  g_object_set(size, "caps", caps, nullptr);
+  gst_caps_unref(caps);
+  gst_object_unref(size);
+  int restarts = 0;
+  for (const Eigen::Vector3d& felt_px_s : play(pipeline, 12)) restarts += felt_px_s.norm() == 0;
+  EXPECT_EQ(restarts, 1) << "the first frame of another size is no motion";
+}
+
+TEST(Semantics, AfterTheEndItCanBePlayedAgain) {
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.set_state(GST_STATE_PAUSED);
+  pipeline.seek(1.0, GST_SEEK_FLAG_FLUSH, 0, 6 * kFrame);
+  pipeline.set_state(GST_STATE_PLAYING);
+  play(pipeline, 6);
+  pipeline.step();  // the end of the last frame
+  pipeline.await_message(GST_MESSAGE_EOS);
+  expect_rest(pipeline, 50 * GST_MSECOND);
+  pipeline.seek(0);
+  play_segment(pipeline);
+}
+
+TEST(Semantics, AfterAnErrorUpstreamNothingIsFelt) {
+  // The queue is short: the error comes while frames are shown.
+  SteppedPipeline pipeline(kBall + "! identity error-after=7 " + kMotion +
+                           "! queue max-size-buffers=1 ! fakesink name=sink sync=true");
+  pipeline.set_state(GST_STATE_PLAYING);
+  EXPECT_GT(play(pipeline, 6)[5].norm(), kMoves_px_s);
+  pipeline.await_message(GST_MESSAGE_ERROR);
+  expect_rest(pipeline, kFrame + 50 * GST_MSECOND);
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,77 @@
+// That the watch over the other tests does see what it is to see.
+#include <limits>
+
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/tick_watch.h"
+
+namespace spidar::test {
+namespace {
+
+/// A loop that plays, a tick at a time.
+struct Played {
+  TickWatch watch;
+  TickRecord record;
+
+  Played() {
+    record.playing = true;
+    record.found = Found::kHeld;
+    record.device = DeviceState::kRunning;
+  }
+
+  void tick(double force_N, int64_t step_ns = kTick_ns) {
+    ++record.tick;
+    record.monotonic_ns += step_ns;
+    record.commanded.force_N.x() = force_N;
+    watch.see(record, SafetyLimits{});
+  }
+};
+
+TEST(TickWatch, TakesWhatIsAllowed) {
+  Played played;
+  for (int i = 0; i <= 10; ++i) played.tick(0.3 * i);
+  played.tick(2.4, 5 * kTick_ns);
+  played.record.playing = false;
+  for (int i = 8; i >= 0; --i) played.tick(0.3 * i);
+  for (int i = 0; i < 100; ++i) played.tick(0);
+  played.record.tick = 0;  // opened again
+  played.tick(0);
+}
+
+TEST(TickWatch, SeesAForceAboveTheLimit) {
+  Played played;
+  for (int i = 0; i <= 10; ++i) played.tick(0.3 * i);
+  EXPECT_NONFATAL_FAILURE(played.tick(3.0 + 1e-12), "force too large");
+}
+
+TEST(TickWatch, SeesAStepAndSaysSoOnce) {
+  Played played;
+  played.tick(0);
+  EXPECT_NONFATAL_FAILURE(played.tick(0.3 + 1e-9), "force changes too fast");
+  played.tick(2);
+}
+
+TEST(TickWatch, SeesAForceThatIsNotANumber) {
+  Played played;
+  EXPECT_NONFATAL_FAILURE(played.tick(std::numeric_limits<double>::quiet_NaN()), "not finite");
+}
+
+TEST(TickWatch, SeesAForceThatStays) {
+  for (const bool playing : {false, true}) {
+    Played played;
+    played.tick(0.1);
+    played.record.playing = playing;
+    played.record.found = Found::kExpired;
+    for (int i = 0; i < 50; ++i) played.tick(0.1);
+    EXPECT_NONFATAL_FAILURE(played.tick(0.1), "not at rest");
+  }
+}
+
+TEST(TickWatch, MissesTheTrace) {
+  TickWatch watch;
+  EXPECT_NONFATAL_FAILURE(watch.see_trace("/nowhere/trace.csv", {}), "no haptic trace");
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,137 @@
+#include "tests/support/tick_watch.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "spidar/tick_trace.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr double kRest_s = 0.0505;  // 50 ticks, and rounding
+/// A vector is shortened by a product, a quotient and a root.
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+
+bool to_be_felt(const TickRecord& record) {
+  return record.playing && (record.found == Found::kExact || record.found == Found::kInterpolated ||
+                            record.found == Found::kHeld);
+}
+
+/// One row of a trace by the names of its columns.
+class Row {
+ public:
+  Row(const std::map<std::string, size_t>& columns, const std::string& line) : columns_(columns) {
+    std::istringstream in(line);
+    for (std::string field; std::getline(in, field, ',');) fields_.push_back(field);
+  }
+
+  const std::string& text(const std::string& column) const {
+    return fields_.at(columns_.at(column));
+  }
+  double number(const std::string& column) const { return std::stod(text(column)); }
+  int64_t integer(const std::string& column) const { return std::stoll(text(column)); }
+
+ private:
+  const std::map<std::string, size_t>& columns_;
+  std::vector<std::string> fields_;
+};
+
+TickRecord record_of(const Row& row) {
+  TickRecord record;
+  record.tick = static_cast<uint64_t>(row.integer("tick"));
+  record.monotonic_ns = row.integer("monotonic_ns");
+  record.playing = row.integer("playing") != 0;
+  for (const Found found : {Found::kExact, Found::kInterpolated, Found::kHeld, Found::kExpired}) {
+    if (row.text("found") == to_string(found)) record.found = found;
+  }
+  for (const DeviceState state :
+       {DeviceState::kOpening, DeviceState::kRunning, DeviceState::kClosing, DeviceState::kLost}) {
+    if (row.text("device") == to_string(state)) record.device = state;
+  }
+  for (int i = 0; i < 3; ++i) {
+    const std::string axis(1, "xyz"[i]);
+    record.commanded.force_N[i] = row.number("commanded_force_" + axis + "_N");
+    record.commanded.torque_Nm[i] = row.number("commanded_torque_" + axis + "_Nm");
+  }
+  return record;
+}
+
+}  // namespace
+
+TickRecord TickWatch::tick(HapticLoop& loop, int64_t now_ns) {
+  loop.tick(now_ns, now_ns);
+  const LoopSnapshot snapshot = loop.snapshot();
+  see(snapshot.last, snapshot.limits);
+  return snapshot.last;
+}
+
+void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
+  // Another loop, or the same one opened again; or a trace with a gap.
+  if (record.tick != last_.tick + 1) following_ = false;
+  const int64_t step_ns = following_ ? record.monotonic_ns - last_.monotonic_ns : kTick_ns;
+  const double dt_s = 1e-9 * static_cast<double>(std::clamp<int64_t>(step_ns, 0,  //
+                                                                     HapticLoop::kMaxStep_ns));
+  largest_N_ = std::max(largest_N_, limits.max_force_N);
+  largest_Nm_ = std::max(largest_Nm_, limits.max_torque_Nm);
+
+  const Wrench& now = record.commanded;
+  if (!now.is_finite()) fail(record, "not finite");
+  if (now.force_N.norm() > limits.max_force_N * (1 + kRounding)) fail(record, "force too large");
+  if (now.torque_Nm.norm() > limits.max_torque_Nm * (1 + kRounding)) {
+    fail(record, "torque too large");
+  }
+
+  // See WrenchSafety. A lowered limit cuts off at once, and a lost device has nothing to command.
+  const bool lost = record.device == DeviceState::kLost || last_.device == DeviceState::kLost;
+  if (following_ && !lost) {
+    const double ramp = StaleRamp::kSteepest / limits.ramp_s;
+    const double rate_N_s = std::max(limits.max_slew_N_s, ramp * largest_N_);
+    const double rate_Nm_s = std::max(limits.max_slew_Nm_s, ramp * largest_Nm_);
+    const Wrench& before = last_.commanded;
+    const double cut_N = std::max(0.0, before.force_N.norm() - limits.max_force_N);
+    const double cut_Nm = std::max(0.0, before.torque_Nm.norm() - limits.max_torque_Nm);
+    if ((now.force_N - before.force_N).norm() > rate_N_s * dt_s + cut_N + 1e-12) {
+      fail(record, "force changes too fast");
+    }
+    if ((now.torque_Nm - before.torque_Nm).norm() > rate_Nm_s * dt_s + cut_Nm + 1e-12) {
+      fail(record, "torque changes too fast");
+    }
+  }
+
+  stopped_s_ = to_be_felt(record) ? 0 : stopped_s_ + dt_s;
+  if (stopped_s_ > kRest_s && now.stacked().norm() > 0) fail(record, "not at rest");
+  last_ = record;
+  following_ = true;
+}
+
+void TickWatch::see_trace(const std::string& path, const SafetyLimits& limits) {
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line)) {
+    ADD_FAILURE() << "no haptic trace " << path;
+    return;
+  }
+  std::map<std::string, size_t> columns;
+  std::istringstream names(line);
+  for (std::string name; std::getline(names, name, ',');) columns.emplace(name, columns.size());
+  while (std::getline(file, line)) see(record_of(Row(columns, line)), limits);
+}
+
+void TickWatch::fail(const TickRecord& record, const std::string& what) {
+  if (failed_) return;
+  failed_ = true;
+  std::string rows;
+  append_row(last_, rows);
+  append_row(record, rows);
+  ADD_FAILURE() << what << ", after " << stopped_s_ << " s without a wrench to be felt:\n"
+                << trace_header() << '\n'
+                << rows;
+}
+
+}  // namespace spidar::test

@@ -1,0 +1,36 @@
+/// What holds in every tick of the haptic loop, whatever is played.
+#pragma once
+
+#include <string>
+
+#include "spidar/haptic_loop.h"
+
+namespace spidar::test {
+
+/// Sees every tick of a test and fails it at the first that breaks one of the promises: force and
+/// torque never above their limits, their changes never faster than the slew limit allows, and
+/// rest, exactly, 50 ms after the last wrench that was to be felt.
+class TickWatch {
+ public:
+  /// Ticks the loop in time, and looks at what came of it.
+  TickRecord tick(HapticLoop& loop, int64_t now_ns);
+
+  /// The next tick of a loop, which ran under these limits. Its tick, monotonic_ns, found, playing,
+  /// device and commanded are looked at.
+  void see(const TickRecord& record, const SafetyLimits& limits);
+
+  /// Reads the trace of a loop that ran under `limits` all the time. Fails where there is none.
+  void see_trace(const std::string& path, const SafetyLimits& limits);
+
+ private:
+  void fail(const TickRecord& record, const std::string& what);
+
+  bool failed_ = false;  // one failure says it all
+  bool following_ = false;
+  TickRecord last_;
+  double largest_N_ = 0;  // limits that held once
+  double largest_Nm_ = 0;
+  double stopped_s_ = 0;
+};
+
+}  // namespace spidar::test
