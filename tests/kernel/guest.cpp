@@ -78,6 +78,10 @@ int main(int argc, char** argv) {
   }
   setenv("SPIDAR_PROFILE_PATH", "/profiles", 1);
   setenv("SPIDAR_GUARDIAN", "/spidar-guardian", 1);
+  setenv("GST_PLUGIN_PATH", "/plugins", 1);
+  setenv("GST_PLUGIN_SYSTEM_PATH", "/plugins", 1);
+  setenv("GST_REGISTRY", "/tmp/registry.bin", 1);
+  setenv("GST_REGISTRY_FORK", "no", 1);
   testing::InitGoogleTest(&argc, argv);
   end_machine(make_linux() && RUN_ALL_TESTS() == 0 ? 0 : 1);
 }

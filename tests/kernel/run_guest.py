@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs the tests of GUEST as the only program of a virtual machine with Debian's kernel.
 
-run_guest.py GUEST PROFILES PROGRAM...: PROFILES is a folder, programs lie beside GUEST in the machine. No
-rights and no USB are needed; the processor is emulated. Exit status: that of the tests; 77 when QEMU or a
+run_guest.py GUEST --profiles FOLDER --programs FILE... --plugins FILE...: programs lie beside GUEST in the
+machine, plugins of GStreamer in /plugins. No rights and no USB are needed; the processor is emulated. Exit status: that of the tests; 77 when QEMU or a
 kernel is missing.
 
 The kernel is the newest in /boot that has a folder in /lib/modules, or in $SPIDAR_TEST_KERNEL: a folder
@@ -106,18 +106,17 @@ class Archive:
         return bytes(self.bytes)
 
 
-def make_initramfs(guest, profiles, programs, modules):
+def make_initramfs(arguments, modules):
+    files = {"init": arguments.guest}
+    files |= {Path(program).name: program for program in arguments.programs}
+    files |= {"plugins/" + Path(plugin).name: plugin for plugin in arguments.plugins}
+    for file in list(files.values()):
+        files |= libraries_of(file)
+    files |= {"profiles/" + file.name: file for file in Path(arguments.profiles).glob("*.toml")}
     archive = Archive()
     archive.add_console()
-    archive.add("init", Path(guest).read_bytes())
-    files = libraries_of(guest)
-    for program in programs:
-        archive.add(Path(program).name, Path(program).read_bytes())
-        files |= libraries_of(program)
     for name, file in files.items():
         archive.add(name, Path(file).read_bytes())
-    for profile in sorted(Path(profiles).glob("*.toml")):
-        archive.add("profiles/" + profile.name, profile.read_bytes())
     for name, file in modules.items():
         data = file.read_bytes()
         archive.add(f"modules/{name}.ko", lzma.decompress(data) if file.suffix == ".xz" else data)
@@ -125,9 +124,10 @@ def make_initramfs(guest, profiles, programs, modules):
 
 
 def run(image, initramfs):
-    """QEMU's exit status. One processor: emulated ones wait for each other."""
+    """QEMU's exit status. One processor: emulated ones wait for each other. Time in the machine is counted in
+    instructions (two nanoseconds each): a host that is busy makes nothing late in it."""
     command = (
-        f"{QEMU} -accel tcg -M pc -cpu max -smp 1 -m 384 -nodefaults -display none -serial stdio -no-reboot "
+        f"{QEMU} -accel tcg -M pc -cpu max -smp 1 -icount shift=1,sleep=off -m 512 -nodefaults -display none -serial stdio -no-reboot "
         f"-device isa-debug-exit,{EXIT_PORT}"
     ).split()
     command += ["-kernel", str(image), "-initrd", initramfs]
@@ -142,8 +142,9 @@ def run(image, initramfs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("guest")
-    parser.add_argument("profiles")
-    parser.add_argument("programs", nargs="*")
+    parser.add_argument("--profiles", required=True)
+    parser.add_argument("--programs", nargs="*", default=[])
+    parser.add_argument("--plugins", nargs="*", default=[])
     arguments = parser.parse_args()
     root = Path(os.environ.get("SPIDAR_TEST_KERNEL", "/"))
     if why := missing(root):
@@ -151,7 +152,7 @@ def main():
         return SKIPPED
     image, modules = find_kernel(root)
     with tempfile.NamedTemporaryFile(suffix=".cpio") as file:
-        file.write(make_initramfs(arguments.guest, arguments.profiles, arguments.programs, modules))
+        file.write(make_initramfs(arguments, modules))
         file.flush()
         print(f"kernel {image.name}, initramfs of {file.tell() / 1e6:.1f} MB", flush=True)
         begin = time.monotonic()
