@@ -2,8 +2,8 @@
 """Runs the tests of GUEST as the only program of a virtual machine with Debian's kernel.
 
 run_guest.py GUEST --profiles FOLDER --programs FILE... --plugins FILE...: programs lie beside GUEST in the
-machine, plugins of GStreamer in /plugins. No rights and no USB are needed; the processor is emulated. Exit status: that of the tests; 77 when QEMU or a
-kernel is missing.
+machine, plugins of GStreamer in /plugins. No rights and no USB are needed; the processor is emulated. Exit
+status: that of the tests; 77 when QEMU or a kernel is missing.
 
 The kernel is the newest in /boot that has a folder in /lib/modules, or in $SPIDAR_TEST_KERNEL: a folder
 into which Debian's package was unpacked."""
@@ -127,7 +127,8 @@ def run(image, initramfs):
     """QEMU's exit status. One processor: emulated ones wait for each other. Time in the machine is counted in
     instructions (two nanoseconds each): a host that is busy makes nothing late in it."""
     command = (
-        f"{QEMU} -accel tcg -M pc -cpu max -smp 1 -icount shift=1,sleep=off -m 512 -nodefaults -display none -serial stdio -no-reboot "
+        f"{QEMU} -accel tcg -M pc -cpu max -smp 1 -icount shift=1,sleep=off -m 512 -nodefaults -display none "
+        f"-serial stdio -no-reboot "
         f"-device isa-debug-exit,{EXIT_PORT}"
     ).split()
     command += ["-kernel", str(image), "-initrd", initramfs]
