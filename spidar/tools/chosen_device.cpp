@@ -3,6 +3,18 @@
 #include "spidar/device_factory.h"
 
 namespace spidar {
+namespace {
+
+bool can_drive(const std::string& device, const Profile& profile) {
+  try {
+    make_device(device, profile);
+    return true;
+  } catch (const DeviceError&) {
+    return false;
+  }
+}
+
+}  // namespace
 
 ChosenDevice choose_device(const DeviceOptions& options, CountZero count_zero) {
   ChosenDevice chosen;
@@ -24,6 +36,11 @@ void require_strings(const BoardInfo& board, const std::string& command) {
   if (!board.has_strings)
     throw DeviceError(board.device + ": " + command +
                       " is for devices with strings and encoders; this one has neither");
+}
+
+bool can_reverse(const std::string& device, Profile profile) {
+  profile.drives[0].motor_sign = -1;
+  return can_drive(device, profile);
 }
 
 }  // namespace spidar

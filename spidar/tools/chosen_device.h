@@ -25,4 +25,8 @@ ChosenDevice choose_device(const DeviceOptions& options,
 /// Throws DeviceError that says that `command` is for strings when the board has none.
 void require_strings(const BoardInfo& board, const std::string& command);
 
+/// The device can put out negative volts. Boards from zero volts cannot: they refuse such a
+/// profile.
+bool can_reverse(const std::string& device, Profile profile);
+
 }  // namespace spidar

@@ -7,6 +7,7 @@ namespace spidar {
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
 
 int calibrate_command(int argc, char** argv);
+int conformance_command(int argc, char** argv);
 int info_command(int argc, char** argv);
 int list_command(int argc, char** argv);
 int monitor_command(int argc, char** argv);

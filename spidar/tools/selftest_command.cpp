@@ -1,14 +1,11 @@
 #include <iostream>
-#include <stdexcept>
 #include <string>
-#include <utility>
 
-#include "spidar/device_factory.h"
-#include "spidar/emulation/miswired_device.h"
 #include "spidar/profile_writer.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/selftest_report.h"
+#include "spidar/tools/sim_wiring.h"
 #include "spidar/tools/terminal.h"
 #include "spidar/wiring/wiring_answers.h"
 #include "spidar/wiring/wiring_report.h"
@@ -48,49 +45,20 @@ struct SelftestOptions {
 
 SelftestOptions parse(int argc, char** argv) {
   SelftestOptions options;
-  options.common = parse_device_options(
-      argc, argv,
-      {{"newton", true,
-        [&](const std::string& text) {
-          options.newton = parse_number("--newton", text, 0.1, 2, "N");
-        }},
-       {"write-profile", true,
-        [&](const std::string& text) {
-          options.output = parse_profile_file("--write-profile", text);
-        }},
-       {"yes", false, [&](const std::string&) { options.yes = true; }},
-       json_option(options.json),
-       {"sim-wiring", true, [&](const std::string& text) { options.sim_wiring = text; }}});
-  const std::string& device = options.common.device;
-  if (!options.sim_wiring.empty() && !options.common.help && device != "sim" &&
-      device.compare(0, 4, "sim:") != 0)
-    throw UsageError("--sim-wiring is for simulated devices, not " + device);
+  options.common =
+      parse_device_options(argc, argv,
+                           {{"newton", true,
+                             [&](const std::string& text) {
+                               options.newton = parse_number("--newton", text, 0.1, 2, "N");
+                             }},
+                            {"write-profile", true,
+                             [&](const std::string& text) {
+                               options.output = parse_profile_file("--write-profile", text);
+                             }},
+                            {"yes", false, [&](const std::string&) { options.yes = true; }},
+                            json_option(options.json),
+                            sim_wiring_option(options.sim_wiring)});
   return options;
-}
-
-bool can_drive(const std::string& device, const Profile& profile) {
-  try {
-    make_device(device, profile);
-    return true;
-  } catch (const DeviceError&) {
-    return false;
-  }
-}
-
-/// Boards from zero volts cannot: they refuse such a profile.
-bool can_reverse(const std::string& device, Profile profile) {
-  profile.drives[0].motor_sign = -1;
-  return can_drive(device, profile);
-}
-
-void miswire(const std::string& faults, ChosenDevice& chosen) {
-  if (faults.empty()) return;
-  try {
-    const Miswiring wiring = parse_miswiring(faults, chosen.profile.geometry.count);
-    chosen.device = make_miswired(std::move(chosen.device), wiring);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--sim-wiring: ") + error.what());
-  }
 }
 
 void write(const SelftestOptions& options, const Profile& profile, const WiringReport& report) {
@@ -115,10 +83,9 @@ int selftest_command(int argc, char** argv) {
   }
   ChosenDevice chosen = choose_device(options.common);
   require_strings(chosen.board, "selftest");
-  miswire(options.sim_wiring, chosen);
+  miswire(options.sim_wiring, options.common.device, chosen);
   if (!options.output.empty()) check_folder_of(options.output);
-  const bool simulated = options.common.device.compare(0, 3, "sim") == 0;
-  if (!options.yes && !simulated &&
+  if (!options.yes && !is_simulated(options.common.device) &&
       !confirm("Pull the strings of " + chosen.device->name() +
                " one after the other? The grip will move; hold it at the centre, loosely.")) {
     std::cerr << "nothing was pulled\n";

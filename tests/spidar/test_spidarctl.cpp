@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
@@ -67,7 +68,9 @@ TEST(Spidarctl, HelpAndListSucceed) {
 
 TEST(Spidarctl, WrongUsageIsNamed) {
   const std::pair<const char*, const char*> cases[] = {
-      {"", "commands are list, info, monitor, rest, zero, pull, selftest, calibrate"},
+      {"",
+       "commands are list, info, monitor, rest, zero, pull, selftest, conformance, "
+       "calibrate"},
       {"dance", "dance is not a command"},
       {"list me", "me: list takes no arguments"},
       {"info", "no DEVICE given"},
@@ -88,6 +91,9 @@ TEST(Spidarctl, WrongUsageIsNamed) {
       {"selftest sim --write-profile mine", "must end in .toml"},
       {"selftest sim --sim-wiring swap:1", "is not a wiring fault"},
       {"selftest usb --sim-wiring cut-motor:1", "is for simulated devices"},
+      {"conformance sim:sh4 --seconds 0", "must be from 0.1 to 600 s"},
+      {"conformance usb </dev/null", "no terminal to ask on"},
+      {"conformance usb --sim-wiring cut-motor:1", "is for simulated devices"},
       {"calibrate", "no DEVICE given"},
       {"calibrate sim sim", "one DEVICE only"},
       {"calibrate sim --move x", "--move: \"x\" is not a number"},
@@ -117,6 +123,7 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
       {"monitor sim:sh4 --profile spidar-gcc", "wants negative volts"},
       {"zero uart:/no/such/line", "/no/such/line"},
       {"selftest sim --write-profile /no/such/folder/a.toml", "cannot be written"},
+      {"conformance sim --report /no/such/folder/a.txt", "cannot be written"},
       {"calibrate sim --profile nobody", "unknown profile \"nobody\""},
       {"calibrate sim --output /no/such/folder/a.toml", "cannot be written"},
   };
@@ -246,6 +253,40 @@ TEST(Spidarctl, SelftestWritesHowTheDeviceIsWired) {
   EXPECT_EQ(written.geometry.exit_m[6], given.geometry.exit_m[1]);
   EXPECT_EQ(written.drives[0].motor_sign, -given.drives[0].motor_sign);
   EXPECT_EQ(written.drives[3].encoder_sign, -given.drives[3].encoder_sign);
+}
+
+TEST(Spidarctl, ConformanceWritesAReportToSendIn) {
+  const OutputFile file;
+  const Outcome outcome = run("conformance sim:sh4 --seconds 0.1 --report " + file.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  expect_contains(outcome.text, "conforms; written: " + file.path());
+  std::stringstream report;
+  report << std::ifstream(file.path()).rdbuf();
+  for (const char* line :
+       {"opened as   CyVerse USB 2.0 SH4, rotary switch 0\n", "faults      none\n",
+        "inputs      0x0000, changed 0x0000\n", "wiring: as in the profile\n",
+        "link        conforms\n", "counters    8 of 8 moved\n", "motors      conform\n"})
+    expect_contains(report.str(), line);
+}
+
+TEST(Spidarctl, ConformanceReportsWhatIsNotRight) {
+  const Outcome wired = run("conformance sim:uart --seconds 0.1 --sim-wiring 'reverse-encoder:3'");
+  EXPECT_EQ(wired.status, 1);
+  expect_contains(wired.text, "encoder 3 is reversed\n");
+  expect_contains(wired.text, "motors      do not conform\n");
+  // Whether this machine has no USB or only no board: nothing is plugged in.
+  const Outcome gone = run("conformance usb:no-such-board --no-pull");
+  EXPECT_EQ(gone.status, 1);
+  expect_contains(gone.text, "ended by    usb");
+  expect_contains(gone.text, "link        does not conform\n");
+}
+
+// The motors stay at zero: nothing moves, which is no fault.
+TEST(Spidarctl, ConformanceWithoutPullsLeavesTheMotorsAtZero) {
+  const Outcome outcome = run("conformance sim:simple --no-pull --seconds 0.1");
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  expect_contains(outcome.text, "counters    0 of 8 moved\nmotors      not tried\n");
+  EXPECT_EQ(run("conformance sim:mouse --seconds 0.1").status, 0);
 }
 
 // Interrupted when it has begun, however long that takes.

@@ -39,6 +39,14 @@ class ChildProcess {
     process_ = -1;
   }
 
+  /// Its exit status when it has ended by itself; −1 when a signal ended it.
+  int wait() {
+    int status = -1;
+    waitpid(process_, &status, 0);
+    process_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
   /// It has not ended by itself.
   bool lives() {
     if (process_ > 0 && waitpid(process_, nullptr, WNOHANG) != 0) process_ = -1;

@@ -1,0 +1,138 @@
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <utility>
+
+#include "spidar/haptic_loop.h"
+#include "spidar/tools/chosen_device.h"
+#include "spidar/tools/commands.h"
+#include "spidar/tools/conformance_report.h"
+#include "spidar/tools/sim_wiring.h"
+#include "spidar/tools/terminal.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kHelp = R"(usage: spidarctl conformance DEVICE [OPTION]...
+
+Tries a board as far as this program knows how, and writes a report to send in: what it says it is, a
+thousand exchanges a second while you move the grip and press what can be pressed, and, as selftest
+does, how its encoders answer small pulls of each motor. The report has the board's serial number and
+this system's kernel version, and nothing else of you.
+
+  --report FILE         write the report there; without, to standard output
+  --seconds S           move the grip for so long, 0.1 to 600 (default 10)
+  --newton N            pull by so much above the smallest tension, 0.1 to 2 (default 0.5)
+  --no-pull             leave the motors at zero all the time
+  --yes                 do not ask
+  --profile NAME        profile of the device, a name or a file
+  --sim-wiring FAULTS   simulated device: see selftest
+  --help
+
+Exit status: 0 conforms, as far as it was tried, 1 does not, or no device, 2 wrong usage, 130
+interrupted.
+)";
+
+struct ConformanceOptions {
+  DeviceOptions common;
+  double seconds = 10;
+  double newton = 0.5;
+  std::string report;
+  std::string sim_wiring;
+  bool pull = true;
+  bool yes = false;
+};
+
+ConformanceOptions parse(int argc, char** argv) {
+  ConformanceOptions options;
+  const auto number = [](const char* name, double& into, double min, double max, const char* unit) {
+    return CommandOption{name, true, [=, &into](const std::string& text) {
+                           into = parse_number(std::string("--") + name, text, min, max, unit);
+                         }};
+  };
+  options.common = parse_device_options(
+      argc, argv,
+      {{"report", true, [&](const std::string& text) { options.report = text; }},
+       number("seconds", options.seconds, 0.1, 600, "s"),
+       number("newton", options.newton, 0.1, 2, "N"),
+       {"no-pull", false, [&](const std::string&) { options.pull = false; }},
+       {"yes", false, [&](const std::string&) { options.yes = true; }},
+       sim_wiring_option(options.sim_wiring)});
+  return options;
+}
+
+/// The motors may be energised.
+bool may_pull(const ConformanceOptions& options, const ChosenDevice& chosen) {
+  if (!options.pull || !chosen.board.has_strings) return false;
+  return options.yes || is_simulated(options.common.device) ||
+         confirm("Hold the strings of " + chosen.board.device +
+                 " taut while you move the grip, and then pull one after the other? The grip will "
+                 "move; without, the motors stay at zero.");
+}
+
+/// False when interrupted.
+bool watch(Device& device, const Profile& profile, double seconds, bool taut) {
+  StringHold hold(device, profile, every_millisecond());
+  std::cerr << "Move and turn the grip in every direction, and press what can be pressed, for "
+            << seconds << " s.\n";
+  const bool complete =
+      (!taut || hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s)) && hold.stay(seconds);
+  hold.release();
+  return complete;
+}
+
+/// False when interrupted.
+bool pull(Device& device, const ConformanceOptions& options, Conformance& found) {
+  std::cerr << "Hold the grip at the centre, loosely: string after string is pulled.\n";
+  WiringTestSettings settings;
+  settings.pull_N = options.newton;
+  settings.try_reversed = can_reverse(options.common.device, found.profile);
+  found.answers = ask_wiring(device, found.profile, every_millisecond(), settings);
+  if (found.answers.complete) found.wiring = judge_wiring(found.profile, found.answers);
+  return found.answers.complete;
+}
+
+void write(const std::string& file, const Conformance& found) {
+  if (file.empty()) {
+    print_conformance(std::cout, found, SPIDAR_VERSION);
+    return;
+  }
+  std::ofstream out(file);
+  print_conformance(out, found, SPIDAR_VERSION);
+  if (!out.flush()) throw DeviceError(file + ": cannot be written");
+  std::cerr << (found.conforms() ? "conforms" : "does not conform") << "; written: " << file
+            << '\n';
+}
+
+}  // namespace
+
+int conformance_command(int argc, char** argv) {
+  const ConformanceOptions options = parse(argc, argv);
+  if (options.common.help) {
+    std::cout << kHelp;
+    return kDone;
+  }
+  ChosenDevice chosen = choose_device(options.common);
+  miswire(options.sim_wiring, options.common.device, chosen);
+  if (!options.report.empty()) check_folder_of(options.report);
+  const bool pulls = may_pull(options, chosen);
+  catch_signals();
+  ObservedDevice device(std::move(chosen.device));
+  Conformance found{chosen.board, chosen.profile, device.seen(), {}, {}, {}, {}};
+  try {
+    if (!watch(device, chosen.profile, options.seconds, pulls) ||
+        (pulls && !pull(device, options, found))) {
+      std::cerr << "interrupted; the strings are released, no report is written\n";
+      return kInterrupted;
+    }
+  } catch (const DeviceError& error) {
+    // What a report is for most of all.
+    found.trouble = error.what();
+    std::cerr << found.trouble << '\n';
+  }
+  found.health = device.health();
+  write(options.report, found);
+  return found.conforms() ? kDone : kFailed;
+}
+
+}  // namespace spidar

@@ -1,0 +1,136 @@
+#include "spidar/tools/conformance_report.h"
+
+#include <cstdio>
+#include <ctime>
+#include <iomanip>
+#include <ostream>
+#include <sys/utsname.h>
+
+#include "spidar/tools/selftest_report.h"
+
+namespace spidar {
+namespace {
+
+std::string now_utc() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &utc);
+  return text;
+}
+
+std::string system_name() {
+  utsname name{};
+  uname(&name);
+  return std::string(name.sysname) + " " + name.release + " " + name.machine;
+}
+
+/// Nothing when there is no text.
+void line(std::ostream& out, const char* name, const std::string& text) {
+  if (!text.empty()) out << std::left << std::setw(12) << name << std::right << text << '\n';
+}
+
+std::string hexadecimal(uint32_t bits) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%04x", bits);
+  return text;
+}
+
+std::string quantiles(const LatencyHistogram& histogram) {
+  const auto us = [](int64_t ns) { return std::to_string(ns / 1000) + " us "; };
+  return us(histogram.quantile_ns(0.5)) + "median, " + us(histogram.quantile_ns(0.99)) + "99 %, " +
+         us(histogram.max_ns()) + "at most";
+}
+
+std::string faults(const LinkHealth& health) {
+  std::string text;
+  for (size_t i = 1; i < kLinkFaults; ++i) {
+    if (health.faults[i] == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(health.faults[i]) + " " +
+            to_string(static_cast<LinkFault>(i));
+  }
+  return text.empty() ? "none" : text;
+}
+
+void print_identity(std::ostream& out, const Conformance& found, const std::string& version) {
+  const BoardInfo& board = found.board;
+  line(out, "date", now_utc());
+  line(out, "program", "spidarctl " + version);
+  line(out, "system", system_name());
+  line(out, "device", board.device);
+  line(out, "board", board.name);
+  line(out, "opened as", found.seen.description);
+  line(out, "usb id", board.usb_id);
+  line(out, "path", board.path);
+  line(out, "serial", board.serial);
+  line(out, "evidence",
+       to_string(board.trial) + (board.note.empty() ? std::string() : "; " + board.note));
+  line(out, "profile", found.profile.name + ": " + found.profile.description);
+}
+
+void print_counters(std::ostream& out, const Conformance& found) {
+  out << "  counter   smallest    largest  largest step\n";
+  for (int i = 0; i < found.profile.geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    out << "  " << std::setw(7) << i << std::setw(11) << found.seen.smallest[k] << std::setw(11)
+        << found.seen.largest[k] << std::setw(14) << found.seen.largest_step[k] << '\n';
+  }
+}
+
+void print_answers(std::ostream& out, const Conformance& found) {
+  const Observation& seen = found.seen;
+  line(out, "period", quantiles(seen.period));
+  line(out, "round trip", quantiles(seen.duration));
+  line(out, "inputs", hexadecimal(seen.inputs) + ", changed " + hexadecimal(seen.changed_inputs));
+  if (!found.board.has_strings) return;
+  out << '\n';
+  print_counters(out, found);
+}
+
+int moved_counters(const Conformance& found) {
+  int moved = 0;
+  for (size_t i = 0; i < static_cast<size_t>(found.profile.geometry.count); ++i)
+    moved += found.seen.largest[i] != found.seen.smallest[i] ? 1 : 0;
+  return moved;
+}
+
+}  // namespace
+
+bool Conformance::link_conforms() const noexcept {
+  const uint64_t unanswered = seen.exchanges - seen.answered;
+  return trouble.empty() && seen.answered > 0 && health.errors() == 0 &&
+         1000 * unanswered <= seen.exchanges;
+}
+
+bool Conformance::conforms() const noexcept {
+  return link_conforms() && (!wiring || wiring->as_profile());
+}
+
+void print_conformance(std::ostream& out, const Conformance& found, const std::string& version) {
+  const Observation& seen = found.seen;
+  out << "SPIDAR conformance report\n\n";
+  print_identity(out, found, version);
+  out << '\n';
+  line(out, "exchanges",
+       std::to_string(seen.exchanges) + ", " + std::to_string(seen.answered) + " answered");
+  line(out, "faults", faults(found.health));
+  line(out, "ended by", found.trouble);
+  if (seen.answered > 0) print_answers(out, found);
+  out << '\n';
+  if (found.wiring) {
+    print_wiring(out, found.profile, found.answers, *found.wiring);
+    out << '\n';
+  }
+  line(out, "link", found.link_conforms() ? "conforms" : "does not conform");
+  if (found.board.has_strings)
+    line(out, "counters",
+         std::to_string(moved_counters(found)) + " of " +
+             std::to_string(found.profile.geometry.count) + " moved");
+  line(out, "motors",
+       !found.wiring                ? "not tried"
+       : found.wiring->as_profile() ? "conform"
+                                    : "do not conform");
+}
+
+}  // namespace spidar

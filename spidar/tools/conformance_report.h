@@ -1,0 +1,34 @@
+/// What `spidarctl conformance` found, as a text to send in.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "spidar/boards/board_list.h"
+#include "spidar/tools/observed_device.h"
+#include "spidar/wiring/wiring_answers.h"
+#include "spidar/wiring/wiring_report.h"
+
+namespace spidar {
+
+struct Conformance {
+  BoardInfo board;
+  const Profile& profile;
+  const Observation& seen;
+  LinkHealth health;
+  WiringAnswers answers;
+  std::optional<WiringReport> wiring;  ///< none: no string was pulled
+  std::string trouble;                 ///< why it ended before its end; may be empty
+
+  /// Of a thousand exchanges one may have had no answer in time, as the host's scheduling has it;
+  /// nothing else may go wrong.
+  bool link_conforms() const noexcept;
+  /// All is as it should be, as far as it was tried.
+  bool conforms() const noexcept;
+};
+
+/// `version`: of the program that writes it.
+void print_conformance(std::ostream& out, const Conformance& found, const std::string& version);
+
+}  // namespace spidar

@@ -1,0 +1,45 @@
+#include "spidar/tools/observed_device.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "spidar/monotonic.h"
+
+namespace spidar {
+
+void ObservedDevice::open() {
+  device_->open();
+  seen_.description = device_->description();
+  last_begin_ns_ = 0;
+}
+
+ExchangeStatus ObservedDevice::exchange(const MotorVolts& volts, DeviceReading& reading) noexcept {
+  const int64_t begin_ns = monotonic_now_ns();
+  const ExchangeStatus status = device_->exchange(volts, reading);
+  if (last_begin_ns_ != 0) seen_.period.add(begin_ns - last_begin_ns_);
+  last_begin_ns_ = begin_ns;
+  ++seen_.exchanges;
+  if (status != ExchangeStatus::kOk) return status;
+  seen_.duration.add(monotonic_now_ns() - begin_ns);
+  look_at(reading);
+  return status;
+}
+
+void ObservedDevice::look_at(const DeviceReading& reading) noexcept {
+  if (seen_.answered++ == 0) {
+    seen_.smallest = seen_.largest = reading.count;
+    seen_.inputs = reading.inputs;
+    last_ = reading;
+  }
+  for (size_t i = 0; i < kMaxStrings; ++i) {
+    const int32_t count = reading.count[i];
+    seen_.smallest[i] = std::min(seen_.smallest[i], count);
+    seen_.largest[i] = std::max(seen_.largest[i], count);
+    const int64_t step = std::abs(int64_t{count} - last_.count[i]);
+    seen_.largest_step[i] = std::max(seen_.largest_step[i], step);
+  }
+  seen_.changed_inputs |= reading.inputs ^ seen_.inputs;
+  last_ = reading;
+}
+
+}  // namespace spidar

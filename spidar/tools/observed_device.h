@@ -1,0 +1,52 @@
+/// A device whose exchanges are looked at.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "spidar/device.h"
+#include "spidar/latency_histogram.h"
+
+namespace spidar {
+
+/// What a device did in all the time that it was open.
+struct Observation {
+  std::string description;  ///< as it was opened last
+  uint64_t exchanges = 0;
+  uint64_t answered = 0;
+  LatencyHistogram duration;  ///< of an exchange
+  LatencyHistogram period;    ///< from one exchange to the next, while it stayed open
+  std::array<int32_t, kMaxStrings> smallest{};
+  std::array<int32_t, kMaxStrings> largest{};
+  std::array<int64_t, kMaxStrings> largest_step{};  ///< between two answers, either way
+  uint32_t inputs = 0;                              ///< of the first answer
+  uint32_t changed_inputs = 0;                      ///< those that were different at some time
+};
+
+/// Does what the device does. One thread.
+class ObservedDevice final : public Device {
+ public:
+  explicit ObservedDevice(std::unique_ptr<Device> device) : device_(std::move(device)) {}
+
+  void open() override;
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
+  void close() noexcept override { device_->close(); }
+  bool clear_counters() override { return device_->clear_counters(); }
+  std::string description() const override { return device_->description(); }
+  LinkHealth health() const noexcept override { return device_->health(); }
+  const std::string& name() const noexcept override { return device_->name(); }
+
+  const Observation& seen() const noexcept { return seen_; }
+
+ private:
+  void look_at(const DeviceReading& reading) noexcept;
+
+  const std::unique_ptr<Device> device_;
+  Observation seen_;
+  DeviceReading last_;
+  int64_t last_begin_ns_ = 0;  // 0: none since it was opened
+};
+
+}  // namespace spidar

@@ -1,0 +1,30 @@
+#include "spidar/tools/sim_wiring.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "spidar/emulation/miswired_device.h"
+
+namespace spidar {
+
+bool is_simulated(const std::string& device) {
+  return device == "sim" || device.compare(0, 4, "sim:") == 0;
+}
+
+CommandOption sim_wiring_option(std::string& faults) {
+  return {"sim-wiring", true, [&faults](const std::string& text) { faults = text; }};
+}
+
+void miswire(const std::string& faults, const std::string& device, ChosenDevice& chosen) {
+  if (faults.empty()) return;
+  if (!is_simulated(device))
+    throw UsageError("--sim-wiring is for simulated devices, not " + device);
+  try {
+    const Miswiring wiring = parse_miswiring(faults, chosen.profile.geometry.count);
+    chosen.device = make_miswired(std::move(chosen.device), wiring);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--sim-wiring: ") + error.what());
+  }
+}
+
+}  // namespace spidar

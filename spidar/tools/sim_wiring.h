@@ -1,0 +1,19 @@
+/// Simulated devices that are wired otherwise than their profile says.
+#pragma once
+
+#include <string>
+
+#include "spidar/tools/chosen_device.h"
+
+namespace spidar {
+
+bool is_simulated(const std::string& device);
+
+/// --sim-wiring for `options`. Outlived by `faults`.
+CommandOption sim_wiring_option(std::string& faults);
+
+/// Nothing when `faults` is empty. Throws UsageError when it is not understood, or the device is
+/// not simulated.
+void miswire(const std::string& faults, const std::string& device, ChosenDevice& chosen);
+
+}  // namespace spidar

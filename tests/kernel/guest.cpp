@@ -1,0 +1,87 @@
+/// The first and only program of the virtual machine: makes it a Linux with a virtual USB host
+/// controller, and runs the tests in it. What run_guest.py puts into its root is all there is.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <string>
+#include <sys/io.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "spidar/device_factory.h"
+
+namespace {
+
+/// Port of QEMU's isa-debug-exit, as on the command line of run_guest.py.
+constexpr unsigned short kExitPort = 0xF4;
+
+bool done(int result, const char* what) {
+  if (result != 0) std::perror(what);
+  return result == 0;
+}
+
+bool mount_at(const char* type, const char* path) {
+  mkdir(path, 0755);
+  return done(mount(type, path, type, 0, nullptr), path);
+}
+
+/// In the order in which they need each other.
+bool load_modules() {
+  for (const std::string name : {"usb-common", "usbcore", "usbip-core", "vhci-hcd"}) {
+    const std::string path = "/modules/" + name + ".ko";
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool loaded =
+        done(static_cast<int>(syscall(SYS_finit_module, file, "", 0)), path.c_str());
+    close(file);
+    if (!loaded) return false;
+  }
+  return true;
+}
+
+bool make_linux() {
+  return mount_at("proc", "/proc") && mount_at("sysfs", "/sys") && mount_at("devtmpfs", "/dev") &&
+         mount_at("tmpfs", "/tmp") && load_modules();
+}
+
+/// The machine ends with the status 2 · result + 1.
+[[noreturn]] void end_machine(int result) {
+  std::fflush(nullptr);
+  tcdrain(STDOUT_FILENO);
+  if (ioperm(kExitPort, 1, 1) == 0) outb(static_cast<unsigned char>(result), kExitPort);
+  _exit(result);
+}
+
+/// Pulls until it is killed.
+[[noreturn]] void pull_for_ever(const char* profile) {
+  const auto device = spidar::make_device("usb", spidar::load_profile(profile));
+  device->open();
+  spidar::MotorVolts volts;
+  volts.volt.fill(1);
+  spidar::DeviceReading reading;
+  for (;;) device->exchange(volts, reading);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 3 && std::strcmp(argv[1], "--pull") == 0) pull_for_ever(argv[2]);
+  if (getpid() != 1) {
+    std::fputs("this is the first program of a virtual machine; see tests/kernel/run_guest.py\n",
+               stderr);
+    return 2;
+  }
+  setenv("SPIDAR_PROFILE_PATH", "/profiles", 1);
+  setenv("SPIDAR_GUARDIAN", "/spidar-guardian", 1);
+  setenv("GST_PLUGIN_PATH", "/plugins", 1);
+  setenv("GST_PLUGIN_SYSTEM_PATH", "/plugins", 1);
+  setenv("GST_REGISTRY", "/tmp/registry.bin", 1);
+  setenv("GST_REGISTRY_FORK", "no", 1);
+  testing::InitGoogleTest(&argc, argv);
+  end_machine(make_linux() && RUN_ALL_TESTS() == 0 ? 0 : 1);
+}

@@ -1,0 +1,194 @@
+/// The driver with a real kernel's USB between it and the board. Waits for things to happen, never
+/// for a time.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <thread>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/board_list.h"
+#include "spidar/boards/digits.h"
+#include "spidar/device_factory.h"
+#include "spidar/haptic_session.h"
+#include "tests/kernel/usbip_board.h"
+#include "tests/support/child_process.h"
+#include "tests/support/recorded_motors.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr const char* kProfile = "spidar-g6x3-v2-r";
+constexpr int kExchanges = 5000;
+
+/// The test's own time limit is the only one.
+void wait_for(const std::function<bool()>& happened) {
+  while (!happened()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+bool listed() {
+  for (const BoardInfo& board : list_boards())
+    if (board.serial == "EMULATED") return true;
+  return false;
+}
+
+/// A board in the machine's USB.
+class KernelUsb : public testing::Test {
+ protected:
+  void SetUp() override {
+    bench.inputs = 3 << 4;  // rotary switch
+    plug();
+  }
+  void TearDown() override {
+    board.unplug();
+    wait_for([] { return !listed(); });
+  }
+  void plug() {
+    board.plug();
+    wait_for(listed);
+  }
+
+  MotorBench bench;
+  RecordedMotors motors{bench};
+  UsbipBoard board{motors, "EMULATED"};
+  const Profile profile = load_profile(kProfile);
+};
+
+TEST_F(KernelUsb, BoardIsFoundByWhatTheKernelReadsFromIt) {
+  const auto device = make_device("usb:EMULATED", profile);
+  device->open();
+  EXPECT_NE(device->description().find("SH4, rotary switch 3"), std::string::npos)
+      << device->description();
+  device->close();
+  EXPECT_NO_THROW(make_device("usb:3", profile)->open());
+  EXPECT_THROW(make_device("usb:4", profile)->open(), DeviceError);
+}
+
+TEST_F(KernelUsb, ThousandsOfExchangesCarryVoltsAndCounts) {
+  BoardSettings settings;
+  settings.threaded = false;
+  const auto device = make_device("usb", profile, settings);
+  device->open();
+  const DacScale dac = unipolar_dac(profile);
+  MotorVolts volts;
+  DeviceReading reading;
+  for (int done = 0; done < kExchanges; ++done) {
+    const auto string = static_cast<size_t>(done) % kMaxStrings;
+    volts.volt[string] = 0.001 * (done % 1000);
+    bench.count[string] += 7;
+    ASSERT_EQ(device->exchange(volts, reading), ExchangeStatus::kOk) << "exchange " << done;
+    for (size_t i = 0; i < kMaxStrings; ++i) {
+      ASSERT_EQ(bench.digit[i], dac.digit(volts.volt[i])) << "exchange " << done;
+      ASSERT_EQ(reading.count[i], bench.count[i]) << "exchange " << done;
+    }
+  }
+  const LinkHealth health = device->health();
+  EXPECT_EQ(health.errors() + health.count(LinkFault::kTimeout), 0u);
+  device->close();
+  EXPECT_TRUE(bench.all_zero());
+}
+
+/// A session that plays; forces are those of a film that stands still.
+class KernelSession : public KernelUsb {
+ protected:
+  /// From now on, for ever.
+  void play(HapticSession& session, double force_x_N) {
+    PlaybackClock clock;
+    clock.monotonic_ns = HapticSession::monotonic_now_ns();
+    clock.playing = true;
+    session.loop().cancel_scheduled();
+    session.loop().set_playback_clock(clock);
+    TimedWrench wrench;
+    wrench.hold_ns = INT64_MAX / 4;
+    wrench.wrench.force_N.x() = force_x_N;
+    ASSERT_TRUE(session.loop().schedule(wrench));
+  }
+
+  /// The force is commanded, and the board puts out the tensions that make it.
+  bool pulls(const HapticSession& session, double force_x_N) const {
+    const TickRecord last = session.loop().snapshot().last;
+    if (last.device != DeviceState::kRunning ||
+        std::abs(last.commanded.force_N.x() - force_x_N) > 1e-9)
+      return false;
+    const MotorVolts volts = to_volts(last.tension_N, profile);
+    const DacScale dac = unipolar_dac(profile);
+    for (size_t i = 0; i < kMaxStrings; ++i)
+      if (bench.digit[i] != dac.digit(volts.volt[i])) return false;
+    // The grip is in the middle, where every force below the limit can be made; a solver's
+    // rounding.
+    return std::abs(last.delivered.force_N.x() - force_x_N) < 0.01;
+  }
+};
+
+TEST_F(KernelSession, ForcesOfAFilmReachTheMotors) {
+  {
+    HapticSession session(profile, make_device("usb", profile));
+    for (const double force_N : {1.0, -1.0, 0.5}) {
+      play(session, force_N);
+      wait_for([&] { return pulls(session, force_N); });
+    }
+  }
+  EXPECT_TRUE(bench.all_zero());
+}
+
+TEST_F(KernelSession, BoardPulledOutInMidTransferIsTakenBack) {
+  HapticSession session(profile, make_device("usb", profile));
+  play(session, 1);
+  wait_for([&] { return pulls(session, 1); });
+  for (int times = 1; times <= 3; ++times) {
+    board.unplug_in_transfer();
+    wait_for([&] { return session.loop().snapshot().last.device == DeviceState::kLost; });
+    board.unplug();
+    EXPECT_EQ(board.abandoned(), 1u);
+    const LinkHealth health = session.device().health();
+    EXPECT_GE(health.count(LinkFault::kGone) + health.count(LinkFault::kBusError),
+              static_cast<uint64_t>(times));
+    plug();
+    wait_for([&] { return pulls(session, 1); });
+    EXPECT_GE(session.loop().snapshot().counters.times_lost, static_cast<uint64_t>(times));
+  }
+}
+
+TEST_F(KernelUsb, GuardianZeroesTheMotorsWhenTheHostIsKilled) {
+  for (int times = 0; times < 3; ++times) {
+    ChildProcess victim({"/init", "--pull", kProfile});
+    wait_for([&] { return bench.digit[7] != 0 || !victim.lives(); });
+    ASSERT_TRUE(victim.lives());
+    victim.end(SIGKILL);
+    wait_for([&] { return bench.all_zero(); });
+  }
+}
+
+TEST_F(KernelUsb, FilmOfAPipelinePullsAlsoAfterItsBoardWasPulledOut) {
+  if (access("/gst-launch-1.0", X_OK) != 0) GTEST_SKIP() << "the plugin is not built";
+  // At rest, and on the way there, all strings have the same tension.
+  const auto pulls_to_a_side = [this] {
+    const auto [least, most] = std::minmax_element(bench.digit.begin(), bench.digit.end());
+    return *most - *least > 10;
+  };
+  ChildProcess launch({"/gst-launch-1.0", "-q", "--no-position", "videotestsrc", "pattern=ball",
+                       "!", "video/x-raw,width=160,height=120,framerate=30/1", "!", "spidarmotion",
+                       "device=usb", std::string("profile=") + kProfile, "!", "fakesink",
+                       "sync=true"});
+  wait_for([&] { return pulls_to_a_side() || !launch.lives(); });
+  ASSERT_TRUE(launch.lives());
+  board.unplug_in_transfer();
+  wait_for([] { return !listed(); });
+  for (auto& digit : bench.digit) digit = 0;
+  plug();
+  wait_for([&] { return pulls_to_a_side() || !launch.lives(); });
+  ASSERT_TRUE(launch.lives());
+  launch.end(SIGINT);
+  EXPECT_TRUE(bench.all_zero());
+}
+
+TEST_F(KernelUsb, SpidarctlFindsThatTheBoardConforms) {
+  ChildProcess spidarctl(
+      {"/spidarctl", "conformance", "usb:EMULATED", "--no-pull", "--seconds", "2"});
+  EXPECT_EQ(spidarctl.wait(), 0);
+}
+
+}  // namespace
+}  // namespace spidar::test
