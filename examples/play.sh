@@ -92,6 +92,8 @@ if [[ $needs_clip == yes ]]; then
     if clip=$(street_clip); then
         video=("$clip")
         options=(--seconds 20 "${options[@]}")
+        # The people are small; more points find more of them.
+        ((${#properties[@]})) || properties=(-- max-features=400)
     else
         echo "it cannot be had, perhaps for want of a network: playing a ball of videotestsrc"
         options+=(--ball)
