@@ -1,4 +1,4 @@
-/// Draws Fig. 6, 7, 8 and 10 of the paper: paper_figures FOLDER
+/// Draws Fig. 6 to 10 of the paper: paper_figures FOLDER
 ///
 /// A bouncing ball is rendered frame by frame, its motion is measured from the pictures as the
 /// element does, and both gain controllers turn it into force; beside each curve stands the one
@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
   }
   try {
     const StepError error = draw(argv[1]);
-    std::printf("drawn: fig6.png, fig7.png, fig8.png and fig10.png in %s\n", argv[1]);
+    std::printf("drawn: fig6.png to fig10.png in %s\n", argv[1]);
     std::printf("measured motion against the true one: %.4f px a frame rms, %.4f at most\n",
                 error.rms_px, error.largest_px);
   } catch (const std::exception& error) {

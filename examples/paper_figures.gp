@@ -1,4 +1,4 @@
-# Fig. 6, 7, 8 and 10 of the paper, drawn from a rendered bouncing ball into `folder`.
+# Fig. 6 to 10 of the paper, drawn from a rendered bouncing ball into `folder`.
 # paper_figures.cpp writes `measured` (a row a frame) and `analytic` (a row a millisecond) with the
 # columns: time, position, velocity, acceleration, k, linear force, nonlinear force; up is positive.
 # `gravity` is the scene's, in px/s².
@@ -59,3 +59,14 @@ do for [figure in "8 10"] {
     eval panel(linear ? 6 : 7)
     unset multiplot
 }
+
+eval start("fig9", 420)
+set rmargin at screen 0.84
+set title "Fig. 9: force of the nonlinear controller, (2 Fmax / π) atan(α V)" font ",14"
+set xlabel "speed V, px/s"
+set ylabel "force, N"
+plot analytic using (abs($3)):(abs($7)) with points pointtype 7 pointsize 0.2 \
+         linecolor rgb "#b0b0b0" title 'analytic', \
+     measured using (abs($3)):(abs($7)) with points linestyle 2 title 'measured'
+set rmargin
+unset title

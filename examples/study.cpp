@@ -107,7 +107,7 @@ Ending play(const Trial& trial, const Options& options) {
   if (trial.condition == Condition::kWithout) set_property(filter, "mute=true");
   const Screen screen = open_screen(options.headless);
   GstElement* const pipeline = make_player(uri_of(trial.clip), filter, screen);
-  const Ending ending = run_playback(pipeline, [&] { return "clip " + trial.code; });
+  const Ending ending = run_playback(pipeline, 0, [&] { return "clip " + trial.code; });
   gst_element_set_state(pipeline, GST_STATE_NULL);
   gst_object_unref(pipeline);
   gst_object_unref(filter);

@@ -48,6 +48,7 @@ struct PointFollower::Search {
   const GrayPyramid& before;
   const GrayPyramid& now;
   const Settings& settings;
+  bool has_history;  ///< some points have been followed before
 
   /// `gain` of 0: of each window its own.
   bool find(FollowedPoint& point, ImagePoint expected, int first_level, float gain,
@@ -81,10 +82,11 @@ struct PointFollower::Search {
            nearer_than(returned.to, point.at, reach_px);
   }
 
-  /// Refines with a larger window, and asks it about points that were found for the first time or
-  /// elsewhere: false when it does not see the same thing.
+  /// Refines with a larger window, and asks it about points that were found elsewhere, and about
+  /// all in the first frame, where none has a neighbour to agree with: false when it does not see
+  /// the same thing. A small object does not fill it, so that others are not asked about.
   bool look_wider(FollowedPoint& point, const SearchSettings& search) const {
-    const bool in_doubt = point.is_new || point.is_surprise;
+    const bool in_doubt = point.is_surprise || !has_history;
     if (!in_doubt && !settings.refines) return true;
     PointMatch wide;
     if (!refine_point(before, now, point.at, search, point.match, wide)) return true;
@@ -99,7 +101,9 @@ struct PointFollower::Search {
 
 void PointFollower::follow(const GrayPyramid& before, const GrayPyramid& now,
                            const Settings& settings, std::vector<FollowedPoint>& points) {
-  const Search search{before, now, settings};
+  const bool has_history = std::any_of(points.begin(), points.end(),
+                                       [](const FollowedPoint& point) { return !point.is_new; });
+  const Search search{before, now, settings, has_history};
   moved_x_.clear();
   moved_y_.clear();
   for (FollowedPoint& point : points) {
