@@ -21,9 +21,9 @@ enum class TrackerKind {
 
 /// How much time a frame may take, for kPatch.
 enum class TrackerQuality {
-  kFast,      ///< half the points, in the reduced picture only
+  kFast,      ///< in the reduced picture only, with small windows
   kBalanced,  ///< refined in the frame where it helps
-  kFine,      ///< as many points as are asked for
+  kFine,      ///< the same with more points everywhere and fewer where something moves
 };
 
 struct TrackerSettings {
