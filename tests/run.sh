@@ -75,6 +75,8 @@ case ${1-} in
         -t 4 --no-suite numerics --no-suite examples --no-suite kernel
     say "thread sanitizer: what runs on several threads; left out is the element, for GLib and GStreamer" \
         "are not built with it and their locks would be taken for races"
+    echo "left out of all three: suite kernel, a virtual machine that needs QEMU and a kernel image:" \
+        "meson test -C build --suite kernel"
     threaded=(haptic_session shared_memory simulated_faults tick_trace boards usb_boards uart_line guardian)
     targets=("${threaded[@]/#/tests/spidar/test_}" tests/examples/test_play_{numbers,traces})
     build_and_test build-ci-thread "${sanitized[@]}" \
