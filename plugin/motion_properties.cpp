@@ -23,11 +23,12 @@ GType quality_type() {
   static const GType type = [] {
     static const GEnumValue values[] = {
         {static_cast<int>(TrackerQuality::kFast),
-         "In the reduced picture only: two thirds of the time, 1.5 to 2 times the error", "fast"},
+         "In the reduced picture only: two thirds of balanced's time, 0.04 px (median, 720p)",
+         "fast"},
         {static_cast<int>(TrackerQuality::kBalanced),
          "Refined in the frame: 0.02 px (median, 720p)", "balanced"},
         {static_cast<int>(TrackerQuality::kFine),
-         "More points everywhere, fewer where something moves", "fine"},
+         "More points on the grid, fewer for what moves: 1.1 of balanced's time, 0.02 px", "fine"},
         {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionQuality", values);
   }();

@@ -11,6 +11,7 @@
 #include <gst/gst.h>
 
 #include "tests/support/picture.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/texture.h"
 
 namespace {
@@ -117,9 +118,8 @@ int main(int argc, char** argv) {
     }
     gst_object_unref(factory);
   }
-  std::string folder = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
-  if (!mkdtemp(folder.data())) return 1;
-  const std::string file = folder + "/clip.mp4";
+  const spidar::test::TemporaryFolder folder;
+  const std::string file = folder.path / "clip.mp4";
   if (!encode(file)) return 1;
 
   const double decode_ms = play_ms(file, "identity");
@@ -129,6 +129,5 @@ int main(int argc, char** argv) {
     const double ms = play_ms(file, filter) - decode_ms;
     std::printf("+ %-45s %.2f ms a frame, %.0f %% of decoding\n", filter, ms, 100 * ms / decode_ms);
   }
-  std::filesystem::remove_all(folder);
   return 0;
 }

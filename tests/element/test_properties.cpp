@@ -12,22 +12,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/element_harness.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
-
-/// A folder that goes when the test ends.
-struct TemporaryFolder {
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
-};
 
 GstElement* make_element(const char* properties) {
   init_gstreamer();
@@ -152,7 +143,7 @@ TEST(Properties, UnknownProfileIsAnErrorAtReady) {
 }
 
 TEST(Properties, UnreadableProfileIsAnErrorAtReady) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path / "broken.toml";
   std::ofstream(file) << "name = \"x\nrest = [1,";
   const std::string error = error_at_ready(("profile=" + file.string()).c_str());
@@ -164,7 +155,7 @@ TEST(Properties, GoodDeviceOpensAndCloses) {
 }
 
 TEST(Trace, HasAHeaderAndARowAFrame) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string file = (folder.path / "trace.csv").string();
   std::vector<MotionMessage> motions;
   {
