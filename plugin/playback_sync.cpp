@@ -74,7 +74,7 @@ PlaybackClock PlaybackSync::observe(GstElement* element) {
     fit();
   }
   result.monotonic_ns = monotonic_ns_;
-  result.running_ns = clock_ns_ - to_ns(base_time) - latency_ns_ - offset_ns_;
+  result.running_ns = clock_ns_ - to_ns(base_time) - latency_ns_ - offset_ns_ + skipped_ns_;
   result.rate = rate_;
   result.playing = true;
   return result;

@@ -41,6 +41,9 @@ class PlaybackSync {
   /// Signed; > 0: the force comes later.
   void set_offset(GstClockTimeDiff offset_ns) { offset_ns_ = offset_ns; }
 
+  /// What the sink has stepped over, and shows later frames earlier by.
+  void set_skipped(int64_t skipped_ns) { skipped_ns_ = skipped_ns; }
+
   /// Reads the element's clock and returns the line through what was read so far. A clock other
   /// than the system's reads with jitter, so the line is fitted; a jump starts it anew.
   PlaybackClock observe(GstElement* element);
@@ -64,6 +67,7 @@ class PlaybackSync {
   int64_t outdated_until_ns_ = 0;
   int64_t latency_ns_ = 0;
   int64_t offset_ns_ = 0;
+  int64_t skipped_ns_ = 0;
 
   // Readings (monotonic, clock) as gst_calculate_linear_regression() takes them.
   std::array<GstClockTime, 2 * kWindow> xy_{};
