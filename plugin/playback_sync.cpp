@@ -63,6 +63,7 @@ PlaybackClock PlaybackSync::observe(GstElement* element) {
     return result;
   }
   outdated_base_time_ = GST_CLOCK_TIME_NONE;
+  follow(clock);
   const GstClockTime time = gst_clock_get_time(clock);
   const int64_t after_ns = now_(now_user_);
   gst_object_unref(clock);

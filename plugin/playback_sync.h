@@ -57,6 +57,10 @@ class PlaybackSync {
     return GST_CLOCK_TIME_IS_VALID(t) ? static_cast<int64_t>(t) : 0;
   }
   void forget() { readings_ = 0; }
+  void follow(const GstClock* clock) {
+    if (clock != clock_) forget();
+    clock_ = clock;
+  }
   void add_reading(int64_t monotonic_ns, int64_t clock_ns);
   void fit();
 
@@ -69,6 +73,7 @@ class PlaybackSync {
   int64_t offset_ns_ = 0;
   int64_t skipped_ns_ = 0;
 
+  const GstClock* clock_ = nullptr;  // only compared: the readings are of this one
   // Readings (monotonic, clock) as gst_calculate_linear_regression() takes them.
   std::array<GstClockTime, 2 * kWindow> xy_{};
   std::array<GstClockTime, 2 * kWindow> scratch_{};

@@ -139,6 +139,20 @@ TEST(Semantics, AGapInTheTimestampsIsSlowMotion) {
   EXPECT_GT(felt_px_s[6].norm(), kMoves_px_s);
 }
 
+TEST(Semantics, RunningTimesOfTwoHundredYears) {
+  constexpr GstClockTime kYears = 200ull * 365 * 24 * 3600 * GST_SECOND;  // of 292, as int64_t
+  SteppedPipeline pipeline(kPlayer);
+  GstElement* source = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "source");
+  GstPad* pad = gst_element_get_static_pad(source, "src");
+  gst_pad_set_offset(pad, static_cast<gint64>(kYears));
+  gst_object_unref(pad);
+  gst_object_unref(source);
+  pipeline.set_state(GST_STATE_PLAYING);
+  const std::vector<Eigen::Vector3d> felt_px_s = play(pipeline, 10);
+  EXPECT_EQ(pipeline.running_time(), kYears + 9 * kFrame);
+  for (size_t n = 1; n < 10; ++n) EXPECT_GT(felt_px_s[n].norm(), kMoves_px_s) << n;
+}
+
 TEST(Semantics, ATimestampTwiceIsOneFrame) {
   SteppedPipeline pipeline(kPlayer);
   pipeline.retime([](int n, GstClockTime pts) { return n == 5 ? pts - kFrame : pts; });
