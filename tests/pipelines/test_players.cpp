@@ -134,15 +134,38 @@ TEST_F(Players, Rtp) {
   gst_object_unref(sender);
 }
 
-/// Frames that an application makes: a bright square that moves to the right.
-void push_square(GstAppSrc* source, int n) {
-  constexpr int kWidth = 160, kHeight = 120;
-  GstBuffer* frame = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
-  gst_buffer_memset(frame, 0, 16, kWidth * kHeight);
-  for (int y = 40; y < 80; ++y)
-    gst_buffer_memset(frame, static_cast<gsize>(y * kWidth + 20 + 3 * n), 200, 40);
-  gst_app_src_push_buffer(source, frame);
-}
+/// A camera of an application's: a bright square that moves to the right, 20 frames when asked.
+class SquareCamera {
+ public:
+  static void set_up(GstElement*, GstElement* source, SquareCamera* self) {
+    GstCaps* caps =
+        gst_caps_from_string("video/x-raw,format=GRAY8,width=160,height=120,framerate=0/1");
+    g_object_set(source, "caps", caps, "is-live", TRUE, "do-timestamp", TRUE, "format",
+                 GST_FORMAT_TIME, nullptr);
+    gst_caps_unref(caps);
+    // Not before: what is pushed before PLAYING has a time stamp of a clock without a base time.
+    g_signal_connect(source, "need-data", G_CALLBACK(push), self);
+  }
+
+ private:
+  static void push(GstAppSrc* source, guint, SquareCamera* self) {
+    constexpr gsize kWidth = 160, kHeight = 120;
+    if (self->frames_ == 20) {
+      gst_app_src_end_of_stream(source);
+      return;
+    }
+    g_usleep(10 * 1000);
+    GstBuffer* frame = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
+    gst_buffer_memset(frame, 0, 16, kWidth * kHeight);
+    for (gsize y = 40; y < 80; ++y) {
+      gst_buffer_memset(frame, y * kWidth + 20 + 3 * self->frames_, 200, 40);
+    }
+    ++self->frames_;
+    gst_app_src_push_buffer(source, frame);
+  }
+
+  gsize frames_ = 0;  // streaming thread
+};
 
 TEST_F(Players, UridecodebinWithALiveSource) {
   GstElement* pipeline = gst_parse_launch(
@@ -150,29 +173,10 @@ TEST_F(Players, UridecodebinWithALiveSource) {
       "sync=true",
       nullptr);
   GstElement* decoder = gst_bin_get_by_name(GST_BIN(pipeline), "d");
-  std::thread camera;
-  const auto set_up = [](GstElement*, GstElement* source, gpointer user) {
-    GstCaps* caps =
-        gst_caps_from_string("video/x-raw,format=GRAY8,width=160,height=120,framerate=0/1");
-    g_object_set(source, "caps", caps, "is-live", TRUE, "do-timestamp", TRUE, "format",
-                 GST_FORMAT_TIME, nullptr);
-    gst_caps_unref(caps);
-    gst_object_ref(source);
-    *static_cast<std::thread*>(user) = std::thread([source] {
-      for (int n = 0; n < 20; ++n) {
-        push_square(GST_APP_SRC(source), n);
-        g_usleep(10 * 1000);
-      }
-      gst_app_src_end_of_stream(GST_APP_SRC(source));
-      gst_object_unref(source);
-    });
-  };
-  g_signal_connect(decoder, "source-setup",
-                   G_CALLBACK(static_cast<void (*)(GstElement*, GstElement*, gpointer)>(set_up)),
-                   &camera);
+  SquareCamera camera;
+  g_signal_connect(decoder, "source-setup", G_CALLBACK(SquareCamera::set_up), &camera);
   gst_object_unref(decoder);
   const Outcome outcome = run_to_end(pipeline);
-  camera.join();
   EXPECT_TRUE(outcome.eos);
   expect_felt(outcome, 20);
 }
