@@ -30,7 +30,7 @@ class Players : public testing::Test {
     folder = std::make_unique<TemporaryFolder>();
     // Half a second with sound, and four lines of text.
     film = (folder->path / "film.mkv").string();
-    subtitles = (folder->path / "film.srt").string();
+    const std::string subtitles = (folder->path / "film.srt").string();
     std::string text;
     for (int n = 1; n < 5; ++n) {
       const std::string time = "00:00:00," + std::to_string(n);
@@ -39,7 +39,8 @@ class Players : public testing::Test {
     ASSERT_TRUE(g_file_set_contents(subtitles.c_str(), text.c_str(), -1, nullptr));
     const Outcome written = launch(kPan + "! matroskamux name=m ! filesink location=" + film +
                                    " audiotestsrc num-buffers=22 ! audio/x-raw,rate=44100 ! "
-                                   "m.");
+                                   "m. filesrc location=" +
+                                   subtitles + " ! subparse ! m.");
     ASSERT_TRUE(written.eos) << written.error;
   }
   static void TearDownTestSuite() { folder.reset(); }
@@ -60,11 +61,9 @@ class Players : public testing::Test {
 
   static std::unique_ptr<TemporaryFolder> folder;
   static std::string film;
-  static std::string subtitles;
 };
 std::unique_ptr<TemporaryFolder> Players::folder;
 std::string Players::film;
-std::string Players::subtitles;
 
 TEST_F(Players, AFilmWithSoundAndSubtitlesByTheClockOfItsSound) {
   for (const char* name : {"playbin", "playbin3"}) {
@@ -72,8 +71,8 @@ TEST_F(Players, AFilmWithSoundAndSubtitlesByTheClockOfItsSound) {
     GstElement* player = gst_element_factory_make(name, nullptr);
     GstElement* filter = gst_parse_launch(kMotion.c_str(), nullptr);
     GstElement* sink = gst_parse_launch("fakesink sync=true", nullptr);
-    g_object_set(player, "uri", uri(film).c_str(), "suburi", uri(subtitles).c_str(), "video-filter",
-                 filter, "video-sink", sink, "audio-sink", bench::make_sound_card(100e-6), nullptr);
+    g_object_set(player, "uri", uri(film).c_str(), "video-filter", filter, "video-sink", sink,
+                 "audio-sink", bench::make_sound_card(100e-6), nullptr);
     const Outcome outcome = run_to_end(player);
     EXPECT_EQ(outcome.clock, "GstAudioClock");
     expect_felt(outcome, 15);
