@@ -189,6 +189,7 @@ TEST_F(Players, StoppedByAnotherThreadAtAnyMoment) {
         "videotestsrc pattern=ball ! video/x-raw,width=160,height=120 ! queue ! spidarmotion ! "
         "queue ! fakesink sync=true",
         nullptr);
+    const Traces traces(pipeline);
     const gulong delay_us = random() % 30'000;
     std::thread other([&] {
       g_usleep(delay_us);
