@@ -73,8 +73,8 @@ class MotionEngine {
   void flush();
   /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
-  /// The sink has stepped over so much of running time: it shows what follows as much earlier.
-  void skip(GstClockTime duration);
+  /// The sink has stepped over so much of this segment: it shows what follows as much earlier.
+  void set_skipped(GstClockTimeDiff skipped_ns);
   /// The pipeline will distribute a new base time: nothing is on the screen until then.
   void expect_base_time();
   /// Looks at the pipeline's clock now; a thread does that by itself.
