@@ -90,7 +90,8 @@ TEST(Synchronisation, OffsetMovesTheForceAndNotThePicture) {
     SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
     g_object_set(pipeline.element(), "ts-offset", static_cast<gint64>(offset), nullptr);
     pipeline.set_state(GST_STATE_PLAYING);
-    for (int n = 0; n < 5; ++n) {
+    for (size_t n = 0; n < 5; ++n) {
+      pipeline.await_analysed(n + 3);  // 30 ms ahead of the picture the next frame is needed
       const TickRecord tick = pipeline.step();
       EXPECT_EQ(tick.running_ns, static_cast<int64_t>(pipeline.running_time()) - offset);
     }
