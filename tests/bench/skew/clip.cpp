@@ -8,7 +8,7 @@ namespace spidar::bench {
 
 std::string missing_element() {
   for (const char* const needed : {"videotestsrc", "audiotestsrc", "vp8enc", "vp8dec", "avimux",
-                                   "avidemux", "playbin", "playbin3", "appsrc", "spidarmotion"}) {
+                                   "avidemux", "playbin", "playbin3", "appsrc"}) {
     GstElementFactory* const factory = gst_element_factory_find(needed);
     if (!factory) return needed;
     gst_object_unref(factory);

@@ -1,6 +1,5 @@
 #include "tests/bench/skew/player.h"
 
-#include <algorithm>
 #include <random>
 #include <stdexcept>
 #include <utility>
@@ -51,6 +50,7 @@ GstElement* Player::make_player(const std::string& clip) {
   g_object_set(player, "uri", uri, "flags", flags, "video-filter", filter_, "video-sink", screen_,
                nullptr);
   g_free(uri);
+  g_object_set(player, "av-offset", static_cast<gint64>(scenario_.av_offset_ns), nullptr);
   if (scenario_.sound) g_object_set(player, "audio-sink", make_sound_card(kDrift), nullptr);
   return player;
 }
@@ -63,13 +63,12 @@ GstElement* Player::make_live() {
             "height=720,framerate=30000/1001";
   GstElement* const pipeline =
       gst_parse_launch((source + " ! identity name=before").c_str(), nullptr);
-  gst_object_ref_sink(pipeline);
   GstElement* const before = gst_bin_get_by_name(GST_BIN(pipeline), "before");
   GstElement* const queue = gst_element_factory_make("queue", nullptr);
   gst_bin_add_many(GST_BIN(pipeline), filter_, queue, screen_, nullptr);
   gst_element_link_many(before, filter_, queue, screen_, nullptr);
   gst_object_unref(before);
-  return pipeline;
+  return GST_ELEMENT(gst_object_ref_sink(pipeline));
 }
 
 void Player::set_state(GstState state) {

@@ -1,6 +1,7 @@
 /// Ways to play a video.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace spidar::bench {
@@ -17,8 +18,9 @@ struct Scenario {
   const char* what;  ///< for the table
   Source source = Source::kPlaybin;
   double rate = 1;
-  int seeks = 0;       ///< before what is measured
-  bool sound = false;  ///< with the clock of a sound card that runs kDrift too fast
+  int seeks = 0;             ///< before what is measured
+  bool sound = false;        ///< with the clock of a sound card that runs kDrift too fast
+  int64_t av_offset_ns = 0;  ///< the player's: > 0: the picture is shown later than the sound
 };
 
 constexpr double kDrift = 300e-6;
@@ -34,6 +36,7 @@ inline const std::vector<Scenario>& scenarios() {
       {"seeks", "file after 100 seeks", Source::kPlaybin, 1, 100},
       {"sound", "file with sound, its clock +300 ppm", Source::kPlaybin, 1, 0, true},
       {"sound-seeks", "the same after 100 seeks", Source::kPlaybin, 1, 100, true},
+      {"av-offset", "file with sound, av-offset 100 ms", Source::kPlaybin, 1, 0, true, 100'000'000},
   };
   return all;
 }

@@ -33,9 +33,11 @@ GstFlowReturn screen_render(GstBaseSink* sink, GstBuffer* buffer) {
   if (!GST_CLOCK_TIME_IS_VALID(running_time)) return GST_FLOW_OK;
   GstElement* const element = GST_ELEMENT(sink);
   GstClock* const clock = gst_element_get_clock(element);
-  const GstClockTime due =
-      gst_element_get_base_time(element) + running_time + gst_base_sink_get_latency(sink);
-  const GstClockTimeDiff late_ns = GST_CLOCK_DIFF(due, gst_clock_get_time(clock));
+  const GstClockTimeDiff late_ns =
+      GST_CLOCK_DIFF(
+          gst_element_get_base_time(element) + running_time + gst_base_sink_get_latency(sink),
+          gst_clock_get_time(clock)) -
+      gst_base_sink_get_ts_offset(sink);
   gst_object_unref(clock);
   (*cast(sink)->on_shown)({static_cast<int64_t>(running_time), now_ns, now_ns - late_ns});
   return GST_FLOW_OK;
