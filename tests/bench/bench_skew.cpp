@@ -24,13 +24,13 @@ using namespace spidar::bench;
 
 constexpr const char* kUsage =
     "usage: bench_skew [OPTION...]\n"
-    "  --seconds N        of each playback, default 7\n"
+    "  --seconds N        of each playback, default 6\n"
     "  --scenario NAME    only this one; may be given again\n"
     "  --free, --busy     only with free cores, or only with a busy thread on every one\n"
     "  --list             names of the scenarios\n";
 
 struct Options {
-  int seconds = 7;
+  int seconds = 6;
   std::vector<Scenario> chosen;  ///< empty: all
   bool free_cores = true;
   bool busy_cores = true;
@@ -78,29 +78,33 @@ Options parse(const std::vector<std::string>& arguments) {
   return options;
 }
 
+/// With lines between the columns, as documents have them.
 void print_head() {
   double load_average = 0;
   getloadavg(&load_average, 1);
   std::printf(
-      "Force at the device − picture at the sink, ms; 99 %%: of its size. picture, force: 99 %% of "
-      "what each\nis off the moment at which the pipeline's clock wants the picture. busy: a "
-      "thread computes on every core.\nLoad average before the start: %.2f; the figures are those "
-      "of this machine and of what else it does.\n\n",
+      "skew: force at the device − picture at the sink, ms; 99 %%: of its size.\n"
+      "picture, force: 99 %% of what each is off the moment at which the picture was due, ms.\n"
+      "busy: with a computing thread for every core. ppm: drift of the pipeline's clock.\n"
+      "Load average before the start: %.2f; what else the machine does is in the figures.\n\n",
       load_average);
-  std::printf("%-36s %-5s %6s %7s %7s %7s %8s %8s %8s %8s %6s\n", "playback", "cores", "frames",
-              "median", "99 %", "worst", "not felt", "dropped", "picture", "force", "ppm");
+  std::printf("| %-35s | %-5s | %6s | %6s | %6s | %7s | %8s | %7s | %7s | %6s | %4s |\n",
+              "playback", "cores", "frames", "median", "99 %", "worst", "not felt", "dropped",
+              "picture", "force", "ppm");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
 void print_row(const Scenario& scenario, const char* cores, const Measurement& m) {
   const Histogram& skew_ms = m.skew.signed_ms();
   const double worst_ms =
       std::fabs(skew_ms.min()) > std::fabs(skew_ms.max()) ? skew_ms.min() : skew_ms.max();
-  std::printf("%-36s %-5s %6llu %+7.2f %7.2f %+7.2f %8llu %8llu %8.2f %8.2f %6.0f\n", scenario.what,
-              cores, static_cast<unsigned long long>(m.shown), skew_ms.quantile(0.5),
-              m.skew.size_ms().quantile(0.99), worst_ms,
-              static_cast<unsigned long long>(m.not_felt()),
-              static_cast<unsigned long long>(m.dropped), m.picture_ms.quantile(0.99),
-              m.force.size_ms().quantile(0.99), m.clock_ppm);
+  std::printf(
+      "| %-35s | %-5s | %6llu | %+6.2f | %6.2f | %+7.2f | %8llu | %7llu | %7.2f | %6.2f | %4ld "
+      "|\n",
+      scenario.what, cores, static_cast<unsigned long long>(m.shown), skew_ms.quantile(0.5),
+      m.skew.size_ms().quantile(0.99), worst_ms, static_cast<unsigned long long>(m.not_felt()),
+      static_cast<unsigned long long>(m.dropped), m.picture_ms.quantile(0.99),
+      m.force.size_ms().quantile(0.99), std::lround(m.clock_ppm));
 }
 
 /// False when there is nothing to report.
@@ -115,7 +119,7 @@ bool report(const Scenario& scenario, const char* cores, const std::string& clip
     print_row(scenario, cores, measurement);
     return true;
   } catch (const std::exception& error) {
-    std::printf("%-36s %-5s not measured: %s\n", scenario.what, cores, error.what());
+    std::printf("| %-35s | %-5s | not measured: %s |\n", scenario.what, cores, error.what());
     return false;
   }
 }
@@ -135,8 +139,7 @@ int run(const Options& options) {
       all_good &= report(scenario, "busy", clip, options.seconds, scheduling);
     }
   }
-  std::printf("\nhaptic thread: %s; ppm: the pipeline's clock against CLOCK_MONOTONIC\n",
-              scheduling.c_str());
+  std::printf("\nhaptic thread: %s\n", scheduling.c_str());
   return all_good ? 0 : 1;
 }
 

@@ -34,7 +34,7 @@ inline const std::vector<Scenario>& scenarios() {
       {"half", "file at rate 0.5", Source::kPlaybin, 0.5},
       {"twice", "file at rate 2", Source::kPlaybin, 2},
       {"seeks", "file after 100 seeks", Source::kPlaybin, 1, 100},
-      {"sound", "file with sound, its clock +300 ppm", Source::kPlaybin, 1, 0, true},
+      {"sound", "file with sound, clock +300 ppm", Source::kPlaybin, 1, 0, true},
       {"sound-seeks", "the same after 100 seeks", Source::kPlaybin, 1, 100, true},
       {"av-offset", "file with sound, av-offset 100 ms", Source::kPlaybin, 1, 0, true, 100'000'000},
   };
