@@ -11,9 +11,9 @@
  * steadied by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
  * filter-min-cutoff=0 it is the mean velocity of all points, as in the paper.
  *
- * A frame is shown at base time + running time + pipeline latency (+ #spidarmotion:ts-offset); its
- * force is felt then, between two frames it is interpolated. Before PLAYING, in PAUSED and after
- * the end there is none.
+ * A frame is shown at base time + running time + pipeline latency + the sink's ts-offset; its force
+ * is felt then (+ #spidarmotion:ts-offset), between two frames it is interpolated. Before PLAYING,
+ * in PAUSED and after the end there is none.
  *
  * The element posts a `spidar-motion` element message for each frame when
  * #spidarmotion:post-messages is set, with these fields: `timestamp`, `stream-time`,

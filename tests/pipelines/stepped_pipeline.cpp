@@ -130,7 +130,8 @@ TickRecord SteppedPipeline::idle(GstClockTime duration) {
 
 GstClockTime SteppedPipeline::running_time() const {
   return now() - gst_element_get_base_time(pipeline_) -
-         gst_base_sink_get_latency(GST_BASE_SINK(sink_));
+         gst_base_sink_get_latency(GST_BASE_SINK(sink_)) -
+         static_cast<GstClockTime>(gst_base_sink_get_ts_offset(GST_BASE_SINK(sink_)));
 }
 
 void SteppedPipeline::take(GstMessage* message) {

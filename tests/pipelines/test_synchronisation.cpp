@@ -100,6 +100,24 @@ TEST(Synchronisation, OffsetMovesTheForceAndNotThePicture) {
   }
 }
 
+TEST(Synchronisation, TheForceMovesWithThePictureWhenTheSinkHasAnOffset) {
+  // playbin's sinks are in bins too.
+  SteppedPipeline pipeline(
+      "videotestsrc " + kBall +
+      "! queue name=queue bin.( fakesink name=sink sync=true ) queue. ! sink.");
+  GstElement* const sink = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "sink");
+  ASSERT_NE(GST_OBJECT_PARENT(sink), GST_OBJECT_CAST(pipeline.pipeline()));
+  for (const GstClockTimeDiff offset : {-30 * GST_MSECOND, 0 * GST_MSECOND, 100 * GST_MSECOND}) {
+    SCOPED_TRACE(offset);
+    g_object_set(sink, "ts-offset", static_cast<gint64>(offset), nullptr);
+    pipeline.set_state(GST_STATE_PLAYING);
+    pipeline.step();  // this one the sink was waiting for already
+    for (int n = 0; n < 5; ++n) expect_wrench_of_frame(pipeline, pipeline.step());
+  }
+  gst_object_unref(sink);
+  expect_something_felt(pipeline);
+}
+
 TEST(Synchronisation, NoForceBeforePlaying) {
   SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
   pipeline.set_state(GST_STATE_PAUSED);
