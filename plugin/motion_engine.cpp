@@ -114,6 +114,18 @@ void MotionEngine::expect_base_time() {
   if (follower_) follower_->expect_base_time();
 }
 
+void MotionEngine::skip(GstClockTime duration) {
+  const std::lock_guard<std::mutex> lock(schedule_mutex_);
+  skipped_ns_ += static_cast<int64_t>(duration);
+  const std::lock_guard<std::mutex> session_lock(session_mutex_);
+  if (follower_) follower_->set_skipped(skipped_ns_);
+}
+
+void MotionEngine::begin_segment() {
+  const std::lock_guard<std::mutex> lock(schedule_mutex_);
+  skipped_before_ns_ = skipped_ns_;
+}
+
 void MotionEngine::refresh_clock() {
   const std::lock_guard<std::mutex> lock(session_mutex_);
   if (follower_) follower_->refresh();
@@ -172,7 +184,7 @@ void MotionEngine::schedule(int64_t running_ns, int64_t hold_ns, const Wrench& w
   const std::lock_guard<std::mutex> lock(schedule_mutex_);
   if (!session_ || muted_) return;
   if (recent_.size() == kRecent) recent_.pop_front();
-  recent_.push_back({running_ns, hold_ns, wrench});
+  recent_.push_back({running_ns + skipped_before_ns_, hold_ns, wrench});
   schedule_at_sink(recent_.back());
 }
 
@@ -185,14 +197,16 @@ void MotionEngine::schedule_at_sink(const TimedWrench& entry) {
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
   const std::lock_guard<std::mutex> lock(schedule_mutex_);
-  instant_rate_.change(multiplier, running_time, upstream);
+  const auto skipped = static_cast<GstClockTime>(skipped_ns_);
+  instant_rate_.change(multiplier, running_time + skipped, upstream + skipped);
   // What waits between here and the sink was analysed at the old rate, but is shown at other times.
   // The frame on the screen is the first of them, so that the force goes on from there.
   flush();
   const std::lock_guard<std::mutex> session_lock(session_mutex_);
   if (!session_) return;
   size_t first = recent_.size();
-  while (first > 0 && recent_[first - 1].time_ns > static_cast<int64_t>(upstream)) --first;
+  while (first > 0 && recent_[first - 1].time_ns > static_cast<int64_t>(upstream + skipped))
+    --first;
   for (size_t i = first > 0 ? first - 1 : 0; i < recent_.size(); ++i) schedule_at_sink(recent_[i]);
 }
 
@@ -213,6 +227,9 @@ void MotionEngine::restart_timing() {
     const std::lock_guard<std::mutex> lock(schedule_mutex_);
     instant_rate_.reset();
     recent_.clear();
+    skipped_ns_ = skipped_before_ns_ = 0;
+    const std::lock_guard<std::mutex> session_lock(session_mutex_);
+    if (follower_) follower_->set_skipped(0);
   }
   last_running_ns_ = -1;
   last_interval_ns_ = 0;

@@ -73,6 +73,8 @@ class MotionEngine {
   void flush();
   /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
+  /// The sink has stepped over so much of running time: it shows what follows as much earlier.
+  void skip(GstClockTime duration);
   /// The pipeline will distribute a new base time: nothing is on the screen until then.
   void expect_base_time();
   /// Looks at the pipeline's clock now; a thread does that by itself.
@@ -91,6 +93,8 @@ class MotionEngine {
   void restart();
   /// Running time begins anew: after a flush.
   void restart_timing();
+  /// A sink that has skipped something is in time with the segment again.
+  void begin_segment();
   /// Nothing is shown from this running time on: the force runs out.
   void run_out(GstClockTime running_time);
   /// Nothing more comes.
@@ -126,6 +130,8 @@ class MotionEngine {
   std::mutex schedule_mutex_;
   bool muted_ = false;
   InstantRate instant_rate_;
+  int64_t skipped_ns_ = 0;          // by the sink, since the last flush
+  int64_t skipped_before_ns_ = 0;   // of it, before this segment
   std::deque<TimedWrench> recent_;  // scheduled with running times of here; the newest
 
   // Streaming thread.

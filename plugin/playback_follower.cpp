@@ -50,6 +50,12 @@ void PlaybackFollower::set_offset(GstClockTimeDiff offset_ns) {
   refresh_locked();
 }
 
+void PlaybackFollower::set_skipped(int64_t skipped_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sync_.set_skipped(skipped_ns);
+  refresh_locked();
+}
+
 void PlaybackFollower::expect_base_time() {
   const std::lock_guard<std::mutex> lock(mutex_);
   sync_.expect_base_time(element_);

@@ -29,6 +29,7 @@ class PlaybackFollower {
   void set_playing(bool playing);
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
+  void set_skipped(int64_t skipped_ns);
   /// See PlaybackSync::expect_base_time().
   void expect_base_time();
   void refresh();

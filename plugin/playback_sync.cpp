@@ -67,6 +67,7 @@ PlaybackClock PlaybackSync::observe(GstElement* element) {
     return result;
   }
   outdated_base_time_ = GST_CLOCK_TIME_NONE;
+  follow(clock);
   const GstClockTime time = gst_clock_get_time(clock);
   const int64_t after_ns = now_(now_user_);
   gst_object_unref(clock);
@@ -78,7 +79,7 @@ PlaybackClock PlaybackSync::observe(GstElement* element) {
     fit();
   }
   result.monotonic_ns = monotonic_ns_;
-  result.running_ns = clock_ns_ - to_ns(base_time) - latency_ns_ - offset_ns_;
+  result.running_ns = clock_ns_ - to_ns(base_time) - latency_ns_ - offset_ns_ + skipped_ns_;
   result.rate = rate_;
   result.playing = true;
   return result;

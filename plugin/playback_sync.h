@@ -41,6 +41,9 @@ class PlaybackSync {
   /// Signed; > 0: the force comes later.
   void set_offset(GstClockTimeDiff offset_ns) { offset_ns_ = offset_ns; }
 
+  /// What the sink has stepped over, and shows later frames earlier by.
+  void set_skipped(int64_t skipped_ns) { skipped_ns_ = skipped_ns; }
+
   /// Reads the element's clock and returns the line through what was read so far. A clock other
   /// than the system's reads with jitter, so the line is fitted; a jump that lasts starts it anew.
   PlaybackClock observe(GstElement* element);
@@ -62,6 +65,10 @@ class PlaybackSync {
     readings_ = 0;
     strays_ = 0;
   }
+  void follow(const GstClock* clock) {
+    if (clock != clock_) forget();
+    clock_ = clock;
+  }
   void add_reading(int64_t monotonic_ns, int64_t clock_ns);
   void fit();
 
@@ -72,7 +79,9 @@ class PlaybackSync {
   int64_t outdated_until_ns_ = 0;
   int64_t latency_ns_ = 0;
   int64_t offset_ns_ = 0;
+  int64_t skipped_ns_ = 0;
 
+  const GstClock* clock_ = nullptr;  // only compared: the readings are of this one
   // Readings (monotonic, clock) as gst_calculate_linear_regression() takes them.
   std::array<GstClockTime, 2 * kWindow> xy_{};
   std::array<GstClockTime, 2 * kWindow> scratch_{};

@@ -41,6 +41,7 @@
 #include "plugin/motion_display.h"
 #include "plugin/motion_engine.h"
 #include "plugin/motion_meta.h"
+#include "plugin/step_watch.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_motion_debug);
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
@@ -61,6 +62,7 @@ struct _GstSpidarMotion {
   gboolean opened;               // object lock: READY or above
   MotionEngine* engine;
   MotionDisplay* display;
+  spidar::StepWatch* steps;
 
   // Streaming thread: what was already complained about in this stream.
   guint warned;
@@ -282,6 +284,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       const GstSegment* segment;
       gst_event_parse_segment(event, &segment);
       if (!same_playback(trans->segment, *segment)) engine.restart();
+      engine.begin_segment();
       break;
     }
     case GST_EVENT_GAP: {
@@ -381,6 +384,8 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     const bool opened = guarded(self, "opening the device", [&] { engine.open(properties); });
     if (!opened) return GST_STATE_CHANGE_FAILURE;
     set_opened(self, true);
+  } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
+    self->steps->begin(element);
   } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
     engine.set_playing(false);
   }
@@ -389,8 +394,14 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
       GST_ELEMENT_CLASS(gst_spidar_motion_parent_class)->change_state(element, transition);
 
   switch (transition) {
+    case GST_STATE_CHANGE_READY_TO_PAUSED:
+      if (result == GST_STATE_CHANGE_FAILURE) self->steps->end();
+      break;
     case GST_STATE_CHANGE_PAUSED_TO_PLAYING:
       if (result != GST_STATE_CHANGE_FAILURE) engine.set_playing(true);
+      break;
+    case GST_STATE_CHANGE_PAUSED_TO_READY:
+      self->steps->end();
       break;
     case GST_STATE_CHANGE_READY_TO_NULL:
       engine.close();
@@ -437,6 +448,7 @@ static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* va
 
 static void gst_spidar_motion_finalize(GObject* object) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  delete self->steps;
   delete self->display;
   delete self->engine;
   delete self->properties;
@@ -447,6 +459,7 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
   self->display = new MotionDisplay(GST_ELEMENT(self));
+  self->steps = new spidar::StepWatch;
   // Frames are looked at and passed on. GstVideoFilter would drop late ones before that: here it is
   // the application's choice.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);

@@ -153,6 +153,21 @@ TEST_F(Sync, FollowsAJumpAtOnceWhileTheClockIsNew) {
   }
 }
 
+TEST_F(Sync, AnotherClockIsFollowedFromItsFirstReading) {
+  sync.set_playing(true);
+  for (int n = 0; n < 100; ++n) {
+    monotonic_ns += kPeriod;
+    observe(10 * kSecond + n * kPeriod);
+  }
+  // 3 ms from where the other one would be: no jump that would be seen as one.
+  gst_object_unref(clock);
+  clock = gst_test_clock_new();
+  gst_element_set_clock(element, clock);
+  monotonic_ns += kPeriod;
+  const int64_t other_ns = 10 * kSecond + 100 * kPeriod + 3'000'000;
+  EXPECT_EQ(observe(other_ns).running_at(monotonic_ns), other_ns - 5 * kSecond);
+}
+
 TEST_F(Sync, AfterAFlushNothingIsShownUntilThereIsANewBaseTime) {
   sync.set_playing(true);
   EXPECT_TRUE(observe(10 * kSecond).playing);

@@ -10,10 +10,6 @@
 namespace spidar::test {
 namespace {
 
-int64_t read_clock(void* clock) {
-  return static_cast<int64_t>(gst_clock_get_time(static_cast<GstClock*>(clock)));
-}
-
 // Any time will do that is not zero: a base time of zero would hide a forgotten one.
 constexpr GstClockTime kStart = 1000 * GST_SECOND;
 
@@ -30,7 +26,19 @@ SteppedPipeline::SteppedPipeline(const std::string& launch) {
   sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
   bus_ = gst_element_get_bus(pipeline_);
   engine_ = &gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_));
-  engine_->set_manual(read_clock, clock_);
+  engine_->set_manual(monotonic_ns, this);
+  GstPad* pad = gst_element_get_static_pad(sink_, "sink");
+  const auto take = [](GstPad* sink_pad, GstPadProbeInfo* info, gpointer user) {
+    GstEvent* event = gst_pad_get_sticky_event(sink_pad, GST_EVENT_SEGMENT, 0);
+    const GstSegment* segment;
+    gst_event_parse_segment(event, &segment);
+    static_cast<SteppedPipeline*>(user)->taken_ =
+        gst_segment_to_running_time(segment, GST_FORMAT_TIME, GST_BUFFER_PTS(info->data));
+    gst_event_unref(event);
+    return GST_PAD_PROBE_OK;
+  };
+  gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, take, this, nullptr);
+  gst_object_unref(pad);
 }
 
 SteppedPipeline::~SteppedPipeline() {
@@ -40,6 +48,11 @@ SteppedPipeline::~SteppedPipeline() {
   gst_object_unref(element_);
   gst_object_unref(pipeline_);
   gst_object_unref(clock_);
+}
+
+int64_t SteppedPipeline::monotonic_ns(void* self) {
+  const auto* pipeline = static_cast<SteppedPipeline*>(self);
+  return static_cast<int64_t>(pipeline->now()) + pipeline->monotonic_less_clock_ns_;
 }
 
 void SteppedPipeline::wait_for_state() {
@@ -81,6 +94,22 @@ void SteppedPipeline::seek(double rate, int flags, GstClockTime start, GstClockT
   wait_for_state();
 }
 
+void SteppedPipeline::step_frames(guint64 count) {
+  gst_element_send_event(sink_, gst_event_new_step(GST_FORMAT_BUFFERS, count, 1, TRUE, FALSE));
+  await_message(GST_MESSAGE_STEP_DONE);
+  wait_for_state();
+}
+
+void SteppedPipeline::replace_clock(GstClockTime start) {
+  set_state(GST_STATE_PAUSED);
+  const int64_t monotonic = monotonic_ns(this);
+  gst_object_unref(clock_);
+  clock_ = GST_TEST_CLOCK(gst_test_clock_new_with_start_time(start));
+  monotonic_less_clock_ns_ = monotonic - static_cast<int64_t>(start);
+  gst_pipeline_use_clock(GST_PIPELINE(pipeline_), GST_CLOCK(clock_));
+  set_state(GST_STATE_PLAYING);
+}
+
 void SteppedPipeline::retime(std::function<GstClockTime(int, GstClockTime)> pts) {
   pts_ = std::move(pts);
   GstPad* pad = gst_element_get_static_pad(element_, "sink");
@@ -97,7 +126,7 @@ void SteppedPipeline::retime(std::function<GstClockTime(int, GstClockTime)> pts)
 
 TickRecord SteppedPipeline::tick() {
   HapticLoop& loop = engine_->session()->loop();
-  return watch_.tick(loop, read_clock(clock_));
+  return watch_.tick(loop, monotonic_ns(this));
 }
 
 GstClockTime SteppedPipeline::await(guint waiters) {
@@ -113,6 +142,7 @@ TickRecord SteppedPipeline::step(guint waiters) {
   const GstClockTime next = await(waiters);
   if (next > now()) gst_test_clock_set_time(clock_, next);
   engine_->refresh_clock();
+  shown_ = taken_;
   const TickRecord record = tick();
   gst_clock_id_unref(gst_test_clock_process_next_clock_id(clock_));
   return record;

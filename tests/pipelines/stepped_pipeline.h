@@ -2,6 +2,7 @@
 /// passes only when the test says so.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <string>
@@ -28,6 +29,11 @@ class SteppedPipeline {
   void seek(GstClockTime position);
   /// From `start` to `stop` of the stream at this rate. Returns when the state is reached again.
   void seek(double rate, int flags, GstClockTime start, GstClockTime stop);
+  /// The sink steps over so many frames (GST_EVENT_STEP). Returns when the next one is there.
+  void step_frames(guint64 count);
+  /// A clock that shows this time takes the place of the pipeline's, which goes through PAUSED as
+  /// an application does on CLOCK_LOST.
+  void replace_clock(GstClockTime start);
   /// What the element is given for a timestamp, by number of the frame; before playing.
   void retime(std::function<GstClockTime(int frame, GstClockTime pts)> pts);
 
@@ -43,6 +49,8 @@ class SteppedPipeline {
   GstClockTime now() const { return gst_clock_get_time(GST_CLOCK(clock_)); }
   /// Of the frame that is to be shown now.
   GstClockTime running_time() const;
+  /// Of the frame that the sink had at the last step(), as it came to the sink.
+  GstClockTime shown() const { return shown_; }
 
   /// Waits for a message of this type since the last call.
   void await_message(GstMessageType type);
@@ -53,6 +61,7 @@ class SteppedPipeline {
   const std::map<GstClockTime, Wrench>& wrenches();
 
   GstElement* element() const { return element_; }
+  GstElement* sink() const { return sink_; }
   GstElement* pipeline() const { return pipeline_; }
 
  private:
@@ -60,7 +69,11 @@ class SteppedPipeline {
   TickRecord tick();
   void take(GstMessage* message);
 
+  /// For the haptic loop: goes on when the pipeline's clock is replaced.
+  static int64_t monotonic_ns(void* self);
+
   GstTestClock* clock_;
+  int64_t monotonic_less_clock_ns_ = 0;
   GstElement* pipeline_;
   GstElement* element_;
   GstElement* sink_;
@@ -68,7 +81,9 @@ class SteppedPipeline {
   MotionEngine* engine_;
   TickWatch watch_;
   std::map<GstClockTime, Wrench> wrenches_;
-  unsigned messages_ = 0;  // types seen
+  unsigned messages_ = 0;                                 // types seen
+  std::atomic<GstClockTime> taken_{GST_CLOCK_TIME_NONE};  // by the sink
+  GstClockTime shown_ = GST_CLOCK_TIME_NONE;
   std::function<GstClockTime(int, GstClockTime)> pts_;
   int frames_ = 0;  // streaming thread
 };

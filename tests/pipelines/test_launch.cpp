@@ -1,121 +1,18 @@
 // Whole pipelines with the installed form of the plugin, as people launch them.
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <mutex>
 #include <string>
-#include <vector>
 
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/tick_watch.h"
+#include "tests/pipelines/launched.h"
 
 namespace spidar::test {
 namespace {
-
-/// How a pipeline ended, and what it said on the way.
-struct Outcome {
-  bool eos = false;
-  std::string error;
-  std::vector<std::string> warnings;
-  int motions = 0;
-  double largest_force_N = 0;
-};
-
-void take(Outcome& outcome, GstMessage* message) {
-  GError* error = nullptr;
-  switch (GST_MESSAGE_TYPE(message)) {
-    case GST_MESSAGE_EOS:
-      outcome.eos = true;
-      break;
-    case GST_MESSAGE_ERROR:
-      gst_message_parse_error(message, &error, nullptr);
-      outcome.error = error->message;
-      break;
-    case GST_MESSAGE_WARNING:
-      gst_message_parse_warning(message, &error, nullptr);
-      outcome.warnings.emplace_back(error->message);
-      break;
-    case GST_MESSAGE_ELEMENT:
-      if (gst_message_has_name(message, "spidar-motion")) {
-        double x = 0, y = 0;
-        gst_structure_get(gst_message_get_structure(message), "force-x", G_TYPE_DOUBLE, &x,
-                          "force-y", G_TYPE_DOUBLE, &y, nullptr);
-        outcome.largest_force_N = std::max(outcome.largest_force_N, std::hypot(x, y));
-        ++outcome.motions;
-      }
-      break;
-    default:
-      break;
-  }
-  g_clear_error(&error);
-}
-
-/// Records every tick of each spidarmotion in `bin`, also of those to come.
-class Traces {
- public:
-  explicit Traces(GstElement* bin) {
-    std::string name = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    g_signal_connect(bin, "deep-element-added", G_CALLBACK(added), this);
-    GstIterator* all = gst_bin_iterate_recurse(GST_BIN(bin));
-    gst_iterator_foreach(
-        all,
-        [](const GValue* item, gpointer self) {
-          static_cast<Traces*>(self)->record(static_cast<GstElement*>(g_value_get_object(item)));
-        },
-        this);
-    gst_iterator_free(all);
-  }
-  ~Traces() {
-    for (const std::string& path : paths_) TickWatch().see_trace(path, {});
-    std::filesystem::remove_all(folder_);
-  }
-
- private:
-  static void added(GstBin*, GstBin*, GstElement* element, Traces* self) { self->record(element); }
-
-  void record(GstElement* element) {
-    if (g_strcmp0(G_OBJECT_TYPE_NAME(element), "GstSpidarMotion") != 0) return;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    paths_.push_back((folder_ / std::to_string(paths_.size())).string());
-    g_object_set(element, "haptic-trace", paths_.back().c_str(), nullptr);
-  }
-
-  std::filesystem::path folder_;
-  std::mutex mutex_;
-  std::vector<std::string> paths_;
-};
-
-Outcome run_to_end(GstElement* pipeline) {
-  Outcome outcome;
-  const Traces traces(pipeline);
-  gst_element_set_state(pipeline, GST_STATE_PLAYING);
-  GstBus* bus = gst_element_get_bus(pipeline);
-  while (!outcome.eos && outcome.error.empty()) {
-    GstMessage* message = gst_bus_timed_pop(bus, GST_CLOCK_TIME_NONE);
-    take(outcome, message);
-    gst_message_unref(message);
-  }
-  gst_element_set_state(pipeline, GST_STATE_NULL);
-  gst_object_unref(bus);
-  gst_object_unref(pipeline);
-  return outcome;
-}
-
-Outcome launch(const std::string& line) {
-  SCOPED_TRACE(line);
-  GError* error = nullptr;
-  GstElement* pipeline = gst_parse_launch(line.c_str(), &error);
-  EXPECT_EQ(error, nullptr) << error->message;
-  if (!pipeline) return {};
-  return run_to_end(pipeline);
-}
 
 class Launch : public testing::Test {
  protected:

@@ -1,60 +1,14 @@
 // What people do with a player, and what streams do to them: what is felt is the motion that is
 // shown, at the time when it is shown. On a test clock; TickWatch looks at every tick besides.
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/pipelines/stepped_pipeline.h"
+#include "tests/pipelines/shown_motion.h"
 
 namespace spidar::test {
 namespace {
-
-constexpr GstClockTime kFrame = 40 * GST_MSECOND;
-/// Of two measurements of the same motion: a tenth of a pixel each (see test_frames.cpp), twice
-/// that on 480 lines, over 40 ms.
-constexpr double kTolerance_px_s = 2 * 0.1 * 2 / 0.04;
-constexpr double kMoves_px_s = 40;  // the ball does five times as much
-const std::string kBall =
-    "videotestsrc pattern=ball name=source ! video/x-raw,format=GRAY8,width=320,height=240,"
-    "framerate=25/1 ";
-const std::string kMotion =
-    "! spidarmotion name=motion motion=mean filter-min-cutoff=0 "
-    "controller=nonlinear max-force=3 alpha=0.0005 ";
-const std::string kSink = "! queue ! fakesink name=sink sync=true";
-const std::string kPlayer = kBall + kMotion + kSink;
-
-/// The tick at the time of the frame that is shown now found this frame's wrench, bit for bit.
-void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& tick) {
-  const auto frame = pipeline.wrenches().find(pipeline.running_time());
-  ASSERT_NE(frame, pipeline.wrenches().end()) << "at " << pipeline.running_time();
-  EXPECT_EQ(tick.running_ns, static_cast<int64_t>(frame->first));
-  EXPECT_EQ(tick.found, Found::kExact);
-  EXPECT_EQ(tick.wanted.force_N, frame->second.force_N);
-}
-
-/// The velocity that feels like this, px/s on 480 lines: equation 15, solved for it.
-Eigen::Vector3d velocity_px_s(const Eigen::Vector3d& force_N) {
-  const double speed = std::tan(std::acos(-1.0) / 2 * force_N.norm() / 3) / 0.0005;
-  return speed > 0 ? Eigen::Vector3d(speed * force_N.normalized()) : Eigen::Vector3d::Zero();
-}
-
-/// Shows `count` frames, and the velocity that is felt at each.
-std::vector<Eigen::Vector3d> play(SteppedPipeline& pipeline, int count) {
-  std::vector<Eigen::Vector3d> felt_px_s;
-  for (int n = 0; n < count; ++n) {
-    SCOPED_TRACE(n);
-    const TickRecord tick = pipeline.step();
-    expect_wrench_of_frame(pipeline, tick);
-    felt_px_s.push_back(velocity_px_s(tick.wanted.force_N));
-  }
-  return felt_px_s;
-}
-
-void expect_rest(SteppedPipeline& pipeline, GstClockTime after) {
-  EXPECT_EQ(pipeline.idle(after).commanded.stacked().norm(), 0);
-}
 
 /// A loop of 6 frames: shown, to its end.
 void play_segment(SteppedPipeline& pipeline) {
@@ -183,6 +137,20 @@ TEST(Semantics, AGapInTheTimestampsIsSlowMotion) {
   // One picture after a second has moved as far as others in 40 ms.
   EXPECT_LT(felt_px_s[5].norm(), felt_px_s[4].norm() / 10);
   EXPECT_GT(felt_px_s[6].norm(), kMoves_px_s);
+}
+
+TEST(Semantics, RunningTimesOfTwoHundredYears) {
+  constexpr GstClockTime kYears = 200ull * 365 * 24 * 3600 * GST_SECOND;  // of 292, as int64_t
+  SteppedPipeline pipeline(kPlayer);
+  GstElement* source = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "source");
+  GstPad* pad = gst_element_get_static_pad(source, "src");
+  gst_pad_set_offset(pad, static_cast<gint64>(kYears));
+  gst_object_unref(pad);
+  gst_object_unref(source);
+  pipeline.set_state(GST_STATE_PLAYING);
+  const std::vector<Eigen::Vector3d> felt_px_s = play(pipeline, 10);
+  EXPECT_EQ(pipeline.running_time(), kYears + 9 * kFrame);
+  for (size_t n = 1; n < 10; ++n) EXPECT_GT(felt_px_s[n].norm(), kMoves_px_s) << n;
 }
 
 TEST(Semantics, ATimestampTwiceIsOneFrame) {

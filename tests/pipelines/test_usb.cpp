@@ -83,6 +83,39 @@ TEST_P(UsbPipeline, PlaysOnWhenTheBoardIsPulledOutAndTakesItBack) {
   gst_object_unref(pipeline);
 }
 
+TEST_P(UsbPipeline, TheSecondToAskForABoardGetsAnErrorAndTheFirstPlaysOn) {
+  UsbPort& port = plug(0, GetParam());
+  const std::string launch =
+      "videotestsrc pattern=ball ! video/x-raw,width=160,height=120 ! "
+      "spidarmotion device=usb profile=spidar-g6x3-v2-r ! fakesink sync=true";
+  GstElement* first = gst_parse_launch(launch.c_str(), nullptr);
+  GstElement* second = gst_parse_launch(launch.c_str(), nullptr);
+  ASSERT_NE(gst_element_set_state(first, GST_STATE_PLAYING), GST_STATE_CHANGE_FAILURE);
+  wait_for([&] { return !port.at_rest(); });
+
+  EXPECT_EQ(gst_element_set_state(second, GST_STATE_PLAYING), GST_STATE_CHANGE_FAILURE);
+  GstBus* bus = gst_element_get_bus(second);
+  GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR);
+  ASSERT_NE(message, nullptr);
+  GError* error = nullptr;
+  gst_message_parse_error(message, &error, nullptr);
+  EXPECT_NE(std::string(error->message).find("another element"), std::string::npos)
+      << error->message;
+  g_clear_error(&error);
+  gst_message_unref(message);
+  gst_object_unref(bus);
+  gst_element_set_state(second, GST_STATE_NULL);
+  gst_object_unref(second);
+
+  bus = gst_element_get_bus(first);
+  wait_for_frames(bus, 5);
+  EXPECT_FALSE(port.at_rest());
+  gst_object_unref(bus);
+  gst_element_set_state(first, GST_STATE_NULL);
+  EXPECT_TRUE(port.at_rest());
+  gst_object_unref(first);
+}
+
 #ifdef EMULATED_BUS_LIBRARY
 
 /// gst-launch-1.0, which knows nothing of an emulated bus.

@@ -1,0 +1,60 @@
+/// A moving ball in a SteppedPipeline, and whether what is felt is what is shown.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/stepped_pipeline.h"
+
+namespace spidar::test {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+/// Of two measurements of the same motion: a tenth of a pixel each (see test_frames.cpp), twice
+/// that on 480 lines, over 40 ms.
+constexpr double kTolerance_px_s = 2 * 0.1 * 2 / 0.04;
+constexpr double kMoves_px_s = 40;  // the ball does five times as much
+const std::string kBall =
+    "videotestsrc pattern=ball name=source ! video/x-raw,format=GRAY8,width=320,height=240,"
+    "framerate=25/1 ";
+const std::string kMotion =
+    "! spidarmotion name=motion motion=mean filter-min-cutoff=0 "
+    "controller=nonlinear max-force=3 alpha=0.0005 ";
+const std::string kSink = "! queue ! fakesink name=sink sync=true";
+const std::string kPlayer = kBall + kMotion + kSink;
+
+/// The tick at the time of the frame that is shown now found this frame's wrench, bit for bit.
+inline void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& tick) {
+  const auto frame = pipeline.wrenches().find(pipeline.running_time());
+  ASSERT_NE(frame, pipeline.wrenches().end()) << "at " << pipeline.running_time();
+  EXPECT_EQ(tick.running_ns, static_cast<int64_t>(frame->first));
+  EXPECT_EQ(tick.found, Found::kExact);
+  EXPECT_EQ(tick.wanted.force_N, frame->second.force_N);
+}
+
+/// The velocity that feels like this, px/s on 480 lines: equation 15, solved for it.
+inline Eigen::Vector3d velocity_px_s(const Eigen::Vector3d& force_N) {
+  const double speed = std::tan(std::acos(-1.0) / 2 * force_N.norm() / 3) / 0.0005;
+  return speed > 0 ? Eigen::Vector3d(speed * force_N.normalized()) : Eigen::Vector3d::Zero();
+}
+
+/// Shows `count` frames, and the velocity that is felt at each.
+inline std::vector<Eigen::Vector3d> play(SteppedPipeline& pipeline, int count) {
+  std::vector<Eigen::Vector3d> felt_px_s;
+  for (int n = 0; n < count; ++n) {
+    SCOPED_TRACE(n);
+    const TickRecord tick = pipeline.step();
+    expect_wrench_of_frame(pipeline, tick);
+    felt_px_s.push_back(velocity_px_s(tick.wanted.force_N));
+  }
+  return felt_px_s;
+}
+
+/// Nothing is commanded `after` that time, exactly.
+inline void expect_rest(SteppedPipeline& pipeline, GstClockTime after) {
+  EXPECT_EQ(pipeline.idle(after).commanded.stacked().norm(), 0);
+}
+
+}  // namespace spidar::test

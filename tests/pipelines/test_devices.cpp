@@ -1,0 +1,93 @@
+// Several devices in one pipeline and in one process: each is felt on its own. On test clocks.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "plugin/spidar_motion.h"
+#include "tests/pipelines/shown_motion.h"
+
+namespace spidar::test {
+namespace {
+
+const std::string kPaper =
+    "motion=mean filter-min-cutoff=0 controller=nonlinear max-force=3 alpha=0.0005 ";
+
+/// Another element of a SteppedPipeline, ticked when that one is.
+class OtherElement {
+ public:
+  OtherElement(SteppedPipeline& pipeline, const char* name) : pipeline_(pipeline) {
+    element_ = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), name);
+    const auto now = [](void* user) {
+      return static_cast<int64_t>(static_cast<SteppedPipeline*>(user)->now());
+    };
+    engine().set_manual(now, &pipeline);
+  }
+  ~OtherElement() { gst_object_unref(element_); }
+  OtherElement(const OtherElement&) = delete;
+  OtherElement& operator=(const OtherElement&) = delete;
+
+  TickRecord tick() {
+    engine().refresh_clock();
+    return watch_.tick(engine().session()->loop(), static_cast<int64_t>(pipeline_.now()));
+  }
+  const std::string& device() { return engine().session()->device().name(); }
+
+ private:
+  MotionEngine& engine() { return gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_)); }
+
+  SteppedPipeline& pipeline_;
+  GstElement* element_;
+  TickWatch watch_;
+};
+
+TEST(Devices, TwoInOnePipelineFeelWhatEachIsShown) {
+  // The second sees the ball in a mirror.
+  SteppedPipeline pipeline(
+      "videotestsrc pattern=ball ! video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! "
+      "spidarmotion name=motion device=sim:sh4 profile=spidar-g6x3-v2-r " +
+      kPaper +
+      "! videoflip video-direction=horiz ! spidarmotion name=other device=sim:uart "
+      "post-messages=false " +
+      kPaper + kSink);
+  OtherElement other(pipeline, "other");
+  pipeline.set_state(GST_STATE_PLAYING);
+  EXPECT_EQ(other.device(), "sim:uart");
+  for (int n = 0; n < 20; ++n) {
+    SCOPED_TRACE(n);
+    const TickRecord tick = pipeline.step();
+    expect_wrench_of_frame(pipeline, tick);
+    const TickRecord mirrored = other.tick();
+    EXPECT_EQ(mirrored.running_ns, tick.running_ns);
+    EXPECT_EQ(mirrored.found, Found::kExact);
+    const Eigen::Vector3d felt_px_s = velocity_px_s(tick.wanted.force_N);
+    const Eigen::Vector3d expected_px_s(-felt_px_s.x(), felt_px_s.y(), felt_px_s.z());
+    EXPECT_LT((velocity_px_s(mirrored.wanted.force_N) - expected_px_s).norm(), kTolerance_px_s);
+    EXPECT_EQ(felt_px_s.norm() > kMoves_px_s, n > 0);
+  }
+}
+
+TEST(Devices, TwoInOneProcessHaveTimesOfTheirOwn) {
+  SteppedPipeline one(kBall +
+                      "! spidarmotion name=motion device=sim:sh4 profile=spidar-g6x3-v2-r " +
+                      kPaper + kSink);
+  SteppedPipeline two(kBall +
+                      "! spidarmotion name=motion device=sim:simple profile=spidar-g6x3-v2-r " +
+                      kPaper + kSink);
+  one.set_state(GST_STATE_PLAYING);
+  two.set_state(GST_STATE_PAUSED);
+  play(one, 10);
+  expect_rest(two, GST_SECOND);
+  two.seek(GST_SECOND);
+  two.set_state(GST_STATE_PLAYING);
+  one.set_state(GST_STATE_PAUSED);
+  EXPECT_GT(play(two, 10)[9].norm(), kMoves_px_s);
+  expect_rest(one, 50 * GST_MSECOND);
+  one.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 10; ++n) {
+    EXPECT_GT(play(one, 1)[0].norm(), kMoves_px_s);
+    EXPECT_GT(play(two, 1)[0].norm(), kMoves_px_s);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test
