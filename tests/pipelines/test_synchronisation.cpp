@@ -111,7 +111,8 @@ TEST(Synchronisation, TheForceMovesWithThePictureWhenTheSinkHasAnOffset) {
     SCOPED_TRACE(offset);
     g_object_set(sink, "ts-offset", static_cast<gint64>(offset), nullptr);
     pipeline.set_state(GST_STATE_PLAYING);
-    pipeline.step();  // this one the sink was waiting for already
+    pipeline.await_analysed(3);  // the first tick is up to 30 ms after the first frame's time
+    pipeline.step();             // this one the sink was waiting for already
     for (int n = 0; n < 5; ++n) expect_wrench_of_frame(pipeline, pipeline.step());
   }
   gst_object_unref(sink);
