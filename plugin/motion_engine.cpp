@@ -241,6 +241,14 @@ void MotionEngine::run_out(GstClockTime running_time) {
   schedule(static_cast<int64_t>(running_time), 0, Wrench());
 }
 
+void MotionEngine::pass_gap(GstClockTime running_time) {
+  run_out(running_time);
+  if (!GST_CLOCK_TIME_IS_VALID(running_time)) return;
+  const int64_t running_ns = static_cast<int64_t>(running_time);
+  last_paced_ns_ = pace(running_ns);
+  last_running_ns_ = running_ns;
+}
+
 void MotionEngine::end_of_stream() {
   if (last_running_ns_ < 0) return;
   run_out(static_cast<GstClockTime>(last_running_ns_ + std::max<int64_t>(last_interval_ns_, 1)));
@@ -262,13 +270,6 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     return report;
   }
   const int64_t running_ns = static_cast<int64_t>(report.running_time);
-  if (GST_BUFFER_FLAG_IS_SET(frame.buffer, GST_BUFFER_FLAG_GAP)) {
-    run_out(report.running_time);
-    last_paced_ns_ = pace(running_ns);
-    last_running_ns_ = running_ns;
-    report.problem = FrameProblem::kNotShown;
-    return report;
-  }
   // Sources and decoders mark every buffer, or the first of every group, when they play backwards.
   if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) {
     restart();

@@ -28,7 +28,7 @@ enum class FrameProblem {
   kNoTimestamp,       ///< no PTS: it cannot be felt in time
   kSameTimestamp,     ///< as the frame before: no Δt to divide by
   kFallingTimestamp,  ///< before the frame before
-  kNotShown,          ///< outside the segment, or a gap
+  kNotShown,          ///< outside the segment, or cropped to nothing
 };
 
 /// What became of one frame.
@@ -97,6 +97,8 @@ class MotionEngine {
   void begin_segment();
   /// Nothing is shown from this running time on: the force runs out.
   void run_out(GstClockTime running_time);
+  /// In place of a frame that has no picture.
+  void pass_gap(GstClockTime running_time);
   /// Nothing more comes.
   void end_of_stream();
   /// Where the grip points at the picture; nothing while no device runs.

@@ -239,6 +239,23 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   return check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
+/// A frame without a picture is not even mapped: its memory may be that of a graphics card.
+static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, GstBuffer* buffer) {
+  if (!GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP)) {
+    return GST_BASE_TRANSFORM_CLASS(gst_spidar_motion_parent_class)->transform_ip(trans, buffer);
+  }
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_OBJECT_LOCK(self);
+  const OnDeviceError on_device_error = self->properties->on_device_error;
+  GST_OBJECT_UNLOCK(self);
+  const bool passed = guarded(self, "passing a gap", [&] {
+    self->engine->pass_gap(
+        gst_segment_to_running_time(&trans->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer)));
+  });
+  self->display->skip();
+  return passed && check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
+}
+
 /// In passthrough nothing is writable. A meta is added to the buffer and not to its memory, so a
 /// copy of the buffer that shares the memory will do.
 static GstFlowReturn gst_spidar_motion_prepare_output_buffer(GstBaseTransform* trans,
@@ -495,6 +512,7 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   transform_class->sink_event = gst_spidar_motion_sink_event;
   transform_class->src_event = gst_spidar_motion_src_event;
   transform_class->prepare_output_buffer = gst_spidar_motion_prepare_output_buffer;
+  transform_class->transform_ip = gst_spidar_motion_transform_ip;
   transform_class->before_transform = gst_spidar_motion_before_transform;
   filter_class->transform_frame_ip = gst_spidar_motion_transform_frame_ip;
 }
