@@ -73,7 +73,7 @@ class Traces {
     gst_iterator_free(all);
   }
   ~Traces() {
-    for (const std::string& path : paths_) TickWatch().see_trace(path, {});
+    for (const std::string& path : paths_) TickWatch().see_trace(path);
     std::filesystem::remove_all(folder_);
   }
 
