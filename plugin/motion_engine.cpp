@@ -259,6 +259,11 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.problem = FrameProblem::kFallingTimestamp;
   }
 
+  if (!holds_picture(frame)) {
+    restart();
+    report.problem = FrameProblem::kTooSmall;
+    return report;
+  }
   const ImageView luma = luma_.view(frame);
   if (!luma.data) {
     restart();

@@ -28,6 +28,7 @@ enum class FrameProblem {
   kNoTimestamp,       ///< no PTS: it cannot be felt in time
   kSameTimestamp,     ///< as the frame before: no Δt to divide by
   kFallingTimestamp,  ///< before the frame before
+  kTooSmall,          ///< less memory than the picture needs
   kNotShown,          ///< outside the segment, or a gap
 };
 

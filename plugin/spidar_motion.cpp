@@ -140,6 +140,11 @@ static void warn_of_frame(GstSpidarMotion* self, FrameProblem problem) {
                           ("Timestamps go back without a discontinuity; motion is measured anew."),
                           ("Running time must rise within a segment."));
       break;
+    case FrameProblem::kTooSmall:
+      GST_ELEMENT_WARNING(self, STREAM, FORMAT,
+                          ("A frame has less memory than its picture needs; it is passed on only."),
+                          ("The strides and offsets of its GstVideoMeta do not fit it."));
+      break;
     default:
       break;
   }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/pipelines/random_source.h"
 #include "tests/pipelines/tormented_player.h"
+#include "tests/support/random_source.h"
 
 namespace spidar::test {
 

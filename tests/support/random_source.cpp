@@ -1,4 +1,4 @@
-#include "tests/pipelines/random_source.h"
+#include "tests/support/random_source.h"
 
 namespace spidar::test {
 namespace {
