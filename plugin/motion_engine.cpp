@@ -34,12 +34,11 @@ void MotionEngine::set_manual(PlaybackSync::Now now, void* user) {
 }
 
 void MotionEngine::open(const MotionProperties& properties) {
-  apply(properties.analyzer);
+  analyzer_.configure(properties.analyzer);
   if (properties.device == "none") return;
   const Profile profile = load_profile(properties.profile);
   grip_pointer_ = GripPointer(profile.geometry);
   SessionSettings settings;
-  settings.limits.max_force_N = properties.analyzer.controller.max_force_N;
   settings.trace_path = properties.haptic_trace;
   settings.threaded = now_ == nullptr;
   auto session =
@@ -48,9 +47,10 @@ void MotionEngine::open(const MotionProperties& properties) {
   auto follower = std::make_unique<PlaybackFollower>(
       element_, [&loop](const PlaybackClock& clock) { loop.set_playback_clock(clock); },
       now_ ? now_ : monotonic_now, now_user_, settings.threaded);
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  loop.set_limits(limits_);
   follower->set_latency(latency_);
   follower->set_offset(offset_ns_);
-  const std::lock_guard<std::mutex> lock(session_mutex_);
   profile_ = profile;
   session_ = std::move(session);
   follower_ = std::move(follower);
@@ -93,6 +93,12 @@ void MotionEngine::set_offset(GstClockTimeDiff offset_ns) {
   const std::lock_guard<std::mutex> lock(session_mutex_);
   offset_ns_ = offset_ns;
   if (follower_) follower_->set_offset(offset_ns);
+}
+
+void MotionEngine::set_max_force(double max_force_N) {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  limits_.max_force_N = max_force_N;
+  if (session_) session_->loop().set_limits(limits_);
 }
 
 void MotionEngine::set_muted(bool muted) {
@@ -168,16 +174,6 @@ std::string MotionEngine::device_fault() const {
 
 int MotionEngine::faulty_string() const {
   return session_ ? session_->loop().snapshot().last.faulty_string : -1;
-}
-
-void MotionEngine::apply(const AnalyzerSettings& settings) {
-  analyzer_.configure(settings);
-  const double max_force_N = settings.controller.max_force_N;
-  if (max_force_N == max_force_N_) return;
-  max_force_N_ = max_force_N;
-  SafetyLimits limits;
-  limits.max_force_N = max_force_N;
-  if (session_) session_->loop().set_limits(limits);
 }
 
 void MotionEngine::schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench) {
@@ -281,13 +277,18 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.problem = FrameProblem::kFallingTimestamp;
   }
 
+  if (!holds_picture(frame)) {
+    restart();
+    report.problem = FrameProblem::kTooSmall;
+    return report;
+  }
   const ImageView luma = luma_.view(frame);
   if (!luma.data) {
     restart();
     report.problem = FrameProblem::kNotShown;
     return report;
   }
-  apply(settings);
+  analyzer_.configure(settings);
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
   const int64_t paced_ns = pace(running_ns);
   report.analysis = analyzer_.analyze(luma, paced_ns);

@@ -28,6 +28,7 @@ enum class FrameProblem {
   kNoTimestamp,       ///< no PTS: it cannot be felt in time
   kSameTimestamp,     ///< as the frame before: no Δt to divide by
   kFallingTimestamp,  ///< before the frame before
+  kTooSmall,          ///< less memory than the picture needs
   kNotShown,          ///< outside the segment, or cropped to nothing
 };
 
@@ -67,6 +68,8 @@ class MotionEngine {
 
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
+  /// Holds with the next tick of the haptic loop, whether frames come or not.
+  void set_max_force(double max_force_N);
   /// The force ramps to rest at once and stays there until frames come after set_muted(false).
   void set_muted(bool muted);
   /// What was scheduled is forgotten at once.
@@ -116,18 +119,18 @@ class MotionEngine {
   void schedule_at_sink(const TimedWrench& entry);
   /// Time of a frame on a scale on which the distance to the last frame is that of showing them.
   int64_t pace(int64_t running_ns);
-  void apply(const AnalyzerSettings& settings);
 
   GstElement* const element_;
   PlaybackSync::Now now_ = nullptr;
   void* now_user_ = nullptr;
 
-  mutable std::mutex session_mutex_;  // state changes against stats()
+  mutable std::mutex session_mutex_;  // state changes against any thread
   std::unique_ptr<HapticSession> session_;
   Profile profile_;  // of the session
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;
+  SafetyLimits limits_;
   // Nothing is scheduled between muting and forgetting, nor during a change of rate.
   std::mutex schedule_mutex_;
   bool muted_ = false;
@@ -139,7 +142,6 @@ class MotionEngine {
   // Streaming thread.
   GripPointer grip_pointer_;
   MotionAnalyzer analyzer_;
-  double max_force_N_ = -1;
   FrameLuma luma_;
   FrameTrace trace_;
   int64_t last_running_ns_ = -1;

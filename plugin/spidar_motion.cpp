@@ -58,6 +58,7 @@ using spidar::PointerKind;
 struct _GstSpidarMotion {
   GstVideoFilter parent;
 
+  GMutex setting;                // what is set reaches the engine in the order it was set
   MotionProperties* properties;  // object lock
   gboolean opened;               // object lock: READY or above
   MotionEngine* engine;
@@ -140,6 +141,11 @@ static void warn_of_frame(GstSpidarMotion* self, FrameProblem problem) {
       GST_ELEMENT_WARNING(self, STREAM, FORMAT,
                           ("Timestamps go back without a discontinuity; motion is measured anew."),
                           ("Running time must rise within a segment."));
+      break;
+    case FrameProblem::kTooSmall:
+      GST_ELEMENT_WARNING(self, STREAM, FORMAT,
+                          ("A frame has less memory than its picture needs; it is passed on only."),
+                          ("The strides and offsets of its GstVideoMeta do not fit it."));
       break;
     default:
       break;
@@ -435,19 +441,19 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
 static void gst_spidar_motion_set_property(GObject* object, guint id, const GValue* value,
                                            GParamSpec* spec) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  g_mutex_lock(&self->setting);
   GST_OBJECT_LOCK(self);
   const bool known = set_motion_property(*self->properties, id, value);
-  const GstClockTimeDiff offset_ns = self->properties->ts_offset_ns;
-  const bool muted = self->properties->mute;
-  const bool overlay = self->properties->display.overlay;
   GST_OBJECT_UNLOCK(self);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  if (id == spidar::kPropTsOffset) self->engine->set_offset(offset_ns);
-  if (id == spidar::kPropMute) self->engine->set_muted(muted);
-  if (id == spidar::kPropDebugWindow) follow_debug_window(self);
+  if (id == spidar::kPropTsOffset) self->engine->set_offset(g_value_get_int64(value));
+  if (id == spidar::kPropMute) self->engine->set_muted(g_value_get_boolean(value));
+  if (id == spidar::kPropMaxForce) self->engine->set_max_force(g_value_get_double(value));
   if (id == spidar::kPropOverlay) {
-    gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !overlay);
+    gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !g_value_get_boolean(value));
   }
+  g_mutex_unlock(&self->setting);
+  if (id == spidar::kPropDebugWindow) follow_debug_window(self);
 }
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
@@ -469,10 +475,12 @@ static void gst_spidar_motion_finalize(GObject* object) {
   delete self->display;
   delete self->engine;
   delete self->properties;
+  g_mutex_clear(&self->setting);
   G_OBJECT_CLASS(gst_spidar_motion_parent_class)->finalize(object);
 }
 
 static void gst_spidar_motion_init(GstSpidarMotion* self) {
+  g_mutex_init(&self->setting);
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
   self->display = new MotionDisplay(GST_ELEMENT(self));

@@ -178,6 +178,31 @@ TEST_F(DeviceTest, MaxForceHoldsAtOnceWhilePlaying) {
   EXPECT_LE(h->motions().back().wrench.force_N.norm(), 0.5);
 }
 
+TEST_F(DeviceTest, ALowerMaxForceHoldsWithTheNextTickAndNeedsNoFrame) {
+  open("device=sim");
+  play();
+  for (int n = 0; n < 5; ++n) {
+    push_next();
+    tick(40);
+  }
+  push_next();
+  tick();
+  ASSERT_GT(force_N(), 0.5) << "50 px/s by eq. 15: 0.89 N";
+  g_object_set(h->element(), "max-force", 0.25, nullptr);
+  tick();
+  EXPECT_LE(force_N(), 0.25 * (1 + 1e-12));  // the rounding of a vector that is shortened
+  EXPECT_GT(force_N(), 0.2);
+}
+
+TEST_F(DeviceTest, MaxForceOfAClosedElementHoldsWhenItOpens) {
+  open("device=sim");
+  gst_element_set_state(h->element(), GST_STATE_NULL);
+  g_object_set(h->element(), "max-force", 0.25, nullptr);
+  gst_element_set_state(h->element(), GST_STATE_PLAYING);
+  tick();
+  EXPECT_EQ(loop().snapshot().limits.max_force_N, 0.25);
+}
+
 TEST_F(DeviceTest, MuteRampsToRestAndHoldsIt) {
   open("device=sim");
   play();
