@@ -75,6 +75,7 @@ Options parse(const std::vector<std::string>& arguments) {
     }
   }
   if (options.chosen.empty()) options.chosen = scenarios();
+  if (!options.free_cores && !options.busy_cores) options.free_cores = options.busy_cores = true;
   return options;
 }
 
