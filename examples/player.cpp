@@ -2,14 +2,15 @@
 //
 //   player [--headless] FILE-OR-URI
 //
-// space pause, left and right 5 s, up and down a minute, + and - speed, . next frame, l loop,
-// f force on and off, d and a number and return: the force comes so many ms later, q quit.
-// Keys may also come from a pipe: each is done when the one before is.
+// Without a film it says which keys there are. They may also come from a pipe: each is done when
+// the one before is.
 #include "examples/player/player.h"
 
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <unistd.h>
 
@@ -17,8 +18,13 @@
 
 namespace {
 
+constexpr char kKeys[] =
+    "space pause, left and right 5 s, up and down a minute, + and - speed, . next frame, l loop,\n"
+    "f force on and off, d and a number and return: the force comes so many ms later, q quit\n";
+
 struct Session {
   Player& player;
+  std::string name;  ///< of the film
   GMainLoop* loop;
   KeyReader keys;
   bool terminal = isatty(STDOUT_FILENO) != 0;
@@ -67,7 +73,7 @@ gboolean on_message(GstBus*, GstMessage* message, gpointer user) {
       break;
     case GST_MESSAGE_ERROR:
       gst_message_parse_error(message, &error, nullptr);
-      std::fprintf(stderr, "\n%s\n", error->message);
+      std::fprintf(stderr, "\n%s: %s\n", session.name.c_str(), error->message);
       session.result = 1;
       g_main_loop_quit(session.loop);
       break;
@@ -78,13 +84,28 @@ gboolean on_message(GstBus*, GstMessage* message, gpointer user) {
   return G_SOURCE_CONTINUE;
 }
 
-int run(const std::string& name, bool headless) {
-  gchar* uri = gst_uri_is_valid(name.c_str()) ? g_strdup(name.c_str())
-                                              : gst_filename_to_uri(name.c_str(), nullptr);
-  Player player(uri, headless);
+/// Throws std::runtime_error for a file that cannot be a film.
+std::string uri_of(const std::string& name) {
+  if (gst_uri_is_valid(name.c_str())) return name;
+  std::error_code error;
+  const auto status = std::filesystem::status(name, error);
+  if (!std::filesystem::exists(status)) throw std::runtime_error(name + ": no such file");
+  if (std::filesystem::is_directory(status)) {
+    throw std::runtime_error(name + ": a folder; name a film in it");
+  }
+  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(name, error) == 0) {
+    throw std::runtime_error(name + ": an empty file");
+  }
+  gchar* uri = gst_filename_to_uri(name.c_str(), nullptr);
+  const std::string result = uri;
   g_free(uri);
+  return result;
+}
+
+int run(const std::string& name, bool headless) {
+  Player player(uri_of(name), headless);
   const RawTerminal raw(STDIN_FILENO);
-  Session session{player, g_main_loop_new(nullptr, FALSE), {}};
+  Session session{player, name, g_main_loop_new(nullptr, FALSE), {}};
   gst_bus_add_watch(player.bus(), on_message, &session);
   player.play();
   g_unix_fd_add(STDIN_FILENO, static_cast<GIOCondition>(G_IO_IN | G_IO_HUP), on_key, &session);
@@ -103,8 +124,8 @@ int run(const std::string& name, bool headless) {
 
 int main(int argc, char** argv) {
   const bool headless = argc > 2 && std::strcmp(argv[1], "--headless") == 0;
-  if (argc != (headless ? 3 : 2)) {
-    std::fprintf(stderr, "usage: %s [--headless] FILE-OR-URI\n", argv[0]);
+  if (argc != (headless ? 3 : 2) || argv[argc - 1][0] == '-') {
+    std::fprintf(stderr, "usage: %s [--headless] FILE-OR-URI\n\n%s", argv[0], kKeys);
     return 2;
   }
   gst_init(nullptr, nullptr);

@@ -1,72 +1,86 @@
 #!/usr/bin/env python3
-"""Plays FILE-OR-URI with its motion in the hand: player.py [--headless] FILE-OR-URI
+"""Plays a film with its motion in the hand: player.py [--headless] FILE-OR-URI
 
-Type space pause, + - speed, < > 5 s, f force on and off, d40 force 40 ms later, q quit; and return.
-Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in README.md.
+Type and return: space pause, + - speed, < > 5 s, . next frame, l loop, f force on and off,
+d40 force 40 ms later, q quit. Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in
+README.md.
 """
+import re
 import sys
+import threading
 
 import gi
 
 gi.require_version("Gst", "1.0")
 from gi.repository import GLib, Gst  # noqa: E402
 
+headless = "--headless" in sys.argv
+names = [argument for argument in sys.argv[1:] if argument != "--headless"]
+if len(names) != 1 or names[0].startswith("-"):
+    sys.exit(__doc__)
 Gst.init(None)
-name = sys.argv[-1]
-motion = Gst.ElementFactory.make("spidarmotion")
+motion = Gst.parse_launch("spidarmotion")
+screen = Gst.parse_launch("fakesink sync=true" if headless else "autovideosink")
+sound = Gst.parse_launch("fakesink sync=true" if headless else "autoaudiosink")
 player = Gst.ElementFactory.make("playbin")
-player.set_property("uri", name if Gst.uri_is_valid(name) else Gst.filename_to_uri(name))
-player.set_property("video-filter", motion)
-if "--headless" in sys.argv:
-    for sink in "video-sink", "audio-sink":
-        player.set_property(sink, Gst.parse_launch("fakesink sync=true"))
-loop = GLib.MainLoop()
-rate, playing = 1.0, True
+for key, value in {"video-filter": motion, "video-sink": screen, "audio-sink": sound}.items():
+    player.set_property(key, value)
+player.set_property("uri", names[0] if Gst.uri_is_valid(names[0]) else Gst.filename_to_uri(names[0]))
+main = GLib.MainLoop()
+rate, playing, again, failed = 1.0, True, False, False
 
 
-def jump(seconds):
-    position = player.query_position(Gst.Format.TIME)[1] + seconds * Gst.SECOND
-    player.seek(rate, Gst.Format.TIME, Gst.SeekFlags.FLUSH | Gst.SeekFlags.ACCURATE,
-                Gst.SeekType.SET, max(position, 0), Gst.SeekType.NONE, 0)
+def jump(seconds, start=None):
+    position = player.query_position(Gst.Format.TIME)[1] if start is None else start
+    player.seek(rate, Gst.Format.TIME, Gst.SeekFlags.FLUSH | Gst.SeekFlags.ACCURATE, Gst.SeekType.SET,
+                max(position + seconds * Gst.SECOND, 0), Gst.SeekType.NONE, 0)
 
 
-def act(source, _condition):
-    global rate, playing
-    line = source.readline()
-    key = line.rstrip("\n")[:1]
-    if key == " ":
-        playing = not playing
+def act(line):
+    global rate, playing, again
+    key = line[:1]
+    if key == "q":
+        main.quit()
+    elif key in (" ", "."):
+        playing = not playing and key == " "
         player.set_state(Gst.State.PLAYING if playing else Gst.State.PAUSED)
+        player.get_state(5 * Gst.SECOND)
+        if key == ".":
+            screen.send_event(Gst.Event.new_step(Gst.Format.BUFFERS, 1, 1.0, True, False))
     elif key in ("+", "-"):
         rate = min(max(rate * (2 if key == "+" else 0.5), 0.25), 4)
         jump(0)
     elif key in ("<", ">"):
         jump(5 if key == ">" else -5)
+    elif key == "l":
+        again = not again
     elif key == "f":
         motion.set_property("mute", not motion.get_property("mute"))
-    elif key == "d":
+    elif re.fullmatch("d-?[0-9]{1,4}\n", line):
         motion.set_property("ts-offset", int(line[1:]) * Gst.MSECOND)
-    elif key == "q":
-        loop.quit()
     player.get_state(5 * Gst.SECOND)
-    print(f"{player.query_position(Gst.Format.TIME)[1] / Gst.SECOND:.1f} s, {rate:g}x, "
-          f"{'playing' if playing else 'paused'}, "
+    print(f"{max(player.query_position(Gst.Format.TIME)[1], 0) / Gst.SECOND:.2f} s, {rate:g}x, "
+          f"{'playing' if playing else 'paused'}{', loop' if again else ''}, "
           f"force {'off' if motion.get_property('mute') else 'on'}, "
           f"delay {motion.get_property('ts-offset') // Gst.MSECOND} ms", flush=True)
-    return bool(line)
 
 
-def end(_bus, message):
-    if message.type == Gst.MessageType.ERROR:
-        print(message.parse_error().gerror.message, file=sys.stderr)
-    if message.type in (Gst.MessageType.ERROR, Gst.MessageType.EOS):
-        loop.quit()
+def hear(_bus, message):
+    global failed
+    if message.type == Gst.MessageType.EOS and again:
+        jump(0, 0)
+    elif message.type in (Gst.MessageType.ERROR, Gst.MessageType.EOS):
+        failed = message.type == Gst.MessageType.ERROR
+        if failed:
+            print(f"{names[0]}: {message.parse_error().gerror.message}", file=sys.stderr)
+        main.quit()
 
 
 player.bus.add_signal_watch()
-player.bus.connect("message", end)
+player.bus.connect("message", hear)
 player.set_state(Gst.State.PLAYING)
 player.get_state(5 * Gst.SECOND)
-GLib.io_add_watch(sys.stdin, GLib.PRIORITY_DEFAULT, GLib.IOCondition.IN | GLib.IOCondition.HUP, act)
-loop.run()
+threading.Thread(target=lambda: [GLib.idle_add(act, line) for line in sys.stdin], daemon=True).start()
+main.run()
 player.set_state(Gst.State.NULL)
+sys.exit(failed)

@@ -17,7 +17,7 @@ CPP = [
     ("+", "1.5x"),
     ("-", " 1x"),
     ("l", "loop"),
-    ("x", None),
+    ("dx", "delay -15 ms"),
     ("f", "force on"),
     (" ", "playing"),
     ("\033[C", "playing"),
@@ -25,10 +25,16 @@ CPP = [
 ]
 PYTHON = [
     (" \n", "paused"),
-    ("<\n", "0.0 s"),
+    ("<\n", "0.00 s"),
+    (".\n", "0.04 s"),
+    (".\n", "0.08 s"),
+    ("l\n", "loop"),
     ("f\n", "force off"),
     ("d40\n", "delay 40 ms"),
+    ("d\n", "delay 40 ms"),
+    ("dx\n", "delay 40 ms"),
     ("+\n", "2x"),
+    ("-\n", " 1x"),
     (" \n", "playing"),
     ("f\n", "force on"),
     ("q\n", ""),
@@ -64,8 +70,26 @@ def check(program, script, first):
             assert text in line, f"'{text}' is not in '{line}'\n" + "\n".join(lines)
         code, lines, _ = run(program, make_clip(folder, 10), "")  # to the end, without a key
         assert code == 0
-        code, _, errors = run(program, os.path.join(folder, "none.avi"), "")
-        assert re.search("not found|No such file", errors), errors
+        check_refused(program, folder)
+
+
+def check_refused(program, folder):
+    """What is no film is named, with what is wrong with it, and the player says so to its caller."""
+    empty, text = (os.path.join(folder, name) for name in ("empty.avi", "text.avi"))
+    for name, content in (empty, ""), (text, "no film\n" * 100):
+        with open(name, "w") as file:
+            file.write(content)
+    for name, reason in [(os.path.join(folder, "none.avi"), "no such file|not found"),
+                         (folder, "folder|directory"), (empty, "empty|no data"),
+                         (text, "text file"), ("nothing://here", "No URI handler"),
+                         ("--unknown", "FILE-OR-URI")]:
+        code, _, errors = run(program, name, "")
+        assert code != 0, name
+        assert re.search(reason, errors), errors
+        assert name in errors or name.startswith("--"), errors
+    done = subprocess.run(program, stdin=subprocess.DEVNULL, text=True, capture_output=True,
+                          timeout=60)
+    assert done.returncode != 0 and "FILE-OR-URI" in done.stderr, done
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ class Players : public testing::Test {
     folder = std::make_unique<TemporaryFolder>();
     // Half a second with sound, and four lines of text.
     film = (folder->path / "film.mkv").string();
-    subtitles = (folder->path / "film.srt").string();
+    const std::string subtitles = (folder->path / "film.srt").string();
     std::string text;
     for (int n = 1; n < 5; ++n) {
       const std::string time = "00:00:00," + std::to_string(n);
@@ -39,7 +39,8 @@ class Players : public testing::Test {
     ASSERT_TRUE(g_file_set_contents(subtitles.c_str(), text.c_str(), -1, nullptr));
     const Outcome written = launch(kPan + "! matroskamux name=m ! filesink location=" + film +
                                    " audiotestsrc num-buffers=22 ! audio/x-raw,rate=44100 ! "
-                                   "m.");
+                                   "m. filesrc location=" +
+                                   subtitles + " ! subparse ! m.");
     ASSERT_TRUE(written.eos) << written.error;
   }
   static void TearDownTestSuite() { folder.reset(); }
@@ -60,11 +61,9 @@ class Players : public testing::Test {
 
   static std::unique_ptr<TemporaryFolder> folder;
   static std::string film;
-  static std::string subtitles;
 };
 std::unique_ptr<TemporaryFolder> Players::folder;
 std::string Players::film;
-std::string Players::subtitles;
 
 TEST_F(Players, AFilmWithSoundAndSubtitlesByTheClockOfItsSound) {
   for (const char* name : {"playbin", "playbin3"}) {
@@ -72,8 +71,8 @@ TEST_F(Players, AFilmWithSoundAndSubtitlesByTheClockOfItsSound) {
     GstElement* player = gst_element_factory_make(name, nullptr);
     GstElement* filter = gst_parse_launch(kMotion.c_str(), nullptr);
     GstElement* sink = gst_parse_launch("fakesink sync=true", nullptr);
-    g_object_set(player, "uri", uri(film).c_str(), "suburi", uri(subtitles).c_str(), "video-filter",
-                 filter, "video-sink", sink, "audio-sink", bench::make_sound_card(100e-6), nullptr);
+    g_object_set(player, "uri", uri(film).c_str(), "video-filter", filter, "video-sink", sink,
+                 "audio-sink", bench::make_sound_card(100e-6), nullptr);
     const Outcome outcome = run_to_end(player);
     EXPECT_EQ(outcome.clock, "GstAudioClock");
     expect_felt(outcome, 15);
@@ -134,15 +133,38 @@ TEST_F(Players, Rtp) {
   gst_object_unref(sender);
 }
 
-/// Frames that an application makes: a bright square that moves to the right.
-void push_square(GstAppSrc* source, int n) {
-  constexpr int kWidth = 160, kHeight = 120;
-  GstBuffer* frame = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
-  gst_buffer_memset(frame, 0, 16, kWidth * kHeight);
-  for (int y = 40; y < 80; ++y)
-    gst_buffer_memset(frame, static_cast<gsize>(y * kWidth + 20 + 3 * n), 200, 40);
-  gst_app_src_push_buffer(source, frame);
-}
+/// A camera of an application's: a bright square that moves to the right, 20 frames when asked.
+class SquareCamera {
+ public:
+  static void set_up(GstElement*, GstElement* source, SquareCamera* self) {
+    GstCaps* caps =
+        gst_caps_from_string("video/x-raw,format=GRAY8,width=160,height=120,framerate=0/1");
+    g_object_set(source, "caps", caps, "is-live", TRUE, "do-timestamp", TRUE, "format",
+                 GST_FORMAT_TIME, nullptr);
+    gst_caps_unref(caps);
+    // Not before: what is pushed before PLAYING has a time stamp of a clock without a base time.
+    g_signal_connect(source, "need-data", G_CALLBACK(push), self);
+  }
+
+ private:
+  static void push(GstAppSrc* source, guint, SquareCamera* self) {
+    constexpr gsize kWidth = 160, kHeight = 120;
+    if (self->frames_ == 20) {
+      gst_app_src_end_of_stream(source);
+      return;
+    }
+    g_usleep(10 * 1000);
+    GstBuffer* frame = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
+    gst_buffer_memset(frame, 0, 16, kWidth * kHeight);
+    for (gsize y = 40; y < 80; ++y) {
+      gst_buffer_memset(frame, y * kWidth + 20 + 3 * self->frames_, 200, 40);
+    }
+    ++self->frames_;
+    gst_app_src_push_buffer(source, frame);
+  }
+
+  gsize frames_ = 0;  // streaming thread
+};
 
 TEST_F(Players, UridecodebinWithALiveSource) {
   GstElement* pipeline = gst_parse_launch(
@@ -150,29 +172,10 @@ TEST_F(Players, UridecodebinWithALiveSource) {
       "sync=true",
       nullptr);
   GstElement* decoder = gst_bin_get_by_name(GST_BIN(pipeline), "d");
-  std::thread camera;
-  const auto set_up = [](GstElement*, GstElement* source, gpointer user) {
-    GstCaps* caps =
-        gst_caps_from_string("video/x-raw,format=GRAY8,width=160,height=120,framerate=0/1");
-    g_object_set(source, "caps", caps, "is-live", TRUE, "do-timestamp", TRUE, "format",
-                 GST_FORMAT_TIME, nullptr);
-    gst_caps_unref(caps);
-    gst_object_ref(source);
-    *static_cast<std::thread*>(user) = std::thread([source] {
-      for (int n = 0; n < 20; ++n) {
-        push_square(GST_APP_SRC(source), n);
-        g_usleep(10 * 1000);
-      }
-      gst_app_src_end_of_stream(GST_APP_SRC(source));
-      gst_object_unref(source);
-    });
-  };
-  g_signal_connect(decoder, "source-setup",
-                   G_CALLBACK(static_cast<void (*)(GstElement*, GstElement*, gpointer)>(set_up)),
-                   &camera);
+  SquareCamera camera;
+  g_signal_connect(decoder, "source-setup", G_CALLBACK(SquareCamera::set_up), &camera);
   gst_object_unref(decoder);
   const Outcome outcome = run_to_end(pipeline);
-  camera.join();
   EXPECT_TRUE(outcome.eos);
   expect_felt(outcome, 20);
 }
@@ -186,6 +189,7 @@ TEST_F(Players, StoppedByAnotherThreadAtAnyMoment) {
         "videotestsrc pattern=ball ! video/x-raw,width=160,height=120 ! queue ! spidarmotion ! "
         "queue ! fakesink sync=true",
         nullptr);
+    const Traces traces(pipeline);
     const gulong delay_us = random() % 30'000;
     std::thread other([&] {
       g_usleep(delay_us);
