@@ -209,8 +209,11 @@ void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
 int64_t MotionEngine::pace(int64_t running_ns) {
   if (last_running_ns_ < 0) return running_ns;
   const std::lock_guard<std::mutex> lock(schedule_mutex_);
-  const auto since_ns = static_cast<double>(running_ns - last_running_ns_);
-  return last_paced_ns_ + std::llround(since_ns / instant_rate_.multiplier());
+  const double since_ns =
+      static_cast<double>(running_ns - last_running_ns_) / instant_rate_.multiplier();
+  const double paced_ns = static_cast<double>(last_paced_ns_) + since_ns;
+  if (std::fabs(paced_ns) > static_cast<double>(kLatest_ns)) return running_ns;  // anew
+  return last_paced_ns_ + std::llround(since_ns);
 }
 
 void MotionEngine::restart() {
@@ -233,7 +236,7 @@ void MotionEngine::restart_timing() {
 
 void MotionEngine::run_out(GstClockTime running_time) {
   restart();
-  if (!GST_CLOCK_TIME_IS_VALID(running_time)) return;  // what was scheduled expires by itself
+  if (!is_time(running_time)) return;  // what was scheduled expires by itself
   schedule(static_cast<int64_t>(running_time), 0, Wrench());
 }
 
@@ -263,6 +266,11 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   report.stream_time = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, pts);
   if (!GST_CLOCK_TIME_IS_VALID(report.running_time)) {
     report.problem = FrameProblem::kNotShown;
+    return report;
+  }
+  if (!is_time(report.running_time)) {
+    restart();
+    report.problem = FrameProblem::kNoTimestamp;
     return report;
   }
   const int64_t running_ns = static_cast<int64_t>(report.running_time);

@@ -25,7 +25,7 @@ namespace spidar {
 
 enum class FrameProblem {
   kNone,
-  kNoTimestamp,       ///< no PTS: it cannot be felt in time
+  kNoTimestamp,       ///< no PTS, or one that is no time: it cannot be felt in time
   kSameTimestamp,     ///< as the frame before: no Δt to divide by
   kFallingTimestamp,  ///< before the frame before
   kTooSmall,          ///< less memory than the picture needs

@@ -130,7 +130,8 @@ static void warn_of_frame(GstSpidarMotion* self, FrameProblem problem) {
       GST_ELEMENT_WARNING(
           self, STREAM, FORMAT,
           ("Frames without a timestamp cannot be felt in time; they are shown only."),
-          ("Buffer without PTS. A videorate or a parser before the decoder adds them."));
+          ("Buffer without PTS, or decades ahead. A videorate or a parser before the decoder adds "
+           "them."));
       break;
     case FrameProblem::kSameTimestamp:
       GST_ELEMENT_WARNING(self, STREAM, FORMAT,

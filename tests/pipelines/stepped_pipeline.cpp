@@ -191,4 +191,8 @@ const std::map<GstClockTime, Wrench>& SteppedPipeline::wrenches() {
   return wrenches_;
 }
 
+void SteppedPipeline::forget_before(GstClockTime running_time) {
+  wrenches_.erase(wrenches_.begin(), wrenches_.lower_bound(running_time));
+}
+
 }  // namespace spidar::test
