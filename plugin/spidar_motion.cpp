@@ -246,7 +246,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   return check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
-/// A frame without a picture is not even mapped: its memory may be that of a graphics card.
+/// A frame without a picture is not even mapped: that may have to wait for its memory.
 static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, GstBuffer* buffer) {
   if (!GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP)) {
     return GST_BASE_TRANSFORM_CLASS(gst_spidar_motion_parent_class)->transform_ip(trans, buffer);

@@ -70,7 +70,7 @@ test_with_other_packages() {
     [[ -f $root$build/build.ninja ]] || in_root meson setup "$build" --werror
     # Results of an earlier run would stand for a test program that crashes in this one.
     rm -f "$root$build"/*.xml "$root$build"/meson-logs/testlog*
-    in_root ninja -C "$build"
+    in_root ninja -C "$build" -j"$(nproc)"
     say "testing there"
     in_root meson test -C "$build" --print-errorlogs || true
     say "summary: $(in_root gst-inspect-1.0 --version | tail -n +2 | head -n 1), Debian $suite"
@@ -98,7 +98,7 @@ test_with_other_gstreamer() {
     say "building in build/"
     install_packages build test
     [[ -f build/build.ninja ]] || meson setup build
-    ninja -C build
+    ninja -C build -j"$(nproc)"
     link_missing_libraries "$links"
     rm -f build/*.xml build/meson-logs/"$log"*
     local with=(env -C "$PWD/build" "LD_LIBRARY_PATH=$links" "GST_REGISTRY=$links/registry.bin")
