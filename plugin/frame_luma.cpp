@@ -42,6 +42,21 @@ VisiblePart visible_part(const GstVideoFrame& frame) {
           static_cast<int>(std::min<guint>(crop->height, static_cast<guint>(height - y)))};
 }
 
+bool holds_picture(const GstVideoFrame& frame) {
+  for (guint c = 0; c < GST_VIDEO_FRAME_N_COMPONENTS(&frame); ++c) {
+    const auto plane = static_cast<guint>(GST_VIDEO_FRAME_COMP_PLANE(&frame, c));
+    const gint64 stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, plane);
+    const gint64 line = static_cast<gint64>(GST_VIDEO_FRAME_COMP_WIDTH(&frame, c)) *
+                        GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, c);
+    const gint64 bytes = stride * (GST_VIDEO_FRAME_COMP_HEIGHT(&frame, c) - 1) + line;
+    // With a meta each plane is mapped by itself; else they all are in the first.
+    const GstMapInfo& map = frame.map[frame.meta ? plane : 0];
+    const auto* first = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, plane));
+    if (stride < line || first - map.data + bytes > static_cast<gint64>(map.size)) return false;
+  }
+  return true;
+}
+
 ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
   // The field's own lines, and between them their mean: the picture keeps its shape.
   const size_t width = static_cast<size_t>(frame.width);

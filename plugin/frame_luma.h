@@ -20,6 +20,10 @@ struct VisiblePart {
 };
 VisiblePart visible_part(const GstVideoFrame& frame);
 
+/// Whether the mapped memory holds every line of every plane, one after the other from the top.
+/// GStreamer takes the word of a GstVideoMeta for that.
+bool holds_picture(const GstVideoFrame& frame);
+
 /// Reads plane 0 of planar and semi-planar formats in place, with its stride; makes luma of packed
 /// RGB; honours a crop meta; of interlaced frames it takes the first field, because the two fields
 /// are two moments.

@@ -1,11 +1,19 @@
 /// Changes of the rate that do not seek.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <gst/gst.h>
 
 namespace spidar {
+
+/// Running times beyond 73 years are none: sums and differences of a few that are fit an int64_t.
+constexpr gint64 kLatest_ns = gint64{1} << 61;
+
+inline bool is_time(GstClockTime running_time) {
+  return running_time <= static_cast<GstClockTime>(kLatest_ns);
+}
 
 /// Running time at the sink of what has a running time here. They differ from an instant change of
 /// the rate on: segments stay as they are, and the sink shows frames closer together. The pipeline
@@ -14,8 +22,9 @@ namespace spidar {
 class InstantRate {
  public:
   /// From here on `multiplier` times as fast: what is `upstream` here is shown at `running_time`.
+  /// What makes no sense is ignored.
   void change(double multiplier, GstClockTime running_time, GstClockTime upstream) {
-    if (!(multiplier > 0)) return;
+    if (!(multiplier > 0) || !is_time(running_time) || !is_time(upstream)) return;
     multiplier_ = multiplier;
     shown_ns_ = static_cast<gint64>(running_time);
     here_ns_ = static_cast<gint64>(upstream);
@@ -24,10 +33,14 @@ class InstantRate {
 
   double multiplier() const { return multiplier_; }
 
+  /// `running_ns` is at most kLatest_ns, and so is the result, either way.
   gint64 at_sink(gint64 running_ns) const {
-    if (multiplier_ == 1) return running_ns - here_ns_ + shown_ns_;
-    const auto since_ns = static_cast<double>(running_ns - here_ns_);
-    return shown_ns_ + std::llround(since_ns / multiplier_);
+    const gint64 since_ns = running_ns - here_ns_;
+    if (multiplier_ == 1) return std::clamp(shown_ns_ + since_ns, -kLatest_ns, kLatest_ns);
+    constexpr auto kLatest = static_cast<double>(kLatest_ns);
+    const double later_ns = static_cast<double>(since_ns) / multiplier_;
+    const gint64 shown_ns = shown_ns_ + std::llround(std::clamp(later_ns, -kLatest, kLatest));
+    return std::clamp(shown_ns, -kLatest_ns, kLatest_ns);
   }
 
  private:

@@ -27,6 +27,9 @@ class MotionDisplay {
   void show(const FrameReport& report, const DisplayProperties& properties,
             const AnalyzerSettings& settings, GstVideoFrame& frame);
 
+  /// Instead, of a frame that nobody looked at.
+  void skip() { viewer_.reset(); }
+
   // --- any thread
 
   void open_window();

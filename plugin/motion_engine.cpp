@@ -34,7 +34,8 @@ GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment) {
   if (!GST_CLOCK_TIME_IS_VALID(duration) && frame.info.fps_n > 0) {
     duration = gst_util_uint64_scale_int(GST_SECOND, frame.info.fps_d, frame.info.fps_n);
   }
-  const GstClockTime end = GST_CLOCK_TIME_IS_VALID(duration) ? pts + duration : GST_CLOCK_TIME_NONE;
+  const bool has_end = GST_CLOCK_TIME_IS_VALID(duration) && duration < GST_CLOCK_TIME_NONE - pts;
+  const GstClockTime end = has_end ? pts + duration : GST_CLOCK_TIME_NONE;
   guint64 from = 0, to = 0;
   if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, end, &from, &to)) {
     return GST_CLOCK_TIME_NONE;
@@ -51,12 +52,11 @@ void MotionEngine::set_manual(PlaybackSync::Now now, void* user) {
 }
 
 void MotionEngine::open(const MotionProperties& properties) {
-  apply(properties.analyzer);
+  analyzer_.configure(properties.analyzer);
   if (properties.device == "none") return;
   const Profile profile = load_profile(properties.profile);
   grip_pointer_ = GripPointer(profile.geometry);
   SessionSettings settings;
-  settings.limits.max_force_N = properties.analyzer.controller.max_force_N;
   settings.trace_path = properties.haptic_trace;
   settings.threaded = now_ == nullptr;
   auto session =
@@ -65,9 +65,10 @@ void MotionEngine::open(const MotionProperties& properties) {
   auto follower = std::make_unique<PlaybackFollower>(
       element_, [&loop](const PlaybackClock& clock) { loop.set_playback_clock(clock); },
       now_ ? now_ : monotonic_now, now_user_, settings.threaded);
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  loop.set_limits(limits_);
   follower->set_latency(latency_);
   follower->set_offset(offset_ns_);
-  const std::lock_guard<std::mutex> lock(session_mutex_);
   profile_ = profile;
   session_ = std::move(session);
   follower_ = std::move(follower);
@@ -112,6 +113,12 @@ void MotionEngine::set_offset(GstClockTimeDiff offset_ns) {
   if (follower_) follower_->set_offset(offset_ns);
 }
 
+void MotionEngine::set_max_force(double max_force_N) {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  limits_.max_force_N = max_force_N;
+  if (session_) session_->loop().set_limits(limits_);
+}
+
 void MotionEngine::set_muted(bool muted) {
   const std::lock_guard<std::mutex> lock(schedule_mutex_);
   if (muted && !muted_) {
@@ -131,9 +138,9 @@ void MotionEngine::expect_base_time() {
   if (follower_) follower_->expect_base_time();
 }
 
-void MotionEngine::set_skipped(GstClockTimeDiff skipped_ns) {
+void MotionEngine::skip(GstClockTime duration) {
   const std::lock_guard<std::mutex> lock(schedule_mutex_);
-  skipped_ns_ = skipped_before_ns_ + skipped_ns;
+  skipped_ns_ += static_cast<int64_t>(duration);
   const std::lock_guard<std::mutex> session_lock(session_mutex_);
   if (follower_) follower_->set_skipped(skipped_ns_);
 }
@@ -187,16 +194,6 @@ int MotionEngine::faulty_string() const {
   return session_ ? session_->loop().snapshot().last.faulty_string : -1;
 }
 
-void MotionEngine::apply(const AnalyzerSettings& settings) {
-  analyzer_.configure(settings);
-  const double max_force_N = settings.controller.max_force_N;
-  if (max_force_N == max_force_N_) return;
-  max_force_N_ = max_force_N;
-  SafetyLimits limits;
-  limits.max_force_N = max_force_N;
-  if (session_) session_->loop().set_limits(limits);
-}
-
 void MotionEngine::schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench) {
   const std::lock_guard<std::mutex> lock(schedule_mutex_);
   if (!session_ || muted_) return;
@@ -230,8 +227,11 @@ void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
 int64_t MotionEngine::pace(int64_t running_ns) {
   if (last_running_ns_ < 0) return running_ns;
   const std::lock_guard<std::mutex> lock(schedule_mutex_);
-  const auto since_ns = static_cast<double>(running_ns - last_running_ns_);
-  return last_paced_ns_ + std::llround(since_ns / instant_rate_.multiplier());
+  const double since_ns =
+      static_cast<double>(running_ns - last_running_ns_) / instant_rate_.multiplier();
+  const double paced_ns = static_cast<double>(last_paced_ns_) + since_ns;
+  if (std::fabs(paced_ns) > static_cast<double>(kLatest_ns)) return running_ns;  // anew
+  return last_paced_ns_ + std::llround(since_ns);
 }
 
 void MotionEngine::restart() {
@@ -254,8 +254,16 @@ void MotionEngine::restart_timing() {
 
 void MotionEngine::run_out(GstClockTime running_time) {
   restart();
-  if (!GST_CLOCK_TIME_IS_VALID(running_time)) return;  // what was scheduled expires by itself
+  if (!is_time(running_time)) return;  // what was scheduled expires by itself
   schedule(static_cast<int64_t>(running_time), 0, Wrench());
+}
+
+void MotionEngine::pass_gap(GstClockTime running_time) {
+  run_out(running_time);
+  if (!GST_CLOCK_TIME_IS_VALID(running_time)) return;
+  const int64_t running_ns = static_cast<int64_t>(running_time);
+  last_paced_ns_ = pace(running_ns);
+  last_running_ns_ = running_ns;
 }
 
 void MotionEngine::end_of_stream() {
@@ -278,14 +286,12 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.problem = FrameProblem::kNotShown;
     return report;
   }
-  const int64_t running_ns = static_cast<int64_t>(report.running_time);
-  if (GST_BUFFER_FLAG_IS_SET(frame.buffer, GST_BUFFER_FLAG_GAP)) {
-    run_out(report.running_time);
-    last_paced_ns_ = pace(running_ns);
-    last_running_ns_ = running_ns;
-    report.problem = FrameProblem::kNotShown;
+  if (!is_time(report.running_time)) {
+    restart();
+    report.problem = FrameProblem::kNoTimestamp;
     return report;
   }
+  const int64_t running_ns = static_cast<int64_t>(report.running_time);
   // Sources and decoders mark every buffer, or the first of every group, when they play backwards.
   if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) {
     restart();
@@ -297,13 +303,18 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.problem = FrameProblem::kFallingTimestamp;
   }
 
+  if (!holds_picture(frame)) {
+    restart();
+    report.problem = FrameProblem::kTooSmall;
+    return report;
+  }
   const ImageView luma = luma_.view(frame);
   if (!luma.data) {
     restart();
     report.problem = FrameProblem::kNotShown;
     return report;
   }
-  apply(settings);
+  analyzer_.configure(settings);
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
   const int64_t paced_ns = pace(running_ns);
   report.analysis = analyzer_.analyze(luma, paced_ns);

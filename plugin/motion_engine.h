@@ -25,10 +25,11 @@ namespace spidar {
 
 enum class FrameProblem {
   kNone,
-  kNoTimestamp,       ///< no PTS: it cannot be felt in time
+  kNoTimestamp,       ///< no PTS, or one that is no time: it cannot be felt in time
   kSameTimestamp,     ///< as the frame before: no Δt to divide by
   kFallingTimestamp,  ///< before the frame before
-  kNotShown,          ///< outside the segment, or a gap
+  kTooSmall,          ///< less memory than the picture needs
+  kNotShown,          ///< outside the segment, or cropped to nothing
 };
 
 /// What became of one frame.
@@ -67,14 +68,16 @@ class MotionEngine {
 
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
+  /// Holds with the next tick of the haptic loop, whether frames come or not.
+  void set_max_force(double max_force_N);
   /// The force ramps to rest at once and stays there until frames come after set_muted(false).
   void set_muted(bool muted);
   /// What was scheduled is forgotten at once.
   void flush();
   /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
-  /// The sink has stepped over so much of this segment: it shows what follows as much earlier.
-  void set_skipped(GstClockTimeDiff skipped_ns);
+  /// The sink has stepped over so much of running time: it shows what follows as much earlier.
+  void skip(GstClockTime duration);
   /// The pipeline will distribute a new base time: nothing is on the screen until then.
   void expect_base_time();
   /// Looks at the pipeline's clock now; a thread does that by itself.
@@ -97,6 +100,8 @@ class MotionEngine {
   void begin_segment();
   /// Nothing is shown from this running time on: the force runs out.
   void run_out(GstClockTime running_time);
+  /// In place of a frame that has no picture.
+  void pass_gap(GstClockTime running_time);
   /// Nothing more comes.
   void end_of_stream();
   /// Where the grip points at the picture; nothing while no device runs.
@@ -114,18 +119,18 @@ class MotionEngine {
   void schedule_at_sink(const TimedWrench& entry);
   /// Time of a frame on a scale on which the distance to the last frame is that of showing them.
   int64_t pace(int64_t running_ns);
-  void apply(const AnalyzerSettings& settings);
 
   GstElement* const element_;
   PlaybackSync::Now now_ = nullptr;
   void* now_user_ = nullptr;
 
-  mutable std::mutex session_mutex_;  // state changes against stats()
+  mutable std::mutex session_mutex_;  // state changes against any thread
   std::unique_ptr<HapticSession> session_;
   Profile profile_;  // of the session
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;
+  SafetyLimits limits_;
   // Nothing is scheduled between muting and forgetting, nor during a change of rate.
   std::mutex schedule_mutex_;
   bool muted_ = false;
@@ -137,7 +142,6 @@ class MotionEngine {
   // Streaming thread.
   GripPointer grip_pointer_;
   MotionAnalyzer analyzer_;
-  double max_force_N_ = -1;
   FrameLuma luma_;
   FrameTrace trace_;
   int64_t last_running_ns_ = -1;

@@ -26,6 +26,11 @@ void PlaybackFollower::set_playing(bool playing) {
     const std::lock_guard<std::mutex> lock(mutex_);
     playing_ = playing;
     sync_.set_playing(playing);
+    if (playing) {
+      sink_offset_.follow(element_);
+    } else {
+      sink_offset_.forget();
+    }
     refresh_locked();
   }
   changed_.notify_all();
@@ -34,12 +39,14 @@ void PlaybackFollower::set_playing(bool playing) {
 void PlaybackFollower::set_latency(GstClockTime latency) {
   const std::lock_guard<std::mutex> lock(mutex_);
   sync_.set_latency(latency);
+  // A sink that is new to the pipeline makes it distribute the latency anew.
+  if (playing_) sink_offset_.follow(element_);
   refresh_locked();
 }
 
 void PlaybackFollower::set_offset(GstClockTimeDiff offset_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  sync_.set_offset(offset_ns);
+  offset_ns_ = offset_ns;
   refresh_locked();
 }
 
@@ -58,6 +65,11 @@ void PlaybackFollower::expect_base_time() {
 void PlaybackFollower::refresh() {
   const std::lock_guard<std::mutex> lock(mutex_);
   refresh_locked();
+}
+
+void PlaybackFollower::refresh_locked() {
+  sync_.set_offset(offset_ns_ + sink_offset_.value_ns());
+  publish_(sync_.observe(element_));
 }
 
 void PlaybackFollower::run() {

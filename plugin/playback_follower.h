@@ -9,13 +9,14 @@
 #include <gst/gst.h>
 
 #include "plugin/playback_sync.h"
+#include "plugin/sink_offset.h"
 #include "spidar/playback_clock.h"
 
 namespace spidar {
 
-/// Observes the pipeline's clock a hundred times a second while playing. Frames are no good as the
-/// occasion: a queue behind the element holds them back, while a seek changes the base time and an
-/// audio clock drifts. Thread-safe.
+/// Observes the pipeline's clock and the sink's `ts-offset` a hundred times a second while playing.
+/// Frames are no good as the occasion: a queue behind the element holds them back, while a seek
+/// changes the base time and an audio clock drifts. Thread-safe.
 class PlaybackFollower {
  public:
   using Publish = std::function<void(const PlaybackClock&)>;
@@ -35,13 +36,15 @@ class PlaybackFollower {
 
  private:
   void run();
-  void refresh_locked() { publish_(sync_.observe(element_)); }
+  void refresh_locked();
 
   GstElement* const element_;  // owns the owner of this
   const Publish publish_;
   std::mutex mutex_;
   std::condition_variable changed_;
   PlaybackSync sync_;
+  SinkOffset sink_offset_;
+  GstClockTimeDiff offset_ns_ = 0;
   bool playing_ = false;
   bool stop_ = false;
   std::thread thread_;

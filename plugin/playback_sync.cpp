@@ -10,7 +10,13 @@ void PlaybackSync::add_reading(int64_t monotonic_ns, int64_t clock_ns) {
   if (readings_ > 0) {
     const double predicted = static_cast<double>(monotonic_ns - monotonic_ns_) * rate_;
     const int64_t error_ns = clock_ns - clock_ns_ - static_cast<int64_t>(predicted);
-    if (std::llabs(error_ns) > kJump_ns) forget();
+    if (std::llabs(error_ns) <= kJump_ns) {
+      strays_ = 0;
+    } else if (readings_ >= kEnough && ++strays_ < kLastingJump) {
+      return;
+    } else {
+      forget();
+    }
   }
   const size_t slot = readings_++ % kWindow;
   xy_[2 * slot] = static_cast<GstClockTime>(monotonic_ns);
@@ -20,8 +26,6 @@ void PlaybackSync::add_reading(int64_t monotonic_ns, int64_t clock_ns) {
 }
 
 void PlaybackSync::fit() {
-  // Fewer readings say more about jitter than about drift: take the newest and the nominal rate.
-  constexpr size_t kEnough = 16;
   // Real clocks drift by tens of ppm; a slope beyond this is jitter over too short a time.
   constexpr double kMaxDrift = 0.01;
   rate_ = 1.0;

@@ -45,18 +45,26 @@ class PlaybackSync {
   void set_skipped(int64_t skipped_ns) { skipped_ns_ = skipped_ns; }
 
   /// Reads the element's clock and returns the line through what was read so far. A clock other
-  /// than the system's reads with jitter, so the line is fitted; a jump starts it anew.
+  /// than the system's reads with jitter, so the line is fitted; a jump that lasts starts it anew.
   PlaybackClock observe(GstElement* element);
 
  private:
   static constexpr size_t kWindow = 64;
-  /// Readings further than this from the line mean another clock or a step in it.
+  /// Fewer readings say more about jitter than about drift: the newest and the nominal rate it is.
+  static constexpr size_t kEnough = 16;
+  /// A reading further than this from the line is no jitter.
   static constexpr int64_t kJump_ns = 5 * 1000 * 1000;
+  /// So many of them in a row are another clock or a step in it. Fewer are a sound card's clock in
+  /// the middle of an update: it stands still while the thread that feeds the card is put aside.
+  static constexpr int kLastingJump = 5;
 
   static int64_t to_ns(GstClockTime t) {
     return GST_CLOCK_TIME_IS_VALID(t) ? static_cast<int64_t>(t) : 0;
   }
-  void forget() { readings_ = 0; }
+  void forget() {
+    readings_ = 0;
+    strays_ = 0;
+  }
   void follow(const GstClock* clock) {
     if (clock != clock_) forget();
     clock_ = clock;
@@ -78,6 +86,7 @@ class PlaybackSync {
   std::array<GstClockTime, 2 * kWindow> xy_{};
   std::array<GstClockTime, 2 * kWindow> scratch_{};
   size_t readings_ = 0;  ///< since forget(); the last kWindow are kept
+  int strays_ = 0;       ///< left out since the newest of them
   // clock = clock_ns_ + (t − monotonic_ns_) · rate_
   int64_t monotonic_ns_ = 0;
   int64_t clock_ns_ = 0;

@@ -11,9 +11,9 @@
  * steadied by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
  * filter-min-cutoff=0 it is the mean velocity of all points, as in the paper.
  *
- * A frame is shown at base time + running time + pipeline latency (+ #spidarmotion:ts-offset); its
- * force is felt then, between two frames it is interpolated. Before PLAYING, in PAUSED and after
- * the end there is none.
+ * A frame is shown at base time + running time + pipeline latency + the sink's ts-offset; its force
+ * is felt then (+ #spidarmotion:ts-offset), between two frames it is interpolated. Before PLAYING,
+ * in PAUSED and after the end there is none.
  *
  * The element posts a `spidar-motion` element message for each frame when
  * #spidarmotion:post-messages is set, with these fields: `timestamp`, `stream-time`,
@@ -58,6 +58,7 @@ using spidar::PointerKind;
 struct _GstSpidarMotion {
   GstVideoFilter parent;
 
+  GMutex setting;                // what is set reaches the engine in the order it was set
   MotionProperties* properties;  // object lock
   gboolean opened;               // object lock: READY or above
   MotionEngine* engine;
@@ -129,7 +130,8 @@ static void warn_of_frame(GstSpidarMotion* self, FrameProblem problem) {
       GST_ELEMENT_WARNING(
           self, STREAM, FORMAT,
           ("Frames without a timestamp cannot be felt in time; they are shown only."),
-          ("Buffer without PTS. A videorate or a parser before the decoder adds them."));
+          ("Buffer without PTS, or decades ahead. A videorate or a parser before the decoder adds "
+           "them."));
       break;
     case FrameProblem::kSameTimestamp:
       GST_ELEMENT_WARNING(self, STREAM, FORMAT,
@@ -140,6 +142,11 @@ static void warn_of_frame(GstSpidarMotion* self, FrameProblem problem) {
       GST_ELEMENT_WARNING(self, STREAM, FORMAT,
                           ("Timestamps go back without a discontinuity; motion is measured anew."),
                           ("Running time must rise within a segment."));
+      break;
+    case FrameProblem::kTooSmall:
+      GST_ELEMENT_WARNING(self, STREAM, FORMAT,
+                          ("A frame has less memory than its picture needs; it is passed on only."),
+                          ("The strides and offsets of its GstVideoMeta do not fit it."));
       break;
     default:
       break;
@@ -237,6 +244,23 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   }
   if (report.analyzed && post_messages) post_motion(self, frame->buffer, report);
   return check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
+}
+
+/// A frame without a picture is not even mapped: that may have to wait for its memory.
+static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, GstBuffer* buffer) {
+  if (!GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP)) {
+    return GST_BASE_TRANSFORM_CLASS(gst_spidar_motion_parent_class)->transform_ip(trans, buffer);
+  }
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_OBJECT_LOCK(self);
+  const OnDeviceError on_device_error = self->properties->on_device_error;
+  GST_OBJECT_UNLOCK(self);
+  const bool passed = guarded(self, "passing a gap", [&] {
+    self->engine->pass_gap(
+        gst_segment_to_running_time(&trans->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer)));
+  });
+  self->display->skip();
+  return passed && check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
 /// In passthrough nothing is writable. A meta is added to the buffer and not to its memory, so a
@@ -420,19 +444,19 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
 static void gst_spidar_motion_set_property(GObject* object, guint id, const GValue* value,
                                            GParamSpec* spec) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  g_mutex_lock(&self->setting);
   GST_OBJECT_LOCK(self);
   const bool known = set_motion_property(*self->properties, id, value);
-  const GstClockTimeDiff offset_ns = self->properties->ts_offset_ns;
-  const bool muted = self->properties->mute;
-  const bool overlay = self->properties->display.overlay;
   GST_OBJECT_UNLOCK(self);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  if (id == spidar::kPropTsOffset) self->engine->set_offset(offset_ns);
-  if (id == spidar::kPropMute) self->engine->set_muted(muted);
-  if (id == spidar::kPropDebugWindow) follow_debug_window(self);
+  if (id == spidar::kPropTsOffset) self->engine->set_offset(g_value_get_int64(value));
+  if (id == spidar::kPropMute) self->engine->set_muted(g_value_get_boolean(value));
+  if (id == spidar::kPropMaxForce) self->engine->set_max_force(g_value_get_double(value));
   if (id == spidar::kPropOverlay) {
-    gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !overlay);
+    gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !g_value_get_boolean(value));
   }
+  g_mutex_unlock(&self->setting);
+  if (id == spidar::kPropDebugWindow) follow_debug_window(self);
 }
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
@@ -454,10 +478,12 @@ static void gst_spidar_motion_finalize(GObject* object) {
   delete self->display;
   delete self->engine;
   delete self->properties;
+  g_mutex_clear(&self->setting);
   G_OBJECT_CLASS(gst_spidar_motion_parent_class)->finalize(object);
 }
 
 static void gst_spidar_motion_init(GstSpidarMotion* self) {
+  g_mutex_init(&self->setting);
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
   self->display = new MotionDisplay(GST_ELEMENT(self));
@@ -497,6 +523,7 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   transform_class->sink_event = gst_spidar_motion_sink_event;
   transform_class->src_event = gst_spidar_motion_src_event;
   transform_class->prepare_output_buffer = gst_spidar_motion_prepare_output_buffer;
+  transform_class->transform_ip = gst_spidar_motion_transform_ip;
   transform_class->before_transform = gst_spidar_motion_before_transform;
   filter_class->transform_frame_ip = gst_spidar_motion_transform_frame_ip;
 }

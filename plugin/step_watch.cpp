@@ -1,64 +1,25 @@
 #include "plugin/step_watch.h"
 
-#include <gst/base/gstbasesink.h>
-
+#include "plugin/downstream.h"
 #include "plugin/motion_engine.h"
 #include "plugin/spidar_motion.h"
 
 namespace spidar {
 namespace {
 
-bool leads_to(GstPad* source, const GstObject* sink);
-
-/// Whether what comes into this pad goes on to `sink`.
-bool feeds(GstPad* pad, const GstObject* sink) {
-  GstElement* element = gst_pad_get_parent_element(pad);  // null: inside of a ghost pad
-  bool found = element && GST_OBJECT(element) == sink;
-  if (element) gst_object_unref(element);
-  GstIterator* links = found ? nullptr : gst_pad_iterate_internal_links(pad);
-  if (!links) return found;
-  GValue item = G_VALUE_INIT;
-  while (!found && gst_iterator_next(links, &item) == GST_ITERATOR_OK) {
-    found = leads_to(static_cast<GstPad*>(g_value_get_object(&item)), sink);
-    g_value_reset(&item);
-  }
-  g_value_unset(&item);
-  gst_iterator_free(links);
-  return found;
-}
-
-bool leads_to(GstPad* source, const GstObject* sink) {
-  GstPad* peer = gst_pad_get_peer(source);
-  if (!peer) return false;
-  const bool found = feeds(peer, sink);
-  gst_object_unref(peer);
-  return found;
-}
-
-/// What the sink has moved its segment by: it was given the one that came to its pad. The message
-/// comes from the thread that does so, which no other part of the sink disturbs meanwhile. (The
-/// duration in the message is a frame off in reverse.)
-bool find_skipped(const GstBaseSink& sink, GstClockTimeDiff& skipped_ns) {
-  GstEvent* event = gst_pad_get_sticky_event(sink.sinkpad, GST_EVENT_SEGMENT, 0);
-  if (!event) return false;
-  const GstSegment* given;
-  gst_event_parse_segment(event, &given);
-  const GstSegment& moved = sink.segment;
-  const guint64 where = moved.rate > 0 ? moved.start : moved.stop;
-  const GstClockTime before = gst_segment_to_running_time(given, GST_FORMAT_TIME, where);
-  const GstClockTime after = gst_segment_to_running_time(&moved, GST_FORMAT_TIME, where);
-  gst_event_unref(event);
-  if (!GST_CLOCK_TIME_IS_VALID(before) || !GST_CLOCK_TIME_IS_VALID(after)) return false;
-  skipped_ns = GST_CLOCK_DIFF(after, before);
-  return true;
-}
-
 void on_step_done(GstBus*, GstMessage* message, gpointer element) {
-  const GstObject* sink = GST_MESSAGE_SRC(message);
-  if (!GST_IS_BASE_SINK(sink) || !leads_to(GST_BASE_TRANSFORM_SRC_PAD(element), sink)) return;
-  GstClockTimeDiff skipped_ns = 0;
-  if (!find_skipped(*GST_BASE_SINK(sink), skipped_ns)) return;
-  gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)).set_skipped(skipped_ns);
+  gboolean flush = FALSE;
+  guint64 duration = GST_CLOCK_TIME_NONE;
+  gst_message_parse_step_done(message, nullptr, nullptr, nullptr, &flush, nullptr, &duration,
+                              nullptr);
+  // Without a flush the pipeline distributes another base time.
+  if (!flush || !GST_CLOCK_TIME_IS_VALID(duration)) return;
+  GstElement* sink = find_downstream(GST_ELEMENT(element), [message](GstElement* candidate) {
+    return GST_OBJECT(candidate) == GST_MESSAGE_SRC(message);
+  });
+  if (!sink) return;
+  gst_object_unref(sink);
+  gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)).skip(duration);
 }
 
 }  // namespace

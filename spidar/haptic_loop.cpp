@@ -108,6 +108,8 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   // Held from the last tick when the writer is just at it.
   shared_clock_.try_load(clock_);
   shared_limits_.try_load(limits_);
+  record.max_force_N = limits_.max_force_N;
+  record.max_torque_Nm = limits_.max_torque_Nm;
   find_wanted(record);
   if (state_ != DeviceState::kLost && state_ != DeviceState::kClosed) {
     const double dt_s = 1e-9 * static_cast<double>(step_ns);

@@ -35,7 +35,8 @@ void Observability::add(const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dyna
 }
 
 Observability::Directions Observability::directions() const {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(root_, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(root_,
+                                                                         Eigen::ComputeFullV);
   const Eigen::VectorXd& singular = svd.singularValues();
   Directions found;
   found.directions = svd.matrixV().rowwise().reverse();

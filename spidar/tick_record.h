@@ -70,6 +70,8 @@ struct TickRecord {
   int faulty_string = -1;  ///< whose length fits no pose that the others agree on; −1 when all fit
   DeviceState device = DeviceState::kClosed;
   bool playing = false;
+  double max_force_N = 0;  ///< limits that held
+  double max_torque_Nm = 0;
 };
 
 /// Numbers since the loop was opened.

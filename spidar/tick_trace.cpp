@@ -14,7 +14,7 @@ namespace spidar {
 namespace {
 
 constexpr size_t kFlush_bytes = 1 << 16;
-constexpr size_t kMaxRow_bytes = 2048;  // 42 fields of at most 32 characters
+constexpr size_t kMaxRow_bytes = 2048;  // 45 fields of at most 32 characters
 
 /// Appends fields and the commas between them.
 class Row {
@@ -56,9 +56,9 @@ std::string trace_header() {
     }
   }
   for (int i = 0; i < kMaxStrings; ++i) row.field("tension_" + std::to_string(i) + "_N");
-  for (const char* name :
-       {"position_x_m", "position_y_m", "position_z_m", "orientation_w", "orientation_x",
-        "orientation_y", "orientation_z", "pose_residual_m", "faulty_string"}) {
+  for (const char* name : {"position_x_m", "position_y_m", "position_z_m", "orientation_w",
+                           "orientation_x", "orientation_y", "orientation_z", "pose_residual_m",
+                           "faulty_string", "max_force_N", "max_torque_Nm"}) {
     row.field(name);
   }
   return header;
@@ -73,7 +73,10 @@ void append_row(const TickRecord& record, std::string& csv) {
   for (int i = 0; i < kMaxStrings; ++i) row.number(record.tension_N[i]);
   const Eigen::Quaterniond& q = record.pose.orientation;
   row.vector(record.pose.position_m).number(q.w()).number(q.x()).number(q.y()).number(q.z());
-  row.number(record.pose_residual_m).number(record.faulty_string);
+  row.number(record.pose_residual_m)
+      .number(record.faulty_string)
+      .number(record.max_force_N)
+      .number(record.max_torque_Nm);
   csv += '\n';
 }
 

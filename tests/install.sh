@@ -1,13 +1,17 @@
-# Sourced by tests/run.sh and examples/play.sh: installs Debian packages without asking.
+# Sourced by tests/run.sh, tests/runtimes.sh and examples/play.sh: installs Debian packages without
+# asking.
 # shellcheck shell=bash
 
 # install_packages GROUP...: those of debian-packages.txt in these groups that are missing. Silent
 # when none is. Elsewhere than on Debian it leaves the system alone: the build says what it misses.
 install_packages() {
-    local list package group choice names=() wanted=() missing=() as_root=()
+    local list package groups group choice names=() wanted=() missing=() as_root=()
     list=$(dirname "${BASH_SOURCE[0]}")/debian-packages.txt
-    while read -r package group _; do
-        [[ $package == \#* || " $* " != *" $group "* ]] || wanted+=("$package")
+    while read -r package groups _; do
+        [[ $package != \#* ]] || continue
+        for group in ${groups//,/ }; do
+            [[ " $* " != *" $group "* ]] || wanted+=("$package")
+        done
     done <"$list"
 
     command -v dpkg-query >/dev/null || return 0

@@ -3,7 +3,7 @@
 and why, and as its last line `N passed, N failed, N skipped`. Fails when a test did.
 
 `--failed WHAT` counts something that is no meson test and went wrong, `--passed WHAT` one that went
-well."""
+well. `--log NAME` reads what `meson test --logbase NAME` wrote."""
 
 import argparse
 import json
@@ -24,10 +24,10 @@ def case_result(case):
     return ("skipped", "disabled") if case.get("status") == "notrun" else ("passed", "")
 
 
-def gtest_cases(build):
+def gtest_cases(log):
     """Test cases by test program: those that GoogleTest has reported one by one."""
     cases = {}
-    text = (Path(build) / "meson-logs" / "testlog.junit.xml").read_text(errors="replace")
+    text = Path(f"{log}.junit.xml").read_text(errors="replace")
     # Colours of what a test printed are no XML; meson writes them all the same.
     root = ElementTree.fromstring(re.sub("[\x00-\x08\x0b\x0c\x0e-\x1f]", "", text))
     for suite in root.findall("testsuite"):
@@ -39,10 +39,10 @@ def gtest_cases(build):
     return cases
 
 
-def results_of(build):
-    """Yields (name, result, reason) for all that ran in a build folder."""
-    cases_of = gtest_cases(build)
-    with open(Path(build) / "meson-logs" / "testlog.json", encoding="utf-8") as lines:
+def results_of(log):
+    """Yields (name, result, reason) for all in a log of meson's, LOG.json and LOG.junit.xml."""
+    cases_of = gtest_cases(log)
+    with open(f"{log}.json", encoding="utf-8") as lines:
         runs = [json.loads(line) for line in lines]
     for run in runs:
         program = run["name"].split(" / ")[-1]
@@ -65,13 +65,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--passed", action="append", default=[])
     parser.add_argument("--failed", action="append", default=[])
+    parser.add_argument("--log", default="testlog")
     parser.add_argument("builds", nargs="*")
     arguments = parser.parse_args()
 
     counts = Counter(passed=len(arguments.passed), failed=len(arguments.failed))
     notes = [("failed", what, "") for what in arguments.failed]
     for build in arguments.builds:
-        for name, result, reason in results_of(build):
+        for name, result, reason in results_of(Path(build) / "meson-logs" / arguments.log):
             counts[result] += 1
             if result != "passed":
                 notes.append((result, f"{build}/ {name}", f": {reason}" if reason else ""))

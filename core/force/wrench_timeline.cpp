@@ -38,38 +38,58 @@ Vector3d slope_between(const Chord& before, const Chord& after) {
   return slope;
 }
 
-/// Chords of `duration_s` from `a` to `b`.
-Chord force_chord(const Wrench& a, const Wrench& b, double duration_s) {
-  return {(b.force_N - a.force_N) / duration_s, duration_s};
-}
-Chord torque_chord(const Wrench& a, const Wrench& b, double duration_s) {
-  return {(b.torque_Nm - a.torque_Nm) / duration_s, duration_s};
+/// At `b`, on the way from `a` to `c`.
+Wrench slope_between(const Wrench& a, const Wrench& b, const Wrench& c, double before_s,
+                     double after_s) {
+  const Wrench before = (1 / before_s) * (b - a);
+  const Wrench after = (1 / after_s) * (c - b);
+  return {slope_between(Chord{before.force_N, before_s}, Chord{after.force_N, after_s}),
+          slope_between(Chord{before.torque_Nm, before_s}, Chord{after.torque_Nm, after_s})};
 }
 
 }  // namespace
 
+Wrench WrenchTimeline::value(size_t i, int64_t time_ns) noexcept {
+  const Way& here = way(i);
+  if (time_ns >= here.to_ns || i == 0) return here.frame.wrench;
+  const Wrench before = value(i - 1, time_ns);
+  const double duration_s = elapsed_s(here.from_ns, here.to_ns);
+  const double s = elapsed_s(here.from_ns, time_ns) / duration_s;
+  return interpolate(before, here.frame.wrench, s * s * (3 - 2 * s)) +
+         s * (1 - s) * duration_s * ((1 - s) * here.from_slope - s * here.to_slope);
+}
+
 bool WrenchTimeline::push(const TimedWrench& added) noexcept {
-  Knot next{added, added.time_ns, {}};
+  Way next{added, added.time_ns, added.time_ns, Wrench(), Wrench()};
   if (count_ > 0) {
-    Knot& last = knot(count_ - 1);
-    const TimedWrench& middle = last.timed;
-    if (added.time_ns <= middle.time_ns) return false;
-    next.from_ns = std::clamp(present_ns_, middle.time_ns, added.time_ns);
-    if (count_ > 1 && present_ns_ <= last.from_ns) {
-      const TimedWrench& first = knot(count_ - 2).timed;
-      const double before_s = elapsed_s(first.time_ns, middle.time_ns);
-      const double after_s = elapsed_s(middle.time_ns, added.time_ns);
-      last.slope.force_N = slope_between(force_chord(first.wrench, middle.wrench, before_s),
-                                         force_chord(middle.wrench, added.wrench, after_s));
-      last.slope.torque_Nm = slope_between(torque_chord(first.wrench, middle.wrench, before_s),
-                                           torque_chord(middle.wrench, added.wrench, after_s));
+    Way& last = way(count_ - 1);
+    if (added.time_ns <= last.frame.time_ns) return false;
+    const int64_t approach_ns = static_cast<int64_t>(
+        std::min<uint64_t>(kApproach_ns, elapsed_ns(last.frame.time_ns, added.time_ns)));
+    const int64_t soonest_ns = present_ns_ == INT64_MIN
+                                   ? INT64_MIN
+                                   : std::min(present_ns_, INT64_MAX - kApproach_ns) + approach_ns;
+    if (std::max(soonest_ns, last.to_ns) > added.time_ns) {
+      next.from_ns = std::max(present_ns_, last.from_ns);
+      next.to_ns = std::max(soonest_ns, added.time_ns);
+    } else {
+      next.from_ns = std::max(present_ns_, last.to_ns);
+      // Only now the slope at the last frame can be told, if its way is still to come.
+      const bool untouched = count_ > 1 && present_ns_ <= last.from_ns &&
+                             last.to_ns == last.frame.time_ns &&
+                             last.from_ns >= way(count_ - 2).to_ns;
+      if (untouched) {
+        last.to_slope = next.from_slope = slope_between(
+            way(count_ - 2).frame.wrench, last.frame.wrench, added.wrench,
+            elapsed_s(last.from_ns, last.to_ns), elapsed_s(last.to_ns, added.time_ns));
+      }
     }
   }
   if (count_ == kCapacity) {
     first_ = (first_ + 1) % kCapacity;
     --count_;
   }
-  knot(count_) = next;
+  way(count_) = next;
   ++count_;
   return true;
 }
@@ -78,28 +98,26 @@ TimelineResult WrenchTimeline::at(int64_t time_ns) noexcept {
   TimelineResult result;
   if (count_ == 0) return result;
   present_ns_ = time_ns;
-  // From the newest back: the time asked for is near the end.
   size_t later = count_;
-  while (later > 0 && knot(later - 1).timed.time_ns > time_ns) --later;
+  while (later > 0 && way(later - 1).frame.time_ns > time_ns) --later;
   if (later == 0) return result;
 
-  const Knot& reached = knot(later - 1);
-  const uint64_t since_ns = elapsed_ns(reached.timed.time_ns, time_ns);
-  result.frame_time_ns = reached.timed.time_ns;
-  result.wrench = reached.timed.wrench;
-  if (since_ns == 0) {
+  const Way& reached = way(later - 1);
+  const uint64_t since_ns = elapsed_ns(reached.frame.time_ns, time_ns);
+  result.frame_time_ns = reached.frame.time_ns;
+  // From the newest back: the time asked for is near the end.
+  size_t begun = count_ - 1;
+  while (begun > 0 && way(begun).from_ns > time_ns) --begun;
+  if (since_ns == 0 && reached.to_ns == time_ns) {
+    result.wrench = reached.frame.wrench;
     result.found = Found::kExact;
-  } else if (later < count_ && knot(later).from_ns <= time_ns) {
-    const Knot& next = knot(later);
-    const double duration_s = elapsed_s(next.from_ns, next.timed.time_ns);
-    const double s = elapsed_s(next.from_ns, time_ns) / duration_s;
-    // Held until the curve begins, it begins level; so does reached.slope then, see push().
-    result.wrench = interpolate(reached.timed.wrench, next.timed.wrench, s * s * (3 - 2 * s)) +
-                    s * (1 - s) * duration_s * ((1 - s) * reached.slope - s * next.slope);
+  } else if (time_ns < way(begun).to_ns) {
+    result.wrench = value(begun, time_ns);
     result.found = Found::kInterpolated;
   } else {
-    const int64_t hold_ns = reached.timed.hold_ns;
+    const int64_t hold_ns = reached.frame.hold_ns;
     const bool held = hold_ns > 0 && since_ns <= static_cast<uint64_t>(hold_ns);
+    result.wrench = way(begun).frame.wrench;
     result.found = held ? Found::kHeld : Found::kExpired;
   }
   return result;

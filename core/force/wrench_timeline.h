@@ -44,12 +44,15 @@ struct TimelineResult {
 class SPIDAR_API WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
+  /// A frame that is known less than this ahead of its time, or less than the interval to the frame
+  /// before where that is shorter, is met so long after it is known. A step would be felt as a
+  /// knock; late touch is noticed from 50 ms on only.
+  static constexpr int64_t kApproach_ns = 15'000'000;
 
   /// Times must rise; one that does not is refused (false). When full, the oldest is forgotten.
   ///
-  /// A frame that comes while the one before is already held is approached from the time asked for
-  /// last, without a step: what has been felt does not change any more. Only one that is due by
-  /// then is a step.
+  /// What has been felt does not change any more, neither the wrench nor its slope: what comes late
+  /// fades in, from the time asked for last, over whatever would have been felt without it.
   bool push(const TimedWrench& entry) noexcept;
 
   /// Times may be asked in any order; the last one asked for is the present.
@@ -62,15 +65,21 @@ class SPIDAR_API WrenchTimeline {
   size_t size() const noexcept { return count_; }
 
  private:
-  struct Knot {
-    TimedWrench timed;
-    int64_t from_ns = 0;  ///< the curve to this frame begins here; before, the last one is held
-    Wrench slope;         ///< N/s and Nm/s, at the frame
+  /// The way to a frame, from what the way before it gives, which is the frame before or, when this
+  /// one begins early, not yet.
+  struct Way {
+    TimedWrench frame;
+    int64_t from_ns = 0;
+    int64_t to_ns = 0;  ///< frame.time_ns, or later
+    Wrench from_slope;  ///< N/s and Nm/s
+    Wrench to_slope;
   };
 
-  Knot& knot(size_t i) noexcept { return knots_[(first_ + i) % kCapacity]; }
+  Way& way(size_t i) noexcept { return ways_[(first_ + i) % kCapacity]; }
+  /// On the way `i` or, after it, at its frame.
+  Wrench value(size_t i, int64_t time_ns) noexcept;
 
-  std::array<Knot, kCapacity> knots_{};
+  std::array<Way, kCapacity> ways_{};
   size_t first_ = 0;
   size_t count_ = 0;
   int64_t present_ns_ = INT64_MIN;  // nothing was felt yet

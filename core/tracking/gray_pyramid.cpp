@@ -58,13 +58,18 @@ void store_means(const v_uint16x8& sums, unsigned count, uint8_t* to) {
 }
 #endif
 
+/// Rows of blocks whose pixels are called for while those of one are added up: left to itself, the
+/// processor waits for each row of a frame that leaves rows out, three times as long in all.
+constexpr int kRowsAhead = 2;
+
 /// Blocks of one row of blocks.
 struct BlockRow {
-  const uint8_t* pixels;
   ptrdiff_t step;  ///< between the rows that count
   int factor;
   int rows;     ///< that count
   int columns;  ///< blocks
+  const uint8_t* pixels = nullptr;
+  const uint8_t* ahead = nullptr;  ///< the same of the row that is called for
 
   unsigned count() const { return static_cast<unsigned>(rows * factor); }
 };
@@ -83,6 +88,9 @@ template <int kFactor>
 int reduce_by_power_of_2(const BlockRow& row, uint8_t* to) {
   int x = 0;
   for (; x + 8 <= row.columns; x += 8) {
+    for (int k = 0; k < row.rows; ++k) {
+      __builtin_prefetch(row.ahead + k * row.step + x * kFactor);
+    }
     const v_uint16x8 sums = block_sums<kFactor>(row.pixels + x * kFactor, row.step, row.rows);
     store_means(sums, row.count(), to + x);
   }
@@ -146,10 +154,11 @@ void PaddedImage::repeat_border() {
 
 void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
   reduced.resize(frame.width / factor, frame.height / factor);
-  BlockRow row{nullptr, row_step(factor) * frame.stride_bytes, factor, rows_used(factor),
-               reduced.width()};
+  BlockRow row{row_step(factor) * frame.stride_bytes, factor, rows_used(factor), reduced.width()};
   for (int y = 0; y < reduced.height(); ++y) {
+    const int ahead = std::min(y + kRowsAhead, reduced.height() - 1);
     row.pixels = frame.data + y * factor * frame.stride_bytes;
+    row.ahead = frame.data + ahead * factor * frame.stride_bytes;
     uint8_t* to = reduced.row(y);
     if (factor == 1) {
       std::memcpy(to, row.pixels, static_cast<size_t>(row.columns));

@@ -105,7 +105,8 @@ void WindowThread::run() {
     fail_all("The debug window needs GLFW, which this application uses itself.",
              "GLFW serves one thread of a process only.");
   } else if (!glfwInit()) {
-    fail_all("The debug window cannot be opened: " + glfw_error() + ".",
+    fail_all("The debug window cannot be opened: " + glfw_error() +
+                 ". Is DISPLAY or WAYLAND_DISPLAY right?",
              "It needs an X11 or Wayland display.");
   } else {
     serve();

@@ -14,7 +14,7 @@
 
 #include "call_timer.h"
 #include "core/grip/pose_solver.h"
-#include "tests/core/string_samples.h"
+#include "tests/support/string_samples.h"
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include "call_timer.h"
 #include "core/grip/tension_solver.h"
 #include "tension_peers.h"
-#include "tests/core/tension_cases.h"
 #include "tests/core/tension_reference.h"
+#include "tests/support/tension_cases.h"
 
 namespace {
 

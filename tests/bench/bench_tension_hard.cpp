@@ -13,9 +13,9 @@
 #include "call_timer.h"
 #include "core/grip/tension_solver.h"
 #include "spidar/profile.h"
-#include "tests/core/tension_cases.h"
 #include "tests/core/tension_reference.h"
 #include "tests/spidar/profile_tension_cases.h"
+#include "tests/support/tension_cases.h"
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include "core/motion/motion_estimator.h"
 #include "core/motion_analyzer.h"
 #include "count_allocations.h"
-#include "tension_cases.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/tension_cases.h"
 #include "track_samples.h"
 
 namespace spidar::test {

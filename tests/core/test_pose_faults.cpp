@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/grip/pose_solver.h"
-#include "string_samples.h"
+#include "tests/support/string_samples.h"
 
 namespace spidar::test {
 namespace {

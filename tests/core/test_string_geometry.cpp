@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/grip/string_geometry.h"
-#include "string_samples.h"
+#include "tests/support/string_samples.h"
 
 namespace spidar::test {
 namespace {

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "core/grip/tension_solver.h"
-#include "string_samples.h"
 #include "tension_reference.h"
 #include "tests/support/grip_path.h"
+#include "tests/support/string_samples.h"
 #include "tests/support/tension_step.h"
 
 namespace spidar::test {

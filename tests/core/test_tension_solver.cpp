@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/grip/tension_solver.h"
-#include "tension_cases.h"
 #include "tension_reference.h"
+#include "tests/support/tension_cases.h"
 
 namespace spidar::test {
 namespace {

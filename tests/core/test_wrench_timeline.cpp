@@ -156,37 +156,81 @@ TEST_P(RandomFrames, AreMetWithoutACorner) {
   }
 }
 
-TEST_P(RandomFrames, BecomeKnownWithoutAStep) {
-  // Each some time before its own, from two intervals to a fifth of one.
+TEST_P(RandomFrames, BecomeKnownWithoutAStepNorACorner) {
+  // Each some time before its own or, every fourth of them, late.
   std::mt19937 random(GetParam() + 1000);
-  std::uniform_int_distribution<int64_t> percent(20, 200);
+  std::uniform_int_distribution<int64_t> percent(-60, 200);
   std::vector<int64_t> known_ns{frames[0].time_ns};
   for (size_t i = 1; i < frames.size(); ++i) {
     const int64_t ahead_ns = (frames[i].time_ns - frames[i - 1].time_ns) * percent(random) / 100;
     known_ns.push_back(std::max(known_ns.back(), frames[i].time_ns - ahead_ns));
   }
-  // A cubic from a to b in a fifth of a millisecond at least, at most twice as steep as the line:
-  // 6 N × 2 × 10 µs / 200 µs.
-  constexpr int64_t kStep_ns = 10'000;
-  constexpr double kSteepest = 2.0 * 6 * 1e-9 * kStep_ns / 0.2e-3;
+  constexpr int64_t kStep_ns = 1000;
+  constexpr double kStep_s = 1e-9 * kStep_ns;
+  // On a way of T ≥ 1 ms over d ≤ 6 N: slope up to 1.5 d/T with level ends or 2 d/T with others,
+  // bent by up to 18 d/T² (see above). One that fades in over others adds theirs, and twice the
+  // product of both slopes; of the frames of 15 ms, as many as ever fade at a time here: 4.
+  constexpr double kSteepest = 4 * 2 * 6 / 1e-3;
+  constexpr double kBent = 4 * 18 * 6 / 1e-6 + 2 * 1.5 / 1e-3 * kSteepest;
+  constexpr double kRounding = 4 * 4e-15;
   WrenchTimeline timeline;
   size_t known = 0;
-  auto last = frames[0].wrench.stacked();
-  for (int64_t time_ns = frames[0].time_ns; time_ns <= frames.back().time_ns; time_ns += kStep_ns) {
+  Eigen::Matrix<double, 6, 1> last = frames[0].wrench.stacked(), lowest = last, highest = last;
+  Eigen::Matrix<double, 6, 1> before = last;
+  for (int64_t time_ns = frames[0].time_ns; time_ns <= frames[12].time_ns; time_ns += kStep_ns) {
+    SCOPED_TRACE(time_ns);
     if (known == 0) timeline.push(frames[known++]);
-    const auto here = timeline.at(time_ns).wrench.stacked();
-    ASSERT_LE((here - last).cwiseAbs().maxCoeff(), kSteepest) << time_ns << " of " << GetParam();
+    const Eigen::Matrix<double, 6, 1> here = timeline.at(time_ns).wrench.stacked();
+    ASSERT_LE((here - last).cwiseAbs().maxCoeff(), kSteepest * kStep_s + kRounding);
+    ASSERT_LE((here - 2 * last + before).cwiseAbs().maxCoeff(),
+              kBent * kStep_s * kStep_s + kRounding);
     for (; known < frames.size() && known_ns[known] <= time_ns; ++known) {
       ASSERT_TRUE(timeline.push(frames[known]));
-      ASSERT_EQ(timeline.at(time_ns).wrench.stacked(), here) << time_ns << " of " << GetParam();
+      ASSERT_LE((timeline.at(time_ns).wrench.stacked() - here).cwiseAbs().maxCoeff(), kRounding);
+      lowest = lowest.cwiseMin(frames[known].wrench.stacked());
+      highest = highest.cwiseMax(frames[known].wrench.stacked());
     }
-    for (const TimedWrench& frame : frames) {
-      if (frame.time_ns == time_ns) {
-        ASSERT_EQ(here, frame.wrench.stacked()) << time_ns;
-      }
-    }
+    ASSERT_GE((here - lowest).minCoeff(), -kRounding) << "between what is known";
+    ASSERT_GE((highest - here).minCoeff(), -kRounding) << "between what is known";
+    before = last;
     last = here;
   }
+}
+
+TEST(WrenchTimeline, MeetsInTimeWhatIsKnownAnApproachAhead) {
+  WrenchTimeline timeline;
+  timeline.push(timed(0, 1));
+  const int64_t known_ns = kFrame_ns - WrenchTimeline::kApproach_ns;
+  timeline.at(known_ns);
+  timeline.push(timed(kFrame_ns, 3));
+  EXPECT_EQ(timeline.at(kFrame_ns).found, Found::kExact);
+  EXPECT_TRUE(same_bits(timeline.at(kFrame_ns).wrench, wrench_of(3)));
+}
+
+TEST(WrenchTimeline, MeetsWhatIsKnownLaterAnApproachAfterwards) {
+  for (const int64_t late_ns : {-WrenchTimeline::kApproach_ns + 1, int64_t{0}, kFrame_ns / 4}) {
+    SCOPED_TRACE(late_ns);
+    WrenchTimeline timeline;
+    timeline.push(timed(0, 1));
+    const int64_t known_ns = kFrame_ns + late_ns;
+    timeline.at(known_ns);
+    timeline.push(timed(kFrame_ns, 3));
+    const int64_t met_ns = known_ns + WrenchTimeline::kApproach_ns;
+    EXPECT_TRUE(same_bits(timeline.at(known_ns).wrench, wrench_of(1)));
+    EXPECT_EQ(timeline.at(met_ns - 1).found, Found::kInterpolated);
+    EXPECT_EQ(timeline.at(met_ns - 1).frame_time_ns, kFrame_ns);
+    EXPECT_EQ(timeline.at(met_ns).found, Found::kHeld);
+    EXPECT_TRUE(same_bits(timeline.at(met_ns).wrench, wrench_of(3)));
+  }
+}
+
+TEST(WrenchTimeline, OfFramesCloseTogetherTheApproachIsAnInterval) {
+  constexpr int64_t kInterval_ns = 4'000'000;  // 240 frames/s
+  WrenchTimeline timeline;
+  timeline.push(timed(0, 1));
+  timeline.at(0);
+  timeline.push(timed(kInterval_ns, 3));
+  EXPECT_EQ(timeline.at(kInterval_ns).found, Found::kExact);
 }
 
 INSTANTIATE_TEST_SUITE_P(WrenchTimeline, RandomFrames, testing::Range(1u, 21u));

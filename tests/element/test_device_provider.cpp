@@ -64,19 +64,21 @@ class DeviceProvider : public testing::Test {
   /// "+usb:1-1" or "-usb:1-1": the next thing that happened, however long that takes.
   std::string next_change() {
     GstBus* bus = gst_device_monitor_get_bus(monitor_);
-    GstMessage* message = gst_bus_timed_pop_filtered(
-        bus, GST_CLOCK_TIME_NONE,
-        static_cast<GstMessageType>(GST_MESSAGE_DEVICE_ADDED | GST_MESSAGE_DEVICE_REMOVED));
-    GstDevice* device = nullptr;
-    const bool added = GST_MESSAGE_TYPE(message) == GST_MESSAGE_DEVICE_ADDED;
-    if (added) {
-      gst_message_parse_device_added(message, &device);
-    } else {
-      gst_message_parse_device_removed(message, &device);
+    std::string change;
+    while (change.empty()) {
+      GstMessage* message = gst_bus_timed_pop(bus, GST_CLOCK_TIME_NONE);
+      GstDevice* device = nullptr;
+      if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_DEVICE_ADDED) {
+        gst_message_parse_device_added(message, &device);
+        change = "+";
+      } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_DEVICE_REMOVED) {
+        gst_message_parse_device_removed(message, &device);
+        change = "-";
+      }  // else of the monitor itself, since 1.28
+      if (device) change += text_in(device, "device");
+      gst_clear_object(&device);
+      gst_message_unref(message);
     }
-    const std::string change = (added ? "+" : "-") + text_in(device, "device");
-    gst_object_unref(device);
-    gst_message_unref(message);
     gst_object_unref(bus);
     return change;
   }

@@ -1,6 +1,8 @@
 // Timestamps, segments, discontinuities: motion is over running time, and only ever between two
 // frames that are shown one after the other.
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -162,6 +164,56 @@ TEST_F(Time, FallingTimestampsRestart) {
   EXPECT_EQ(h.motions()[2].velocity_x, 0);
   EXPECT_NEAR(h.motions()[3].velocity_x, 50, kTolerance_px / 0.04);
   EXPECT_EQ(h.warnings().size(), 1u);
+}
+
+int64_t read_time(void* time) {
+  return *static_cast<int64_t*>(time);
+}
+
+TEST(Borders, TimesNearTheEndOfTheScaleDoNotOverflow) {
+  // The undefined-behaviour sanitizer has the last word here. What is at most 73 years is felt.
+  constexpr GstClockTime k73Years = GstClockTime{1} << 61;
+  for (const GstClockTime border :
+       {k73Years, GstClockTime{1} << 62, GstClockTime{G_MAXINT64}, GST_CLOCK_TIME_NONE - 1}) {
+    SCOPED_TRACE(border);
+    int64_t now_ns = 1'000'000'000;
+    ElementHarness h("device=sim", read_time, &now_ns);
+    h.set_caps(make_caps("GRAY8", 64, 48));
+    const GstClockTime base = border - 2 * kFrame;
+    const auto send_segment = [&h](double rate, GstClockTime segment_base, GstClockTime start) {
+      GstSegment segment;
+      gst_segment_init(&segment, GST_FORMAT_TIME);
+      segment.rate = rate;
+      segment.base = segment_base;
+      segment.start = segment.time = start;
+      gst_harness_push_event(h.harness(), gst_event_new_segment(&segment));
+    };
+    // Once by the base of the segment and once by the timestamps; there and back again.
+    for (const auto& [segment_base, start] :
+         {std::pair{base, GstClockTime{0}}, {0, 0}, {0, base}}) {
+      send_segment(1, segment_base, start);
+      const GstClockTime first = segment_base > 0 ? 0 : base;
+      for (GstClockTime n = 0; n < 2; ++n) {
+        EXPECT_EQ(h.push_moved(2.0 * static_cast<double>(n), 0, first + n * kFrame), GST_FLOW_OK);
+        for (int ms = 0; ms < 3; ++ms) h.tick(now_ns += kTick_ns);
+      }
+      gst_harness_push_event(h.harness(), gst_event_new_gap(first + 2 * kFrame, kFrame));
+      h.push_moved(0, 0, kFrame);
+      for (const double multiplier : {1e-9, 0.5, 1.0, 1e9}) {
+        for (const auto& [shown, upstream] : {std::pair{base, GstClockTime{0}}, {0, base}}) {
+          h.engine().change_rate(multiplier, shown, upstream);
+          h.push_moved(0, 0, first + kFrame);
+          h.push_moved(2, 0, 2 * kFrame);
+          h.tick(now_ns += kTick_ns);
+        }
+      }
+    }
+    gst_harness_push_event(h.harness(), gst_event_new_eos());
+    const bool felt = std::any_of(
+        h.motions().begin(), h.motions().end(),
+        [base](const MotionMessage& m) { return m.running_time == base && m.features > 0; });
+    EXPECT_EQ(felt, border <= k73Years);
+  }
 }
 
 TEST_F(Time, FramesOutsideTheSegmentAreNotShownAndNotFelt) {

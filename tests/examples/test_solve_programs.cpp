@@ -14,8 +14,8 @@
 #include <gtest/gtest.h>
 
 #include "spidar/profile.h"
-#include "tests/core/tension_cases.h"
 #include "tests/core/tension_reference.h"
+#include "tests/support/tension_cases.h"
 
 namespace spidar::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "examples/workspace/delivery.h"
 #include "examples/workspace/force_closure.h"
-#include "tests/core/string_samples.h"
+#include "tests/support/string_samples.h"
 
 namespace spidar::test {
 namespace {

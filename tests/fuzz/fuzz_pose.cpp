@@ -7,7 +7,7 @@
 
 #include "core/grip/pose_solver.h"
 #include "numbers.h"
-#include "tests/core/string_samples.h"
+#include "tests/support/string_samples.h"
 
 using namespace spidar;
 

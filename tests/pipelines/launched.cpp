@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -46,8 +45,6 @@ void take(Outcome& outcome, GstMessage* message) {
 }
 
 Traces::Traces(GstElement* bin) {
-  std::string name = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
-  folder_ = mkdtemp(name.data());
   g_signal_connect(bin, "deep-element-added", G_CALLBACK(added), this);
   GstIterator* all = gst_bin_iterate_recurse(GST_BIN(bin));
   gst_iterator_foreach(
@@ -60,14 +57,13 @@ Traces::Traces(GstElement* bin) {
 }
 
 Traces::~Traces() {
-  for (const std::string& path : paths_) TickWatch().see_trace(path, {});
-  std::filesystem::remove_all(folder_);
+  for (const std::string& path : paths_) TickWatch().see_trace(path);
 }
 
 void Traces::record(GstElement* element) {
   if (g_strcmp0(G_OBJECT_TYPE_NAME(element), "GstSpidarMotion") != 0) return;
   const std::lock_guard<std::mutex> lock(mutex_);
-  paths_.push_back((folder_ / std::to_string(paths_.size())).string());
+  paths_.push_back((folder_.path / std::to_string(paths_.size())).string());
   g_object_set(element, "haptic-trace", paths_.back().c_str(), nullptr);
 }
 

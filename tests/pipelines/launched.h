@@ -1,12 +1,13 @@
 /// Pipelines with the plugin as GStreamer loads it, in real time, with every tick under watch.
 #pragma once
 
-#include <filesystem>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include <gst/gst.h>
+
+#include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
 
@@ -36,7 +37,7 @@ class Traces {
   static void added(GstBin*, GstBin*, GstElement* element, Traces* self) { self->record(element); }
   void record(GstElement* element);
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   std::mutex mutex_;
   std::vector<std::string> paths_;
 };

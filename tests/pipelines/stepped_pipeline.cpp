@@ -164,7 +164,8 @@ TickRecord SteppedPipeline::idle(GstClockTime duration) {
 
 GstClockTime SteppedPipeline::running_time() const {
   return now() - gst_element_get_base_time(pipeline_) -
-         gst_base_sink_get_latency(GST_BASE_SINK(sink_));
+         gst_base_sink_get_latency(GST_BASE_SINK(sink_)) -
+         static_cast<GstClockTime>(gst_base_sink_get_ts_offset(GST_BASE_SINK(sink_)));
 }
 
 void SteppedPipeline::take(GstMessage* message) {
@@ -192,6 +193,10 @@ void SteppedPipeline::await_analysed(size_t frames) {
 const std::map<GstClockTime, Wrench>& SteppedPipeline::wrenches() {
   while (GstMessage* message = gst_bus_pop(bus_)) take(message);
   return wrenches_;
+}
+
+void SteppedPipeline::forget_before(GstClockTime running_time) {
+  wrenches_.erase(wrenches_.begin(), wrenches_.lower_bound(running_time));
 }
 
 }  // namespace spidar::test

@@ -59,6 +59,8 @@ class SteppedPipeline {
   /// Wrench of each frame since the start or the last seek, by running time, as the element told
   /// it.
   const std::map<GstClockTime, Wrench>& wrenches();
+  /// Frees what wrenches() has from before this running time.
+  void forget_before(GstClockTime running_time);
 
   GstElement* element() const { return element_; }
   GstElement* sink() const { return sink_; }

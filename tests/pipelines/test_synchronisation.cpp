@@ -90,13 +90,33 @@ TEST(Synchronisation, OffsetMovesTheForceAndNotThePicture) {
     SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
     g_object_set(pipeline.element(), "ts-offset", static_cast<gint64>(offset), nullptr);
     pipeline.set_state(GST_STATE_PLAYING);
-    for (int n = 0; n < 5; ++n) {
+    for (size_t n = 0; n < 5; ++n) {
+      pipeline.await_analysed(n + 3);  // 30 ms ahead of the picture the next frame is needed
       const TickRecord tick = pipeline.step();
       EXPECT_EQ(tick.running_ns, static_cast<int64_t>(pipeline.running_time()) - offset);
     }
     g_object_set(pipeline.element(), "ts-offset", static_cast<gint64>(0), nullptr);
     expect_wrench_of_frame(pipeline, pipeline.step());
   }
+}
+
+TEST(Synchronisation, TheForceMovesWithThePictureWhenTheSinkHasAnOffset) {
+  // playbin's sinks are in bins too.
+  SteppedPipeline pipeline(
+      "videotestsrc " + kBall +
+      "! queue name=queue bin.( fakesink name=sink sync=true ) queue. ! sink.");
+  GstElement* const sink = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "sink");
+  ASSERT_NE(GST_OBJECT_PARENT(sink), GST_OBJECT_CAST(pipeline.pipeline()));
+  for (const GstClockTimeDiff offset : {-30 * GST_MSECOND, 0 * GST_MSECOND, 100 * GST_MSECOND}) {
+    SCOPED_TRACE(offset);
+    g_object_set(sink, "ts-offset", static_cast<gint64>(offset), nullptr);
+    pipeline.set_state(GST_STATE_PLAYING);
+    pipeline.await_analysed(3);  // the first tick is up to 30 ms after the first frame's time
+    pipeline.step();             // this one the sink was waiting for already
+    for (int n = 0; n < 5; ++n) expect_wrench_of_frame(pipeline, pipeline.step());
+  }
+  gst_object_unref(sink);
+  expect_something_felt(pipeline);
 }
 
 TEST(Synchronisation, NoForceBeforePlaying) {

@@ -5,7 +5,7 @@
 
 #include "core/grip/tension_solver.h"
 #include "spidar/profile.h"
-#include "tests/core/string_samples.h"
+#include "tests/support/string_samples.h"
 
 namespace spidar::test {
 

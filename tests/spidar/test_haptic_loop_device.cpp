@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "spidar/simulated_device.h"
@@ -241,16 +242,13 @@ TEST(HapticLoopDevice, KnowsWhereTheGripIs) {
   // at most |pinv(Wᵀ)| times that of the lengths (rows of Wᵀ are the derivatives of the lengths).
   const FeltState felt = device.felt();
   const StructureMatrix W = structure_matrix(profile.geometry, felt.pose);
-  const Eigen::MatrixXd inverse = W.leftCols(profile.geometry.count)
-                                      .transpose()
-                                      .completeOrthogonalDecomposition()
-                                      .pseudoInverse();
+  const StructureMatrix inverse = (W * W.transpose()).inverse() * W;
   const double half_count_m = 0.5 * profile.drives[0].metres_per_count;
   const double error = half_count_m * std::sqrt(profile.geometry.count);
   EXPECT_LE((record.pose.position_m - felt.pose.position_m).norm(),
-            1.1 * error * inverse.topRows(3).norm());
+            1.1 * error * inverse.topRows<3>().norm());
   EXPECT_LE(record.pose.orientation.angularDistance(felt.pose.orientation),
-            1.1 * error * inverse.bottomRows(3).norm());
+            1.1 * error * inverse.bottomRows<3>().norm());
 }
 
 }  // namespace

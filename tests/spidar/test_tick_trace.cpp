@@ -56,6 +56,8 @@ TickRecord some_record() {
   r.pose = {{0.01, 0.02, 0.03}, Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5)};
   r.pose_residual_m = 5.9e-06;
   r.faulty_string = 3;
+  r.max_force_N = 2.5;
+  r.max_torque_Nm = 0.1;
   return r;
 }
 
@@ -72,13 +74,14 @@ TEST(TickTrace, HeaderAndRow) {
       "tension_0_N,tension_1_N,tension_2_N,tension_3_N,"
       "tension_4_N,tension_5_N,tension_6_N,tension_7_N,"
       "position_x_m,position_y_m,position_z_m,"
-      "orientation_w,orientation_x,orientation_y,orientation_z,pose_residual_m,faulty_string");
+      "orientation_w,orientation_x,orientation_y,orientation_z,pose_residual_m,faulty_string,"
+      "max_force_N,max_torque_Nm");
   std::string row;
   append_row(some_record(), row);
   EXPECT_EQ(row,
             "12,9000000000000001,-3,40000000,33366666,interpolated,1,running,"
             "0.1,0.2,0.3,1e-07,0,-0.5,1,2,3,4,5,6,7,8,9,10,11,12,"
-            "0.5,1.5,2.5,3.5,4.5,5.5,6.5,7.5,0.01,0.02,0.03,0.5,-0.5,0.5,-0.5,5.9e-06,3\n");
+            "0.5,1.5,2.5,3.5,4.5,5.5,6.5,7.5,0.01,0.02,0.03,0.5,-0.5,0.5,-0.5,5.9e-06,3,2.5,0.1\n");
   EXPECT_EQ(fields(row).size(), fields(trace_header()).size());
 }
 

@@ -70,7 +70,7 @@ TEST(TickWatch, SeesAForceThatStays) {
 
 TEST(TickWatch, MissesTheTrace) {
   TickWatch watch;
-  EXPECT_NONFATAL_FAILURE(watch.see_trace("/nowhere/trace.csv", {}), "no haptic trace");
+  EXPECT_NONFATAL_FAILURE(watch.see_trace("/nowhere/trace.csv"), "no haptic trace");
 }
 
 }  // namespace

@@ -59,6 +59,11 @@ TickRecord record_of(const Row& row) {
     record.commanded.force_N[i] = row.number("commanded_force_" + axis + "_N");
     record.commanded.torque_Nm[i] = row.number("commanded_torque_" + axis + "_Nm");
   }
+  for (int i = 0; i < kMaxStrings; ++i) {
+    record.tension_N[i] = row.number("tension_" + std::to_string(i) + "_N");
+  }
+  record.max_force_N = row.number("max_force_N");
+  record.max_torque_Nm = row.number("max_torque_Nm");
   return record;
 }
 
@@ -108,6 +113,8 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   if (stopped_s_ > kRest_s && now.stacked().norm() > 0) fail(record, "not at rest");
   last_ = record;
   following_ = true;
+  ++ticks_;
+  if (now.stacked().norm() > 0) ++felt_;
 }
 
 void TickWatch::see_trace(const std::string& path, const SafetyLimits& limits) {
@@ -120,7 +127,13 @@ void TickWatch::see_trace(const std::string& path, const SafetyLimits& limits) {
   std::map<std::string, size_t> columns;
   std::istringstream names(line);
   for (std::string name; std::getline(names, name, ',');) columns.emplace(name, columns.size());
-  while (std::getline(file, line)) see(record_of(Row(columns, line)), limits);
+  SafetyLimits held = limits;
+  while (std::getline(file, line)) {
+    const TickRecord record = record_of(Row(columns, line));
+    held.max_force_N = record.max_force_N;
+    held.max_torque_Nm = record.max_torque_Nm;
+    see(record, held);
+  }
 }
 
 void TickWatch::fail(const TickRecord& record, const std::string& what) {

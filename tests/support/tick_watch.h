@@ -19,8 +19,14 @@ class TickWatch {
   /// device and commanded are looked at.
   void see(const TickRecord& record, const SafetyLimits& limits);
 
-  /// Reads the trace of a loop that ran under `limits` all the time. Fails where there is none.
-  void see_trace(const std::string& path, const SafetyLimits& limits);
+  /// Reads the trace of a loop, which ran under the total limits that it names and the others of
+  /// `limits`. Fails where there is none.
+  void see_trace(const std::string& path, const SafetyLimits& limits = {});
+
+  uint64_t ticks() const { return ticks_; }
+  /// In which there was a force or a torque.
+  uint64_t felt() const { return felt_; }
+  const TickRecord& last() const { return last_; }
 
  private:
   void fail(const TickRecord& record, const std::string& what);
@@ -31,6 +37,8 @@ class TickWatch {
   double largest_N_ = 0;  // limits that held once
   double largest_Nm_ = 0;
   double stopped_s_ = 0;
+  uint64_t ticks_ = 0;
+  uint64_t felt_ = 0;
 };
 
 }  // namespace spidar::test

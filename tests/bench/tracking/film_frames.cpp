@@ -1,7 +1,6 @@
 #include "tests/bench/tracking/film_frames.h"
 
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 
 #include <gst/app/gstappsink.h>
@@ -9,54 +8,12 @@
 #include <gst/gst.h>
 #include <gst/video/video.h>
 
+#include "tests/bench/gst_pipeline.h"
+
 namespace spidar::bench {
 namespace {
 
 using test::Picture;
-
-struct Unref {
-  void operator()(void* object) const { gst_object_unref(object); }
-};
-using Element = std::unique_ptr<GstElement, Unref>;
-
-/// Stopped when it goes.
-class Pipeline {
- public:
-  explicit Pipeline(const std::string& line) {
-    GError* error = nullptr;
-    pipeline_.reset(gst_parse_launch(line.c_str(), &error));
-    if (!error) return;
-    const std::string reason = error->message;
-    g_error_free(error);
-    throw std::runtime_error("GStreamer: " + reason);
-  }
-  ~Pipeline() {
-    if (pipeline_) gst_element_set_state(pipeline_.get(), GST_STATE_NULL);
-  }
-  Pipeline(const Pipeline&) = delete;
-  Pipeline& operator=(const Pipeline&) = delete;
-
-  void play() { gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING); }
-  Element by_name(const char* name) const {
-    return Element(gst_bin_get_by_name(GST_BIN(pipeline_.get()), name));
-  }
-  /// What went wrong, if anything did.
-  std::string problem() const {
-    GstBus* bus = gst_element_get_bus(pipeline_.get());
-    GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR);
-    gst_object_unref(bus);
-    if (!message) return "no picture";
-    GError* error = nullptr;
-    gst_message_parse_error(message, &error, nullptr);
-    const std::string reason = error->message;
-    g_error_free(error);
-    gst_message_unref(message);
-    return reason;
-  }
-
- private:
-  Element pipeline_;
-};
 
 Picture picture_of(GstSample* sample) {
   GstVideoInfo info;
@@ -75,18 +32,6 @@ Picture picture_of(GstSample* sample) {
   gst_video_frame_unmap(&frame);
   gst_sample_unref(sample);
   return picture;
-}
-
-/// Grey as I420, which is what the encoder takes as it is.
-GstBuffer* buffer_of(const Picture& picture, int n) {
-  const size_t luma = picture.pixels.size();
-  const size_t chroma = luma / 2;
-  GstBuffer* buffer = gst_buffer_new_allocate(nullptr, luma + chroma, nullptr);
-  gst_buffer_fill(buffer, 0, picture.pixels.data(), luma);
-  gst_buffer_memset(buffer, luma, 128, chroma);
-  GST_BUFFER_PTS(buffer) = gst_util_uint64_scale(static_cast<guint64>(n), GST_SECOND, 30);
-  GST_BUFFER_DURATION(buffer) = GST_SECOND / 30;
-  return buffer;
 }
 
 }  // namespace
@@ -118,7 +63,9 @@ std::vector<Picture> coded(const std::vector<Picture>& frames) {
   pipeline.play();
   const Element source = pipeline.by_name("source");
   for (size_t n = 0; n < frames.size(); ++n) {
-    gst_app_src_push_buffer(GST_APP_SRC(source.get()), buffer_of(frames[n], static_cast<int>(n)));
+    GstBuffer* buffer = i420_buffer(frames[n]);
+    set_time(buffer, static_cast<int>(n), 30);
+    gst_app_src_push_buffer(GST_APP_SRC(source.get()), buffer);
   }
   gst_app_src_end_of_stream(GST_APP_SRC(source.get()));
   const Element sink = pipeline.by_name("sink");

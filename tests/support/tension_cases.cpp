@@ -1,79 +1,36 @@
-/// Families of tension problems, from what a device meets all day to what breaks solvers.
-#pragma once
+#include "tests/support/tension_cases.h"
 
-#include <array>
 #include <cmath>
 
 #include <Eigen/SVD>
 
-#include "core/grip/tension_solver.h"
-#include "string_samples.h"
-
 namespace spidar::test {
+namespace {
 
-enum class TensionCase {
-  kNearCentre,     ///< ±2 cm, 20°, forces to 3 N
-  kReachable,      ///< ±4 cm, 45°, a wrench that tensions within the bounds deliver exactly
-  kFrameEdge,      ///< one coordinate 50 … 75 mm off the centre
-  kTurned,         ///< rotated by 60 … 80°
-  kBeyondReach,    ///< 10 … 100 times what the strings can do
-  kRankDeficient,  ///< singular values, strings or rows of W that nearly vanish or coincide
-  kFixedStrings,   ///< t_min = t_max on some strings
-  kDegenerate,     ///< zero multipliers, slack strings, no wrench, symmetric poses
-  kScaled,         ///< objective, wrench, tensions or the unit of length times 1e±9
-  kTinyEpsilon,    ///< ε down to 1e-12
-  kOutsideFrame,   ///< ±30 cm, turned anyhow
-  kFewStrings,     ///< 4 … 8 strings, point grips
-};
-constexpr int kTensionCases = 12;
-
-inline const char* name(TensionCase c) {
-  constexpr const char* kNames[kTensionCases] = {
-      "near the centre", "reachable",      "edge of the frame", "turned 60-80 deg",
-      "beyond reach",    "rank deficient", "fixed strings",     "degenerate",
-      "scaled 1e+-9",    "tiny epsilon",   "outside the frame", "few strings"};
-  return kNames[static_cast<int>(c)];
-}
-
-/// The bounds of a SPIDAR-G6X3.
-inline TensionProblem g6x3_problem(const Pose& pose, const Wrench& wrench = {}) {
-  TensionProblem p;
-  p.W = structure_matrix(g6x3_geometry(), pose);
-  p.wrench = wrench;
-  p.t_min_N.setConstant(0.3);
-  p.t_max_N.setConstant(20);
-  p.t_ref_N.setConstant(1);
-  return p;
-}
-
-inline Wrench wrench_of(const TensionProblem& p, const StringVector& tension_N) {
+Wrench wrench_of(const TensionProblem& p, const StringVector& tension_N) {
   const Eigen::Matrix<double, 6, 1> w = p.W * tension_N;
   return {w.head<3>(), w.tail<3>()};
 }
 
-inline double power_of_ten(Random& random, double low, double high) {
+double power_of_ten(Random& random, double low, double high) {
   return std::pow(10.0, uniform(random, low, high));
 }
 
-inline int pick(Random& random, int count) {
+int pick(Random& random, int count) {
   return static_cast<int>(random() % static_cast<unsigned>(count));
 }
 
-inline StringVector random_tensions(Random& random, double low_N, double high_N) {
+StringVector random_tensions(Random& random, double low_N, double high_N) {
   StringVector t;
   for (double& x : t) x = uniform(random, low_N, high_N);
   return t;
 }
 
-TensionProblem random_problem(Random& random, TensionCase c);
-
-namespace detail {
-
-inline TensionProblem any_of_the_first(Random& random, int count) {
+TensionProblem any_of_the_first(Random& random, int count) {
   return random_problem(random, static_cast<TensionCase>(pick(random, count)));
 }
 
-inline TensionProblem rank_deficient(Random& random) {
+TensionProblem rank_deficient(Random& random) {
   TensionProblem p = any_of_the_first(random, 4);
   switch (pick(random, 3)) {
     case 0: {
@@ -93,7 +50,7 @@ inline TensionProblem rank_deficient(Random& random) {
   return p;
 }
 
-inline TensionProblem degenerate(Random& random) {
+TensionProblem degenerate(Random& random) {
   TensionProblem p = any_of_the_first(random, 5);
   StringVector t = random_tensions(random, 0.3, 5);
   for (int i = 0; i < 8; ++i) {
@@ -126,7 +83,7 @@ inline TensionProblem degenerate(Random& random) {
   return p;
 }
 
-inline TensionProblem scaled(Random& random) {
+TensionProblem scaled(Random& random) {
   TensionProblem p = any_of_the_first(random, 8);
   const double s = pick(random, 2) ? 1e9 : 1e-9;
   switch (pick(random, 4)) {
@@ -152,9 +109,27 @@ inline TensionProblem scaled(Random& random) {
   return p;
 }
 
-}  // namespace detail
+}  // namespace
 
-inline TensionProblem random_problem(Random& random, TensionCase c) {
+const char* name(TensionCase c) {
+  constexpr const char* kNames[kTensionCases] = {
+      "near the centre", "reachable",      "edge of the frame", "turned 60-80 deg",
+      "beyond reach",    "rank deficient", "fixed strings",     "degenerate",
+      "scaled 1e+-9",    "tiny epsilon",   "outside the frame", "few strings"};
+  return kNames[static_cast<int>(c)];
+}
+
+TensionProblem g6x3_problem(const Pose& pose, const Wrench& wrench) {
+  TensionProblem p;
+  p.W = structure_matrix(g6x3_geometry(), pose);
+  p.wrench = wrench;
+  p.t_min_N.setConstant(0.3);
+  p.t_max_N.setConstant(20);
+  p.t_ref_N.setConstant(1);
+  return p;
+}
+
+TensionProblem random_problem(Random& random, TensionCase c) {
   switch (c) {
     case TensionCase::kNearCentre:
       return g6x3_problem(random_pose(random, 0.02, 0.35),
@@ -182,9 +157,9 @@ inline TensionProblem random_problem(Random& random, TensionCase c) {
                           {20 * s * random_direction(random), 0.4 * s * random_direction(random)});
     }
     case TensionCase::kRankDeficient:
-      return detail::rank_deficient(random);
+      return rank_deficient(random);
     case TensionCase::kFixedStrings: {
-      TensionProblem p = detail::any_of_the_first(random, 5);
+      TensionProblem p = any_of_the_first(random, 5);
       for (int k = pick(random, 8); k >= 0; --k) {
         const int i = pick(random, 8);
         p.t_min_N[i] = p.t_max_N[i] = uniform(random, 0.3, 5);
@@ -192,11 +167,11 @@ inline TensionProblem random_problem(Random& random, TensionCase c) {
       return p;
     }
     case TensionCase::kDegenerate:
-      return detail::degenerate(random);
+      return degenerate(random);
     case TensionCase::kScaled:
-      return detail::scaled(random);
+      return scaled(random);
     case TensionCase::kTinyEpsilon: {
-      TensionProblem p = detail::any_of_the_first(random, 8);
+      TensionProblem p = any_of_the_first(random, 8);
       p.epsilon = power_of_ten(random, -12, -4);
       return p;
     }
@@ -204,7 +179,7 @@ inline TensionProblem random_problem(Random& random, TensionCase c) {
       return g6x3_problem(random_pose(random, 0.3, M_PI),
                           {random_vector(random, 10), random_vector(random, 0.2)});
     case TensionCase::kFewStrings: {
-      TensionProblem p = detail::any_of_the_first(random, 9);
+      TensionProblem p = any_of_the_first(random, 9);
       p.count = 4 + pick(random, 5);
       if (pick(random, 2)) p.W.bottomRows<3>().setZero();
       return p;

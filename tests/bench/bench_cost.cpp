@@ -1,0 +1,139 @@
+// What the element costs in a pipeline: beside identity, of the time of a frame, and beside the
+// decoder it works for; with moving frames, still ones and gaps.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gst/gst.h>
+
+#include "tests/bench/call_timer.h"
+#include "tests/bench/cost/decoding.h"
+#include "tests/bench/cost/paced_push.h"
+#include "tests/bench/gst_pipeline.h"
+#include "tests/bench/tracking/film_frames.h"
+#include "tests/support/film_studio.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using namespace spidar::bench;
+using spidar::test::Picture;
+
+constexpr int kRate_Hz = 60;
+constexpr double kInterval_ms = 1e3 / kRate_Hz;
+
+struct Size {
+  int width, height;
+};
+
+/// A camera that pans over a background with an object in front: drawn before anything is timed.
+std::vector<Picture> film_of(const Size& size) {
+  spidar::test::FilmStudio studio(size.width, size.height, 1);
+  spidar::test::Film film = studio.pan_with_object();
+  return draw_all(film, spidar::test::kFilmFrames);
+}
+
+void print_pushed(const Size& size, const std::vector<Picture>& film) {
+  constexpr int kFrames = 60;
+  constexpr int kPasses = 3;
+  const std::vector<std::string> filters = {"", "identity", "spidarmotion device=none",
+                                            "spidarmotion"};
+  GstCaps* caps = gst_caps_new_simple("video/x-raw", "format", G_TYPE_STRING, "I420", "width",
+                                      G_TYPE_INT, size.width, "height", G_TYPE_INT, size.height,
+                                      "framerate", GST_TYPE_FRACTION, kRate_Hz, 1, nullptr);
+  std::vector<GstBuffer*> frames;
+  for (const Picture& picture : film) frames.push_back(i420_buffer(picture));
+
+  std::printf(
+      "\n### %dx%d\n\n"
+      "| frames | source ! … ! fakesink | thread, µs | over identity, µs | %% of 1/%d s | wall, µs "
+      "| 99 %% | other threads, %% of a core |\n|---|---|---|---|---|---|---|---|\n",
+      size.width, size.height, kRate_Hz);
+  const std::vector<std::pair<Content, const char*>> contents = {
+      {Content::kMoving, "moving"}, {Content::kStill, "still"}, {Content::kGap, "GAP"}};
+  for (const auto& [content, name] : contents) {
+    std::map<std::string, PushCost> costs;
+    // In turns: what disturbs meets all of them.
+    for (int pass = 0; pass < kPasses; ++pass) {
+      for (const std::string& filter : filters) {
+        const PushCost cost = push_paced(filter, caps, frames, content, kFrames, kRate_Hz);
+        PushCost& sum = costs[filter];
+        sum.thread_ms.insert(sum.thread_ms.end(), cost.thread_ms.begin(), cost.thread_ms.end());
+        sum.wall_ms.insert(sum.wall_ms.end(), cost.wall_ms.begin(), cost.wall_ms.end());
+        sum.others += cost.others / kPasses;
+      }
+    }
+    const double identity_ms = quantile(costs["identity"].thread_ms, 0.5);
+    for (const std::string& filter : filters) {
+      const PushCost& cost = costs[filter];
+      const double thread_ms = quantile(cost.thread_ms, 0.5);
+      const double over_ms = thread_ms - identity_ms;
+      std::printf("| %s | %s | %.0f | %.0f | %.2f | %.0f | %.0f | %.1f |\n", name,
+                  filter.empty() ? "(nothing)" : filter.c_str(), 1e3 * thread_ms, 1e3 * over_ms,
+                  100 * over_ms / kInterval_ms, 1e3 * quantile(cost.wall_ms, 0.5),
+                  1e3 * quantile(cost.wall_ms, 0.99), 100 * cost.others);
+    }
+  }
+  for (GstBuffer* frame : frames) gst_buffer_unref(frame);
+  gst_caps_unref(caps);
+}
+
+/// The film to and fro, as long as a decoder needs to get going.
+std::vector<Picture> longer(const std::vector<Picture>& film) {
+  std::vector<Picture> frames;
+  for (int turn = 0; turn < 4; ++turn) {
+    frames.insert(frames.end(), film.begin(), film.end() - 1);
+    frames.insert(frames.end(), film.rbegin(), film.rend() - 1);
+  }
+  return frames;
+}
+
+void print_decoded(const Size& size, const std::vector<Picture>& film, const std::string& file) {
+  constexpr int kPasses = 5;
+  const std::vector<Picture> frames = longer(film);
+  encode(frames, kRate_Hz, file);
+  const std::string filter = "spidarmotion device=none";
+  std::map<std::string, double> best_ms;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (const std::string& line : {std::string("identity"), filter}) {
+      // What disturbs makes it only longer.
+      const double ms = decoding_ms(file, static_cast<int>(frames.size()), line);
+      best_ms[line] = pass == 0 ? ms : std::min(best_ms[line], ms);
+    }
+  }
+  const double decoding = best_ms["identity"];
+  const double over_ms = best_ms[filter] - decoding;
+  std::printf("| %dx%d | %.2f | %.2f | %.0f |\n", size.width, size.height, decoding, over_ms,
+              100 * over_ms / decoding);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  gst_init(&argc, &argv);
+  try {
+    const spidar::test::TemporaryFolder folder;
+    const std::vector<Size> sizes = {{1920, 1080}, {3840, 2160}};
+    std::vector<std::vector<Picture>> films;
+    for (const Size& size : sizes) {
+      films.push_back(film_of(size));
+      print_pushed(size, films.back());
+    }
+    std::printf("\n### Beside avdec_h264, one thread\n\n");
+    const std::string missing = missing_for_decoding();
+    if (!missing.empty()) {
+      std::printf("left out: GStreamer element %s is not installed\n", missing.c_str());
+      return 0;
+    }
+    std::printf("| size | decoding, ms | element, ms | %% of decoding |\n|---|---|---|---|\n");
+    for (size_t i = 0; i < sizes.size(); ++i) {
+      print_decoded(sizes[i], films[i], folder.path / (std::to_string(i) + ".mp4"));
+    }
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "error: %s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,15 @@
+/// A film to play.
+#pragma once
+
+#include <string>
+
+namespace spidar::bench {
+
+/// The first element that is needed to make or to play it and is not installed, or empty.
+std::string missing_element();
+
+/// A ball jumps about for `seconds`, with a tone: 1280x720, 29.97 frames/s, VP8 with a key frame
+/// every half second, and PCM, in AVI, which counts frames exactly. Throws std::runtime_error.
+void make_clip(const std::string& path, int seconds);
+
+}  // namespace spidar::bench

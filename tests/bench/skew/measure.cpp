@@ -1,0 +1,94 @@
+#include "tests/bench/skew/measure.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "examples/play/trace_reader.h"
+#include "spidar/monotonic.h"
+#include "tests/bench/skew/player.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::bench {
+namespace {
+
+struct FeltFrame {
+  int64_t running_ns;
+  int64_t monotonic_ns;  ///< at which the tick began
+};
+
+/// The ticks at which the loop came to another frame.
+class FeltFrames {
+ public:
+  static std::vector<std::string> columns() { return {"playing", "frame_ns", "monotonic_ns"}; }
+
+  void add(const TraceReader::Fields& row) {
+    if (row[0] != "1") {
+      last_frame_ns_ = -1;  // after a seek the same running time is another frame
+      return;
+    }
+    const int64_t frame_ns = to_integer(row[1]);
+    if (frame_ns == last_frame_ns_) return;
+    last_frame_ns_ = frame_ns;
+    if (frame_ns >= 0) frames_.push_back({frame_ns, to_integer(row[2])});
+  }
+
+  const std::vector<FeltFrame>& frames() const { return frames_; }
+
+ private:
+  int64_t last_frame_ns_ = -1;
+  std::vector<FeltFrame> frames_;
+};
+
+/// How much faster than CLOCK_MONOTONIC the pipeline's clock ran. A sound card's takes a moment to
+/// get going.
+double drift_ppm(const std::vector<ShownFrame>& shown) {
+  if (shown.size() < 8) return 0;
+  const ShownFrame& from = shown[shown.size() / 4];
+  const ShownFrame& to = shown.back();
+  const auto running_ns = static_cast<double>(to.running_ns - from.running_ns);
+  return 1e6 * (running_ns / static_cast<double>(to.due_ns - from.due_ns) - 1);
+}
+
+}  // namespace
+
+Measurement measure(const Scenario& scenario, const std::string& clip, double seconds) {
+  constexpr double kLongest_s = 0.3;  // the force of what is shown last has so long to come
+  const test::TemporaryFolder folder;
+  const std::string pipe = folder.path / "haptic";
+  FeltFrames felt;
+  TraceReader reader(pipe, "", FeltFrames::columns(),
+                     [&](const TraceReader::Fields& row) { felt.add(row); });
+  std::vector<ShownFrame> shown;
+  shown.reserve(size_t{1} << 16);
+  Player player(scenario, clip, pipe, [&](const ShownFrame& frame) { shown.push_back(frame); });
+
+  Measurement result;
+  const int64_t begin_ns = player.start();
+  player.play_for(seconds);
+  const int64_t end_ns = monotonic_now_ns();
+  player.play_for(kLongest_s);
+  result.dropped = player.dropped();
+  result.scheduling = player.scheduling();
+  player.stop();
+  reader.finish();
+
+  const auto is_outside = [&](const ShownFrame& frame) {
+    return frame.monotonic_ns < begin_ns || frame.monotonic_ns > end_ns;
+  };
+  shown.erase(std::remove_if(shown.begin(), shown.end(), is_outside), shown.end());
+  result.shown = shown.size();
+  result.clock_ppm = drift_ppm(shown);
+  for (const ShownFrame& frame : shown) {
+    result.skew.shown(frame.running_ns, frame.monotonic_ns);
+    result.force.shown(frame.running_ns, frame.due_ns);
+    result.picture_ms.add(1e-6 * static_cast<double>(frame.monotonic_ns - frame.due_ns));
+  }
+  for (const FeltFrame& frame : felt.frames()) {
+    if (frame.monotonic_ns < begin_ns) continue;
+    result.skew.felt(frame.running_ns, frame.monotonic_ns);
+    result.force.felt(frame.running_ns, frame.monotonic_ns);
+  }
+  return result;
+}
+
+}  // namespace spidar::bench

@@ -1,0 +1,44 @@
+/// Ways to play a video.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace spidar::bench {
+
+enum class Source {
+  kPlaybin,     ///< the clip, as players play it
+  kPlaybin3,    ///< the same with the newer one
+  kTestSource,  ///< live: videotestsrc
+  kCamera,      ///< live: Camera
+};
+
+struct Scenario {
+  const char* name;  ///< for --scenario
+  const char* what;  ///< for the table
+  Source source = Source::kPlaybin;
+  double rate = 1;
+  int seeks = 0;             ///< before what is measured
+  bool sound = false;        ///< with the clock of a sound card that runs kDrift too fast
+  int64_t av_offset_ns = 0;  ///< the player's: > 0: the picture is shown later than the sound
+};
+
+constexpr double kDrift = 300e-6;
+
+inline const std::vector<Scenario>& scenarios() {
+  static const std::vector<Scenario> all = {
+      {"file", "file, playbin"},
+      {"file3", "file, playbin3", Source::kPlaybin3},
+      {"live", "live, videotestsrc", Source::kTestSource},
+      {"camera", "live, frames as from a camera", Source::kCamera},
+      {"half", "file at rate 0.5", Source::kPlaybin, 0.5},
+      {"twice", "file at rate 2", Source::kPlaybin, 2},
+      {"seeks", "file after 100 seeks", Source::kPlaybin, 1, 100},
+      {"sound", "file with sound, clock +300 ppm", Source::kPlaybin, 1, 0, true},
+      {"sound-seeks", "the same after 100 seeks", Source::kPlaybin, 1, 100, true},
+      {"av-offset", "file with sound, av-offset 100 ms", Source::kPlaybin, 1, 0, true, 100'000'000},
+  };
+  return all;
+}
+
+}  // namespace spidar::bench

@@ -1,0 +1,17 @@
+/// Memory of a frame that counts what is done to it.
+#pragma once
+
+#include <gst/gst.h>
+
+namespace spidar::test {
+
+struct MemoryUse {
+  int reads = 0;   ///< maps for reading only
+  int writes = 0;  ///< maps for writing
+  int copies = 0;  ///< of all of it, or of a part
+};
+
+/// `use` outlives the memory.
+GstMemory* new_watched_memory(gsize size, MemoryUse& use);
+
+}  // namespace spidar::test

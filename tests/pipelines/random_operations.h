@@ -1,0 +1,28 @@
+/// Everything that people, applications and streams do to a player.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/pipelines/tormented_player.h"
+#include "tests/support/random_source.h"
+
+namespace spidar::test {
+
+struct Operation {
+  std::string name;
+  int weight;  ///< how often, to the others
+  std::function<void(TormentedPlayer&, RandomSource&)> run;
+};
+
+/// Those that another thread may stop the player in the midst of: none of them changes the state or
+/// needs the device.
+std::vector<Operation> interruptible_operations(const TormentedPlayer& player);
+/// The others.
+std::vector<Operation> other_operations();
+
+/// One of them, by weight.
+const Operation& draw(const std::vector<Operation>& operations, RandomSource& random);
+
+}  // namespace spidar::test

@@ -1,0 +1,81 @@
+// Anything at any moment, in real time and with all threads: nothing crashes or hangs, the force
+// keeps its promises in every tick, and afterwards the player plays as at first.
+//
+// SPIDAR_OPERATIONS says how many (300), SPIDAR_SEED which (1). What is done and how long is waited
+// between is the same for the same seed; what the threads make of it is not.
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/random_operations.h"
+
+namespace spidar::test {
+namespace {
+
+uint64_t number_from(const char* variable, uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+void set_defaults(GstElement* element) {
+  for (const std::string& name : random_properties(G_OBJECT(element))) {
+    GParamSpec* spec = g_object_class_find_property(G_OBJECT_GET_CLASS(element), name.c_str());
+    g_object_set_property(G_OBJECT(element), name.c_str(), g_param_spec_get_default_value(spec));
+  }
+  g_object_set(element, "device", "sim", "profile", "spidar-g", "trace", nullptr, nullptr);
+}
+
+/// All is well again, and it is felt. Waits for that as long as the test may run.
+void expect_to_play(TormentedPlayer& player) {
+  player.stop();
+  player.disturb(Upstream::kNothing);
+  set_defaults(player.element());
+  GstElement* sink = player.part("sink");
+  g_object_set(sink, "sync", TRUE, nullptr);
+  gst_object_unref(sink);
+  player.set_caps("video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1");
+  std::fprintf(stderr, "waiting for a force\n");
+  player.set_state(GST_STATE_PLAYING);
+  const HapticLoop& loop = player.engine().session()->loop();
+  while (loop.snapshot().last.commanded.force_N.norm() < 0.1) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  player.drain_bus();
+  player.stop();
+}
+
+TEST(RandomOperations, DoNoHarm) {
+  unsetenv("DISPLAY");  // no debug window, which is a warning
+  unsetenv("WAYLAND_DISPLAY");
+  const uint64_t count = number_from("SPIDAR_OPERATIONS", 300);
+  const uint64_t seed = number_from("SPIDAR_SEED", 1);
+  const std::string replay = "SPIDAR_SEED=" + std::to_string(seed);
+  RandomSource random(seed);
+  TormentedPlayer player;
+  std::vector<Operation> operations = interruptible_operations(player);
+  for (Operation& operation : other_operations()) operations.push_back(std::move(operation));
+  player.set_state(GST_STATE_PLAYING);
+  for (uint64_t n = 0; n < count && !testing::Test::HasFailure(); ++n) {
+    const Operation& operation = draw(operations, random);
+    SCOPED_TRACE(replay + ", operation " + std::to_string(n) + ": " + operation.name);
+    // Before it is done: the last line is the one to look at when the program does not survive it.
+    std::fprintf(stderr, "%s %zu %s\n", replay.c_str(), static_cast<size_t>(n),
+                 operation.name.c_str());
+    operation.run(player, random);
+    player.drain_bus();
+    // Mostly too short for anything to settle; now and then long enough for it to be felt.
+    const std::chrono::milliseconds longest(random.chance(0.04) ? 300 : 4);
+    std::this_thread::sleep_for(longest * random.share());
+  }
+  SCOPED_TRACE(replay + ", after all operations");
+  expect_to_play(player);
+  std::fprintf(stderr, "%zu of %zu ticks felt\n", static_cast<size_t>(player.watch().felt()),
+               static_cast<size_t>(player.watch().ticks()));
+}
+
+}  // namespace
+}  // namespace spidar::test

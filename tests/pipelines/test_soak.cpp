@@ -1,0 +1,117 @@
+// Long runs: every frame is felt, at its time to the nanosecond, and nothing piles up.
+//
+// SPIDAR_HOURS of video on a clock that is stepped (0.05), SPIDAR_MINUTES of it in real time
+// (0.01): `meson test --suite soak` asks for a day, and for half an hour.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <malloc.h>
+#include <string>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/stepped_pipeline.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr int kFrames_Hz = 10;
+constexpr GstClockTime kFrame = GST_SECOND / kFrames_Hz;
+const std::string kStream =
+    "videotestsrc pattern=ball name=source ! video/x-raw,format=GRAY8,width=160,height=120,"
+    "framerate=" +
+    std::to_string(kFrames_Hz) +
+    "/1 ! spidarmotion name=motion ! queue ! fakesink name=sink sync=true";
+
+double number_from(const char* variable, double otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? std::strtod(text, nullptr) : otherwise;
+}
+
+/// Bytes that are allocated and not freed.
+size_t allocated() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+/// Bytes of physical memory; 0 where the system does not say.
+size_t resident() {
+  std::ifstream statm("/proc/self/statm");
+  size_t size = 0, pages = 0;
+  statm >> size >> pages;
+  return pages * static_cast<size_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// What may be there at one time and not at another: the frames of a queue, one second of them at
+/// most and a few on their way, with their pictures, messages and wrenches; and as much again, for
+/// lists and rings that grow to hold them.
+constexpr size_t kInFlight = 2 * (kFrames_Hz + 4) * (160 * 120 + 4096);
+
+TEST(Soak, SteppedEveryFrameIsFeltAtItsTimeAndMemoryIsFlat) {
+  const auto frames = static_cast<uint64_t>(number_from("SPIDAR_HOURS", 0.05) * 3600 * kFrames_Hz);
+  const uint64_t warm = frames / 10;
+  SteppedPipeline pipeline(kStream);
+  pipeline.set_state(GST_STATE_PLAYING);
+  size_t before = 0, resident_before = 0;
+  uint64_t felt = 0;
+  for (uint64_t n = 0; n < frames && !testing::Test::HasFailure(); ++n) {
+    const TickRecord tick = pipeline.step();
+    const GstClockTime running_time = n * kFrame;
+    ASSERT_EQ(pipeline.running_time(), running_time) << "frame " << n << " is missing";
+    EXPECT_EQ(tick.running_ns, static_cast<int64_t>(running_time));
+    EXPECT_EQ(tick.frame_ns, static_cast<int64_t>(running_time));
+    EXPECT_EQ(tick.found, Found::kExact) << "frame " << n;
+    const auto wrench = pipeline.wrenches().find(running_time);
+    ASSERT_NE(wrench, pipeline.wrenches().end()) << "frame " << n << " was not measured";
+    EXPECT_EQ(tick.wanted.force_N, wrench->second.force_N);
+    felt += tick.wanted.force_N.norm() > 0;
+    pipeline.forget_before(running_time);
+    if (n == warm) {
+      before = allocated();
+      resident_before = resident();
+    }
+  }
+  EXPECT_GT(felt, frames / 2) << "nothing was compared with nothing";
+  const size_t after = allocated();
+  EXPECT_LE(after, before + kInFlight) << frames - warm << " frames later";
+  std::printf(
+      "%llu frames, %llu of them felt; allocated %zu kB and %zu kB, resident %zu kB and %zu kB\n",
+      static_cast<unsigned long long>(frames), static_cast<unsigned long long>(felt), before / 1024,
+      after / 1024, resident_before / 1024, resident() / 1024);
+}
+
+TEST(Soak, RealTimeReportsLatenessAndMisses) {
+  const auto frames = static_cast<int>(number_from("SPIDAR_MINUTES", 0.01) * 60 * kFrames_Hz);
+  init_gstreamer();
+  GstElement* pipeline = gst_parse_launch(kStream.c_str(), nullptr);
+  ASSERT_NE(pipeline, nullptr);
+  GstElement* source = gst_bin_get_by_name(GST_BIN(pipeline), "source");
+  GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
+  g_object_set(source, "num-buffers", frames, nullptr);
+  g_object_set(element, "post-messages", FALSE, nullptr);
+  const size_t before = resident();
+  gst_element_set_state(pipeline, GST_STATE_PLAYING);
+  GstBus* bus = gst_element_get_bus(pipeline);
+  GstMessage* message = gst_bus_timed_pop_filtered(
+      bus, GST_CLOCK_TIME_NONE, static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR));
+  EXPECT_EQ(GST_MESSAGE_TYPE(message), GST_MESSAGE_EOS);
+  GstStructure* stats = nullptr;
+  g_object_get(element, "stats", &stats, nullptr);
+  guint64 measured = 0;
+  EXPECT_TRUE(gst_structure_get_uint64(stats, "frames", &measured));
+  EXPECT_EQ(measured, static_cast<guint64>(frames));
+  gchar* text = gst_structure_to_string(stats);
+  std::printf("resident %zu kB and %zu kB\n%s\n", before / 1024, resident() / 1024, text);
+  g_free(text);
+  gst_structure_free(stats);
+  gst_message_unref(message);
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(bus);
+  gst_object_unref(element);
+  gst_object_unref(source);
+  gst_object_unref(pipeline);
+}
+
+}  // namespace
+}  // namespace spidar::test

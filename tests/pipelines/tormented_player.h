@@ -1,0 +1,75 @@
+/// A pipeline in real time, on the simulated device and with all of its threads, to which anything
+/// may be done.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include <gst/gst.h>
+
+#include "plugin/motion_engine.h"
+#include "spidar/simulated_device.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tick_watch.h"
+
+namespace spidar::test {
+
+/// What comes out of the source in place of its next frame, or with it.
+enum class Upstream {
+  kNothing,
+  kGap,           ///< a gap event of 20 ms before the frame
+  kGapFrame,      ///< the frame is marked as one
+  kDiscont,       ///< the frame is marked as one
+  kNoTimestamp,   ///< its timestamp is missing,
+  kSameAsBefore,  ///< that of the frame before,
+  kEarlier,       ///< or 100 ms before that
+  kEnd,           ///< the stream ends,
+  kError,         ///< or it does so with an error
+};
+
+/// The element is watched by its haptic trace, which is read whenever the player is at NULL.
+class TormentedPlayer {
+ public:
+  TormentedPlayer();
+  ~TormentedPlayer();
+
+  GstElement* pipeline() const { return pipeline_; }
+  /// "source", "size" or "sink"; to be given back.
+  GstElement* part(const char* name) const { return gst_bin_get_by_name(GST_BIN(pipeline_), name); }
+  GstElement* element() const { return element_; }
+  MotionEngine& engine() const;
+  /// Null while there is none. Not while another thread changes the state.
+  SimulatedDevice* device() const;
+
+  /// To NULL, and looks at every tick since the last time.
+  void stop();
+  void set_state(GstState state);
+  /// For a short time: a stream in trouble may never get there.
+  bool reaches(GstState state) const;
+  bool reaches_end_of_segment();
+  /// False when it was refused.
+  bool seek(double rate, int flags, GstClockTime start, GstClockTime stop);
+  void set_caps(const std::string& caps);
+  void disturb(Upstream what) { upstream_ = what; }
+
+  /// Fails for what is neither known trouble nor a state of the player's own.
+  void drain_bus();
+
+  const TickWatch& watch() const { return watch_; }
+  const TemporaryFolder& folder() const { return folder_; }
+
+ private:
+  GstPadProbeReturn pass(GstPad* from, GstPadProbeInfo* info);
+  void check(GstMessage* error);
+
+  TemporaryFolder folder_;
+  GstElement* pipeline_;
+  GstElement* element_;
+  GstElement* size_;
+  GstBus* bus_;
+  std::atomic<Upstream> upstream_{Upstream::kNothing};
+  GstClockTime last_pts_ = 0;  // streaming thread
+  TickWatch watch_;
+};
+
+}  // namespace spidar::test

@@ -1,0 +1,41 @@
+/// Frames whose memory ends where their picture does.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <gst/video/video.h>
+
+#include "tests/support/random_source.h"
+
+namespace spidar::test {
+
+/// Grey levels, line by line.
+struct GreyPicture {
+  int width = 0, height = 0;
+  std::vector<uint8_t> level;
+
+  uint8_t at(int x, int y) const {
+    return level[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+  }
+};
+
+/// Where the planes of a frame are.
+struct FrameLayout {
+  guint planes = 0;
+  gint stride[GST_VIDEO_MAX_PLANES] = {};
+  gsize before[GST_VIDEO_MAX_PLANES] = {};  ///< bytes in front of the plane
+  bool one_memory = true;                   ///< for all planes; else one each
+  bool guard_in_front = false;              ///< the forbidden page is there, and not behind
+};
+
+/// Any, that is right for such frames.
+FrameLayout random_layout(const GstVideoInfo& info, RandomSource& random);
+
+/// A buffer with a GstVideoMeta that shows `picture`, which is as large as `info` says: in luma, or
+/// as grey. Chroma, alpha and what is between the lines are noise. An access to the page behind the
+/// last byte of each memory (or in front of the first one) ends the program.
+GstBuffer* make_guarded_frame(const GstVideoInfo& info, const GreyPicture& picture,
+                              const FrameLayout& layout, RandomSource& random);
+
+}  // namespace spidar::test

@@ -1,0 +1,46 @@
+/// Numbers from a seed, for tests that try what nobody thought of.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <glib-object.h>
+
+namespace spidar::test {
+
+/// The same numbers for the same seed, whatever the standard library: no distribution of it is
+/// used.
+class RandomSource {
+ public:
+  explicit RandomSource(uint64_t seed) : engine_(seed) {}
+
+  /// 0 … below − 1
+  uint64_t below(uint64_t bound) { return engine_() % bound; }
+  int64_t between(int64_t low, int64_t high) {
+    return low + static_cast<int64_t>(below(static_cast<uint64_t>(high - low) + 1));
+  }
+  /// 0 … 1, without 1
+  double share() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  bool chance(double probability) { return share() < probability; }
+
+  template <typename Array>
+  const auto& one_of(const Array& choices) {
+    return choices[below(std::size(choices))];
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Sets `value` to something that a property of this kind (boolean, number, enumeration) takes: its
+/// default in four of five cases, an end of its range, or what lies between.
+void set_random_value(GParamSpec* spec, RandomSource& random, GValue* value);
+
+/// Names of the properties of `object` that can be written and are of such a kind, and belong to
+/// its own class.
+std::vector<std::string> random_properties(GObject* object);
+
+}  // namespace spidar::test
