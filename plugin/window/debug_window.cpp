@@ -188,8 +188,9 @@ void DebugWindow::draw_panels(int width, int height) {
   const ControllerSettings& controller = facts_.settings.controller;
   ShownPicture picture;
   if (!texture_->empty()) {
-    // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier.
-    picture.texture = reinterpret_cast<ImTextureID>(static_cast<uintptr_t>(texture_->id()));
+    // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
+    // pointer or, since 1.91.4, a number: a cast as in C makes either.
+    picture.texture = (ImTextureID)uintptr_t{texture_->id()};
     const GstVideoInfo& info = picture_.info();
     picture.frame_width = GST_VIDEO_INFO_WIDTH(&info);
     picture.frame_height = GST_VIDEO_INFO_HEIGHT(&info);

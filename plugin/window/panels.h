@@ -38,9 +38,9 @@ constexpr ImU32 kFeltColor = IM_COL32(255, 190, 60, 255);
 constexpr ImU32 kSpeedColor = IM_COL32(110, 210, 130, 255);
 constexpr ImU32 kWarnColor = IM_COL32(255, 90, 80, 255);
 
-/// The picture (texture of the whole frame; null: none yet) and its arrows.
+/// The picture (texture of the whole frame; 0: none yet) and its arrows.
 struct ShownPicture {
-  ImTextureID texture = nullptr;
+  ImTextureID texture{};
   int frame_width = 0, frame_height = 0;
   double pixel_aspect = 1;
 };

@@ -12,6 +12,7 @@
 #include "tension_reference.h"
 #include "tests/support/grip_path.h"
 #include "tests/support/string_samples.h"
+#include "tests/support/tension_cases.h"
 #include "tests/support/tension_step.h"
 
 namespace spidar::test {
@@ -20,12 +21,9 @@ namespace {
 constexpr double kTick_s = 0.001;
 constexpr int kTicks = 1000;
 
-TensionProblem g6x3_problem(const Pose& pose, const Wrench& wrench) {
-  TensionProblem p;
-  p.W = structure_matrix(g6x3_geometry(), pose);
-  p.wrench = wrench;
-  p.t_min_N.setConstant(0.3);
-  p.t_max_N.setConstant(20);
+/// As the haptic loop poses it: the least tensions are the reference.
+TensionProblem loop_problem(const Pose& pose, const Wrench& wrench) {
+  TensionProblem p = g6x3_problem(pose, wrench);
   p.t_ref_N = p.t_min_N;
   return p;
 }
@@ -61,7 +59,7 @@ Walk walk(const PathLimits& limits, uint64_t seed) {
   StringVector last_t;
   Walk sum;
   for (int tick = 0; tick <= kTicks; ++tick) {
-    const TensionProblem p = g6x3_problem(path.pose(tick * kTick_s), path.wrench(tick * kTick_s));
+    const TensionProblem p = loop_problem(path.pose(tick * kTick_s), path.wrench(tick * kTick_s));
     const TensionResult result = solver.solve(p);
     EXPECT_EQ(result.status, TensionStatus::kSolved) << to_line(p);
     if (tick > 0) {
@@ -118,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, TensionContinuity, testing::Range<uint64_t>(1, 6
 // Tensions that balance themselves change nothing at the grip but are not the minimum: a solver
 // that went from one to the other would pass every test of the wrench.
 TEST(TensionStep, JumpOfBalancedTensionsIsAboveTheBound) {
-  const TensionProblem p = g6x3_problem(Pose(), {{1, 0, 0}, {0, 0, 0}});
+  const TensionProblem p = loop_problem(Pose(), {{1, 0, 0}, {0, 0, 0}});
   TensionSolver solver;
   const StringVector t = solver.solve(p).tension_N;
   const StringVector balanced = 0.1 * p.W.fullPivLu().kernel().col(0).normalized();
