@@ -26,6 +26,24 @@ int64_t hold_time_ns(int64_t interval_ns) {
   return interval_ns > 0 ? std::min(interval_ns + kLate_ns, kLongest_ns) : 0;
 }
 
+/// Running time at which a sink shows the frame: when what is to be seen of it begins, which is its
+/// end when it is played backwards. GST_CLOCK_TIME_NONE when the sink drops it.
+GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment) {
+  const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
+  GstClockTime duration = GST_BUFFER_DURATION(frame.buffer);
+  if (!GST_CLOCK_TIME_IS_VALID(duration) && frame.info.fps_n > 0) {
+    duration = gst_util_uint64_scale_int(GST_SECOND, frame.info.fps_d, frame.info.fps_n);
+  }
+  const bool has_end = GST_CLOCK_TIME_IS_VALID(duration) && duration < GST_CLOCK_TIME_NONE - pts;
+  const GstClockTime end = has_end ? pts + duration : GST_CLOCK_TIME_NONE;
+  guint64 from = 0, to = 0;
+  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, end, &from, &to)) {
+    return GST_CLOCK_TIME_NONE;
+  }
+  const bool backwards = segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(to);
+  return gst_segment_to_running_time(&segment, GST_FORMAT_TIME, backwards ? to : from);
+}
+
 }  // namespace
 
 void MotionEngine::set_manual(PlaybackSync::Now now, void* user) {
@@ -262,7 +280,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.problem = FrameProblem::kNoTimestamp;
     return report;
   }
-  report.running_time = gst_segment_to_running_time(&segment, GST_FORMAT_TIME, pts);
+  report.running_time = shown_at(frame, segment);
   report.stream_time = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, pts);
   if (!GST_CLOCK_TIME_IS_VALID(report.running_time)) {
     report.problem = FrameProblem::kNotShown;

@@ -312,8 +312,10 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       break;
     }
     case GST_EVENT_GAP: {
-      GstClockTime time;
-      gst_event_parse_gap(event, &time, nullptr);
+      GstClockTime time, duration;
+      gst_event_parse_gap(event, &time, &duration);
+      // Played backwards it begins at its end.
+      if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
       engine.run_out(gst_segment_to_running_time(&trans->segment, GST_FORMAT_TIME, time));
       break;
     }

@@ -55,6 +55,18 @@ TEST_F(Time, ReverseTurnsTheVelocityRound) {
   h.push_moved(18, 0, 9 * kFrame);
   ASSERT_EQ(h.motions().size(), 2u);
   EXPECT_NEAR(h.motions()[1].velocity_x, -50, kTolerance_px / 0.04);
+  // Its end comes by first, 25 frames/s, and that is when sinks show it.
+  EXPECT_EQ(h.motions()[1].running_time, GST_SECOND - 10 * kFrame);
+}
+
+TEST_F(Time, AFrameThatBeginsBeforeTheSegmentIsShownWithIt) {
+  send_segment(1.0, 10 * kFrame + kFrame / 2, GST_CLOCK_TIME_NONE, 0);
+  h.push_moved(0, 0, 9 * kFrame);  // is over by then
+  h.push_moved(2, 0, 10 * kFrame);
+  h.push_moved(4, 0, 11 * kFrame);
+  ASSERT_EQ(h.motions().size(), 2u);
+  EXPECT_EQ(h.motions()[0].running_time, 0u);
+  EXPECT_EQ(h.motions()[1].running_time, kFrame / 2);
 }
 
 TEST_F(Time, MessagesCarryAllTimes) {

@@ -1,4 +1,4 @@
-"""GstPlay, which many players are made of, and gst-play-1.0, which everybody has."""
+"""GstPlay, which many players are made of, gst-play-1.0, which everybody has, and steps in playbin."""
 import csv
 import os
 import shutil
@@ -82,10 +82,36 @@ def check_program(program, film, folder):
     check_felt(trace)
 
 
+def check_steps(name, film, folder):
+    """The first ten frames are stepped over: the force begins with the eleventh."""
+    trace = os.path.join(folder, f"{name}.csv")
+    player = Gst.ElementFactory.make(name)
+    screen = Gst.parse_launch("fakesink sync=true")
+    player.set_property("uri", Gst.filename_to_uri(film))
+    player.set_property("video-filter",
+                        Gst.parse_launch(f"spidarmotion motion=mean haptic-trace={trace}"))
+    player.set_property("video-sink", screen)
+    player.set_state(Gst.State.PAUSED)
+    player.get_state(Gst.CLOCK_TIME_NONE)
+    screen.send_event(Gst.Event.new_step(Gst.Format.BUFFERS, 10, 1.0, True, False))
+    player.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE, Gst.MessageType.STEP_DONE)
+    player.set_state(Gst.State.PLAYING)
+    message = player.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE,
+                                            Gst.MessageType.EOS | Gst.MessageType.ERROR)
+    player.set_state(Gst.State.NULL)
+    assert message.type == Gst.MessageType.EOS, message.parse_error()
+    with open(trace, newline="") as rows:
+        running_ns = [int(row["running_ns"]) for row in csv.DictReader(rows) if row["playing"] == "1"]
+    assert running_ns[0] >= 10 * Gst.SECOND // 25, running_ns[0]
+    check_felt(trace)
+
+
 Gst.init(None)
 skipped = []
 with tempfile.TemporaryDirectory() as temporary:
     clip = write_film(temporary)
+    for playbin in "playbin", "playbin3":
+        check_steps(playbin, clip, temporary)
     program = shutil.which("gst-play-1.0")
     if program:
         check_program(program, clip, temporary)

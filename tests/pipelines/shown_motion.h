@@ -27,6 +27,7 @@ const std::string kPlayer = kBall + kMotion + kSink;
 
 /// The tick at the time of the frame that is shown now found this frame's wrench, bit for bit.
 inline void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& tick) {
+  EXPECT_EQ(pipeline.shown(), pipeline.running_time());
   const auto frame = pipeline.wrenches().find(pipeline.running_time());
   ASSERT_NE(frame, pipeline.wrenches().end()) << "at " << pipeline.running_time();
   EXPECT_EQ(tick.running_ns, static_cast<int64_t>(frame->first));

@@ -32,8 +32,12 @@ SteppedPipeline::SteppedPipeline(const std::string& launch) {
     GstEvent* event = gst_pad_get_sticky_event(sink_pad, GST_EVENT_SEGMENT, 0);
     const GstSegment* segment;
     gst_event_parse_segment(event, &segment);
+    // A sink shows a frame when it comes to its end where it plays backwards.
+    const auto* frame = static_cast<GstBuffer*>(info->data);
+    const GstClockTime shown_from =
+        GST_BUFFER_PTS(frame) + (segment->rate < 0 ? GST_BUFFER_DURATION(frame) : 0);
     static_cast<SteppedPipeline*>(user)->taken_ =
-        gst_segment_to_running_time(segment, GST_FORMAT_TIME, GST_BUFFER_PTS(info->data));
+        gst_segment_to_running_time(segment, GST_FORMAT_TIME, shown_from);
     gst_event_unref(event);
     return GST_PAD_PROBE_OK;
   };

@@ -92,6 +92,21 @@ TEST(Interruptions, FrameByFrameNothingIsFeltAndAfterwardsItIsInTime) {
   expect_motion(pipeline, 5);
 }
 
+TEST(Interruptions, FrameByFrameAtOtherSpeeds) {
+  for (const double rate : {0.5, 2.0, -1.0}) {
+    SCOPED_TRACE(rate);
+    SteppedPipeline pipeline(kPlayer);
+    pipeline.set_state(GST_STATE_PAUSED);
+    pipeline.seek(rate, GST_SEEK_FLAG_FLUSH, 0, 4 * GST_SECOND);
+    pipeline.set_state(GST_STATE_PLAYING);
+    play(pipeline, 5);
+    pipeline.set_state(GST_STATE_PAUSED);
+    pipeline.step_frames(3);
+    pipeline.set_state(GST_STATE_PLAYING);
+    expect_motion_of_what_is_shown(pipeline, 10);
+  }
+}
+
 TEST(Interruptions, AStepWhilePlaying) {
   SteppedPipeline pipeline(kPlayer);
   pipeline.set_state(GST_STATE_PLAYING);

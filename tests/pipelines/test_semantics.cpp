@@ -143,7 +143,7 @@ TEST(Semantics, AGapInTheTimestampsIsSlowMotion) {
 }
 
 TEST(Semantics, RunningTimesOfSeventyYears) {
-  constexpr GstClockTime kYears = 70ull * 365 * 24 * 3600 * GST_SECOND;
+  constexpr GstClockTime kYears = 70ull * 365 * 24 * 3600 * GST_SECOND;  // of 73, see is_time()
   SteppedPipeline pipeline(kPlayer);
   GstElement* source = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "source");
   GstPad* pad = gst_element_get_static_pad(source, "src");
