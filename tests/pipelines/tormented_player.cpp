@@ -123,10 +123,10 @@ bool TormentedPlayer::reaches_end_of_segment() {
   return done;
 }
 
-bool TormentedPlayer::seek(double rate, int flags, GstClockTime start, GstClockTime stop) {
-  return gst_element_seek(pipeline_, rate, GST_FORMAT_TIME, static_cast<GstSeekFlags>(flags),
-                          GST_SEEK_TYPE_SET, static_cast<gint64>(start), GST_SEEK_TYPE_SET,
-                          static_cast<gint64>(stop));
+void TormentedPlayer::seek(double rate, int flags, GstClockTime start, GstClockTime stop) {
+  gst_element_seek(pipeline_, rate, GST_FORMAT_TIME, static_cast<GstSeekFlags>(flags),
+                   GST_SEEK_TYPE_SET, static_cast<gint64>(start), GST_SEEK_TYPE_SET,
+                   static_cast<gint64>(stop));
 }
 
 void TormentedPlayer::set_caps(const std::string& text) {

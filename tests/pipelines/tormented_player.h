@@ -47,8 +47,8 @@ class TormentedPlayer {
   /// For a short time: a stream in trouble may never get there.
   bool reaches(GstState state) const;
   bool reaches_end_of_segment();
-  /// False when it was refused.
-  bool seek(double rate, int flags, GstClockTime start, GstClockTime stop);
+  /// It may be refused.
+  void seek(double rate, int flags, GstClockTime start, GstClockTime stop);
   void set_caps(const std::string& caps);
   void disturb(Upstream what) { upstream_ = what; }
 

@@ -62,20 +62,19 @@ TickRecord some_record() {
 }
 
 TEST(TickTrace, HeaderAndRow) {
-  EXPECT_EQ(
-      trace_header(),
-      "tick,monotonic_ns,lateness_ns,running_ns,frame_ns,found,playing,device,"
-      "wanted_force_x_N,wanted_force_y_N,wanted_force_z_N,"
-      "wanted_torque_x_Nm,wanted_torque_y_Nm,wanted_torque_z_Nm,"
-      "commanded_force_x_N,commanded_force_y_N,commanded_force_z_N,"
-      "commanded_torque_x_Nm,commanded_torque_y_Nm,commanded_torque_z_Nm,"
-      "delivered_force_x_N,delivered_force_y_N,delivered_force_z_N,"
-      "delivered_torque_x_Nm,delivered_torque_y_Nm,delivered_torque_z_Nm,"
-      "tension_0_N,tension_1_N,tension_2_N,tension_3_N,"
-      "tension_4_N,tension_5_N,tension_6_N,tension_7_N,"
-      "position_x_m,position_y_m,position_z_m,"
-      "orientation_w,orientation_x,orientation_y,orientation_z,pose_residual_m,faulty_string,"
-      "max_force_N,max_torque_Nm");
+  EXPECT_EQ(trace_header(),
+            "tick,monotonic_ns,lateness_ns,running_ns,frame_ns,found,playing,device,"
+            "wanted_force_x_N,wanted_force_y_N,wanted_force_z_N,"
+            "wanted_torque_x_Nm,wanted_torque_y_Nm,wanted_torque_z_Nm,"
+            "commanded_force_x_N,commanded_force_y_N,commanded_force_z_N,"
+            "commanded_torque_x_Nm,commanded_torque_y_Nm,commanded_torque_z_Nm,"
+            "delivered_force_x_N,delivered_force_y_N,delivered_force_z_N,"
+            "delivered_torque_x_Nm,delivered_torque_y_Nm,delivered_torque_z_Nm,"
+            "tension_0_N,tension_1_N,tension_2_N,tension_3_N,"
+            "tension_4_N,tension_5_N,tension_6_N,tension_7_N,"
+            "position_x_m,position_y_m,position_z_m,"
+            "orientation_w,orientation_x,orientation_y,orientation_z,pose_residual_m,faulty_string,"
+            "max_force_N,max_torque_Nm");
   std::string row;
   append_row(some_record(), row);
   EXPECT_EQ(row,
