@@ -38,16 +38,16 @@
 #include <new>
 #include <string>
 
+#include "plugin/complaints.h"
 #include "plugin/motion_display.h"
 #include "plugin/motion_engine.h"
+#include "plugin/motion_message.h"
 #include "plugin/motion_meta.h"
 #include "plugin/step_watch.h"
 
-GST_DEBUG_CATEGORY_STATIC(gst_spidar_motion_debug);
+GST_DEBUG_CATEGORY(gst_spidar_motion_debug);
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
 
-using spidar::DeviceState;
-using spidar::FrameProblem;
 using spidar::FrameReport;
 using spidar::MotionDisplay;
 using spidar::MotionEngine;
@@ -64,11 +64,7 @@ struct _GstSpidarMotion {
   MotionEngine* engine;
   MotionDisplay* display;
   spidar::StepWatch* steps;
-
-  // Streaming thread: what was already complained about in this stream.
-  guint warned;
-  DeviceState device_state;
-  guint warned_strings;  // bit i: string i
+  spidar::Complaints* complaints;
 };
 
 #define CAPS                                                  \
@@ -112,99 +108,7 @@ static bool guarded(GstSpidarMotion* self, const char* doing, Function&& functio
   return false;
 }
 
-/// A problem of the stream is said once, not once a frame.
-static bool first_time(GstSpidarMotion* self, FrameProblem problem) {
-  const guint bit = 1u << static_cast<guint>(problem);
-  const bool first = (self->warned & bit) == 0;
-  self->warned |= bit;
-  return first;
-}
-
-static void warn_of_frame(GstSpidarMotion* self, FrameProblem problem) {
-  if (problem == FrameProblem::kNone || problem == FrameProblem::kNotShown ||
-      !first_time(self, problem)) {
-    return;
-  }
-  switch (problem) {
-    case FrameProblem::kNoTimestamp:
-      GST_ELEMENT_WARNING(
-          self, STREAM, FORMAT,
-          ("Frames without a timestamp cannot be felt in time; they are shown only."),
-          ("Buffer without PTS, or decades ahead. A videorate or a parser before the decoder adds "
-           "them."));
-      break;
-    case FrameProblem::kSameTimestamp:
-      GST_ELEMENT_WARNING(self, STREAM, FORMAT,
-                          ("Two frames have the same timestamp; the second one is shown only."),
-                          ("No time between the frames to divide their motion by."));
-      break;
-    case FrameProblem::kFallingTimestamp:
-      GST_ELEMENT_WARNING(self, STREAM, FORMAT,
-                          ("Timestamps go back without a discontinuity; motion is measured anew."),
-                          ("Running time must rise within a segment."));
-      break;
-    case FrameProblem::kTooSmall:
-      GST_ELEMENT_WARNING(self, STREAM, FORMAT,
-                          ("A frame has less memory than its picture needs; it is passed on only."),
-                          ("The strides and offsets of its GstVideoMeta do not fit it."));
-      break;
-    default:
-      break;
-  }
-}
-
-static void warn_of_string(GstSpidarMotion* self) {
-  const int string = self->engine->faulty_string();
-  if (string < 0 || (self->warned_strings & 1u << string) != 0) return;
-  self->warned_strings |= 1u << string;
-  GST_ELEMENT_WARNING(
-      self, RESOURCE, READ,
-      ("String %d of the haptic device is slack or its encoder is at fault.", string),
-      ("Its length fits no pose of the others. The grip is found without it."));
-}
-
-/// False when the stream is to end.
-static bool check_device(GstSpidarMotion* self, OnDeviceError policy) {
-  warn_of_string(self);
-  const DeviceState state = self->engine->device_state();
-  const DeviceState before = self->device_state;
-  self->device_state = state;
-  if (state == before) return true;
-  if (state != DeviceState::kLost) {
-    if (before == DeviceState::kLost) GST_INFO_OBJECT(self, "device is back");
-    return true;
-  }
-  const std::string text = "The haptic device does not answer" + self->engine->device_fault() + ".";
-  if (policy == OnDeviceError::kError) {
-    GST_ELEMENT_ERROR(self, RESOURCE, WRITE, ("%s", text.c_str()), ("on-device-error=error"));
-    return false;
-  }
-  GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("%s The video goes on without it.", text.c_str()),
-                      ("It is taken back when it returns."));
-  return true;
-}
-
 // --- streaming thread --------------------------------------------------------------------------
-
-static void post_motion(GstSpidarMotion* self, GstBuffer* buffer, const FrameReport& report) {
-  const spidar::FrameAnalysis& frame = report.analysis;
-  const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
-  const Eigen::Vector3d& force = frame.wrench.force_N;
-  const Eigen::Vector3d& torque = frame.wrench.torque_Nm;
-  GstStructure* s = gst_structure_new(
-      "spidar-motion",                                                   //
-      "timestamp", G_TYPE_UINT64, GST_BUFFER_PTS(buffer),                //
-      "stream-time", G_TYPE_UINT64, report.stream_time,                  //
-      "running-time", G_TYPE_UINT64, report.running_time,                //
-      "duration", G_TYPE_UINT64, GST_BUFFER_DURATION(buffer),            //
-      "features", G_TYPE_UINT, static_cast<guint>(frame.features),       //
-      "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),  //
-      "velocity-x", G_TYPE_DOUBLE, velocity.x(), "velocity-y", G_TYPE_DOUBLE, velocity.y(),
-      "force-x", G_TYPE_DOUBLE, force.x(), "force-y", G_TYPE_DOUBLE, force.y(), "force-z",
-      G_TYPE_DOUBLE, force.z(), "torque-x", G_TYPE_DOUBLE, torque.x(), "torque-y", G_TYPE_DOUBLE,
-      torque.y(), "torque-z", G_TYPE_DOUBLE, torque.z(), nullptr);
-  gst_element_post_message(GST_ELEMENT(self), gst_message_new_element(GST_OBJECT(self), s));
-}
 
 static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffer* buffer) {
   const GstClockTime time =
@@ -237,13 +141,12 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     self->display->show(report, display, settings, *frame);
   });
   if (!processed) return GST_FLOW_ERROR;
-  warn_of_frame(self, report.problem);
-  if (report.trace_failed) {
-    GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("The trace cannot be written any more."),
-                        ("Disk full? The video goes on without it."));
+  self->complaints->look_at_frame(report);
+  if (report.analyzed && post_messages) {
+    post_motion_message(GST_ELEMENT(self), frame->buffer, report);
   }
-  if (report.analyzed && post_messages) post_motion(self, frame->buffer, report);
-  return check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
+  return self->complaints->look_at_device(*self->engine, on_device_error) ? GST_FLOW_OK
+                                                                          : GST_FLOW_ERROR;
 }
 
 /// A frame without a picture is not even mapped: that may have to wait for its memory.
@@ -260,7 +163,9 @@ static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, Gst
         gst_segment_to_running_time(&trans->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer)));
   });
   self->display->skip();
-  return passed && check_device(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
+  return passed && self->complaints->look_at_device(*self->engine, on_device_error)
+             ? GST_FLOW_OK
+             : GST_FLOW_ERROR;
 }
 
 /// In passthrough nothing is writable. A meta is added to the buffer and not to its memory, so a
@@ -302,7 +207,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       break;
     }
     case GST_EVENT_STREAM_START:
-      self->warned = 0;
+      self->complaints->begin_stream();
       break;
     case GST_EVENT_SEGMENT: {
       const GstSegment* segment;
@@ -348,9 +253,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   GST_OBJECT_LOCK(self);
   const std::string trace = self->properties->trace;
   GST_OBJECT_UNLOCK(self);
-  self->warned = 0;
-  self->device_state = DeviceState::kClosed;
-  self->warned_strings = 0;
+  self->complaints->start();
   const std::string reason = self->engine->start(trace);
   if (!reason.empty()) {
     GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
@@ -474,6 +377,7 @@ static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* va
 
 static void gst_spidar_motion_finalize(GObject* object) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  delete self->complaints;
   delete self->steps;
   delete self->display;
   delete self->engine;
@@ -488,6 +392,7 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->engine = new MotionEngine(GST_ELEMENT(self));
   self->display = new MotionDisplay(GST_ELEMENT(self));
   self->steps = new spidar::StepWatch;
+  self->complaints = new spidar::Complaints(GST_ELEMENT(self));
   // Frames are looked at and passed on. GstVideoFilter would drop late ones before that: here it is
   // the application's choice.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);

@@ -31,8 +31,10 @@ inline void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& 
   const auto frame = pipeline.wrenches().find(pipeline.running_time());
   ASSERT_NE(frame, pipeline.wrenches().end()) << "at " << pipeline.running_time();
   EXPECT_EQ(tick.running_ns, static_cast<int64_t>(frame->first));
+  EXPECT_EQ(tick.frame_ns, static_cast<int64_t>(frame->first));
   EXPECT_EQ(tick.found, Found::kExact);
   EXPECT_EQ(tick.wanted.force_N, frame->second.force_N);
+  EXPECT_EQ(tick.wanted.torque_Nm, frame->second.torque_Nm);
 }
 
 /// The velocity that feels like this, px/s on 480 lines: equation 15, solved for it.

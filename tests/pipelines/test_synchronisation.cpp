@@ -5,27 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/pipelines/stepped_pipeline.h"
+#include "tests/pipelines/shown_motion.h"
 
 namespace spidar::test {
 namespace {
 
-constexpr GstClockTime kFrame = 40 * GST_MSECOND;
-const std::string kBall =
+const std::string kScene =
     "pattern=ball ! video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 "
     "! spidarmotion name=motion ";
-const std::string kSink = "! queue ! fakesink name=sink sync=true";
-
-/// The tick at the time of the frame that is shown now found this frame's wrench, bit for bit.
-void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& tick) {
-  const auto frame = pipeline.wrenches().find(pipeline.running_time());
-  ASSERT_NE(frame, pipeline.wrenches().end()) << "at " << pipeline.running_time();
-  EXPECT_EQ(tick.running_ns, static_cast<int64_t>(frame->first));
-  EXPECT_EQ(tick.frame_ns, static_cast<int64_t>(frame->first));
-  EXPECT_EQ(tick.found, Found::kExact);
-  EXPECT_EQ(tick.wanted.force_N, frame->second.force_N);
-  EXPECT_EQ(tick.wanted.torque_Nm, frame->second.torque_Nm);
-}
 
 /// The ball is felt at all: without this the other checks would compare zero with zero.
 void expect_something_felt(SteppedPipeline& pipeline) {
@@ -37,7 +24,7 @@ void expect_something_felt(SteppedPipeline& pipeline) {
 }
 
 TEST(Synchronisation, NonLive) {
-  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
   pipeline.set_state(GST_STATE_PLAYING);
   for (int n = 0; n < 20; ++n) {
     SCOPED_TRACE(n);
@@ -47,7 +34,7 @@ TEST(Synchronisation, NonLive) {
 }
 
 TEST(Synchronisation, BetweenTwoFramesTheWrenchIsBetweenTheirs) {
-  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
   pipeline.set_state(GST_STATE_PLAYING);
   for (int n = 0; n < 6; ++n) pipeline.step();
   const GstClockTime from = 5 * kFrame;
@@ -66,7 +53,7 @@ TEST(Synchronisation, BetweenTwoFramesTheWrenchIsBetweenTheirs) {
 }
 
 TEST(Synchronisation, LiveWithLatency) {
-  SteppedPipeline pipeline("videotestsrc is-live=true " + kBall +
+  SteppedPipeline pipeline("videotestsrc is-live=true " + kScene +
                            "! queue ! fakesink name=sink sync=true processing-deadline=100000000");
   pipeline.play_live();
   pipeline.step();  // the source takes the first frame, which is shown 100 ms later
@@ -87,7 +74,7 @@ TEST(Synchronisation, LiveWithLatency) {
 TEST(Synchronisation, OffsetMovesTheForceAndNotThePicture) {
   for (const GstClockTimeDiff offset : {20 * GST_MSECOND, -30 * GST_MSECOND}) {
     SCOPED_TRACE(offset);
-    SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+    SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
     g_object_set(pipeline.element(), "ts-offset", static_cast<gint64>(offset), nullptr);
     pipeline.set_state(GST_STATE_PLAYING);
     for (size_t n = 0; n < 5; ++n) {
@@ -103,7 +90,7 @@ TEST(Synchronisation, OffsetMovesTheForceAndNotThePicture) {
 TEST(Synchronisation, TheForceMovesWithThePictureWhenTheSinkHasAnOffset) {
   // playbin's sinks are in bins too.
   SteppedPipeline pipeline(
-      "videotestsrc " + kBall +
+      "videotestsrc " + kScene +
       "! queue name=queue bin.( fakesink name=sink sync=true ) queue. ! sink.");
   GstElement* const sink = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "sink");
   ASSERT_NE(GST_OBJECT_PARENT(sink), GST_OBJECT_CAST(pipeline.pipeline()));
@@ -120,7 +107,7 @@ TEST(Synchronisation, TheForceMovesWithThePictureWhenTheSinkHasAnOffset) {
 }
 
 TEST(Synchronisation, NoForceBeforePlaying) {
-  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
   pipeline.set_state(GST_STATE_PAUSED);
   pipeline.await_analysed(5);  // frames are analysed …
   const TickRecord tick = pipeline.idle(300 * GST_MSECOND);
@@ -131,7 +118,7 @@ TEST(Synchronisation, NoForceBeforePlaying) {
 }
 
 TEST(Synchronisation, NoForceInPausedAndBackInTimeAfterwards) {
-  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
   pipeline.set_state(GST_STATE_PLAYING);
   for (int n = 0; n < 10; ++n) pipeline.step();
   pipeline.await();  // frame 9 has been let through, the sink waits with frame 10
@@ -149,7 +136,7 @@ TEST(Synchronisation, NoForceInPausedAndBackInTimeAfterwards) {
 }
 
 TEST(Synchronisation, AfterAFlushingSeekNothingOfBefore) {
-  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
   pipeline.set_state(GST_STATE_PLAYING);
   for (int n = 0; n < 10; ++n) pipeline.step();
   pipeline.await();  // frame 9 has been let through, the sink waits with frame 10
@@ -167,7 +154,7 @@ TEST(Synchronisation, AfterAFlushingSeekNothingOfBefore) {
 }
 
 TEST(Synchronisation, AtTheEndTheForceRunsOut) {
-  SteppedPipeline pipeline("videotestsrc num-buffers=6 " + kBall + kSink);
+  SteppedPipeline pipeline("videotestsrc num-buffers=6 " + kScene + kSink);
   pipeline.set_state(GST_STATE_PLAYING);
   for (int n = 0; n < 6; ++n) pipeline.step();
   EXPECT_GT(pipeline.wrenches().rbegin()->second.force_N.norm(), 0.1);
@@ -177,7 +164,7 @@ TEST(Synchronisation, AtTheEndTheForceRunsOut) {
 }
 
 TEST(Synchronisation, TwiceTheRateIsTwiceTheVelocityAndInTime) {
-  SteppedPipeline pipeline("videotestsrc " + kBall + kSink);
+  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
   pipeline.set_state(GST_STATE_PAUSED);
   ASSERT_TRUE(gst_element_seek(pipeline.element(), 2.0, GST_FORMAT_TIME, GST_SEEK_FLAG_FLUSH,
                                GST_SEEK_TYPE_SET, 0, GST_SEEK_TYPE_NONE, 0));

@@ -1,0 +1,34 @@
+/// What the element says on the bus when something is wrong that the video goes on without.
+#pragma once
+
+#include <gst/gst.h>
+
+#include "plugin/motion_engine.h"
+#include "plugin/motion_properties.h"
+
+namespace spidar {
+
+/// Says each thing once a stream, not once a frame. Streaming thread, and start() before it.
+class Complaints {
+ public:
+  explicit Complaints(GstElement* element) : element_(element) {}
+
+  /// The element begins: everything may be said again.
+  void start();
+  /// Another stream: what is wrong with its frames may be.
+  void begin_stream() { frame_problems_ = 0; }
+
+  void look_at_frame(const FrameReport& report);
+  /// Looks at the device. False when the stream is to end, and then says why.
+  bool look_at_device(const MotionEngine& engine, OnDeviceError policy);
+
+ private:
+  void look_at_strings(const MotionEngine& engine);
+
+  GstElement* const element_;
+  guint frame_problems_ = 0;  // bit i: FrameProblem i was said
+  guint strings_ = 0;         // bit i: string i
+  DeviceState device_state_ = DeviceState::kClosed;
+};
+
+}  // namespace spidar

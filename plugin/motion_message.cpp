@@ -1,0 +1,25 @@
+#include "plugin/motion_message.h"
+
+namespace spidar {
+
+void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameReport& report) {
+  const FrameAnalysis& frame = report.analysis;
+  const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
+  const Eigen::Vector3d& force = frame.wrench.force_N;
+  const Eigen::Vector3d& torque = frame.wrench.torque_Nm;
+  GstStructure* s = gst_structure_new(
+      "spidar-motion",                                                   //
+      "timestamp", G_TYPE_UINT64, GST_BUFFER_PTS(buffer),                //
+      "stream-time", G_TYPE_UINT64, report.stream_time,                  //
+      "running-time", G_TYPE_UINT64, report.running_time,                //
+      "duration", G_TYPE_UINT64, GST_BUFFER_DURATION(buffer),            //
+      "features", G_TYPE_UINT, static_cast<guint>(frame.features),       //
+      "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),  //
+      "velocity-x", G_TYPE_DOUBLE, velocity.x(), "velocity-y", G_TYPE_DOUBLE, velocity.y(),
+      "force-x", G_TYPE_DOUBLE, force.x(), "force-y", G_TYPE_DOUBLE, force.y(), "force-z",
+      G_TYPE_DOUBLE, force.z(), "torque-x", G_TYPE_DOUBLE, torque.x(), "torque-y", G_TYPE_DOUBLE,
+      torque.y(), "torque-z", G_TYPE_DOUBLE, torque.z(), nullptr);
+  gst_element_post_message(element, gst_message_new_element(GST_OBJECT(element), s));
+}
+
+}  // namespace spidar

@@ -1,0 +1,13 @@
+/// The element message of a frame.
+#pragma once
+
+#include <gst/gst.h>
+
+#include "plugin/motion_engine.h"
+
+namespace spidar {
+
+/// Posts `spidar-motion`, whose fields the documentation of the element lists.
+void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameReport& report);
+
+}  // namespace spidar
