@@ -44,6 +44,10 @@ using FineTemplate = WindowTemplate<kFineWindow_px>;
 /// A cut: at least kMinForCut points were looked for and fewer than this share was found.
 constexpr double kFoundAfterCut = 0.1;
 constexpr size_t kMinForCut = 10;
+/// Small windows of which less than this share is found again show what does not last: the ringing
+/// of a JPEG around an edge, which stays with the blocks.
+constexpr double kLastingShare = 0.5;
+constexpr size_t kMinForLasting = 4;
 
 bool same_pixels(const PaddedImage& a, const PaddedImage& b) {
   for (int y = 0; y < a.height(); ++y) {
@@ -70,12 +74,23 @@ struct PatchTracker::Impl {
   PointChooser chooser;
   PointFollower follower;
   TrackedFrame result;
+  bool small_windows_hold = true;  // in the last frame
+
+  struct Tally {
+    size_t looked_for = 0;
+    size_t found = 0;
+    double share() const {
+      return looked_for > 0 ? static_cast<double>(found) / static_cast<double>(looked_for) : 0;
+    }
+  };
 
   void configure(const TrackerSettings& settings);
   void track(const ImageView& frame);
   void begin_anew();
   void stand_still();
   bool follow(const ImageView& frame);
+  template <typename Which>
+  Tally count(Which&& which) const;
   ImagePoint place_in_frame(const FollowedPoint& point, const FineTemplate& was,
                             const ImageView& frame, float gain) const;
   void settle(const ImageView& frame, float gain);
@@ -124,6 +139,7 @@ void PatchTracker::Impl::track(const ImageView& frame) {
 
 void PatchTracker::Impl::begin_anew() {
   points.clear();
+  small_windows_hold = true;
   chooser.reset();
   grid.reset();
 }
@@ -136,6 +152,17 @@ void PatchTracker::Impl::stand_still() {
   result.features = static_cast<int>(points.size());
 }
 
+template <typename Which>
+PatchTracker::Impl::Tally PatchTracker::Impl::count(Which&& which) const {
+  Tally tally;
+  for (const FollowedPoint& point : points) {
+    if (!which(point)) continue;
+    ++tally.looked_for;
+    if (point.found) ++tally.found;
+  }
+  return tally;
+}
+
 /// False at a cut.
 bool PatchTracker::Impl::follow(const ImageView& frame) {
   PointFollower::Settings settings;
@@ -145,11 +172,16 @@ bool PatchTracker::Impl::follow(const ImageView& frame) {
   follower.follow(before, now, settings, points);
   settle(frame, settings.gain);
   report();
-  const size_t looked_for = points.size();
+  const Tally small = count([](const FollowedPoint& point) { return point.level == 0; });
+  const Tally large = count([](const FollowedPoint& point) { return point.level > 0; });
+  small_windows_hold = small.looked_for < kMinForLasting || small.share() >= kLastingShare;
   drop_lost();
   // What is found by chance does not agree with its neighbours and is not reported.
-  const bool cut = looked_for >= kMinForCut && static_cast<double>(result.tracks.size()) <
-                                                   kFoundAfterCut * static_cast<double>(looked_for);
+  const size_t looked_for = small.looked_for + large.looked_for;
+  const bool cut = looked_for >= kMinForCut &&
+                   static_cast<double>(result.tracks.size()) <
+                       kFoundAfterCut * static_cast<double>(looked_for) &&
+                   large.share() < kLastingShare;
   if (cut) {
     result.tracks.clear();
     points.clear();
@@ -224,7 +256,7 @@ void PatchTracker::Impl::drop_lost() {
 }
 
 void PatchTracker::Impl::choose(const ImageView& frame) {
-  chooser.choose(now, choice, grid, result.restarted, points);
+  chooser.choose(now, choice, grid, {result.restarted, !small_windows_hold}, points);
   for (FollowedPoint& point : points) {
     if (point.is_new) point.frame = to_frame(point.at, factor);
   }

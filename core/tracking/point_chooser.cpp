@@ -91,17 +91,20 @@ void PointChooser::find_corners(const GrayPyramid& picture, int level, const Poi
 /// The rim of a disc is an edge in a small window and a corner in a large one, which also sees what
 /// is behind the disc: only pictures with hardly anything else are looked at so.
 void PointChooser::find_candidates(const GrayPyramid& picture, const PointGrid& grid,
-                                   bool everywhere, std::vector<FollowedPoint>& points) {
+                                   const Search& search, std::vector<FollowedPoint>& points) {
   candidates_.clear();
-  find_corners(picture, 0, grid, everywhere);
+  find_corners(picture, 0, grid, search.everywhere);
   const auto is_coarse = [](const FollowedPoint& point) { return point.level > 0; };
   const auto coarse = static_cast<size_t>(std::count_if(points.begin(), points.end(), is_coarse));
-  if (points.size() - coarse + candidates_.size() >= kEnoughFinePoints) {
+  const size_t fine = points.size() - coarse;
+  if (fine >= kEnoughFinePoints) {
     points.erase(std::remove_if(points.begin(), points.end(), is_coarse), points.end());
     return;
   }
-  for (int level = 1; level <= kCoarsestCorner && candidates_.empty(); ++level) {
-    find_corners(picture, level, grid, everywhere);
+  const size_t found = candidates_.size();
+  if (found > 0 && !search.coarser) return;
+  for (int level = 1; level <= kCoarsestCorner && candidates_.size() == found; ++level) {
+    find_corners(picture, level, grid, search.everywhere);
   }
 }
 
@@ -126,10 +129,10 @@ void PointChooser::adapt_cells(size_t points, int most) {
 }
 
 void PointChooser::choose(const GrayPyramid& picture, const Settings& settings,
-                          const PointGrid& grid, bool everywhere,
+                          const PointGrid& grid, const Search& search,
                           std::vector<FollowedPoint>& points) {
-  find_candidates(picture, grid, everywhere, points);
-  learn_strength(points, everywhere);
+  find_candidates(picture, grid, search, points);
+  learn_strength(points, search.everywhere);
   if (++frames_in_turn_ >= PointGrid::kTurns) {
     adapt_cells(points.size(), settings.tracker.max_features);
     strongest_ = strongest_next_;

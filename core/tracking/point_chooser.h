@@ -34,10 +34,15 @@ class PointChooser {
   /// A point that is followed may become weaker than a new one, down to this, (grey / px)².
   float least_kept_strength(const Settings& settings) const;
 
-  /// Adds points of `picture` where the grid wants them, `everywhere` or only in the cells whose
-  /// turn it is.
+  /// What of the picture is searched.
+  struct Search {
+    bool everywhere = false;  ///< else only the cells whose turn it is
+    bool coarser = false;     ///< with larger windows, too: what small ones find does not last
+  };
+
+  /// Adds points of `picture` where the grid wants them.
   void choose(const GrayPyramid& picture, const Settings& settings, const PointGrid& grid,
-              bool everywhere, std::vector<FollowedPoint>& points);
+              const Search& search, std::vector<FollowedPoint>& points);
 
  private:
   /// A corner, in pixels of the base, and the level of the pyramid that it is one of.
@@ -51,7 +56,7 @@ class PointChooser {
   void add(bool first, size_t most, const Settings& settings, const PointGrid& grid,
            std::vector<FollowedPoint>& points);
   void find_corners(const GrayPyramid& picture, int level, const PointGrid& grid, bool everywhere);
-  void find_candidates(const GrayPyramid& picture, const PointGrid& grid, bool everywhere,
+  void find_candidates(const GrayPyramid& picture, const PointGrid& grid, const Search& search,
                        std::vector<FollowedPoint>& points);
   void learn_strength(const std::vector<FollowedPoint>& points, bool everywhere);
   void adapt_cells(size_t points, int most);
