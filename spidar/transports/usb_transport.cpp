@@ -108,21 +108,19 @@ int setting_with(libusb_device* device, const UsbPipes& pipes) {
 }  // namespace
 
 UsbTransport::UsbTransport(std::string name, const UsbPipes& pipes)
-    : name_(std::move(name)), pipes_(pipes) {
-  for (Slot& slot : slots_) {
-    slot.transfer = libusb_alloc_transfer(0);
-    if (!slot.transfer) throw DeviceError(name_ + ": no memory for USB transfers");
-  }
-}
+    : name_(std::move(name)), pipes_(pipes) {}
 
 UsbTransport::~UsbTransport() {
   close();
-  for (Slot& slot : slots_) libusb_free_transfer(slot.transfer);
 }
 
 void UsbTransport::open() {
   close();
   context_ = make_usb_context();
+  for (Slot& slot : slots_) {
+    slot.transfer = libusb_alloc_transfer(0);
+    if (!slot.transfer) throw DeviceError(name_ + ": no memory for USB transfers");
+  }
   libusb_device** list = nullptr;
   const ssize_t count = libusb_get_device_list(context_.get(), &list);
   int error = LIBUSB_ERROR_NO_DEVICE;
@@ -137,7 +135,7 @@ void UsbTransport::open() {
   if (list) libusb_free_device_list(list, 1);
   const std::string file = device_.device_file();
   if (!handle_) {
-    context_.reset();
+    close();
     throw DeviceError(name_ + ": cannot open " + file + ": " + libusb_strerror(error) +
                       advice(error));
   }
@@ -262,6 +260,11 @@ void UsbTransport::close() noexcept {
     libusb_release_interface(handle_, kInterface);
     libusb_close(handle_);
     handle_ = nullptr;
+  }
+  // A transfer keeps the device that it was last submitted to, which keeps to its context.
+  for (Slot& slot : slots_) {
+    libusb_free_transfer(slot.transfer);
+    slot.transfer = nullptr;
   }
   context_.reset();
 }
