@@ -47,6 +47,13 @@ Wrench slope_between(const Wrench& a, const Wrench& b, const Wrench& c, double b
           slope_between(Chord{before.torque_Nm, before_s}, Chord{after.torque_Nm, after_s})};
 }
 
+/// Whether nothing of the last frame is to be felt any more.
+bool has_expired(const TimedWrench& frame, int64_t time_ns) {
+  const int64_t hold_ns = std::max<int64_t>(frame.hold_ns, 0);
+  return time_ns > frame.time_ns &&
+         elapsed_ns(frame.time_ns, time_ns) > static_cast<uint64_t>(hold_ns);
+}
+
 }  // namespace
 
 Wrench WrenchTimeline::value(size_t i, int64_t time_ns) noexcept {
@@ -69,10 +76,13 @@ bool WrenchTimeline::push(const TimedWrench& added) noexcept {
     const int64_t soonest_ns = present_ns_ == INT64_MIN
                                    ? INT64_MIN
                                    : std::min(present_ns_, INT64_MAX - kApproach_ns) + approach_ns;
-    if (std::max(soonest_ns, last.to_ns) > added.time_ns) {
+    const bool late = std::max(soonest_ns, last.to_ns) > added.time_ns;
+    // On its way to rest the grip feels nothing any more that a late frame could fade in over.
+    const bool at_rest = present_ns_ >= last.to_ns && has_expired(last.frame, present_ns_);
+    if (late && !at_rest) {
       next.from_ns = std::max(present_ns_, last.from_ns);
       next.to_ns = std::max(soonest_ns, added.time_ns);
-    } else {
+    } else if (!late) {
       next.from_ns = std::max(present_ns_, last.to_ns);
       // Only now the slope at the last frame can be told, if its way is still to come.
       const bool untouched = count_ > 1 && present_ns_ <= last.from_ns &&
@@ -115,10 +125,8 @@ TimelineResult WrenchTimeline::at(int64_t time_ns) noexcept {
     result.wrench = value(begun, time_ns);
     result.found = Found::kInterpolated;
   } else {
-    const int64_t hold_ns = reached.frame.hold_ns;
-    const bool held = hold_ns > 0 && since_ns <= static_cast<uint64_t>(hold_ns);
     result.wrench = way(begun).frame.wrench;
-    result.found = held ? Found::kHeld : Found::kExpired;
+    result.found = has_expired(reached.frame, time_ns) ? Found::kExpired : Found::kHeld;
   }
   return result;
 }

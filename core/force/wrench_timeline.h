@@ -52,7 +52,8 @@ class SPIDAR_API WrenchTimeline {
   /// Times must rise; one that does not is refused (false). When full, the oldest is forgotten.
   ///
   /// What has been felt does not change any more, neither the wrench nor its slope: what comes late
-  /// fades in, from the time asked for last, over whatever would have been felt without it.
+  /// fades in, from the time asked for last, over whatever would have been felt without it. Only
+  /// what comes after everything has expired is there at once.
   bool push(const TimedWrench& entry) noexcept;
 
   /// Times may be asked in any order; the last one asked for is the present.

@@ -13,6 +13,7 @@ namespace spidar {
 namespace {
 
 constexpr int64_t kFrame_ns = 40'000'000;
+constexpr int64_t kHold_ns = 100'000'000;
 
 /// A wrench with six different, not round components.
 Wrench wrench_of(double k) {
@@ -106,7 +107,7 @@ class RandomFrames : public testing::TestWithParam<uint32_t> {
           wrench.torque_Nm[axis] = 0.1 * force_N(random);
         }
       }
-      frames.push_back({time_ns, 0, wrench});
+      frames.push_back({time_ns, kHold_ns, wrench});
     }
   }
 
@@ -211,7 +212,7 @@ TEST(WrenchTimeline, MeetsWhatIsKnownLaterAnApproachAfterwards) {
   for (const int64_t late_ns : {-WrenchTimeline::kApproach_ns + 1, int64_t{0}, kFrame_ns / 4}) {
     SCOPED_TRACE(late_ns);
     WrenchTimeline timeline;
-    timeline.push(timed(0, 1));
+    timeline.push(timed(0, 1, kHold_ns));
     const int64_t known_ns = kFrame_ns + late_ns;
     timeline.at(known_ns);
     timeline.push(timed(kFrame_ns, 3));
@@ -222,6 +223,15 @@ TEST(WrenchTimeline, MeetsWhatIsKnownLaterAnApproachAfterwards) {
     EXPECT_EQ(timeline.at(met_ns).found, Found::kHeld);
     EXPECT_TRUE(same_bits(timeline.at(met_ns).wrench, wrench_of(3)));
   }
+}
+
+TEST(WrenchTimeline, WhatComesAfterEverythingHasExpiredIsThereAtOnce) {
+  WrenchTimeline timeline = two_frames();
+  const int64_t expired_ns = 2 * kFrame_ns + 1;
+  EXPECT_EQ(timeline.at(expired_ns).found, Found::kExpired);
+  timeline.push({2 * kFrame_ns, 0, Wrench()});  // the end of the stream, heard of late
+  EXPECT_EQ(timeline.at(expired_ns).found, Found::kExpired);
+  EXPECT_TRUE(same_bits(timeline.at(expired_ns).wrench, Wrench()));
 }
 
 TEST(WrenchTimeline, OfFramesCloseTogetherTheApproachIsAnInterval) {
