@@ -9,9 +9,6 @@
 namespace spidar {
 namespace {
 
-/// As many as the haptic loop takes.
-constexpr size_t kRecent = 256;
-
 int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
 }
@@ -22,8 +19,7 @@ int64_t monotonic_now(void*) {
 /// do.
 int64_t hold_time_ns(int64_t interval_ns) {
   constexpr int64_t kLate_ns = 10 * 1000 * 1000;
-  constexpr int64_t kLongest_ns = 100 * 1000 * 1000;
-  return interval_ns > 0 ? std::min(interval_ns + kLate_ns, kLongest_ns) : 0;
+  return interval_ns > 0 ? std::min(interval_ns + kLate_ns, WrenchTimeline::kLongestHold_ns) : 0;
 }
 
 /// Running time at which a sink shows the frame: when what is to be seen of it begins, which is its
@@ -63,12 +59,17 @@ void MotionEngine::open(const MotionProperties& properties) {
       std::make_unique<HapticSession>(profile, make_device(properties.device, profile), settings);
   HapticLoop& loop = session->loop();
   auto follower = std::make_unique<PlaybackFollower>(
-      element_, [&loop](const PlaybackClock& clock) { loop.set_playback_clock(clock); },
+      element_,
+      [this, &loop](const PlaybackClock& clock) {
+        loop.set_playback_clock(clock);
+        schedule_.hand_on();
+      },
       now_ ? now_ : monotonic_now, now_user_, settings.threaded);
   const std::lock_guard<std::mutex> lock(session_mutex_);
   loop.set_limits(limits_);
   follower->set_latency(latency_);
   follower->set_offset(offset_ns_);
+  schedule_.connect(&loop);
   profile_ = profile;
   session_ = std::move(session);
   follower_ = std::move(follower);
@@ -83,6 +84,7 @@ void MotionEngine::close() {
     session = std::move(session_);
   }
   follower.reset();  // before the loop that it publishes to
+  schedule_.connect(nullptr);
 }
 
 std::string MotionEngine::start(const std::string& trace_path) {
@@ -120,17 +122,11 @@ void MotionEngine::set_max_force(double max_force_N) {
 }
 
 void MotionEngine::set_muted(bool muted) {
-  const std::lock_guard<std::mutex> lock(schedule_mutex_);
-  if (muted && !muted_) {
-    flush();
-    recent_.clear();
-  }
-  muted_ = muted;
+  schedule_.set_muted(muted);
 }
 
 void MotionEngine::flush() {
-  const std::lock_guard<std::mutex> lock(session_mutex_);
-  if (session_) session_->loop().cancel_scheduled();
+  schedule_.forget();
 }
 
 void MotionEngine::expect_base_time() {
@@ -139,15 +135,13 @@ void MotionEngine::expect_base_time() {
 }
 
 void MotionEngine::skip(GstClockTime duration) {
-  const std::lock_guard<std::mutex> lock(schedule_mutex_);
-  skipped_ns_ += static_cast<int64_t>(duration);
-  const std::lock_guard<std::mutex> session_lock(session_mutex_);
-  if (follower_) follower_->set_skipped(skipped_ns_);
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  schedule_.skip(duration);
+  if (follower_) follower_->set_skipped(schedule_.skipped_ns());
 }
 
 void MotionEngine::begin_segment() {
-  const std::lock_guard<std::mutex> lock(schedule_mutex_);
-  skipped_before_ns_ = skipped_ns_;
+  schedule_.begin_segment();
 }
 
 void MotionEngine::refresh_clock() {
@@ -159,7 +153,12 @@ GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
   const std::lock_guard<std::mutex> lock(session_mutex_);
-  if (session_) describe_session(*session_, structure);
+  if (session_) {
+    describe_session(*session_, structure);
+    gst_structure_set(structure, "refused-wrenches", G_TYPE_UINT64,
+                      schedule_.refused() + session_->loop().snapshot().counters.refused_wrenches,
+                      nullptr);
+  }
   return structure;
 }
 
@@ -194,41 +193,15 @@ int MotionEngine::faulty_string() const {
   return session_ ? session_->loop().snapshot().last.faulty_string : -1;
 }
 
-void MotionEngine::schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench) {
-  const std::lock_guard<std::mutex> lock(schedule_mutex_);
-  if (!session_ || muted_) return;
-  if (recent_.size() == kRecent) recent_.pop_front();
-  recent_.push_back({running_ns + skipped_before_ns_, hold_ns, wrench});
-  schedule_at_sink(recent_.back());
-}
-
-void MotionEngine::schedule_at_sink(const TimedWrench& entry) {
-  TimedWrench shown = entry;
-  shown.time_ns = instant_rate_.at_sink(entry.time_ns);
-  session_->loop().schedule(shown);
-}
-
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
-  const std::lock_guard<std::mutex> lock(schedule_mutex_);
-  const auto skipped = static_cast<GstClockTime>(skipped_ns_);
-  instant_rate_.change(multiplier, running_time + skipped, upstream + skipped);
-  // What waits between here and the sink was analysed at the old rate, but is shown at other times.
-  // The frame on the screen is the first of them, so that the force goes on from there.
-  flush();
-  const std::lock_guard<std::mutex> session_lock(session_mutex_);
-  if (!session_) return;
-  size_t first = recent_.size();
-  while (first > 0 && recent_[first - 1].time_ns > static_cast<int64_t>(upstream + skipped))
-    --first;
-  for (size_t i = first > 0 ? first - 1 : 0; i < recent_.size(); ++i) schedule_at_sink(recent_[i]);
+  schedule_.change_rate(multiplier, running_time, upstream);
 }
 
 int64_t MotionEngine::pace(int64_t running_ns) {
   if (last_running_ns_ < 0) return running_ns;
-  const std::lock_guard<std::mutex> lock(schedule_mutex_);
   const double since_ns =
-      static_cast<double>(running_ns - last_running_ns_) / instant_rate_.multiplier();
+      static_cast<double>(running_ns - last_running_ns_) / schedule_.rate_multiplier();
   const double paced_ns = static_cast<double>(last_paced_ns_) + since_ns;
   if (std::fabs(paced_ns) > static_cast<double>(kLatest_ns)) return running_ns;  // anew
   return last_paced_ns_ + std::llround(since_ns);
@@ -241,11 +214,8 @@ void MotionEngine::restart() {
 void MotionEngine::restart_timing() {
   restart();
   {
-    const std::lock_guard<std::mutex> lock(schedule_mutex_);
-    instant_rate_.reset();
-    recent_.clear();
-    skipped_ns_ = skipped_before_ns_ = 0;
-    const std::lock_guard<std::mutex> session_lock(session_mutex_);
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    schedule_.restart();
     if (follower_) follower_->set_skipped(0);
   }
   last_running_ns_ = -1;
@@ -255,7 +225,7 @@ void MotionEngine::restart_timing() {
 void MotionEngine::run_out(GstClockTime running_time) {
   restart();
   if (!is_time(running_time)) return;  // what was scheduled expires by itself
-  schedule(static_cast<int64_t>(running_time), 0, Wrench());
+  schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
 }
 
 void MotionEngine::pass_gap(GstClockTime running_time) {
@@ -324,7 +294,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   last_running_ns_ = running_ns;
   last_paced_ns_ = paced_ns;
   if (report.analysis.interval_ns > 0) last_interval_ns_ = report.analysis.interval_ns;
-  schedule(running_ns, hold_time_ns(report.analysis.interval_ns), report.analysis.wrench);
+  schedule_.add({running_ns, hold_time_ns(report.analysis.interval_ns), report.analysis.wrench});
   if (trace_.is_open()) {
     report.trace_failed =
         !trace_.write(running_ns, static_cast<int64_t>(report.stream_time), report.analysis);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,10 +14,10 @@
 #include "plugin/frame_luma.h"
 #include "plugin/frame_trace.h"
 #include "plugin/grip_pointer.h"
-#include "plugin/instant_rate.h"
 #include "plugin/motion_properties.h"
 #include "plugin/motion_stats.h"
 #include "plugin/playback_follower.h"
+#include "plugin/wrench_schedule.h"
 #include "spidar/haptic_session.h"
 
 namespace spidar {
@@ -114,9 +113,6 @@ class MotionEngine {
   int faulty_string() const;
 
  private:
-  /// Running times of here.
-  void schedule(int64_t running_ns, int64_t hold_ns, const Wrench& wrench);
-  void schedule_at_sink(const TimedWrench& entry);
   /// Time of a frame on a scale on which the distance to the last frame is that of showing them.
   int64_t pace(int64_t running_ns);
 
@@ -124,6 +120,7 @@ class MotionEngine {
   PlaybackSync::Now now_ = nullptr;
   void* now_user_ = nullptr;
 
+  WrenchSchedule schedule_;           // outlives the thread of follower_, which hands on what waits
   mutable std::mutex session_mutex_;  // state changes against any thread
   std::unique_ptr<HapticSession> session_;
   Profile profile_;  // of the session
@@ -131,14 +128,6 @@ class MotionEngine {
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;
   SafetyLimits limits_;
-  // Nothing is scheduled between muting and forgetting, nor during a change of rate.
-  std::mutex schedule_mutex_;
-  bool muted_ = false;
-  InstantRate instant_rate_;
-  int64_t skipped_ns_ = 0;          // by the sink, since the last flush
-  int64_t skipped_before_ns_ = 0;   // of it, before this segment
-  std::deque<TimedWrench> recent_;  // scheduled with running times of here; the newest
-
   // Streaming thread.
   GripPointer grip_pointer_;
   MotionAnalyzer analyzer_;

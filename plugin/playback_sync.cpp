@@ -47,6 +47,20 @@ void PlaybackSync::fit() {
               static_cast<int64_t>(std::llround(static_cast<double>(since_base_ns) * rate));
 }
 
+void PlaybackSync::watch_progress(int64_t monotonic_ns, int64_t clock_ns) {
+  if (watched_) {
+    const int64_t passed_ns = monotonic_ns - watched_monotonic_ns_;
+    // A clock that goes back has not gone on; one that leaps makes up for the longest standstill.
+    const int64_t progress_ns = std::clamp<int64_t>(clock_ns - watched_clock_ns_, 0,
+                                                    std::max(passed_ns, kLongestStandstill_ns));
+    behind_ns_ =
+        std::clamp<int64_t>(behind_ns_ + passed_ns - 2 * progress_ns, 0, kLongestStandstill_ns);
+  }
+  watched_ = true;
+  watched_monotonic_ns_ = monotonic_ns;
+  watched_clock_ns_ = clock_ns;
+}
+
 void PlaybackSync::expect_base_time(GstElement* element) {
   constexpr int64_t kPatience_ns = 3'000'000'000;
   outdated_base_time_ = gst_element_get_base_time(element);
@@ -78,10 +92,12 @@ PlaybackClock PlaybackSync::observe(GstElement* element) {
     add_reading(before_ns + (after_ns - before_ns) / 2, to_ns(time));
     fit();
   }
+  watch_progress(before_ns, to_ns(time));
   result.monotonic_ns = monotonic_ns_;
   result.running_ns = clock_ns_ - to_ns(base_time) - latency_ns_ - offset_ns_ + skipped_ns_;
   result.rate = rate_;
   result.playing = true;
+  result.valid_until_ns = before_ns + kLongestStandstill_ns - behind_ns_;
   return result;
 }
 

@@ -27,7 +27,7 @@ class PlaybackSync {
   void set_playing(bool playing) {
     playing_ = playing;
     outdated_base_time_ = GST_CLOCK_TIME_NONE;
-    forget();
+    forget_clock();
   }
 
   /// Running time has begun anew (flushing seek): the element's base time is outdated until the
@@ -46,7 +46,13 @@ class PlaybackSync {
 
   /// Reads the element's clock and returns the line through what was read so far. A clock other
   /// than the system's reads with jitter, so the line is fitted; a jump that lasts starts it anew.
+  /// A clock that stands still, or cannot be read any more, leaves the picture on the screen: the
+  /// line is valid for kLongestStandstill_ns only.
   PlaybackClock observe(GstElement* element);
+
+  /// As long as a frame is held. The clock of a sound card that is read in whole periods stands
+  /// still for shorter.
+  static constexpr int64_t kLongestStandstill_ns = 100 * 1000 * 1000;
 
  private:
   static constexpr size_t kWindow = 64;
@@ -65,12 +71,18 @@ class PlaybackSync {
     readings_ = 0;
     strays_ = 0;
   }
+  void forget_clock() {
+    forget();
+    watched_ = false;
+    behind_ns_ = 0;
+  }
   void follow(const GstClock* clock) {
-    if (clock != clock_) forget();
+    if (clock != clock_) forget_clock();
     clock_ = clock;
   }
   void add_reading(int64_t monotonic_ns, int64_t clock_ns);
   void fit();
+  void watch_progress(int64_t monotonic_ns, int64_t clock_ns);
 
   Now now_;
   void* now_user_;
@@ -91,6 +103,12 @@ class PlaybackSync {
   int64_t monotonic_ns_ = 0;
   int64_t clock_ns_ = 0;
   double rate_ = 1.0;
+
+  // How far the clock has fallen behind half the speed that it should have.
+  bool watched_ = false;
+  int64_t watched_monotonic_ns_ = 0;
+  int64_t watched_clock_ns_ = 0;
+  int64_t behind_ns_ = 0;
 };
 
 }  // namespace spidar

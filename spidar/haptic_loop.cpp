@@ -137,7 +137,10 @@ void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
   while (const Scheduled* next = scheduled_.front()) {
     if (next->generation == timeline_generation_) {
       const bool soon = timeline_.size() < 2 || before_newest_ns_ - kHorizon_ns <= running_ns;
-      if (!playing || !soon) return;
+      // At a high frame rate the horizon holds more frames than the timeline, which would forget
+      // the frame that is on the screen.
+      const bool has_room = timeline_.size_after(running_ns) < WrenchTimeline::kCapacity / 2;
+      if (!playing || !soon || !has_room) return;
       if (timeline_.push(next->entry)) {
         before_newest_ns_ = newest_ns_;
         newest_ns_ = next->entry.time_ns;
@@ -153,7 +156,8 @@ void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
 
 void HapticLoop::find_wanted(TickRecord& record) noexcept {
   // Rates are near 1: anything else, or not a number, is not a clock.
-  record.playing = clock_.playing && clock_.rate > 0 && clock_.rate < kMaxRate;
+  record.playing =
+      clock_.plays_at(record.monotonic_ns) && clock_.rate > 0 && clock_.rate < kMaxRate;
   if (record.playing) record.running_ns = clock_.running_at(record.monotonic_ns);
   take_scheduled(record.playing, record.running_ns);
   if (!record.playing) return;

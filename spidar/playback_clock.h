@@ -12,6 +12,12 @@ struct PlaybackClock {
   int64_t running_ns = 0;
   double rate = 1.0;     ///< pipeline clock seconds per monotonic second, near 1
   bool playing = false;  ///< false: preroll, paused, no clock: nothing is to be felt
+  /// CLOCK_MONOTONIC from which on the line is not to be trusted any more unless it is refreshed: a
+  /// clock that stands still keeps a picture on the screen that must not be felt for ever.
+  int64_t valid_until_ns = INT64_MAX;
+
+  /// Whether frames are shown at `t_ns` of CLOCK_MONOTONIC, as far as is known.
+  bool plays_at(int64_t t_ns) const noexcept { return playing && t_ns < valid_until_ns; }
 
   int64_t running_at(int64_t t_ns) const noexcept {
     return running_ns + static_cast<int64_t>(static_cast<double>(t_ns - monotonic_ns) * rate);

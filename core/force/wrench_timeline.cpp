@@ -54,22 +54,48 @@ bool has_expired(const TimedWrench& frame, int64_t time_ns) {
          elapsed_ns(frame.time_ns, time_ns) > static_cast<uint64_t>(hold_ns);
 }
 
+/// Whether there is time to go to rest and back between the two.
+bool is_gap(const TimedWrench& frame, int64_t next_ns) {
+  const int64_t hold_ns = std::max(frame.hold_ns, WrenchTimeline::kLongestHold_ns);
+  return elapsed_ns(frame.time_ns, next_ns) >
+         static_cast<uint64_t>(hold_ns) + 2 * static_cast<uint64_t>(WrenchTimeline::kRamp_ns);
+}
+
 }  // namespace
+
+size_t WrenchTimeline::size_after(int64_t time_ns) const noexcept {
+  size_t after = 0;
+  while (after < count_ && way(count_ - 1 - after).frame.time_ns > time_ns) ++after;
+  return after;
+}
 
 Wrench WrenchTimeline::value(size_t i, int64_t time_ns) noexcept {
   const Way& here = way(i);
   if (time_ns >= here.to_ns || i == 0) return here.frame.wrench;
-  const Wrench before = value(i - 1, time_ns);
+  const Wrench before = here.from_rest ? Wrench() : value(i - 1, time_ns);
   const double duration_s = elapsed_s(here.from_ns, here.to_ns);
   const double s = elapsed_s(here.from_ns, time_ns) / duration_s;
   return interpolate(before, here.frame.wrench, s * s * (3 - 2 * s)) +
          s * (1 - s) * duration_s * ((1 - s) * here.from_slope - s * here.to_slope);
 }
 
+void WrenchTimeline::join_smoothly(Way& next) noexcept {
+  Way& last = way(count_ - 1);
+  const bool untouched = count_ > 1 && present_ns_ <= last.from_ns &&
+                         last.to_ns == last.frame.time_ns && last.from_ns >= way(count_ - 2).to_ns;
+  if (!untouched) return;
+  const Wrench before = last.from_rest ? Wrench() : way(count_ - 2).frame.wrench;
+  last.to_slope = next.from_slope =
+      slope_between(before, last.frame.wrench, next.frame.wrench,
+                    elapsed_s(last.from_ns, last.to_ns), elapsed_s(last.to_ns, next.to_ns));
+}
+
 bool WrenchTimeline::push(const TimedWrench& added) noexcept {
-  Way next{added, added.time_ns, added.time_ns, Wrench(), Wrench()};
+  Way next;
+  next.frame = added;
+  next.from_ns = next.to_ns = added.time_ns;
   if (count_ > 0) {
-    Way& last = way(count_ - 1);
+    const Way& last = way(count_ - 1);
     if (added.time_ns <= last.frame.time_ns) return false;
     const int64_t approach_ns = static_cast<int64_t>(
         std::min<uint64_t>(kApproach_ns, elapsed_ns(last.frame.time_ns, added.time_ns)));
@@ -82,17 +108,12 @@ bool WrenchTimeline::push(const TimedWrench& added) noexcept {
     if (late && !at_rest) {
       next.from_ns = std::max(present_ns_, last.from_ns);
       next.to_ns = std::max(soonest_ns, added.time_ns);
+    } else if (!late && is_gap(last.frame, added.time_ns)) {
+      next.from_rest = true;
+      next.from_ns = std::max(present_ns_, added.time_ns - kRamp_ns);
     } else if (!late) {
       next.from_ns = std::max(present_ns_, last.to_ns);
-      // Only now the slope at the last frame can be told, if its way is still to come.
-      const bool untouched = count_ > 1 && present_ns_ <= last.from_ns &&
-                             last.to_ns == last.frame.time_ns &&
-                             last.from_ns >= way(count_ - 2).to_ns;
-      if (untouched) {
-        last.to_slope = next.from_slope = slope_between(
-            way(count_ - 2).frame.wrench, last.frame.wrench, added.wrench,
-            elapsed_s(last.from_ns, last.to_ns), elapsed_s(last.to_ns, added.time_ns));
-      }
+      join_smoothly(next);
     }
   }
   if (count_ == kCapacity) {

@@ -13,7 +13,7 @@ namespace spidar {
 /// A wrench for one frame.
 struct TimedWrench {
   int64_t time_ns = 0;  ///< running time at which the frame is shown
-  /// With no later frame known the wrench holds for this long, then it is expired.
+  /// With no later frame soon the wrench holds for this long, then it is expired.
   int64_t hold_ns = 0;
   Wrench wrench;
 };
@@ -41,6 +41,10 @@ struct TimelineResult {
 /// Astrophysics 239 (1990), equation 11, where the frame after is known by the time that the curve
 /// towards a frame begins, and zero where it is not: waiting for it would be delay, and any other
 /// slope could lead past what that frame turns out to be.
+///
+/// A gap is an interval without frames that is long enough to go to rest and back. In it the wrench
+/// holds and expires as if the next frame were not known, and rises from zero to that of the next
+/// frame before that one is due: a picture that has been standing for long is not felt.
 class SPIDAR_API WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
@@ -48,6 +52,11 @@ class SPIDAR_API WrenchTimeline {
   /// before where that is shorter, is met so long after it is known. A step would be felt as a
   /// knock; late touch is noticed from 50 ms on only.
   static constexpr int64_t kApproach_ns = 15'000'000;
+  /// No frame is to be held longer. TimedWrench::hold_ns may say otherwise: it is the caller's.
+  static constexpr int64_t kLongestHold_ns = 100'000'000;
+  /// From a full wrench to rest when it has expired, and from rest to a full one after a gap.
+  /// SafetyLimits::ramp_s is the same.
+  static constexpr int64_t kRamp_ns = 40'000'000;
 
   /// Times must rise; one that does not is refused (false). When full, the oldest is forgotten.
   ///
@@ -64,19 +73,25 @@ class SPIDAR_API WrenchTimeline {
     present_ns_ = INT64_MIN;
   }
   size_t size() const noexcept { return count_; }
+  /// How many frames are later than `time_ns`.
+  size_t size_after(int64_t time_ns) const noexcept;
 
  private:
   /// The way to a frame, from what the way before it gives, which is the frame before or, when this
-  /// one begins early, not yet.
+  /// one begins early, not yet; or, after a gap, from rest.
   struct Way {
     TimedWrench frame;
     int64_t from_ns = 0;
     int64_t to_ns = 0;  ///< frame.time_ns, or later
     Wrench from_slope;  ///< N/s and Nm/s
     Wrench to_slope;
+    bool from_rest = false;
   };
 
   Way& way(size_t i) noexcept { return ways_[(first_ + i) % kCapacity]; }
+  const Way& way(size_t i) const noexcept { return ways_[(first_ + i) % kCapacity]; }
+  /// Only now the slope at the last frame can be told, if its way is still to come.
+  void join_smoothly(Way& next) noexcept;
   /// On the way `i` or, after it, at its frame.
   Wrench value(size_t i, int64_t time_ns) noexcept;
 

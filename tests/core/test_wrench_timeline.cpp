@@ -319,13 +319,85 @@ TEST(WrenchTimeline, ClearForgetsEverything) {
   EXPECT_EQ(timeline.at(-5).found, Found::kExact);
 }
 
+constexpr int64_t kRamp_ns = WrenchTimeline::kRamp_ns;
+constexpr int64_t kGap_ns = 8'000'000'000;
+
+TEST(WrenchTimeline, InAGapTheLastFrameExpiresAndTheNextOneFadesInFromZero) {
+  for (const bool known_from_the_start : {true, false}) {
+    SCOPED_TRACE(known_from_the_start);
+    WrenchTimeline timeline;
+    timeline.push(timed(0, 1, kHold_ns));
+    if (!known_from_the_start) timeline.at(kGap_ns / 2);
+    timeline.push(timed(kGap_ns, 3));
+    if (known_from_the_start) {
+      EXPECT_EQ(timeline.at(kHold_ns).found, Found::kHeld);
+      EXPECT_TRUE(same_bits(timeline.at(kHold_ns).wrench, wrench_of(1)));
+    }
+    for (const int64_t time_ns : {kHold_ns + 1, kGap_ns / 2, kGap_ns - kRamp_ns - 1}) {
+      EXPECT_EQ(timeline.at(time_ns).found, Found::kExpired) << time_ns;
+    }
+    for (const double s : {0.0, 0.1, 0.5, 0.9}) {
+      const int64_t left_ns = std::llround((1 - s) * static_cast<double>(kRamp_ns));
+      const TimelineResult rising = timeline.at(kGap_ns - left_ns);
+      EXPECT_EQ(rising.found, Found::kInterpolated);
+      EXPECT_EQ(rising.frame_time_ns, 0);
+      // Level at both ends. Values below 1, a few roundings of 2^-53.
+      const auto expected = s * s * (3 - 2 * s) * wrench_of(3).stacked();
+      EXPECT_LT((rising.wrench.stacked() - expected).cwiseAbs().maxCoeff(), 1e-15) << s;
+    }
+    EXPECT_EQ(timeline.at(kGap_ns).found, Found::kExact);
+  }
+}
+
+TEST(WrenchTimeline, AnIntervalWithoutTimeForRestIsNoGap) {
+  constexpr int64_t kLongest_ns = WrenchTimeline::kLongestHold_ns + 2 * kRamp_ns;
+  for (const int64_t interval_ns : {int64_t{125'000'000}, kLongest_ns, kLongest_ns + 1}) {
+    SCOPED_TRACE(interval_ns);
+    WrenchTimeline timeline;
+    timeline.push(timed(0, 1));
+    timeline.push(timed(interval_ns, 1));
+    const TimelineResult middle = timeline.at(interval_ns / 2);
+    EXPECT_EQ(middle.found, interval_ns <= kLongest_ns ? Found::kInterpolated : Found::kExpired);
+  }
+}
+
+TEST(WrenchTimeline, WhatIsToBeHeldLongerHasALongerGap) {
+  WrenchTimeline timeline;
+  timeline.push(timed(0, 1, kGap_ns));
+  timeline.push(timed(kGap_ns, 3));
+  EXPECT_EQ(timeline.at(kGap_ns / 2).found, Found::kInterpolated);
+}
+
+TEST(WrenchTimeline, TheCurveGoesOnWithoutACornerAfterAGap) {
+  WrenchTimeline timeline;
+  timeline.push(timed(0, 1));
+  timeline.push(timed(kGap_ns, 3));
+  timeline.push(timed(kGap_ns + kRamp_ns, 6));  // as far again, in the same time
+  constexpr int64_t kStep_ns = 1000;
+  const auto before = timeline.at(kGap_ns - kStep_ns).wrench.force_N;
+  const auto after = timeline.at(kGap_ns + kStep_ns).wrench.force_N;
+  // A straight line at this point: its slope is that of the chords.
+  const Eigen::Vector3d slope_N_s = (after - before) / (2e-9 * kStep_ns);
+  const Eigen::Vector3d chord_N_s = wrench_of(3).force_N / (1e-9 * kRamp_ns);
+  // The curve bends by up to 18 d/T² (see above) on either side, halved by what is opposite.
+  const double bent_N_s = 18 * 0.9 / (0.04 * 0.04) * 1e-9 * kStep_ns;
+  EXPECT_LT((slope_N_s - chord_N_s).cwiseAbs().maxCoeff(), bent_N_s);
+}
+
+TEST(WrenchTimeline, CountsWhatIsStillToCome) {
+  WrenchTimeline timeline = two_frames();
+  EXPECT_EQ(timeline.size_after(-1), 2u);
+  EXPECT_EQ(timeline.size_after(0), 1u);
+  EXPECT_EQ(timeline.size_after(kFrame_ns), 0u);
+}
+
 TEST(WrenchTimeline, SpansTheWholeRangeOfTime) {
   WrenchTimeline timeline;
   timeline.push(timed(std::numeric_limits<int64_t>::min(), 0));
   timeline.push(timed(std::numeric_limits<int64_t>::max(), 2));
-  const TimelineResult middle = timeline.at(0);
+  EXPECT_EQ(timeline.at(0).found, Found::kExpired);
+  const TimelineResult middle = timeline.at(INT64_MAX - kRamp_ns / 2);
   EXPECT_EQ(middle.found, Found::kInterpolated);
-  // Half way but for half a nanosecond in 2^64.
   EXPECT_NEAR(middle.wrench.force_N.x(), 0.1, 1e-12);
   timeline.clear();
   timeline.push(timed(std::numeric_limits<int64_t>::min(), 1, 1));

@@ -190,5 +190,58 @@ TEST_F(Sync, ASinkThatKeepsItsBaseTimeIsBelievedInTheEnd) {
   EXPECT_TRUE(observe(14 * kSecond).playing);
 }
 
+constexpr int64_t kLongest = PlaybackSync::kLongestStandstill_ns;
+
+TEST_F(Sync, AClockThatStandsStillIsFollowedForAsLongAsAFrameIsHeld) {
+  sync.set_playing(true);
+  for (int n = 0; n < 50; ++n) {
+    monotonic_ns += kPeriod;
+    EXPECT_TRUE(observe(10 * kSecond + n * kPeriod).plays_at(monotonic_ns + kPeriod)) << n;
+  }
+  const int64_t standing_ns = 10 * kSecond + 49 * kPeriod;
+  const int64_t last_progress_ns = monotonic_ns;
+  for (int n = 0; n < 600; ++n) {
+    monotonic_ns += kPeriod;
+    const PlaybackClock line = observe(standing_ns);
+    const int64_t stands_for_ns = monotonic_ns - last_progress_ns;
+    EXPECT_EQ(line.plays_at(monotonic_ns), stands_for_ns < kLongest) << stands_for_ns;
+  }
+  // It has gone on for twice the time at the next reading but one.
+  for (int n = 1; n <= 10; ++n) {
+    monotonic_ns += kPeriod;
+    EXPECT_TRUE(observe(standing_ns + n * kPeriod).plays_at(monotonic_ns)) << n;
+  }
+}
+
+TEST_F(Sync, AClockThatCannotBeReadIsBelievedForAsLongAsAFrameIsHeld) {
+  sync.set_playing(true);
+  const PlaybackClock line = observe(10 * kSecond);
+  EXPECT_TRUE(line.plays_at(monotonic_ns + kLongest - 1));
+  EXPECT_FALSE(line.plays_at(monotonic_ns + kLongest));
+}
+
+TEST_F(Sync, AClockOfLessThanHalfTheSpeedIsAsOneThatStandsStill) {
+  for (const int percent : {40, 60}) {
+    SCOPED_TRACE(percent);
+    sync.set_playing(true);
+    PlaybackClock line;
+    for (int n = 0; n < 200; ++n) {
+      monotonic_ns += kPeriod;
+      line = observe(20 * kSecond * percent + n * kPeriod * percent / 100);
+    }
+    EXPECT_EQ(line.plays_at(monotonic_ns), percent > 50);
+  }
+}
+
+TEST_F(Sync, ACardThatIsReadInWholePeriodsDoesNotStandStill) {
+  sync.set_playing(true);
+  constexpr int64_t kCardPeriod = 4 * kPeriod;
+  for (int n = 0; n < 200; ++n) {
+    monotonic_ns += kPeriod;
+    const PlaybackClock line = observe(10 * kSecond + n * kPeriod / kCardPeriod * kCardPeriod);
+    EXPECT_TRUE(line.plays_at(monotonic_ns + kPeriod)) << n;
+  }
+}
+
 }  // namespace
 }  // namespace spidar::test

@@ -162,6 +162,16 @@ TickRecord SteppedPipeline::idle(GstClockTime duration) {
   return record;
 }
 
+TickRecord SteppedPipeline::stand_still(GstClockTime duration) {
+  TickRecord record;
+  for (GstClockTime since = 0; since < duration; since += GST_MSECOND) {
+    monotonic_less_clock_ns_ += GST_MSECOND;
+    if (since % (10 * GST_MSECOND) == 0) engine_->refresh_clock();  // as its thread does
+    record = tick();
+  }
+  return record;
+}
+
 GstClockTime SteppedPipeline::running_time() const {
   return now() - gst_element_get_base_time(pipeline_) -
          gst_base_sink_get_latency(GST_BASE_SINK(sink_)) -

@@ -45,6 +45,8 @@ class SteppedPipeline {
   /// Moves the clock without letting anything through, and ticks the loop every millisecond. The
   /// record of the last tick.
   TickRecord idle(GstClockTime duration);
+  /// The pipeline's clock stands still for so long, while the loop is ticked every millisecond.
+  TickRecord stand_still(GstClockTime duration);
 
   GstClockTime now() const { return gst_clock_get_time(GST_CLOCK(clock_)); }
   /// Of the frame that is to be shown now.

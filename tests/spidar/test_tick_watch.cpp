@@ -9,20 +9,30 @@
 namespace spidar::test {
 namespace {
 
+/// After the tick with which a frame came: 100 until it is old and 51 to rest, and 41 in which a
+/// force may be that of the next frame.
+constexpr int kFrameIsFelt_ticks = 100 + 51 + 41;
+
 /// A loop that plays, a tick at a time.
 struct Played {
   TickWatch watch;
   TickRecord record;
+  bool clock_goes_on = true;
 
   Played() {
+    show_frame();
     record.playing = true;
     record.found = Found::kHeld;
     record.device = DeviceState::kRunning;
   }
 
+  /// The newest frame is on the screen since this tick.
+  void show_frame() { record.frame_ns = record.running_ns + kTick_ns; }
+
   void tick(double force_N, int64_t step_ns = kTick_ns) {
     ++record.tick;
     record.monotonic_ns += step_ns;
+    if (clock_goes_on) record.running_ns += step_ns;
     record.commanded.force_N.x() = force_N;
     watch.see(record, SafetyLimits{});
   }
@@ -66,6 +76,44 @@ TEST(TickWatch, SeesAForceThatStays) {
     for (int i = 0; i < 50; ++i) played.tick(0.1);
     EXPECT_NONFATAL_FAILURE(played.tick(0.1), "not at rest");
   }
+}
+
+TEST(TickWatch, SeesAForceOnAFrameThatIsOld) {
+  for (const bool clock_goes_on : {true, false}) {
+    SCOPED_TRACE(clock_goes_on);
+    Played played;
+    played.clock_goes_on = clock_goes_on;
+    for (int i = 0; i <= kFrameIsFelt_ticks; ++i) played.tick(0.1);
+    EXPECT_NONFATAL_FAILURE(played.tick(0.1), "force on an old frame");
+  }
+}
+
+TEST(TickWatch, SeesAForceOnAFrameThatWasReachedLate) {
+  Played played;
+  played.record.frame_ns -= 2'000'000'000;
+  for (int i = 0; i < kFrameIsFelt_ticks - 100; ++i) played.tick(0.1);
+  EXPECT_NONFATAL_FAILURE(played.tick(0.1), "force on an old frame");
+}
+
+TEST(TickWatch, SeesAnOldFrameThatComesAndGoes) {
+  // As of a loop that goes on by itself and is set back again by a clock that stands still.
+  Played played;
+  played.clock_goes_on = false;
+  const int64_t frame_ns = played.record.frame_ns;
+  for (int i = 0; i <= kFrameIsFelt_ticks; ++i) {
+    played.record.frame_ns = frame_ns - (i / 10 % 2) * kTick_ns;
+    played.tick(0.1);
+  }
+  EXPECT_NONFATAL_FAILURE(played.tick(0.1), "force on an old frame");
+}
+
+TEST(TickWatch, LetsTheForceFadeInBeforeTheNextFrame) {
+  Played played;
+  for (int i = 0; i <= 100; ++i) played.tick(0.1);
+  for (int i = 0; i < 1000; ++i) played.tick(0);
+  for (int i = 0; i < 40; ++i) played.tick(0.1);
+  played.show_frame();
+  for (int i = 0; i < 100; ++i) played.tick(0.1);
 }
 
 TEST(TickWatch, MissesTheTrace) {

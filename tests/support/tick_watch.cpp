@@ -15,6 +15,10 @@ namespace spidar::test {
 namespace {
 
 constexpr double kRest_s = 0.0505;  // 50 ticks, and rounding
+/// No frame is held longer.
+constexpr int64_t kOldest_ns = 100 * 1'000'000;
+/// Before the next frame is due; a tick for the last one of them.
+constexpr int64_t kFadeIn_ns = 40 * 1'000'000 + kTick_ns;
 /// A vector is shortened by a product, a quotient and a root.
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
@@ -47,6 +51,8 @@ TickRecord record_of(const Row& row) {
   record.tick = static_cast<uint64_t>(row.integer("tick"));
   record.monotonic_ns = row.integer("monotonic_ns");
   record.playing = row.integer("playing") != 0;
+  record.running_ns = row.integer("running_ns");
+  record.frame_ns = row.integer("frame_ns");
   for (const Found found : {Found::kExact, Found::kInterpolated, Found::kHeld, Found::kExpired}) {
     if (row.text("found") == to_string(found)) record.found = found;
   }
@@ -111,10 +117,38 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
 
   stopped_s_ = to_be_felt(record) ? 0 : stopped_s_ + dt_s;
   if (stopped_s_ > kRest_s && now.stacked().norm() > 0) fail(record, "not at rest");
+  look_at_age(record, dt_s);
   last_ = record;
   following_ = true;
   ++ticks_;
   if (now.stacked().norm() > 0) ++felt_;
+}
+
+void TickWatch::look_at_age(const TickRecord& record, double dt_s) {
+  if (!following_ || !record.playing || record.found == Found::kNothing) {
+    newest_frame_ns_ = INT64_MIN;
+    fading_in_ = false;
+  }
+  if (!record.playing || record.found == Found::kNothing) return;
+  if (record.frame_ns > newest_frame_ns_) {
+    newest_frame_ns_ = record.frame_ns;
+    newest_since_ns_ = record.monotonic_ns;
+    old_s_ = 0;
+    fading_in_ = false;
+  }
+  const bool old = record.monotonic_ns - newest_since_ns_ > kOldest_ns ||
+                   record.running_ns - record.frame_ns > kOldest_ns;
+  if (old) old_s_ += dt_s;
+  const bool felt = record.commanded.stacked().norm() > 0;
+  if (old_s_ <= kRest_s || !felt) {
+    fading_in_ = false;
+    return;
+  }
+  if (!fading_in_) {
+    fading_in_ = true;
+    fading_in_since_ns_ = record.monotonic_ns;
+  }
+  if (record.monotonic_ns - fading_in_since_ns_ > kFadeIn_ns) fail(record, "force on an old frame");
 }
 
 void TickWatch::see_trace(const std::string& path, const SafetyLimits& limits) {

@@ -1,0 +1,111 @@
+#include "plugin/wrench_schedule.h"
+
+namespace spidar {
+namespace {
+
+/// At least as many as the loop's ring and its timeline hold.
+constexpr size_t kHandedOn = 512;
+
+}  // namespace
+
+void WrenchSchedule::connect(HapticLoop* loop) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  loop_ = loop;
+  recent_.clear();
+  handed_ = 0;
+  refused_ = 0;
+}
+
+void WrenchSchedule::add(const TimedWrench& entry) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!loop_ || muted_) return;
+  if (recent_.size() - handed_ == kMostWaiting) {
+    ++refused_;
+    return;
+  }
+  recent_.push_back(entry);
+  recent_.back().time_ns += skipped_before_ns_;
+  hand_on_locked();
+}
+
+void WrenchSchedule::hand_on() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  hand_on_locked();
+}
+
+void WrenchSchedule::hand_on_locked() {
+  if (!loop_) return;
+  for (; handed_ < recent_.size(); ++handed_) {
+    TimedWrench shown = recent_[handed_];
+    shown.time_ns = instant_rate_.at_sink(shown.time_ns);
+    if (!loop_->schedule(shown)) break;
+  }
+  for (; handed_ > kHandedOn; --handed_) recent_.pop_front();
+}
+
+void WrenchSchedule::forget() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  forget_locked();
+}
+
+void WrenchSchedule::forget_locked() {
+  recent_.clear();
+  handed_ = 0;
+  if (loop_) loop_->cancel_scheduled();
+}
+
+void WrenchSchedule::set_muted(bool muted) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (muted && !muted_) forget_locked();
+  muted_ = muted;
+}
+
+void WrenchSchedule::change_rate(double multiplier, GstClockTime running_time,
+                                 GstClockTime upstream) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto skipped = static_cast<GstClockTime>(skipped_ns_);
+  instant_rate_.change(multiplier, running_time + skipped, upstream + skipped);
+  // What waits between here and the sink was analysed at the old rate, but is shown at other times.
+  // The frame on the screen is the first of them, so that the force goes on from there.
+  while (recent_.size() > 1 && recent_[1].time_ns <= static_cast<int64_t>(upstream + skipped)) {
+    recent_.pop_front();
+  }
+  handed_ = 0;
+  if (loop_) loop_->cancel_scheduled();
+  hand_on_locked();
+}
+
+double WrenchSchedule::rate_multiplier() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return instant_rate_.multiplier();
+}
+
+void WrenchSchedule::skip(GstClockTime duration) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  skipped_ns_ += static_cast<int64_t>(duration);
+}
+
+int64_t WrenchSchedule::skipped_ns() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return skipped_ns_;
+}
+
+void WrenchSchedule::begin_segment() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  skipped_before_ns_ = skipped_ns_;
+}
+
+void WrenchSchedule::restart() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  instant_rate_.reset();
+  recent_.clear();
+  handed_ = 0;
+  skipped_ns_ = skipped_before_ns_ = 0;
+}
+
+uint64_t WrenchSchedule::refused() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return refused_;
+}
+
+}  // namespace spidar

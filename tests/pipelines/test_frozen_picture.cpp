@@ -1,0 +1,81 @@
+// A picture that stands on the screen for long is not felt, and what is felt is never of another
+// frame than the one that is shown. On a test clock; TickWatch looks at every tick besides.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/shown_motion.h"
+
+namespace spidar::test {
+namespace {
+
+/// Held for 100 ms, and rest 40 ms later; ten more until the clock has been read again.
+constexpr GstClockTime kRest = 150 * GST_MSECOND;
+
+TEST(FrozenPicture, TheClockStandsStill) {
+  SteppedPipeline pipeline(kPlayer);
+  pipeline.set_state(GST_STATE_PLAYING);
+  // Readings enough for a line that is followed when a few of them stray.
+  play(pipeline, 50);
+  pipeline.await();
+  EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
+  EXPECT_EQ(pipeline.stand_still(kRest).commanded.stacked().norm(), 0);
+  EXPECT_EQ(pipeline.stand_still(6 * GST_SECOND).commanded.stacked().norm(), 0);
+  // It goes on: felt again, in time.
+  pipeline.idle(kFrame - 10 * GST_MSECOND - GST_MSECOND);
+  play(pipeline, 3);
+  pipeline.await();
+  EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
+}
+
+TEST(FrozenPicture, AGapWhoseEndIsKnown) {
+  for (const GstClockTime gap : {200 * GST_MSECOND, 8 * GST_SECOND}) {
+    SCOPED_TRACE(gap);
+    SteppedPipeline pipeline(kPlayer);
+    pipeline.retime([gap](int n, GstClockTime pts) { return n < 10 ? pts : pts + gap; });
+    pipeline.set_state(GST_STATE_PLAYING);
+    play(pipeline, 10);
+    pipeline.await();  // frame 9 is on the screen, and frame 10 waits
+    EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
+    EXPECT_EQ(pipeline.idle(kRest - 10 * GST_MSECOND).commanded.stacked().norm(), 0);
+    const GstClockTime shown = pipeline.running_time();
+    const GstClockTime next = 10 * kFrame + gap;
+    EXPECT_EQ(pipeline.idle(next - shown - 40 * GST_MSECOND).commanded.stacked().norm(), 0);
+    // Back before the frame is shown, and there in time.
+    EXPECT_GT(pipeline.idle(39 * GST_MSECOND).commanded.stacked().norm(), 0);
+    const TickRecord tick = pipeline.step();
+    expect_wrench_of_frame(pipeline, tick);
+    EXPECT_EQ(tick.commanded.force_N, tick.wanted.force_N);
+  }
+}
+
+TEST(FrozenPicture, AThousandFramesBetweenElementAndSink) {
+  constexpr int kFrames = 1000;
+  SteppedPipeline pipeline(
+      "videotestsrc pattern=ball num-buffers=" + std::to_string(kFrames) +
+      " ! video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 " + kMotion +
+      "! queue max-size-buffers=0 max-size-time=0 max-size-bytes=0 ! fakesink name=sink sync=true");
+  pipeline.set_state(GST_STATE_PLAYING);
+  pipeline.await_analysed(kFrames);
+  play(pipeline, kFrames);
+}
+
+TEST(FrozenPicture, ForceTenSecondsAfterThePicture) {
+  constexpr GstClockTime kOffset = 10 * GST_SECOND;
+  constexpr int kRate = 50;
+  SteppedPipeline pipeline(
+      "videotestsrc pattern=ball ! video/x-raw,format=GRAY8,width=320,height=240,framerate=50/1 " +
+      kMotion + kSink);
+  g_object_set(pipeline.element(), "ts-offset", static_cast<gint64>(kOffset), nullptr);
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 20 * kRate; ++n) {
+    const TickRecord tick = pipeline.step();
+    const GstClockTime shown = pipeline.running_time();
+    if (shown < kOffset) continue;
+    ASSERT_EQ(tick.frame_ns, static_cast<int64_t>(shown - kOffset));
+    ASSERT_EQ(tick.wanted.force_N, pipeline.wrenches().at(shown - kOffset).force_N);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test
