@@ -2,7 +2,8 @@
 # Installs what is missing (Debian), builds, runs every test. The last line is
 # `N passed, N failed, N skipped`; the exit status is 0 when nothing failed.
 #   tests/run.sh        as a user builds it, in build/
-#   tests/run.sh --ci   warnings are errors, layout, and again under the sanitizers, in build-ci*/
+#   tests/run.sh --ci   the same on a bare Debian 12 where warnings are errors, as root; layout; and
+#                       again under the sanitizers, in build-ci*/
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source-path=SCRIPTDIR source=../tests/install.sh
@@ -50,6 +51,17 @@ check_layout() {
     fi
 }
 
+# run_on_bare_debian RESULTS
+run_on_bare_debian() {
+    local what="tests/run.sh and examples/play.sh --ball on a bare Debian"
+    if tests/bare_debian.sh "$1"; then
+        checks+=(--passed "$what")
+    else
+        checks+=(--failed "$what: see above")
+    fi
+    [[ ! -f $1/meson-logs/testlog.json ]] || builds+=("$1")
+}
+
 case ${1-} in
 "")
     install_packages build test
@@ -58,7 +70,7 @@ case ${1-} in
 --ci)
     install_packages build test ci
     check_layout
-    build_and_test build-ci --werror
+    run_on_bare_debian build-ci-bare
     # Line numbers without variables and the lowest optimisation: the compiler needs a third of the
     # time. Without any, Eigen is too slow for the tests that sample many poses.
     sanitized=(-Doptimization=1 -Ddebug=false -Dcpp_args=-g1 -Db_lundef=false)

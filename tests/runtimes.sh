@@ -10,8 +10,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source-path=SCRIPTDIR source=../tests/install.sh
 . tests/install.sh
-
-say() { printf '\n== %s\n' "$*"; }
+# shellcheck source-path=SCRIPTDIR source=../tests/debian_folder.sh
+. tests/debian_folder.sh
 
 runtime=${1-}
 case $runtime in
@@ -22,34 +22,8 @@ gstreamer-1.28) suite=forky ;;
     exit 2
     ;;
 esac
-if ((EUID != 0)); then
-    echo "error: a Debian in a folder needs root. Run: sudo tests/runtimes.sh $runtime" >&2
-    exit 1
-fi
-# Whatever is mounted below is gone when the script ends, however it ends.
-if [[ -z ${GST_SPIDAR_OWN_MOUNTS-} ]]; then
-    GST_SPIDAR_OWN_MOUNTS=1 exec unshare --mount --propagation private tests/runtimes.sh "$runtime"
-fi
-
-root=${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar/$runtime
-
-make_root() {
-    [[ ! -d $root ]] || return 0
-    say "Debian $suite in $root"
-    install_packages runtimes
-    rm -rf "$root.part"
-    mkdir -p "$root.part"
-    # A suite that this machine's debootstrap is too old to know is made like unstable.
-    local rules=/usr/share/debootstrap/scripts/$suite
-    [[ -e $rules ]] || rules=/usr/share/debootstrap/scripts/sid
-    if ! debootstrap --variant=minbase "$suite" "$root.part" "" "$rules" >"$root.log" 2>&1; then
-        cat "$root.log" >&2
-        exit 1
-    fi
-    # The lists of a suite that is not out yet expire after days; a mirror may be older than that.
-    echo 'Acquire::Check-Valid-Until "false";' >"$root.part/etc/apt/apt.conf.d/gst-spidar"
-    mv "$root.part" "$root"
-}
+need_own_mounts tests/runtimes.sh "$runtime"
+root=$debian_cache/$runtime
 
 # mount_in_root OPTION: also this folder, at the same place; OPTION is ro or rw.
 mount_in_root() {
@@ -112,7 +86,7 @@ test_with_other_gstreamer() {
     python3 tests/summary.py --log "$log" build
 }
 
-make_root
+make_debian "$suite" "$root"
 case $runtime in
 debian-13)
     mount_in_root ro
