@@ -6,12 +6,23 @@
 
 namespace spidar {
 
-/// 8-bit luma, `height` rows of `width` pixels, rows `stride_bytes` apart. Never owns the memory.
+/// How a pixel's luma is stored: in one byte, or in a word of two. Of a word only the eight bits
+/// above `shift` count; a word with bits above those stands for white.
+struct LumaSample {
+  int bytes = 1;  ///< 1 or 2; a word need not lie at an even address
+  int shift = 0;  ///< of words, 0 … 8: 2 for 10 bits at the lower end, 8 for any at the upper
+  bool big_endian = false;  ///< of words
+};
+
+/// Luma, `height` rows of `width` pixels, rows `stride_bytes` apart. Never owns the memory.
 struct ImageView {
   const uint8_t* data = nullptr;
   int width = 0;
   int height = 0;
   ptrdiff_t stride_bytes = 0;
+  LumaSample sample = {};
+
+  const uint8_t* at(int x, int y) const { return data + y * stride_bytes + x * sample.bytes; }
 };
 
 }  // namespace spidar

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/tracking/luma_row.h"
 #include "core/tracking/packed_luma.h"
 
 namespace spidar {
@@ -27,6 +28,14 @@ bool is_packed(GstVideoFormat format, PackedOrder& order) {
     default:
       return false;
   }
+}
+
+/// Of the luma of a planar or semi-planar format, whose first component it is.
+LumaSample sample_of(const GstVideoFormatInfo& format) {
+  const int depth = static_cast<int>(GST_VIDEO_FORMAT_INFO_DEPTH(&format, 0));
+  if (depth <= 8) return {};
+  const int shift = static_cast<int>(GST_VIDEO_FORMAT_INFO_SHIFT(&format, 0)) + depth - 8;
+  return {2, shift, !GST_VIDEO_FORMAT_INFO_IS_LE(&format)};
 }
 
 }  // namespace
@@ -62,18 +71,15 @@ ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
   const size_t width = static_cast<size_t>(frame.width);
   const int first = top_first ? 0 : 1;
   field_.resize(width * static_cast<size_t>(frame.height));
-  const auto source = [&](int y) { return frame.data + y * frame.stride_bytes; };
+  const auto line = [&](int y) { return field_.data() + static_cast<size_t>(y) * width; };
   const int last = first + (frame.height - 1 - first) / 2 * 2;
-  for (int y = 0; y < frame.height; ++y) {
-    uint8_t* out = field_.data() + static_cast<size_t>(y) * width;
-    const uint8_t* above = source(std::clamp((y - first) % 2 == 0 ? y : y - 1, first, last));
-    const uint8_t* below = source(std::clamp((y - first) % 2 == 0 ? y : y + 1, first, last));
-    if (above == below) {
-      std::memcpy(out, above, width);
-    } else {
-      for (size_t x = 0; x < width; ++x) {
-        out[x] = static_cast<uint8_t>((above[x] + below[x] + 1) / 2);
-      }
+  for (int y = first; y <= last; y += 2) copy_row(frame, 0, y, frame.width, line(y));
+  for (int y = 1 - first; y < frame.height; y += 2) {
+    const uint8_t* above = line(std::max(y - 1, first));
+    const uint8_t* below = line(std::min(y + 1, last));
+    uint8_t* out = line(y);
+    for (size_t x = 0; x < width; ++x) {
+      out[x] = static_cast<uint8_t>((above[x] + below[x] + 1) / 2);
     }
   }
   return {field_.data(), frame.width, frame.height, static_cast<ptrdiff_t>(width)};
@@ -85,7 +91,7 @@ ImageView FrameLuma::view(const GstVideoFrame& frame) {
   const ptrdiff_t stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
   const uint8_t* data = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)) +
                         shown.y * stride + shown.x * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, 0);
-  ImageView luma{data, shown.width, shown.height, stride};
+  ImageView luma{data, shown.width, shown.height, stride, sample_of(*frame.info.finfo)};
   PackedOrder order;
   if (is_packed(GST_VIDEO_FRAME_FORMAT(&frame), order)) {
     luma = luma_of_packed(data, shown.width, shown.height, stride, order, converted_);

@@ -10,9 +10,14 @@
 
 namespace spidar {
 
-/// Caps that FrameLuma understands, for the pad templates.
-#define SPIDAR_VIDEO_FORMATS \
-  "{ GRAY8, I420, YV12, NV12, NV21, Y42B, Y444, BGR, RGB, BGRx, RGBx, BGRA, RGBA }"
+/// Caps that FrameLuma understands, for the pad templates: what is cheap to read first.
+#define SPIDAR_VIDEO_FORMATS                                                      \
+  "{ GRAY8, I420, YV12, NV12, NV21, Y42B, NV16, NV61, Y444, NV24, Y41B, A420, "   \
+  "P010_10LE, P012_LE, P016_LE, I420_10LE, I420_12LE, I422_10LE, I422_12LE, "     \
+  "Y444_10LE, Y444_12LE, Y444_16LE, A420_10LE, A422_10LE, A444_10LE, GRAY16_LE, " \
+  "P010_10BE, P012_BE, P016_BE, I420_10BE, I420_12BE, I422_10BE, I422_12BE, "     \
+  "Y444_10BE, Y444_12BE, Y444_16BE, A420_10BE, A422_10BE, A444_10BE, GRAY16_BE, " \
+  "BGR, RGB, BGRx, RGBx, BGRA, RGBA }"
 
 /// The part of a frame that is shown, and therefore analysed: its crop meta, else all of it.
 struct VisiblePart {
@@ -24,9 +29,9 @@ VisiblePart visible_part(const GstVideoFrame& frame);
 /// GStreamer takes the word of a GstVideoMeta for that.
 bool holds_picture(const GstVideoFrame& frame);
 
-/// Reads plane 0 of planar and semi-planar formats in place, with its stride; makes luma of packed
-/// RGB; honours a crop meta; of interlaced frames it takes the first field, because the two fields
-/// are two moments.
+/// Reads plane 0 of planar and semi-planar formats in place, with its stride and of as many bits
+/// as it has; makes luma of packed RGB; honours a crop meta; of interlaced frames it takes the
+/// first field, because the two fields are two moments.
 class FrameLuma {
  public:
   /// In pixels; the caps allow no less, a crop may leave less.

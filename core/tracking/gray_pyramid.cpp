@@ -5,6 +5,8 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "core/tracking/luma_row.h"
+#include "core/tracking/luma_words.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
@@ -19,15 +21,17 @@ using cv::v_uint16x8;
 using cv::v_uint8x16;
 
 /// Sums of the 8 pairs of neighbours in 16 pixels.
-v_uint16x8 pair_sums(const uint8_t* pixels) {
-  const v_uint16x8 pairs = cv::v_reinterpret_as_u16(cv::v_load(pixels));
+template <typename Reader>
+v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels) {
+  const v_uint16x8 pairs = cv::v_reinterpret_as_u16(reader.load(pixels));
   return (pairs & cv::v_setall_u16(0xFF)) + (pairs >> 8);
 }
 
 /// Of `rows` rows, `step` bytes apart.
-v_uint16x8 pair_sums(const uint8_t* pixels, ptrdiff_t step, int rows) {
-  v_uint16x8 sum = pair_sums(pixels);
-  for (int k = 1; k < rows; ++k) sum = sum + pair_sums(pixels + k * step);
+template <typename Reader>
+v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t step, int rows) {
+  v_uint16x8 sum = pair_sums(reader, pixels);
+  for (int k = 1; k < rows; ++k) sum = sum + pair_sums(reader, pixels + k * step);
   return sum;
 }
 
@@ -39,14 +43,14 @@ v_uint16x8 add_neighbours(const v_uint16x8& a, const v_uint16x8& b) {
 }
 
 /// Sums of 8 blocks of kFactor × rows pixels.
-template <int kFactor>
-v_uint16x8 block_sums(const uint8_t* pixels, ptrdiff_t step, int rows) {
+template <int kFactor, typename Reader>
+v_uint16x8 block_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t step, int rows) {
   if constexpr (kFactor == 2) {
-    return pair_sums(pixels, step, rows);
+    return pair_sums(reader, pixels, step, rows);
   } else {
-    constexpr int kHalf_px = 4 * kFactor;
-    return add_neighbours(block_sums<kFactor / 2>(pixels, step, rows),
-                          block_sums<kFactor / 2>(pixels + kHalf_px, step, rows));
+    constexpr int kHalf = 4 * kFactor * Reader::kBytes;
+    return add_neighbours(block_sums<kFactor / 2>(reader, pixels, step, rows),
+                          block_sums<kFactor / 2>(reader, pixels + kHalf, step, rows));
   }
 }
 
@@ -74,40 +78,49 @@ struct BlockRow {
   unsigned count() const { return static_cast<unsigned>(rows * factor); }
 };
 
-uint8_t block_mean(const BlockRow& row, int x) {
+template <typename Reader>
+uint8_t block_mean(const Reader& reader, const BlockRow& row, int x) {
   unsigned sum = 0;
   for (int k = 0; k < row.rows; ++k) {
-    const uint8_t* pixels = row.pixels + k * row.step + x * row.factor;
-    for (int i = 0; i < row.factor; ++i) sum += pixels[i];
+    const uint8_t* pixels = row.pixels + k * row.step + x * row.factor * Reader::kBytes;
+    for (int i = 0; i < row.factor; ++i) {
+      sum += static_cast<unsigned>(reader.at(pixels + i * Reader::kBytes));
+    }
   }
   return static_cast<uint8_t>((sum + row.count() / 2u) / row.count());
 }
 
 #if CV_SIMD128
-template <int kFactor>
-int reduce_by_power_of_2(const BlockRow& row, uint8_t* to) {
+template <int kFactor, typename Reader>
+int reduce_by_power_of_2(const Reader& reader, const BlockRow& row, uint8_t* to) {
+  constexpr int kCacheLine = 64;
+  constexpr int kBlock = kFactor * Reader::kBytes;
   int x = 0;
   for (; x + 8 <= row.columns; x += 8) {
     for (int k = 0; k < row.rows; ++k) {
-      __builtin_prefetch(row.ahead + k * row.step + x * kFactor);
+      for (int i = 0; i < 8 * kBlock; i += kCacheLine) {
+        __builtin_prefetch(row.ahead + k * row.step + x * kBlock + i);
+      }
     }
-    const v_uint16x8 sums = block_sums<kFactor>(row.pixels + x * kFactor, row.step, row.rows);
+    const v_uint16x8 sums =
+        block_sums<kFactor>(reader, row.pixels + x * kBlock, row.step, row.rows);
     store_means(sums, row.count(), to + x);
   }
   return x;
 }
 
 /// Blocks that were done from the left; the rest has no vector code.
-int reduce_with_vectors(const BlockRow& row, uint8_t* to) {
+template <typename Reader>
+int reduce_with_vectors(const Reader& reader, const BlockRow& row, uint8_t* to) {
   switch (row.factor) {
     case 2:
-      return reduce_by_power_of_2<2>(row, to);
+      return reduce_by_power_of_2<2>(reader, row, to);
     case 4:
-      return reduce_by_power_of_2<4>(row, to);
+      return reduce_by_power_of_2<4>(reader, row, to);
     case 8:
-      return reduce_by_power_of_2<8>(row, to);
+      return reduce_by_power_of_2<8>(reader, row, to);
     case 16:
-      return reduce_by_power_of_2<16>(row, to);
+      return reduce_by_power_of_2<16>(reader, row, to);
     default:
       return 0;
   }
@@ -161,14 +174,16 @@ void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
     row.ahead = frame.data + ahead * factor * frame.stride_bytes;
     uint8_t* to = reduced.row(y);
     if (factor == 1) {
-      std::memcpy(to, row.pixels, static_cast<size_t>(row.columns));
+      copy_row(frame, 0, y, row.columns, to);
       continue;
     }
-    int x = 0;
+    with_reader(frame.sample, [&](const auto& reader) {
+      int x = 0;
 #if CV_SIMD128
-    x = reduce_with_vectors(row, to);
+      x = reduce_with_vectors(reader, row, to);
 #endif
-    for (; x < row.columns; ++x) to[x] = block_mean(row, x);
+      for (; x < row.columns; ++x) to[x] = block_mean(reader, row, x);
+    });
   }
 }
 
@@ -194,7 +209,9 @@ void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
       int count = 0;
       for (int j = 0; j < factor; j += row_step(factor)) {
         for (int i = 0; i < factor; ++i) {
-          sum += frame.data[(y * factor + j) * frame.stride_bytes + x * factor + i];
+          uint8_t pixel = 0;
+          plain::copy_row(frame, x * factor + i, y * factor + j, 1, &pixel);
+          sum += pixel;
           ++count;
         }
       }

@@ -49,9 +49,9 @@ constexpr int rows_used(int factor) {
   return (factor + row_step(factor) - 1) / row_step(factor);
 }
 
-/// `reduced` becomes the mean of each block of `factor` × `factor` pixels, rounded; of the rows of
-/// a block row_step() says which count. Columns and rows that do not fill a block are left out.
-/// Powers of 2 up to 16 are fast.
+/// `reduced`, always of 8 bits, becomes the mean of each block of `factor` × `factor` pixels,
+/// rounded; of the rows of a block row_step() says which count. Columns and rows that do not fill a
+/// block are left out. Powers of 2 up to 16 are fast.
 void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced);
 
 /// Mean of each 2 × 2 block, rounded.

@@ -16,9 +16,9 @@ namespace spidar {
 /// small enough to leave kMinSide_px of the shorter side.
 int reduction_factor(int width, int height);
 
-/// Mean of each factor × factor block. Columns and rows at the right and bottom that do not fill a
-/// block are left out, so that the scale is exactly `factor`. With factor 1 `reduced` refers to the
-/// memory of `frame`.
+/// Mean of each factor × factor block of a frame of 8 bits. Columns and rows at the right and
+/// bottom that do not fill a block are left out, so that the scale is exactly `factor`. With factor
+/// 1 `reduced` refers to the memory of `frame`.
 void reduce_luma(const ImageView& frame, int factor, cv::Mat& reduced);
 
 }  // namespace spidar

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/tracking/luma_reduce.h"
+#include "core/tracking/luma_row.h"
 #include "core/tracking/point_flow.h"
 #include "core/tracking/point_selection.h"
 #include "core/tracking/serial_opencv.h"
@@ -32,6 +33,7 @@ struct OpenCvTracker::Impl {
   int height = 0;
   FlowPyramid before;
   FlowPyramid now;
+  std::vector<uint8_t> in_bytes;  // the frame, if it has more than 8 bits
   cv::Mat response;               // buffer of the selection
   std::vector<Feature> features;  // in the reduced picture
   uint32_t next_id = 0;
@@ -55,7 +57,7 @@ void OpenCvTracker::Impl::track(const ImageView& frame) {
 
   std::swap(before, now);
   cv::Mat reduced;
-  reduce_luma(frame, factor, reduced);
+  reduce_luma(in_8_bits(frame, in_bytes), factor, reduced);
   build_pyramid(reduced, now);
 
   result.tracks.clear();

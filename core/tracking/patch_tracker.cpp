@@ -8,6 +8,7 @@
 #include "core/tracking/followed_point.h"
 #include "core/tracking/gray_pyramid.h"
 #include "core/tracking/light_change.h"
+#include "core/tracking/luma_neighbourhood.h"
 #include "core/tracking/pixel_scale.h"
 #include "core/tracking/point_chooser.h"
 #include "core/tracking/point_follower.h"
@@ -38,7 +39,7 @@ Budget budget_of(TrackerQuality quality) {
 /// Refinement in the frame is worth it from this share of the reduced picture's structure on, both
 /// over the same piece of picture: a window there has more than twice the pixels.
 constexpr float kFineStrength = 0.25f;
-constexpr int kFineWindow_px = 24;
+constexpr int kFineWindow_px = LumaNeighbourhood::kWindow_px;
 using FineTemplate = WindowTemplate<kFineWindow_px>;
 
 /// A cut: at least kMinForCut points were looked for and fewer than this share was found.
@@ -73,6 +74,7 @@ struct PatchTracker::Impl {
   PointGrid grid;
   PointChooser chooser;
   PointFollower follower;
+  LumaNeighbourhood neighbourhood;
   TrackedFrame result;
   bool small_windows_hold = true;  // in the last frame
 
@@ -92,7 +94,7 @@ struct PatchTracker::Impl {
   template <typename Which>
   Tally count(Which&& which) const;
   ImagePoint place_in_frame(const FollowedPoint& point, const FineTemplate& was,
-                            const ImageView& frame, float gain) const;
+                            const ImageView& frame, float gain);
   void settle(const ImageView& frame, float gain);
   void report();
   void drop_lost();
@@ -192,7 +194,7 @@ bool PatchTracker::Impl::follow(const ImageView& frame) {
 /// From the reduced picture and, if it helps, from the frame: the mean of both, each weighted by
 /// the inverse of its variance.
 ImagePoint PatchTracker::Impl::place_in_frame(const FollowedPoint& point, const FineTemplate& was,
-                                              const ImageView& frame, float gain) const {
+                                              const ImageView& frame, float gain) {
   const auto scale = static_cast<float>(factor);
   const ImagePoint moved = point.match.to - point.at;
   const ImagePoint coarse{point.frame.x_px + scale * moved.x_px,
@@ -208,7 +210,8 @@ ImagePoint PatchTracker::Impl::place_in_frame(const FollowedPoint& point, const 
   settings.gain = gain;
   WindowMatch match;
   match.centre = coarse;
-  if (!was.find(ReadablePixels(frame), settings, match)) return coarse;
+  const ReadablePixels pixels = neighbourhood.around(frame, coarse, settings.reach_px);
+  if (!was.find(pixels, settings, match)) return coarse;
   if (match.residual > PointFollower::kSameThing) return coarse;
   const float coarse_px2 = scale * scale * point.match.variance_px2;
   const float both_px2 = coarse_px2 + match.variance_px2;
@@ -267,8 +270,9 @@ void PatchTracker::Impl::choose(const ImageView& frame) {
 void PatchTracker::Impl::read_fine_templates(const ImageView& frame) {
   if (fine.size() < points.size()) fine.resize(points.size());
   if (!uses_fine()) return;
-  const ReadablePixels pixels(frame);
-  for (size_t i = 0; i < points.size(); ++i) fine[i].read(pixels, points[i].frame);
+  for (size_t i = 0; i < points.size(); ++i) {
+    fine[i].read(neighbourhood.around(frame, points[i].frame, 0), points[i].frame);
+  }
 }
 
 PatchTracker::PatchTracker(const TrackerSettings& settings) : impl_(std::make_unique<Impl>()) {

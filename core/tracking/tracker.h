@@ -47,8 +47,8 @@ SPIDAR_API void validate(const TrackerSettings& settings);
 /// Width and height that a tracker accepts at least, px.
 constexpr int kMinSide_px = 16;
 
-/// Throws std::invalid_argument when the frame has no pixels, less than kMinSide_px a side, or a
-/// stride below its width.
+/// Throws std::invalid_argument when the frame has no pixels, less than kMinSide_px a side, a
+/// stride below its width, or pixels of which LumaSample knows nothing.
 void require_usable(const ImageView& frame);
 
 /// Position in the image frame I, pixels of the frame given to track(); x right, y down, the centre

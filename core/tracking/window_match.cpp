@@ -25,20 +25,12 @@ ImagePoint upper_left(ImagePoint centre, int side) {
 }  // namespace
 
 ReadablePixels::ReadablePixels(const PaddedImage& image)
-    : origin(image.row(0)),
-      stride(image.stride()),
-      x0(-PaddedImage::kPad_px),
-      y0(-PaddedImage::kPad_px),
-      x1(image.width() + PaddedImage::kPad_px),
-      y1(image.height() + PaddedImage::kPad_px) {}
+    : ReadablePixels(image.row(-PaddedImage::kPad_px) - PaddedImage::kPad_px, image.stride(),
+                     -PaddedImage::kPad_px, -PaddedImage::kPad_px,
+                     image.width() + PaddedImage::kPad_px, image.height() + PaddedImage::kPad_px) {}
 
 ReadablePixels::ReadablePixels(const ImageView& image)
-    : origin(image.data),
-      stride(image.stride_bytes),
-      x0(0),
-      y0(0),
-      x1(image.width),
-      y1(image.height) {}
+    : ReadablePixels(image.data, image.stride_bytes, 0, 0, image.width, image.height) {}
 
 bool ReadablePixels::source(float x, float y, int columns, int rows, WindowSource& found) const {
   // Written so that NaN is outside, before it becomes an integer.
@@ -49,7 +41,8 @@ bool ReadablePixels::source(float x, float y, int columns, int rows, WindowSourc
   }
   const float left = std::floor(x);
   const float top = std::floor(y);
-  found.pixels = origin + static_cast<ptrdiff_t>(top) * stride + static_cast<ptrdiff_t>(left);
+  found.pixels =
+      first + (static_cast<ptrdiff_t>(top) - y0) * stride + (static_cast<ptrdiff_t>(left) - x0);
   found.stride = stride;
   found.weights = BilinearWeights::at(x - left, y - top);
   return true;

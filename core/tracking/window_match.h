@@ -10,12 +10,16 @@ namespace spidar {
 
 /// Pixels that may be read; coordinates are those of the picture.
 struct ReadablePixels {
-  const uint8_t* origin;  ///< of pixel (0, 0)
+  const uint8_t* first;  ///< of column x0 in row y0
   ptrdiff_t stride;
   int x0, y0;  ///< first column and row
   int x1, y1;  ///< first ones outside
 
+  ReadablePixels(const uint8_t* pixels, ptrdiff_t stride_bytes, int left, int top, int right,
+                 int bottom)
+      : first(pixels), stride(stride_bytes), x0(left), y0(top), x1(right), y1(bottom) {}
   explicit ReadablePixels(const PaddedImage& image);
+  /// Of 8 bits.
   explicit ReadablePixels(const ImageView& image);
 
   /// Whether a window of `columns` × `rows` that begins at `x`, `y` can be read, and its source.

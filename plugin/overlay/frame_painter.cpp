@@ -6,8 +6,15 @@
 namespace spidar {
 namespace {
 
-uint8_t to_byte(double value) {
-  return static_cast<uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+uint16_t bounded(double value, uint16_t most) {
+  return static_cast<uint16_t>(std::clamp<long>(std::lround(value), 0, most));
+}
+
+/// Of a component from the beginning of its pixel, bytes. GStreamer 1.22 says 1 for V of P010 and
+/// its kin, which follows a word of two bytes.
+int offset_of(const GstVideoFormatInfo* format, guint component) {
+  const int offset = GST_VIDEO_FORMAT_INFO_POFFSET(format, component);
+  return GST_VIDEO_FORMAT_INFO_DEPTH(format, component) > 8 && offset == 1 ? 2 : offset;
 }
 
 double cross_product(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -26,22 +33,34 @@ FramePainter::Components FramePainter::components_of(Rgb color) const {
   gst_video_color_range_offsets(GST_VIDEO_INFO_COLORIMETRY(&info).range, info.finfo, offset, scale);
   const double r = color.r / 255.0, g = color.g / 255.0, b = color.b / 255.0;
   const double y = kr * r + (1 - kr - kb) * g + kb * b;
+  const auto most = static_cast<uint16_t>((1u << GST_VIDEO_INFO_COMP_DEPTH(&info, 0)) - 1);
   Components value{};
-  value[0] = to_byte(offset[0] + scale[0] * y);
-  if (GST_VIDEO_INFO_N_COMPONENTS(&info) < 3) return value;
-  value[1] = to_byte(offset[1] + scale[1] * (b - y) / (2 * (1 - kb)));
-  value[2] = to_byte(offset[2] + scale[2] * (r - y) / (2 * (1 - kr)));
+  value[0] = bounded(offset[0] + scale[0] * y, most);
+  value[1] = bounded(offset[1] + scale[1] * (b - y) / (2 * (1 - kb)), most);
+  value[2] = bounded(offset[2] + scale[2] * (r - y) / (2 * (1 - kr)), most);
+  value[3] = most;
   return value;
 }
 
 void FramePainter::set(int x, int y, const Components& value) {
   const GstVideoFormatInfo* format = frame_.info.finfo;
   for (guint c = 0; c < GST_VIDEO_FRAME_N_COMPONENTS(&frame_); ++c) {
-    auto* samples = static_cast<uint8_t*>(GST_VIDEO_FRAME_COMP_DATA(&frame_, c));
     const ptrdiff_t row = y >> GST_VIDEO_FORMAT_INFO_H_SUB(format, c);
     const ptrdiff_t column = x >> GST_VIDEO_FORMAT_INFO_W_SUB(format, c);
-    samples[row * GST_VIDEO_FRAME_COMP_STRIDE(&frame_, c) +
-            column * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame_, c)] = value[c];
+    const auto plane = static_cast<guint>(GST_VIDEO_FRAME_COMP_PLANE(&frame_, c));
+    auto* sample = static_cast<uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame_, plane)) +
+                   row * GST_VIDEO_FRAME_PLANE_STRIDE(&frame_, plane) +
+                   column * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame_, c) + offset_of(format, c);
+    if (GST_VIDEO_FORMAT_INFO_DEPTH(format, c) <= 8) {
+      *sample = static_cast<uint8_t>(value[c]);
+      continue;
+    }
+    const auto word = static_cast<uint16_t>(value[c] << GST_VIDEO_FORMAT_INFO_SHIFT(format, c));
+    if (GST_VIDEO_FORMAT_INFO_IS_LE(format)) {
+      GST_WRITE_UINT16_LE(sample, word);
+    } else {
+      GST_WRITE_UINT16_BE(sample, word);
+    }
   }
 }
 

@@ -11,10 +11,10 @@
 
 namespace spidar {
 
-/// Draws into a frame mapped for writing, of any format with 8-bit components: GRAY8, planar and
-/// semi-planar YUV, packed RGB. YUV follows the frame's colorimetry; of subsampled chroma a sample
-/// is set when a pixel of it is. What is outside the frame is not drawn. Coordinates are pixels,
-/// the centre of the first one is (0, 0).
+/// Draws into a frame mapped for writing, of any format whose components have a byte or a word
+/// each: grey, planar and semi-planar YUV, packed RGB. YUV follows the frame's colorimetry; of
+/// subsampled chroma a sample is set when a pixel of it is. What is outside the frame is not drawn.
+/// Coordinates are pixels, the centre of the first one is (0, 0).
 class FramePainter {
  public:
   explicit FramePainter(GstVideoFrame& frame) : frame_(frame) {}
@@ -24,7 +24,7 @@ class FramePainter {
   void cross(const Eigen::Vector2d& centre_px, double size_px, double width_px, Rgb color);
 
  private:
-  using Components = std::array<uint8_t, 4>;
+  using Components = std::array<uint16_t, 4>;
 
   Components components_of(Rgb color) const;
   /// Corners in order around a convex shape; pixels whose centre is inside or on the border.

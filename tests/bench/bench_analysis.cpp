@@ -1,6 +1,6 @@
 // Milliseconds that the analysis of a frame takes, beside what the same OpenCV functions take when
 // they are wired up the plain way. Both on one thread, on the same frames: a camera that pans over
-// a texture.
+// a texture. And beside a frame of 8 bits the same one in 10, in words of two bytes.
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -38,23 +38,37 @@ class Pan {
         sheet_(width_ + kSteps * step_px_, height_ + kSteps * step_px_) {
     const Texture texture(1, height_ / 45.0);
     sheet_.fill([&](double x, double y) { return texture.at(x, y); });
+    for (const uint8_t level : sheet_.pixels) words_.push_back(static_cast<uint16_t>(4 * level));
   }
 
   int height() const { return height_; }
 
   /// 4 px to the side and 2 up or down for each 640 px of width, there and back.
   ImageView frame(int n) const {
-    const int place = n % (2 * kSteps) < kSteps ? n % kSteps : kSteps - n % kSteps;
-    const ptrdiff_t offset = place * step_px_ + place * (step_px_ / 2) * ptrdiff_t{sheet_.stride};
-    return {sheet_.pixels.data() + offset, width_, height_, sheet_.stride};
+    return {sheet_.pixels.data() + offset(n), width_, height_, sheet_.stride};
+  }
+
+  /// The same as I420_10LE has it.
+  ImageView frame_of_10_bits(int n) const {
+    return {reinterpret_cast<const uint8_t*>(words_.data() + offset(n)),
+            width_,
+            height_,
+            2 * ptrdiff_t{sheet_.stride},
+            {2, 2, false}};
   }
 
  private:
+  ptrdiff_t offset(int n) const {
+    const int place = n % (2 * kSteps) < kSteps ? n % kSteps : kSteps - n % kSteps;
+    return place * step_px_ + place * (step_px_ / 2) * ptrdiff_t{sheet_.stride};
+  }
+
   static constexpr int kSteps = 40;
   int width_;
   int height_;
   int step_px_;
   Picture sheet_;
+  std::vector<uint16_t> words_;
 };
 
 const Pan& pan(int width) {
@@ -108,6 +122,29 @@ void analyze(benchmark::State& state) {
   state.counters["tracked"] = tracked / static_cast<double>(state.iterations());
 }
 
+/// Frames of 8 and of 10 bits in turns, so that what disturbs meets both.
+void analyze_10_bits(benchmark::State& state) {
+  const Pan& scene = pan(static_cast<int>(state.range(0)));
+  spidar::MotionAnalyzer of_8, of_10;
+  std::vector<double> ms_8, ms_10;
+  const auto timed = [](auto&& work) {
+    const double begin_ms = thread_time_ms();
+    work();
+    return thread_time_ms() - begin_ms;
+  };
+  int n = 0;
+  for (auto _ : state) {
+    ms_8.push_back(timed([&] { of_8.analyze(scene.frame(n), n * kFrame_ns); }));
+    ms_10.push_back(timed([&] { of_10.analyze(scene.frame_of_10_bits(n), n * kFrame_ns); }));
+    ++n;
+  }
+  std::sort(ms_8.begin(), ms_8.end());
+  std::sort(ms_10.begin(), ms_10.end());
+  state.counters["median_ms"] = quantile(ms_10, 0.5);
+  state.counters["p99_ms"] = quantile(ms_10, 0.99);
+  state.counters["times_8_bits"] = quantile(ms_10, 0.5) / quantile(ms_8, 0.5);
+}
+
 void naive(benchmark::State& state) {
   const auto width = static_cast<int>(state.range(0));
   const Pan& scene = pan(width);
@@ -139,6 +176,7 @@ void sizes(benchmark::internal::Benchmark* b) {
 }
 
 BENCHMARK(analyze)->Apply(sizes)->Iterations(300);
+BENCHMARK(analyze_10_bits)->Apply(sizes)->Iterations(300);
 BENCHMARK(naive)->Apply(sizes)->Iterations(30);
 
 }  // namespace

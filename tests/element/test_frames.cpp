@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/element_harness.h"
+#include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test {
@@ -23,11 +24,11 @@ guint8 grey(double x, double y) {
   return static_cast<guint8>(std::lround(texture(x, y)));
 }
 
-class Formats : public testing::TestWithParam<const char*> {};
+class Formats : public testing::TestWithParam<std::string> {};
 
 TEST_P(Formats, PassThroughUntouchedAndMeasureMotion) {
   ElementHarness h;
-  h.set_caps(make_caps(GetParam(), 323, 241));  // odd: strides differ from widths
+  h.set_caps(make_caps(GetParam().c_str(), 323, 241));  // odd: strides differ from widths
   for (int n = 0; n < 3; ++n) {
     GstBuffer* frame = make_frame(h.info(), 2.0 * n, -1.0 * n, 13);
     GstBuffer* untouched = gst_buffer_copy_deep(frame);
@@ -56,10 +57,8 @@ TEST_P(Formats, PassThroughUntouchedAndMeasureMotion) {
   EXPECT_TRUE(h.warnings().empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Formats,
-                         testing::Values("GRAY8", "I420", "YV12", "NV12", "NV21", "Y42B", "Y444",
-                                         "BGR", "RGB", "BGRx", "RGBx", "BGRA", "RGBA"),
-                         [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(All, Formats, testing::ValuesIn(video_formats()),
+                         [](const auto& p) { return p.param; });
 
 TEST(Frames, SmallestAndOddSizesPass) {
   for (const auto& [width, height] :
@@ -81,6 +80,25 @@ TEST(Frames, SizesOutsideTheLimitsAreNotNegotiated) {
     GstCaps* caps = make_caps("GRAY8", width, height);
     EXPECT_FALSE(gst_pad_query_accept_caps(GST_PAD_PEER(h.harness()->srcpad), caps));
     gst_caps_unref(caps);
+  }
+}
+
+TEST(Frames, OnlySystemMemoryIsNegotiated) {
+  // So that a decoder which offers DMABuf or GL memory beside it takes the one that can be read.
+  ElementHarness h;
+  for (const char* memory : {"memory:DMABuf", "memory:GLMemory", "memory:VAMemory"}) {
+    SCOPED_TRACE(memory);
+    GstCaps* plain = make_caps("NV12", 320, 240);
+    GstCaps* elsewhere = gst_caps_copy(plain);
+    gst_caps_set_features(elsewhere, 0, gst_caps_features_new(memory, nullptr));
+    GstPad* pad = GST_PAD_PEER(h.harness()->srcpad);
+    EXPECT_FALSE(gst_pad_query_accept_caps(pad, elsewhere));
+    GstCaps* offered = gst_caps_merge(elsewhere, gst_caps_ref(plain));
+    GstCaps* possible = gst_pad_query_caps(pad, offered);
+    EXPECT_TRUE(gst_caps_is_equal(possible, plain));
+    gst_caps_unref(possible);
+    gst_caps_unref(offered);
+    gst_caps_unref(plain);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "plugin/overlay/scene_view.h"
 #include "plugin/overlay/video_overlay.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test {
@@ -56,11 +57,15 @@ class Canvas {
     Pixel pixel{};
     with_frame([&](GstVideoFrame& frame) {
       for (guint c = 0; c < std::min(GST_VIDEO_FRAME_N_COMPONENTS(&frame), 3u); ++c) {
-        const auto* data = static_cast<const guint8*>(GST_VIDEO_FRAME_COMP_DATA(&frame, c));
+        const auto plane = static_cast<guint>(GST_VIDEO_FRAME_COMP_PLANE(&frame, c));
+        const auto* data = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, plane)) +
+                           component_offset(*info_.finfo, c);
         const ptrdiff_t row = y >> GST_VIDEO_FORMAT_INFO_H_SUB(info_.finfo, c);
         const ptrdiff_t column = x >> GST_VIDEO_FORMAT_INFO_W_SUB(info_.finfo, c);
-        pixel[c] = data[row * GST_VIDEO_FRAME_COMP_STRIDE(&frame, c) +
-                        column * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, c)];
+        pixel[c] =
+            static_cast<int>(read_sample(*info_.finfo, c,
+                                         data + row * GST_VIDEO_FRAME_COMP_STRIDE(&frame, c) +
+                                             column * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, c)));
       }
     });
     return pixel;
@@ -68,7 +73,10 @@ class Canvas {
 
   Pixel untouched() const {
     Pixel pixel{};
-    for (guint c = 0; c < std::min(GST_VIDEO_INFO_N_COMPONENTS(&info_), 3u); ++c) pixel[c] = kGrey;
+    const std::array<guint8, 2> sample{kGrey, kGrey};
+    for (guint c = 0; c < std::min(GST_VIDEO_INFO_N_COMPONENTS(&info_), 3u); ++c) {
+      pixel[c] = static_cast<int>(read_sample(*info_.finfo, c, sample.data()));
+    }
     return pixel;
   }
 
@@ -104,19 +112,23 @@ SceneView one_track(ImagePoint from, ImagePoint to, TrackOwner owner = TrackOwne
 
 /// Red, in each format's own numbers: BT.601, YUV in the limited range and grey in the full one, as
 /// caps of this size have it.
-Pixel red(const std::string& format) {
-  if (format.find("RGB") == 0 || format.find("BGR") == 0) return {255, 0, 0};
-  if (format == "GRAY8") return {76, 0, 0};  // 255 · 0.299
-  // Y = 16 + 219 · 0.299; U = 128 − 224 · 0.299 / (2 · 0.886); V = 128 + 224 / 2.
-  return {81, 90, 240};
+Pixel red(const std::string& name) {
+  const GstVideoFormatInfo* format = gst_video_format_get_info(format_named(name));
+  if (GST_VIDEO_FORMAT_INFO_IS_RGB(format)) return {255, 0, 0};
+  const guint depth = GST_VIDEO_FORMAT_INFO_DEPTH(format, 0);
+  const auto of = [](double value) { return static_cast<int>(std::lround(value)); };
+  if (GST_VIDEO_FORMAT_INFO_IS_GRAY(format)) return {of(0.299 * ((1 << depth) - 1)), 0, 0};
+  const int one = 1 << (depth - 8);  // a step of 8 bits
+  return {of(one * (16 + 219 * 0.299)), of(one * (128 - 224 * 0.299 / (2 * 0.886))),
+          of(one * (128 + 224 / 2.0))};
 }
 
-class OverlayFormats : public testing::TestWithParam<const char*> {};
+class OverlayFormats : public testing::TestWithParam<std::string> {};
 
 TEST_P(OverlayFormats, AnArrowHasTailHeadAndColourWhereTheyMustBe) {
   for (const auto& [width, height] : {std::pair{64, 48}, {65, 49}, {67, 33}}) {
     SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
-    Canvas canvas(GetParam(), width, height);
+    Canvas canvas(GetParam().c_str(), width, height);
     canvas.draw(one_track({10, 20}, {16, 20}), 4);
     EXPECT_EQ(canvas.at(10, 20), red(GetParam())) << "tail";
     EXPECT_EQ(canvas.at(22, 20), red(GetParam())) << "shaft";
@@ -135,7 +147,7 @@ TEST_P(OverlayFormats, AnArrowHasTailHeadAndColourWhereTheyMustBe) {
 
 TEST_P(OverlayFormats, WhatIsOutsideTheFrameIsClipped) {
   const float far = 1e9F;
-  Canvas canvas(GetParam(), 33, 17);
+  Canvas canvas(GetParam().c_str(), 33, 17);
   for (const auto& [from, to] : {std::pair<ImagePoint, ImagePoint>{{-5, 3}, {40, 3}},
                                  {{3, -9}, {3, 30}},
                                  {{30, 16}, {50, 40}},
@@ -153,10 +165,8 @@ TEST_P(OverlayFormats, WhatIsOutsideTheFrameIsClipped) {
   EXPECT_NE(canvas.at(32, 16), canvas.untouched()) << "the last pixel of an odd frame";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, OverlayFormats,
-                         testing::Values("GRAY8", "I420", "YV12", "NV12", "NV21", "Y42B", "Y444",
-                                         "BGR", "RGB", "BGRx", "RGBx", "BGRA", "RGBA"),
-                         [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(All, OverlayFormats, testing::ValuesIn(video_formats()),
+                         [](const auto& p) { return p.param; });
 
 TEST(Overlay, FollowsTheColorimetryOfTheFrame) {
   Canvas canvas("I420", 64, 48, "bt709");

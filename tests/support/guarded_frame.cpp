@@ -4,6 +4,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "tests/support/video_formats.h"
+
 namespace spidar::test {
 namespace {
 
@@ -56,7 +58,8 @@ size_t plane_bytes(const GstVideoInfo& info, const FrameLayout& layout, guint pl
                              line_bytes(info, plane));
 }
 
-void paint(const GstVideoInfo& info, const GreyPicture& picture, gint stride, guint8* first_line) {
+void paint(const GstVideoInfo& info, const GreyPicture& picture, gint stride, guint8* first_line,
+           RandomSource& random) {
   const int pixel = GST_VIDEO_INFO_COMP_PSTRIDE(&info, 0);
   // Packed colours: red, green and blue are components of plane 0, what else there is stays noise.
   for (guint c = 0; c < GST_VIDEO_INFO_N_COMPONENTS(&info); ++c) {
@@ -65,7 +68,10 @@ void paint(const GstVideoInfo& info, const GreyPicture& picture, gint stride, gu
     const int offset = GST_VIDEO_INFO_COMP_POFFSET(&info, c);
     for (int y = 0; y < picture.height; ++y) {
       guint8* line = first_line + static_cast<ptrdiff_t>(stride) * y;
-      for (int x = 0; x < picture.width; ++x) line[x * pixel + offset] = picture.at(x, y);
+      for (int x = 0; x < picture.width; ++x) {
+        write_sample(*info.finfo, c, picture.at(x, y), static_cast<guint>(random.below(256)),
+                     line + x * pixel + offset);
+      }
     }
   }
 }
@@ -104,7 +110,7 @@ GstBuffer* make_guarded_frame(const GstVideoInfo& info, const GreyPicture& pictu
 
   GstMapInfo map;
   gst_buffer_map_range(buffer, 0, 1, &map, GST_MAP_WRITE);
-  paint(info, picture, layout.stride[0], map.data + offset[0]);
+  paint(info, picture, layout.stride[0], map.data + offset[0], random);
   gst_buffer_unmap(buffer, &map);
   gst_buffer_add_video_meta_full(buffer, GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_INFO_FORMAT(&info),
                                  static_cast<guint>(GST_VIDEO_INFO_WIDTH(&info)),

@@ -33,8 +33,9 @@ struct FrameLayout {
 FrameLayout random_layout(const GstVideoInfo& info, RandomSource& random);
 
 /// A buffer with a GstVideoMeta that shows `picture`, which is as large as `info` says: in luma, or
-/// as grey. Chroma, alpha and what is between the lines are noise. An access to the page behind the
-/// last byte of each memory (or in front of the first one) ends the program.
+/// as grey. Chroma, alpha, the bits of luma below the eight highest and what is between the lines
+/// are noise. An access to the page behind the last byte of each memory (or in front of the first
+/// one) ends the program.
 GstBuffer* make_guarded_frame(const GstVideoInfo& info, const GreyPicture& picture,
                               const FrameLayout& layout, RandomSource& random);
 

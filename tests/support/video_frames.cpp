@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "tests/support/texture.h"
+#include "tests/support/video_formats.h"
 
 namespace spidar::test {
 
@@ -32,11 +33,17 @@ GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0
   GstMapInfo map;
   gst_buffer_map(buffer, &map, GST_MAP_WRITE);
   const int pixel_stride = GST_VIDEO_INFO_COMP_PSTRIDE(&info, 0);
+  const bool is_rgb = GST_VIDEO_INFO_IS_RGB(&info);
   for (int y = 0; y < GST_VIDEO_INFO_HEIGHT(&info); ++y) {
     guint8* line = map.data + static_cast<gsize>(stride[0]) * static_cast<gsize>(y);
     for (int x = 0; x < GST_VIDEO_INFO_WIDTH(&info); ++x) {
-      std::memset(line + x * pixel_stride, static_cast<int>(std::lround(texture(x - dx, y - dy))),
-                  static_cast<size_t>(pixel_stride));
+      const auto level = static_cast<guint>(std::lround(texture(x - dx, y - dy)));
+      if (is_rgb) {
+        std::memset(line + x * pixel_stride, static_cast<int>(level),
+                    static_cast<size_t>(pixel_stride));
+      } else {
+        write_sample(*info.finfo, 0, level, static_cast<guint>(x), line + x * pixel_stride);
+      }
     }
   }
   gst_buffer_unmap(buffer, &map);

@@ -1,0 +1,49 @@
+#include "core/tracking/luma_row.h"
+
+#include <cstring>
+
+#include "core/tracking/luma_words.h"
+
+namespace spidar {
+
+void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to) {
+  const uint8_t* from = frame.at(x, y);
+  if (frame.sample.bytes == 1) {
+    std::memcpy(to, from, static_cast<size_t>(columns));
+    return;
+  }
+#if CV_SIMD128
+  constexpr int kLanes = 16;
+  if (columns >= kLanes) {
+    with_reader(frame.sample, [&](const auto& reader) {
+      const auto copy = [&](int k) { cv::v_store(to + k, reader.load(from + k * reader.kBytes)); };
+      for (int k = 0; k + kLanes <= columns; k += kLanes) copy(k);
+      copy(columns - kLanes);  // the rest, and again what is left of it
+    });
+    return;
+  }
+#endif
+  plain::copy_row(frame, x, y, columns, to);
+}
+
+ImageView in_8_bits(const ImageView& frame, std::vector<uint8_t>& buffer) {
+  if (frame.sample.bytes == 1) return frame;
+  const auto width = static_cast<size_t>(frame.width);
+  buffer.resize(width * static_cast<size_t>(frame.height));
+  for (int y = 0; y < frame.height; ++y) {
+    copy_row(frame, 0, y, frame.width, buffer.data() + static_cast<size_t>(y) * width);
+  }
+  return {buffer.data(), frame.width, frame.height, frame.width};
+}
+
+namespace plain {
+
+void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to) {
+  with_reader(frame.sample, [&](const auto& reader) {
+    for (int k = 0; k < columns; ++k) to[k] = static_cast<uint8_t>(reader.at(frame.at(x + k, y)));
+  });
+}
+
+}  // namespace plain
+
+}  // namespace spidar

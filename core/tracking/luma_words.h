@@ -1,0 +1,66 @@
+/// Luma of more than 8 bits, read as 8 bits.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <opencv2/core/hal/intrin.hpp>
+
+#include "core/image_view.h"
+
+namespace spidar {
+
+/// Pixels of one byte.
+struct LumaBytes {
+  static constexpr int kBytes = 1;
+
+  explicit LumaBytes(const LumaSample&) {}
+
+  int at(const uint8_t* pixel) const { return *pixel; }
+#if CV_SIMD128
+  cv::v_uint8x16 load(const uint8_t* pixels) const {
+    return cv::v_load(pixels);
+  }
+#endif
+};
+
+/// Pixels of one word, whose bytes are swapped or not with respect to little endian.
+template <bool kBigEndian>
+struct LumaWords {
+  static constexpr int kBytes = 2;
+
+  explicit LumaWords(const LumaSample& sample) : shift(sample.shift) {}
+
+  int at(const uint8_t* pixel) const {
+    const int word = kBigEndian ? pixel[0] << 8 | pixel[1] : pixel[1] << 8 | pixel[0];
+    return std::min(word >> shift, 255);
+  }
+#if CV_SIMD128
+  cv::v_uint8x16 load(const uint8_t* pixels) const {
+    return cv::v_pack(half(pixels), half(pixels + 16));
+  }
+
+  cv::v_uint16x8 half(const uint8_t* pixels) const {
+    static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "lanes are read in memory order");
+    cv::v_uint16x8 words = cv::v_reinterpret_as_u16(cv::v_load(pixels));
+    if constexpr (kBigEndian) words = (words << 8) | (words >> 8);
+    return words >> shift;
+  }
+#endif
+
+  int shift;
+};
+
+/// Calls `work` with the reader of such pixels: a LumaBytes or LumaWords.
+template <typename Work>
+void with_reader(const LumaSample& sample, Work&& work) {
+  if (sample.bytes == 1) {
+    work(LumaBytes(sample));
+  } else if (sample.big_endian) {
+    work(LumaWords<true>(sample));
+  } else {
+    work(LumaWords<false>(sample));
+  }
+}
+
+}  // namespace spidar

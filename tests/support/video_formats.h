@@ -1,0 +1,68 @@
+/// The formats of the element's pads, and how their samples are stored.
+#pragma once
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gst/video/video.h>
+
+#include "plugin/frame_luma.h"
+
+namespace spidar::test {
+
+/// All that the pad templates name.
+inline const std::vector<std::string>& video_formats() {
+  static const std::vector<std::string> formats = [] {
+    std::string text = SPIDAR_VIDEO_FORMATS;
+    for (char& c : text) {
+      if (c == '{' || c == '}' || c == ',') c = ' ';
+    }
+    std::istringstream words(text);
+    std::vector<std::string> found;
+    for (std::string word; words >> word;) found.push_back(word);
+    return found;
+  }();
+  return formats;
+}
+
+inline GstVideoFormat format_named(const std::string& name) {
+  return gst_video_format_from_string(name.c_str());
+}
+
+/// Writes a component of one pixel: `level`, 0 … 255, in the eight highest of its bits and in those
+/// below, if there are any, those of `rest`.
+inline void write_sample(const GstVideoFormatInfo& format, guint component, guint level, guint rest,
+                         guint8* sample) {
+  const guint depth = GST_VIDEO_FORMAT_INFO_DEPTH(&format, component);
+  if (depth <= 8) {
+    *sample = static_cast<guint8>(level);
+    return;
+  }
+  const guint below = depth - 8;
+  const guint value = level << below | (rest & ((1u << below) - 1));
+  const auto word = static_cast<guint16>(value << GST_VIDEO_FORMAT_INFO_SHIFT(&format, component));
+  if (GST_VIDEO_FORMAT_INFO_IS_LE(&format)) {
+    GST_WRITE_UINT16_LE(sample, word);
+  } else {
+    GST_WRITE_UINT16_BE(sample, word);
+  }
+}
+
+/// Of a component of a pixel, bytes: in words V of a plane that it shares with U is the second one.
+inline int component_offset(const GstVideoFormatInfo& format, guint component) {
+  const bool word = GST_VIDEO_FORMAT_INFO_DEPTH(&format, component) > 8;
+  if (!word) return GST_VIDEO_FORMAT_INFO_POFFSET(&format, component);
+  return component == 2 && GST_VIDEO_FORMAT_INFO_N_PLANES(&format) == 2 ? 2 : 0;
+}
+
+/// A component of one pixel, in its own numbers.
+inline guint read_sample(const GstVideoFormatInfo& format, guint component, const guint8* sample) {
+  if (GST_VIDEO_FORMAT_INFO_DEPTH(&format, component) <= 8) return *sample;
+  const guint word = GST_VIDEO_FORMAT_INFO_IS_LE(&format) ? GST_READ_UINT16_LE(sample)
+                                                          : GST_READ_UINT16_BE(sample);
+  return word >> GST_VIDEO_FORMAT_INFO_SHIFT(&format, component);
+}
+
+}  // namespace spidar::test
