@@ -1,8 +1,10 @@
 #include "core/motion_analyzer.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
+#include "core/force/motion_bounds.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
@@ -84,19 +86,19 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   }
 
   const AnalyzerSettings& settings = impl_->settings;
-  analysis.interval_ns = running_time_ns - *last_ns;
+  analysis.interval_ns = std::max(running_time_ns - *last_ns, kLeastInterval_ns);
   const SceneMotion scene =
       impl_->motion.estimate(settings.motion, tracked.tracks, frame.width, frame.height,
                              analysis.interval_ns, settings.pointer);
-  analysis.motion = scene.felt;
+  const double interval_s = static_cast<double>(analysis.interval_ns) * 1e-9;
+  analysis.motion = bound_motion(scene.felt, frame.width, interval_s);
   analysis.model = scene.model;
   analysis.objects = scene.objects;
   analysis.tracks = &tracked.tracks;
   analysis.background = scene.background;
   analysis.object_list = scene.object_list;
-  const double interval_s = static_cast<double>(analysis.interval_ns) * 1e-9;
   const ImageMotion steady =
-      impl_->filter.filter(scene.felt, frame.height, interval_s, settings.filter);
+      impl_->filter.filter(analysis.motion, frame.height, interval_s, settings.filter);
   analysis.wrench =
       render_motion(*impl_->controller, steady, settings.axes, frame.height, interval_s);
   return analysis;

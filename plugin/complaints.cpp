@@ -31,8 +31,10 @@ void Complaints::look_at_frame(const FrameReport& report) {
       break;
     case FrameProblem::kSameTimestamp:
       GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
-                          ("Two frames have the same timestamp; the second one is shown only."),
-                          ("No time between the frames to divide their motion by."));
+                          ("Two frames have the same timestamp, or nearly so; the second one is "
+                           "shown but not felt."),
+                          ("Less than an eighth of the time between two frames, or than half a "
+                           "millisecond, is no time to divide a motion by."));
       break;
     case FrameProblem::kFallingTimestamp:
       GST_ELEMENT_WARNING(element_, STREAM, FORMAT,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/force/motion_bounds.h"
 #include "spidar/device_factory.h"
 
 namespace spidar {
@@ -22,9 +23,25 @@ int64_t hold_time_ns(int64_t interval_ns) {
   return interval_ns > 0 ? std::min(interval_ns + kLate_ns, WrenchTimeline::kLongestHold_ns) : 0;
 }
 
-/// Running time at which a sink shows the frame: when what is to be seen of it begins, which is its
-/// end when it is played backwards. GST_CLOCK_TIME_NONE when the sink drops it.
-GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment) {
+/// Of frames that are closer together one timestamp is wrong: their distance is no time to divide a
+/// motion by. An eighth of what the caps promise, as far as they can be believed.
+int64_t least_interval_ns(const GstVideoInfo& info, double rate) {
+  constexpr double kMost_ns = 5e6;
+  if (info.fps_n <= 0) return kLeastInterval_ns;
+  const double nominal_ns = 1e9 * info.fps_d / info.fps_n / std::fabs(rate);
+  return std::max(kLeastInterval_ns, static_cast<int64_t>(std::min(nominal_ns / 8, kMost_ns)));
+}
+
+/// When a sink shows a frame.
+struct Showing {
+  /// Running time at which what is to be seen of it begins, which is its end when it is played
+  /// backwards. GST_CLOCK_TIME_NONE when the sink drops it.
+  GstClockTime running_time = GST_CLOCK_TIME_NONE;
+  /// It begins before the segment: the next frame may be shown in its place at once.
+  bool clipped = false;
+};
+
+Showing showing_of(const GstVideoFrame& frame, const GstSegment& segment) {
   const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
   GstClockTime duration = GST_BUFFER_DURATION(frame.buffer);
   if (!GST_CLOCK_TIME_IS_VALID(duration) && frame.info.fps_n > 0) {
@@ -33,11 +50,10 @@ GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment) {
   const bool has_end = GST_CLOCK_TIME_IS_VALID(duration) && duration < GST_CLOCK_TIME_NONE - pts;
   const GstClockTime end = has_end ? pts + duration : GST_CLOCK_TIME_NONE;
   guint64 from = 0, to = 0;
-  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, end, &from, &to)) {
-    return GST_CLOCK_TIME_NONE;
-  }
+  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, end, &from, &to)) return {};
   const bool backwards = segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(to);
-  return gst_segment_to_running_time(&segment, GST_FORMAT_TIME, backwards ? to : from);
+  return {gst_segment_to_running_time(&segment, GST_FORMAT_TIME, backwards ? to : from),
+          backwards ? to != end : from != pts};
 }
 
 }  // namespace
@@ -219,6 +235,7 @@ void MotionEngine::restart_timing() {
     if (follower_) follower_->set_skipped(0);
   }
   last_running_ns_ = -1;
+  last_clipped_ = false;
   last_interval_ns_ = 0;
 }
 
@@ -250,7 +267,8 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.problem = FrameProblem::kNoTimestamp;
     return report;
   }
-  report.running_time = shown_at(frame, segment);
+  const Showing showing = showing_of(frame, segment);
+  report.running_time = showing.running_time;
   report.stream_time = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, pts);
   if (!GST_CLOCK_TIME_IS_VALID(report.running_time)) {
     report.problem = FrameProblem::kNotShown;
@@ -265,7 +283,10 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   // Sources and decoders mark every buffer, or the first of every group, when they play backwards.
   if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) {
     restart();
-  } else if (running_ns == last_running_ns_) {
+  } else if (last_clipped_ && running_ns == last_running_ns_) {
+    restart();  // shown in place of the frame before, after an accurate seek
+  } else if (last_running_ns_ >= 0 && running_ns >= last_running_ns_ &&
+             running_ns - last_running_ns_ < least_interval_ns(frame.info, segment.rate)) {
     report.problem = FrameProblem::kSameTimestamp;
     return report;
   } else if (running_ns < last_running_ns_) {
@@ -291,10 +312,14 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   report.analyzed = true;
   report.took_ns = HapticSession::monotonic_now_ns() - begin_ns;
 
+  const bool in_place = running_ns == last_running_ns_;
   last_running_ns_ = running_ns;
+  last_clipped_ = showing.clipped;
   last_paced_ns_ = paced_ns;
   if (report.analysis.interval_ns > 0) last_interval_ns_ = report.analysis.interval_ns;
-  schedule_.add({running_ns, hold_time_ns(report.analysis.interval_ns), report.analysis.wrench});
+  if (!in_place) {
+    schedule_.add({running_ns, hold_time_ns(report.analysis.interval_ns), report.analysis.wrench});
+  }
   if (trace_.is_open()) {
     report.trace_failed =
         !trace_.write(running_ns, static_cast<int64_t>(report.stream_time), report.analysis);

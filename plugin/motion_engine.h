@@ -25,7 +25,7 @@ namespace spidar {
 enum class FrameProblem {
   kNone,
   kNoTimestamp,       ///< no PTS, or one that is no time: it cannot be felt in time
-  kSameTimestamp,     ///< as the frame before: no Δt to divide by
+  kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
   kFallingTimestamp,  ///< before the frame before
   kTooSmall,          ///< less memory than the picture needs
   kNotShown,          ///< outside the segment, or cropped to nothing
@@ -134,6 +134,7 @@ class MotionEngine {
   FrameLuma luma_;
   FrameTrace trace_;
   int64_t last_running_ns_ = -1;
+  bool last_clipped_ = false;  // the last frame began before the segment
   int64_t last_paced_ns_ = 0;
   int64_t last_interval_ns_ = 0;
 

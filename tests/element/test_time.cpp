@@ -155,6 +155,57 @@ TEST_F(Time, EqualTimestampsAreNotDividedBy) {
   EXPECT_EQ(h.warnings().size(), 1u);
 }
 
+TEST_F(Time, TimestampsThatDifferByLittleAreNotDividedBy) {
+  for (const GstClockTime apart :
+       {GstClockTime{1}, GstClockTime{100 * GST_USECOND}, kFrame / 8 - 1}) {
+    SCOPED_TRACE(apart);
+    ElementHarness frames;
+    frames.set_caps(make_caps("GRAY8", 320, 240));
+    frames.push_moved(0, 0, 0);
+    frames.push_moved(2, 0, kFrame);
+    frames.push_moved(3, 0, kFrame + apart);
+    frames.push_moved(4, 0, 2 * kFrame);
+    ASSERT_EQ(frames.motions().size(), 3u);
+    EXPECT_NEAR(frames.motions()[2].velocity_x, 50, kTolerance_px / 0.04);
+    EXPECT_EQ(frames.warnings().size(), 1u);
+  }
+}
+
+TEST_F(Time, FramesAtEightTimesTheRateOfTheCapsAreFelt) {
+  for (GstClockTime n = 0; n < 8; ++n)
+    h.push_moved(0.25 * static_cast<double>(n), 0, n * kFrame / 8);
+  EXPECT_EQ(h.motions().size(), 8u);
+  EXPECT_TRUE(h.warnings().empty());
+}
+
+TEST_F(Time, AnAccurateSeekBetweenTwoFramesIsNoReasonToComplain) {
+  // Durations are rounded up in Matroska: two frames begin before the segment and reach into it.
+  const auto push = [this](double dx, GstClockTime pts) {
+    GstBuffer* frame = make_frame(h.info(), dx, 0);
+    GST_BUFFER_DURATION(frame) = kFrame + GST_MSECOND;
+    h.push(frame, pts);
+  };
+  for (const double rate : {1.0, -1.0}) {
+    SCOPED_TRACE(rate);
+    const size_t before = h.motions().size();
+    gst_harness_push_event(h.harness(), gst_event_new_flush_start());
+    gst_harness_push_event(h.harness(), gst_event_new_flush_stop(TRUE));
+    if (rate > 0) {
+      send_segment(rate, 10 * kFrame, GST_CLOCK_TIME_NONE, 10 * kFrame);
+      for (GstClockTime n = 9; n < 13; ++n) push(2.0 * static_cast<double>(n), n * kFrame);
+    } else {
+      send_segment(rate, 0, 10 * kFrame, 10 * kFrame);
+      for (GstClockTime n = 10; n >= 7; --n) {
+        push(2.0 * static_cast<double>(n), n * kFrame - GST_USECOND);
+      }
+    }
+    ASSERT_EQ(h.motions().size(), before + 4);
+    EXPECT_EQ(h.motions()[before + 1].velocity_x, 0) << "shown in place of the one before";
+    EXPECT_NEAR(h.motions()[before + 2].velocity_x, rate * 50, kTolerance_px / 0.04);
+  }
+  EXPECT_TRUE(h.warnings().empty());
+}
+
 TEST_F(Time, FallingTimestampsRestart) {
   h.push_moved(0, 0, 5 * kFrame);
   h.push_moved(2, 0, 6 * kFrame);

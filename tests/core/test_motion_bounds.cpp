@@ -1,0 +1,57 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/force/motion_bounds.h"
+
+namespace spidar {
+namespace {
+
+constexpr int kWidth = 640;
+constexpr double kInterval_s = 0.04;
+constexpr double kFastest_px_s = kWidth / kInterval_s;
+
+ImageMotion motion_of(double x_px_s, double y_px_s, double growth_1_s = 0, double roll_rad_s = 0) {
+  return {{x_px_s, y_px_s}, growth_1_s, roll_rad_s, 10, 1.5};
+}
+
+TEST(MotionBounds, WhatCanBeSeenIsLeftAlone) {
+  const ImageMotion motion = motion_of(-0.6 * kFastest_px_s, 0.79 * kFastest_px_s, -24, 78);
+  const ImageMotion bounded = bound_motion(motion, kWidth, kInterval_s);
+  EXPECT_EQ(bounded.velocity_px_s, motion.velocity_px_s);
+  EXPECT_EQ(bounded.growth_1_s, -24);
+  EXPECT_EQ(bounded.roll_rad_s, 78);
+  EXPECT_EQ(bounded.tracked, 10);
+  EXPECT_EQ(bounded.noise_px_s, 1.5);
+}
+
+TEST(MotionBounds, NothingIsFasterThanAFramesWidthAFrame) {
+  for (const double speed_px_s : {2 * kFastest_px_s, 2e10, 1e300}) {
+    const ImageMotion bounded =
+        bound_motion(motion_of(0.6 * speed_px_s, -0.8 * speed_px_s), kWidth, kInterval_s);
+    // A norm, a quotient, a product.
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * kFastest_px_s;
+    EXPECT_NEAR(bounded.velocity_px_s.x(), 0.6 * kFastest_px_s, rounding);
+    EXPECT_NEAR(bounded.velocity_px_s.y(), -0.8 * kFastest_px_s, rounding);
+  }
+}
+
+TEST(MotionBounds, NothingGrowsOrTurnsFasterThanCanBeSeen) {
+  const ImageMotion bounded = bound_motion(motion_of(0, 0, 1e9, -1e9), kWidth, kInterval_s);
+  EXPECT_EQ(bounded.growth_1_s, 1 / kInterval_s);
+  EXPECT_NEAR(bounded.roll_rad_s, -std::acos(-1.0) / kInterval_s, 1e-12);
+}
+
+TEST(MotionBounds, WhatIsNotANumberIsNoMotion) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const ImageMotion bounded = bound_motion(motion_of(bad, 1, bad, -bad), kWidth, kInterval_s);
+    EXPECT_EQ(bounded.velocity_px_s.norm(), 0);
+    EXPECT_EQ(bounded.growth_1_s, 0);
+    EXPECT_EQ(bounded.roll_rad_s, 0);
+  }
+}
+
+}  // namespace
+}  // namespace spidar
