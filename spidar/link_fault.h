@@ -18,8 +18,9 @@ enum class LinkFault : uint8_t {
   kWrongReply,   ///< of the right length, but not the answer
   kWrongEcho,    ///< the D/A values that the board repeats were not sent
   kCounterJump,  ///< a counter moved further than a hand can
+  kUnguarded,    ///< the guardian has ended: killed, or this process was stopped for too long
 };
-constexpr size_t kLinkFaults = 10;
+constexpr size_t kLinkFaults = 11;
 
 /// "none", "time-out", "stall", "short packet", …
 constexpr const char* to_string(LinkFault fault) noexcept {
@@ -44,6 +45,8 @@ constexpr const char* to_string(LinkFault fault) noexcept {
       return "wrong echo";
     case LinkFault::kCounterJump:
       return "counter jump";
+    case LinkFault::kUnguarded:
+      return "guardian ended";
   }
   return "unknown";
 }

@@ -1,5 +1,6 @@
 #include "spidar/boards/board_device.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <pthread.h>
@@ -35,6 +36,7 @@ ExchangeStatus status_of(LinkFault fault) noexcept {
     case LinkFault::kTimeout:
       return ExchangeStatus::kTimeout;
     case LinkFault::kGone:
+    case LinkFault::kUnguarded:
       return ExchangeStatus::kLost;
     default:
       return ExchangeStatus::kBadReply;
@@ -75,6 +77,7 @@ void BoardDevice::open() {
     }
     last_ = {};
     errors_in_a_row_ = 0;
+    pulling_ = unguarded_ = false;
     if (settings_.threaded) start();
   } catch (...) {
     guardians_.clear();
@@ -124,9 +127,34 @@ void BoardDevice::run() noexcept {
   }
 }
 
+/// False when a connection has lost its guardian.
+bool BoardDevice::guarded(bool pulling) noexcept {
+  bool all = true;
+  for (const auto& guardian : guardians_) all &= guardian->watch(pulling);
+  return all;
+}
+
 BoardDevice::Reply BoardDevice::answer(const Request& request) noexcept {
   Reply reply;
   reply.number = request.number;
+  reply.fault = LinkFault::kUnguarded;
+  if (unguarded_) return reply;
+  const bool pulls = std::any_of(request.volts.volt.begin(), request.volts.volt.end(),
+                                 [](double volt) { return volt != 0; });
+  pulling_ |= pulls;
+  if (guarded(pulling_)) exchange_now(request, reply);
+  if (reply.fault == LinkFault::kNone) pulling_ = pulls;
+  // Asked again: what went out may be older than the zeros that a guardian sent when this process
+  // was stopped.
+  if (guarded(pulling_)) return reply;
+  unguarded_ = true;
+  put_out_zero();
+  count(LinkFault::kUnguarded);
+  reply.fault = LinkFault::kUnguarded;
+  return reply;
+}
+
+void BoardDevice::exchange_now(const Request& request, Reply& reply) noexcept {
   const int64_t begin_ns = monotonic_now_ns();
   reply.fault = board_->cycle(request.volts, reply.reading, begin_ns + kTransfer_ns);
   count(reply.fault);
@@ -137,7 +165,6 @@ BoardDevice::Reply BoardDevice::answer(const Request& request) noexcept {
              (needs_recovery(reply.fault) || ++errors_in_a_row_ % kErrorsToRecover == 0)) {
     board_->recover();
   }
-  return reply;
 }
 
 void BoardDevice::count(LinkFault fault) noexcept {
@@ -174,9 +201,9 @@ ExchangeStatus BoardDevice::exchange(const MotorVolts& volts, DeviceReading& rea
   return status_of(newest.fault);
 }
 
-/// True when the motors have got their zero.
 bool BoardDevice::bring_to_zero() noexcept {
-  const MotorVolts from = last_;
+  // Volts that a guardian has taken away are not given again.
+  const MotorVolts from = unguarded_ ? MotorVolts{} : last_;
   double largest_V = 0;
   for (const double volt : from.volt) largest_V = std::fmax(largest_V, std::fabs(volt));
   DeviceReading reading;
@@ -188,6 +215,11 @@ bool BoardDevice::bring_to_zero() noexcept {
     board_->cycle(volts, reading, now_ns + kTransfer_ns);
     if (settings_.threaded) sleep_until_ns(now_ns + kSecond_ns / 1000);
   }
+  return put_out_zero();
+}
+
+bool BoardDevice::put_out_zero() noexcept {
+  DeviceReading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
     // A counter that jumped or an answer that is strange comes from a board that was told.

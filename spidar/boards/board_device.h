@@ -21,6 +21,9 @@ namespace spidar {
 /// take locks, memory and time as they like; the haptic thread only waits for them, up to
 /// kReplyWait_ns. A reply that comes later serves the next tick. Volts that are given while an
 /// exchange is under way are queued, so that the link never idles.
+///
+/// Motors pull only as long as every connection has its guardian: without one they are taken to
+/// zero at once, and the device is lost until it is opened again, with a new guardian.
 class SPIDAR_API BoardDevice final : public Device {
  public:
   /// Of a tick of 1 ms; the rest is for the loop.
@@ -58,6 +61,10 @@ class SPIDAR_API BoardDevice final : public Device {
   void stop() noexcept;
   void run() noexcept;
   Reply answer(const Request& request) noexcept;
+  void exchange_now(const Request& request, Reply& reply) noexcept;
+  bool guarded(bool pulling) noexcept;
+  /// True when the motors have got their zero; bring_to_zero() by a ramp.
+  bool put_out_zero() noexcept;
   bool bring_to_zero() noexcept;
   void count(LinkFault fault) noexcept;
 
@@ -68,7 +75,10 @@ class SPIDAR_API BoardDevice final : public Device {
   bool zeroed_ = false;  // counts, once
   MotorVolts last_;
   uint32_t number_ = 0;
-  int errors_in_a_row_ = 0;  // of the thread that exchanges
+  // Of the thread that exchanges.
+  int errors_in_a_row_ = 0;
+  bool pulling_ = false;    // the board may have other volts than zero
+  bool unguarded_ = false;  // its motors are at zero until it is opened again
 
   std::thread thread_;
   std::atomic<bool> stop_{false};

@@ -10,7 +10,7 @@ namespace {
 constexpr int64_t kEnquiry_ns = 10'000'000;  // the published wait
 
 static_assert(LastWill::kMaxPackets >= uart_motor::kMaxBoards);
-static_assert(LastWill::kMaxLength >= uart_motor::kMaxCycleLength);
+static_assert(LastWill::kMaxLength >= uart_motor::kZerosBefore + uart_motor::kMaxCycleLength);
 
 }  // namespace
 
@@ -147,9 +147,11 @@ std::vector<LastWill> UartBoard::last_wills() const {
     for (const Station& station : stations_) {
       if (station.line != line.get()) continue;
       auto& packet = will->packet[will->packets];
-      const size_t length =
-          uart_motor::encode_current(station.id, station.info, {}, MutableBytes(packet));
-      will->length[will->packets++] = static_cast<uint32_t>(length);
+      // A host that ends within a packet leaves a board that waits for the rest of it.
+      const size_t before = will->packets == 0 ? uart_motor::kZerosBefore : 0;
+      const size_t length = uart_motor::encode_current(
+          station.id, station.info, {}, {packet.data() + before, packet.size() - before});
+      will->length[will->packets++] = static_cast<uint32_t>(before + length);
     }
     result.push_back(*will);
   }

@@ -2,19 +2,25 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "spidar/device.h"
+#include "spidar/monotonic.h"
 
 extern char** environ;
 
 namespace spidar {
 namespace {
+
+/// An answer is awaited for so long: a will takes two seconds at most to be carried out.
+constexpr time_t kPatience_s = 5;
 
 std::string program() {
   const char* named = std::getenv("SPIDAR_GUARDIAN");
@@ -39,11 +45,36 @@ int spawn(const std::string& path, int its_end, pid_t& process) {
   return error;
 }
 
+/// The will, the device's file, and a descriptor of this process by which its end is seen.
+bool send_will(int socket, const LastWill& will) {
+  const int self = static_cast<int>(syscall(SYS_pidfd_open, getpid(), 0));
+  if (self < 0) return false;
+  const std::array<int, 2> files{will.file, self};
+  LastWill sent = will;
+  iovec bytes{&sent, sizeof sent};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof files)> space{};
+  msghdr message{};
+  message.msg_iov = &bytes;
+  message.msg_iovlen = 1;
+  message.msg_control = space.data();
+  message.msg_controllen = space.size();
+  cmsghdr* rights = CMSG_FIRSTHDR(&message);
+  rights->cmsg_level = SOL_SOCKET;
+  rights->cmsg_type = SCM_RIGHTS;
+  rights->cmsg_len = CMSG_LEN(sizeof files);
+  std::memcpy(CMSG_DATA(rights), files.data(), sizeof files);
+  const bool all = sendmsg(socket, &message, MSG_NOSIGNAL) == ssize_t{sizeof sent};
+  const int error = errno;
+  ::close(self);
+  errno = error;
+  return all;
+}
+
 }  // namespace
 
-Guardian::Guardian(const std::string& device, const LastWill& will) {
+Guardian::Guardian(const std::string& device, const LastWill& will) : owner_(getpid()) {
   std::array<int, 2> ends{};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw DeviceError(device + ": no guardian: " + std::strerror(errno));
   const std::string path = program();
   const int error = spawn(path, ends[1], process_);
@@ -55,30 +86,76 @@ Guardian::Guardian(const std::string& device, const LastWill& will) {
         device + ": no guardian to zero the motors should this process be killed: " + path + ": " +
         std::strerror(error) + "; install spidar-guardian, or name it in SPIDAR_GUARDIAN");
   }
-  // The answer is 0 when it stands ready, else errno.
-  unsigned char answer = 0;
-  const bool sent = send(socket_, &will, sizeof will, MSG_NOSIGNAL) == ssize_t{sizeof will};
-  if (sent && recv(socket_, &answer, 1, 0) == 1 && answer == 0) return;
-  finish(true);
-  throw DeviceError(device + ": the guardian " + path + " cannot open " + will.path.data() + ": " +
-                    (answer != 0 ? std::strerror(answer) : "it does not answer"));
+  const timeval patience{kPatience_s, 0};
+  setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  char answer = 0;
+  if (!send_will(socket_, will)) {
+    const std::string why = std::strerror(errno);
+    finish();
+    throw DeviceError(device + ": the guardian " + path + " cannot be told of the board: " + why);
+  }
+  if (recv(socket_, &answer, 1, 0) == 1) return;
+  finish();
+  throw DeviceError(device + ": the guardian " + path +
+                    " does not answer; is it of the same version as this library?");
 }
 
 Guardian::~Guardian() {
-  finish(true);
+  if (socket_ >= 0 && getpid() == owner_) say(HostWord::kDismissed);
+  finish();
 }
 
 void Guardian::carry_out() noexcept {
-  finish(false);
+  finish();
 }
 
-void Guardian::finish(bool dismissed) noexcept {
+bool Guardian::say(HostWord word) noexcept {
+  const ssize_t sent = send(socket_, &word, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
+  // A socket that is full is one of a guardian that sleeps, which is seen by its answers.
+  return sent == 1 || errno == EAGAIN || errno == EINTR;
+}
+
+bool Guardian::watch(bool pulling) noexcept {
+  if (socket_ < 0 || getpid() != owner_) return false;
+  GuardianWord answer{};
+  ssize_t got = 0;
+  while ((got = recv(socket_, &answer, 1, MSG_DONTWAIT)) > 0) {
+    zeroed_ |= answer == GuardianWord::kZeroed;
+    unanswered_ns_ = 0;
+  }
+  if (zeroed_ || got == 0 || (errno != EAGAIN && errno != EINTR)) return false;
+  const int64_t now_ns = monotonic_now_ns();
+  if (unanswered_ns_ != 0 && now_ns - unanswered_ns_ > kAnswer_ns) {
+    kill(process_, SIGKILL);
+    return false;
+  }
+  const bool due = pulling && now_ns - said_ns_ >= kBeat_ms * kSecond_ns / 1000;
+  if (pulling == pulling_ && !due) return true;
+  pulling_ = pulling;
+  said_ns_ = now_ns;
+  if (unanswered_ns_ == 0) unanswered_ns_ = now_ns;
+  return say(pulling ? HostWord::kPulling : HostWord::kResting);
+}
+
+/// Waits until it has ended.
+void Guardian::finish() noexcept {
   if (socket_ < 0) return;
-  if (dismissed) send(socket_, &kDismissed, 1, MSG_NOSIGNAL);
+  // A forked child has its copy of the socket to close, no more.
+  if (getpid() == owner_) {
+    // Not close(): a forked child may have the socket, too.
+    shutdown(socket_, SHUT_WR);
+    char answer = 0;
+    ssize_t got = 0;
+    do {
+      got = recv(socket_, &answer, 1, 0);
+    } while (got > 0 || (got < 0 && errno == EINTR));
+    // It is stopped. As its end of the socket is open, the number is still its own.
+    if (got < 0 && errno == EAGAIN) kill(process_, SIGKILL);
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
   ::close(socket_);
   socket_ = -1;
-  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
-  }
 }
 
 }  // namespace spidar

@@ -1,4 +1,4 @@
-/// What is to be sent to a board when its host process is gone.
+/// What a guardian sends to a board when its host cannot, and how the two speak.
 #pragma once
 
 #include <array>
@@ -7,7 +7,8 @@
 
 namespace spidar {
 
-/// Packets of one connection. Plain bytes: it goes through a pipe to another program.
+/// Packets of one connection that take its motors to zero. Plain bytes: it goes through a socket to
+/// another program, together with the device's file.
 struct LastWill {
   enum class Wire : uint32_t {
     kUsb,       ///< usbfs: bulk or interrupt packets to one endpoint
@@ -15,7 +16,7 @@ struct LastWill {
   };
   static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
   static constexpr size_t kMaxLength = 512;
-  static constexpr uint32_t kMagic = 0x53504731;  // "SPG1": this layout
+  static constexpr uint32_t kMagic = 0x53504732;  // "SPG2": this layout
 
   uint32_t magic = kMagic;
   Wire wire = Wire::kUsb;
@@ -24,10 +25,32 @@ struct LastWill {
   uint32_t packets = 0;
   std::array<uint32_t, kMaxPackets> length{};
   std::array<std::array<uint8_t, kMaxLength>, kMaxPackets> packet{};
-  std::array<char, 256> path{};  ///< of the device file, zero-terminated
+  /// The device's file, open, and claimed or locked: the guardian gets a descriptor of the same
+  /// open file, so that what the host has claimed is the guardian's, too. A number is of one
+  /// process only: each has its own.
+  int file = -1;
 };
 
-/// What the host says at last when the will is not to be carried out.
-constexpr char kDismissed = 'q';
+/// A host whose motors pull sends a word at least every kBeat_ms. When none has come for
+/// kSilence_ms it is taken for stopped, by a signal, a debugger, or a fault of its own: motors that
+/// pull then get their zeros.
+constexpr int kBeat_ms = 10;
+constexpr int kSilence_ms = 50;
+
+/// What a host says to its guardian, one byte a message. Every word but the last has an answer, by
+/// which the host knows that its guardian is awake.
+enum class HostWord : char {
+  kPulling = 'p',    ///< the motors pull: the next word comes soon
+  kResting = 'r',    ///< they are at zero: silence is harmless
+  kDismissed = 'q',  ///< the will is not to be carried out
+};
+
+/// What it answers; first of all that it is ready.
+enum class GuardianWord : char {
+  kWatching = 'w',
+  /// The host was silent, and the zeros are sent. They are sent again every kSilence_ms until the
+  /// guardian is dismissed: a host that goes on may have old volts to send before it hears of this.
+  kZeroed = 'z',
+};
 
 }  // namespace spidar

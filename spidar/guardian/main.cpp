@@ -1,17 +1,21 @@
-// Waits for its host to die, then takes the motors of one board to zero. Started by Guardian with a
-// socket as standard input.
+// Waits until its host dies or falls silent, then takes the motors of one board to zero. Started by
+// Guardian with a socket as standard input.
 //
-// The kernel closes a dead process' files in no promised order and releases the board while it does
-// so: claiming is tried for a second. When a new host is faster, it has zeroed the motors itself.
+// The device's file comes from the host, open and claimed. The claim lasts as long as one process
+// has that file, so that a host that is stopped, or has left the file to a child, does not keep the
+// zeros from the board, and no new host gets the board before them.
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
-#include <fcntl.h>
 #include <linux/usbdevice_fs.h>
-#include <sys/file.h>
+#include <poll.h>
+#include <sched.h>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -20,10 +24,12 @@
 
 namespace {
 
+using spidar::GuardianWord;
+using spidar::HostWord;
 using spidar::LastWill;
 
 constexpr int kTries = 100;
-constexpr unsigned kTransfer_ms = 20;
+constexpr int kTransfer_ms = 20;
 
 void pause_10ms() {
   const timespec duration{0, 10'000'000};
@@ -31,67 +37,126 @@ void pause_10ms() {
 }
 
 /// True when all packets are sent, or never can be.
-bool send_usb(int file, LastWill& will) {
+bool send_usb(LastWill& will) {
+  // Nothing when it is claimed already; a host that has closed the board has released it.
   unsigned interface = will.interface_number;
-  if (ioctl(file, USBDEVFS_CLAIMINTERFACE, &interface) != 0) return errno == ENODEV;
+  if (ioctl(will.file, USBDEVFS_CLAIMINTERFACE, &interface) != 0) return errno == ENODEV;
   for (uint32_t i = 0; i < will.packets; ++i) {
     usbdevfs_bulktransfer transfer{};
     transfer.ep = will.endpoint;
     transfer.len = will.length[i];
     transfer.timeout = kTransfer_ms;
     transfer.data = will.packet[i].data();
-    if (ioctl(file, USBDEVFS_BULK, &transfer) >= 0) continue;
+    if (ioctl(will.file, USBDEVFS_BULK, &transfer) >= 0) continue;
     if (errno == ENODEV || errno == ESHUTDOWN) return true;
     unsigned endpoint = will.endpoint;
-    ioctl(file, USBDEVFS_CLEAR_HALT, &endpoint);
+    ioctl(will.file, USBDEVFS_CLEAR_HALT, &endpoint);
     return false;
   }
   return true;
 }
 
-bool send_terminal(int file, const LastWill& will) {
-  if (flock(file, LOCK_EX | LOCK_NB) != 0) return false;
+/// As send_usb(). The file does not block.
+bool send_terminal(const LastWill& will) {
   for (uint32_t i = 0; i < will.packets; ++i) {
-    if (write(file, will.packet[i].data(), will.length[i]) != ssize_t{will.length[i]})
-      return errno == EIO || errno == ENXIO;
+    for (size_t sent = 0; sent < will.length[i];) {
+      const ssize_t more = write(will.file, will.packet[i].data() + sent, will.length[i] - sent);
+      if (more < 0 && errno != EAGAIN && errno != EINTR) return errno == EIO || errno == ENXIO;
+      if (more > 0) sent += static_cast<size_t>(more);
+      pollfd room{will.file, POLLOUT, 0};
+      if (more <= 0 && poll(&room, 1, kTransfer_ms) == 0) return false;
+    }
   }
   return true;
 }
 
-bool valid(const LastWill& will) {
-  bool lengths = will.packets <= LastWill::kMaxPackets;
-  for (uint32_t i = 0; lengths && i < will.packets; ++i)
-    lengths = will.length[i] <= LastWill::kMaxLength;
-  return lengths && will.magic == LastWill::kMagic && will.path.back() == '\0';
+bool carry_out(LastWill& will) {
+  for (int i = 0; i < kTries; ++i) {
+    if (will.wire == LastWill::Wire::kUsb ? send_usb(will) : send_terminal(will)) return true;
+    pause_10ms();
+  }
+  return false;
+}
+
+/// The will with a descriptor of this process for the device's file, and one of the host itself.
+/// False when what is on the socket is not from a host of this version.
+bool receive(LastWill& will, int& host) {
+  std::array<int, 2> files{-1, -1};
+  iovec bytes{&will, sizeof will};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof files)> space{};
+  msghdr message{};
+  message.msg_iov = &bytes;
+  message.msg_iovlen = 1;
+  message.msg_control = space.data();
+  message.msg_controllen = space.size();
+  if (recvmsg(STDIN_FILENO, &message, MSG_CMSG_CLOEXEC) != ssize_t{sizeof will}) return false;
+  const cmsghdr* rights = CMSG_FIRSTHDR(&message);
+  if (!rights || rights->cmsg_type != SCM_RIGHTS || rights->cmsg_len != CMSG_LEN(sizeof files))
+    return false;
+  std::memcpy(files.data(), CMSG_DATA(rights), sizeof files);
+  will.file = files[0];
+  host = files[1];
+  if (will.magic != LastWill::kMagic || will.packets > LastWill::kMaxPackets) return false;
+  for (uint32_t i = 0; i < will.packets; ++i)
+    if (will.length[i] > LastWill::kMaxLength) return false;
+  return true;
+}
+
+bool say(GuardianWord word) {
+  return send(STDIN_FILENO, &word, 1, MSG_DONTWAIT | MSG_NOSIGNAL) == 1;
+}
+
+/// Carries the will out whenever the host is silent while its motors pull. Returns when the host
+/// has ended; false when it has dismissed its guardian.
+bool watch(int host, LastWill& will) {
+  bool pulling = false, zeroed = false;
+  for (;;) {
+    std::array<pollfd, 2> events{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{host, POLLIN, 0}};
+    const int ready =
+        poll(events.data(), events.size(), pulling || zeroed ? spidar::kSilence_ms : -1);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready < 0) return true;
+    if (ready == 0) {
+      carry_out(will);
+      zeroed = true;
+    } else if (events[0].revents == 0) {
+      return true;  // no last word: a host that has dismissed its guardian may have ended since
+    } else {
+      HostWord word{};
+      if (recv(STDIN_FILENO, &word, 1, 0) != 1) return true;
+      if (word == HostWord::kDismissed) return false;
+      pulling = word == HostWord::kPulling;
+    }
+    say(zeroed ? GuardianWord::kZeroed : GuardianWord::kWatching);
+  }
+}
+
+/// On a machine that is busy, or short of memory, it is needed as much. What is not allowed is done
+/// without.
+void ask_for_promptness() {
+  sched_param parameters{};
+  parameters.sched_priority = sched_get_priority_min(SCHED_FIFO);
+  sched_setscheduler(0, SCHED_FIFO, &parameters);
+  mlockall(MCL_CURRENT | MCL_FUTURE);
 }
 
 }  // namespace
 
 int main() {
   prctl(PR_SET_NAME, "spidar-guardian");
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT}) signal(number, SIG_IGN);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGTSTP})
+    signal(number, SIG_IGN);
+  // What else the host had open would otherwise stay open as long as this does.
+  close_range(STDERR_FILENO + 1, ~0U, 0);
   LastWill will;
-  if (recv(STDIN_FILENO, &will, sizeof will, MSG_WAITALL) != ssize_t{sizeof will} || !valid(will)) {
+  int host = -1;
+  if (!receive(will, host)) {
     std::fputs("spidar-guardian: started by gst-spidar, not by hand\n", stderr);
     return 2;
   }
-  // What else the host had open would otherwise stay open as long as this does.
-  close_range(STDERR_FILENO + 1, ~0U, 0);
   if (chdir("/") != 0) return 1;
-  const bool usb = will.wire == LastWill::Wire::kUsb;
-  const int file = open(will.path.data(), (usb ? O_RDWR : O_WRONLY) | O_NOCTTY | O_CLOEXEC);
-  const auto answer = static_cast<unsigned char>(file < 0 ? errno : 0);
-  if (send(STDIN_FILENO, &answer, 1, MSG_NOSIGNAL) != 1 || file < 0) return 1;
-
-  char word = 0;
-  ssize_t got = 0;
-  do {
-    got = read(STDIN_FILENO, &word, 1);
-  } while (got < 0 && errno == EINTR);
-  if (got == 1 && word == spidar::kDismissed) return 0;
-  for (int i = 0; i < kTries; ++i) {
-    if (usb ? send_usb(file, will) : send_terminal(file, will)) return 0;
-    pause_10ms();
-  }
-  return 1;
+  ask_for_promptness();
+  if (!say(GuardianWord::kWatching)) return 1;
+  if (!watch(host, will)) return 0;
+  return carry_out(will) ? 0 : 1;
 }

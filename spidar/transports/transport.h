@@ -41,8 +41,8 @@ class SPIDAR_API Transport {
   /// milliseconds.
   virtual void recover() noexcept = 0;
 
-  /// Where another process reaches the same board, without packets; empty when none does. After
-  /// open().
+  /// By which another process reaches the same board, without packets; empty when none can. After
+  /// open(). Throws DeviceError when there is no file to pass on.
   virtual std::optional<LastWill> last_will() const = 0;
 
   /// Safe to call twice.

@@ -1,6 +1,5 @@
 #include "spidar/transports/tty_transport.h"
 
-#include <algorithm>
 #include <asm/termbits.h>
 #include <cerrno>
 #include <cstring>
@@ -150,7 +149,7 @@ void TtyTransport::recover() noexcept {
 std::optional<LastWill> TtyTransport::last_will() const {
   LastWill will;
   will.wire = LastWill::Wire::kTerminal;
-  std::copy_n(path_.begin(), std::min(path_.size(), will.path.size() - 1), will.path.begin());
+  will.file = file_;
   return will;
 }
 

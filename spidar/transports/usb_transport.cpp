@@ -1,6 +1,7 @@
 #include "spidar/transports/usb_transport.h"
 
 #include <algorithm>
+#include <poll.h>
 #include <utility>
 
 #include <libusb.h>
@@ -103,6 +104,17 @@ int setting_with(libusb_device* device, const UsbPipes& pipes) {
   }
   libusb_free_config_descriptor(config);
   return found;
+}
+
+/// The descriptor of the only device that is open in the context; −1 when there is none. usbfs says
+/// by POLLOUT that a transfer is done, and libusb waits for it on nothing else.
+int open_file(libusb_context* context) {
+  const libusb_pollfd** const list = libusb_get_pollfds(context);
+  int file = -1;
+  for (const libusb_pollfd** entry = list; entry && *entry; ++entry)
+    if (((*entry)->events & POLLOUT) != 0) file = (*entry)->fd;
+  libusb_free_pollfds(list);
+  return file;
 }
 
 }  // namespace
@@ -250,8 +262,9 @@ std::optional<LastWill> UsbTransport::last_will() const {
   will.wire = LastWill::Wire::kUsb;
   will.interface_number = kInterface;
   will.endpoint = pipes_.out;
-  const std::string file = device_.device_file();
-  std::copy_n(file.begin(), std::min(file.size(), will.path.size() - 1), will.path.begin());
+  will.file = open_file(context_.get());
+  if (will.file < 0)
+    throw DeviceError(name_ + ": libusb does not say which file it has opened for the board");
   return will;
 }
 

@@ -40,9 +40,22 @@ struct UsbPort {
 
 constexpr size_t kPorts = 4;
 
+/// An open device file, as the processes see it that have a descriptor of it: it is a socket, known
+/// by its inode.
+struct SharedFile {
+  std::atomic<uint64_t> inode{0};
+  std::atomic<size_t> port{0};
+  std::atomic<int> address{0};
+  std::atomic<bool> claimed{false};
+};
+
+constexpr size_t kSharedFiles = 64;
+
 struct BusState {
   std::atomic<int> last_address{0};
   std::array<UsbPort, kPorts> port;
+  std::atomic<size_t> files_opened{0};
+  std::array<SharedFile, kSharedFiles> file;  ///< the newest ones
 };
 
 /// The bus of this process: shared with the processes that have the same $SPIDAR_EMULATED_BUS, a

@@ -15,8 +15,10 @@
 #include <linux/usbdevice_fs.h>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 #include <vector>
@@ -55,23 +57,23 @@ std::unique_ptr<EmulatedBoard> make_board(UsbKind kind, EmulatedMotors& motors) 
 }
 
 struct UsbFile {
-  explicit UsbFile(size_t number)
-      : port_number(number),
-        port(bus().port[number]),
-        address(port.address),
+  explicit UsbFile(SharedFile& with)
+      : shared(with),
+        port_number(shared.port),
+        port(bus().port[port_number]),
         motors(port),
         board(make_board(port.kind, motors)) {}
 
+  SharedFile& shared;
   const size_t port_number;
   UsbPort& port;
-  const int address;
   PortMotors motors;
   std::unique_ptr<EmulatedBoard> board;
   int file = -1;
-  int other_end = -1;
+  int other_end = -1;  // −1: another process has it
+  int claim_lock = -1;
   bool full = false;
   bool connected = true;
-  bool claimed = false;
   std::deque<usbdevfs_urb*> waiting;  // IN, for the board to say something
   std::deque<usbdevfs_urb*> done;
 };
@@ -91,6 +93,36 @@ std::array<std::atomic<UsbFile*>, kMaxFiles>& files() {
 UsbFile* find(int file) {
   return file >= 0 && file < static_cast<int>(kMaxFiles) ? files()[static_cast<size_t>(file)].load()
                                                          : nullptr;
+}
+
+/// 0 when it is no socket.
+uint64_t inode_of(int file) {
+  struct stat status {};
+  return fstat(file, &status) == 0 && S_ISSOCK(status.st_mode) ? status.st_ino : 0;
+}
+
+/// Room for one more of the bus, in place of the oldest.
+SharedFile& share(int file, size_t port) {
+  SharedFile& shared = bus().file[bus().files_opened++ % kSharedFiles];
+  shared.claimed = false;
+  shared.port = port;
+  shared.address = bus().port[port].address.load();
+  shared.inode = inode_of(file);
+  return shared;
+}
+
+/// A file that another process has opened and passed on to this one.
+UsbFile* adopt(int file) {
+  const uint64_t inode = file >= 0 && file < static_cast<int>(kMaxFiles) ? inode_of(file) : 0;
+  if (inode == 0) return nullptr;
+  for (SharedFile& shared : bus().file) {
+    if (shared.inode != inode) continue;
+    auto* f = new UsbFile(shared);
+    f->file = file;
+    files()[static_cast<size_t>(file)] = f;
+    return f;
+  }
+  return nullptr;
 }
 
 int& lock_file() {
@@ -123,12 +155,13 @@ void disconnect(UsbFile& f, int errno_first) {
   f.connected = false;
   for (usbdevfs_urb* urb : f.waiting) finish(f, urb, errno_first ? -errno_first : -ESHUTDOWN, 0);
   f.waiting.clear();
+  if (f.other_end < 0) return;
   make_unready(f);
   syscall(SYS_close, f.other_end);
 }
 
 bool still_there(UsbFile& f) {
-  if (f.port.kind == UsbKind::kNone || f.port.address != f.address) disconnect(f, 0);
+  if (f.port.kind == UsbKind::kNone || f.port.address != f.shared.address) disconnect(f, 0);
   return f.connected;
 }
 
@@ -164,7 +197,7 @@ void answer(UsbFile& f) {
 }
 
 int submit(UsbFile& f, usbdevfs_urb* urb) {
-  if (!f.claimed && urb->type != USBDEVFS_URB_TYPE_CONTROL) return -ENOENT;
+  if (!f.shared.claimed && urb->type != USBDEVFS_URB_TYPE_CONTROL) return -ENOENT;
   if (const int status = status_of(f.port.fault)) {
     finish(f, urb, status, 0);
   } else if (urb->endpoint & kIn) {
@@ -197,41 +230,54 @@ int discard(UsbFile& f, void* urb) {
 
 /// The synchronous transfer that libusb never uses, but spidar-guardian does.
 int bulk(UsbFile& f, usbdevfs_bulktransfer& transfer) {
-  if (!f.claimed) return -ENOENT;
+  if (!f.shared.claimed) return -ENOENT;
   if (const int status = status_of(f.port.fault)) return status;
   if (transfer.ep & kIn) return -ETIMEDOUT;
   f.board->receive({static_cast<const uint8_t*>(transfer.data), transfer.len});
   return static_cast<int>(transfer.len);
 }
 
-/// Between processes by a lock that ends with its owner, within one by looking.
+/// 0 when it is a lock or unlock of the port for everyone who has a copy of the descriptor.
+int lock_port(int file, size_t port, short type) {
+  struct flock lock {};
+  lock.l_type = type;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = static_cast<off_t>(port);
+  lock.l_len = 1;
+  return fcntl(file, F_OFD_SETLK, &lock);
+}
+
+/// Between processes by a lock, within one by looking. What is passed on is claimed already; once
+/// its first owner has died, others could claim it, too, which usbfs would not let them.
 int claim(UsbFile& f, bool detach) {
+  if (f.shared.claimed) return 0;
   if (f.port.has_driver && !detach) return -EBUSY;
   f.port.has_driver = false;
   for (const auto& entry : files()) {
     const UsbFile* other = entry.load();
-    if (other && other != &f && other->port_number == f.port_number && other->claimed)
+    if (other && other != &f && other->port_number == f.port_number && other->shared.claimed)
       return -EBUSY;
   }
-  struct flock lock {};
-  lock.l_type = F_WRLCK;
-  lock.l_whence = SEEK_SET;
-  lock.l_start = static_cast<off_t>(f.port_number);
-  lock.l_len = 1;
-  if (lock_file() >= 0 && fcntl(lock_file(), F_SETLK, &lock) != 0) return -EBUSY;
-  f.claimed = true;
+  if (lock_file() >= 0) {
+    // A lock of its own: what a descriptor's copies have in common ends with the last of them.
+    const std::string path = "/proc/self/fd/" + std::to_string(lock_file());
+    const int own = real_open(path.c_str(), O_RDWR | O_CLOEXEC, 0);
+    if (own < 0 || lock_port(own, f.port_number, F_WRLCK) != 0) {
+      syscall(SYS_close, own);
+      return -EBUSY;
+    }
+    f.claim_lock = own;
+  }
+  f.shared.claimed = true;
   return 0;
 }
 
 int release(UsbFile& f) {
-  if (!f.claimed) return 0;
-  f.claimed = false;
-  struct flock lock {};
-  lock.l_type = F_UNLCK;
-  lock.l_whence = SEEK_SET;
-  lock.l_start = static_cast<off_t>(f.port_number);
-  lock.l_len = 1;
-  if (lock_file() >= 0) fcntl(lock_file(), F_SETLK, &lock);
+  f.shared.claimed = false;
+  if (f.claim_lock < 0) return 0;
+  lock_port(f.claim_lock, f.port_number, F_UNLCK);
+  syscall(SYS_close, f.claim_lock);
+  f.claim_lock = -1;
   return 0;
 }
 
@@ -287,7 +333,7 @@ int open_usb_file(size_t port) {
   const int smallest = 1;
   setsockopt(ends[0], SOL_SOCKET, SO_SNDBUF, &smallest, sizeof smallest);
   const std::lock_guard<std::mutex> lock(mutex());
-  auto* f = new UsbFile(port);
+  auto* f = new UsbFile(share(ends[0], port));
   f->file = ends[0];
   f->other_end = ends[1];
   make_unready(*f);
@@ -296,9 +342,11 @@ int open_usb_file(size_t port) {
 }
 
 bool usb_ioctl(int file, unsigned long request, void* argument, int& result) {
-  if (!find(file)) return false;
+  // 'U' is usbfs'; other files are asked other things, very often.
+  if (_IOC_TYPE(request) != 'U') return false;
   const std::lock_guard<std::mutex> lock(mutex());
   UsbFile* f = find(file);
+  if (!f) f = adopt(file);
   if (!f) return false;
   result = handle(*f, request, argument);
   if (result < 0) {
@@ -314,8 +362,10 @@ void forget_usb_file(int file) {
   UsbFile* f = find(file);
   if (!f) return;
   files()[static_cast<size_t>(file)] = nullptr;
-  release(*f);
-  if (f->connected) syscall(SYS_close, f->other_end);
+  if (f->other_end >= 0) {
+    release(*f);
+    if (f->connected) syscall(SYS_close, f->other_end);
+  }
   delete f;
 }
 

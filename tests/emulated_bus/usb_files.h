@@ -8,14 +8,15 @@ namespace spidar::test {
 /// open(2) without emulation.
 int real_open(const char* path, int flags, unsigned mode);
 
-/// Claims are locks in this file, so that they end with the process that has them; −1: claims are
-/// of this process only.
+/// Claims are locks in this file, so that they end with the last process that has inherited the
+/// device file; −1: claims are of this process only.
 void set_lock_file(int file);
 
 /// A descriptor for the device in that port, or −1 and errno.
 int open_usb_file(size_t port);
 
-/// As ioctl(2), for a descriptor of open_usb_file(); false when it is not one.
+/// As ioctl(2), for a descriptor of open_usb_file(), also one that another process has passed on;
+/// false when it is not one.
 bool usb_ioctl(int file, unsigned long request, void* argument, int& result);
 
 /// Before close(2) of any descriptor.

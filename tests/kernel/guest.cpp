@@ -57,20 +57,29 @@ bool make_linux() {
   _exit(result);
 }
 
-/// Pulls until it is killed.
-[[noreturn]] void pull_for_ever(const char* profile) {
+/// Pulls until the board is lost; ends by a signal only. `forks`: a child that does nothing has
+/// copies of all files for the longer time.
+[[noreturn]] void pull(const char* profile, bool forks) {
+  constexpr unsigned kLonger_s = 3;
   const auto device = spidar::make_device("usb", spidar::load_profile(profile));
   device->open();
+  if (forks && fork() == 0) {
+    sleep(kLonger_s);
+    _exit(0);
+  }
   spidar::MotorVolts volts;
   volts.volt.fill(1);
   spidar::DeviceReading reading;
-  for (;;) device->exchange(volts, reading);
+  while (device->exchange(volts, reading) != spidar::ExchangeStatus::kLost) {
+  }
+  for (;;) pause();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::strcmp(argv[1], "--pull") == 0) pull_for_ever(argv[2]);
+  if (argc == 3 && std::strcmp(argv[1], "--pull") == 0) pull(argv[2], false);
+  if (argc == 3 && std::strcmp(argv[1], "--pull-and-fork") == 0) pull(argv[2], true);
   if (getpid() != 1) {
     std::fputs("this is the first program of a virtual machine; see tests/kernel/run_guest.py\n",
                stderr);

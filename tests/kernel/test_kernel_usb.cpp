@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <string>
 #include <thread>
 #include <unistd.h>
 
@@ -12,7 +17,9 @@
 #include "spidar/boards/board_list.h"
 #include "spidar/boards/digits.h"
 #include "spidar/device_factory.h"
+#include "spidar/guardian/last_will.h"
 #include "spidar/haptic_session.h"
+#include "spidar/monotonic.h"
 #include "tests/kernel/usbip_board.h"
 #include "tests/support/child_process.h"
 #include "tests/support/recorded_motors.h"
@@ -151,14 +158,57 @@ TEST_F(KernelSession, BoardPulledOutInMidTransferIsTakenBack) {
   }
 }
 
-TEST_F(KernelUsb, GuardianZeroesTheMotorsWhenTheHostIsKilled) {
-  for (int times = 0; times < 3; ++times) {
-    ChildProcess victim({"/init", "--pull", kProfile});
-    wait_for([&] { return bench.digit[7] != 0 || !victim.lives(); });
-    ASSERT_TRUE(victim.lives());
-    victim.end(SIGKILL);
-    wait_for([&] { return bench.all_zero(); });
+/// All guardians; there is one.
+void signal_guardian(int signal) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::string name;
+    if (std::ifstream(entry.path() / "comm") >> name && name == "spidar-guardian")
+      kill(std::stoi(entry.path().filename()), signal);
   }
+}
+
+/// A process that pulls, and what happens to it.
+class KernelGuardian : public KernelUsb {
+ protected:
+  /// Three times: the motors are at zero in time after `happens` to a victim.
+  void expect_zeros_after(const char* what, const std::string& how,
+                          const std::function<void(ChildProcess&)>& happens) {
+    // Of the machine's own time, which is counted in instructions: kSilence_ms, and as much again
+    // for the processes to be scheduled.
+    constexpr int64_t kLongest_ms = 2 * kSilence_ms;
+    for (int times = 0; times < 3; ++times) {
+      ChildProcess victim({"/init", how, kProfile});
+      wait_for([&] { return bench.digit[7] != 0 || !victim.lives(); });
+      ASSERT_TRUE(victim.lives());
+      const int64_t begin_ns = monotonic_now_ns();
+      happens(victim);
+      wait_for([&] { return bench.all_zero(); });
+      const int64_t taken_ms = (monotonic_now_ns() - begin_ns) / 1'000'000;
+      std::printf("%s: motors at zero after %d ms\n", what, static_cast<int>(taken_ms));
+      EXPECT_LE(taken_ms, kLongest_ms) << what;
+      // A new board: what a child has claimed is of the old one.
+      board.unplug();
+      wait_for([] { return !listed(); });
+      plug();
+    }
+  }
+};
+
+TEST_F(KernelGuardian, ZeroesTheMotorsWhenTheHostIsKilled) {
+  expect_zeros_after("host killed", "--pull", [](ChildProcess& host) { host.send(SIGKILL); });
+}
+
+TEST_F(KernelGuardian, ZeroesTheMotorsWhenTheHostIsStopped) {
+  expect_zeros_after("host stopped", "--pull", [](ChildProcess& host) { host.send(SIGSTOP); });
+}
+
+TEST_F(KernelGuardian, ZeroesTheMotorsWhenAChildHasTheFilesOfTheHostThatIsKilled) {
+  expect_zeros_after("host killed, files kept by its child", "--pull-and-fork",
+                     [](ChildProcess& host) { host.send(SIGKILL); });
+}
+
+TEST_F(KernelGuardian, IsMissedByItsHost) {
+  expect_zeros_after("guardian killed", "--pull", [](ChildProcess&) { signal_guardian(SIGKILL); });
 }
 
 TEST_F(KernelUsb, FilmOfAPipelinePullsAlsoAfterItsBoardWasPulledOut) {

@@ -6,6 +6,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <sys/wait.h>
 #include <thread>
@@ -27,27 +29,63 @@ namespace {
 constexpr const char* kUsbProfile = "spidar-g6x3-v2-r";
 constexpr const char* kUartProfile = "spidar-g6x5-r";
 
-/// Pulls until it is killed.
-[[noreturn]] void pull_for_ever(const char* spec, const char* profile) {
-  const auto device = make_device(spec, load_profile(profile));
-  device->open();
+MotorVolts one_volt() {
   MotorVolts volts;
   volts.volt.fill(1);
+  return volts;
+}
+
+void sleep_1ms() {
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+/// A child that does nothing, with copies of all files that are open. It ends when another
+/// board is plugged in, or the test has ended.
+void leave_files_to_a_child() {
+  const pid_t tester = getppid();
+  if (fork() != 0) return;
+  const int address = bus().port[0].address;
+  while (bus().port[0].address == address && kill(tester, 0) == 0) sleep_1ms();
+  _exit(0);
+}
+
+/// Pulls until it is killed, and again when the device was lost.
+[[noreturn]] void pull_for_ever(const char* spec, const char* profile, bool forks) {
+  const auto device = make_device(spec, load_profile(profile));
+  device->open();
+  if (forks) leave_files_to_a_child();
   DeviceReading reading;
-  for (;;) device->exchange(volts, reading);
+  for (;;) {
+    if (device->exchange(one_volt(), reading) != ExchangeStatus::kLost) continue;
+    device->close();
+    device->open();
+  }
 }
 
 /// This program, pulling.
 class Victim : public ChildProcess {
  public:
-  Victim(const std::string& spec, const std::string& profile)
-      : ChildProcess({"/proc/self/exe", "--pull", spec, profile}) {}
+  Victim(const std::string& spec, const std::string& profile, const char* how = "--pull")
+      : ChildProcess({"/proc/self/exe", how, spec, profile}) {}
 };
 
 /// Waits for as long as it takes; the test's own time limit is the only one.
 template <typename Condition>
 void wait_for(const Condition& condition) {
-  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (!condition()) sleep_1ms();
+}
+
+/// The guardian that this process has started; 0 when there is none.
+pid_t guardian_process() {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "stat");
+    std::string number, name, state;
+    pid_t parent = 0;
+    if (file >> number >> name >> state >> parent && parent == getpid() &&
+        name == "(spidar-guardian)")
+      return std::stoi(number);
+  }
+  return 0;
 }
 
 TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsKilled) {
@@ -64,6 +102,91 @@ TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsKilled) {
   }
 }
 
+TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsStopped) {
+  for (const UsbKind kind : {UsbKind::kSh4, UsbKind::kSimple}) {
+    UsbPort& port = plug(0, kind);
+    Victim victim("usb", kUsbProfile);
+    for (int times = 0; times < 3; ++times) {
+      // A host that goes on has lost its board, and gets it and a new guardian by opening it again.
+      wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });
+      ASSERT_TRUE(victim.lives());
+      victim.send(SIGSTOP);
+      wait_for([&] { return port.at_rest(); });
+      victim.send(SIGCONT);
+    }
+    victim.end(SIGKILL);
+    wait_for([&] { return port.at_rest(); });
+    clear_bus();
+  }
+}
+
+TEST(Guardian, ZeroesUsbBoardsWhoseFilesAForkedChildHasToo) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  Victim victim("usb", kUsbProfile, "--pull-and-fork");
+  wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });
+  ASSERT_TRUE(victim.lives());
+  victim.end(SIGKILL);
+  wait_for([&] { return port.at_rest(); });
+  plug(0, UsbKind::kSh4);  // the child goes
+  clear_bus();
+}
+
+TEST(Guardian, IsMissedWhenItIsKilledOrStopped) {
+  for (const bool threaded : {true, false}) {
+    for (const int signal : {SIGKILL, SIGSTOP}) {
+      UsbPort& port = plug(0, UsbKind::kSh4);
+      BoardSettings settings;
+      settings.threaded = threaded;
+      const auto device = make_device("usb", load_profile(kUsbProfile), settings);
+      device->open();
+      DeviceReading reading;
+      wait_for([&] {
+        device->exchange(one_volt(), reading);
+        return port.digit[7] != 0;
+      });
+      kill(guardian_process(), signal);
+      wait_for([&] { return device->exchange(one_volt(), reading) == ExchangeStatus::kLost; });
+      EXPECT_TRUE(port.at_rest());
+      EXPECT_EQ(device->exchange(one_volt(), reading), ExchangeStatus::kLost);
+      EXPECT_TRUE(port.at_rest());
+      EXPECT_EQ(device->health().last_fault, LinkFault::kUnguarded);
+      device->close();
+      EXPECT_EQ(guardian_process(), 0);
+      device->open();
+      EXPECT_NE(guardian_process(), 0);
+      wait_for([&] {
+        device->exchange(one_volt(), reading);
+        return port.digit[7] != 0;
+      });
+      device->close();
+      EXPECT_TRUE(port.at_rest());
+      clear_bus();
+    }
+  }
+}
+
+TEST(Guardian, LeavesAHostAloneThatIsSilentAtRest) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  const auto device = make_device("usb", load_profile(kUsbProfile));
+  device->open();
+  DeviceReading reading;
+  const auto pulls_or_rests = [&](const MotorVolts& volts, bool rests) {
+    wait_for([&] {
+      device->exchange(volts, reading);
+      return port.at_rest() == rests;
+    });
+  };
+  for (int times = 0; times < 3; ++times) {
+    pulls_or_rests(one_volt(), false);
+    pulls_or_rests({}, true);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2 * kSilence_ms));
+  }
+  wait_for([&] { return device->exchange(one_volt(), reading) != ExchangeStatus::kTimeout; });
+  EXPECT_EQ(device->health().count(LinkFault::kUnguarded), 0u);
+  device->close();
+  clear_bus();
+}
+
 TEST(Guardian, StopsTheMouseWhenTheHostIsKilled) {
   UsbPort& port = plug(0, UsbKind::kMouse);
   Victim victim("mouse", "spidar-g6x3-v1-r");
@@ -76,15 +199,17 @@ TEST(Guardian, StopsTheMouseWhenTheHostIsKilled) {
   clear_bus();
 }
 
-TEST(Guardian, ZeroesUartBoardsWhenTheHostIsKilled) {
-  MotorBench bench;
-  RecordedMotors motors(bench);
-  UartLine line({motors, {{2, {7, 1, 8, 0, 4, 0}}}});
-  Victim victim("uart:" + line.path(), kUartProfile);
-  wait_for([&] { return bench.digit[7] != 0 || !victim.lives(); });
-  ASSERT_TRUE(victim.lives());
-  victim.end(SIGKILL);
-  wait_for([&] { return bench.all_zero(); });
+TEST(Guardian, ZeroesUartBoardsWhenTheHostIsKilledOrStopped) {
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    MotorBench bench;
+    RecordedMotors motors(bench);
+    UartLine line({motors, {{2, {7, 1, 8, 0, 4, 0}}}});
+    Victim victim("uart:" + line.path(), kUartProfile);
+    wait_for([&] { return bench.digit[7] != 0 || !victim.lives(); });
+    ASSERT_TRUE(victim.lives());
+    victim.send(signal);
+    wait_for([&] { return bench.all_zero(); });
+  }
 }
 
 TEST(Guardian, GoesAwayWhenTheDeviceIsClosed) {
@@ -141,7 +266,9 @@ TEST(Guardian, IsNeededUnlessNotWanted) {
 
 int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "--pull") == 0)
-    spidar::test::pull_for_ever(argv[2], argv[3]);
+    spidar::test::pull_for_ever(argv[2], argv[3], false);
+  if (argc == 4 && std::strcmp(argv[1], "--pull-and-fork") == 0)
+    spidar::test::pull_for_ever(argv[2], argv[3], true);
   // This process, its victims and their guardians have one bus.
   const spidar::test::SharedBus shared;
   testing::InitGoogleTest(&argc, argv);
