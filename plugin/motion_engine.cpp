@@ -32,16 +32,9 @@ int64_t least_interval_ns(const GstVideoInfo& info, double rate) {
   return std::max(kLeastInterval_ns, static_cast<int64_t>(std::min(nominal_ns / 8, kMost_ns)));
 }
 
-/// When a sink shows a frame.
-struct Showing {
-  /// Running time at which what is to be seen of it begins, which is its end when it is played
-  /// backwards. GST_CLOCK_TIME_NONE when the sink drops it.
-  GstClockTime running_time = GST_CLOCK_TIME_NONE;
-  /// It begins before the segment: the next frame may be shown in its place at once.
-  bool clipped = false;
-};
-
-Showing showing_of(const GstVideoFrame& frame, const GstSegment& segment) {
+/// Running time at which a sink shows the frame: when what is to be seen of it begins, which is its
+/// end when it is played backwards. GST_CLOCK_TIME_NONE when the sink drops it.
+GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment) {
   const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
   GstClockTime duration = GST_BUFFER_DURATION(frame.buffer);
   if (!GST_CLOCK_TIME_IS_VALID(duration) && frame.info.fps_n > 0) {
@@ -50,10 +43,11 @@ Showing showing_of(const GstVideoFrame& frame, const GstSegment& segment) {
   const bool has_end = GST_CLOCK_TIME_IS_VALID(duration) && duration < GST_CLOCK_TIME_NONE - pts;
   const GstClockTime end = has_end ? pts + duration : GST_CLOCK_TIME_NONE;
   guint64 from = 0, to = 0;
-  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, end, &from, &to)) return {};
+  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, end, &from, &to)) {
+    return GST_CLOCK_TIME_NONE;
+  }
   const bool backwards = segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(to);
-  return {gst_segment_to_running_time(&segment, GST_FORMAT_TIME, backwards ? to : from),
-          backwards ? to != end : from != pts};
+  return gst_segment_to_running_time(&segment, GST_FORMAT_TIME, backwards ? to : from);
 }
 
 }  // namespace
@@ -158,6 +152,7 @@ void MotionEngine::skip(GstClockTime duration) {
 
 void MotionEngine::begin_segment() {
   schedule_.begin_segment();
+  frames_in_segment_ = 0;
 }
 
 void MotionEngine::refresh_clock() {
@@ -235,7 +230,7 @@ void MotionEngine::restart_timing() {
     if (follower_) follower_->set_skipped(0);
   }
   last_running_ns_ = -1;
-  last_clipped_ = false;
+  frames_in_segment_ = 0;
   last_interval_ns_ = 0;
 }
 
@@ -267,8 +262,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     report.problem = FrameProblem::kNoTimestamp;
     return report;
   }
-  const Showing showing = showing_of(frame, segment);
-  report.running_time = showing.running_time;
+  report.running_time = shown_at(frame, segment);
   report.stream_time = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, pts);
   if (!GST_CLOCK_TIME_IS_VALID(report.running_time)) {
     report.problem = FrameProblem::kNotShown;
@@ -283,12 +277,15 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   // Sources and decoders mark every buffer, or the first of every group, when they play backwards.
   if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) {
     restart();
-  } else if (last_clipped_ && running_ns == last_running_ns_) {
-    restart();  // shown in place of the frame before, after an accurate seek
   } else if (last_running_ns_ >= 0 && running_ns >= last_running_ns_ &&
              running_ns - last_running_ns_ < least_interval_ns(frame.info, segment.rate)) {
-    report.problem = FrameProblem::kSameTimestamp;
-    return report;
+    // After an accurate seek what is left of the first frame may be next to nothing, and of the
+    // segment before it nothing is left.
+    if (frames_in_segment_ > 1) {
+      report.problem = FrameProblem::kSameTimestamp;
+      return report;
+    }
+    restart();
   } else if (running_ns < last_running_ns_) {
     restart();
     report.problem = FrameProblem::kFallingTimestamp;
@@ -314,7 +311,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
 
   const bool in_place = running_ns == last_running_ns_;
   last_running_ns_ = running_ns;
-  last_clipped_ = showing.clipped;
+  ++frames_in_segment_;
   last_paced_ns_ = paced_ns;
   if (report.analysis.interval_ns > 0) last_interval_ns_ = report.analysis.interval_ns;
   if (!in_place) {

@@ -134,7 +134,7 @@ class MotionEngine {
   FrameLuma luma_;
   FrameTrace trace_;
   int64_t last_running_ns_ = -1;
-  bool last_clipped_ = false;  // the last frame began before the segment
+  uint64_t frames_in_segment_ = 0;
   int64_t last_paced_ns_ = 0;
   int64_t last_interval_ns_ = 0;
 

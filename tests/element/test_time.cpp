@@ -185,14 +185,15 @@ TEST_F(Time, AnAccurateSeekBetweenTwoFramesIsNoReasonToComplain) {
     GST_BUFFER_DURATION(frame) = kFrame + GST_MSECOND;
     h.push(frame, pts);
   };
-  for (const double rate : {1.0, -1.0}) {
+  for (const auto& [rate, later] :
+       {std::pair{1.0, GstClockTime{0}}, {1.0, GstClockTime{GST_MSECOND}}, {-1.0, 0}}) {
     SCOPED_TRACE(rate);
     const size_t before = h.motions().size();
     gst_harness_push_event(h.harness(), gst_event_new_flush_start());
     gst_harness_push_event(h.harness(), gst_event_new_flush_stop(TRUE));
     if (rate > 0) {
       send_segment(rate, 10 * kFrame, GST_CLOCK_TIME_NONE, 10 * kFrame);
-      for (GstClockTime n = 9; n < 13; ++n) push(2.0 * static_cast<double>(n), n * kFrame);
+      for (GstClockTime n = 9; n < 13; ++n) push(2.0 * static_cast<double>(n), n * kFrame + later);
     } else {
       send_segment(rate, 0, 10 * kFrame, 10 * kFrame);
       for (GstClockTime n = 10; n >= 7; --n) {
@@ -200,10 +201,16 @@ TEST_F(Time, AnAccurateSeekBetweenTwoFramesIsNoReasonToComplain) {
       }
     }
     ASSERT_EQ(h.motions().size(), before + 4);
-    EXPECT_EQ(h.motions()[before + 1].velocity_x, 0) << "shown in place of the one before";
+    EXPECT_EQ(h.motions()[before + 1].tracked, 0u) << "shown in place of the one before";
     EXPECT_NEAR(h.motions()[before + 2].velocity_x, rate * 50, kTolerance_px / 0.04);
   }
   EXPECT_TRUE(h.warnings().empty());
+}
+
+TEST_F(Time, OnlyTheFirstFrameOfASegmentIsReplaced) {
+  for (int n = 0; n < 3; ++n) h.push_moved(n, 0, 0);
+  EXPECT_EQ(h.motions().size(), 2u);
+  EXPECT_EQ(h.warnings().size(), 1u);
 }
 
 TEST_F(Time, FallingTimestampsRestart) {
