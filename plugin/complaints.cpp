@@ -26,8 +26,8 @@ void Complaints::look_at_frame(const FrameReport& report) {
       GST_ELEMENT_WARNING(
           element_, STREAM, FORMAT,
           ("Frames without a timestamp cannot be felt in time; they are shown only."),
-          ("Buffer without PTS, or decades ahead. A videorate or a parser before the decoder adds "
-           "them."));
+          ("Buffer without PTS, or decades ahead, or a segment that is not in time (a filesrc of "
+           "raw frames). A videorate, rawvideoparse or a parser before the decoder adds them."));
       break;
     case FrameProblem::kSameTimestamp:
       GST_ELEMENT_WARNING(element_, STREAM, FORMAT,

@@ -7,39 +7,61 @@ class Search {
  public:
   explicit Search(const std::function<bool(GstElement*)>& wanted) : wanted_(wanted) {}
 
-  GstElement* behind(GstPad* source) {
+  /// Whether the wanted element is behind `source`. The path leads there then.
+  bool reaches(GstPad* source) {
     GstPad* peer = --pads_left_ > 0 ? gst_pad_get_peer(source) : nullptr;
-    if (!peer) return nullptr;
+    if (!peer) return false;
+    path.add(GST_PAD(gst_object_ref(source)), nullptr);
     // Of a ghost pad the links go on inside, and what is inside of one has no parent element.
     GstElement* element = gst_pad_get_parent_element(peer);
-    GstElement* found = element && wanted_(element) ? element : nullptr;
-    if (element && !found) gst_object_unref(element);
-    GstIterator* links = found ? nullptr : gst_pad_iterate_internal_links(peer);
-    gst_object_unref(peer);
-    if (!links) return found;
+    path.add(peer, element);
+    if ((element && wanted_(element)) || is_passed_to(peer)) return true;
+    path.drop_last();
+    path.drop_last();
+    return false;
+  }
+
+  DownstreamPath path;
+
+ private:
+  bool is_passed_to(GstPad* pad) {
+    GstIterator* links = gst_pad_iterate_internal_links(pad);
+    if (!links) return false;
+    bool reached = false;
     GValue link = G_VALUE_INIT;
-    while (!found && gst_iterator_next(links, &link) == GST_ITERATOR_OK) {
-      found = behind(GST_PAD(g_value_get_object(&link)));
+    while (!reached && gst_iterator_next(links, &link) == GST_ITERATOR_OK) {
+      reached = reaches(GST_PAD(g_value_get_object(&link)));
       g_value_reset(&link);
     }
     g_value_unset(&link);
     gst_iterator_free(links);
-    return found;
+    return reached;
   }
 
- private:
   const std::function<bool(GstElement*)>& wanted_;
   int pads_left_ = 256;  // ends a search that goes round in a circle
 };
 
 }  // namespace
 
-GstElement* find_downstream(GstElement* element, const std::function<bool(GstElement*)>& wanted) {
+DownstreamPath::~DownstreamPath() {
+  while (!steps_.empty()) drop_last();
+}
+
+void DownstreamPath::drop_last() {
+  gst_object_unref(steps_.back().pad);
+  if (steps_.back().element) gst_object_unref(steps_.back().element);
+  steps_.pop_back();
+}
+
+DownstreamPath find_path_downstream(GstElement* element,
+                                    const std::function<bool(GstElement*)>& wanted) {
   GstPad* source = gst_element_get_static_pad(element, "src");
-  if (!source) return nullptr;
-  GstElement* found = Search(wanted).behind(source);
+  if (!source) return {};
+  Search search(wanted);
+  search.reaches(source);
   gst_object_unref(source);
-  return found;
+  return std::move(search.path);
 }
 
 }  // namespace spidar

@@ -2,13 +2,43 @@
 #pragma once
 
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include <gst/gst.h>
 
 namespace spidar {
 
-/// The first element behind `element`, through bins, for which `wanted` says yes, or null. The
-/// caller unrefs it. Links that change meanwhile end the search.
-GstElement* find_downstream(GstElement* element, const std::function<bool(GstElement*)>& wanted);
+/// A pad that frames pass. `element`: the one they enter by it; null where they leave one, or at
+/// the inner side of a ghost pad.
+struct DownstreamStep {
+  GstPad* pad;
+  GstElement* element;
+};
+
+/// The pads from an element to another one, with a reference to each.
+class DownstreamPath {
+ public:
+  DownstreamPath() = default;
+  ~DownstreamPath();
+  DownstreamPath(DownstreamPath&& other) noexcept : steps_(std::exchange(other.steps_, {})) {}
+  DownstreamPath& operator=(DownstreamPath&& other) noexcept {
+    std::swap(steps_, other.steps_);
+    return *this;
+  }
+
+  const std::vector<DownstreamStep>& steps() const { return steps_; }
+  /// Takes both references.
+  void add(GstPad* pad, GstElement* element) { steps_.push_back({pad, element}); }
+  void drop_last();
+
+ private:
+  std::vector<DownstreamStep> steps_;
+};
+
+/// The way from `element` to the first one behind it, through bins, for which `wanted` says yes;
+/// empty without such. Links that change meanwhile end the search.
+DownstreamPath find_path_downstream(GstElement* element,
+                                    const std::function<bool(GstElement*)>& wanted);
 
 }  // namespace spidar

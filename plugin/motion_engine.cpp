@@ -119,6 +119,11 @@ void MotionEngine::set_latency(GstClockTime latency) {
   if (follower_) follower_->set_latency(latency);
 }
 
+void MotionEngine::look_for_sink() {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  if (follower_) follower_->look_for_sink();
+}
+
 void MotionEngine::set_offset(GstClockTimeDiff offset_ns) {
   const std::lock_guard<std::mutex> lock(session_mutex_);
   offset_ns_ = offset_ns;
@@ -257,7 +262,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
                                   const AnalyzerSettings& settings) {
   FrameReport report;
   const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
-  if (!GST_CLOCK_TIME_IS_VALID(pts)) {
+  if (segment.format != GST_FORMAT_TIME || !GST_CLOCK_TIME_IS_VALID(pts)) {
     restart();
     report.problem = FrameProblem::kNoTimestamp;
     return report;

@@ -24,7 +24,7 @@ namespace spidar {
 
 enum class FrameProblem {
   kNone,
-  kNoTimestamp,       ///< no PTS, or one that is no time: it cannot be felt in time
+  kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be felt in time
   kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
   kFallingTimestamp,  ///< before the frame before
   kTooSmall,          ///< less memory than the picture needs
@@ -66,6 +66,8 @@ class MotionEngine {
   // --- any thread
 
   void set_latency(GstClockTime latency);
+  /// Something behind the element was linked anew.
+  void look_for_sink();
   void set_offset(GstClockTimeDiff offset_ns);
   /// Holds with the next tick of the haptic loop, whether frames come or not.
   void set_max_force(double max_force_N);

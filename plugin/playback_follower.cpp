@@ -26,11 +26,8 @@ void PlaybackFollower::set_playing(bool playing) {
     const std::lock_guard<std::mutex> lock(mutex_);
     playing_ = playing;
     sync_.set_playing(playing);
-    if (playing) {
-      sink_offset_.follow(element_);
-    } else {
-      sink_offset_.forget();
-    }
+    sink_outdated_ = playing;
+    if (!playing) delay_.forget();
     refresh_locked();
   }
   changed_.notify_all();
@@ -38,10 +35,16 @@ void PlaybackFollower::set_playing(bool playing) {
 
 void PlaybackFollower::set_latency(GstClockTime latency) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  sync_.set_latency(latency);
+  delay_.set_latency(latency);
   // A sink that is new to the pipeline makes it distribute the latency anew.
-  if (playing_) sink_offset_.follow(element_);
+  sink_outdated_ = true;
   refresh_locked();
+}
+
+void PlaybackFollower::look_for_sink() {
+  // By the next refresh: this is the thread that links.
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sink_outdated_ = true;
 }
 
 void PlaybackFollower::set_offset(GstClockTimeDiff offset_ns) {
@@ -68,7 +71,11 @@ void PlaybackFollower::refresh() {
 }
 
 void PlaybackFollower::refresh_locked() {
-  sync_.set_offset(offset_ns_ + sink_offset_.value_ns());
+  if (playing_ && sink_outdated_) {
+    sink_outdated_ = false;
+    delay_.follow(element_);
+  }
+  sync_.set_offset(offset_ns_ + delay_.value_ns());
   publish_(sync_.observe(element_));
 }
 

@@ -9,12 +9,13 @@
 #include <gst/gst.h>
 
 #include "plugin/playback_sync.h"
-#include "plugin/sink_offset.h"
+#include "plugin/presentation_delay.h"
 #include "spidar/playback_clock.h"
 
 namespace spidar {
 
-/// Observes the pipeline's clock and the sink's `ts-offset` a hundred times a second while playing.
+/// Observes the pipeline's clock, and what delays the picture behind the element, a hundred times a
+/// second while playing.
 /// Frames are no good as the occasion: a queue behind the element holds them back, while a seek
 /// changes the base time and an audio clock drifts. Thread-safe.
 class PlaybackFollower {
@@ -30,6 +31,8 @@ class PlaybackFollower {
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
   void set_skipped(int64_t skipped_ns);
+  /// Something behind the element was linked anew.
+  void look_for_sink();
   /// See PlaybackSync::expect_base_time().
   void expect_base_time();
   void refresh();
@@ -43,7 +46,8 @@ class PlaybackFollower {
   std::mutex mutex_;
   std::condition_variable changed_;
   PlaybackSync sync_;
-  SinkOffset sink_offset_;
+  PresentationDelay delay_;
+  bool sink_outdated_ = false;
   GstClockTimeDiff offset_ns_ = 0;
   bool playing_ = false;
   bool stop_ = false;

@@ -94,7 +94,7 @@ PlaybackClock PlaybackSync::observe(GstElement* element) {
   }
   watch_progress(before_ns, to_ns(time));
   result.monotonic_ns = monotonic_ns_;
-  result.running_ns = clock_ns_ - to_ns(base_time) - latency_ns_ - offset_ns_ + skipped_ns_;
+  result.running_ns = clock_ns_ - to_ns(base_time) - offset_ns_ + skipped_ns_;
   result.rate = rate_;
   result.playing = true;
   result.valid_until_ns = before_ns + kLongestStandstill_ns - behind_ns_;

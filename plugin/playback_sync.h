@@ -12,8 +12,8 @@
 namespace spidar {
 
 /// Observes an element's clock and base time and says which running time is on the screen at which
-/// moment of CLOCK_MONOTONIC. A sink shows a buffer at base time + running time + latency, so the
-/// running time presented is clock − base time − latency − offset.
+/// moment of CLOCK_MONOTONIC. A sink shows a buffer at base time + running time + latency, and the
+/// latency is part of the offset here, so the running time presented is clock − base time − offset.
 ///
 /// Not thread-safe: the owner holds one lock around it.
 class PlaybackSync {
@@ -35,10 +35,7 @@ class PlaybackSync {
   /// sink that does not preroll keeps its base time: after three seconds so does this.
   void expect_base_time(GstElement* element);
 
-  /// Pipeline latency, from the LATENCY event.
-  void set_latency(GstClockTime latency) { latency_ns_ = to_ns(latency); }
-
-  /// Signed; > 0: the force comes later.
+  /// By how much the force comes later than the running time of its frame; signed.
   void set_offset(GstClockTimeDiff offset_ns) { offset_ns_ = offset_ns; }
 
   /// What the sink has stepped over, and shows later frames earlier by.
@@ -89,7 +86,6 @@ class PlaybackSync {
   bool playing_ = false;
   GstClockTime outdated_base_time_ = GST_CLOCK_TIME_NONE;
   int64_t outdated_until_ns_ = 0;
-  int64_t latency_ns_ = 0;
   int64_t offset_ns_ = 0;
   int64_t skipped_ns_ = 0;
 

@@ -11,8 +11,9 @@
  * steadied by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
  * filter-min-cutoff=0 it is the mean velocity of all points, as in the paper.
  *
- * A frame is shown at base time + running time + pipeline latency + the sink's ts-offset; its force
- * is felt then (+ #spidarmotion:ts-offset), between two frames it is interpolated. Before PLAYING,
+ * A frame is shown at base time + running time + pipeline latency + the sink's ts-offset (pad
+ * offsets and a clocksync on the way to the sink count, too); its force is felt then
+ * (+ #spidarmotion:ts-offset), between two frames it is interpolated. Before PLAYING,
  * in PAUSED and after the end there is none.
  *
  * The element posts a `spidar-motion` element message for each frame when
@@ -110,7 +111,15 @@ static bool guarded(GstSpidarMotion* self, const char* doing, Function&& functio
 
 // --- streaming thread --------------------------------------------------------------------------
 
+/// GST_CLOCK_TIME_NONE where the segment is not in time, as from a file source without a parser.
+static GstClockTime running_time_of(const GstSegment& segment, GstClockTime time) {
+  return segment.format == GST_FORMAT_TIME
+             ? gst_segment_to_running_time(&segment, GST_FORMAT_TIME, time)
+             : GST_CLOCK_TIME_NONE;
+}
+
 static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffer* buffer) {
+  if (trans->segment.format != GST_FORMAT_TIME) return;
   const GstClockTime time =
       gst_segment_to_stream_time(&trans->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer));
   if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
@@ -159,8 +168,7 @@ static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, Gst
   const OnDeviceError on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
   const bool passed = guarded(self, "passing a gap", [&] {
-    self->engine->pass_gap(
-        gst_segment_to_running_time(&trans->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer)));
+    self->engine->pass_gap(running_time_of(trans->segment, GST_BUFFER_PTS(buffer)));
   });
   self->display->skip();
   return passed && self->complaints->look_at_device(*self->engine, on_device_error)
@@ -221,7 +229,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       gst_event_parse_gap(event, &time, &duration);
       // Played backwards it begins at its end.
       if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
-      engine.run_out(gst_segment_to_running_time(&trans->segment, GST_FORMAT_TIME, time));
+      engine.run_out(running_time_of(trans->segment, time));
       break;
     }
     case GST_EVENT_EOS:
@@ -239,6 +247,8 @@ static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* e
     gst_event_parse_latency(event, &latency);
     GST_DEBUG_OBJECT(trans, "latency is %" GST_TIME_FORMAT, GST_TIME_ARGS(latency));
     GST_SPIDAR_MOTION(trans)->engine->set_latency(latency);
+  } else if (GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
+    GST_SPIDAR_MOTION(trans)->engine->look_for_sink();
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_INSTANT_RATE_SYNC_TIME) {
     gdouble multiplier;
     GstClockTime running_time, upstream;

@@ -14,11 +14,14 @@ void on_step_done(GstBus*, GstMessage* message, gpointer element) {
                               nullptr);
   // Without a flush the pipeline distributes another base time.
   if (!flush || !GST_CLOCK_TIME_IS_VALID(duration)) return;
-  GstElement* sink = find_downstream(GST_ELEMENT(element), [message](GstElement* candidate) {
-    return GST_OBJECT(candidate) == GST_MESSAGE_SRC(message);
-  });
-  if (!sink) return;
-  gst_object_unref(sink);
+  const bool is_behind =
+      !find_path_downstream(GST_ELEMENT(element),
+                            [message](GstElement* candidate) {
+                              return GST_OBJECT(candidate) == GST_MESSAGE_SRC(message);
+                            })
+           .steps()
+           .empty();
+  if (!is_behind) return;
   gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)).skip(duration);
 }
 

@@ -144,6 +144,22 @@ TEST_F(Time, FramesWithoutTimestampAreShownAndComplainedAboutOnce) {
   EXPECT_NE(h.warnings()[0].find("timestamp"), std::string::npos);
 }
 
+TEST_F(Time, ASegmentInBytesHasNoTimeToBeFeltIn) {
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_BYTES);
+  gst_harness_push_event(h.harness(), gst_event_new_segment(&segment));
+  // Criticals of GStreamer's end the test.
+  for (GstClockTime n = 0; n < 3; ++n) {
+    EXPECT_EQ(h.push_moved(2.0 * static_cast<double>(n), 0, n * kFrame), GST_FLOW_OK);
+  }
+  EXPECT_EQ(h.push_moved(0, 0, 3 * kFrame, GST_BUFFER_FLAG_GAP), GST_FLOW_OK);
+  gst_harness_push_event(h.harness(), gst_event_new_gap(4 * kFrame, kFrame));
+  EXPECT_EQ(gst_harness_buffers_received(h.harness()), 4u);
+  EXPECT_TRUE(h.motions().empty());
+  ASSERT_EQ(h.warnings().size(), 1u);
+  EXPECT_NE(h.warnings()[0].find("timestamp"), std::string::npos);
+}
+
 TEST_F(Time, EqualTimestampsAreNotDividedBy) {
   h.push_moved(0, 0, 0);
   h.push_moved(2, 0, kFrame);

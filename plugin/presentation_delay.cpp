@@ -1,0 +1,90 @@
+#include "plugin/presentation_delay.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <gst/base/gstbasesink.h>
+
+namespace spidar {
+namespace {
+
+bool waits_for_clock(GstElement* element) {
+  return GST_IS_BASE_SINK(element) && gst_base_sink_get_sync(GST_BASE_SINK(element));
+}
+
+/// Whether `object` has a readable property of that name and type.
+bool has_property(GObject* object, const char* name, GType type) {
+  const GParamSpec* spec = g_object_class_find_property(G_OBJECT_GET_CLASS(object), name);
+  return spec && spec->value_type == type && (spec->flags & G_PARAM_READABLE);
+}
+
+/// `ts-offset` of an element that is no sink and waits for the clock.
+std::optional<GstClockTimeDiff> offset_of_waiting(GstElement* element) {
+  GObject* object = G_OBJECT(element);
+  if (GST_IS_BASE_SINK(element) || !has_property(object, "sync", G_TYPE_BOOLEAN) ||
+      !has_property(object, "ts-offset", G_TYPE_INT64)) {
+    return std::nullopt;
+  }
+  gboolean sync = FALSE;
+  gint64 offset_ns = 0;
+  g_object_get(object, "sync", &sync, "ts-offset", &offset_ns, nullptr);
+  if (!sync) return std::nullopt;
+  return offset_ns;
+}
+
+/// That of live sources, as such an element asks for it. 0 where none are.
+GstClockTimeDiff latency_before(GstPad* sink_pad) {
+  GstQuery* query = gst_query_new_latency();
+  gboolean live = FALSE;
+  GstClockTime min = 0;
+  if (gst_pad_peer_query(sink_pad, query)) gst_query_parse_latency(query, &live, &min, nullptr);
+  gst_query_unref(query);
+  return live && GST_CLOCK_TIME_IS_VALID(min) ? static_cast<GstClockTimeDiff>(min) : 0;
+}
+
+}  // namespace
+
+void PresentationDelay::follow(GstElement* element) {
+  path_ = find_path_downstream(element, waits_for_clock);
+  if (path_.steps().empty()) {
+    path_ = find_path_downstream(
+        element, [](GstElement* candidate) { return offset_of_waiting(candidate).has_value(); });
+  }
+  latency_ns_.clear();
+  for (const DownstreamStep& step : path_.steps()) {
+    const bool waits = step.element && offset_of_waiting(step.element);
+    latency_ns_.push_back(waits ? latency_before(step.pad) : 0);
+  }
+}
+
+void PresentationDelay::forget() {
+  path_ = {};
+  latency_ns_.clear();
+}
+
+void PresentationDelay::set_latency(GstClockTime latency) {
+  told_ns_ = GST_CLOCK_TIME_IS_VALID(latency) ? static_cast<GstClockTimeDiff>(latency) : 0;
+}
+
+GstClockTimeDiff PresentationDelay::value_ns() const {
+  GstClockTimeDiff pads_ns = 0;
+  std::optional<GstClockTimeDiff> shown_ns;
+  const auto wait_until = [&shown_ns](GstClockTimeDiff ns) {
+    shown_ns = shown_ns ? std::max(*shown_ns, ns) : ns;
+  };
+  for (size_t i = 0; i < path_.steps().size(); ++i) {
+    const DownstreamStep& step = path_.steps()[i];
+    pads_ns += gst_pad_get_offset(step.pad);
+    if (!step.element) continue;
+    if (waits_for_clock(step.element)) {
+      GstBaseSink* sink = GST_BASE_SINK(step.element);
+      wait_until(pads_ns + static_cast<GstClockTimeDiff>(gst_base_sink_get_latency(sink)) +
+                 gst_base_sink_get_ts_offset(sink));
+    } else if (const auto offset_ns = offset_of_waiting(step.element)) {
+      wait_until(pads_ns + latency_ns_[i] + *offset_ns);
+    }
+  }
+  return shown_ns.value_or(pads_ns + told_ns_);
+}
+
+}  // namespace spidar
