@@ -2,14 +2,23 @@
 
 #include <string>
 
+#include "spidar/motor_heat.h"
+
 GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
 
 namespace spidar {
+namespace {
+
+/// A hand that moves a slack string about loses the pose for a moment; that is not worth a word.
+constexpr int64_t kPoseLost_ns = 500'000'000;
+
+}  // namespace
 
 void Complaints::start() {
   frame_problems_ = 0;
   strings_ = 0;
+  pose_lost_ = held_back_ = false;
   device_state_ = DeviceState::kClosed;
 }
 
@@ -59,11 +68,38 @@ void Complaints::look_at_strings(const MotionEngine& engine) {
   GST_ELEMENT_WARNING(
       element_, RESOURCE, READ,
       ("String %d of the haptic device is slack or its encoder is at fault.", string),
-      ("Its length fits no pose of the others. The grip is found without it."));
+      ("Its length fits no pose of the others: it is left out, and the force is reduced to what "
+       "the "
+       "others can do. If all strings are taut, the counters were not zeroed with the grip at the "
+       "centre (spidarctl zero, spidarctl calibrate)."));
+}
+
+void Complaints::look_at_pose(const MotionEngine& engine) {
+  const LoopSnapshot loop = engine.loop_snapshot();
+  if (loop.untrusted_ns == 0) pose_lost_ = false;
+  if (loop.untrusted_ns > kPoseLost_ns && !pose_lost_) {
+    pose_lost_ = true;
+    GST_ELEMENT_WARNING(
+        element_, RESOURCE, READ,
+        ("Where the grip is cannot be told: %s. There is no force until it can.",
+         to_string(loop.pose_trouble)),
+        ("The strings have their least tension. Slack strings, dead encoders, or counters that "
+         "were "
+         "not zeroed with the grip at the centre (spidarctl zero, spidarctl calibrate)."));
+  }
+  if (loop.held_back && loop.motor_heat > MotorHeat::kLimitFrom && !held_back_) {
+    held_back_ = true;
+    GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
+                        ("A motor of the haptic device is warm: the force is reduced."),
+                        ("Heat %.2f of what it may have for ever, see continuous_tension_N of the "
+                         "profile. It goes on in full when it has cooled.",
+                         loop.motor_heat));
+  }
 }
 
 bool Complaints::look_at_device(const MotionEngine& engine, OnDeviceError policy) {
   look_at_strings(engine);
+  look_at_pose(engine);
   const DeviceState state = engine.device_state();
   const DeviceState before = device_state_;
   device_state_ = state;

@@ -24,10 +24,13 @@ class Complaints {
 
  private:
   void look_at_strings(const MotionEngine& engine);
+  void look_at_pose(const MotionEngine& engine);
 
   GstElement* const element_;
   guint frame_problems_ = 0;  // bit i: FrameProblem i was said
   guint strings_ = 0;         // bit i: string i
+  bool pose_lost_ = false;    // said, and not come back since
+  bool held_back_ = false;    // said
   DeviceState device_state_ = DeviceState::kClosed;
 };
 

@@ -209,6 +209,10 @@ int MotionEngine::faulty_string() const {
   return session_ ? session_->loop().snapshot().last.faulty_string : -1;
 }
 
+LoopSnapshot MotionEngine::loop_snapshot() const {
+  return session_ ? session_->loop().snapshot() : LoopSnapshot{};
+}
+
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
   schedule_.change_rate(multiplier, running_time, upstream);

@@ -113,6 +113,8 @@ class MotionEngine {
   std::string device_fault() const;
   /// −1 when all strings are well, or with device=none.
   int faulty_string() const;
+  /// All zero without a device.
+  LoopSnapshot loop_snapshot() const;
 
  private:
   /// Time of a frame on a scale on which the distance to the last frame is that of showing them.

@@ -39,7 +39,10 @@ class MotionStats {
 };
 
 /// Adds device, device-state, scheduling (string), real-time (boolean), ticks, overruns,
-/// exchange-errors, pose-errors, times-lost (uint64), faulty-string (int, −1 when none),
+/// exchange-errors, pose-errors, times-lost (uint64), pose-trouble (string: why the pose is not
+/// known, 'none' while it is), motor-heat (double: of the warmest motor, 1 is what it may have for
+/// ever), held-back (boolean: less force than wanted because a motor is warm or a string is out),
+/// held-back-ticks (uint64), faulty-string (int, −1 when none),
 /// wakeup-us-median, wakeup-us-p999, skew-ms-median, skew-ms-p99 (double; skew: force at the device
 /// after its frame was due on the screen), link-fault (string: the last one, see LinkFault),
 /// link-timeouts, link-errors (all other faults), link-late-replies (uint64), round-trip-us-median,

@@ -40,7 +40,7 @@ class Strings {
   /// One exchange; false when it failed. Throws DeviceError when the device is lost.
   bool pull(double change_of_share, DeviceReading& reading) {
     share_ = std::clamp(share_ + change_of_share, 0.0, 1.0);
-    const MotorVolts volts = to_volts(bound_tensions(rest_N_, profile_, share_), profile_);
+    const MotorVolts volts = to_volts(share_ * rest_N_, profile_);
     const ExchangeStatus status = device_.exchange(volts, reading);
     errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
     if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)

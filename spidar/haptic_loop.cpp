@@ -11,20 +11,13 @@ constexpr double kMaxRate = 10;
 
 HapticLoop::HapticLoop(const Profile& profile, Device& device, const SafetyLimits& limits)
     : profile_(profile),
-      zero_length_m_(profile.zero_count_length_m()),
       device_(device),
       shared_limits_(limits),
       limits_(limits),
+      grip_(profile),
+      tension_command_(profile),
       tension_slew_(profile),
-      pose_solver_(profile.geometry, profile.max_pose_residual_m()) {
-  problem_.count = profile_.geometry.count;
-  problem_.t_min_N = profile_.min_tension_N();
-  problem_.t_max_N = profile_.max_tension_N();
-  problem_.t_ref_N = problem_.t_min_N;
-  const double radius_m = profile_.geometry.grip_radius_m();
-  // A grip without extent feels no torque, whatever a torque is compared with.
-  if (radius_m > 0) problem_.torque_length_m = radius_m;
-}
+      heat_(profile) {}
 
 HapticLoop::~HapticLoop() {
   close();
@@ -38,6 +31,7 @@ void HapticLoop::open() {
   device_.open();
   closing_.store(false, std::memory_order_release);
   counters_ = {};
+  grip_.clear_counters();
   ticked_ = false;
   energise();
 }
@@ -57,15 +51,15 @@ bool HapticLoop::reopen() noexcept {
 /// The device was opened: from zero again, and nothing known about the grip but that it is at home.
 void HapticLoop::energise() noexcept {
   state_ = DeviceState::kOpening;
-  energised_ = 0;
+  energised_ = acknowledged_energised_ = 0;
+  acknowledged_N_.setZero();
   errors_in_a_row_ = 0;
-  located_ = false;
-  pose_ = {};
-  faulty_string_ = -1;
-  pose_solver_.reset();
-  tension_solver_.reset();
+  untrusted_ns_ = 0;
+  grip_.reset();
+  tension_command_.reset();
   safety_.reset();
-  tension_slew_.reset(profile_);
+  idle_.reset();
+  tension_slew_.reset(acknowledged_N_);
 }
 
 void HapticLoop::lose() noexcept {
@@ -84,6 +78,7 @@ void HapticLoop::close() noexcept {
   device_.close();
   state_ = DeviceState::kClosed;
   LoopSnapshot closed{{}, counters_, limits_};
+  closed.motor_heat = heat_.hottest();
   closed.last.tick = counters_.ticks;
   closed.last.monotonic_ns = last_now_ns_;
   snapshot_.store(closed);
@@ -95,9 +90,9 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   record.monotonic_ns = now_ns;
   record.lateness_ns = now_ns - deadline_ns;
   if (record.lateness_ns > kTick_ns) ++counters_.overruns;
-  int64_t step_ns = kTick_ns;
+  int64_t passed_ns = kTick_ns;
   if (ticked_) {
-    step_ns = std::clamp<int64_t>(now_ns - last_now_ns_, 0, kMaxStep_ns);
+    passed_ns = std::max<int64_t>(now_ns - last_now_ns_, 0);
     const int64_t left_out = (deadline_ns - last_deadline_ns_) / kTick_ns - 1;
     if (left_out > 0) counters_.missed_deadlines += static_cast<uint64_t>(left_out);
   }
@@ -111,16 +106,20 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   record.max_force_N = limits_.max_force_N;
   record.max_torque_Nm = limits_.max_torque_Nm;
   find_wanted(record);
+  // What the device was told last has acted until now.
+  heat_.pass(acknowledged_N_, 1e-9 * static_cast<double>(passed_ns));
   if (state_ != DeviceState::kLost && state_ != DeviceState::kClosed) {
-    const double dt_s = 1e-9 * static_cast<double>(step_ns);
+    const double dt_s = 1e-9 * static_cast<double>(std::min(passed_ns, kMaxStep_ns));
+    grip_.check_age(now_ns);
     command(record, dt_s);
     pull(record, dt_s);
     exchange(record);
+    untrusted_ns_ = grip_.trusted() ? 0 : untrusted_ns_ + passed_ns;
   }
   record.device = state_;
-  record.pose = pose_;
-  record.pose_residual_m = pose_residual_m_;
-  record.faulty_string = faulty_string_;
+  record.pose = grip_.pose();
+  record.pose_residual_m = grip_.residual_m();
+  record.faulty_string = grip_.faulty_string();
   publish(record);
 }
 
@@ -171,33 +170,35 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
 }
 
 void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
+  const bool valid = record.found == Found::kExact || record.found == Found::kInterpolated ||
+                     record.found == Found::kHeld;
+  const bool wanted = record.playing && valid;
   const bool closing = closing_.load(std::memory_order_acquire);
-  if (closing) {
-    state_ = DeviceState::kClosing;
+  const bool nothing = !wanted || record.wanted.stacked().isZero(0);
+  const bool idle = idle_.idle(!nothing, grip_.pose().position_m, dt_s);
+  if (closing || idle) {
     energised_ = std::max(energised_ - dt_s / kRelease_s, 0.0);
+    state_ = closing ? DeviceState::kClosing : DeviceState::kIdle;
   } else {
     energised_ = std::min(energised_ + dt_s / kEnergise_s, 1.0);
     state_ = energised_ < 1 ? DeviceState::kOpening : DeviceState::kRunning;
   }
-  const bool valid = record.found == Found::kExact || record.found == Found::kInterpolated ||
-                     record.found == Found::kHeld;
-  const bool fresh = record.playing && valid && located_at(record.monotonic_ns) && !closing;
+  const bool fresh = wanted && grip_.trusted() && !closing;
   record.commanded = safety_.apply(record.wanted, fresh, dt_s, limits_);
   counters_.rejected_wrenches = safety_.rejected();
 }
 
-bool HapticLoop::located_at(int64_t now_ns) const noexcept {
-  return located_ && now_ns - located_ns_ <= kPoseTimeout_ns;
-}
-
 void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
-  problem_.W = structure_matrix(profile_.geometry, pose_);
-  problem_.wrench = record.commanded;
-  const TensionResult result = tension_solver_.solve(problem_);
-  const StringVector tension_N = tension_slew_.apply(result.tension_N, profile_, dt_s);
-  record.tension_N = bound_tensions(tension_N, profile_, energised_);
-  const Eigen::Matrix<double, 6, 1> delivered = problem_.W * record.tension_N;
+  tension_command_.leave_out(grip_.faulty_string());
+  const StructureMatrix W = structure_matrix(profile_.geometry, grip_.pose());
+  const StringVector wanted_N = grip_.trusted()
+                                    ? tension_command_.solve(W, record.commanded, heat_.limit_N())
+                                    : tension_command_.fade(dt_s, limits_);
+  const StringVector limited_N = tension_slew_.apply(energised_ * wanted_N, profile_, dt_s);
+  record.tension_N = bound_tensions(limited_N, profile_);
+  const Eigen::Matrix<double, 6, 1> delivered = W * record.tension_N;
   record.delivered = {delivered.head<3>(), delivered.tail<3>()};
+  if (tension_command_.held_back()) ++counters_.held_back_ticks;
 }
 
 void HapticLoop::exchange(TickRecord& record) noexcept {
@@ -205,40 +206,38 @@ void HapticLoop::exchange(TickRecord& record) noexcept {
   const ExchangeStatus status = device_.exchange(to_volts(record.tension_N, profile_), reading);
   if (status == ExchangeStatus::kOk) {
     errors_in_a_row_ = 0;
-    locate(reading, record.monotonic_ns);
+    acknowledged_N_ = record.tension_N;
+    acknowledged_energised_ = energised_;
+    const bool at_rest = record.commanded.stacked().isZero(0) && tension_command_.at_rest();
+    grip_.see(reading, record.delivered, at_rest, record.monotonic_ns);
+    counters_.pose_errors = grip_.pose_errors();
+    counters_.string_faults = grip_.string_faults();
     return;
   }
+  undo(record);
+  grip_.miss(record.monotonic_ns);
   ++counters_.exchange_errors;
   if (status == ExchangeStatus::kLost || ++errors_in_a_row_ >= kMaxErrors) lose();
 }
 
-void HapticLoop::locate(const DeviceReading& reading, int64_t now_ns) noexcept {
-  StringVector lengths_m = StringVector::Zero();
-  for (int i = 0; i < profile_.geometry.count; ++i) {
-    const auto k = static_cast<size_t>(i);
-    const StringDrive& drive = profile_.drives[k];
-    lengths_m[i] = zero_length_m_[i] + drive.encoder_sign * drive.metres_per_count *
-                                           static_cast<double>(reading.count[k]);
-  }
-  const PoseResult result = pose_solver_.solve(lengths_m);
-  pose_residual_m_ = result.residual_m;
-  if (result.status == PoseStatus::kSolved) {
-    if (result.faulty_string >= 0 && result.faulty_string != faulty_string_)
-      ++counters_.string_faults;
-    faulty_string_ = result.faulty_string;
-    pose_ = result.pose;
-    located_ = true;
-    located_ns_ = now_ns;
-    return;
-  }
-  ++counters_.pose_errors;
-  // What was near the last pose is long gone: search from the centre.
-  if (!located_at(now_ns)) pose_solver_.reset();
+/// The motors may not have got this tick: the next one is as far from the last that they got.
+void HapticLoop::undo(TickRecord& record) noexcept {
+  safety_.undo();
+  record.commanded = limit_total(safety_.last(), limits_);
+  record.tension_N = acknowledged_N_;
+  record.acknowledged = false;
+  tension_slew_.reset(acknowledged_N_);
+  energised_ = acknowledged_energised_;
 }
 
 void HapticLoop::publish(const TickRecord& record) noexcept {
   records_.push(record);
-  snapshot_.store({record, counters_, limits_});
+  LoopSnapshot snapshot{record, counters_, limits_};
+  snapshot.pose_trouble = grip_.trouble();
+  snapshot.untrusted_ns = untrusted_ns_;
+  snapshot.motor_heat = heat_.hottest();
+  snapshot.held_back = tension_command_.held_back();
+  snapshot_.store(snapshot);
 }
 
 }  // namespace spidar

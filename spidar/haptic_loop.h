@@ -7,16 +7,18 @@
 #include "core/api.h"
 #include "core/force/wrench_timeline.h"
 #include "core/grip/pose.h"
-#include "core/grip/pose_solver.h"
 #include "core/grip/string_geometry.h"
-#include "core/grip/tension_solver.h"
 #include "spidar/device.h"
+#include "spidar/grip_watch.h"
+#include "spidar/idle_watch.h"
 #include "spidar/latency_histogram.h"
+#include "spidar/motor_heat.h"
 #include "spidar/playback_clock.h"
 #include "spidar/profile.h"
 #include "spidar/safety.h"
 #include "spidar/seqlock.h"
 #include "spidar/spsc_ring.h"
+#include "spidar/tension_command.h"
 #include "spidar/tick_record.h"
 
 namespace spidar {
@@ -31,8 +33,6 @@ class SPIDAR_API HapticLoop {
   static constexpr double kEnergise_s = 0.2;
   /// And fall to zero in this before it is closed.
   static constexpr double kRelease_s = 0.05;
-  /// Without a good pose for longer, W is not to be trusted: the wrench is ramped to rest.
-  static constexpr int64_t kPoseTimeout_ns = 50'000'000;
   /// A device that fails in this many exchanges in a row is lost.
   static constexpr int kMaxErrors = 20;
   /// Time counted for one tick at most, however late it is, so that a stall does not end in a step.
@@ -115,12 +115,10 @@ class SPIDAR_API HapticLoop {
   void command(TickRecord& record, double dt_s) noexcept;
   void pull(TickRecord& record, double dt_s) noexcept;
   void exchange(TickRecord& record) noexcept;
-  void locate(const DeviceReading& reading, int64_t now_ns) noexcept;
-  bool located_at(int64_t now_ns) const noexcept;
+  void undo(TickRecord& record) noexcept;
   void publish(const TickRecord& record) noexcept;
 
   const Profile profile_;
-  const StringVector zero_length_m_;
   Device& device_;
   // Shared.
   SpscRing<Scheduled, 256> scheduled_;
@@ -140,18 +138,18 @@ class SPIDAR_API HapticLoop {
   int64_t before_newest_ns_ = INT64_MIN;
   int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last
   WrenchSafety safety_;
+  GripWatch grip_;
+  TensionCommand tension_command_;
   TensionSlew tension_slew_;
-  PoseSolver pose_solver_;
-  TensionSolver tension_solver_;
-  TensionProblem problem_;
+  MotorHeat heat_;
+  IdleWatch idle_;
   DeviceState state_ = DeviceState::kClosed;
   double energised_ = 0;  // share of the tensions that is put out
+  // That the device has acknowledged: what comes next continues from there.
+  StringVector acknowledged_N_ = StringVector::Zero();
+  double acknowledged_energised_ = 0;
   int errors_in_a_row_ = 0;
-  Pose pose_;
-  double pose_residual_m_ = 0;
-  int faulty_string_ = -1;
-  bool located_ = false;  // pose_ is of this device since it was opened
-  int64_t located_ns_ = 0;
+  int64_t untrusted_ns_ = 0;  // for how long the pose has not been trusted
   bool ticked_ = false;
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;

@@ -31,6 +31,17 @@ struct StringDrive {
   /// Length at zero count minus length with the grip at the centre: 0 when the grip was at the
   /// centre when the board's counters were cleared. Holds until they are cleared again.
   double home_offset_m = 0;
+  /// What the motor can give for ever without getting too hot, N; 0: not stated, half of the
+  /// largest.
+  double continuous_tension_N = 0;
+  /// Time constant of its winding's temperature, s.
+  double heating_time_s = kHeatingTime_s;
+
+  static constexpr double kHeatingTime_s = 20;
+
+  double continuous_N() const noexcept {
+    return continuous_tension_N > 0 ? continuous_tension_N : max_tension_N / 2;
+  }
 };
 
 /// How sure a number is.

@@ -1,5 +1,6 @@
 #include "spidar/profile_file.h"
 
+#include <algorithm>
 #include <limits>
 #include <string_view>
 
@@ -72,6 +73,11 @@ Values per_string(const TomlField& field, int count) {
   return values;
 }
 
+/// The same of a field that may be missing: zero.
+Values optional_per_string(const TomlField& in, const char* key, int count) {
+  return in.has(key) ? per_string(in[key], count) : Values{};
+}
+
 Signs signs(const TomlField& field, int count) {
   check_length(field, count);
   Signs values{};
@@ -111,6 +117,12 @@ void check_drive(const TomlField& in, size_t i, const StringDrive& drive, double
     in["max_tension_N"].fail(string + shown(drive.max_tension_N) + " N needs " + shown(needed_V) +
                              " V, but dac_max_V is " + shown(dac_max_V) +
                              "; lower it, or correct newtons_per_volt or dac_max_V");
+  if (!(drive.min_tension_N <= drive.continuous_tension_N &&
+        drive.continuous_tension_N <= drive.max_tension_N))
+    in["continuous_tension_N"].fail(string + shown(drive.continuous_tension_N) +
+                                    " N must be from min_tension_N, which is " +
+                                    shown(drive.min_tension_N) + " N, to max_tension_N, which is " +
+                                    shown(drive.max_tension_N) + " N");
   if (drive.metres_per_count < kMin_m_per_count || drive.metres_per_count > kMax_m_per_count)
     in["metres_per_count"].fail(string + shown(drive.metres_per_count) + " must be from " +
                                 shown(kMin_m_per_count) + " to " + shown(kMax_m_per_count) +
@@ -119,7 +131,8 @@ void check_drive(const TomlField& in, size_t i, const StringDrive& drive, double
 
 void read_strings(const TomlField& in, Profile& profile) {
   in.allow_only({"min_tension_N", "max_tension_N", "newtons_per_volt", "metres_per_count",
-                 "motor_sign", "encoder_sign", "home_offset_m"});
+                 "continuous_tension_N", "heating_time_s", "motor_sign", "encoder_sign",
+                 "home_offset_m"});
   const int count = profile.geometry.count;
   const Values min_N = per_string(in["min_tension_N"], count);
   const Values max_N = per_string(in["max_tension_N"], count);
@@ -128,10 +141,17 @@ void read_strings(const TomlField& in, Profile& profile) {
   const Signs motor_sign = signs(in["motor_sign"], count);
   const Signs encoder_sign = signs(in["encoder_sign"], count);
   const Values home_offset_m = home_offsets(in, profile.geometry);
+  const Values continuous_N = optional_per_string(in, "continuous_tension_N", count);
+  const Values heating_s = optional_per_string(in, "heating_time_s", count);
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
     profile.drives[i] = {min_N[i],      max_N[i],        N_per_V[i],      m_per_count[i],
                          motor_sign[i], encoder_sign[i], home_offset_m[i]};
-    check_drive(in, i, profile.drives[i], profile.dac_max_V);
+    StringDrive& drive = profile.drives[i];
+    drive.continuous_tension_N = in.has("continuous_tension_N")
+                                     ? continuous_N[i]
+                                     : std::max(drive.min_tension_N, drive.max_tension_N / 2);
+    if (in.has("heating_time_s")) drive.heating_time_s = heating_s[i];
+    check_drive(in, i, drive, profile.dac_max_V);
   }
 }
 
@@ -154,10 +174,10 @@ std::vector<Provenance> read_sources(const TomlField& sources) {
     if (in.has("note")) row.note = in["note"].string();
     const TomlField fields = in["fields"];
     for (size_t k = 0; k < fields.size(); ++k) {
-      row.field =
-          fields[k].one_of({"geometry", "frame", "min_tension_N", "max_tension_N",
-                            "newtons_per_volt", "metres_per_count", "motor_sign", "encoder_sign",
-                            "home_offset_m", "board", "dac_bits", "dac_max_V"});
+      row.field = fields[k].one_of({"geometry", "frame", "min_tension_N", "max_tension_N",
+                                    "newtons_per_volt", "metres_per_count", "continuous_tension_N",
+                                    "heating_time_s", "motor_sign", "encoder_sign", "home_offset_m",
+                                    "board", "dac_bits", "dac_max_V"});
       provenance.push_back(row);
     }
   }

@@ -69,6 +69,8 @@ void write_strings(std::ostream& out, const Profile& profile) {
   write("max_tension_N", &StringDrive::max_tension_N);
   write("newtons_per_volt", &StringDrive::newtons_per_volt);
   write("metres_per_count", &StringDrive::metres_per_count);
+  write("continuous_tension_N", &StringDrive::continuous_tension_N);
+  write("heating_time_s", &StringDrive::heating_time_s);
   write("motor_sign", &StringDrive::motor_sign);
   write("encoder_sign", &StringDrive::encoder_sign);
   write("home_offset_m", &StringDrive::home_offset_m);

@@ -58,6 +58,8 @@ double StaleRamp::apply(bool fresh, double dt_s, const SafetyLimits& limits) noe
 
 Wrench WrenchSafety::apply(const Wrench& wanted, bool fresh, double dt_s,
                            const SafetyLimits& limits) noexcept {
+  slew_before_ = slew_;
+  stale_before_ = stale_;
   const double before = stale_.share();
   const double share = stale_.apply(fresh, dt_s, limits);
   if (fresh) return slew_.apply(share * limit_total(finite_.apply(wanted), limits), dt_s, limits);
@@ -66,9 +68,16 @@ Wrench WrenchSafety::apply(const Wrench& wanted, bool fresh, double dt_s,
   return slew_.last();
 }
 
+void WrenchSafety::undo() noexcept {
+  slew_ = slew_before_;
+  stale_ = stale_before_;
+}
+
 void WrenchSafety::reset() noexcept {
   slew_.reset();
   stale_.reset();
+  slew_before_ = slew_;
+  stale_before_ = stale_;
 }
 
 StringVector TensionSlew::apply(const StringVector& tension_N, const Profile& profile,
@@ -87,15 +96,11 @@ StringVector TensionSlew::apply(const StringVector& tension_N, const Profile& pr
   return last_N_;
 }
 
-StringVector bound_tensions(const StringVector& tension_N, const Profile& profile,
-                            double energised) noexcept {
-  const double scale = std::min(non_negative(energised), 1.0);
+StringVector bound_tensions(const StringVector& tension_N, const Profile& profile) noexcept {
   StringVector bounded = StringVector::Zero();
-  for (int i = 0; i < profile.geometry.count; ++i) {
-    const StringDrive& drive = profile.drives[static_cast<size_t>(i)];
-    const double wanted = std::isnan(tension_N[i]) ? drive.min_tension_N : tension_N[i];
-    bounded[i] = scale * std::clamp(wanted, drive.min_tension_N, drive.max_tension_N);
-  }
+  for (int i = 0; i < profile.geometry.count; ++i)
+    bounded[i] =
+        std::min(non_negative(tension_N[i]), profile.drives[static_cast<size_t>(i)].max_tension_N);
   return bounded;
 }
 

@@ -1,5 +1,5 @@
 /// The steps between a wanted wrench and the motors. Order: finite → limit → slew → stale →
-/// (tension solver) → tension bounds → D/A range. Each is a small object that can be tested alone;
+/// (tension command) → tension slew → D/A range. Each is a small object that can be tested alone;
 /// none of them allocates, locks or throws.
 #pragma once
 
@@ -80,6 +80,12 @@ class SPIDAR_API WrenchSafety {
   /// applied last is ramped to rest, after which nothing of it is left.
   Wrench apply(const Wrench& wanted, bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
 
+  /// The device did not get what the last apply() returned: the next one continues from the wrench
+  /// before it.
+  void undo() noexcept;
+  /// Wrench that the next apply() continues from.
+  const Wrench& last() const noexcept { return slew_.last(); }
+
   /// At rest, as after construction; what was rejected stays counted.
   void reset() noexcept;
 
@@ -89,6 +95,8 @@ class SPIDAR_API WrenchSafety {
   FiniteCheck finite_;
   SlewLimit slew_;
   StaleRamp stale_;
+  SlewLimit slew_before_;  // the last apply()
+  StaleRamp stale_before_;
 };
 
 /// Bounds the change of tensions per second. At the border of the poses that strings can balance
@@ -108,14 +116,16 @@ class SPIDAR_API TensionSlew {
   /// At rest: every string at its minimum.
   void reset(const Profile& profile) noexcept { last_N_ = profile.min_tension_N(); }
 
+  /// Continues from `tension_N`: what the device has acknowledged.
+  void reset(const StringVector& tension_N) noexcept { last_N_ = tension_N; }
+
  private:
   StringVector last_N_;
 };
 
-/// Tensions within each string's range, times `energised` (0: motors off … 1: full), so that a
-/// device coming up pulls in the right direction all the while. Not a number counts as the minimum.
-SPIDAR_API StringVector bound_tensions(const StringVector& tension_N, const Profile& profile,
-                                       double energised) noexcept;
+/// Tensions from zero to each string's largest. Not a number counts as zero.
+SPIDAR_API StringVector bound_tensions(const StringVector& tension_N,
+                                       const Profile& profile) noexcept;
 
 /// Tension to D/A volts by newtons_per_volt and motor_sign, clamped to the D/A range.
 SPIDAR_API MotorVolts to_volts(const StringVector& tension_N, const Profile& profile) noexcept;

@@ -7,6 +7,7 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
+#include "spidar/pose_trouble.h"
 #include "spidar/safety.h"
 
 namespace spidar {
@@ -16,10 +17,11 @@ enum class DeviceState {
   kOpening,  ///< tensions ramp up to rest
   kRunning,
   kClosing,  ///< wrench and tensions ramp down to zero
+  kIdle,     ///< nothing to be felt for a long time: the motors are off
   kLost,     ///< does not answer; tried again
 };
 
-/// "closed", "opening", "running", "closing", "lost".
+/// "closed", "opening", "running", "closing", "idle", "lost".
 constexpr const char* to_string(DeviceState state) noexcept {
   switch (state) {
     case DeviceState::kClosed:
@@ -30,6 +32,8 @@ constexpr const char* to_string(DeviceState state) noexcept {
       return "running";
     case DeviceState::kClosing:
       return "closing";
+    case DeviceState::kIdle:
+      return "idle";
     case DeviceState::kLost:
       return "lost";
   }
@@ -61,11 +65,15 @@ struct TickRecord {
   int64_t running_ns = 0;        ///< running time on the screen; 0 while not playing
   int64_t frame_ns = INT64_MIN;  ///< running time of the frame whose wrench was reached last
   Found found = Found::kNothing;
-  Wrench wanted;     ///< from the timeline; zero while not playing
-  Wrench commanded;  ///< after finite, limit, slew and stale
-  Wrench delivered;  ///< W · tension, what the strings can do of it
-  StringVector tension_N = StringVector::Zero();
-  Pose pose;  ///< from the newest good reading
+  Wrench wanted;  ///< from the timeline; zero while not playing
+  /// After finite, limit, slew and stale. Not acknowledged: that of the last tick that was,
+  /// limited.
+  Wrench commanded;
+  /// W · tension, what the strings can do of it; W is that of `pose`, also where it is not trusted.
+  Wrench delivered;
+  StringVector tension_N = StringVector::Zero();  ///< as `commanded`
+  bool acknowledged = true;                       ///< the device has answered
+  Pose pose;                                      ///< from the newest good reading
   double pose_residual_m = 0;
   int faulty_string = -1;  ///< whose length fits no pose that the others agree on; −1 when all fit
   DeviceState device = DeviceState::kClosed;
@@ -85,12 +93,19 @@ struct LoopCounters {
   uint64_t rejected_wrenches = 0;  ///< not finite
   uint64_t refused_wrenches = 0;   ///< time not after that of the one before
   uint64_t times_lost = 0;
+  uint64_t held_back_ticks =
+      0;  ///< in which less than wanted was asked of the strings, see held_back
 };
 
 struct LoopSnapshot {
   TickRecord last;
   LoopCounters counters;
   SafetyLimits limits;  ///< that held in the last tick
+  PoseTrouble pose_trouble = PoseTrouble::kNotYet;
+  int64_t untrusted_ns = 0;  ///< for how long the pose has not been trusted; 0 while it is
+  double motor_heat = 0;     ///< of the warmest motor, see MotorHeat
+  /// Less force than wanted: a string is out, or a motor is warm.
+  bool held_back = false;
 };
 
 }  // namespace spidar

@@ -1,6 +1,7 @@
 /// A haptic loop on a fake device, ticked by hand.
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "spidar/haptic_loop.h"
@@ -16,8 +17,9 @@ inline Wrench push_right(double force_N) {
 }
 
 struct LoopDriver {
-  explicit LoopDriver(const SafetyLimits& limits = {})
-      : loop(std::make_unique<HapticLoop>(profile, device, limits)) {}
+  explicit LoopDriver(const SafetyLimits& limits = {},
+                      const Profile& of = load_profile(kDefaultProfile))
+      : profile(of), loop(std::make_unique<HapticLoop>(profile, device, limits)) {}
 
   /// One tick `step_ns` after the last, in time.
   TickRecord tick(int64_t step_ns = kTick_ns) {
@@ -45,10 +47,22 @@ struct LoopDriver {
   LoopCounters counters() const { return loop->snapshot().counters; }
   FakeDeviceLog& log() { return device.log(); }
 
-  Profile profile = load_profile(kDefaultProfile);
+  const Profile profile;
   FakeDevice device;
   std::unique_ptr<HapticLoop> loop;
   int64_t now_ns = 7'000'000'000'000;
 };
+
+/// Counts of a grip that is there.
+inline void put_grip(LoopDriver& driver, const Pose& pose) {
+  const StringGeometry& geometry = driver.profile.geometry;
+  const StringVector change_m = string_lengths_m(geometry, pose) - string_lengths_m(geometry, {});
+  for (int i = 0; i < geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    const StringDrive& drive = driver.profile.drives[k];
+    driver.log().count[k] = drive.encoder_sign *
+                            static_cast<int32_t>(std::lround(change_m[i] / drive.metres_per_count));
+  }
+}
 
 }  // namespace spidar::test

@@ -172,28 +172,18 @@ TEST(HapticLoopDevice, UnknownPoseRampsToRest) {
     const StringDrive& drive = driver.profile.drives[i];
     driver.log().count[i] = drive.encoder_sign * static_cast<int32_t>(0.5 / drive.metres_per_count);
   }
-  // The tick that reads it, and those until the last good pose is too old.
-  TickRecord record = driver.run(HapticLoop::kPoseTimeout_ns);
+  // The tick that reads it, and those that the pose of before is used in.
+  TickRecord record = driver.run(GripWatch::kMaxMisses * kMs);
   EXPECT_EQ(record.commanded.force_N.x(), 1);
   EXPECT_EQ(record.pose.position_m, before.position_m);
   EXPECT_GT(record.pose_residual_m, PoseSolver::kMaxResidual_m);
-  EXPECT_EQ(driver.run(45 * kMs).commanded.stacked().norm(), 0);
+  record = driver.run((50 - GripWatch::kMaxMisses) * kMs);
+  EXPECT_EQ(record.commanded.stacked().norm(), 0);
+  EXPECT_EQ(record.tension_N, driver.profile.min_tension_N());
   EXPECT_GT(driver.counters().pose_errors, 0u);
 
   driver.log().count[0] = driver.log().count[5] = 0;
   EXPECT_EQ(driver.run(100 * kMs).commanded.force_N.x(), 1);
-}
-
-/// Counts of a grip that is there.
-void put_grip(LoopDriver& driver, const Pose& pose) {
-  const StringGeometry& geometry = driver.profile.geometry;
-  const StringVector change_m = string_lengths_m(geometry, pose) - string_lengths_m(geometry, {});
-  for (int i = 0; i < geometry.count; ++i) {
-    const auto k = static_cast<size_t>(i);
-    const StringDrive& drive = driver.profile.drives[k];
-    driver.log().count[k] = drive.encoder_sign *
-                            static_cast<int32_t>(std::lround(change_m[i] / drive.metres_per_count));
-  }
 }
 
 TEST(HapticLoopDevice, ReportsAFaultyString) {

@@ -45,6 +45,8 @@ void expect_same(const Profile& a, const Profile& b) {
     EXPECT_EQ(a.drives[i].max_tension_N, b.drives[i].max_tension_N);
     EXPECT_EQ(a.drives[i].newtons_per_volt, b.drives[i].newtons_per_volt);
     EXPECT_EQ(a.drives[i].metres_per_count, b.drives[i].metres_per_count);
+    EXPECT_EQ(a.drives[i].continuous_tension_N, b.drives[i].continuous_tension_N);
+    EXPECT_EQ(a.drives[i].heating_time_s, b.drives[i].heating_time_s);
     EXPECT_EQ(a.drives[i].motor_sign, b.drives[i].motor_sign);
     EXPECT_EQ(a.drives[i].encoder_sign, b.drives[i].encoder_sign);
     EXPECT_EQ(a.drives[i].home_offset_m, b.drives[i].home_offset_m);

@@ -255,31 +255,9 @@ TEST(TensionSlew, TakesNotANumberForTheMinimum) {
 }
 
 TEST(BoundTensions, KeepsEveryStringInItsRange) {
-  StringVector wanted = StringVector::Zero();
-  wanted[0] = 7;
-  wanted[1] = -1;
-  StringVector bounded = bound_tensions(wanted, two_strings(), 1);
-  EXPECT_EQ(bounded[0], 5.0);
-  EXPECT_EQ(bounded[1], 0.2);
-  wanted[0] = kNaN;
-  wanted[1] = kInf;
-  bounded = bound_tensions(wanted, two_strings(), 1);
-  EXPECT_EQ(bounded[0], 0.3);
-  EXPECT_EQ(bounded[1], 4.0);
-  EXPECT_EQ(bounded.tail<6>().norm(), 0);
-}
-
-TEST(BoundTensions, ScalesWithPower) {
-  StringVector wanted = StringVector::Zero();
-  wanted[0] = 2;
-  wanted[1] = 3;
-  const StringVector half = bound_tensions(wanted, two_strings(), 0.5);
-  EXPECT_EQ(half[0], 1.0);
-  EXPECT_EQ(half[1], 1.5);
-  for (const double off : {0.0, -1.0, kNaN}) {
-    EXPECT_EQ(bound_tensions(wanted, two_strings(), off).norm(), 0) << "energised " << off;
-  }
-  EXPECT_EQ(bound_tensions(wanted, two_strings(), 2)[0], 2.0);
+  const StringVector bounded = bound_tensions(two_tensions(7, -1), two_strings());
+  EXPECT_EQ(bounded, two_tensions(5.0, 0));
+  EXPECT_EQ(bound_tensions(two_tensions(kNaN, kInf), two_strings()), two_tensions(0, 4.0));
 }
 
 TEST(ToVolts, UsesGainSignAndRange) {

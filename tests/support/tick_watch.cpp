@@ -56,8 +56,8 @@ TickRecord record_of(const Row& row) {
   for (const Found found : {Found::kExact, Found::kInterpolated, Found::kHeld, Found::kExpired}) {
     if (row.text("found") == to_string(found)) record.found = found;
   }
-  for (const DeviceState state :
-       {DeviceState::kOpening, DeviceState::kRunning, DeviceState::kClosing, DeviceState::kLost}) {
+  for (const DeviceState state : {DeviceState::kOpening, DeviceState::kRunning,
+                                  DeviceState::kClosing, DeviceState::kIdle, DeviceState::kLost}) {
     if (row.text("device") == to_string(state)) record.device = state;
   }
   for (int i = 0; i < 3; ++i) {
@@ -115,7 +115,12 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
     }
   }
 
-  stopped_s_ = to_be_felt(record) ? 0 : stopped_s_ + dt_s;
+  // A device that does not answer keeps what it was told last.
+  if (to_be_felt(record)) {
+    stopped_s_ = 0;
+  } else if (record.acknowledged) {
+    stopped_s_ += dt_s;
+  }
   if (stopped_s_ > kRest_s && now.stacked().norm() > 0) fail(record, "not at rest");
   look_at_age(record, dt_s);
   last_ = record;

@@ -9,9 +9,9 @@ namespace spidar::test {
 
 /// Sees every tick of a test and fails it at the first that breaks one of the promises: force and
 /// torque never above their limits; their changes never faster than the slew limit allows; rest,
-/// exactly, 50 ms after the last wrench that was to be felt; and the same 50 ms after the newest
-/// frame has become 100 ms old, by CLOCK_MONOTONIC or by running time, but for the 40 ms in which
-/// the force fades in before the next frame.
+/// exactly, 50 ms after the last wrench that was to be felt (of time in which the device answered);
+/// and the same 50 ms after the newest frame has become 100 ms old, by CLOCK_MONOTONIC or by
+/// running time, but for the 40 ms in which the force fades in before the next frame.
 class TickWatch {
  public:
   /// Ticks the loop in time, and looks at what came of it.

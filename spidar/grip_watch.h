@@ -1,0 +1,100 @@
+/// Where the grip is, and whether that can be relied on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/api.h"
+#include "core/grip/pose.h"
+#include "core/grip/pose_solver.h"
+#include "core/grip/string_geometry.h"
+#include "core/wrench.h"
+#include "spidar/device.h"
+#include "spidar/pose_trouble.h"
+#include "spidar/profile.h"
+
+namespace spidar {
+
+/// Follows the pose by the encoder counts. The structure matrix may only be used while trusted():
+/// the tensions for a wrench at one pose are any other wrench at another pose. Trust is lost by
+/// kMaxMisses readings without a good pose and comes back by kGoodPoses good ones in a row. Neither
+/// allocates nor throws after construction.
+class SPIDAR_API GripWatch {
+ public:
+  /// So many ticks in a row may pass without a good pose; the pose of before is used in them.
+  static constexpr int kMaxMisses = 5;
+  /// And so much time, when the ticks themselves are late.
+  static constexpr int64_t kPoseTimeout_ns = 50'000'000;
+  /// Good poses in a row before the pose is trusted again.
+  static constexpr int kGoodPoses = 20;
+  /// No hand is faster; a turn counts by the way of the points where the strings are tied.
+  static constexpr double kMaxSpeed_m_s = 10;
+  /// Strings that come from all sides have tangled long before.
+  static constexpr double kMaxTurn_rad = 2.1;
+  /// A hand gives way by some millimetres when the force changes by so much, and a count is some
+  /// hundredths of a millimetre: counters of which none has moved after so long do not count.
+  static constexpr double kFrozenForce_N = 0.5;
+  static constexpr int64_t kFrozenAfter_ns = 500'000'000;
+
+  /// Throws std::invalid_argument when the profile has fewer than six strings.
+  explicit GripWatch(const Profile& profile);
+
+  /// Nothing is known but that the grip is at the centre, where it is when a device is opened.
+  void reset() noexcept;
+
+  /// A tick in which the device answered. `applied`: the wrench of the strings on the grip, as far
+  /// as it is known. `may_trust`: trust may begin with this tick; that of before is kept anyway.
+  void see(const DeviceReading& reading, const Wrench& applied, bool may_trust,
+           int64_t now_ns) noexcept;
+  /// A tick in which it did not.
+  void miss(int64_t now_ns) noexcept;
+  /// Before the tensions of a tick are computed: is the newest pose recent enough?
+  void check_age(int64_t now_ns) noexcept;
+
+  bool trusted() const noexcept { return trusted_; }
+  /// kNone while trusted.
+  PoseTrouble trouble() const noexcept { return trusted_ ? PoseTrouble::kNone : trouble_; }
+  /// The newest good one, trusted or not.
+  const Pose& pose() const noexcept { return pose_; }
+  double residual_m() const noexcept { return residual_m_; }
+  /// See PoseResult.
+  int faulty_string() const noexcept { return faulty_string_; }
+  /// Ticks in which the device answered, but not with a pose.
+  uint64_t pose_errors() const noexcept { return pose_errors_; }
+  /// Times that a string became faulty, or another one did.
+  uint64_t string_faults() const noexcept { return string_faults_; }
+  /// Both counters begin at zero.
+  void clear_counters() noexcept { pose_errors_ = string_faults_ = 0; }
+
+ private:
+  StringVector lengths_m(const DeviceReading& reading) const noexcept;
+  PoseTrouble judge(const PoseResult& result, int64_t now_ns) const noexcept;
+  bool is_frozen(const DeviceReading& reading, const Wrench& applied, int64_t now_ns) noexcept;
+  void fail(PoseTrouble trouble) noexcept;
+
+  const Profile profile_;
+  const StringVector zero_length_m_;
+  const double radius_m_;
+  double reach_m_ = 0;  ///< no coordinate of the grip's origin can be larger
+  PoseSolver solver_;
+
+  bool trusted_ = false;
+  PoseTrouble trouble_ = PoseTrouble::kNotYet;
+  int misses_ = 0;
+  int good_poses_ = 0;
+  Pose pose_;
+  double residual_m_ = 0;
+  int faulty_string_ = -1;
+  bool located_ = false;  ///< pose_ is of this device since it was opened
+  int64_t located_ns_ = 0;
+  uint64_t pose_errors_ = 0;
+  uint64_t string_faults_ = 0;
+
+  bool frozen_ = false;
+  bool counted_ = false;  ///< the three below are known
+  std::array<int32_t, kMaxStrings> last_count_{};
+  Wrench at_last_change_;  ///< applied when a counter moved last
+  int64_t pushed_ns_ = 0;  ///< since when `applied` differs from it without a counter moving
+};
+
+}  // namespace spidar

@@ -1,0 +1,55 @@
+/// How warm the motors are, by what they have been given.
+#pragma once
+
+#include <algorithm>
+
+#include "core/grip/string_geometry.h"
+#include "spidar/profile.h"
+
+namespace spidar {
+
+/// I²t: a motor's tension goes with its current, and the heat with its square. Each motor is a body
+/// of one time constant; heat 1 is what it has in the end when it gives its continuous tension for
+/// ever. Nothing is measured: the motors are taken to be cold when this object is made.
+class MotorHeat {
+ public:
+  /// From this heat on a motor may give less than its largest tension, at heat 1 no more than its
+  /// continuous one: no sequence of tensions within limit_N() brings the heat above 1.
+  static constexpr double kLimitFrom = 0.8;
+
+  explicit MotorHeat(const Profile& profile) : profile_(profile) {
+    // A profile that was not read from a file may leave it out.
+    for (StringDrive& drive : profile_.drives)
+      if (!(drive.continuous_tension_N > 0)) drive.continuous_tension_N = drive.max_tension_N / 2;
+  }
+
+  /// `tension_N` was there for `dt_s`.
+  void pass(const StringVector& tension_N, double dt_s) noexcept {
+    for (int i = 0; i < profile_.geometry.count; ++i) {
+      const StringDrive& drive = profile_.drives[static_cast<size_t>(i)];
+      const double load = tension_N[i] / drive.continuous_tension_N;
+      heat_[i] += (load * load - heat_[i]) * std::clamp(dt_s / drive.heating_time_s, 0.0, 1.0);
+    }
+  }
+
+  /// Largest tension of each string at its heat, N.
+  StringVector limit_N() const noexcept {
+    StringVector limit_N = StringVector::Zero();
+    for (int i = 0; i < profile_.geometry.count; ++i) {
+      const StringDrive& drive = profile_.drives[static_cast<size_t>(i)];
+      const double room = std::clamp((1 - heat_[i]) / (1 - kLimitFrom), 0.0, 1.0);
+      const double continuous_N = drive.continuous_tension_N;
+      limit_N[i] = continuous_N + room * (drive.max_tension_N - continuous_N);
+    }
+    return limit_N;
+  }
+
+  /// Of the warmest motor.
+  double hottest() const noexcept { return heat_.head(profile_.geometry.count).maxCoeff(); }
+
+ private:
+  Profile profile_;
+  StringVector heat_ = StringVector::Zero();
+};
+
+}  // namespace spidar

@@ -1,0 +1,79 @@
+#include "spidar/tension_command.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+
+TensionCommand::TensionCommand(const Profile& profile)
+    : min_N_(profile.min_tension_N()), max_N_(profile.max_tension_N()), last_N_(min_N_) {
+  problem_.count = profile.geometry.count;
+  const double radius_m = profile.geometry.grip_radius_m();
+  // A grip without extent feels no torque, whatever a torque is compared with.
+  if (radius_m > 0) problem_.torque_length_m = radius_m;
+  reset();
+}
+
+void TensionCommand::reset() noexcept {
+  solver_.reset();
+  last_N_ = min_N_;
+  left_ = 0;
+  share_ = 1;
+  left_out_ = -1;
+}
+
+double TensionCommand::size_N(const Wrench& wrench) const noexcept {
+  return std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / problem_.torque_length_m);
+}
+
+double TensionCommand::pose_problem(const Wrench& wrench, const StringVector& limit_N) noexcept {
+  problem_.wrench = wrench;
+  problem_.t_min_N = problem_.t_ref_N = min_N_;
+  const double above_N = kTensionPerForce * size_N(wrench);
+  double denied = 0;
+  for (int i = 0; i < problem_.count; ++i) {
+    const double allowed_N = std::clamp(limit_N[i], min_N_[i], max_N_[i]);
+    problem_.t_max_N[i] = std::min(min_N_[i] + above_N, allowed_N);
+    denied = std::max(denied, 1 - allowed_N / max_N_[i]);
+  }
+  if (left_out_ < 0) return denied;
+  problem_.t_min_N[left_out_] = problem_.t_max_N[left_out_] = problem_.t_ref_N[left_out_] =
+      std::max(0.0, min_N_[left_out_] - above_N);
+  return 1;
+}
+
+// Where strings are denied some of their range, the others would give a wrench in another
+// direction: of the wanted one they are asked only as much as is not lost that way. The share goes
+// continuously with pose, wrench and limits.
+StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrench,
+                                   const StringVector& limit_N) noexcept {
+  left_ = 1;
+  share_ = 1;
+  const double size = size_N(wrench);
+  if (!(size > 0)) {
+    left_ = 0;
+    last_N_ = min_N_;
+    return last_N_;
+  }
+  problem_.W = W;
+  // Half of the range denied counts in full: that is what a motor may have for ever, or more.
+  const double denied = std::min(1.0, 2 * pose_problem(wrench, limit_N));
+  TensionResult result = solver_.solve(problem_);
+  if (denied > 0) {
+    share_ = std::max(0.0, 1 - denied * result.residual_N / size);
+    pose_problem(share_ * wrench, limit_N);
+    result = solver_.solve(problem_);
+  }
+  last_N_ = result.tension_N;
+  return last_N_;
+}
+
+StringVector TensionCommand::fade(double dt_s, const SafetyLimits& limits) noexcept {
+  share_ = 1;
+  const double step = limits.ramp_s > 0 ? std::max(dt_s, 0.0) / limits.ramp_s : 1.0;
+  left_ = std::max(left_ - step, 0.0);
+  const double share = left_ * left_ * (3 - 2 * left_);
+  return min_N_ + share * (last_N_ - min_N_);
+}
+
+}  // namespace spidar

@@ -1,0 +1,74 @@
+/// A device between the loop and another device: some of its encoders are dead, and what the motors
+/// get is seen from outside.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "spidar/device.h"
+#include "spidar/profile.h"
+
+namespace spidar::test {
+
+class TamperedDevice final : public Device {
+ public:
+  /// `inner` outlives it.
+  explicit TamperedDevice(Device& inner) : inner_(inner) {}
+
+  /// From the next exchange on the counters of these strings (bit i: string i) stand still.
+  void stop_encoders(unsigned strings) { stopped_ = strings; }
+
+  /// What the motors got last.
+  const MotorVolts& volts() const { return volts_; }
+
+  void open() override {
+    volts_ = {};
+    inner_.open();
+  }
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    DeviceReading read;
+    const ExchangeStatus status = inner_.exchange(volts, read);
+    // A garbled answer comes from a board that was told.
+    if (status != ExchangeStatus::kTimeout) volts_ = volts;
+    if (status != ExchangeStatus::kOk) return status;
+    for (size_t i = 0; i < kMaxStrings; ++i)
+      if (!(stopped_ >> i & 1)) last_.count[i] = read.count[i];
+    reading = last_;
+    return status;
+  }
+  void close() noexcept override {
+    volts_ = {};
+    inner_.close();
+  }
+  const std::string& name() const noexcept override { return inner_.name(); }
+
+ private:
+  Device& inner_;
+  unsigned stopped_ = 0;
+  MotorVolts volts_;
+  DeviceReading last_;
+};
+
+/// What the volts are at the strings, N.
+inline StringVector tensions_N(const MotorVolts& volts, const Profile& profile) {
+  StringVector tension_N = StringVector::Zero();
+  for (int i = 0; i < profile.geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    const StringDrive& drive = profile.drives[k];
+    tension_N[i] = drive.motor_sign * volts.volt[k] * drive.newtons_per_volt;
+  }
+  return tension_N;
+}
+
+/// A profile as it really is when the grip was not at the centre, but at `pose`, when its counters
+/// were zeroed.
+inline Profile zeroed_at(Profile profile, const Pose& pose) {
+  const StringVector off_m =
+      string_lengths_m(profile.geometry, pose) - string_lengths_m(profile.geometry, {});
+  for (int i = 0; i < profile.geometry.count; ++i)
+    profile.drives[static_cast<size_t>(i)].home_offset_m += off_m[i];
+  return profile;
+}
+
+}  // namespace spidar::test
