@@ -129,7 +129,7 @@ void GripWatch::see(const DeviceReading& reading, const Wrench& applied, bool ma
   if (trouble == PoseTrouble::kJump || trouble == PoseTrouble::kFrozen) misses_ = kMaxMisses;
   fail(trouble);
   // What was near the last pose is long gone: search from the centre.
-  if (!trusted_ && trouble == PoseTrouble::kNoFit) solver_.reset();
+  if (!trusted_ && trouble == PoseTrouble::kNoFit) solver_.search_from({});
 }
 
 }  // namespace spidar

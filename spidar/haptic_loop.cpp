@@ -193,7 +193,7 @@ void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
   const StructureMatrix W = structure_matrix(profile_.geometry, grip_.pose());
   const StringVector wanted_N = grip_.trusted()
                                     ? tension_command_.solve(W, record.commanded, heat_.limit_N())
-                                    : tension_command_.fade(dt_s, limits_);
+                                    : tension_command_.fade(record.commanded);
   const StringVector limited_N = tension_slew_.apply(energised_ * wanted_N, profile_, dt_s);
   record.tension_N = bound_tensions(limited_N, profile_);
   const Eigen::Matrix<double, 6, 1> delivered = W * record.tension_N;
@@ -208,7 +208,7 @@ void HapticLoop::exchange(TickRecord& record) noexcept {
     errors_in_a_row_ = 0;
     acknowledged_N_ = record.tension_N;
     acknowledged_energised_ = energised_;
-    const bool at_rest = record.commanded.stacked().isZero(0) && tension_command_.at_rest();
+    const bool at_rest = record.commanded.stacked().isZero(0);
     grip_.see(reading, record.delivered, at_rest, record.monotonic_ns);
     counters_.pose_errors = grip_.pose_errors();
     counters_.string_faults = grip_.string_faults();

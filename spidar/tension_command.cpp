@@ -17,7 +17,7 @@ TensionCommand::TensionCommand(const Profile& profile)
 void TensionCommand::reset() noexcept {
   solver_.reset();
   last_N_ = min_N_;
-  left_ = 0;
+  last_size_N_ = 0;
   share_ = 1;
   left_out_ = -1;
 }
@@ -47,14 +47,10 @@ double TensionCommand::pose_problem(const Wrench& wrench, const StringVector& li
 // continuously with pose, wrench and limits.
 StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrench,
                                    const StringVector& limit_N) noexcept {
-  left_ = 1;
   share_ = 1;
-  const double size = size_N(wrench);
-  if (!(size > 0)) {
-    left_ = 0;
-    last_N_ = min_N_;
-    return last_N_;
-  }
+  const double size = last_size_N_ = size_N(wrench);
+  last_N_ = min_N_;
+  if (!(size > 0)) return last_N_;
   problem_.W = W;
   // Half of the range denied counts in full: that is what a motor may have for ever, or more.
   const double denied = std::min(1.0, 2 * pose_problem(wrench, limit_N));
@@ -68,12 +64,10 @@ StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrenc
   return last_N_;
 }
 
-StringVector TensionCommand::fade(double dt_s, const SafetyLimits& limits) noexcept {
+StringVector TensionCommand::fade(const Wrench& wrench) noexcept {
   share_ = 1;
-  const double step = limits.ramp_s > 0 ? std::max(dt_s, 0.0) / limits.ramp_s : 1.0;
-  left_ = std::max(left_ - step, 0.0);
-  const double share = left_ * left_ * (3 - 2 * left_);
-  return min_N_ + share * (last_N_ - min_N_);
+  if (!(last_size_N_ > 0)) return min_N_;
+  return min_N_ + std::min(1.0, size_N(wrench) / last_size_N_) * (last_N_ - min_N_);
 }
 
 }  // namespace spidar

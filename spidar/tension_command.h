@@ -6,7 +6,6 @@
 #include "core/grip/tension_solver.h"
 #include "core/wrench.h"
 #include "spidar/profile.h"
-#include "spidar/safety.h"
 
 namespace spidar {
 
@@ -29,12 +28,9 @@ class SPIDAR_API TensionCommand {
   StringVector solve(const StructureMatrix& W, const Wrench& wrench,
                      const StringVector& limit_N) noexcept;
 
-  /// The pose is not known: from the tensions of the last solve() to rest within `limits.ramp_s`,
-  /// without W. `dt_s` is the time since the last call of either.
-  StringVector fade(double dt_s, const SafetyLimits& limits) noexcept;
-
-  /// fade() has come to rest, or solve() was called with a wrench of zero.
-  bool at_rest() const noexcept { return left_ == 0; }
+  /// The pose is not known: `wrench`, on its way to zero, is taken for a share of that of the last
+  /// solve(), and the tensions go back to rest by as much, without W.
+  StringVector fade(const Wrench& wrench) noexcept;
 
   /// The string that is broken, slack, or whose encoder is dead is not reckoned with from now on:
   /// as the wrench grows it goes from its least tension to none. At rest it has its least tension
@@ -62,7 +58,7 @@ class SPIDAR_API TensionCommand {
   TensionSolver solver_;
   int left_out_ = -1;
   StringVector last_N_;  ///< of the last solve()
-  double left_ = 0;      ///< way back from last_N_ to rest, 1 … 0
+  double last_size_N_ = 0;
   double share_ = 1;
 };
 

@@ -13,11 +13,19 @@ namespace spidar {
 class FrozenCounts {
  public:
   void update(const StringVector& lengths_m, int count) noexcept {
+    still_ = 0;
     for (int i = 0; i < count; ++i) {
       StringVector& then = at_change_m_[static_cast<size_t>(i)];
-      if (then[i] != lengths_m[i]) then = lengths_m;
+      if (then[i] != lengths_m[i]) {
+        then = lengths_m;
+      } else {
+        still_ |= 1u << i;
+      }
     }
   }
+
+  /// Whether string `i` did not change with the last update.
+  bool is_still(int i) const noexcept { return still_ >> i & 1; }
 
   /// How far the second fastest of the other strings has moved since string `i` changed last: one
   /// alone may have jumped.
@@ -35,6 +43,7 @@ class FrozenCounts {
  private:
   static StringVector never() noexcept { return StringVector::Constant(-1); }  // no length
 
+  unsigned still_ = 0;
   std::array<StringVector, kMaxStrings> at_change_m_{never(), never(), never(), never(),
                                                      never(), never(), never(), never()};
 };

@@ -30,10 +30,11 @@ constexpr double kSamePose_m = 1e-6;
 
 using Weights = StringVector;
 
-Weights weights(int count, int left_out) {
+Weights weights(int count, int left_out, int also = -1) {
   Weights w = Weights::Zero();
   w.head(count).setOnes();
   if (left_out >= 0) w[left_out] = 0;
+  if (also >= 0) w[also] = 0;
   return w;
 }
 
@@ -85,10 +86,10 @@ Twist weakest_direction(const NormalEquations& equations) {
 
 }  // namespace
 
-PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& start,
-                                 int left_out) const noexcept {
-  const Weights w = weights(model_.count, left_out);
-  const int used = model_.count - (left_out >= 0);
+PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& start, int left_out,
+                                 int also) const noexcept {
+  const Weights w = weights(model_.count, left_out, also);
+  const int used = model_.count - (left_out >= 0) - (also >= 0);
   PoseFit fit{start, 0, 0, false};
   NormalEquations equations;
   while (fit.iterations < kMaxTrackingSteps && !fit.converged) {

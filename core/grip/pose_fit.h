@@ -15,14 +15,14 @@ struct PoseFit {
   bool converged = false;
 };
 
-/// Least squares over the lengths of all strings, or of all but `left_out` (−1: of all).
+/// Least squares over the lengths of all strings, or of all but `left_out` (−1: of all) and `also`.
 class PoseFitter {
  public:
   explicit PoseFitter(const StringGeometry& geometry) : model_(geometry) {}
 
   /// Up to four Gauss–Newton steps from a start some millimetres off.
-  PoseFit gauss_newton(const StringVector& lengths_m, const Pose& start,
-                       int left_out) const noexcept;
+  PoseFit gauss_newton(const StringVector& lengths_m, const Pose& start, int left_out,
+                       int also = -1) const noexcept;
 
   /// From a start some centimetres off, to the bottom of the minimum it leads to.
   PoseFit levenberg_marquardt(const StringVector& lengths_m, const Pose& start,

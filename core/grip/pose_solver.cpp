@@ -27,6 +27,14 @@ constexpr double kMisfit = 3;
 // the others have moved, up to the second number.
 constexpr double kMissed = 2;
 constexpr double kForgiven = 10;
+// A string that stands still while two others move by kStill largest residuals may be dead. Strings
+// do stand still for a moment, where the grip turns round or moves across them, but then the others
+// would have them where they are, to within kElsewhere; and three at once do not for long.
+constexpr double kStill = 60;
+constexpr double kLongStill = 200;
+constexpr double kElsewhere = 12;
+// Of four Gauss–Newton steps each, for six strings whose pose may be centimetres away.
+constexpr int kRounds = 4;
 // What the residual of seven counts in comparison with the distance: it has one degree of freedom
 // and the distance six, some of them weakly determined.
 constexpr double kResidualWeight = 8;
@@ -49,10 +57,14 @@ PoseSolver::PoseSolver(const StringGeometry& geometry, double max_residual_m)
                                 std::to_string(max_residual_m) + " m");
 }
 
-void PoseSolver::reset(const Pose& pose) noexcept {
+void PoseSolver::search_from(const Pose& pose) noexcept {
   last_ = pose;
   motion_.setZero();
   tracking_ = false;
+}
+
+void PoseSolver::reset(const Pose& pose) noexcept {
+  search_from(pose);
   faulty_string_ = -1;
   fitting_ticks_ = 0;
   counts_ = {};
@@ -145,6 +157,13 @@ PoseResult PoseSolver::rejected(PoseStatus status) const noexcept {
   return result;
 }
 
+PoseResult PoseSolver::rejected(PoseStatus status, const PoseResult& found) const noexcept {
+  PoseResult result = rejected(status);
+  result.residual_m = found.residual_m;
+  result.iterations = found.iterations;
+  return result;
+}
+
 PoseResult PoseSolver::accepted(const PoseResult& result) noexcept {
   motion_ = tracking_ ? fitter_.model().twist(last_, result.pose) : Twist(Twist::Zero());
   last_ = result.pose;
@@ -163,6 +182,35 @@ int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& re
   if (fitting_ticks_++ == 0) fitting_from_m_ = lengths_m[i];
   const bool moved = std::abs(lengths_m[i] - fitting_from_m_) > 2 * kMisfit * max_residual_m_;
   return fitting_ticks_ > kTicksToTrust && moved ? -1 : i;
+}
+
+// Two dead encoders may drag the pose along: seven strings of which one is dead still fit closely
+// in many places. A string that has stood still while the others have moved, and which the others
+// would have elsewhere, is dead; together with one that is out there are too few strings left to
+// tell.
+bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
+                                    bool tracked) const noexcept {
+  int out = result.faulty_string >= 0, one = -1, other = result.faulty_string;
+  for (int i = 0; i < geometry_.count; ++i) {
+    if (i == result.faulty_string || !counts_.is_still(i)) continue;
+    const double missed_m = counts_.missed_m(lengths_m, geometry_.count, i);
+    if (missed_m <= kStill * max_residual_m_) continue;
+    if (++out > 2 && missed_m > kLongStill * max_residual_m_) return true;
+    (one < 0 ? one : other) = i;
+  }
+  if (one < 0 || other < 0) return false;  // no more than one is out: seven fit
+  PoseFit fit{result.pose, 0, 0, false};
+  for (int round = 0; round < kRounds && !fit.converged; ++round)
+    fit = fitter_.gauss_newton(lengths_m, fit.pose, one, other);
+  // Six strings that lead nowhere say nothing of a pose that was tracked; one that was searched for
+  // was a wrong one.
+  if (!fit.converged) return !tracked;
+  const double apart_m = fitter_.model().twist(fit.pose, result.pose).norm();
+  const auto elsewhere = [&](int i) {
+    return i != result.faulty_string &&
+           misfit_m(lengths_m, fit.pose, i) > kElsewhere * max_residual_m_;
+  };
+  return apart_m > kImplausible_m && (elsewhere(one) || elsewhere(other));
 }
 
 PoseResult PoseSolver::track(const StringVector& lengths_m) noexcept {
@@ -188,6 +236,10 @@ PoseResult PoseSolver::track(const StringVector& lengths_m) noexcept {
     tracking_ = false;
     return result;
   }
+  if (hides_dead_encoder(lengths_m, result, true)) {
+    tracking_ = false;
+    return rejected(PoseStatus::kAmbiguous, result);
+  }
   result.faulty_string = still_faulty(lengths_m, result);
   return accepted(result);
 }
@@ -204,7 +256,9 @@ PoseResult PoseSolver::locate(const StringVector& lengths_m) noexcept {
     result.iterations += fit.iterations;
     if (result.status == PoseStatus::kNotConverged) result.residual_m = fit.residual_m;
   }
-  return result.status == PoseStatus::kSolved ? accepted(result) : result;
+  if (result.status != PoseStatus::kSolved) return result;
+  if (hides_dead_encoder(lengths_m, result, false)) return rejected(PoseStatus::kAmbiguous, result);
+  return accepted(result);
 }
 
 PoseResult PoseSolver::solve(const StringVector& lengths_m) noexcept {

@@ -12,8 +12,9 @@ namespace spidar {
 enum class PoseStatus {
   kSolved,
   kNotConverged,  ///< the lengths fit no pose that was found: the last good pose is returned
-  kAmbiguous,     ///< they fit two: the last good pose is returned
-  kBadInput,      ///< a length is negative or not finite: the last good pose is returned
+  /// They fit two, or only with a string that may be dead: the last good pose is returned.
+  kAmbiguous,
+  kBadInput,  ///< a length is negative or not finite: the last good pose is returned
 };
 
 struct PoseResult {
@@ -34,7 +35,8 @@ struct PoseResult {
 /// the motion leads to. And with eight strings two lengths are redundant, so that one fault is
 /// noticed by what it does in two numbers: not at all where the other seven strings can follow it,
 /// which shows as soon as the grip moves on, and two strings whose faults have the same effect on
-/// both numbers are told apart by the motion and by counts that stand still only.
+/// both numbers are told apart by the motion and by counts that stand still only. Two dead encoders
+/// leave too few strings: where counts that stand still say so, there is no pose.
 class SPIDAR_API PoseSolver {
  public:
   /// A residual above this means that the solution is wrong: a local minimum or a bad length. A
@@ -61,7 +63,10 @@ class SPIDAR_API PoseSolver {
   /// The pose anywhere: Levenberg–Marquardt from the last pose and from turned ones at the centre.
   PoseResult locate(const StringVector& lengths_m) noexcept;
 
-  /// Where the next search starts. Forgets motion and faulty strings.
+  /// Where the next search starts. Forgets the motion, but not which counts have stood still.
+  void search_from(const Pose& pose) noexcept;
+
+  /// The same for another device, or one that was switched on again: forgets all.
   void reset(const Pose& pose = {}) noexcept;
 
  private:
@@ -69,6 +74,8 @@ class SPIDAR_API PoseSolver {
   bool is_good(const PoseFit& fit) const noexcept;
   double implausibility_m(const StringVector& lengths_m, const Pose& expected, const PoseFit& fit,
                           int left_out) const noexcept;
+  bool hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
+                          bool tracked) const noexcept;
   double misfit_m(const StringVector& lengths_m, const Pose& pose, int string) const noexcept;
   PoseResult track_without_one(const StringVector& lengths_m, const Pose& expected) const noexcept;
   PoseResult locate_without_one(const StringVector& lengths_m, const Pose& start) const noexcept;
@@ -76,6 +83,7 @@ class SPIDAR_API PoseSolver {
                               int left_out) const noexcept;
   int still_faulty(const StringVector& lengths_m, const PoseResult& result) noexcept;
   PoseResult rejected(PoseStatus status) const noexcept;
+  PoseResult rejected(PoseStatus status, const PoseResult& found) const noexcept;
   PoseResult accepted(const PoseResult& result) noexcept;
 
   StringGeometry geometry_;

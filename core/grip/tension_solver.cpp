@@ -232,14 +232,22 @@ TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
     x->free |= strings_to_release(*x, violation, cautious ? 1.0 : kReleaseShare);
     cautious = false;
   }
+  double sum = 0;
+  for (int k = 0; k < 6; ++k) sum += x->residual[k] * x->residual[k];
+  // Bounds or a start so large that W t overflows: comparisons with what is not a number say
+  // nothing.
+  if (!std::isfinite(sum)) {
+    result = {};
+    result.tension_N = tension_at_rest(problem);
+    warm_ = false;
+    return result;
+  }
   if (scale > 0) result.kkt_residual /= scale;
   result.status =
       result.kkt_residual <= kAccepted ? TensionStatus::kSolved : TensionStatus::kIterationLimit;
 
   for (int p = 0; p < kPairs; ++p) pair(result.tension_N.data(), p) = pair(x->t, p);
   last_N_ = result.tension_N;
-  double sum = 0;
-  for (int k = 0; k < 6; ++k) sum += x->residual[k] * x->residual[k];
   result.residual_N = std::sqrt(sum);
   for (int k = 0; k < 3; ++k) {
     result.delivered.force_N[k] = x->residual[k] + objective.b[k];

@@ -37,9 +37,13 @@ class CountUnwrapper {
 
   /// The same after a break in which the board was not read. False, and nothing taken over, when
   /// its counters seem to have begun anew, as they do when it loses its power: all of them are near
-  /// zero now and were not before, or one of them jumped. Call begin() when that is what is wanted.
+  /// zero now, and neither there before nor where they are now; or one of them jumped. A grip that
+  /// was moved by a hand while it was near the counters' zero looks the same: to be wrong about
+  /// that costs a new zero, to be wrong about the other thing costs the right one. Call begin()
+  /// when that is what is wanted.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
-    const bool anew = near_zero(raw, channels) && !near_zero(raw_, channels);
+    const bool anew = within(kNearZero, raw, {}, channels) && !within(kStill, raw_, {}, channels) &&
+                      !within(kStill, raw, raw_, channels);
     return !anew && follow(raw, channels);
   }
 
@@ -59,10 +63,15 @@ class CountUnwrapper {
   /// 17 mm at 17 µm a count: what strings go slack by while a board without power is switched on.
   static constexpr int32_t kNearZero = 1024;
 
-  bool near_zero(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) const noexcept {
+  /// 1 mm: a zero that is wrong by less does no harm, and a grip that nobody moves moves less.
+  static constexpr int32_t kStill = 64;
+
+  /// Whether no counter differs from that of `other` by more than `counts`.
+  bool within(int32_t counts, const std::array<uint32_t, kMaxStrings>& raw,
+              const std::array<uint32_t, kMaxStrings>& other, size_t channels) const noexcept {
     for (size_t i = 0; i < channels; ++i) {
-      const int32_t count = signed_difference(raw[i]);
-      if (count > kNearZero || count < -kNearZero) return false;
+      const int32_t difference = signed_difference(raw[i] - other[i]);
+      if (difference > counts || difference < -counts) return false;
     }
     return true;
   }

@@ -96,6 +96,10 @@ Tally run_jump(double speed, double jump_m) {
   return run(speed, [jump_m](StringVector& l, int string, bool) { l[string] += jump_m; });
 }
 
+// With one string out, another one that stands still where the six left hardly tell the pose is
+// taken for dead now and then.
+constexpr int kFewTicks = kRuns * (kEnds - kBegins) / 500;
+
 // Without a fault the residual is at most half a step, see PoseSolver::kMaxResidual_m: no run gives
 // a false alarm. With 0.3 mm, 18 steps, the right one of eight hypotheses is as near to where the
 // motion leads to as the counts are fine; a wrong one follows the jump, unless the grip is where
@@ -104,7 +108,7 @@ TEST(PoseFaults, AJumpOf300MicrometresIsNamed) {
   for (const double speed : {1.0, 0.1}) {
     const Tally tally = run_jump(speed, 0.3e-3);
     EXPECT_EQ(tally.false_alarms, 0);
-    EXPECT_EQ(tally.lost_ticks, 0);
+    EXPECT_LE(tally.lost_ticks, kFewTicks);
     EXPECT_GE(tally.named, 57) << "of " << kRuns << " at speed " << speed;
     EXPECT_LE(tally.median_worst_m(), 2 * kStep_m);
   }
@@ -114,7 +118,7 @@ TEST(PoseFaults, AJumpOfAMillimetreIsNamed) {
   for (const double speed : {1.0, 0.1}) {
     const Tally tally = run_jump(speed, 1e-3);
     EXPECT_EQ(tally.false_alarms, 0);
-    EXPECT_EQ(tally.lost_ticks, 0);
+    EXPECT_LE(tally.lost_ticks, kFewTicks);
     EXPECT_GE(tally.named, 59) << "of " << kRuns << " at speed " << speed;
     EXPECT_LE(tally.median_worst_m(), 2 * kStep_m);
   }
@@ -134,6 +138,42 @@ TEST(PoseFaults, ADeadEncoderIsNamed) {
     EXPECT_GE(tally.named, 45) << "of " << kRuns << " at speed " << speed;
     EXPECT_LE(tally.wrong_ticks, kRuns * (kEnds - kBegins) / 20);
     EXPECT_LE(tally.median_worst_m(), 5 * kStep_m);
+  }
+}
+
+// Seven strings of which one is dead fit closely in many places, and the pose that they agree on
+// may be centimetres off: 5 to 6 % of the ticks, as long as nothing looked at counts that stand
+// still. Those give it away, but not before they have stood still for longer than strings do
+// anyway, and not where the six others hardly tell the pose.
+TEST(PoseFaults, TwoDeadEncodersGiveNoWrongPose) {
+  const StringGeometry geometry = g6x3_geometry();
+  for (const double speed : {1.0, 0.1}) {
+    Random random(7);
+    int ticks = 0, wrong = 0;
+    for (int n = 0; n < 24; ++n) {
+      const Motion motion(random, speed);
+      const int dead[2] = {n % 8, (n + 1 + n / 8) % 8};
+      PoseSolver solver(geometry, kStep_m);
+      solver.reset(motion.at(0));
+      StringVector frozen_m = StringVector::Zero();
+      for (int tick = 0; tick < kEnds; ++tick) {
+        const Pose pose = motion.at(tick * 1e-3);
+        StringVector lengths_m = string_lengths_m(geometry, pose);
+        for (double& l : lengths_m) l = std::round(l / kStep_m) * kStep_m;
+        if (tick == kBegins) frozen_m = lengths_m;
+        if (tick >= kBegins)
+          for (const int i : dead) lengths_m[i] = frozen_m[i];
+        const PoseResult result = solver.solve(lengths_m);
+        if (tick < kBegins) {
+          ASSERT_EQ(result.status, PoseStatus::kSolved) << "without a fault";
+          continue;
+        }
+        ++ticks;
+        wrong += result.status == PoseStatus::kSolved &&
+                 (result.pose.position_m - pose.position_m).norm() > 2e-3;
+      }
+    }
+    EXPECT_LE(wrong, ticks / 25) << "at speed " << speed;
   }
 }
 

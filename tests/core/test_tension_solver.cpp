@@ -130,6 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"ZeroEpsilon", [](TensionProblem& p) { p.epsilon = 0; }},
         BadInput{"NanEpsilon", [](TensionProblem& p) { p.epsilon = kNaN; }},
         BadInput{"NegativeLength", [](TensionProblem& p) { p.torque_length_m = -1; }},
+        BadInput{"OverflowingTensions",
+                 [](TensionProblem& p) { p.t_min_N = p.t_max_N = StringVector::Constant(1e308); }},
         BadInput{"NoStrings", [](TensionProblem& p) { p.count = 0; }},
         BadInput{"TooManyStrings", [](TensionProblem& p) { p.count = 9; }}),
     [](const auto& test) { return test.param.name; });

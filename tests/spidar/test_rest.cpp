@@ -205,6 +205,21 @@ TEST(LostPose, RampsToRestWithin50ms) {
   EXPECT_EQ(last_N, least_N);
 }
 
+// A pose that becomes too old while the force is on its way to rest does not begin a way of its
+// own.
+TEST(LostPose, WhileStoppingTakesNoLonger) {
+  LoopDriver driver;
+  driver.open();
+  driver.loop->schedule({0, INT64_MAX / 2, push_right(3)});
+  driver.play(0);
+  driver.run(100 * kMs);
+  driver.pause();
+  driver.run(18 * kMs);
+  driver.tick(GripWatch::kPoseTimeout_ns + kMs);  // a stall, of which two milliseconds count
+  EXPECT_EQ(driver.loop->snapshot().pose_trouble, PoseTrouble::kNoReading);
+  EXPECT_EQ(driver.run(30 * kMs).tension_N, driver.profile.min_tension_N());
+}
+
 TEST(LostPose, NeedsSeveralGoodOnesInARow) {
   LoopDriver driver;
   driver.open();

@@ -21,6 +21,8 @@ class TamperedDevice final : public Device {
 
   /// What the motors got last.
   const MotorVolts& volts() const { return volts_; }
+  /// Of the last exchange.
+  ExchangeStatus status() const { return status_; }
 
   void open() override {
     volts_ = {};
@@ -28,14 +30,15 @@ class TamperedDevice final : public Device {
   }
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     DeviceReading read;
-    const ExchangeStatus status = inner_.exchange(volts, read);
-    // A garbled answer comes from a board that was told.
-    if (status != ExchangeStatus::kTimeout) volts_ = volts;
-    if (status != ExchangeStatus::kOk) return status;
+    status_ = inner_.exchange(volts, read);
+    // A garbled answer comes from a board that was told; one that is gone lets go.
+    if (status_ != ExchangeStatus::kTimeout) volts_ = volts;
+    if (status_ == ExchangeStatus::kLost) volts_ = {};
+    if (status_ != ExchangeStatus::kOk) return status_;
     for (size_t i = 0; i < kMaxStrings; ++i)
       if (!(stopped_ >> i & 1)) last_.count[i] = read.count[i];
     reading = last_;
-    return status;
+    return status_;
   }
   void close() noexcept override {
     volts_ = {};
@@ -47,6 +50,7 @@ class TamperedDevice final : public Device {
   Device& inner_;
   unsigned stopped_ = 0;
   MotorVolts volts_;
+  ExchangeStatus status_ = ExchangeStatus::kLost;
   DeviceReading last_;
 };
 

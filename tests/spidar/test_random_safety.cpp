@@ -1,0 +1,235 @@
+/// Random wrenches, hands and faults on every profile, seen from outside. Short by default;
+/// SPIDAR_TICKS=10000000 is the long run (--suite soak), SPIDAR_SEED another one.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "spidar/haptic_loop.h"
+#include "spidar/simulated_device.h"
+#include "tests/support/seam_watch.h"
+#include "tests/support/tampered_device.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr int64_t kMs = 1'000'000;
+constexpr int64_t kFrame_ns = 40 * kMs;
+constexpr int64_t kRest_ns = 50 * kMs;
+/// From the moment at which the last frame is shown.
+constexpr int64_t kExpiry_ns = 100 * kMs;
+/// Of the short run, two rounds on each profile.
+constexpr int kRoundTicks = 2000;
+
+uint64_t number(const char* variable, uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+/// One device with one zero, from opening to closing.
+class Round {
+ public:
+  Round(const std::string& profile, uint64_t seed)
+      : random_(seed),
+        believed_(load_profile(profile)),
+        zero_(chance(0.5) ? Pose{} : pose(0.005, 3 * M_PI / 180)),
+        real_(zeroed_at(believed_, zero_)),
+        where_(profile + ", round with seed " + std::to_string(seed)),
+        watch_(real_),
+        simulated_(real_, SimulatedDevice::Time::kFixedStep),
+        device_(simulated_) {
+    limits_.max_force_N = uniform(0.2, 6);
+    limits_.max_torque_Nm = uniform(0.01, 0.2);
+    loop_ = std::make_unique<HapticLoop>(believed_, device_, limits_);
+    size_N_ =
+        std::hypot(limits_.max_force_N, limits_.max_torque_Nm / believed_.geometry.grip_radius_m());
+    loop_->open();
+  }
+
+  /// False when a promise was broken.
+  bool run(int ticks) {
+    for (int i = 0; i < ticks && !watch_.failed(); ++i) {
+      act();
+      tick(chance(0.01) ? 1 + static_cast<int>(uniform(0, 60)) : 1);
+    }
+    close();
+    return !watch_.failed();
+  }
+
+  const SeamWatch::Largest& largest() const { return watch_.largest(); }
+
+ private:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  bool chance(double p) { return uniform(0, 1) < p; }
+  int some(int below) { return std::uniform_int_distribution<int>(0, below - 1)(random_); }
+  Eigen::Vector3d direction() {
+    std::normal_distribution<double> normal;
+    return Eigen::Vector3d(normal(random_), normal(random_), normal(random_)).normalized();
+  }
+  Pose pose(double reach_m, double turn_rad) {
+    Pose pose;
+    pose.position_m = uniform(0, reach_m) * direction();
+    pose.orientation = Eigen::AngleAxisd(uniform(0, turn_rad), direction());
+    return pose;
+  }
+  Wrench wrench() {
+    const double size = std::pow(10, uniform(-3, 3));
+    Wrench w{size * direction(), 0.03 * size * direction()};
+    if (chance(0.02)) w.force_N[some(3)] = std::numeric_limits<double>::quiet_NaN();
+    if (chance(0.02)) w.torque_Nm[some(3)] = std::numeric_limits<double>::infinity();
+    return w;
+  }
+
+  int64_t running_ns() const { return now_ns_ - played_at_ns_; }
+
+  /// From now on nothing is to be felt.
+  void stop(int64_t rest_in_ns) {
+    if (!playing_) return;
+    playing_ = false;
+    rest_in_ns_ = rest_in_ns;
+    watch_.stop();
+  }
+
+  void play() {
+    loop_->cancel_scheduled();
+    played_at_ns_ = now_ns_;
+    next_frame_ns_ = 0;
+    loop_->set_playback_clock({now_ns_, 0, 1, true});
+    playing_ = true;
+  }
+
+  void act() {
+    if (playing_ && running_ns() >= next_frame_ns_ - kFrame_ns) {
+      loop_->schedule({next_frame_ns_, kFrame_ns, wrench()});
+      next_frame_ns_ += kFrame_ns;
+    }
+    if (!playing_ && rest_in_ns_ < -100 * kMs && chance(0.01)) play();
+    if (playing_ && chance(0.002)) stop_somehow();
+    if (chance(0.005)) simulated_.set_hand(chance(0.8) ? pose(0.02, M_PI / 3) : pose(0.06, 1.4));
+    if (chance(0.001)) device_.stop_encoders(chance(0.5) ? 0 : static_cast<unsigned>(some(256)));
+    if (chance(0.001)) {
+      const int string = some(real_.geometry.count);
+      simulated_.set_count_error(string, chance(0.5) ? 0 : some(2000) - 1000);
+    }
+    if (fault_ticks_ > 0 && --fault_ticks_ == 0) simulated_.set_fault(ExchangeStatus::kOk);
+    if (fault_ticks_ == 0 && chance(0.002)) {
+      fault_ticks_ = 1 + some(25);
+      simulated_.set_fault(chance(0.05)  ? ExchangeStatus::kLost
+                           : chance(0.5) ? ExchangeStatus::kTimeout
+                                         : ExchangeStatus::kBadReply);
+    }
+    if (loop_->lost() && fault_ticks_ == 0 && chance(0.05)) {
+      watch_.restart();
+      loop_->reopen();
+    }
+  }
+
+  /// Every way in which a player ends a force.
+  void stop_somehow() {
+    switch (some(4)) {
+      case 0:  // pause
+        loop_->set_playback_clock({now_ns_, running_ns(), 1, false});
+        return stop(kRest_ns);
+      case 1:  // flush, and nothing new
+        loop_->cancel_scheduled();
+        return stop(kRest_ns);
+      case 2:  // a clock that is none
+        loop_->set_playback_clock({now_ns_, 0, std::numeric_limits<double>::quiet_NaN(), true});
+        return stop(kRest_ns);
+      default:  // no more frames: the last one is still ahead
+        return stop(next_frame_ns_ - kFrame_ns - running_ns() + kExpiry_ns);
+    }
+  }
+
+  void tick(int passed_ms) {
+    now_ns_ += passed_ms * kMs;
+    loop_->tick(now_ns_, now_ns_);
+    SeamWatch::Tick seen;
+    seen.acknowledged = device_.status() == ExchangeStatus::kOk && !loop_->lost();
+    // A device that does not answer keeps what it was told; ramps count two milliseconds at most.
+    if (!playing_ && seen.acknowledged) rest_in_ns_ -= std::min(passed_ms, 2) * kMs;
+    seen.told_N = tensions_N(device_.volts(), real_);
+    seen.dt_s = 1e-3 * passed_ms;
+    seen.size_N = size_N_;
+    seen.resting = !playing_ && rest_in_ns_ < 0;
+    seen.felt = simulated_.felt();
+    watch_.see(seen, where_ + ", at " + std::to_string(now_ns_ / kMs) + " ms");
+  }
+
+  /// Off within 100 ms of time in which the device answers.
+  void close() {
+    stop(kRest_ns);
+    simulated_.set_fault(ExchangeStatus::kOk);
+    loop_->begin_close();
+    int ticks = 0;
+    while (!loop_->released()) {
+      tick(1);
+      ASSERT_LE(++ticks, 100) << where_;
+    }
+    loop_->close();
+    SeamWatch::Tick off;
+    off.told_N = tensions_N(device_.volts(), real_);
+    off.released = off.resting = true;
+    off.felt = simulated_.felt();
+    watch_.see(off, where_ + ", closed");
+  }
+
+  std::mt19937_64 random_;
+  const Profile believed_;
+  const Pose zero_;
+  const Profile real_;
+  const std::string where_;
+  SeamWatch watch_;
+  SimulatedDevice simulated_;
+  TamperedDevice device_;
+  SafetyLimits limits_;
+  std::unique_ptr<HapticLoop> loop_;
+  double size_N_ = 0;
+  int64_t now_ns_ = 0;
+  int64_t played_at_ns_ = 0;
+  int64_t next_frame_ns_ = 0;
+  bool playing_ = false;
+  int64_t rest_in_ns_ = 0;
+  int fault_ticks_ = 0;
+};
+
+TEST(RandomSafety, HoldsWhateverHappens) {
+  const uint64_t seed = number("SPIDAR_SEED", 1);
+  const uint64_t ticks = number("SPIDAR_TICKS", 96'000);
+  const std::vector<std::string> names = list_profiles();
+  SeamWatch::Largest all;
+  uint64_t done = 0;
+  for (uint64_t n = 0; done < ticks; ++n, done += kRoundTicks) {
+    Round round(names[n % names.size()], seed * 1'000'003 + n);
+    if (!round.run(kRoundTicks)) {
+      FAIL() << "SPIDAR_SEED=" << seed << " SPIDAR_TICKS=" << (n + 1) * kRoundTicks
+             << " plays it again";
+    }
+    const SeamWatch::Largest& one = round.largest();
+    all.resting_force_N = std::max(all.resting_force_N, one.resting_force_N);
+    all.resting_excess = std::max(all.resting_excess, one.resting_excess);
+    all.playing_force_N = std::max(all.playing_force_N, one.playing_force_N);
+    all.step_N = std::max(all.step_N, one.step_N);
+    all.stop_energy_J = std::max(all.stop_energy_J, one.stop_energy_J);
+    all.resting_ticks += one.resting_ticks;
+    all.playing_ticks += one.playing_ticks;
+  }
+  EXPECT_GT(all.resting_ticks, done / 10);
+  EXPECT_GT(all.playing_ticks, done / 10);
+  std::printf(
+      "%llu ticks, seed %llu: at rest %.3f N on the real grip, %.1e N above that of the least "
+      "tensions; playing %.2f N; a string by %.3f N in a tick; %.4f J from a stop to rest\n",
+      static_cast<unsigned long long>(done), static_cast<unsigned long long>(seed),
+      all.resting_force_N, all.resting_excess, all.playing_force_N, all.step_N, all.stop_energy_J);
+}
+
+}  // namespace
+}  // namespace spidar::test

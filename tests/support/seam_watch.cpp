@@ -1,0 +1,82 @@
+#include "tests/support/seam_watch.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "spidar/safety.h"
+#include "spidar/tension_command.h"
+
+namespace spidar::test {
+namespace {
+
+/// Tensions become volts and are read back: a quotient and two products.
+constexpr double kRounding_N = 1e-9;
+/// Of the bounds at rest, for a zero that is wrong.
+constexpr double kZeroMargin = 1.1;
+
+}  // namespace
+
+SeamWatch::SeamWatch(const Profile& real)
+    : real_(real), least_N_(real.min_tension_N()), most_N_(real.max_tension_N()) {}
+
+double SeamWatch::force_N(const Pose& pose, const StringVector& tension_N) const {
+  return (structure_matrix(real_.geometry, pose) * tension_N).head<3>().norm();
+}
+
+void SeamWatch::see(const Tick& tick, const std::string& where) {
+  const int count = real_.geometry.count;
+  for (int i = 0; i < count; ++i) {
+    const double told_N = tick.told_N[i];
+    if (!(told_N >= -kRounding_N)) fail(tick, "a motor pushes", where);
+    if (!(told_N <= most_N_[i] + kRounding_N)) fail(tick, "above the largest tension", where);
+    if (!(told_N <= least_N_[i] + TensionCommand::kTensionPerForce * tick.size_N + kRounding_N))
+      fail(tick, "more tension than the largest wrench is worth", where);
+    if (tick.resting && !(told_N <= 3 * least_N_[i] + kRounding_N))
+      fail(tick, "at rest above three times the least tension", where);
+    if (tick.released && !(told_N <= kRounding_N)) fail(tick, "not off", where);
+  }
+  if (tick.acknowledged) {
+    const double share = std::min(tick.dt_s, 2e-3) / TensionSlew::kRange_s;
+    for (int i = 0; i < count; ++i) {
+      const double step_N = std::abs(tick.told_N[i] - told_N_[i]);
+      largest_.step_N = std::max(largest_.step_N, step_N);
+      if (!(step_N <= share * (most_N_[i] - least_N_[i]) + kRounding_N))
+        fail(tick, "a string changes too fast", where);
+    }
+    told_N_ = tick.told_N;
+  }
+
+  const double force = force_N(tick.felt.pose, tick.told_N);
+  if (tick.resting) {
+    if (stopping_) largest_.stop_energy_J = std::max(largest_.stop_energy_J, stop_energy_J_);
+    stopping_ = false;
+    const double least = force_N(tick.felt.pose, least_N_);
+    ++largest_.resting_ticks;
+    largest_.resting_force_N = std::max(largest_.resting_force_N, force);
+    largest_.resting_excess = std::max(largest_.resting_excess, force - least);
+    if (!(force <= kZeroMargin * least + kRounding_N))
+      fail(tick, "at rest more force than the least tensions give", where);
+    return;
+  }
+  ++largest_.playing_ticks;
+  largest_.playing_force_N = std::max(largest_.playing_force_N, force);
+  stop_energy_J_ +=
+      std::max(0.0, tick.felt.wrench.force_N.dot(tick.felt.velocity_m_s) +
+                        tick.felt.wrench.torque_Nm.dot(tick.felt.angular_velocity_rad_s)) *
+      tick.dt_s;
+}
+
+void SeamWatch::fail(const Tick& tick, const std::string& what, const std::string& where) {
+  if (failed_) return;
+  failed_ = true;
+  std::ostringstream text;
+  text << what << " (" << where << ")\n  told, N:     " << tick.told_N.transpose()
+       << "\n  last, N:     " << told_N_.transpose() << "\n  least, N:    " << least_N_.transpose()
+       << "\n  resting " << tick.resting << ", acknowledged " << tick.acknowledged << ", grip at "
+       << tick.felt.pose.position_m.transpose() << " m";
+  ADD_FAILURE() << text.str();
+}
+
+}  // namespace spidar::test
