@@ -19,6 +19,7 @@ void Complaints::start() {
   frame_problems_ = 0;
   strings_ = 0;
   pose_lost_ = held_back_ = false;
+  haptic_trace_ = false;
   device_state_ = DeviceState::kClosed;
 }
 
@@ -61,6 +62,15 @@ void Complaints::look_at_frame(const FrameReport& report) {
   }
 }
 
+void Complaints::look_at_haptic_trace(const MotionEngine& engine) {
+  const int error = engine.session() ? engine.session()->trace_error() : 0;
+  if (error == 0 || haptic_trace_) return;
+  haptic_trace_ = true;
+  GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
+                      ("The haptic trace cannot be written any more: %s.", g_strerror(error)),
+                      ("The video and the force go on without it."));
+}
+
 void Complaints::look_at_strings(const MotionEngine& engine) {
   const int string = engine.faulty_string();
   if (string < 0 || (strings_ & 1u << string) != 0) return;
@@ -100,6 +110,7 @@ void Complaints::look_at_pose(const MotionEngine& engine) {
 bool Complaints::look_at_device(const MotionEngine& engine, OnDeviceError policy) {
   look_at_strings(engine);
   look_at_pose(engine);
+  look_at_haptic_trace(engine);
   const DeviceState state = engine.device_state();
   const DeviceState before = device_state_;
   device_state_ = state;

@@ -19,6 +19,8 @@ class Complaints {
   void begin_stream() { frame_problems_ = 0; }
 
   void look_at_frame(const FrameReport& report);
+  /// Once a device, also at its end: the haptic trace cannot be written any more.
+  void look_at_haptic_trace(const MotionEngine& engine);
   /// Looks at the device. False when the stream is to end, and then says why.
   bool look_at_device(const MotionEngine& engine, OnDeviceError policy);
 
@@ -31,6 +33,7 @@ class Complaints {
   guint strings_ = 0;         // bit i: string i
   bool pose_lost_ = false;    // said, and not come back since
   bool held_back_ = false;    // said
+  bool haptic_trace_ = false;
   DeviceState device_state_ = DeviceState::kClosed;
 };
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/analysis_json.h"
+#include "spidar/sigpipe_block.h"
 
 namespace spidar {
 namespace {
@@ -33,6 +34,7 @@ std::string FrameTrace::open(const std::string& path) {
   file_ = std::fopen(path.c_str(), "we");
   if (!file_) return std::strerror(errno);
   json_ = ends_with(path, ".jsonl");
+  const SigpipeBlock no_sigpipe;
   if ((!json_ && std::fputs(kHeader, file_) < 0) || std::fflush(file_) != 0) {
     const std::string reason = std::strerror(errno);
     close();
@@ -65,6 +67,7 @@ bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns,
   } else {
     append_csv(running_time_ns, stream_time_ns, frame);
   }
+  const SigpipeBlock no_sigpipe;
   if (std::fwrite(line_.data(), 1, line_.size(), file_) == line_.size()) return true;
   close();
   return false;
@@ -72,6 +75,7 @@ bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns,
 
 bool FrameTrace::close() {
   if (!file_) return true;
+  const SigpipeBlock no_sigpipe;
   const bool written = std::fclose(file_) == 0;
   file_ = nullptr;
   return written;

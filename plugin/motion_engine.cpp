@@ -57,16 +57,27 @@ void MotionEngine::set_manual(PlaybackSync::Now now, void* user) {
   now_user_ = user;
 }
 
-void MotionEngine::open(const MotionProperties& properties) {
+std::string MotionEngine::open(const MotionProperties& properties) {
   analyzer_.configure(properties.analyzer);
-  if (properties.device == "none") return;
+  if (properties.device == "none") return {};
   const Profile profile = load_profile(properties.profile);
   grip_pointer_ = GripPointer(profile.geometry);
   SessionSettings settings;
   settings.trace_path = properties.haptic_trace;
   settings.threaded = now_ == nullptr;
-  auto session =
-      std::make_unique<HapticSession>(profile, make_device(properties.device, profile), settings);
+  std::string trace_problem;
+  const auto make_session = [&] {
+    return std::make_unique<HapticSession>(profile, make_device(properties.device, profile),
+                                           settings);
+  };
+  std::unique_ptr<HapticSession> session;
+  try {
+    session = make_session();
+  } catch (const TraceError& error) {
+    trace_problem = error.what();
+    settings.trace_path.clear();
+    session = make_session();
+  }
   HapticLoop& loop = session->loop();
   auto follower = std::make_unique<PlaybackFollower>(
       element_,
@@ -83,6 +94,7 @@ void MotionEngine::open(const MotionProperties& properties) {
   profile_ = profile;
   session_ = std::move(session);
   follower_ = std::move(follower);
+  return trace_problem;
 }
 
 void MotionEngine::close() {

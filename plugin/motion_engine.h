@@ -53,8 +53,9 @@ class MotionEngine {
 
   // --- state changes
 
-  /// Opens the device. Throws ProfileError, DeviceError, std::runtime_error.
-  void open(const MotionProperties& properties);
+  /// Opens the device. Throws ProfileError, DeviceError, std::runtime_error. Empty, or why the
+  /// haptic trace cannot be written: the device works without it.
+  std::string open(const MotionProperties& properties);
   /// Motors to rest, device closed.
   void close();
   /// Begins a stream. Empty, or why the trace cannot be written.

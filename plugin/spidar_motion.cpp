@@ -279,6 +279,9 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
     GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("The end of the trace could not be written."),
                         ("Disk full?"));
   }
+  // Here, because what is said on the way to NULL reaches nobody.
+  if (self->engine->session()) self->engine->session()->drain_trace();
+  self->complaints->look_at_haptic_trace(*self->engine);
   return TRUE;
 }
 
@@ -320,8 +323,14 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     GST_OBJECT_LOCK(self);
     const MotionProperties properties = *self->properties;
     GST_OBJECT_UNLOCK(self);
-    const bool opened = guarded(self, "opening the device", [&] { engine.open(properties); });
+    std::string trace_problem;
+    const bool opened =
+        guarded(self, "opening the device", [&] { trace_problem = engine.open(properties); });
     if (!opened) return GST_STATE_CHANGE_FAILURE;
+    if (!trace_problem.empty()) {
+      GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
+                          ("The video and the force go on without it."));
+    }
     set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
     self->steps->begin(element);

@@ -75,6 +75,10 @@ TraceStatus HapticSession::trace_status() const noexcept {
   return impl_->trace ? impl_->trace->status() : TraceStatus{};
 }
 
+int HapticSession::trace_error() const noexcept {
+  return impl_->trace ? impl_->trace->error() : 0;
+}
+
 int64_t HapticSession::monotonic_now_ns() noexcept {
   return spidar::monotonic_now_ns();
 }

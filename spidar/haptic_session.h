@@ -28,7 +28,7 @@ struct SessionSettings {
 class SPIDAR_API HapticSession {
  public:
   /// Opens the device and starts the loop. Throws DeviceError, std::invalid_argument when the
-  /// profile has fewer than six strings, or std::runtime_error when the trace cannot be written.
+  /// profile has fewer than six strings, or TraceError when the trace cannot be written.
   HapticSession(const Profile& profile, std::unique_ptr<Device> device,
                 const SessionSettings& settings = {});
   /// Ramps to rest, then to zero, and closes the device: some 60 ms. Without a thread the ramp's
@@ -49,6 +49,8 @@ class SPIDAR_API HapticSession {
   void drain_trace() noexcept;
   /// All zero without a trace.
   TraceStatus trace_status() const noexcept;
+  /// TraceStatus::error, at once: trace_status() may wait for a disk.
+  int trace_error() const noexcept;
 
   /// CLOCK_MONOTONIC, nanoseconds.
   static int64_t monotonic_now_ns() noexcept;

@@ -6,9 +6,10 @@
 #include <cstring>
 #include <fcntl.h>
 #include <initializer_list>
-#include <stdexcept>
 #include <string_view>
 #include <unistd.h>
+
+#include "spidar/sigpipe_block.h"
 
 namespace spidar {
 namespace {
@@ -83,8 +84,7 @@ void append_row(const TickRecord& record, std::string& csv) {
 TickTrace::TickTrace(const std::string& path)
     : file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (file_ < 0) {
-    throw std::runtime_error("cannot write the haptic trace \"" + path +
-                             "\": " + std::strerror(errno));
+    throw TraceError("cannot write the haptic trace \"" + path + "\": " + std::strerror(errno));
   }
   pending_.reserve(kFlush_bytes + kMaxRow_bytes);
   pending_.append(trace_header()).append("\n");
@@ -108,6 +108,7 @@ void TickTrace::add(const TickRecord& record) noexcept {
 }
 
 void TickTrace::flush() noexcept {
+  const SigpipeBlock no_sigpipe;
   size_t written = 0;
   while (status_.error == 0 && written < pending_.size()) {
     const ssize_t n = write(file_, pending_.data() + written, pending_.size() - written);

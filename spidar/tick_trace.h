@@ -2,12 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 
 #include "core/api.h"
 #include "spidar/tick_record.h"
 
 namespace spidar {
+
+/// A trace that cannot be begun; names path and reason.
+struct TraceError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// How far a trace has come.
 struct TraceStatus {
@@ -27,7 +33,7 @@ SPIDAR_API void append_row(const TickRecord& record, std::string& csv);
 /// The file. Rows are collected and written by flush(). One thread at a time.
 class SPIDAR_API TickTrace {
  public:
-  /// Creates or empties the file. Throws std::runtime_error that names path and reason.
+  /// Creates or empties the file. Throws TraceError.
   explicit TickTrace(const std::string& path);
   /// flush()
   ~TickTrace();

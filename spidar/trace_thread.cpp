@@ -43,6 +43,7 @@ void TraceThread::drain_locked() noexcept {
   TickRecord record;
   while (loop_.pop_record(record)) trace_.add(record);
   trace_.flush();
+  error_.store(trace_.status().error, std::memory_order_relaxed);
 }
 
 TraceStatus TraceThread::status() const noexcept {

@@ -1,6 +1,7 @@
 /// The thread that writes the haptic trace, so that the haptic thread touches no file.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -14,7 +15,7 @@ namespace spidar {
 /// Takes the records of a loop every 50 ms, of which the loop can keep more than four seconds.
 class TraceThread {
  public:
-  /// Throws std::runtime_error when the file cannot be written. `loop` outlives it. Without
+  /// Throws TraceError when the file cannot be written. `loop` outlives it. Without
   /// `threaded`, records are only taken by drain() and at the end.
   TraceThread(const std::string& path, HapticLoop& loop, bool threaded);
   /// Writes what is left.
@@ -24,6 +25,8 @@ class TraceThread {
   void drain() noexcept;
 
   TraceStatus status() const noexcept;
+  /// TraceStatus::error, without waiting for a file.
+  int error() const noexcept { return error_.load(std::memory_order_relaxed); }
 
  private:
   void run() noexcept;
@@ -34,6 +37,7 @@ class TraceThread {
   std::condition_variable wake_;
   bool stop_ = false;
   TickTrace trace_;
+  std::atomic<int> error_{0};
   std::thread thread_;
 };
 

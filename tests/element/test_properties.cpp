@@ -1,10 +1,14 @@
 // Settings, errors, trace, stats.
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <vector>
 
 #include <gst/controller/gstdirectcontrolbinding.h>
@@ -205,6 +209,48 @@ TEST(Trace, FullDiskIsAWarningAndTheVideoGoesOn) {
     EXPECT_EQ(h.push_moved(0, 0, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
   }
   EXPECT_EQ(h.warnings().size(), 1u);
+}
+
+/// Pushes frames until the element warns, for ten seconds at most.
+void push_until_warned(ElementHarness& h) {
+  h.set_caps(make_caps("GRAY8", 64, 64));
+  for (int n = 0; n < 1000 && h.warnings().empty(); ++n) {
+    ASSERT_EQ(h.push_moved(0, 0, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    g_usleep(10'000);
+  }
+}
+
+TEST(Trace, APipeWhoseReaderHasLeftIsAWarningAndTheVideoGoesOn) {
+  const TemporaryFolder folder;
+  const std::string pipe = (folder.path / "trace.csv").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const char* property : {"device=none trace=", "device=sim haptic-trace="}) {
+    SCOPED_TRACE(property);
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    ElementHarness h(property + pipe);
+    close(reader);
+    push_until_warned(h);
+    ASSERT_EQ(h.warnings().size(), 1u);
+    EXPECT_NE(h.warnings()[0].find("cannot be written any more"), std::string::npos);
+  }
+}
+
+TEST(HapticTrace, ThatCannotBeWrittenIsAWarningAndTheForceGoesOn) {
+  ElementHarness h("device=sim haptic-trace=/nowhere/haptic.csv");
+  ASSERT_EQ(h.warnings().size(), 1u);
+  EXPECT_NE(h.warnings()[0].find("/nowhere/haptic.csv"), std::string::npos);
+  EXPECT_TRUE(h.errors().empty());
+  EXPECT_NE(h.engine().session(), nullptr);
+}
+
+TEST(HapticTrace, FullDiskIsAWarningAndTheForceGoesOn) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  ElementHarness h("device=sim haptic-trace=/dev/full");
+  push_until_warned(h);
+  ASSERT_EQ(h.warnings().size(), 1u);
+  EXPECT_NE(h.warnings()[0].find(g_strerror(ENOSPC)), std::string::npos);
+  EXPECT_NE(h.engine().device_state(), DeviceState::kLost);
 }
 
 TEST(Stats, NameTheModelOfTheBackground) {
