@@ -10,6 +10,8 @@
 #include <exception>
 #include <vector>
 
+#include <gst/gst.h>
+
 #include "examples/feel/figures.h"
 #include "examples/feel/video_film.h"
 #include "tests/support/ball_scene.h"
@@ -58,6 +60,7 @@ void print(const Film& film, const spidar::FilterSettings& filter) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  gst_init(&argc, &argv);
   const spidar::AnalyzerSettings settings;
   std::printf(
       "Of the time in which something moves; 3 N at most.\n\n"

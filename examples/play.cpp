@@ -2,18 +2,22 @@
 /// a video.
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
 #include <gst/gst.h>
 
+#include "examples/film/film_uri.h"
 #include "examples/play/pipeline.h"
 #include "examples/play/playback.h"
 #include "examples/play/properties.h"
@@ -163,11 +167,23 @@ std::string progress_line(const Now& now) {
   return line;
 }
 
+/// The folder, made if need be, before a film is played for it. Throws std::invalid_argument when
+/// nothing can be written there.
+void prepare_output(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && access(folder.c_str(), W_OK | X_OK) == 0) return;
+  const std::string reason = error ? error.message() : std::strerror(errno);
+  throw std::invalid_argument("--output " + folder.string() + ": " + reason +
+                              "; give a folder that can be written to");
+}
+
 int play(const Options& options) {
+  prepare_output(options.output);
   GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
   for (const std::string& assignment : options.assignments) set_property(filter, assignment);
   if (options.window) g_object_set(filter, "debug-window", TRUE, nullptr);
-  const std::string uri = options.ball ? "" : uri_of(options.video);
+  const std::string uri = options.ball ? "" : film_uri(options.video);
   std::string title = options.ball ? "videotestsrc pattern=ball" : options.video;
   if (fs::path(title).has_filename()) title = fs::path(title).filename();
   const Screen screen = open_screen(options.headless);
@@ -214,7 +230,6 @@ int play(const Options& options) {
   print_report(record.numbers(), stats);
   gst_structure_free(stats);
 
-  fs::create_directories(options.output);
   const std::string png = options.output / "spidar-play.png";
   draw_report(record.numbers(), title, folder.path(), png);
   std::printf("picture: %s\n", png.c_str());

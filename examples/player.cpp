@@ -9,12 +9,13 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <unistd.h>
 
 #include <glib-unix.h>
+
+#include "examples/film/failure.h"
+#include "examples/film/film_uri.h"
 
 namespace {
 
@@ -25,6 +26,7 @@ constexpr char kKeys[] =
 struct Session {
   Player& player;
   std::string name;  ///< of the film
+  std::string uri;
   GMainLoop* loop;
   KeyReader keys;
   bool terminal = isatty(STDOUT_FILENO) != 0;
@@ -60,56 +62,55 @@ gboolean on_signal(gpointer user) {
   return G_SOURCE_CONTINUE;
 }
 
+void fail(Session& session, const std::string& reason) {
+  std::fprintf(stderr, "\n%s: %s\n", session.name.c_str(), reason.c_str());
+  session.result = 1;
+  g_main_loop_quit(session.loop);
+}
+
+void end(Session& session) {
+  const std::string early = early_end_text(session.player.pipeline());
+  if (!early.empty()) std::fprintf(stderr, "\n%s: %s\n", session.name.c_str(), early.c_str());
+  if (!session.player.again()) g_main_loop_quit(session.loop);
+}
+
 gboolean on_message(GstBus*, GstMessage* message, gpointer user) {
   auto& session = *static_cast<Session*>(user);
-  GError* error = nullptr;
+  GError* warning = nullptr;
   switch (GST_MESSAGE_TYPE(message)) {
+    case GST_MESSAGE_ASYNC_DONE:
+      if (has_no_video(session.player.pipeline())) fail(session, kNoVideo);
+      break;
     case GST_MESSAGE_EOS:
-      if (!session.player.again()) g_main_loop_quit(session.loop);
+      end(session);
       break;
     case GST_MESSAGE_WARNING:
-      gst_message_parse_warning(message, &error, nullptr);
-      std::fprintf(stderr, "\n%s\n", error->message);
+      gst_message_parse_warning(message, &warning, nullptr);
+      std::fprintf(stderr, "\n%s\n", warning->message);
+      g_error_free(warning);
       break;
     case GST_MESSAGE_ERROR:
-      gst_message_parse_error(message, &error, nullptr);
-      std::fprintf(stderr, "\n%s: %s\n", session.name.c_str(), error->message);
-      session.result = 1;
-      g_main_loop_quit(session.loop);
+      fail(session, failure_text(message, session.uri));
       break;
     default:
       break;
   }
-  g_clear_error(&error);
   return G_SOURCE_CONTINUE;
 }
 
-/// Throws std::runtime_error for a file that cannot be a film.
-std::string uri_of(const std::string& name) {
-  if (gst_uri_is_valid(name.c_str())) return name;
-  std::error_code error;
-  const auto status = std::filesystem::status(name, error);
-  if (!std::filesystem::exists(status)) throw std::runtime_error(name + ": no such file");
-  if (std::filesystem::is_directory(status)) {
-    throw std::runtime_error(name + ": a folder; name a film in it");
-  }
-  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(name, error) == 0) {
-    throw std::runtime_error(name + ": an empty file");
-  }
-  gchar* uri = gst_filename_to_uri(name.c_str(), nullptr);
-  const std::string result = uri;
-  g_free(uri);
-  return result;
-}
-
 int run(const std::string& name, bool headless) {
-  Player player(uri_of(name), headless);
+  const std::string uri = film_uri(name);
+  Player player(uri, headless);
+  if (!headless && !player.why_no_screen().empty()) {
+    std::fprintf(stderr, "played without a window: %s\n", player.why_no_screen().c_str());
+  }
   const RawTerminal raw(STDIN_FILENO);
-  Session session{player, name, g_main_loop_new(nullptr, FALSE), {}};
+  Session session{player, name, uri, g_main_loop_new(nullptr, FALSE), {}};
   gst_bus_add_watch(player.bus(), on_message, &session);
   player.play();
   g_unix_fd_add(STDIN_FILENO, static_cast<GIOCondition>(G_IO_IN | G_IO_HUP), on_key, &session);
   g_unix_signal_add(SIGINT, on_signal, &session);
+  g_unix_signal_add(SIGTERM, on_signal, &session);
   g_timeout_add(100, on_time, &session);
   show(session);
   g_main_loop_run(session.loop);

@@ -72,7 +72,12 @@ def hear(_bus, message):
     elif message.type in (Gst.MessageType.ERROR, Gst.MessageType.EOS):
         failed = message.type == Gst.MessageType.ERROR
         if failed:
-            print(f"{names[0]}: {message.parse_error().gerror.message}", file=sys.stderr)
+            error, detail = message.parse_error()
+            print(f"{names[0]}: {error.message} ({detail.splitlines()[-1]})", file=sys.stderr)
+        main.quit()
+    elif message.type == Gst.MessageType.ASYNC_DONE and player.get_property("n-video") == 0:
+        failed = True
+        print(f"{names[0]}: there is no video in it", file=sys.stderr)
         main.quit()
 
 

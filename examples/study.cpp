@@ -10,6 +10,7 @@
 
 #include <gst/gst.h>
 
+#include "examples/film/film_uri.h"
 #include "examples/play/pipeline.h"
 #include "examples/play/playback.h"
 #include "examples/play/properties.h"
@@ -106,7 +107,7 @@ Ending play(const Trial& trial, const Options& options) {
       filter, trial.condition == Condition::kLinear ? "controller=linear" : "controller=nonlinear");
   if (trial.condition == Condition::kWithout) set_property(filter, "mute=true");
   const Screen screen = open_screen(options.headless);
-  GstElement* const pipeline = make_player(uri_of(trial.clip), filter, screen);
+  GstElement* const pipeline = make_player(film_uri(trial.clip), filter, screen);
   const Ending ending = run_playback(pipeline, 0, [&] { return "clip " + trial.code; });
   gst_element_set_state(pipeline, GST_STATE_NULL);
   gst_object_unref(pipeline);
@@ -132,7 +133,7 @@ int run(const Options& options) {
   check_name(options.participant);
   for (const std::string& clip : options.clips) {
     check_name(clip);
-    uri_of(clip);  // all are there before the first is shown
+    film_uri(clip);  // all are there before the first is shown
   }
   for (const Question& question : options.questions) check_name(question.name);
   const std::vector<Answer> answers = read_answers(options.answers);

@@ -7,8 +7,7 @@
 
 namespace spidar {
 
-/// Decodes the whole file, as fast as it goes. Throws std::runtime_error when that fails, with what
-/// GStreamer says of it.
+/// Decodes the whole file or URI, as fast as it goes; after gst_init(). Throws as LumaReader does.
 Film read_film(const std::string& path, const AnalyzerSettings& settings);
 
 }  // namespace spidar

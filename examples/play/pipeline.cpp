@@ -1,10 +1,8 @@
 #include "examples/play/pipeline.h"
 
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
-#include <sys/stat.h>
 
 #include <glib.h>
 
@@ -58,22 +56,6 @@ Screen open_screen(bool headless) {
   screen.element = screen.sink = make("fakesink");
   g_object_set(screen.element, "sync", TRUE, "qos", TRUE, nullptr);
   return screen;
-}
-
-std::string uri_of(const std::string& file_or_uri) {
-  if (gst_uri_is_valid(file_or_uri.c_str())) return file_or_uri;
-  struct stat status;
-  if (stat(file_or_uri.c_str(), &status) != 0) {
-    throw std::invalid_argument(file_or_uri + ": " + std::strerror(errno) +
-                                "; give a video file or a URI such as https://…");
-  }
-  if (S_ISDIR(status.st_mode)) {
-    throw std::invalid_argument(file_or_uri + " is a folder; give a video file in it");
-  }
-  char* const uri = gst_filename_to_uri(file_or_uri.c_str(), nullptr);
-  const std::string result = uri;
-  g_free(uri);
-  return result;
 }
 
 GstElement* make_filter() {

@@ -15,9 +15,6 @@ struct Screen {
 /// A window, or without a display a sink that only keeps time.
 Screen open_screen(bool headless);
 
-/// URI of a file name or of a URI. Throws std::invalid_argument when there is no such file.
-std::string uri_of(const std::string& file_or_uri);
-
 /// The filter to be set up. Throws std::runtime_error when the plugin is not found.
 GstElement* make_filter();
 

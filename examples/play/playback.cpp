@@ -2,13 +2,14 @@
 
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <map>
 #include <unistd.h>
 #include <vector>
 
 #include <glib-unix.h>
 #include <gst/pbutils/pbutils.h>
+
+#include "examples/film/failure.h"
 
 namespace {
 
@@ -33,22 +34,37 @@ struct Playback {
   }
 };
 
+/// Of a playbin; empty for another pipeline.
+std::string film_of(GstElement* pipeline) {
+  if (!g_object_class_find_property(G_OBJECT_GET_CLASS(pipeline), "current-uri")) return {};
+  char* uri = nullptr;
+  g_object_get(pipeline, "current-uri", &uri, nullptr);
+  const std::string result = uri ? uri : "";
+  g_free(uri);
+  return result;
+}
+
 void end_by_error(Playback& playback, GstMessage* message) {
   GError* error = nullptr;
-  char* debug = nullptr;
-  gst_message_parse_error(message, &error, &debug);
+  gst_message_parse_error(message, &error, nullptr);
   playback.clear_line();
   const bool window_closed =
       GST_OBJECT_FLAG_IS_SET(message->src, GST_ELEMENT_FLAG_SINK) &&
       g_error_matches(error, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_NOT_FOUND);
+  g_error_free(error);
   playback.stop(window_closed ? Ending::kInterrupted : Ending::kFailed);
   std::fprintf(stderr, "%s: %s: %s\n", window_closed ? "note" : "error",
-               GST_OBJECT_NAME(message->src), error->message);
-  // Behind the place in the source that GStreamer's first line names there may be a reason.
-  const char* const reason = debug != nullptr ? std::strchr(debug, '\n') : nullptr;
-  if (reason != nullptr) std::fprintf(stderr, "  %s\n", reason + 1);
-  g_error_free(error);
-  g_free(debug);
+               GST_OBJECT_NAME(message->src),
+               failure_text(message, film_of(playback.pipeline)).c_str());
+}
+
+void end_by_end(Playback& playback) {
+  const std::string early = early_end_text(playback.pipeline);
+  if (!early.empty()) {
+    playback.clear_line();
+    std::fprintf(stderr, "warning: %s\n", early.c_str());
+  }
+  playback.stop(Ending::kEndOfVideo);
 }
 
 /// A broken video warns at every frame; each text is said once.
@@ -67,15 +83,6 @@ void report_missing_plugin(const Playback& playback, GstMessage* message) {
   playback.clear_line();
   std::fprintf(stderr, "warning: not installed: %s\n", what);
   g_free(what);
-}
-
-/// True when playbin has found streams and no video is among them.
-bool has_no_video(GstElement* pipeline) {
-  if (g_object_class_find_property(G_OBJECT_GET_CLASS(pipeline), "n-video") == nullptr)
-    return false;
-  int count = 0;
-  g_object_get(pipeline, "n-video", &count, nullptr);
-  return count == 0;
 }
 
 /// Network streams: waits until enough has arrived.
@@ -98,11 +105,11 @@ gboolean on_message(GstBus*, GstMessage* message, void* data) {
       report_warning(playback, message);
       break;
     case GST_MESSAGE_EOS:
-      playback.stop(Ending::kEndOfVideo);
+      end_by_end(playback);
       break;
     case GST_MESSAGE_ASYNC_DONE:
       if (has_no_video(playback.pipeline)) {
-        std::fprintf(stderr, "error: there is no video in it\n");
+        std::fprintf(stderr, "error: %s\n", kNoVideo);
         playback.stop(Ending::kFailed);
       }
       break;

@@ -14,8 +14,8 @@ class RawTerminal {
 
  private:
   int file_;
+  termios before_{};  // before changed_, with which it is filled in
   bool changed_;
-  termios before_{};
 };
 
 enum class Command { kNone, kPause, kSeek, kSpeed, kLoop, kStep, kForce, kDelay, kQuit };

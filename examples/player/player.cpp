@@ -3,21 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <stdexcept>
 
 namespace {
 
 constexpr std::array<double, 7> kSpeeds{0.25, 0.5, 0.75, 1, 1.5, 2, 4};
 constexpr size_t kUsual = 3;
-
-GstElement* make(const char* name) {
-  GstElement* element = gst_element_factory_make(name, nullptr);
-  if (!element) {
-    throw std::runtime_error(std::string("no element ") + name +
-                             "; is GST_PLUGIN_PATH set? See README.md");
-  }
-  return element;
-}
 
 std::string minutes(gint64 time) {
   char text[32];
@@ -30,17 +20,11 @@ std::string minutes(gint64 time) {
 }  // namespace
 
 Player::Player(const std::string& uri, bool headless)
-    : playbin_(make("playbin")), motion_(make("spidarmotion")), speed_(kUsual) {
-  g_object_set(playbin_, "uri", uri.c_str(), "video-filter", motion_, nullptr);
-  for (const char* sink : {"video-sink", "audio-sink"}) {
-    const bool video = sink == std::string("video-sink");
-    GstElement* element = make(headless ? "fakesink" : video ? "autovideosink" : "autoaudiosink");
-    if (headless) g_object_set(element, "sync", TRUE, nullptr);
-    if (video) video_sink_ = element;
-    g_object_set(playbin_, sink, element, nullptr);
-  }
-  bus_ = gst_element_get_bus(playbin_);
-}
+    : motion_(make_filter()),
+      screen_(open_screen(headless)),
+      playbin_(make_player(uri, motion_, screen_)),
+      bus_(gst_element_get_bus(playbin_)),
+      speed_(kUsual) {}
 
 Player::~Player() {
   gst_element_set_state(playbin_, GST_STATE_NULL);
@@ -92,7 +76,7 @@ void Player::act(const Action& action) {
       break;
     case Command::kStep:
       if (!paused_) act({Command::kPause, 0});
-      gst_element_send_event(video_sink_,
+      gst_element_send_event(screen_.element,
                              gst_event_new_step(GST_FORMAT_BUFFERS, 1, 1, TRUE, FALSE));
       settle();
       break;

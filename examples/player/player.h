@@ -5,12 +5,13 @@
 
 #include <gst/gst.h>
 
+#include "examples/play/pipeline.h"
 #include "examples/player/keys.h"
 
 class Player {
  public:
-  /// `uri` of the film. `headless`: neither seen nor heard, but in time. Throws std::runtime_error
-  /// when an element is missing.
+  /// `uri` of the film. `headless`, or where there is no display: neither seen nor heard, but in
+  /// time. Throws std::runtime_error when an element is missing.
   Player(const std::string& uri, bool headless);
   ~Player();
   Player(const Player&) = delete;
@@ -24,6 +25,9 @@ class Player {
 
   /// "0:12.48 / 3:45.00, 1x, playing, force on, delay 0 ms"
   std::string status() const;
+  /// Empty when the film is seen.
+  const std::string& why_no_screen() const { return screen_.why_none; }
+  GstElement* pipeline() const { return playbin_; }
   GstBus* bus() const { return bus_; }
 
  private:
@@ -31,9 +35,9 @@ class Player {
   void settle();
   gint64 position() const;
 
-  GstElement* playbin_;
   GstElement* motion_;
-  GstElement* video_sink_ = nullptr;
+  Screen screen_;
+  GstElement* playbin_;
   GstBus* bus_;
   bool paused_ = false;
   bool loop_ = false;

@@ -1,11 +1,13 @@
 #include "examples/track/luma_reader.h"
 
-#include <filesystem>
 #include <stdexcept>
 
 #include <gst/app/gstappsink.h>
 #include <gst/gst.h>
 #include <gst/video/video.h>
+
+#include "examples/film/failure.h"
+#include "examples/film/film_uri.h"
 
 namespace {
 
@@ -15,28 +17,12 @@ constexpr const char* kPipeline =
     "video/x-raw,format={GRAY8,I420,YV12,NV12,NV21,Y42B,Y444,NV16,NV24,Y41B} ! "
     "appsink name=sink sync=false max-buffers=4";
 
-/// `video` as a URI; a name that is none must be a file.
-std::string uri_of(const std::string& video) {
-  if (gst_uri_is_valid(video.c_str())) return video;
-  if (!std::filesystem::is_regular_file(video)) {
-    throw std::runtime_error(video + ": is neither a file nor a URI");
-  }
-  char* uri = gst_filename_to_uri(video.c_str(), nullptr);
-  const std::string result = uri;
-  g_free(uri);
-  return result;
-}
-
-std::string last_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  const size_t end = text.rfind('\n');
-  return end == std::string::npos ? text : text.substr(end + 1);
-}
-
 }  // namespace
 
 struct LumaReader::Impl {
   std::string name;
+  std::string uri;
+  bool seen = false;  ///< a frame
   GstElement* pipeline = nullptr;
   GstElement* sink = nullptr;
   GstSample* sample = nullptr;  ///< that `mapped` belongs to
@@ -58,19 +44,12 @@ struct LumaReader::Impl {
   [[noreturn]] void fail(const std::string& reason) const {
     throw std::runtime_error(name + ": " + reason);
   }
-  void fail_on_error() const {
+  void fail_on_error() {
     GstBus* bus = gst_element_get_bus(pipeline);
     GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR);
     gst_object_unref(bus);
     if (!message) return;
-    GError* error = nullptr;
-    char* detail = nullptr;
-    gst_message_parse_error(message, &error, &detail);
-    std::string reason = error->message;
-    // The last line says what was missing, those before where in the sources.
-    if (detail) reason += " (" + last_line(detail) + ")";
-    g_error_free(error);
-    g_free(detail);
+    const std::string reason = misses_sound_only(message) ? kNoVideo : failure_text(message, uri);
     gst_message_unref(message);
     fail(reason);
   }
@@ -78,7 +57,7 @@ struct LumaReader::Impl {
 
 LumaReader::LumaReader(const std::string& video) : impl_(std::make_unique<Impl>()) {
   impl_->name = video;
-  const std::string uri = uri_of(video);
+  impl_->uri = film_uri(video);
   GError* error = nullptr;
   impl_->pipeline = gst_parse_launch(kPipeline, &error);
   if (error) {
@@ -87,7 +66,7 @@ LumaReader::LumaReader(const std::string& video) : impl_(std::make_unique<Impl>(
     impl_->fail("GStreamer: " + reason);
   }
   GstElement* source = gst_bin_get_by_name(GST_BIN(impl_->pipeline), "source");
-  g_object_set(source, "uri", uri.c_str(), nullptr);
+  g_object_set(source, "uri", impl_->uri.c_str(), nullptr);
   gst_object_unref(source);
   impl_->sink = gst_bin_get_by_name(GST_BIN(impl_->pipeline), "sink");
   gst_element_set_state(impl_->pipeline, GST_STATE_PLAYING);
@@ -103,8 +82,11 @@ bool LumaReader::next(Frame& frame) {
     sample = gst_app_sink_try_pull_sample(GST_APP_SINK(impl_->sink), 100 * GST_MSECOND);
     if (sample) break;
     impl_->fail_on_error();
-    if (gst_app_sink_is_eos(GST_APP_SINK(impl_->sink))) return false;
+    if (!gst_app_sink_is_eos(GST_APP_SINK(impl_->sink))) continue;
+    if (!impl_->seen) impl_->fail(kNoVideo);
+    return false;
   }
+  impl_->seen = true;
   GstVideoInfo info;
   GstBuffer* buffer = gst_sample_get_buffer(sample);
   if (!gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) ||

@@ -17,12 +17,13 @@ class LumaReader {
     int64_t stream_time_ns = 0;
   };
 
-  /// `video` is a file or a URI. Throws std::runtime_error that says why it cannot be played.
+  /// `video` is a file or a URI. Throws std::invalid_argument for a name that can be no film, and
+  /// std::runtime_error that says why it cannot be played.
   explicit LumaReader(const std::string& video);
   ~LumaReader();
 
-  /// False at the end. Throws std::runtime_error when the video is broken, or a frame of it has no
-  /// time.
+  /// False at the end. Throws std::runtime_error when the video is broken, there is none in the
+  /// file, or a frame of it has no time.
   bool next(Frame& frame);
 
  private:

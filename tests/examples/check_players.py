@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Drives a player through its standard input: check_players.py cpp|python PROGRAM..."""
 import os
+import pty
 import re
 import subprocess
 import sys
 import tempfile
+import termios
+import wave
 
 # Keys, and what is to be seen of the status after each.
 CPP = [
@@ -53,6 +56,31 @@ def make_clip(folder, frames):
     return clip
 
 
+def make_sound(folder):
+    file = os.path.join(folder, "sound.wav")
+    with wave.open(file, "wb") as sound:
+        sound.setparams((1, 2, 8000, 0, "NONE", ""))
+        sound.writeframes(bytes(16000))
+    return file
+
+
+def check_terminal(program, file):
+    """The terminal is left as it was, also when a signal ends the player."""
+    for quit_it in lambda main, player: os.write(main, b"q"), lambda main, player: player.terminate():
+        main, terminal = pty.openpty()
+        before = termios.tcgetattr(terminal)
+        player = subprocess.Popen([*program, "--headless", file], stdin=terminal,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        player.stdout.readline()  # it plays
+        assert termios.tcgetattr(terminal) != before, "keys need a return"
+        quit_it(main, player)
+        player.communicate(timeout=60)
+        assert player.returncode == 0, player.returncode
+        assert termios.tcgetattr(terminal) == before, "the terminal is not as before"
+        os.close(main)
+        os.close(terminal)
+
+
 def run(program, file, keys):
     done = subprocess.run([*program, "--headless", file], input=keys, text=True,
                           capture_output=True, timeout=60)
@@ -71,6 +99,8 @@ def check(program, script, first):
         code, lines, _ = run(program, make_clip(folder, 10), "")  # to the end, without a key
         assert code == 0
         check_refused(program, folder)
+        if sys.argv[1] == "cpp":
+            check_terminal(program, make_clip(folder, 100))
 
 
 def check_refused(program, folder):
@@ -82,7 +112,8 @@ def check_refused(program, folder):
     for name, reason in [(os.path.join(folder, "none.avi"), "no such file|not found"),
                          (folder, "folder|directory"), (empty, "empty|no data"),
                          (text, "text file"), ("nothing://here", "No URI handler"),
-                         ("--unknown", "FILE-OR-URI")]:
+                         ("--unknown", "FILE-OR-URI"), (make_sound(folder), "no video"),
+                         ("http://127.0.0.1:1/film.mp4", r"\(.+\)|refused")]:
         code, _, errors = run(program, name, "")
         assert code != 0, name
         assert re.search(reason, errors), errors

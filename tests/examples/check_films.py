@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""Programs that read a film say what is wrong with a name and end: check_films.py PROGRAM..."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+from check_players import make_sound
+
+
+def check(program, name, reason):
+    done = subprocess.run([*program, name], stdin=subprocess.DEVNULL, text=True, capture_output=True,
+                          timeout=60)
+    assert done.returncode in (1, 2), (program, name, done)
+    assert re.search(reason, done.stderr), (program, name, done.stderr)
+    assert name in done.stderr or os.path.basename(name) in done.stderr, (program, name, done.stderr)
+
+
+def check_output(play, folder):
+    """Refused before the film is played."""
+    for output in "/dev/null/folder", "/proc/none":
+        done = subprocess.run([play, "--headless", "--ball", "--output", output], text=True,
+                              capture_output=True, timeout=60)
+        assert done.returncode == 2 and output in done.stderr, done
+        assert "playing" not in done.stdout, done.stdout
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        empty, text = (os.path.join(folder, name) for name in ("empty.avi", "text.avi"))
+        for name, content in (empty, ""), (text, "no film\n" * 100):
+            with open(name, "w") as file:
+                file.write(content)
+        for program in sys.argv[1:]:
+            command = [program, "--headless"] if os.path.basename(program) == "play" else [program]
+            for name, reason in [(os.path.join(folder, "none.avi"), "no such file"),
+                                 (folder, "a folder"), (empty, "an empty file"), (text, "text file"),
+                                 (make_sound(folder), "no video"),
+                                 ("http://127.0.0.1:1/film.mp4", "127.0.0.1.*[Rr]efused")]:
+                check(command, name, reason)
+            if os.path.basename(program) == "play":
+                check_output(program, folder)
+
+
+if __name__ == "__main__":
+    main()
