@@ -23,6 +23,26 @@ void Complaints::start() {
   device_state_ = DeviceState::kClosed;
 }
 
+void Complaints::look_at_place() {
+  bool in_timeline = false;
+  GstObject* place = gst_object_get_parent(GST_OBJECT(element_));
+  while (place) {
+    in_timeline = in_timeline || g_strcmp0(G_OBJECT_TYPE_NAME(place), "NleComposition") == 0;
+    GstObject* const outer = gst_object_get_parent(place);
+    gst_object_unref(place);
+    place = outer;
+  }
+  if (!in_timeline) return;
+  GST_ELEMENT_WARNING(
+      element_, STREAM, FORMAT,
+      ("As an effect of an editing timeline most of the video is not felt, or at another time."),
+      ("Each clip of GES has a running time of its own, and seeks that the sink does not hear of. "
+       "Put "
+       "spidarmotion behind the timeline instead, as with ges-launch-1.0 "
+       "--videosink=\"spidarmotion ! "
+       "autovideosink\"."));
+}
+
 void Complaints::look_at_frame(const FrameReport& report) {
   if (report.trace_failed) {
     GST_ELEMENT_WARNING(element_, RESOURCE, WRITE, ("The trace cannot be written any more."),

@@ -18,6 +18,8 @@ class Complaints {
   /// Another stream: what is wrong with its frames may be.
   void begin_stream() { frame_problems_ = 0; }
 
+  /// Looks at the bins around the element, which may have a running time of their own.
+  void look_at_place();
   void look_at_frame(const FrameReport& report);
   /// Once a device, also at its end: the haptic trace cannot be written any more.
   void look_at_haptic_trace(const MotionEngine& engine);

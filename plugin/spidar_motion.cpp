@@ -64,6 +64,7 @@ struct _GstSpidarMotion {
   gboolean opened;               // object lock: READY or above
   MotionEngine* engine;
   MotionDisplay* display;
+  gint window_changes;  // atomic: how many the window has still to follow
   spidar::StepWatch* steps;
   spidar::Complaints* complaints;
 };
@@ -264,6 +265,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   const std::string trace = self->properties->trace;
   GST_OBJECT_UNLOCK(self);
   self->complaints->start();
+  self->complaints->look_at_place();
   const std::string reason = self->engine->start(trace);
   if (!reason.empty()) {
     GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
@@ -287,16 +289,23 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
 
 // --- debug window ------------------------------------------------------------------------------
 
-/// Open while the element is and the property says so.
+/// Open while the element is and the property says so. Of several threads that change that at a
+/// time one does it for all; it may not wait for the others, for the window's own thread is one of
+/// them.
 static void follow_debug_window(GstSpidarMotion* self) {
-  GST_OBJECT_LOCK(self);
-  const bool wanted = self->opened && self->properties->display.debug_window;
-  GST_OBJECT_UNLOCK(self);
-  if (wanted) {
-    self->display->open_window();
-  } else {
-    self->display->close_window();
-  }
+  if (g_atomic_int_add(&self->window_changes, 1) > 0) return;
+  gint seen;
+  do {
+    seen = g_atomic_int_get(&self->window_changes);
+    GST_OBJECT_LOCK(self);
+    const bool wanted = self->opened && self->properties->display.debug_window;
+    GST_OBJECT_UNLOCK(self);
+    if (wanted) {
+      self->display->open_window();
+    } else {
+      self->display->close_window();
+    }
+  } while (!g_atomic_int_compare_and_exchange(&self->window_changes, seen, 0));
 }
 
 static void set_opened(GstSpidarMotion* self, bool opened) {

@@ -28,11 +28,11 @@ std::string glfw_error() {
   return why ? why : "unknown reason";
 }
 
-/// GLFW's state is that of the process: its timer runs when somebody else has initialised it.
-bool glfw_is_in_use() {
-  const bool in_use = glfwGetTimerFrequency() != 0;
+/// GLFW's state is that of the process: its timer runs when somebody has initialised it.
+bool glfw_is_initialised() {
+  const bool initialised = glfwGetTimerFrequency() != 0;
   glfwGetError(nullptr);
-  return in_use;
+  return initialised;
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void WindowThread::close(const std::shared_ptr<Window::Entry>& entry) {
   entry->closing = true;
   wake_.notify_one();
   if (thread_.get_id() == std::this_thread::get_id()) return;  // closed by its own user
-  // The last window takes GLFW along: then all is as if there had been none.
+  // The last window takes its thread along.
   const auto settled = [&] { return entry->gone && (!entries_.empty() || !running_); };
   if (!changed_.wait_for(lock, Window::kPatience, settled)) return;
   if (!running_ && thread_.joinable()) thread_.join();
@@ -101,7 +101,7 @@ void WindowThread::run() {
   pthread_setname_np(pthread_self(), "spidar-window");
   // Drawing yields to decoding; of a thread on Linux, whatever POSIX says of processes.
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
-  if (glfw_is_in_use()) {
+  if (glfw_is_initialised() && !initialised_glfw_) {
     fail_all("The debug window needs GLFW, which this application uses itself.",
              "GLFW serves one thread of a process only.");
   } else if (!glfwInit()) {
@@ -109,8 +109,10 @@ void WindowThread::run() {
                  ". Is DISPLAY or WAYLAND_DISPLAY right?",
              "It needs an X11 or Wayland display.");
   } else {
+    // Never terminated: an application may have begun to use GLFW in the meantime, and would lose
+    // its windows. The second glfwInit() does nothing.
+    initialised_glfw_ = true;
     serve();
-    glfwTerminate();
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   running_ = false;

@@ -29,6 +29,12 @@ class VirtualDisplay {
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
 
+  /// One for all windows of the process: GLFW keeps the display that it was given first.
+  static VirtualDisplay& shared() {
+    static VirtualDisplay display;
+    return display;
+  }
+
   bool runs() const { return !name_.empty(); }
   static constexpr const char* kWhyNot = "Xvfb does not start: is the package xvfb installed?";
 

@@ -59,9 +59,8 @@ class WindowTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     init_gstreamer();
-    display = std::make_unique<VirtualDisplay>();
+    display = &VirtualDisplay::shared();
   }
-  static void TearDownTestSuite() { display.reset(); }
   void SetUp() override {
     if (!display->runs()) GTEST_SKIP() << VirtualDisplay::kWhyNot;
   }
@@ -91,9 +90,9 @@ class WindowTest : public testing::Test {
     return map_picture(lay_out(shot.width, shot.height, 1).picture, 0, 0, 320, 240, 1);
   }
 
-  static std::unique_ptr<VirtualDisplay> display;
+  static VirtualDisplay* display;
 };
-std::unique_ptr<VirtualDisplay> WindowTest::display;
+VirtualDisplay* WindowTest::display;
 
 TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
   auto feed = std::make_shared<FrameFeed>();
@@ -254,31 +253,52 @@ TEST_F(WindowTest, MayBeOpenedAndClosedAtOnce) {
   }
 }
 
-TEST_F(WindowTest, WithoutADisplayIsAComplaint) {
+/// In a process of its own, where no window was before: GLFW keeps its display.
+void open_without_a_display() {
   const std::string name = getenv("DISPLAY");
   unsetenv("DISPLAY");
+  auto source = std::make_shared<FakeSource>();
   {
-    auto source = std::make_shared<FakeSource>();
     Window window(source, std::make_shared<FrameFeed>());
-    const auto complaints = source->wait_for_complaint();
-    EXPECT_EQ(complaints.size(), 1u);
-    EXPECT_NE(complaints[0].find("DISPLAY"), std::string::npos) << complaints[0];
-    EXPECT_FALSE(window.screenshot(kLong).has_value());
+    std::fprintf(stderr, "%s", source->wait_for_complaint()[0].c_str());
+    if (window.screenshot(kLong)) _exit(1);
   }
   setenv("DISPLAY", name.c_str(), 1);
-  Window window(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
-  EXPECT_GT(look(window).width, 0) << "the next one is not concerned";
+  Window next(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
+  _exit(next.screenshot(kLong) ? 0 : 2);
 }
 
-TEST_F(WindowTest, WhereTheApplicationUsesGlfwItselfIsAComplaint) {
-  ASSERT_TRUE(glfwInit());
+TEST_F(WindowTest, WithoutADisplayIsAComplaintAndTheNextOneIsNotConcerned) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(open_without_a_display(), testing::ExitedWithCode(0), "DISPLAY");
+}
+
+/// In a process of its own, where no window was before.
+void open_beside_an_application_with_glfw() {
+  const bool initialised = glfwInit() == GLFW_TRUE;
   auto source = std::make_shared<FakeSource>();
   {
     const Window window(source, std::make_shared<FrameFeed>());
-    EXPECT_NE(source->wait_for_complaint()[0].find("uses itself"), std::string::npos);
+    std::fprintf(stderr, "%s", source->wait_for_complaint()[0].c_str());
   }
-  EXPECT_GT(glfwGetTimerFrequency(), 0u) << "left alone";
-  glfwTerminate();
+  const bool left_alone = glfwGetTimerFrequency() > 0;
+  _exit(initialised && left_alone ? 0 : 1);
+}
+
+TEST_F(WindowTest, WhereTheApplicationUsesGlfwItselfIsAComplaint) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(open_beside_an_application_with_glfw(), testing::ExitedWithCode(0), "uses itself");
+}
+
+TEST_F(WindowTest, AnApplicationThatBeginsToUseGlfwKeepsItWhenTheWindowIsClosed) {
+  {
+    Window window(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
+    ASSERT_GT(look(window).width, 0);
+    ASSERT_TRUE(glfwInit());
+  }
+  EXPECT_GT(glfwGetTimerFrequency(), 0u);
+  Window another(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
+  EXPECT_GT(look(another).width, 0) << "and there may be a window again";
 }
 
 /// In a process of its own, for Mesa asks once.
