@@ -12,11 +12,14 @@ namespace {
 /// Held for 100 ms, and rest 40 ms later; ten more until the clock has been read again.
 constexpr GstClockTime kRest = 150 * GST_MSECOND;
 
+/// Frames, and as many ticks: readings enough of the clock for a line that is followed when a few
+/// of them stray, and good poses enough for a force.
+constexpr int kBefore = 50;
+
 TEST(FrozenPicture, TheClockStandsStill) {
   SteppedPipeline pipeline(kPlayer);
   pipeline.set_state(GST_STATE_PLAYING);
-  // Readings enough for a line that is followed when a few of them stray.
-  play(pipeline, 50);
+  play(pipeline, kBefore);
   pipeline.await();
   EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
   EXPECT_EQ(pipeline.stand_still(kRest).commanded.stacked().norm(), 0);
@@ -32,14 +35,14 @@ TEST(FrozenPicture, AGapWhoseEndIsKnown) {
   for (const GstClockTime gap : {200 * GST_MSECOND, 8 * GST_SECOND}) {
     SCOPED_TRACE(gap);
     SteppedPipeline pipeline(kPlayer);
-    pipeline.retime([gap](int n, GstClockTime pts) { return n < 10 ? pts : pts + gap; });
+    pipeline.retime([gap](int n, GstClockTime pts) { return n < kBefore ? pts : pts + gap; });
     pipeline.set_state(GST_STATE_PLAYING);
-    play(pipeline, 10);
-    pipeline.await();  // frame 9 is on the screen, and frame 10 waits
+    play(pipeline, kBefore);
+    pipeline.await();  // the last frame before the gap is on the screen, and the next one waits
     EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
     EXPECT_EQ(pipeline.idle(kRest - 10 * GST_MSECOND).commanded.stacked().norm(), 0);
     const GstClockTime shown = pipeline.running_time();
-    const GstClockTime next = 10 * kFrame + gap;
+    const GstClockTime next = kBefore * kFrame + gap;
     EXPECT_EQ(pipeline.idle(next - shown - 40 * GST_MSECOND).commanded.stacked().norm(), 0);
     // Back before the frame is shown, and there in time.
     EXPECT_GT(pipeline.idle(39 * GST_MSECOND).commanded.stacked().norm(), 0);
