@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/force/motion_bounds.h"
+#include "core/motion/cadence.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
@@ -17,6 +18,20 @@ void validate_rest(const AnalyzerSettings& settings) {
   if (!settings.pointer.allFinite()) {
     throw std::invalid_argument("the pointer's coordinates must be finite");
   }
+}
+
+Cadence::Picture picture_of(const TrackedFrame& tracked) {
+  if (tracked.repeated) return Cadence::Picture::kSame;
+  return tracked.alike ? Cadence::Picture::kAlike : Cadence::Picture::kOther;
+}
+
+/// The same motion in 1 / `factor` of the time.
+ImageMotion faster(ImageMotion motion, double factor) {
+  motion.velocity_px_s *= factor;
+  motion.growth_1_s *= factor;
+  motion.roll_rad_s *= factor;
+  motion.noise_px_s *= factor;
+  return motion;
 }
 
 }  // namespace
@@ -44,7 +59,20 @@ struct MotionAnalyzer::Impl {
   MotionFilter filter;
   std::unique_ptr<GainController> controller;
   std::optional<int64_t> last_running_time_ns;
+  Cadence cadence;
+  FrameAnalysis latest;  // of a frame that did not wait
+
+  FrameAnalysis wait() const;
 };
+
+/// What is felt on while the picture before is shown again.
+FrameAnalysis MotionAnalyzer::Impl::wait() const {
+  FrameAnalysis analysis = latest;
+  analysis.restarted = false;
+  // From zero on there is nothing that could go on.
+  analysis.repeated = !analysis.wrench.stacked().isZero(0);
+  return analysis;
+}
 
 MotionAnalyzer::MotionAnalyzer(const AnalyzerSettings& settings)
     : impl_(std::make_unique<Impl>(settings)) {}
@@ -71,7 +99,9 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
 FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_time_ns) {
   if (impl_->last_running_time_ns && running_time_ns <= *impl_->last_running_time_ns) restart();
   const std::optional<int64_t> last_ns = impl_->last_running_time_ns;
-  const TrackedFrame& tracked = impl_->tracker->track(frame);
+  const bool may_wait = impl_->cadence.would_wait(running_time_ns);
+  const TrackedFrame& tracked =
+      impl_->tracker->track(frame, may_wait ? Repeats::kAlike : Repeats::kSame);
   impl_->last_running_time_ns = running_time_ns;
 
   FrameAnalysis analysis;
@@ -80,18 +110,28 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   analysis.features = tracked.features;
   analysis.restarted = tracked.restarted || !last_ns;
   if (analysis.restarted) {
+    impl_->cadence.cut(running_time_ns);
     impl_->motion.reset();
     impl_->filter.reset();
-    return analysis;
+    return impl_->latest = analysis;
   }
+  const Cadence::Step step = impl_->cadence.see(picture_of(tracked), running_time_ns);
+  if (step.waits) return impl_->wait();
 
   const AnalyzerSettings& settings = impl_->settings;
-  analysis.interval_ns = std::max(running_time_ns - *last_ns, kLeastInterval_ns);
+  analysis.interval_ns = std::max(step.interval_ns, kLeastInterval_ns);
   const SceneMotion scene =
       impl_->motion.estimate(settings.motion, tracked.tracks, frame.width, frame.height,
                              analysis.interval_ns, settings.pointer);
   const double interval_s = static_cast<double>(analysis.interval_ns) * 1e-9;
-  analysis.motion = bound_motion(scene.felt, frame.width, interval_s);
+  ImageMotion felt = scene.felt;
+  if (tracked.repeated) {
+    impl_->filter.stop();
+    felt = ImageMotion();
+    felt.tracked = scene.felt.tracked;
+  }
+  felt = faster(felt, impl_->cadence.correction(felt.velocity_px_s.norm()));
+  analysis.motion = bound_motion(felt, frame.width, interval_s);
   analysis.model = scene.model;
   analysis.objects = scene.objects;
   analysis.tracks = &tracked.tracks;
@@ -101,12 +141,29 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
       impl_->filter.filter(analysis.motion, frame.height, interval_s, settings.filter);
   analysis.wrench =
       render_motion(*impl_->controller, steady, settings.axes, frame.height, interval_s);
-  return analysis;
+  return impl_->latest = analysis;
+}
+
+std::optional<FrameAnalysis> MotionAnalyzer::repeat(int64_t running_time_ns) {
+  const std::optional<int64_t> last_ns = impl_->last_running_time_ns;
+  if (!last_ns || running_time_ns <= *last_ns ||
+      running_time_ns - impl_->cadence.picture_ns() > Cadence::kLongest_ns) {
+    restart();
+    return std::nullopt;
+  }
+  impl_->last_running_time_ns = running_time_ns;
+  if (impl_->cadence.see(Cadence::Picture::kSame, running_time_ns).waits) return impl_->wait();
+  impl_->filter.stop();
+  impl_->latest.motion = {};
+  impl_->latest.wrench = {};
+  return impl_->latest;
 }
 
 void MotionAnalyzer::restart() {
   impl_->tracker->restart();
   impl_->controller->reset();
+  impl_->cadence.restart();
+  impl_->latest = {};
   impl_->last_running_time_ns.reset();
 }
 

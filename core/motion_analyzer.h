@@ -44,7 +44,11 @@ struct FrameAnalysis {
   int objects = 0;         ///< known beside the background; 0 when `motion` looks for none
   Wrench wrench;           ///< what the controller wants, before any safety step
   bool restarted = false;  ///< nothing to compare with: motion and wrench are zero
-  /// Since the frame that this one was compared with; 0 after a restart.
+  /// The picture before is shown again, and may yet belong to something that moves: motion and
+  /// wrench are those of the frame before.
+  bool repeated = false;
+  /// The time in which the motion happened, see Cadence: between two pictures, which may be more
+  /// than two frames apart; 0 after a restart.
   int64_t interval_ns = 0;
 
   // What it was found from, not copied: valid until the next analyze().
@@ -55,6 +59,9 @@ struct FrameAnalysis {
 
 /// image → features → tracks → motion model → motion → filter → gain controller → wrench. One
 /// thread at a time.
+///
+/// A frame that shows the picture before again says nothing of motion. It waits (`repeated`) for up
+/// to Cadence::kRest_ns, or as long as the film has let wait before; after that it is rest.
 class SPIDAR_API MotionAnalyzer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
@@ -72,6 +79,11 @@ class SPIDAR_API MotionAnalyzer {
   /// what the adaptive controller has learnt.
   /// Throws std::invalid_argument for a frame that Tracker::track() refuses.
   FrameAnalysis analyze(const ImageView& frame, int64_t running_time_ns);
+
+  /// A frame that is known to show the picture before again, without looking at it. Nothing when it
+  /// does so for too long, or when there is no picture before: then it is rest, and the next frame
+  /// has nothing to do with the one before.
+  std::optional<FrameAnalysis> repeat(int64_t running_time_ns);
 
   /// A flush, a seek, a discontinuity: the next frame shows no motion, the controller starts anew.
   void restart();

@@ -262,10 +262,22 @@ void MotionEngine::run_out(GstClockTime running_time) {
 }
 
 void MotionEngine::pass_gap(GstClockTime running_time) {
-  run_out(running_time);
-  if (!GST_CLOCK_TIME_IS_VALID(running_time)) return;
+  if (!is_time(running_time)) {
+    restart();
+    return;
+  }
   const int64_t running_ns = static_cast<int64_t>(running_time);
-  last_paced_ns_ = pace(running_ns);
+  const int64_t paced_ns = pace(running_ns);
+  const int64_t since_ns = paced_ns - last_paced_ns_;
+  const bool follows = last_running_ns_ >= 0 && since_ns > 0;
+  // What videorate makes of a frame that is to be shown again.
+  const std::optional<FrameAnalysis> analysis = follows ? analyzer_.repeat(paced_ns) : std::nullopt;
+  if (analysis) {
+    schedule_.add({running_ns, hold_time_ns(since_ns), analysis->wrench, analysis->repeated});
+  } else {
+    run_out(running_time);
+  }
+  last_paced_ns_ = paced_ns;
   last_running_ns_ = running_ns;
 }
 
@@ -331,12 +343,15 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   report.took_ns = HapticSession::monotonic_now_ns() - begin_ns;
 
   const bool in_place = running_ns == last_running_ns_;
+  const int64_t since_ns =
+      report.analysis.interval_ns > 0 || report.analysis.repeated ? paced_ns - last_paced_ns_ : 0;
   last_running_ns_ = running_ns;
   ++frames_in_segment_;
   last_paced_ns_ = paced_ns;
-  if (report.analysis.interval_ns > 0) last_interval_ns_ = report.analysis.interval_ns;
+  if (since_ns > 0) last_interval_ns_ = since_ns;
   if (!in_place) {
-    schedule_.add({running_ns, hold_time_ns(report.analysis.interval_ns), report.analysis.wrench});
+    schedule_.add(
+        {running_ns, hold_time_ns(since_ns), report.analysis.wrench, report.analysis.repeated});
   }
   if (trace_.is_open()) {
     report.trace_failed =

@@ -140,7 +140,10 @@ void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
       // the frame that is on the screen.
       const bool has_room = timeline_.size_after(running_ns) < WrenchTimeline::kCapacity / 2;
       if (!playing || !soon || !has_room) return;
-      if (timeline_.push(next->entry)) {
+      const bool holds_on = next->entry.repeated && timeline_.size() > 0;
+      if (holds_on) {
+        timeline_.push(next->entry);
+      } else if (timeline_.push(next->entry)) {
         before_newest_ns_ = newest_ns_;
         newest_ns_ = next->entry.time_ns;
       } else {

@@ -51,6 +51,13 @@ ImageMotion MotionFilter::filter(const ImageMotion& motion, int frame_height, do
   return steadier;
 }
 
+void MotionFilter::stop() {
+  velocity_.restart_at(OneEuroFilter<2>::Vector::Zero());
+  growth_.restart_at(OneEuroFilter<1>::Vector::Zero());
+  roll_.restart_at(OneEuroFilter<1>::Vector::Zero());
+  noise_px_s_ = 0;
+}
+
 void MotionFilter::reset() {
   velocity_.reset();
   growth_.reset();

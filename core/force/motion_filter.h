@@ -31,6 +31,9 @@ class SPIDAR_API MotionFilter {
   ImageMotion filter(const ImageMotion& motion, int frame_height, double interval_s,
                      const FilterSettings& settings);
 
+  /// Rest: as if a motion of zero had passed for long.
+  void stop();
+
   /// A cut, a seek: the next motion passes as it is.
   void reset();
 

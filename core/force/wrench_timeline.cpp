@@ -54,6 +54,14 @@ bool has_expired(const TimedWrench& frame, int64_t time_ns) {
          elapsed_ns(frame.time_ns, time_ns) > static_cast<uint64_t>(hold_ns);
 }
 
+/// `frame` holds on while `repeated` does.
+void hold_until(TimedWrench& frame, const TimedWrench& repeated) {
+  const int64_t since_ns = static_cast<int64_t>(
+      std::min<uint64_t>(elapsed_ns(frame.time_ns, repeated.time_ns), INT64_MAX / 2));
+  const int64_t more_ns = std::clamp<int64_t>(repeated.hold_ns, 0, INT64_MAX / 2);
+  frame.hold_ns = std::max(frame.hold_ns, since_ns + more_ns);
+}
+
 /// Whether there is time to go to rest and back between the two.
 bool is_gap(const TimedWrench& frame, int64_t next_ns) {
   const int64_t hold_ns = std::max(frame.hold_ns, WrenchTimeline::kLongestHold_ns);
@@ -95,8 +103,12 @@ bool WrenchTimeline::push(const TimedWrench& added) noexcept {
   next.frame = added;
   next.from_ns = next.to_ns = added.time_ns;
   if (count_ > 0) {
-    const Way& last = way(count_ - 1);
+    Way& last = way(count_ - 1);
     if (added.time_ns <= last.frame.time_ns) return false;
+    if (added.repeated) {
+      if (!has_expired(last.frame, present_ns_)) hold_until(last.frame, added);
+      return true;
+    }
     const int64_t approach_ns = static_cast<int64_t>(
         std::min<uint64_t>(kApproach_ns, elapsed_ns(last.frame.time_ns, added.time_ns)));
     const int64_t soonest_ns = present_ns_ == INT64_MIN

@@ -16,6 +16,9 @@ struct TimedWrench {
   /// With no later frame soon the wrench holds for this long, then it is expired.
   int64_t hold_ns = 0;
   Wrench wrench;
+  /// The frame shows the picture before again: the wrench of that one holds on, from `time_ns` for
+  /// `hold_ns`. `wrench` is the same, for a timeline that has forgotten the frame before.
+  bool repeated = false;
 };
 
 /// How a wrench was found.
@@ -58,7 +61,9 @@ class SPIDAR_API WrenchTimeline {
   /// SafetyLimits::ramp_s is the same.
   static constexpr int64_t kRamp_ns = 40'000'000;
 
-  /// Times must rise; one that does not is refused (false). When full, the oldest is forgotten.
+  /// Times must rise; one that does not is refused (false). A repeated frame is no frame of its
+  /// own: the curve runs from the one before it to the next one that is not. It revives nothing
+  /// that has expired. When full, the oldest is forgotten.
   ///
   /// What has been felt does not change any more, neither the wrench nor its slope: what comes late
   /// fades in, from the time asked for last, over whatever would have been felt without it. Only

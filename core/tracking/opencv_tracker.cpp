@@ -8,6 +8,7 @@
 #include "core/tracking/luma_row.h"
 #include "core/tracking/point_flow.h"
 #include "core/tracking/point_selection.h"
+#include "core/tracking/repeated_picture.h"
 #include "core/tracking/serial_opencv.h"
 
 namespace spidar {
@@ -33,6 +34,7 @@ struct OpenCvTracker::Impl {
   int height = 0;
   FlowPyramid before;
   FlowPyramid now;
+  RepeatedPicture repeated_picture;
   std::vector<uint8_t> in_bytes;  // the frame, if it has more than 8 bits
   cv::Mat response;               // buffer of the selection
   std::vector<Feature> features;  // in the reduced picture
@@ -42,13 +44,26 @@ struct OpenCvTracker::Impl {
 
   TrackedFrame result;
 
-  void track(const ImageView& frame);
+  void track(const ImageView& frame, Repeats repeats);
+  bool repeats_picture(Repeats repeats);
   bool follow(int factor);
+  void stand_still(int factor);
   bool selection_is_due() const;
   void select(int factor);
 };
 
-void OpenCvTracker::Impl::track(const ImageView& frame) {
+bool OpenCvTracker::Impl::repeats_picture(Repeats repeats) {
+  using Kind = RepeatedPicture::Kind;
+  const auto view = [](const cv::Mat& image) {
+    return ImageView{image.data, image.cols, image.rows, static_cast<ptrdiff_t>(image.step[0])};
+  };
+  const Kind kind = repeated_picture.look(view(before[0]), view(now[0]));
+  const bool repeated = kind == Kind::kSame || (kind == Kind::kAlike && repeats == Repeats::kAlike);
+  result.alike = kind == Kind::kAlike && !repeated;
+  return repeated;
+}
+
+void OpenCvTracker::Impl::track(const ImageView& frame, Repeats repeats) {
   const int factor = reduction_factor(frame.width, frame.height);
   const bool comparable = frame.width == width && frame.height == height;
   if (!comparable) features.clear();
@@ -60,6 +75,15 @@ void OpenCvTracker::Impl::track(const ImageView& frame) {
   reduce_luma(in_8_bits(frame, in_bytes), factor, reduced);
   build_pyramid(reduced, now);
 
+  result.alike = false;
+  if (!comparable) repeated_picture.restart();
+  result.repeated = comparable && repeats_picture(repeats);
+  if (result.repeated) {
+    std::swap(before, now);
+    result.restarted = false;
+    if (repeats == Repeats::kSame) stand_still(factor);
+    return;
+  }
   result.tracks.clear();
   result.restarted = !comparable || !follow(factor);
   ++frames_since_selection;
@@ -96,6 +120,14 @@ bool OpenCvTracker::Impl::follow(int factor) {
   return !cut;
 }
 
+void OpenCvTracker::Impl::stand_still(int factor) {
+  result.tracks.clear();
+  for (const Feature& feature : features) {
+    const ImagePoint at{to_frame_px(feature.at.x_px, factor), to_frame_px(feature.at.y_px, factor)};
+    result.tracks.push_back({feature.id, at, at});
+  }
+}
+
 bool OpenCvTracker::Impl::selection_is_due() const {
   return static_cast<double>(features.size()) < kThinnedOut * static_cast<double>(selected) ||
          frames_since_selection >= kSelectionInterval;
@@ -119,9 +151,9 @@ OpenCvTracker::OpenCvTracker(const TrackerSettings& settings) : impl_(std::make_
 
 OpenCvTracker::~OpenCvTracker() = default;
 
-const TrackedFrame& OpenCvTracker::track(const ImageView& frame) {
+const TrackedFrame& OpenCvTracker::track(const ImageView& frame, Repeats repeats) {
   require_usable(frame);
-  run_on_this_thread([&] { impl_->track(frame); });
+  run_on_this_thread([&] { impl_->track(frame, repeats); });
   return impl_->result;
 }
 

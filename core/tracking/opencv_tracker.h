@@ -18,7 +18,8 @@ class SPIDAR_API OpenCvTracker final : public Tracker {
   explicit OpenCvTracker(const TrackerSettings& settings = {});
   ~OpenCvTracker() override;
 
-  const TrackedFrame& track(const ImageView& frame) override;
+  using Tracker::track;
+  const TrackedFrame& track(const ImageView& frame, Repeats repeats) override;
   void restart() override;
   void configure(const TrackerSettings& settings) override;
 

@@ -1,7 +1,6 @@
 #include "core/tracking/patch_tracker.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "core/tracking/point_chooser.h"
 #include "core/tracking/point_follower.h"
 #include "core/tracking/point_grid.h"
+#include "core/tracking/repeated_picture.h"
 #include "core/tracking/window_match.h"
 
 namespace spidar {
@@ -50,13 +50,6 @@ constexpr size_t kMinForCut = 10;
 constexpr double kLastingShare = 0.5;
 constexpr size_t kMinForLasting = 4;
 
-bool same_pixels(const PaddedImage& a, const PaddedImage& b) {
-  for (int y = 0; y < a.height(); ++y) {
-    if (std::memcmp(a.row(y), b.row(y), static_cast<size_t>(a.width())) != 0) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 struct PatchTracker::Impl {
@@ -68,6 +61,7 @@ struct PatchTracker::Impl {
   int factor = 1;
   GrayPyramid before;
   GrayPyramid now;
+  RepeatedPicture repeated_picture;
 
   std::vector<FollowedPoint> points;  // the oldest first
   std::vector<FineTemplate> fine;     // of the points, in the frame before; may be longer
@@ -87,7 +81,8 @@ struct PatchTracker::Impl {
   };
 
   void configure(const TrackerSettings& settings);
-  void track(const ImageView& frame);
+  void track(const ImageView& frame, Repeats repeats);
+  bool repeats_picture(Repeats repeats);
   void begin_anew();
   void stand_still();
   bool follow(const ImageView& frame);
@@ -110,7 +105,15 @@ void PatchTracker::Impl::configure(const TrackerSettings& settings) {
   choice.grid_share = budget.grid_share;
 }
 
-void PatchTracker::Impl::track(const ImageView& frame) {
+bool PatchTracker::Impl::repeats_picture(Repeats repeats) {
+  using Kind = RepeatedPicture::Kind;
+  const Kind kind = repeated_picture.look(before.levels[0].view(), now.levels[0].view());
+  const bool repeated = kind == Kind::kSame || (kind == Kind::kAlike && repeats == Repeats::kAlike);
+  result.alike = kind == Kind::kAlike && !repeated;
+  return repeated;
+}
+
+void PatchTracker::Impl::track(const ImageView& frame, Repeats repeats) {
   const bool comparable = frame.width == width && frame.height == height;
   width = frame.width;
   height = frame.height;
@@ -119,13 +122,16 @@ void PatchTracker::Impl::track(const ImageView& frame) {
 
   std::swap(before, now);
   reduce_blocks(frame, factor, now.levels[0]);
-  result.tracks.clear();
   result.restarted = !comparable;
-  if (comparable && same_pixels(before.levels[0], now.levels[0])) {
+  result.alike = false;
+  if (!comparable) repeated_picture.restart();
+  result.repeated = comparable && repeats_picture(repeats);
+  if (result.repeated) {
     std::swap(before, now);  // with its pyramid
-    stand_still();
+    if (repeats == Repeats::kSame) stand_still();
     return;
   }
+  result.tracks.clear();
   now.build_from_base();
   if (comparable && only_light_changed(before, now)) {
     stand_still();
@@ -147,6 +153,7 @@ void PatchTracker::Impl::begin_anew() {
 }
 
 void PatchTracker::Impl::stand_still() {
+  result.tracks.clear();
   for (FollowedPoint& point : points) {
     point.moved = {0, 0};
     result.tracks.push_back({point.id, point.frame, point.frame});
@@ -281,9 +288,9 @@ PatchTracker::PatchTracker(const TrackerSettings& settings) : impl_(std::make_un
 
 PatchTracker::~PatchTracker() = default;
 
-const TrackedFrame& PatchTracker::track(const ImageView& frame) {
+const TrackedFrame& PatchTracker::track(const ImageView& frame, Repeats repeats) {
   require_usable(frame);
-  impl_->track(frame);
+  impl_->track(frame, repeats);
   return impl_->result;
 }
 

@@ -20,7 +20,8 @@ class SPIDAR_API PatchTracker final : public Tracker {
   explicit PatchTracker(const TrackerSettings& settings = {});
   ~PatchTracker() override;
 
-  const TrackedFrame& track(const ImageView& frame) override;
+  using Tracker::track;
+  const TrackedFrame& track(const ImageView& frame, Repeats repeats) override;
   void restart() override;
   void configure(const TrackerSettings& settings) override;
 

@@ -65,10 +65,21 @@ struct Track {
   ImagePoint to;
 };
 
+/// What counts as the picture before, shown again.
+enum class Repeats {
+  kSame,   ///< the same pixels: rest
+  kAlike,  ///< also within the noise of coding, see RepeatedPicture
+};
+
 struct TrackedFrame {
   std::vector<Track> tracks;  ///< points found in both frames; empty after a restart
   int features = 0;           ///< points that will be looked for in the next frame
   bool restarted = false;     ///< first frame, new size, or a cut: nothing to compare with
+  /// The picture before, shown again: the next frame is compared with that one. With kSame the
+  /// tracks stand still, with kAlike they are those of the frame before.
+  bool repeated = false;
+  /// Not so, but it would be with kAlike.
+  bool alike = false;
 };
 
 /// Follows points through a sequence of frames of one size.
@@ -79,7 +90,8 @@ class SPIDAR_API Tracker {
   /// Compares `frame` with the one given before. A frame of another size restarts the tracks, and
   /// so does a cut, that is, a frame in which hardly any point is found again. The result is valid
   /// until the next call. Throws as require_usable() does.
-  virtual const TrackedFrame& track(const ImageView& frame) = 0;
+  virtual const TrackedFrame& track(const ImageView& frame, Repeats repeats) = 0;
+  const TrackedFrame& track(const ImageView& frame) { return track(frame, Repeats::kSame); }
 
   /// Forgets the frame before: the next one starts anew and shows no motion.
   virtual void restart() = 0;

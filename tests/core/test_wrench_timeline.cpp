@@ -342,7 +342,7 @@ TEST(WrenchTimeline, InAGapTheLastFrameExpiresAndTheNextOneFadesInFromZero) {
       EXPECT_EQ(rising.found, Found::kInterpolated);
       EXPECT_EQ(rising.frame_time_ns, 0);
       // Level at both ends. Values below 1, a few roundings of 2^-53.
-      const auto expected = s * s * (3 - 2 * s) * wrench_of(3).stacked();
+      const Eigen::Matrix<double, 6, 1> expected = s * s * (3 - 2 * s) * wrench_of(3).stacked();
       EXPECT_LT((rising.wrench.stacked() - expected).cwiseAbs().maxCoeff(), 1e-15) << s;
     }
     EXPECT_EQ(timeline.at(kGap_ns).found, Found::kExact);

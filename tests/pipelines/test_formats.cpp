@@ -1,5 +1,6 @@
 // Films as decoders give them: of 8, 10 and 12 bits, with as much colour as they like, grey of 16
-// bits, video range and full. What is felt is what the 8-bit film gives.
+// bits, video range and full; and as videorate repeats them. What is felt is what the plain 8-bit
+// film gives.
 #include <string>
 #include <vector>
 
@@ -130,6 +131,29 @@ TEST(Formats, FullRangeIsFeltAsVideoRange) {
     const Felt full = feel(film + "(string)1:4:16:4");
     EXPECT_EQ(full.format, format);
     expect_same_force(full, video);
+  }
+}
+
+TEST(FrameRates, WhatVideorateRepeatsIsFeltAsThePlainFilm) {
+  const std::string film =
+      "videotestsrc pattern=ball num-buffers=60 ! "
+      "video/x-raw,format=GRAY8,width=320,height=240,framerate=24/1 ";
+  const Felt plain = feel(film);
+  ASSERT_EQ(plain.force_N.size(), 120u);
+  for (const std::string rate : {"60/1", "30/1", "50/1"}) {
+    SCOPED_TRACE(rate);
+    // Of a frame that is flagged as repeated nothing is posted: both films have as many messages.
+    const Felt felt = feel(film + "! videorate ! video/x-raw,framerate=" + rate);
+    ASSERT_EQ(felt.error, "");
+    ASSERT_GE(felt.force_N.size(), 110u);
+    constexpr size_t kLearnt = 2 * 15;
+    double difference = 0, whole = 0;
+    for (size_t i = kLearnt; i < 110; ++i) {
+      difference += (felt.force_N[i] - plain.force_N[i]) * (felt.force_N[i] - plain.force_N[i]);
+      whole += plain.force_N[i] * plain.force_N[i];
+    }
+    EXPECT_LT(difference, 0.1 * 0.1 * whole);
+    EXPECT_GT(whole, 10);
   }
 }
 

@@ -24,7 +24,8 @@ ImagePoint point(const cv::Point2f& p) {
 /// What all have in common: frames of one size, and none before the first.
 class Peer : public Tracker {
  public:
-  const TrackedFrame& track(const ImageView& frame) override {
+  using Tracker::track;
+  const TrackedFrame& track(const ImageView& frame, Repeats) override {
     result_.tracks.clear();
     result_.restarted = fresh_;
     follow(as_mat(frame), fresh_);

@@ -1,0 +1,168 @@
+#include "core/motion/cadence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+/// The interval between frames that is the same up to rounding and a clock's jitter.
+constexpr double kSameInterval = 0.25;
+/// From this share of equal intervals on the others are accidents and not part of a rhythm.
+constexpr double kAccidents = 5.0 / 6;
+/// Fewer pictures show no rhythm.
+constexpr size_t kEnough = 4;
+/// The logarithm of a speed by which one interval must fit better than the even one.
+constexpr double kClearly = 0.22;
+
+}  // namespace
+
+void Cadence::remember(const Shown& shown) {
+  // Another rate of playback, or frames of any length: what was learnt is not comparable.
+  if (count_ > 0) {
+    const double before = static_cast<double>(latest(0).interval_ns) / latest(0).frames;
+    const double now = static_cast<double>(shown.interval_ns) / shown.frames;
+    if (std::abs(now - before) > kSameInterval * before) count_ = 0;
+  }
+  newest_ = (newest_ + 1) % kPictures;
+  shown_[newest_] = shown;
+  count_ = std::min(count_ + 1, kPictures);
+}
+
+int64_t Cadence::median_ns() const {
+  std::array<int64_t, kPictures> sorted{};
+  for (size_t i = 0; i < count_; ++i) sorted[i] = latest(i).interval_ns;
+  const auto middle = sorted.begin() + static_cast<ptrdiff_t>(count_ / 2);
+  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<ptrdiff_t>(count_));
+  return *middle;
+}
+
+/// How long the next picture may be shown: the second longest of the latest intervals, for one
+/// alone is a pause.
+int64_t Cadence::expected_ns() const {
+  int64_t longest = 0;
+  int64_t second = 0;
+  for (size_t i = 0; i < count_; ++i) {
+    const int64_t interval_ns = latest(i).interval_ns;
+    if (interval_ns > longest) {
+      second = longest;
+      longest = interval_ns;
+    } else {
+      second = std::max(second, interval_ns);
+    }
+  }
+  return second;
+}
+
+/// Of the latest `pictures` that were taken at even intervals and are each shown from the next
+/// frame on: the line through the times at which they were first shown, if none is further from it
+/// than a frame. 0 when there is no such line.
+double Cadence::even_interval_ns(size_t pictures) const {
+  std::array<double, kPictures + 1> time{};
+  double frames = 0;
+  for (size_t i = 0; i < pictures; ++i) {
+    const Shown& shown = latest(pictures - 1 - i);
+    time[i + 1] = time[i] + static_cast<double>(shown.interval_ns);
+    frames += shown.frames;
+  }
+  const auto n = static_cast<double>(pictures + 1);
+  const double middle = (n - 1) / 2;
+  double moment = 0;
+  for (size_t i = 0; i <= pictures; ++i) moment += (static_cast<double>(i) - middle) * time[i];
+  const double slope = moment / (n * (n * n - 1) / 12);
+  double least = 0;
+  double most = 0;
+  for (size_t i = 0; i <= pictures; ++i) {
+    const double off = time[i] - slope * static_cast<double>(i);
+    least = std::min(least, off);
+    most = std::max(most, off);
+  }
+  const double frame_ns = time[pictures] / frames;
+  return most - least <= (1 + kSameInterval) * frame_ns ? slope : 0;
+}
+
+/// Of as many pictures as have been shown in the same rhythm.
+double Cadence::even_interval_ns() const {
+  for (size_t pictures = count_; pictures >= kEnough; pictures /= 2) {
+    if (const double even_ns = even_interval_ns(pictures); even_ns > 0) return even_ns;
+  }
+  return 0;
+}
+
+bool Cadence::would_wait(int64_t time_ns) const {
+  if (!has_changed_ || time_ns <= frame_ns_) return false;
+  const int64_t frame_ns = time_ns - frame_ns_;
+  // The next frame could show the next picture.
+  const int64_t next_ns = time_ns - picture_ns_ + frame_ns;
+  return next_ns <= std::max(kRest_ns, expected_ns() + frame_ns / 2);
+}
+
+Cadence::Step Cadence::see(Picture picture, int64_t time_ns) {
+  const bool repeated = picture == Picture::kSame;
+  const bool waits = repeated && would_wait(time_ns);
+  const int64_t frame_ns = begun_ ? std::max<int64_t>(time_ns - frame_ns_, 1) : 0;
+  frame_ns_ = time_ns;
+  if (repeated) ++frames_;
+  if (waits) return {true, 0};
+
+  step_ = {false, frame_ns};
+  shown_for_ns_ = frame_ns;
+  if (repeated) {
+    rests_ = true;
+    return step_;  // frame by frame
+  }
+
+  const int64_t between_ns = begun_ ? time_ns - picture_ns_ : frame_ns;
+  const Shown shown{between_ns, frames_};
+  picture_ns_ = time_ns;
+  frames_ = 1;
+  begun_ = has_changed_ = true;
+  rests_ = false;
+  if (between_ns <= kLongest_ns) {
+    if (picture == Picture::kOther) remember(shown);
+    step_.interval_ns = shown_for_ns_ = between_ns;
+  }
+  bool repeats = false;
+  size_t alike = 0;
+  const int64_t median = median_ns();
+  for (size_t i = 0; i < count_; ++i) {
+    const int64_t interval_ns = latest(i).interval_ns;
+    repeats = repeats || latest(i).frames > 1;
+    if (std::abs(static_cast<double>(interval_ns - median)) <
+        kSameInterval * static_cast<double>(median)) {
+      ++alike;
+    }
+  }
+  if (!repeats) return step_;
+  if (count_ >= kEnough && static_cast<double>(alike) >= kAccidents * static_cast<double>(count_)) {
+    // Also when the picture begins to move again after a rest.
+    step_.interval_ns = median;
+  } else if (const double even_ns = even_interval_ns(); even_ns > 0) {
+    step_.interval_ns = std::llround(even_ns);
+  }
+  return step_;
+}
+
+double Cadence::correction(double speed_px_s) {
+  double factor = 1;
+  if (step_.interval_ns > 0 && shown_for_ns_ != step_.interval_ns && speed_px_s > 0 &&
+      speed_px_s_ > 0) {
+    const double other =
+        static_cast<double>(step_.interval_ns) / static_cast<double>(shown_for_ns_);
+    const double off = std::abs(std::log(speed_px_s / speed_px_s_));
+    const double other_off = std::abs(std::log(speed_px_s * other / speed_px_s_));
+    if (other_off + kClearly < off) factor = other;
+  }
+  speed_px_s_ = factor * speed_px_s;
+  return factor;
+}
+
+void Cadence::cut(int64_t time_ns) {
+  begun_ = true;
+  picture_ns_ = frame_ns_ = time_ns;
+  frames_ = 1;
+  has_changed_ = rests_ = false;
+  speed_px_s_ = 0;
+}
+
+}  // namespace spidar

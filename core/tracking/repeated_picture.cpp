@@ -1,0 +1,101 @@
+#include "core/tracking/repeated_picture.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include <opencv2/core/hal/intrin.hpp>
+
+namespace spidar {
+namespace {
+
+constexpr int kBlock_px = 16;
+
+/// Σ |a − b| over a block.
+unsigned block_change(const ImageView& a, const ImageView& b, int x, int y, int columns, int rows) {
+  unsigned sum = 0;
+  for (int j = 0; j < rows; ++j) {
+    const uint8_t* p = a.at(x, y + j);
+    const uint8_t* q = b.at(x, y + j);
+    for (int i = 0; i < columns; ++i) sum += static_cast<unsigned>(std::abs(p[i] - q[i]));
+  }
+  return sum;
+}
+
+unsigned whole_block_change(const ImageView& a, const ImageView& b, int x, int y) {
+#if CV_SIMD128
+  cv::v_uint32x4 sums = cv::v_setzero_u32();
+  for (int j = 0; j < kBlock_px; ++j) {
+    const cv::v_uint8x16 difference =
+        cv::v_absdiff(cv::v_load(a.at(x, y + j)), cv::v_load(b.at(x, y + j)));
+    sums = sums + cv::v_dotprod_expand(difference, cv::v_setall_u8(1));
+  }
+  return cv::v_reduce_sum(sums);
+#else
+  return block_change(a, b, x, y, kBlock_px, kBlock_px);
+#endif
+}
+
+template <typename Change>
+float largest(const ImageView& now, Change&& change) {
+  float most = 0;
+  for (int y = 0; y < now.height; y += kBlock_px) {
+    const int rows = std::min(kBlock_px, now.height - y);
+    for (int x = 0; x < now.width; x += kBlock_px) {
+      const int columns = std::min(kBlock_px, now.width - x);
+      const auto sum = static_cast<float>(change(x, y, columns, rows));
+      most = std::max(most, sum / static_cast<float>(rows * columns));
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+float largest_change(const ImageView& before, const ImageView& now) {
+  return largest(now, [&](int x, int y, int columns, int rows) {
+    return columns == kBlock_px && rows == kBlock_px
+               ? whole_block_change(before, now, x, y)
+               : block_change(before, now, x, y, columns, rows);
+  });
+}
+
+float plain::largest_change(const ImageView& before, const ImageView& now) {
+  return largest(now, [&](int x, int y, int columns, int rows) {
+    return block_change(before, now, x, y, columns, rows);
+  });
+}
+
+RepeatedPicture::Rhythm RepeatedPicture::rhythm() const {
+  Rhythm rhythm;
+  float largest = 0;  // of a run
+  bool in_run = false;
+  for (size_t i = count_; i-- > 0;) {
+    const float change = latest(i);
+    if (in_run && kShare * change > largest) {
+      ++rhythm.dips;
+      in_run = false;
+    }
+    if (change < kShare * rhythm.large) {
+      largest = in_run ? std::max(largest, change) : change;
+      in_run = true;
+    } else {
+      rhythm.large = change;
+      in_run = false;
+    }
+  }
+  return rhythm;
+}
+
+RepeatedPicture::Kind RepeatedPicture::look(const ImageView& before, const ImageView& now) {
+  const float change = largest_change(before, now);
+  const Rhythm known = rhythm();
+  const bool alike = known.dips >= kDips && change < kShare * known.large;
+  largest_[next_] = change;
+  next_ = (next_ + 1) % kFrames;
+  count_ = std::min(count_ + 1, kFrames);
+  if (change == 0) return Kind::kSame;
+  return alike ? Kind::kAlike : Kind::kDifferent;
+}
+
+}  // namespace spidar

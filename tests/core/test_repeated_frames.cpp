@@ -1,0 +1,195 @@
+// Films whose frames repeat pictures are felt as the plain film: 24 pictures a second in 25, 30 and
+// 60 frames, drawn on twos and threes, with frames that came too late; in a player, which knows the
+// next frames, and live. True rest is rest.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/felt_film.h"
+#include "tests/support/film_studio.h"
+
+namespace spidar {
+namespace {
+
+using test::compare_felt;
+using test::feel;
+using test::FeltDifference;
+using test::FilmStudio;
+using test::Picture;
+using test::ShownFrame;
+
+constexpr int kPictures = 72;
+constexpr double kPicture_Hz = 24;
+constexpr int64_t kAhead_ns = 150'000'000;  // a queue of a few frames
+/// A rhythm is known by then.
+constexpr size_t kLearnt_ms = 700;
+const double kDegree_rad = std::acos(-1.0) / 180;
+
+/// Copies of the frames, for a film draws into the same one again.
+std::vector<Picture> pictures_of(test::Film film) {
+  std::vector<Picture> pictures;
+  for (int n = 0; n < kPictures; ++n) {
+    const ImageView view = film.draw(n);
+    Picture picture(view.width, view.height);
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) picture.at(x, y) = *view.at(x, y);
+    }
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
+/// Something that circles in front of a still background, 0.4 times a second.
+const std::vector<Picture>& circling() {
+  static const std::vector<Picture> pictures = [] {
+    FilmStudio studio(480, 270, 1);
+    test::Film film = studio.still_film();
+    film.objects = {studio.object(0.08, [&](double n) {
+      const double angle = 360 * kDegree_rad * 0.4 * n / kPicture_Hz;
+      return Eigen::Affine2d(Eigen::Translation2d(90 * std::cos(angle), 60 * std::sin(angle)));
+    })};
+    return pictures_of(std::move(film));
+  }();
+  return pictures;
+}
+
+/// A film made of some pictures that were taken 24 times a second.
+struct Variant {
+  std::string name;
+  double frame_Hz;
+  std::function<int(int frame)> picture;
+  int drawn_for = 1;  ///< frames, where there are only so many different pictures
+};
+
+std::vector<Variant> variants() {
+  const auto pulled_down = [](double frame_Hz) {
+    return [frame_Hz](int n) { return static_cast<int>(n * kPicture_Hz / frame_Hz + 1e-9); };
+  };
+  return {{"24 in 60", 60, pulled_down(60)},
+          {"24 in 50", 50, pulled_down(50)},
+          {"24 in 30", 30, pulled_down(30)},
+          {"24 in 25", 25, pulled_down(25)},
+          {"on twos", 24, [](int n) { return n / 2 * 2; }, 2},
+          {"on threes", 24, [](int n) { return n / 3 * 3; }, 3},
+          {"lost now and then", 24, [](int n) { return n % 11 == 7 ? n - 1 : n; }}};
+}
+
+const Variant kPlain{"plain", 24, [](int n) { return n; }};
+
+std::string name_of(const testing::TestParamInfo<Variant>& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+/// Its frames as long as there are pictures, with `still` frames more that show the last one.
+std::vector<ShownFrame> frames_of(const Variant& variant, const std::vector<Picture>& pictures,
+                                  int still = 0) {
+  std::vector<ShownFrame> frames;
+  int n = 0;
+  const auto show = [&](const Picture* picture) {
+    const bool again = !frames.empty() && frames.back().picture == picture;
+    frames.push_back({std::llround(1e9 * n++ / variant.frame_Hz), picture, again});
+  };
+  while (variant.picture(n) < static_cast<int>(pictures.size())) {
+    show(&pictures[static_cast<size_t>(variant.picture(n))]);
+  }
+  for (int i = 0; i < still; ++i) show(frames.back().picture);
+  return frames;
+}
+
+/// Nobody says which frames are repeated: they are looked at.
+std::vector<ShownFrame> unflagged(std::vector<ShownFrame> frames) {
+  for (ShownFrame& frame : frames) frame.flagged = false;
+  return frames;
+}
+
+class RepeatedFrames : public testing::TestWithParam<Variant> {
+ protected:
+  static void expect_plain(const std::vector<ShownFrame>& frames) {
+    for (const int64_t ahead_ns : {kAhead_ns, int64_t{0}}) {
+      SCOPED_TRACE(ahead_ns > 0 ? "player" : "live");
+      const auto plain = feel(unflagged(frames_of(kPlain, circling())), ahead_ns);
+      const FeltDifference difference = compare_felt(feel(frames, ahead_ns), plain, kLearnt_ms);
+      EXPECT_NEAR(difference.strength, 1, 0.1);
+      EXPECT_LT(difference.angle_rad, 15 * kDegree_rad);
+      // Live every change of force takes the same 15 ms. Of so many frames one changes it, by as
+      // many times as much: the root of the mean square grows with the root of their number.
+      const double live = ahead_ns > 0 ? 1 : std::sqrt(GetParam().drawn_for);
+      EXPECT_LT(difference.steps, std::max(1.5, 1.1 * live));
+    }
+  }
+};
+
+TEST_P(RepeatedFrames, AreFeltAsThePlainFilm) {
+  expect_plain(unflagged(frames_of(GetParam(), circling())));
+}
+
+TEST_P(RepeatedFrames, ThatAreFlaggedAreFeltAsThePlainFilm) {
+  expect_plain(frames_of(GetParam(), circling()));
+}
+
+TEST_P(RepeatedFrames, AreRestWhenTheyDoNotEnd) {
+  constexpr int kStill = 30;
+  for (const int64_t ahead_ns : {kAhead_ns, int64_t{0}}) {
+    SCOPED_TRACE(ahead_ns > 0 ? "player" : "live");
+    const auto frames = frames_of(GetParam(), circling(), kStill);
+    size_t last = frames.size() - 1;
+    while (frames[last].picture == frames.back().picture) --last;
+    const double changed_ms = 1e-6 * static_cast<double>(frames[last + 1].time_ns);
+    // Or a frame, and the time of fading, after the next picture was due.
+    const double frame_ms = 1e3 / GetParam().frame_Hz;
+    const double rest_ms = std::max(100.0, (GetParam().drawn_for + 1) * frame_ms + 15);
+    for (const auto& shown : {frames, unflagged(frames)}) {
+      const auto force_N = feel(shown, ahead_ns);
+      const auto rest = static_cast<size_t>(std::ceil(changed_ms + rest_ms));
+      EXPECT_GT(force_N[static_cast<size_t>(changed_ms)].norm(), 0.1);
+      for (size_t ms = rest; ms < force_N.size(); ++ms) ASSERT_EQ(force_N[ms].norm(), 0) << ms;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Films, RepeatedFrames, testing::ValuesIn(variants()), name_of);
+
+TEST(CodedRepeats, AreFeltAsThePlainFilm) {
+  // What an encoder adds differs from frame to frame, also where the picture does not.
+  std::vector<Picture> coded;
+  std::vector<ShownFrame> frames;
+  std::mt19937 random(1);
+  const auto with_noise = [&](const Picture& picture) {
+    Picture noisy = picture;
+    for (uint8_t& level : noisy.pixels) {
+      const int value = level + static_cast<int>(random() % 7) - 3;
+      level = static_cast<uint8_t>(std::clamp(value, 0, 255));
+    }
+    return noisy;
+  };
+  for (const Variant& variant : variants()) {
+    if (variant.name != "24 in 60" && variant.name != "24 in 30" && variant.name != "on twos") {
+      continue;
+    }
+    SCOPED_TRACE(variant.name);
+    frames = unflagged(frames_of(variant, circling()));
+    coded.clear();
+    for (const ShownFrame& frame : frames) coded.push_back(with_noise(*frame.picture));
+    for (size_t i = 0; i < frames.size(); ++i) frames[i].picture = &coded[i];
+    std::vector<Picture> plain_coded;
+    std::vector<ShownFrame> plain = unflagged(frames_of(kPlain, circling()));
+    for (const ShownFrame& frame : plain) plain_coded.push_back(with_noise(*frame.picture));
+    for (size_t i = 0; i < plain.size(); ++i) plain[i].picture = &plain_coded[i];
+    const FeltDifference difference =
+        compare_felt(feel(frames, kAhead_ns), feel(plain, kAhead_ns), kLearnt_ms);
+    EXPECT_NEAR(difference.strength, 1, 0.1);
+    EXPECT_LT(difference.angle_rad, 15 * kDegree_rad);
+    EXPECT_LT(difference.steps, 1.5);
+  }
+}
+
+}  // namespace
+}  // namespace spidar

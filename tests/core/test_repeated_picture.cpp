@@ -1,0 +1,75 @@
+// Which frames show the picture before again: the same pixels, or what coding makes of them.
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/tracking/repeated_picture.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+using test::Picture;
+using Kind = RepeatedPicture::Kind;
+
+Picture moved(double dx, uint32_t noise_seed = 0) {
+  static const test::Texture texture(1, 9);
+  std::mt19937 random(noise_seed);
+  Picture picture(150, 90);
+  picture.fill([&](double x, double y) {
+    const double noise = noise_seed > 0 ? static_cast<double>(random() % 5) - 2 : 0;
+    return texture.at(x - dx, y) / 2 + 60 + noise;
+  });
+  return picture;
+}
+
+TEST(RepeatedPicture, TheVectorCodeGivesTheBitsOfThePlainOne) {
+  std::mt19937 random(1);
+  for (const int width : {16, 17, 31, 64, 101}) {
+    for (const int height : {16, 23, 48}) {
+      Picture a(width, height, 3), b(width, height, 5);
+      a.fill([&](double, double) { return static_cast<double>(random() % 256); });
+      b.fill([&](double, double) { return static_cast<double>(random() % 256); });
+      EXPECT_EQ(largest_change(a.view(), b.view()), plain::largest_change(a.view(), b.view()));
+      EXPECT_EQ(largest_change(a.view(), a.view()), 0);
+      Picture c = a;
+      c.at(width - 1, height - 1) ^= 1;  // the last pixel counts
+      EXPECT_GT(largest_change(a.view(), c.view()), 0);
+      EXPECT_EQ(largest_change(a.view(), c.view()), plain::largest_change(a.view(), c.view()));
+    }
+  }
+}
+
+TEST(RepeatedPicture, NoiseIsTheSamePictureOnceARhythmIsKnown) {
+  RepeatedPicture repeated;
+  Picture before = moved(0, 1);
+  for (uint32_t n = 1; n < 40; ++n) {
+    const bool again = n % 2 == 1;  // on twos
+    const Picture now = moved(4.0 * (n / 2), n + 1);
+    const Kind kind = repeated.look(before.view(), now.view());
+    if (n > 6) {
+      EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kDifferent) << n;
+    }
+    if (kind == Kind::kDifferent) before = now;
+  }
+}
+
+TEST(RepeatedPicture, WhatSlowsDownAndTurnsRoundIsNoRepeat) {
+  RepeatedPicture repeated;
+  Picture before = moved(0, 1);
+  double place = 0;
+  for (uint32_t n = 1; n < 100; ++n) {
+    const double speed = 4 - std::abs(static_cast<double>(n % 16) - 8);  // −4 … 4 px a frame
+    place += speed;
+    const Picture now = moved(place, n + 1);
+    EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kDifferent) << n;
+    before = now;
+  }
+}
+
+}  // namespace
+}  // namespace spidar
