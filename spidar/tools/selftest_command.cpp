@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl selftest DEVICE [OPTION]...
 
-Pulls one string after the other, half a second each, and tells from the encoders which motor and which
+Pulls one string after the other, a second each, longer when the hand moves, and tells from the encoders which motor and which
 encoder is at which string, and which is reversed. Hold the grip at the centre, loosely.
 
   --newton N             pull by so much above the smallest tension, 0.1 to 2 (default 0.5)

@@ -95,6 +95,15 @@ bool silent(const WiringReport& report) {
                      [](const WiringChannel& channel) { return channel.motor_string < 0; });
 }
 
+/// " 2, 5"; empty: none.
+std::string unclear_motors(const WiringReport& report) {
+  std::string names;
+  for (int i = 0; i < report.count; ++i)
+    if (report.channel[static_cast<size_t>(i)].unclear)
+      names += (names.empty() ? " " : ", ") + std::to_string(i);
+  return names;
+}
+
 const char* verdict(const WiringReport& report) {
   if (silent(report)) return "no answer";
   if (!report.understood()) return "unclear";
@@ -111,8 +120,10 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
     char line[160];
     std::snprintf(
         line, sizeof line, "  %7d  %-20s %-20s %+.2f\n", i,
-        what(c.motor_string, motor_reversed(profile, report, i), i, "pulls string ", "nothing")
-            .c_str(),
+        c.unclear ? "unclear"
+                  : what(c.motor_string, motor_reversed(profile, report, i), i, "pulls string ",
+                         "nothing")
+                        .c_str(),
         what(c.encoder_string, encoder_reversed(profile, report, i), i, "reads string ", "still")
             .c_str(),
         1e3 * own_answer_m(profile, answers, i));
@@ -124,6 +135,11 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
   else if (silent(report))
     out << "No encoder moves, whichever motor pulls. Switch the motors' supply on, and hold the "
            "grip so that the strings are taut.\n";
+  else if (const std::string motors = unclear_motors(report); !motors.empty())
+    out << "What the encoders say when these motors pull is not understood:" << motors
+        << ". Hold the grip at the centre, loosely and still, and test again; if it stays so, "
+           "check "
+           "these motors and their strings.\n";
   else
     out << "The answers do not look like those of this profile, however it is wired. Hold the grip "
            "at the centre, loosely and still, and check the profile.\n";
@@ -136,6 +152,7 @@ void print_wiring_json(std::ostream& out, const Profile& profile, const WiringAn
   for (int i = 0; i < report.count; ++i) {
     const WiringChannel& c = report.channel[static_cast<size_t>(i)];
     channels.push_back(toml::table{{"motor_string", c.motor_string},
+                                   {"unclear", c.unclear},
                                    {"motor_sign", motor_sign(profile, report, i)},
                                    {"encoder_string", c.encoder_string},
                                    {"encoder_sign", encoder_sign(profile, report, i)},

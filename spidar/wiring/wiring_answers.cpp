@@ -11,6 +11,10 @@ namespace spidar {
 namespace {
 
 constexpr double kRunaway_m = 0.03;
+constexpr int kRounds = 4;
+/// Of an answer: by so much the next one may differ. Hands drift and tremble, and a motor that does
+/// nothing has no answer, so that this allows no more than smallest_answer_m().
+constexpr double kSteady = 0.25;
 
 class WiringTest {
  public:
@@ -40,10 +44,7 @@ class WiringTest {
   }
 
   bool answered(const WiringAnswers& answers, int motor) const {
-    double largest_m = 0;
-    for (int j = 0; j < profile_.geometry.count; ++j)
-      largest_m = std::max(largest_m, std::fabs(answers.counts(j, motor)) * metres_per_count(j));
-    return largest_m >= smallest_answer_m(profile_);
+    return largest_m(answers.counts.col(motor)) >= smallest_answer_m(profile_);
   }
 
   bool ask(int motor, WiringAnswers& answers) {
@@ -51,6 +52,28 @@ class WiringTest {
     StringVector pulled_N = rest_N_;
     pulled_N[motor] = std::min(rest_N_[motor] + settings_.pull_N, profile_.drives[k].max_tension_N);
     answers.pulled_N[motor] = pulled_N[motor] - rest_N_[motor];
+    bool steady = false;
+    for (int round = 0; round < kRounds && !steady; ++round) {
+      Pull first, second;
+      if (!pull(motor, pulled_N, first) || !pull(motor, pulled_N, second)) return false;
+      answers.counts.col(motor) = 0.5 * (first.answer + second.answer);
+      const double allowed_m =
+          std::max(kSteady * std::max(largest_m(first.answer), largest_m(second.answer)),
+                   smallest_answer_m(profile_));
+      steady = largest_m(first.answer - second.answer) < allowed_m &&
+               largest_m(first.drift) < allowed_m && largest_m(second.drift) < allowed_m;
+    }
+    answers.unsteady[k] = !steady;
+    return true;
+  }
+
+  /// Counts.
+  struct Pull {
+    StringVector answer = StringVector::Zero();
+    StringVector drift = StringVector::Zero();  ///< from the rest before to the rest after
+  };
+
+  bool pull(int motor, const StringVector& pulled_N, Pull& result) {
     StringVector pulled, after;
     if (!rested_ && !average(at_rest_)) return false;
     pulling_ = motor;
@@ -58,10 +81,18 @@ class WiringTest {
     pulling_ = -1;
     if (!hold_.go(rest_N_, settings_.ramp_s) || !stay() || !average(after)) return false;
     // Against both rests, so that a hand that drifts away slowly does not count.
-    answers.counts.col(motor) = pulled - 0.5 * (at_rest_ + after);
+    result.answer = pulled - 0.5 * (at_rest_ + after);
+    result.drift = after - at_rest_;
     at_rest_ = after;
     rested_ = true;
     return true;
+  }
+
+  double largest_m(const StringVector& counts) const {
+    double largest = 0;
+    for (int j = 0; j < profile_.geometry.count; ++j)
+      largest = std::max(largest, std::fabs(counts[j]) * metres_per_count(j));
+    return largest;
   }
 
   /// Keeps the other sign when that is the one that pulls.

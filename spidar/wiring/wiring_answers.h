@@ -28,12 +28,15 @@ struct WiringAnswers {
   CountChanges counts = CountChanges::Zero();
   StringVector pulled_N = StringVector::Zero();  ///< by how much more each motor pulled
   std::array<bool, kMaxStrings> reversed{};  ///< it did so with the other sign than the profile's
-  bool complete = false;                     ///< false: ended early by the pace
+  /// Its pulls had different answers, however often they were repeated: the hand moved.
+  std::array<bool, kMaxStrings> unsteady{};
+  bool complete = false;  ///< false: ended early by the pace
 };
 
 /// Pulls string after string, the others at their smallest tension, with a hand that holds the grip
-/// loosely. Takes half a second a string with the default settings, and as much again where a motor
-/// is tried with the other sign.
+/// loosely. Each is pulled twice. When the two answers differ, or the rests between which they lie,
+/// both are repeated, up to three times. Takes a second a string with the default settings, and as
+/// much again where pulls are repeated or a motor is tried with the other sign.
 ///
 /// Throws DeviceError when the device is lost, or when a string runs away: 30 mm are more than a
 /// hand gives way, the motor unwinds the string or nobody holds the grip.

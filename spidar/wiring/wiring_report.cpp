@@ -15,6 +15,9 @@ namespace {
 constexpr double kFaultCost = 2e-3;
 /// Of the strongest answers' median; less is none.
 constexpr double kSilent = 0.1;
+/// A motor's answer beside the others', as a multiple of the expected one: hands are not equally
+/// stiff in all directions, and motors are not equally strong.
+constexpr double kWeakest = 1.0 / 3, kStrongest = 3;
 constexpr double kRotationShares[] = {0.1, 0.3, 1, 3, 10};
 
 using Assignment = std::array<int, kMaxStrings>;
@@ -49,11 +52,16 @@ class Judge {
 
   WiringReport report(const WiringAnswers& answers) {
     Explanation best;
+    double best_share = 1;
     for (const double share : kRotationShares) {
       expect(share);
       Explanation found = search();
-      if (found.worth > best.worth) best = found;
+      if (found.worth <= best.worth) continue;
+      best = found;
+      best_share = share;
     }
+    expect(best_share);
+    const std::array<bool, kMaxStrings> unclear = find_unclear(best);
     WiringReport report;
     report.count = count_;
     report.correlation = best.correlation;
@@ -62,6 +70,7 @@ class Judge {
       if (!silent_motor_[i]) channel.motor_string = best.motor[i];
       if (!silent_encoder_[i]) channel.encoder_string = best.encoder[i];
       channel.motor_reversed = answers.reversed[i];
+      channel.unclear = answers.unsteady[i] || unclear[i];
       channel.encoder_reversed = !silent_encoder_[i] && best.encoder_reversed[i];
     }
     return report;
@@ -129,6 +138,32 @@ class Judge {
     return e;
   }
 
+  /// Motors whose own answers are not those expected of them.
+  std::array<bool, kMaxStrings> find_unclear(const Explanation& e) const {
+    std::array<bool, kMaxStrings> unclear{};
+    std::array<double, kMaxStrings> size{};
+    std::vector<double> sizes;
+    for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
+      if (silent_motor_[i]) continue;
+      StringVector expected = StringVector::Zero();
+      for (size_t j = 0; j < static_cast<size_t>(count_); ++j)
+        if (!silent_encoder_[j])
+          expected[static_cast<int>(j)] =
+              (e.encoder_reversed[j] ? -1 : 1) * expected_(e.encoder[j], e.motor[i]);
+      const auto answer = answer_.col(static_cast<Eigen::Index>(i));
+      const double product = answer.dot(expected);
+      unclear[i] = !(product >= WiringReport::kMinCorrelation * answer.norm() * expected.norm());
+      size[i] = product / std::max(expected.squaredNorm(), 1e-30);
+      sizes.push_back(size[i]);
+    }
+    if (sizes.empty()) return unclear;
+    const double typical = median(sizes);
+    for (size_t i = 0; i < static_cast<size_t>(count_); ++i)
+      if (!silent_motor_[i])
+        unclear[i] |= size[i] < kWeakest * typical || size[i] > kStrongest * typical;
+    return unclear;
+  }
+
   Explanation search() const {
     Assignment same{};
     for (int i = 0; i < kMaxStrings; ++i) same[static_cast<size_t>(i)] = i;
@@ -164,6 +199,12 @@ class Judge {
 };
 
 }  // namespace
+
+bool WiringReport::understood() const noexcept {
+  return correlation >= kMinCorrelation &&
+         std::none_of(channel.begin(), channel.begin() + count,
+                      [](const WiringChannel& c) { return c.unclear; });
+}
 
 bool WiringReport::as_profile() const noexcept {
   for (int i = 0; i < count; ++i) {

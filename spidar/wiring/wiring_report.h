@@ -16,6 +16,9 @@ struct WiringChannel {
   bool motor_reversed = false;
   int encoder_string = -1;  ///< which string the encoder reads; −1: it stands still
   bool encoder_reversed = false;
+  /// What the encoders said when the motor pulled was not it alone: the hand moved, or they said
+  /// something else each time, or nothing that a motor of this device can do.
+  bool unclear = false;
 };
 
 struct WiringReport {
@@ -26,7 +29,8 @@ struct WiringReport {
 
   /// Below kMinCorrelation the answers do not look like this device's, however it is wired.
   static constexpr double kMinCorrelation = 0.8;
-  bool understood() const noexcept { return correlation >= kMinCorrelation; }
+  /// And every motor's own answers do, in their directions and in their size.
+  SPIDAR_API bool understood() const noexcept;
   /// All is as the profile says.
   SPIDAR_API bool as_profile() const noexcept;
   /// A profile can say what is wrong: signs, and strings that are at other channels, motor and

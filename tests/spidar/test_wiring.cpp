@@ -1,5 +1,6 @@
 // Which motor and which encoder belong to which string: from answers that follow from the geometry,
 // and from the simulated device, whose hand and motors are not those that are expected.
+#include <cmath>
 #include <memory>
 #include <random>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/emulation/miswired_device.h"
+#include "spidar/safety.h"
 #include "spidar/simulated_device.h"
 #include "spidar/wiring/wiring_answers.h"
 #include "spidar/wiring/wiring_report.h"
@@ -35,6 +37,68 @@ std::string faults_of(const WiringReport& report) {
 /// Time is that of the exchanges.
 bool at_once() {
   return true;
+}
+
+/// A simulated device whose hand shifts once when it feels a certain motor, or should feel it.
+class ShiftingHand final : public Device {
+ public:
+  struct Shift {
+    int motor = 0;
+    double pull_V = 0;  ///< the motor's volts at half of its pull
+    int after = 0;      ///< milliseconds of its pull
+    int lasts = 0;      ///< milliseconds; 0: for ever
+    Pose to;
+  };
+
+  ShiftingHand(const Profile& profile, const std::string& faults, const Shift& shift)
+      : shift_(shift) {
+    auto sim = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
+    sim_ = sim.get();
+    device_ = make_miswired(std::move(sim), parse_miswiring(faults, profile.geometry.count));
+  }
+
+  void open() override { device_->open(); }
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    const double volt = std::fabs(volts.volt[static_cast<size_t>(shift_.motor)]);
+    if (volt > shift_.pull_V) ++pulled_ms_;
+    if (pulled_ms_ > shift_.after) {
+      const bool back = shift_.lasts > 0 && shifted_ms_++ >= shift_.lasts;
+      sim_->set_hand(back ? Pose{} : shift_.to);
+    }
+    return device_->exchange(volts, reading);
+  }
+  void close() noexcept override { device_->close(); }
+  const std::string& name() const noexcept override { return device_->name(); }
+
+ private:
+  const Shift shift_;
+  SimulatedDevice* sim_ = nullptr;
+  std::unique_ptr<Device> device_;
+  int pulled_ms_ = 0;
+  int shifted_ms_ = 0;
+};
+
+/// By 1 to 3 mm anywhere, at any time of a pull, for a while or for ever.
+ShiftingHand::Shift any_shift(const Profile& profile, std::mt19937& random) {
+  std::uniform_real_distribution<double> size_m(0.001, 0.003);
+  std::normal_distribution<double> normal;
+  ShiftingHand::Shift shift;
+  shift.motor = std::uniform_int_distribution<int>(0, profile.geometry.count - 1)(random);
+  StringVector half_N = StringVector::Zero();
+  half_N[shift.motor] = profile.min_tension_N()[shift.motor] + 0.5 * WiringTestSettings{}.pull_N;
+  shift.pull_V = std::fabs(to_volts(half_N, profile).volt[static_cast<size_t>(shift.motor)]);
+  shift.after = std::uniform_int_distribution<int>(0, 200)(random);
+  shift.lasts = std::uniform_int_distribution<int>(0, 1)(random) *
+                std::uniform_int_distribution<int>(50, 500)(random);
+  const Eigen::Vector3d to(normal(random), normal(random), normal(random));
+  shift.to.position_m = size_m(random) * to.normalized();
+  return shift;
+}
+
+WiringReport test_with(const Profile& profile, const std::string& faults,
+                       const ShiftingHand::Shift& shift) {
+  ShiftingHand device(profile, faults, shift);
+  return judge_wiring(profile, ask_wiring(device, profile, at_once));
 }
 
 WiringReport test_of(const Profile& profile, const std::string& faults, bool try_reversed = true) {
@@ -132,6 +196,29 @@ TEST(Wiring, ReversedAndCutWiresAreFound) {
   }
   // A board that has no negative volts.
   EXPECT_EQ(faults_of(test_of(profile, "reverse-motor:0", false)), "motor 0 pulls -1; ");
+}
+
+TEST(Wiring, AHandThatShiftsCertifiesNoFaultyMotor) {
+  for (const std::string name : {"spidar-gcc", "spidar-g6x3-v2-r", "spidar-i7"}) {
+    const Profile profile = load_profile(name);
+    for (unsigned seed = 0; seed < 160; ++seed) {
+      std::mt19937 random(seed);
+      const ShiftingHand::Shift shift = any_shift(profile, random);
+      const std::string fault =
+          (seed % 2 ? "cut-motor:" : "reverse-motor:") + std::to_string(shift.motor);
+      const WiringReport report = test_with(profile, fault, shift);
+      EXPECT_FALSE(report.as_profile()) << name << ", " << fault << ", seed " << seed;
+    }
+  }
+}
+
+TEST(Wiring, AHandThatShiftsOnceCondemnsNoMotor) {
+  const Profile profile = load_profile("spidar-gcc");
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937 random(seed);
+    const WiringReport report = test_with(profile, "", any_shift(profile, random));
+    EXPECT_TRUE(report.as_profile()) << "seed " << seed << ": " << faults_of(report);
+  }
 }
 
 TEST(Wiring, RewiredProfileIsTheDeviceAsItIs) {
