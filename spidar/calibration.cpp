@@ -10,6 +10,7 @@
 #include "spidar/calibration_model.h"
 #include "spidar/calibration_noise.h"
 #include "spidar/calibration_start.h"
+#include "spidar/calibration_systematics.h"
 #include "spidar/grip_model.h"
 #include "spidar/observability.h"
 #include "spidar/toml_field.h"
@@ -180,6 +181,11 @@ CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
   result.length_noise_m = fit.noise_m(rounding_m);
   const bool motion_suffices = find_observable(fit, result);
   if (motion_suffices) remove_bias(result.length_noise_m, rounding_m, fit);
+  result.home_offset_uncertainty_m = offset_uncertainty_m(model, lengths_m, fit.bundle, fit.weights,
+                                                          result.length_noise_m, rounding_m);
+  // Where the motion does not tell, no number is known.
+  result.home_offset_uncertainty_m =
+      result.home_offset_uncertainty_m.cwiseMax(result.home_offset_sd_m);
   describe_parameters(fit, result);
   describe_motion(fit.bundle.poses, result);
   const Eigen::ArrayXd outliers = (fit.norms_m.array() > kOutlier * fit.sigma_m).cast<double>();

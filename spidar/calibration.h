@@ -56,11 +56,17 @@ struct CalibrationResult {
 
   /// Standard deviations (infinite when undetermined, zero when not asked for): of the lengths at
   /// zero count, the scale, and the exits. Errors that successive samples share, as those of a
-  /// wrong geometry, count for what they are.
+  /// wrong geometry, count for what they are. All take the numbers of the profile that were not
+  /// asked for as exact.
   StringVector home_offset_sd_m = StringVector::Zero();
   double scale_sd = 0;
   Eigen::Matrix<double, 3, kMaxStrings> exit_sd_m =
       Eigen::Matrix<double, 3, kMaxStrings>::Zero();  ///< a column for each string
+  /// Root mean square error of the lengths at zero count when those numbers are not exact: exits
+  /// and points on the grip to 1 mm a coordinate, the scale of each string to 0.5 %, its stretch
+  /// included. Less where what is left of the lengths says so. Infinite when undetermined, and
+  /// after calibrate_at_centre(), which has nothing to tell from.
+  StringVector home_offset_uncertainty_m = StringVector::Zero();
 
   /// Where the grip was when the counters were zero.
   Pose cleared_at;

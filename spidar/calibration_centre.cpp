@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "spidar/calibration.h"
@@ -32,6 +33,8 @@ CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples
   const Eigen::VectorXd mean = counts.colwise().mean();
   result.home_offset_m = -model.paid_out_m(mean);
   result.residual_m = result.string_residual_m.norm() / std::sqrt(model.strings());
+  result.home_offset_uncertainty_m.head(model.strings())
+      .setConstant(std::numeric_limits<double>::infinity());
   result.length_noise_m = result.home_offset_sd_m.head(model.strings()).mean();
   result.cleared_at = pose_at_zero_count(profile.geometry, result.home_offset_m);
   return result;

@@ -67,11 +67,15 @@ const char* advice(CalibrationStatus status) {
 }
 
 void print_strings(std::ostream& out, int strings, const CalibrationResult& result) {
-  out << "\n  string  offset mm  sd um    residual um\n";
+  out << "\n  string  offset mm  sd um    residual um  uncertainty um\n";
   for (int i = 0; i < strings; ++i)
-    out << format("  %6d  %9.4f  %-7s  %11.2f\n", i, 1e3 * result.home_offset_m[i],
+    out << format("  %6d  %9.4f  %-7s  %11.2f  %s\n", i, 1e3 * result.home_offset_m[i],
                   micrometres(result.home_offset_sd_m[i]).c_str(),
-                  1e6 * result.string_residual_m[i]);
+                  1e6 * result.string_residual_m[i],
+                  micrometres(result.home_offset_uncertainty_m[i]).c_str());
+  out << "  sd: of noise alone, the profile's other numbers being exact; uncertainty: if exits "
+         "and\n"
+         "  points on the grip may be wrong by 1 mm, and each string's scale or stretch by 0.5 %\n";
 }
 
 void print_exits(std::ostream& out, int strings, const CalibrationResult& result) {
@@ -122,6 +126,7 @@ void print_result_json(std::ostream& out, const Profile& profile, const Calibrat
       {"outlier_share", result.outlier_share},
       {"home_offset_m", to_array(result.home_offset_m.head(strings))},
       {"home_offset_sd_m", to_array(result.home_offset_sd_m.head(strings))},
+      {"home_offset_uncertainty_m", to_array(result.home_offset_uncertainty_m.head(strings))},
       {"string_residual_m", to_array(result.string_residual_m.head(strings))},
       {"cleared_at_m", to_array(result.cleared_at.position_m)},
       {"cleared_at_rad", to_array(rotation_vector(result.cleared_at.orientation))},

@@ -1,7 +1,9 @@
 // What calibrate() finds, how sure it is, and what it says when it cannot know.
 
 #include <cmath>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -121,6 +123,53 @@ TEST(Calibration, ExitsAndScaleAreFoundAsWellAsPredicted) {
           (result.exit_m[k] - exit).cwiseQuotient(result.exit_sd_m.col(i)).cwiseAbs();
       EXPECT_LT(in_sd.maxCoeff(), kFiveSigma) << "exit " << i;
     }
+  }
+}
+
+// What the profile says of the device is wrong, and offsets are all that is asked for. Of errors
+// that are normal, 95 % are within two standard deviations; the prior is not the distribution of
+// the errors made here, therefore 90 %. What is refused makes no false statement.
+TEST(Calibration, UncertaintyCoversAProfileThatIsWrong) {
+  const Profile profile = load_profile("spidar-gcc");
+  constexpr int kDevices = 8;
+  const auto scale_all = [](Profile& device, Random&) {
+    for (StringDrive& drive : device.drives) drive.metres_per_count *= 1.003;
+  };
+  const auto stretch = [](Profile& device, Random& random) {
+    // Strings at their smallest tension, each longer than the drum has paid out.
+    for (StringDrive& drive : device.drives)
+      drive.metres_per_count *= 1 + std::abs(uniform(random, 0.004));
+  };
+  const auto move_exit = [](Profile& device, Random& random) {
+    device.geometry.exit_m[random() % 8] += 1e-3 * uniform_vector(random, 1).normalized();
+  };
+  const auto nothing = [](Profile&, Random&) {};
+  const std::pair<const char*, std::function<void(Profile&, Random&)>> models[] = {
+      {"right", nothing}, {"scale", scale_all}, {"stretch", stretch}, {"exit", move_exit}};
+  for (const auto& [name, spoil] : models) {
+    int covered = 0, by_sd = 0, stated = 0, refused = 0;
+    for (unsigned seed = 0; seed < kDevices; ++seed) {
+      Random random(seed);
+      Profile device = profile;
+      clear_counters_at(wrong_start(random, 0.03, 0.5), device);
+      spoil(device, random);
+      const CalibrationResult result =
+          calibrate(profile, moved_counts(device, 1000, 0.02, random, 1.0));
+      if (result.status != CalibrationStatus::kSolved) {
+        ++refused;
+        continue;
+      }
+      const StringVector error_m = zero_length_errors_m(profile, device, result);
+      for (int i = 0; i < profile.geometry.count; ++i) {
+        ++stated;
+        covered += std::abs(error_m[i]) <= 2 * result.home_offset_uncertainty_m[i];
+        by_sd += std::abs(error_m[i]) <= 2 * result.home_offset_sd_m[i];
+      }
+    }
+    RecordProperty(std::string(name) + "_covered_of_" + std::to_string(stated),
+                   std::to_string(covered) + ", by sd " + std::to_string(by_sd));
+    EXPECT_LT(refused, kDevices / 2) << name;
+    EXPECT_GE(covered, 0.9 * stated) << name;
   }
 }
 

@@ -1,0 +1,99 @@
+#include "spidar/calibration_systematics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+namespace spidar {
+namespace {
+
+constexpr int kNoiseRounds = 5;
+/// Of what is estimated: no offset is off by as much, so that this says nothing but keeps the
+/// problem solvable where the motion tells nothing.
+constexpr double kUnknown_m = 1.0;
+
+/// Numbers of the profile that are taken as they are: a scale for each string, then the exits if
+/// they are not estimated, then the points on the grip.
+class FixedNumbers {
+ public:
+  explicit FixedNumbers(const CalibrationModel& model)
+      : strings_(model.strings()), exits_(model.exit_row() < 0) {}
+
+  int size() const { return strings_ * (exits_ ? 7 : 4); }
+
+  Eigen::VectorXd sd() const {
+    Eigen::VectorXd all = Eigen::VectorXd::Constant(size(), kPointError_m);
+    all.head(strings_).setConstant(kScaleError);
+    return all;
+  }
+
+  /// Derivatives of CalibrationModel::length_errors_m(), a row for each string.
+  Eigen::MatrixXd derivatives(const CalibrationModel& model, const Eigen::VectorXd& parameters,
+                              const StringVector& paid_out_m, const Pose& pose) const {
+    // A string gets longer when its exit moves along its direction from the grip, and shorter when
+    // the point on the grip does.
+    const StructureMatrix W = structure_matrix(model.geometry(parameters), pose);
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(strings_, size());
+    for (int i = 0; i < strings_; ++i) {
+      const Eigen::RowVector3d direction = W.col(i).head<3>().transpose();
+      all(i, i) = -model.scale(parameters) * paid_out_m[i];
+      if (exits_) all.block<1, 3>(i, strings_ + 3 * i) = direction;
+      all.block<1, 3>(i, size() - 3 * (strings_ - i)) = -direction * pose.orientation.matrix();
+    }
+    return all;
+  }
+
+ private:
+  const int strings_;
+  const bool exits_;
+};
+
+}  // namespace
+
+StringVector offset_uncertainty_m(const CalibrationModel& model,
+                                  const std::vector<StringVector>& paid_out_m, const Bundle& bundle,
+                                  const Eigen::VectorXd& weights, double noise_m, double floor_m) {
+  const FixedNumbers fixed(model);
+  const int estimated = model.size(), size = estimated + fixed.size();
+  const int redundant = model.strings() - 6;
+  Eigen::VectorXd prior_sd(size);
+  prior_sd << Eigen::VectorXd::Constant(estimated, kUnknown_m), fixed.sd();
+
+  // In units of the prior, so that the numbers are alike. The last row and column are the errors.
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size + 1, size + 1);
+  Eigen::MatrixXd rows(model.strings(), size + 1);
+  for (size_t k = 0; k < paid_out_m.size(); ++k) {
+    CalibrationModel::Derivatives d;
+    const Eigen::VectorXd error_m =
+        model.length_errors_m(bundle.parameters, paid_out_m[k], bundle.poses[k], &d);
+    rows << d.by_parameter,
+        fixed.derivatives(model, bundle.parameters, paid_out_m[k], bundle.poses[k]), error_m;
+    rows.leftCols(size) *= prior_sd.asDiagonal();
+    // What no change of the pose explains.
+    const Eigen::HouseholderQR<Eigen::MatrixXd> poses(d.by_twist);
+    const Eigen::MatrixXd left = (poses.householderQ().adjoint() * rows).bottomRows(redundant);
+    normal.noalias() += weights[static_cast<Eigen::Index>(k)] * left.transpose() * left;
+  }
+
+  const Eigen::VectorXd toward = normal.col(size).head(size);
+  const double degrees = redundant * weights.sum() - size;
+  Eigen::VectorXd change(size), variance(size);
+  for (int round = 0; round < kNoiseRounds; ++round) {
+    Eigen::MatrixXd information = normal.topLeftCorner(size, size) / (noise_m * noise_m);
+    information.diagonal().array() += 1;
+    const Eigen::LDLT<Eigen::MatrixXd> solver(information);
+    change = -solver.solve(toward / (noise_m * noise_m));
+    variance = solver.solve(Eigen::MatrixXd::Identity(size, size)).diagonal();
+    const double squares_m2 = normal(size, size) + 2 * toward.dot(change) +
+                              change.dot(normal.topLeftCorner(size, size) * change);
+    if (degrees > 0) noise_m = std::max(floor_m, std::sqrt(std::max(squares_m2, 0.0) / degrees));
+  }
+  StringVector uncertainty_m = StringVector::Zero();
+  for (int i = 0; i < model.strings(); ++i)
+    uncertainty_m[i] = prior_sd[i] * std::sqrt(change[i] * change[i] + std::max(variance[i], 0.0));
+  return uncertainty_m;
+}
+
+}  // namespace spidar
