@@ -50,10 +50,6 @@ class SPIDAR_API Device {
   /// Motors to zero, then releases the board. Safe to call twice, and after kLost.
   virtual void close() noexcept = 0;
 
-  /// The board's own counters are zero from now on, where the grip is; not while exchanging. False
-  /// when it has no command for that, or does not obey: switching it on clears them.
-  virtual bool clear_counters() { return false; }
-
   /// What open() found, for people: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3". Empty while
   /// closed, and for devices that are no more than their name.
   virtual std::string description() const { return {}; }

@@ -36,9 +36,6 @@ class SPIDAR_API Board {
   /// do not say where the grip is. Until zero_counts().
   virtual bool counts_restarted() const noexcept { return false; }
 
-  /// As Device::clear_counters().
-  virtual bool clear_counters() noexcept { return false; }
-
   /// Releases the board; its motors keep what they have.
   virtual void close() noexcept = 0;
 

@@ -244,14 +244,6 @@ void BoardDevice::close() noexcept {
   guardians_.clear();
 }
 
-bool BoardDevice::clear_counters() {
-  if (!open_) return false;
-  stop();
-  const bool cleared = board_->clear_counters();
-  if (settings_.threaded) start();
-  return cleared;
-}
-
 LinkHealth BoardDevice::health() const noexcept {
   LinkHealth health;
   for (size_t i = 0; i < kLinkFaults; ++i)

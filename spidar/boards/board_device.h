@@ -41,7 +41,6 @@ class SPIDAR_API BoardDevice final : public Device {
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
   /// Ramps to zero, then releases. Takes kRamp_ms, and longer when the board does not answer.
   void close() noexcept override;
-  bool clear_counters() override;
   std::string description() const override { return open_ ? board_->description() : ""; }
   const std::string& name() const noexcept override { return board_->name(); }
   LinkHealth health() const noexcept override;

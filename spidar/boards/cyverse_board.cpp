@@ -47,15 +47,6 @@ LinkFault CyverseBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
   return LinkFault::kNone;
 }
 
-bool CyverseBoard::clear_counters() noexcept {
-  const int64_t deadline_ns = monotonic_now_ns() + kSecond_ns / 10;
-  Readout readout;
-  if (!send_clear(deadline_ns) || exchange({}, readout, deadline_ns) != LinkFault::kNone)
-    return false;
-  counts_.begin(readout.counter);
-  return true;
-}
-
 std::vector<LastWill> CyverseBoard::last_wills() const {
   const std::vector<uint8_t> zero = zero_packet();
   return wills(*transport_, {{zero.data(), zero.size()}});

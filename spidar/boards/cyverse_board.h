@@ -28,7 +28,6 @@ class SPIDAR_API CyverseBoard : public Board {
   /// On the host: the board's own counters are left as they are.
   void zero_counts() noexcept final { counts_.zero(); }
   bool counts_restarted() const noexcept final { return counts_.restarted(); }
-  bool clear_counters() noexcept final;
   void close() noexcept final { transport_->close(); }
   std::vector<LastWill> last_wills() const final;
   int rotary() const noexcept final { return rotary_; }
@@ -47,8 +46,6 @@ class SPIDAR_API CyverseBoard : public Board {
   virtual LinkFault reset(int64_t deadline_ns) noexcept = 0;
   virtual LinkFault exchange(const DacDigits& digits, Readout& readout,
                              int64_t deadline_ns) noexcept = 0;
-  /// False when the board has no command for that.
-  virtual bool send_clear(int64_t deadline_ns) noexcept = 0;
   /// The packet that takes all motors to zero.
   virtual std::vector<uint8_t> zero_packet() const = 0;
 

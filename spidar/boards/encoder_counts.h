@@ -40,12 +40,6 @@ class EncoderCounts {
     restarted_ = false;
   }
 
-  /// As the board counts, from this reading on.
-  void begin(const Raw& raw) noexcept {
-    unwrapper_.begin(raw, channels_);
-    restarted_ = false;
-  }
-
   /// Reading at `now_ns` (CLOCK_MONOTONIC). False, and nothing taken over, when a counter went
   /// further than a hand can since the last reading, be that a good one or not: a board that loses
   /// its power for a moment jumps, and does not come back.

@@ -32,10 +32,6 @@ LinkFault Sh4Board::exchange(const DacDigits& digits, Readout& readout,
   return LinkFault::kNone;
 }
 
-bool Sh4Board::send_clear(int64_t) noexcept {
-  return false;
-}
-
 std::string Sh4Board::description() const {
   return "CyVerse USB 2.0 SH4, rotary switch " + std::to_string(rotary());
 }

@@ -36,12 +36,6 @@ LinkFault SimpleBoard::exchange(const DacDigits& digits, Readout& readout,
   return LinkFault::kNone;
 }
 
-bool SimpleBoard::send_clear(int64_t deadline_ns) noexcept {
-  usb_simple::Packet clear;
-  usb_simple::encode_clear_counters(kAllChannels, clear);
-  return transport().exchange({clear}, {}, deadline_ns).fault == LinkFault::kNone;
-}
-
 std::string SimpleBoard::description() const {
   return "CyVerse USB 2.0 Simple, rotary switch " + std::to_string(rotary());
 }

@@ -22,7 +22,6 @@ class SPIDAR_API SimpleBoard final : public CyverseBoard {
   LinkFault reset(int64_t deadline_ns) noexcept override;
   LinkFault exchange(const DacDigits& digits, Readout& readout,
                      int64_t deadline_ns) noexcept override;
-  bool send_clear(int64_t deadline_ns) noexcept override;
   std::vector<uint8_t> zero_packet() const override;
 
   usb_simple::Packet set_dac_{};

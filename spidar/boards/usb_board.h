@@ -32,7 +32,6 @@ class SPIDAR_API UsbBoard final : public Board {
   bool counts_restarted() const noexcept override {
     return used_ && used_->board->counts_restarted();
   }
-  bool clear_counters() noexcept override { return used_ && used_->board->clear_counters(); }
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   std::string description() const override;

@@ -78,7 +78,6 @@ class MiswiredDevice final : public Device {
   }
 
   void close() noexcept override { device_->close(); }
-  bool clear_counters() override { return device_->clear_counters(); }
   LinkHealth health() const noexcept override { return device_->health(); }
   const std::string& name() const noexcept override { return device_->name(); }
 

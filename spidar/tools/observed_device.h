@@ -33,7 +33,6 @@ class ObservedDevice final : public Device {
   void open() override;
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
   void close() noexcept override { device_->close(); }
-  bool clear_counters() override { return device_->clear_counters(); }
   std::string description() const override { return device_->description(); }
   LinkHealth health() const noexcept override { return device_->health(); }
   const std::string& name() const noexcept override { return device_->name(); }

@@ -249,23 +249,6 @@ TEST_F(UsbBoards, CountsOfACalibratedProfileAreTheBoards) {
   }
 }
 
-TEST_P(EachUsbBoard, CountersAreClearedWhereThereIsACommandForThat) {
-  UsbPort& port = plug(0, GetParam());
-  for (auto& count : port.count) count = 700;
-  BoardSettings as_counted = unguarded();
-  as_counted.count_zero = CountZero::kNever;
-  const auto board = make_device("usb", profile, as_counted);
-  EXPECT_FALSE(board->clear_counters());  // not open
-  board->open();
-  DeviceReading reading;
-  exchange_until(*board, ExchangeStatus::kOk, reading);
-  EXPECT_EQ(reading.count[7], 700);
-  const bool can = GetParam() == UsbKind::kSimple;
-  EXPECT_EQ(board->clear_counters(), can);
-  exchange_until(*board, ExchangeStatus::kOk, reading);
-  EXPECT_EQ(reading.count[7], can ? 0 : 700);
-}
-
 TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
   UsbPort& other = plug(0, UsbKind::kMouse);
   other.fault = LinkFault::kTimeout;  // does not answer to the question for its state
