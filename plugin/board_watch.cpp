@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "spidar/thread_setup.h"
+
 namespace spidar {
 namespace {
 
@@ -38,7 +40,9 @@ std::vector<BoardInfo> playable_boards() {
 }
 
 BoardWatch::BoardWatch(std::vector<BoardInfo> known, Changed changed)
-    : known_(std::move(known)), changed_(std::move(changed)), thread_([this] { run(); }) {}
+    : known_(std::move(known)), changed_(std::move(changed)) {
+  thread_ = start_thread("spidar-boards", [this] { run(); });
+}
 
 BoardWatch::~BoardWatch() {
   {

@@ -1,15 +1,16 @@
 #include "plugin/playback_follower.h"
 
 #include <chrono>
-#include <pthread.h>
 #include <utility>
+
+#include "spidar/thread_setup.h"
 
 namespace spidar {
 
 PlaybackFollower::PlaybackFollower(GstElement* element, Publish publish, PlaybackSync::Now now,
                                    void* now_user, bool threaded)
     : element_(element), publish_(std::move(publish)), sync_(now, now_user) {
-  if (threaded) thread_ = std::thread([this] { run(); });
+  if (threaded) thread_ = start_thread("spidar-clock", [this] { run(); });
 }
 
 PlaybackFollower::~PlaybackFollower() {
@@ -80,7 +81,6 @@ void PlaybackFollower::refresh_locked() {
 }
 
 void PlaybackFollower::run() {
-  pthread_setname_np(pthread_self(), "spidar-clock");
   constexpr std::chrono::milliseconds kPeriod(10);
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stop_) {

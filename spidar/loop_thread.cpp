@@ -1,7 +1,6 @@
 #include "spidar/loop_thread.h"
 
 #include <future>
-#include <pthread.h>
 #include <utility>
 
 #include "spidar/monotonic.h"
@@ -12,14 +11,13 @@ namespace spidar {
 LoopThread::LoopThread(HapticLoop& loop, bool ask_for_real_time) : loop_(loop) {
   std::promise<Scheduling> scheduled;
   std::future<Scheduling> scheduling = scheduled.get_future();
-  const SignalsBlocked blocked;
-  thread_ = std::thread([this, ask_for_real_time, scheduled = std::move(scheduled)]() mutable {
-    pthread_setname_np(pthread_self(), "spidar-haptic");
+  auto body = [this, ask_for_real_time, scheduled = std::move(scheduled)]() mutable {
     request_exact_timers();
     scheduled.set_value(ask_for_real_time ? request_real_time()
                                           : Scheduling{false, "real-time priority not asked for"});
     run();
-  });
+  };
+  thread_ = start_thread("spidar-haptic", std::move(body));
   scheduling_ = scheduling.get();
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <csignal>
+#include <pthread.h>
+#include <thread>
+#include <utility>
 
 #include "core/api.h"
 #include "spidar/scheduling.h"
@@ -22,9 +25,8 @@ void request_exact_timers() noexcept;
 /// The calling thread yields to most others.
 void request_background() noexcept;
 
-/// While it lives, threads that this one starts have all signals blocked: an application's signals
-/// are for the application's threads.
-class SignalsBlocked {
+/// While it lives, threads that this one starts have all signals blocked.
+class SPIDAR_API SignalsBlocked {
  public:
   SignalsBlocked() noexcept;
   ~SignalsBlocked();
@@ -34,5 +36,17 @@ class SignalsBlocked {
  private:
   sigset_t previous_;
 };
+
+/// Every thread of this library is started by this: it has a name of up to 15 characters, for
+/// debuggers and top, and all signals blocked, because an application's signals are for the
+/// application's threads. Throws std::system_error when there can be no thread.
+template <typename Function>
+std::thread start_thread(const char* name, Function run) {
+  const SignalsBlocked blocked;
+  return std::thread([name, run = std::move(run)]() mutable {
+    pthread_setname_np(pthread_self(), name);
+    run();
+  });
+}
 
 }  // namespace spidar

@@ -1,7 +1,6 @@
 #include "spidar/trace_thread.h"
 
 #include <chrono>
-#include <pthread.h>
 
 #include "spidar/thread_setup.h"
 
@@ -10,8 +9,7 @@ namespace spidar {
 TraceThread::TraceThread(const std::string& path, HapticLoop& loop, bool threaded)
     : loop_(loop), trace_(path) {
   if (!threaded) return;
-  const SignalsBlocked blocked;
-  thread_ = std::thread([this] { run(); });
+  thread_ = start_thread("spidar-trace", [this] { run(); });
 }
 
 TraceThread::~TraceThread() {
@@ -25,7 +23,6 @@ TraceThread::~TraceThread() {
 }
 
 void TraceThread::run() noexcept {
-  pthread_setname_np(pthread_self(), "spidar-trace");
   request_background();
   std::unique_lock lock(mutex_);
   while (!stop_) {

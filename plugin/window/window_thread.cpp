@@ -1,12 +1,12 @@
 #include "plugin/window/window_thread.h"
 
 #include <algorithm>
-#include <csignal>
-#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <GLFW/glfw3.h>
+
+#include "spidar/thread_setup.h"
 
 namespace spidar {
 namespace {
@@ -57,15 +57,11 @@ std::shared_ptr<Window::Entry> WindowThread::open(std::shared_ptr<WindowSource> 
   return entry;
 }
 
-/// With the mutex held. The new thread blocks all signals: an application's are for its own.
+/// With the mutex held.
 void WindowThread::start() {
   if (thread_.joinable()) thread_.join();  // it has left run() for good
   running_ = true;
-  sigset_t all, previous;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &previous);
-  thread_ = std::thread([this] { run(); });
-  pthread_sigmask(SIG_SETMASK, &previous, nullptr);
+  thread_ = start_thread("spidar-window", [this] { run(); });
 }
 
 void WindowThread::close(const std::shared_ptr<Window::Entry>& entry) {
@@ -98,7 +94,6 @@ void WindowThread::request(const std::shared_ptr<Window::Entry>& entry,
 // --- window thread -----------------------------------------------------------------------------
 
 void WindowThread::run() {
-  pthread_setname_np(pthread_self(), "spidar-window");
   // Drawing yields to decoding; of a thread on Linux, whatever POSIX says of processes.
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
   if (glfw_is_initialised() && !initialised_glfw_) {

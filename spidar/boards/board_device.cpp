@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <pthread.h>
 #include <utility>
 
 #include "spidar/monotonic.h"
@@ -89,9 +88,7 @@ void BoardDevice::open() {
 
 void BoardDevice::start() {
   stop_ = false;
-  const SignalsBlocked blocked;
-  thread_ = std::thread([this] {
-    pthread_setname_np(pthread_self(), "spidar-link");
+  thread_ = start_thread("spidar-link", [this] {
     request_exact_timers();
     request_real_time();
     run();
