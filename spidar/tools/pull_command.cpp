@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -14,8 +15,9 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl pull DEVICE STRING NEWTON SECONDS [OPTION]...
 
-Pulls one string (numbered from 0) with NEWTON for SECONDS, at most 10, the others at their smallest
-tension. NEWTON is within the profile's limits for that string.
+Pulls one string (numbered from 0) with NEWTON for SECONDS, the others at their smallest tension.
+NEWTON is within the profile's limits for that string and at most 5, what a hand holds with ease;
+NEWTON times SECONDS is at most 5 (or SECONDS 10 s at the smallest tension), so that no motor gets hot.
 
   --yes           do not ask
   --profile NAME  profile of the device, a name or a file
@@ -24,6 +26,12 @@ tension. NEWTON is within the profile's limits for that string.
 Exit status: 0 pulled, 1 no device, no answer, or not wanted, 2 wrong usage,
 130 interrupted.
 )";
+
+/// Half a kilogram hangs as hard on a finger, and every motor of the profiles bears it for a
+/// second.
+constexpr double kMaxPull_N = 5;
+constexpr double kMaxPull_Ns = 5;
+constexpr double kMaxPull_s = 10;
 
 /// Up and down.
 constexpr double kRamp_s = 0.1;
@@ -43,8 +51,17 @@ Pull parse(const DeviceOptions& options, const Profile& profile) {
   pull.string = static_cast<int>(string);
   const StringDrive& drive = profile.drives[static_cast<size_t>(pull.string)];
   pull.tension_N =
-      parse_number("NEWTON", options.operands[1], drive.min_tension_N, drive.max_tension_N, "N");
-  pull.seconds = parse_number("SECONDS", options.operands[2], 0.01, 10, "s");
+      parse_number("NEWTON", options.operands[1], drive.min_tension_N,
+                   std::max(std::min(drive.max_tension_N, kMaxPull_N), drive.min_tension_N), "N");
+  pull.seconds = parse_number("SECONDS", options.operands[2], 0.01, kMaxPull_s, "s");
+  if (pull.tension_N > drive.min_tension_N && pull.tension_N * pull.seconds > kMaxPull_Ns) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "SECONDS: %g N for %g s may hurt a hand or a motor: NEWTON times SECONDS is at "
+                  "most %g; pull for %.2f s at most",
+                  pull.tension_N, pull.seconds, kMaxPull_Ns, kMaxPull_Ns / pull.tension_N);
+    throw UsageError(text);
+  }
   return pull;
 }
 

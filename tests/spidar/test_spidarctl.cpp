@@ -86,6 +86,9 @@ TEST(Spidarctl, WrongUsageIsNamed) {
       {"pull sim 1.5 1 1 --yes", "not a whole number"},
       {"pull sim 1 5 1 --yes", "NEWTON: 5 N, must be from 0.05 to 4.2 N"},
       {"pull sim 1 1 11 --yes", "must be from 0.01 to 10 s"},
+      {"pull sim 1 4 2 --yes", "pull for 1.25 s at most"},
+      // Its motors could do 20 N.
+      {"pull sim 1 6 0.1 --yes --profile spidar-g6x", "NEWTON: 6 N, must be from 1 to 5 N"},
       {"pull sim 1 1 1 </dev/null", "no terminal to ask on"},
       {"selftest sim --newton 5", "must be from 0.1 to 2 N"},
       {"selftest sim --write-profile mine", "must end in .toml"},
