@@ -102,5 +102,4 @@ fi
 
 export GST_PLUGIN_PATH=$top/build/plugin${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
 export GST_REGISTRY=$top/build/gst-registry.bin
-export SPIDAR_PROFILE_PATH=$top/spidar/profiles${SPIDAR_PROFILE_PATH:+:$SPIDAR_PROFILE_PATH}
 exec "$top/build/examples/play" "${options[@]}" "${video[@]}" "${properties[@]}"

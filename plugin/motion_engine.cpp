@@ -60,7 +60,7 @@ void MotionEngine::set_manual(PlaybackSync::Now now, void* user) {
 std::string MotionEngine::open(const MotionProperties& properties) {
   analyzer_.configure(properties.analyzer);
   if (properties.device == "none") return {};
-  const Profile profile = load_profile(properties.profile);
+  const Profile profile = load_profile(properties.used_profile());
   grip_pointer_ = GripPointer(profile.geometry);
   SessionSettings settings;
   settings.trace_path = properties.haptic_trace;

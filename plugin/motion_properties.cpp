@@ -1,7 +1,7 @@
 #include "plugin/motion_properties.h"
 
 #include "plugin/feel_properties.h"
-#include "spidar/profile.h"
+#include "spidar/boards/board_list.h"
 
 namespace spidar {
 namespace {
@@ -66,7 +66,9 @@ std::string string_of(const GValue* value) {
 
 }  // namespace
 
-MotionProperties::MotionProperties() : profile(kDefaultProfile) {}
+std::string MotionProperties::used_profile() const {
+  return profile.empty() ? default_profile(device) : profile;
+}
 
 void install_motion_properties(GObjectClass* c) {
   const MotionProperties defaults;
@@ -84,8 +86,9 @@ void install_motion_properties(GObjectClass* c) {
   install(kPropProfile, g_param_spec_string(
                             "profile", "Profile",
                             "Geometry and drives of the device: a name of the shipped profiles or "
-                            "the path of a .toml file; read from NULL to READY",
-                            defaults.profile.c_str(), kReady));
+                            "the path of a .toml file; unset: one that the device's board can "
+                            "drive; read from NULL to READY",
+                            defaults.used_profile().c_str(), kReady));
   install_feel_properties(c);
   install(kPropTracker,
           g_param_spec_enum("tracker", "Tracker", "How points are followed", tracker_type(),
@@ -201,7 +204,7 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       g_value_set_string(value, p.device.c_str());
       return true;
     case kPropProfile:
-      g_value_set_string(value, p.profile.c_str());
+      g_value_set_string(value, p.used_profile().c_str());
       return true;
     case kPropTracker:
       g_value_set_enum(value, static_cast<int>(tracker.kind));

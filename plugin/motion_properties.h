@@ -16,7 +16,7 @@ enum class PointerKind { kFixed, kGrip };
 
 struct MotionProperties {
   std::string device = "sim";
-  std::string profile;
+  std::string profile;        ///< empty: that of the device's board
   AnalyzerSettings analyzer;  ///< its pointer is the fixed one
   PointerKind pointer = PointerKind::kFixed;
   GstClockTimeDiff ts_offset_ns = 0;
@@ -27,7 +27,8 @@ struct MotionProperties {
   bool mute = false;
   DisplayProperties display;
 
-  MotionProperties();
+  /// A name or a path for load_profile().
+  std::string used_profile() const;
 };
 
 enum PropertyId : guint {

@@ -59,7 +59,7 @@ BoardInfo uart_board(const std::string& device, const std::string& path) {
   board.path = path;
   board.accessible = access(path.c_str(), R_OK | W_OK) == 0;
   if (!board.accessible) board.note = "no permission: join the group dialout";
-  board.profile = kUartProfile;
+  board.profile = default_profile(device);
   return board;
 }
 
@@ -90,8 +90,7 @@ std::vector<BoardInfo> list_boards() {
       const std::string spec = std::string(known.device) + ":" + device.path;
       boards.push_back({spec, known.name, device.path, device.serial, known.usb_id, known.trial,
                         device.accessible ? known.note : "no permission: udev rule 70-spidar.rules",
-                        device.accessible, is_mouse(spec) ? kDefaultProfile : kPositiveProfile,
-                        !is_mouse(spec)});
+                        device.accessible, default_profile(spec), !is_mouse(spec)});
     }
   }
   for (const TtyLine& line : list_tty_lines())
@@ -100,6 +99,14 @@ std::vector<BoardInfo> list_boards() {
     boards.push_back({simulated[0], simulated[1], "", "", "", Trial::kEmulated, "", true,
                       simulated[2], !is_mouse(simulated[0])});
   return boards;
+}
+
+std::string default_profile(const std::string& device) {
+  for (const auto& simulated : kSimulated)
+    if (device == simulated[0]) return simulated[2];
+  const std::string kind = device.substr(0, device.find(':'));
+  if (kind == "usb") return kPositiveProfile;
+  return kind == "uart" ? kUartProfile : kDefaultProfile;
 }
 
 BoardInfo board_info(const std::string& device) {
@@ -119,13 +126,12 @@ BoardInfo board_info(const std::string& device) {
   if (id.empty() && of_kind == 1) return *only;
   BoardInfo unknown;
   unknown.device = device;
+  unknown.profile = default_profile(device);
   if (kind == "usb") {
     unknown.name = "CyVerse USB 2.0";
-    unknown.profile = kPositiveProfile;
   } else if (kind == "mouse") {
     unknown.name = "SPIDAR-mouse";
     unknown.trial = Trial::kInferred;
-    unknown.profile = kDefaultProfile;
     unknown.has_strings = false;
   } else if (kind == "uart" && !id.empty()) {
     return uart_board(device, id.substr(0, id.find(',')));

@@ -19,11 +19,7 @@ bool can_drive(const std::string& device, const Profile& profile) {
 ChosenDevice choose_device(const DeviceOptions& options, CountZero count_zero) {
   ChosenDevice chosen;
   chosen.board = board_info(options.device);
-  const std::string& begin = chosen.board.profile;
-  const std::string name = !options.profile.empty() ? options.profile
-                           : !begin.empty()         ? begin
-                                                    : kDefaultProfile;
-  chosen.profile = load_profile(name);
+  chosen.profile = load_profile(options.profile.empty() ? chosen.board.profile : options.profile);
   BoardSettings settings;
   settings.count_zero = count_zero;
   // Nothing here is so urgent that an exchange cannot be waited for.

@@ -55,6 +55,20 @@ std::string error_at_ready(const char* properties) {
   return text;
 }
 
+TEST(Properties, UnsetProfileIsOneThatTheBoardCanDrive) {
+  for (const std::string device : {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse"})
+    EXPECT_EQ(error_at_ready(("device=" + device).c_str()), "") << device;
+  // What is asked for is not replaced.
+  EXPECT_NE(error_at_ready("device=sim:sh4 profile=spidar-gcc").find("negative volts"),
+            std::string::npos);
+  GstElement* element = make_element("device=sim:uart");
+  gchar* profile = nullptr;
+  g_object_get(element, "profile", &profile, nullptr);
+  EXPECT_STREQ(profile, "spidar-g6x4");
+  g_free(profile);
+  gst_object_unref(element);
+}
+
 TEST(Properties, DefaultsAreTheDocumentedOnes) {
   GstElement* element = make_element("");
   gchar *device, *profile;

@@ -152,6 +152,20 @@ TEST(Profile, FirstFolderOfTheSearchPathWins) {
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
 }
 
+// Files of the source tree, by which all others are found in tests, are not looked at.
+TEST(Profile, ShippedOnesAreInTheLibraryAndFilesComeFirst) {
+  const std::vector<std::string> with_files = list_profiles();
+  const Profile from_file = load_profile("spidar-gcc");
+  const Folder folder;
+  const Environment search_path(folder.path().string());
+  EXPECT_EQ(list_profiles(), with_files);
+  for (const std::string& name : with_files) EXPECT_NO_THROW(load_profile(name)) << name;
+  EXPECT_EQ(load_profile("spidar-gcc").geometry.exit_m, from_file.geometry.exit_m);
+  folder.write("spidar-gcc.toml", kValid);
+  EXPECT_EQ(load_profile("spidar-gcc").description, "test");
+  EXPECT_EQ(list_profiles(), with_files);
+}
+
 TEST(Profile, UnknownNameListsWhatIsKnownAndWhereItWasSearched) {
   const Folder folder;
   folder.write("only-one.toml", kValid);

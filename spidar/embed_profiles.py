@@ -1,0 +1,30 @@
+#!/usr/bin/env python3
+"""Writes the shipped profiles into the library: embed_profiles.py OUTPUT.cpp PROFILE.toml..."""
+
+import sys
+from pathlib import Path
+
+END = "profile"  # of a raw string; no profile has )profile" in it
+
+output, *files = map(Path, sys.argv[1:])
+rows = "".join(f'    {{"{file.stem}", R"{END}({file.read_text(encoding="utf-8")}){END}"}},\n' for file in files)
+output.write_text(
+    f"""// Made by spidar/embed_profiles.py from spidar/profiles/.
+#include "spidar/shipped_profiles.h"
+
+namespace spidar {{
+namespace {{
+
+constexpr ShippedProfile kProfiles[] = {{
+{rows}}};
+
+}}  // namespace
+
+ShippedProfiles shipped_profiles() noexcept {{
+  return {{kProfiles, kProfiles + sizeof kProfiles / sizeof kProfiles[0]}};
+}}
+
+}}  // namespace spidar
+""",
+    encoding="utf-8",
+)

@@ -1,0 +1,21 @@
+/// The profiles of spidar/profiles/, which are part of the library.
+#pragma once
+
+namespace spidar {
+
+struct ShippedProfile {
+  const char* name;  ///< of the file, without ending
+  const char* text;  ///< TOML
+};
+
+struct ShippedProfiles {
+  const ShippedProfile* first;
+  const ShippedProfile* last;  ///< one past the end
+  const ShippedProfile* begin() const noexcept { return first; }
+  const ShippedProfile* end() const noexcept { return last; }
+};
+
+/// All of them, sorted by name.
+ShippedProfiles shipped_profiles() noexcept;
+
+}  // namespace spidar
