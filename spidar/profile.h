@@ -93,8 +93,8 @@ struct Profile {
 /// Throws ProfileError.
 SPIDAR_API Profile load_profile(const std::string& name_or_path);
 
-/// Profiles that load_profile() finds by name: those in $SPIDAR_PROFILE_PATH (colon-separated), then
-/// the installed files, then those that are built into the library. Sorted, without ending.
+/// Profiles that load_profile() finds by name: those in $SPIDAR_PROFILE_PATH (colon-separated),
+/// then the installed files, then those that are built into the library. Sorted, without ending.
 SPIDAR_API std::vector<std::string> list_profiles();
 
 /// Default profile: the desktop SPIDAR-G most common in public sources.

@@ -38,8 +38,8 @@ struct BoardInfo {
 /// without USB has none.
 SPIDAR_API std::vector<BoardInfo> list_boards();
 
-/// The profile to begin with for what make_device() takes: one that the board can drive. The default
-/// profile for a device that nobody knows. Looks at no bus.
+/// The profile to begin with for what make_device() takes: one that the board can drive. The
+/// default profile for a device that nobody knows. Looks at no bus.
 SPIDAR_API std::string default_profile(const std::string& device);
 
 /// What is known of a device by what it is called, which need not be plugged in; nothing is opened.

@@ -27,8 +27,7 @@ Exit status: 0 pulled, 1 no device, no answer, or not wanted, 2 wrong usage,
 130 interrupted.
 )";
 
-/// Half a kilogram hangs as hard on a finger, and every motor of the profiles bears it for a
-/// second.
+/// Half a kilogram hangs as hard on a finger. A motor's heat goes with the time as well.
 constexpr double kMaxPull_N = 5;
 constexpr double kMaxPull_Ns = 5;
 constexpr double kMaxPull_s = 10;
