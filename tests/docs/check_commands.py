@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+"""Runs the command lines of README.md, CONTRIBUTING.md and docs/.
+
+check_commands.py SOURCE BUILD: every block of code in these pages is taken for lines of a shell and run, line
+by line, in a folder that looks like SOURCE with BUILD as build/ and a short film under the names that the
+pages use. All must end with status 0, on a virtual screen, without profiles or plugins that are installed.
+
+An HTML comment before a block says what is different, for the whole block, or, in parentheses, for lines that
+contain some text:
+
+    <!-- not run: REASON -->             needs hardware, root, minutes, or a person
+    <!-- not run (TEXT): REASON -->
+    <!-- endless -->                     runs until it is interrupted
+    <!-- endless (TEXT) -->
+    <!-- not commands -->                a formula, or a program
+
+What is not run is listed with its reason."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+FILMS = ("film.mp4", "vtest.avi", "ball.avi", "telephone.mp4")
+WORKERS = 2
+LONGEST_S = 50  # of a line that ends; the test has a limit of its own
+ENDLESS_S = 2
+SKIPPED = 77
+COMMENT = re.compile(r"<!-- (not run|endless|not commands)(?: \((.*?)\))?(?:: (.*?))? -->$")
+
+
+@dataclass
+class Line:
+    where: str
+    command: str
+    exports: list
+    endless: bool = False
+    not_run: str = ""
+
+
+def blocks(text):
+    """(line number, comments before it, lines) of each block of code that is indented."""
+    lines = text.split("\n")
+    comments, i = [], 0
+    while i < len(lines):
+        if match := COMMENT.match(lines[i]):
+            comments.append(match.groups())
+        elif lines[i].startswith("<!-- ") and any(word in lines[i] for word in ("run", "endless", "commands")):
+            sys.exit(f"error: not understood: {lines[i]}")
+        elif lines[i].startswith("    ") and i > 0 and not lines[i - 1]:
+            begin = i
+            while i < len(lines) and (lines[i].startswith("    ") or not lines[i]):
+                i += 1
+            yield begin + 1, comments, [line[4:] for line in lines[begin:i] if line]
+            comments = []
+            continue
+        elif lines[i]:
+            comments = []
+        i += 1
+
+
+def commands(page, source):
+    for number, comments, lines in blocks((source / page).read_text(encoding="utf-8")):
+        if any(kind == "not commands" for kind, _, _ in comments):
+            continue
+        whole = not_run_of(comments, None)
+        if whole:
+            for offset, line in enumerate(lines):
+                if offset == 0 or not lines[offset - 1].endswith("\\"):
+                    yield Line(f"{page}:{number + offset}", line, [], not_run=whole)
+            continue
+        exports, command, begin = [], "", number
+        for offset, line in enumerate(lines):
+            begin = begin if command else number + offset
+            command += line
+            if line.endswith("\\"):
+                command += "\n"
+                continue
+            if command.startswith("export "):
+                exports.append(command)
+            else:
+                endless = any(kind == "endless" and (text is None or text in command) for kind, text, _ in comments)
+                yield Line(f"{page}:{begin}", command, list(exports), endless, not_run_of(comments, command))
+            command = ""
+
+
+def not_run_of(comments, command):
+    """The reason; of the whole block when `command` is None."""
+    for kind, text, reason in comments:
+        if kind == "not run" and (text is None if command is None else text is not None and text in command):
+            return reason
+    return ""
+
+
+def make_film(folder):
+    """Half a second of a moving ball, without sound: not every machine has a sound card."""
+    film = folder / FILMS[0]
+    subprocess.run(
+        f"gst-launch-1.0 -q videotestsrc num-buffers=15 pattern=ball ! video/x-raw,width=320,height=240 "
+        f"! jpegenc ! avimux ! filesink location={film}",
+        shell=True,
+        check=True,
+    )
+    for name in FILMS[1:]:
+        shutil.copy(film, folder / name)
+
+
+def make_folder(folder, source, build):
+    for entry in source.iterdir():
+        if entry.name not in ("docs", "build") and not entry.name.startswith("."):
+            (folder / entry.name).symlink_to(entry)
+    (folder / "docs" / "figures").mkdir(parents=True)
+    (folder / "build").symlink_to(build)
+
+
+def run(line, films, source, build):
+    """What is wrong, or an empty text."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        make_folder(folder, source, build)
+        for film in FILMS:
+            (folder / film).symlink_to(films / film)
+        text = re.sub(r"file:///\w+/", f"file://{folder}/", line.command)
+        script = "\n".join(["set -eo pipefail", *line.exports, text])
+        process = subprocess.Popen(
+            ["bash", "-c", script],
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            start_new_session=True,
+        )
+        try:
+            said, _ = process.communicate(timeout=ENDLESS_S if line.endless else LONGEST_S)
+            early = "ended by itself\n" if line.endless else ""
+        except subprocess.TimeoutExpired:
+            early = "" if line.endless else f"did not end within {LONGEST_S} s\n"
+            os.killpg(process.pid, signal.SIGINT)
+            try:
+                said, _ = process.communicate(timeout=10)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                said, _ = process.communicate()
+                early += "did not end when it was interrupted\n"
+    status = process.returncode
+    if line.endless and status in (-signal.SIGINT, 128 + signal.SIGINT):
+        status = 0
+    if status != 0:
+        early += f"exit status {status}\n"
+    if "CRITICAL" in said:
+        early += "says CRITICAL\n"
+    return early and early + said
+
+
+class Screen:
+    """A virtual one, for as long as this lives."""
+
+    def __init__(self):
+        ours, its = os.pipe()
+        self.server = subprocess.Popen(
+            # Without -noreset a server whose last window closes is away for a moment.
+            ["Xvfb", "-noreset", "-displayfd", str(its), "-screen", "0", "1280x800x24"],
+            pass_fds=[its],
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(its)
+        with os.fdopen(ours) as number:
+            os.environ["DISPLAY"] = ":" + number.readline().strip()
+        os.environ.pop("WAYLAND_DISPLAY", None)
+
+    def end(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+def main():
+    source, build = (Path(argument).resolve() for argument in sys.argv[1:3])
+    if not shutil.which("Xvfb"):
+        print("skipped: Xvfb is not installed (package xvfb)")
+        return SKIPPED
+    screen = Screen()
+    os.environ.pop("SPIDAR_PROFILE_PATH", None)
+    os.environ["GST_PLUGIN_PATH"] = str(build / "plugin")
+    os.environ["PATH"] = f"{build / 'spidar' / 'tools'}:{os.environ['PATH']}"
+
+    pages = ["README.md", "CONTRIBUTING.md"]
+    pages += sorted(str(page.relative_to(source)) for page in (source / "docs").rglob("*.md"))
+    lines = [line for page in pages for line in commands(page, source)]
+    failed = 0
+    with tempfile.TemporaryDirectory() as films:
+        os.environ["GST_REGISTRY"] = f"{films}/registry.bin"
+        make_film(Path(films))
+        to_run = [line for line in lines if not line.not_run]
+        with ThreadPoolExecutor(WORKERS) as pool:
+            results = pool.map(lambda line: run(line, Path(films), source, build), to_run)
+            for line, wrong in zip(to_run, results):
+                print(f"{'FAILED' if wrong else 'ok'}: {line.where}: {line.command}", flush=True)
+                if wrong:
+                    failed += 1
+                    print(wrong)
+    screen.end()
+    for line in lines:
+        if line.not_run:
+            print(f"not run: {line.where}: {line.command.strip()}: {line.not_run}")
+    print(f"{len(to_run)} run, {failed} failed, {len(lines) - len(to_run)} not run")
+    return 1 if failed or not to_run else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
