@@ -2,11 +2,9 @@
 
 #include <unistd.h>
 
+#include "spidar/boards/usb_kinds.h"
 #include "spidar/device.h"
 #include "spidar/profile.h"
-#include "spidar/protocols/sh4.h"
-#include "spidar/protocols/spidar_mouse.h"
-#include "spidar/protocols/usb_simple.h"
 #include "spidar/transports/tty_list.h"
 #include "spidar/transports/usb_bus.h"
 
@@ -16,25 +14,6 @@ namespace {
 /// The CyVerse boards put out positive volts only, which the default profile is not made for.
 constexpr const char* kPositiveProfile = "spidar-g6x3-v2-r";
 constexpr const char* kUartProfile = "spidar-g6x4";
-
-struct Known {
-  uint16_t vendor;
-  uint16_t product;
-  const char* usb_id;
-  const char* device;  // without what names one of several
-  const char* name;
-  Trial trial;
-  const char* note;
-};
-
-constexpr Known kKnown[] = {
-    {sh4::kVendor, sh4::kProduct, "0cec:0205", "usb", "CyVerse USB 2.0 SH4", Trial::kEmulated,
-     "endpoints and D/A range are inferred"},
-    {usb_simple::kVendor, usb_simple::kProduct, "0cec:0203", "usb", "CyVerse USB 2.0 Simple",
-     Trial::kEmulated, "endpoints and D/A range are inferred"},
-    {mouse::kVendor, mouse::kProduct, "04d8:003f", "mouse", "SPIDAR-mouse", Trial::kInferred,
-     "other devices have this id; asked when it is opened"},
-};
 
 constexpr const char* kSimulated[][3] = {
     {"sim", "simulated SPIDAR", kDefaultProfile},
@@ -79,17 +58,17 @@ const char* to_string(Trial trial) noexcept {
 
 std::vector<BoardInfo> list_boards() {
   std::vector<BoardInfo> boards;
-  for (const Known& known : kKnown) {
+  for (const UsbBoardKind& kind : usb_kinds()) {
     std::vector<UsbDeviceInfo> devices;
     try {
-      devices = list_usb_devices(known.vendor, known.product);
+      devices = list_usb_devices(kind.vendor, kind.product);
     } catch (const DeviceError&) {
       break;  // no USB
     }
     for (const UsbDeviceInfo& device : devices) {
-      const std::string spec = std::string(known.device) + ":" + device.path;
-      boards.push_back({spec, known.name, device.path, device.serial, known.usb_id, known.trial,
-                        device.accessible ? known.note : "no permission: udev rule 70-spidar.rules",
+      const std::string spec = std::string(device_of(kind.family)) + ":" + device.path;
+      boards.push_back({spec, kind.name, device.path, device.serial, kind.id(), kind.trial,
+                        device.accessible ? kind.note : "no permission: udev rule 70-spidar.rules",
                         device.accessible, default_profile(spec), !is_mouse(spec)});
     }
   }

@@ -3,20 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "spidar/boards/mouse_board.h"
-#include "spidar/boards/sh4_board.h"
-#include "spidar/boards/simple_board.h"
-
 namespace spidar {
 namespace {
-
-template <typename BoardType>
-std::unique_ptr<Board> make_board(const std::string& name, const Profile& profile,
-                                  const UsbPipes& pipes, UsbTransport*& transport) {
-  auto owned = std::make_unique<UsbTransport>(name, pipes);
-  transport = owned.get();
-  return std::make_unique<BoardType>(name, profile, std::move(owned));
-}
 
 /// The rotary switch's position that `id` names; −1 when it names none.
 int rotary_of(const std::string& id) {
@@ -31,27 +19,19 @@ int rotary_of(const std::string& id) {
 
 UsbBoard::UsbBoard(UsbFamily family, std::string name, std::string id, const Profile& profile)
     : family_(family), name_(std::move(name)), id_(std::move(id)) {
-  const auto add = [&](uint16_t vendor, uint16_t product, const UsbPipes& pipes, auto make) {
-    Kind kind{vendor, product, nullptr, nullptr};
-    kind.board = make(name_, profile, pipes, kind.transport);
-    kinds_.push_back(std::move(kind));
-  };
-  if (family_ == UsbFamily::kMouse) {
-    add(mouse::kVendor, mouse::kProduct, {mouse::kEndpointOut, mouse::kEndpointIn, true},
-        make_board<MouseBoard>);
-    return;
+  for (const UsbBoardKind& known : usb_kinds()) {
+    if (known.family != family) continue;
+    auto transport = std::make_unique<UsbTransport>(name_, known.pipes);
+    UsbTransport* const selects = transport.get();
+    kinds_.push_back({&known, selects, known.make(name_, profile, std::move(transport))});
   }
-  add(sh4::kVendor, sh4::kProduct, {sh4::kEndpointOut, sh4::kEndpointIn, false},
-      make_board<Sh4Board>);
-  add(usb_simple::kVendor, usb_simple::kProduct,
-      {usb_simple::kEndpointOut, usb_simple::kEndpointIn, false}, make_board<SimpleBoard>);
 }
 
 /// Those that the id names by path or serial; else all of them.
 std::vector<UsbBoard::Candidate> UsbBoard::candidates() {
   std::vector<Candidate> all, named;
   for (Kind& kind : kinds_) {
-    for (UsbDeviceInfo& device : list_usb_devices(kind.vendor, kind.product)) {
+    for (UsbDeviceInfo& device : list_usb_devices(kind.known->vendor, kind.known->product)) {
       const bool meant = !id_.empty() && (device.path == id_ || device.serial == id_);
       (meant ? named : all).push_back({&kind, std::move(device)});
     }
@@ -69,10 +49,13 @@ void UsbBoard::open_one(const Candidate& candidate) {
 void UsbBoard::open() {
   close();
   const std::vector<Candidate> found = candidates();
-  if (found.empty())
-    throw DeviceError(name_ + (family_ == UsbFamily::kMouse
-                                   ? ": no SPIDAR-mouse (04d8:003f) is plugged in"
-                                   : ": no CyVerse board (0cec:0205 or 0cec:0203) is plugged in"));
+  if (found.empty()) {
+    std::string names;
+    for (const Kind& kind : kinds_)
+      names += (names.empty() ? "no " : " or ") + std::string(kind.known->name) + " (" +
+               kind.known->id() + ")";
+    throw DeviceError(name_ + ": " + names + " is plugged in");
+  }
   const UsbDeviceInfo& first = found.front().device;
   const bool by_name = !id_.empty() && (first.path == id_ || first.serial == id_);
   if (found.size() == 1 && (by_name || id_.empty())) return open_one(found.front());

@@ -7,15 +7,11 @@
 
 #include "core/api.h"
 #include "spidar/boards/board.h"
+#include "spidar/boards/usb_kinds.h"
 #include "spidar/profile.h"
 #include "spidar/transports/usb_transport.h"
 
 namespace spidar {
-
-enum class UsbFamily {
-  kCyverse,  ///< SH4 or Simple
-  kMouse,    ///< SPIDAR-mouse, whose USB id other things have too
-};
 
 /// Finds its board on every open(), for an address changes when a board is plugged in again.
 class SPIDAR_API UsbBoard final : public Board {
@@ -40,8 +36,7 @@ class SPIDAR_API UsbBoard final : public Board {
 
  private:
   struct Kind {
-    uint16_t vendor = 0;
-    uint16_t product = 0;
+    const UsbBoardKind* known = nullptr;
     UsbTransport* transport = nullptr;  // of the board
     std::unique_ptr<Board> board;
   };

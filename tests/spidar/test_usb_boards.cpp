@@ -1,6 +1,8 @@
 /// USB boards through unmodified libusb, on an emulated bus.
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 
@@ -8,6 +10,7 @@
 
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/board_list.h"
+#include "spidar/boards/usb_kinds.h"
 #include "spidar/device_factory.h"
 #include "spidar/haptic_session.h"
 #include "tests/emulated_bus/bus_state.h"
@@ -132,7 +135,9 @@ TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {
 }
 
 TEST_F(UsbBoards, OpenSaysWhatToDo) {
-  EXPECT_EQ(opening(*device()), "usb: no CyVerse board (0cec:0205 or 0cec:0203) is plugged in");
+  EXPECT_EQ(opening(*device()),
+            "usb: no CyVerse USB 2.0 SH4 (0cec:0205) or CyVerse USB 2.0 Simple (0cec:0203) is "
+            "plugged in");
   UsbPort& port = plug(0, UsbKind::kSh4);
   port.forbidden = true;
   const std::string denied = opening(*device());
@@ -207,7 +212,7 @@ TEST_P(EachUsbBoard, UnpluggedAndBackAgain) {
     unplug(1, first);
     exchange_until(*board, ExchangeStatus::kLost, reading);
     EXPECT_GE(board->health().count(LinkFault::kGone), 1u);
-    EXPECT_NE(opening(*board).find("no CyVerse board"), std::string::npos);
+    EXPECT_NE(opening(*board).find("no CyVerse USB 2.0"), std::string::npos);
 
     UsbPort& again = plug(1, GetParam());
     again.count[0] = 12;
@@ -266,6 +271,17 @@ TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
   EXPECT_TRUE(other.at_rest());
   mouse->close();
   EXPECT_TRUE(right.at_rest());
+}
+
+TEST(UsbKinds, EachHasAUdevRule) {
+  std::ifstream file(UDEV_RULES);
+  const std::string rules{std::istreambuf_iterator<char>(file), {}};
+  for (const UsbBoardKind& kind : usb_kinds()) {
+    const std::string id = kind.id();
+    const std::string rule = "ATTR{idVendor}==\"" + id.substr(0, 4) + "\", ATTR{idProduct}==\"" +
+                             id.substr(5) + "\", TAG+=\"uaccess\"";
+    EXPECT_NE(rules.find(rule), std::string::npos) << kind.name << ": no line with " << rule;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+#include "spidar/boards/usb_kinds.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "spidar/boards/mouse_board.h"
+#include "spidar/boards/sh4_board.h"
+#include "spidar/boards/simple_board.h"
+
+namespace spidar {
+namespace {
+
+template <typename BoardType>
+std::unique_ptr<Board> make(const std::string& name, const Profile& profile,
+                            std::unique_ptr<Transport> transport) {
+  return std::make_unique<BoardType>(name, profile, std::move(transport));
+}
+
+}  // namespace
+
+std::string UsbBoardKind::id() const {
+  char text[16];
+  std::snprintf(text, sizeof text, "%04x:%04x", vendor, product);
+  return text;
+}
+
+const std::vector<UsbBoardKind>& usb_kinds() {
+  static const std::vector<UsbBoardKind> kinds = {
+      {UsbFamily::kCyverse,
+       sh4::kVendor,
+       sh4::kProduct,
+       "CyVerse USB 2.0 SH4",
+       Trial::kEmulated,
+       "endpoints and D/A range are inferred",
+       {sh4::kEndpointOut, sh4::kEndpointIn, false},
+       make<Sh4Board>},
+      {UsbFamily::kCyverse,
+       usb_simple::kVendor,
+       usb_simple::kProduct,
+       "CyVerse USB 2.0 Simple",
+       Trial::kEmulated,
+       "endpoints and D/A range are inferred",
+       {usb_simple::kEndpointOut, usb_simple::kEndpointIn, false},
+       make<SimpleBoard>},
+      {UsbFamily::kMouse,
+       mouse::kVendor,
+       mouse::kProduct,
+       "SPIDAR-mouse",
+       Trial::kInferred,
+       "other devices have this id; asked when it is opened",
+       {mouse::kEndpointOut, mouse::kEndpointIn, true},
+       make<MouseBoard>},
+  };
+  return kinds;
+}
+
+const char* device_of(UsbFamily family) noexcept {
+  return family == UsbFamily::kMouse ? "mouse" : "usb";
+}
+
+}  // namespace spidar

@@ -1,0 +1,43 @@
+/// The boards on USB that there are drivers for: one row for each.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/api.h"
+#include "spidar/boards/board.h"
+#include "spidar/boards/board_list.h"
+#include "spidar/profile.h"
+#include "spidar/transports/usb_transport.h"
+
+namespace spidar {
+
+enum class UsbFamily {
+  kCyverse,  ///< "usb": SH4 or Simple
+  kMouse,    ///< "mouse": SPIDAR-mouse, whose USB id other things have too
+};
+
+struct UsbBoardKind {
+  UsbFamily family;
+  uint16_t vendor;
+  uint16_t product;
+  const char* name;  ///< "CyVerse USB 2.0 SH4"
+  Trial trial;
+  const char* note;  ///< what is inferred
+  UsbPipes pipes;
+  /// Throws DeviceError when the board cannot drive the profile.
+  std::unique_ptr<Board> (*make)(const std::string& name, const Profile& profile,
+                                 std::unique_ptr<Transport> transport);
+
+  /// "0cec:0205"
+  SPIDAR_API std::string id() const;
+};
+
+SPIDAR_API const std::vector<UsbBoardKind>& usb_kinds();
+
+/// "usb" or "mouse", for make_device().
+SPIDAR_API const char* device_of(UsbFamily family) noexcept;
+
+}  // namespace spidar
