@@ -4,12 +4,18 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/field/reduced_frame.h"
 #include "core/force/motion_bounds.h"
 #include "core/motion/cadence.h"
+#include "core/motion/motion_estimator.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
 namespace {
+
+/// Points beside the field of blocks, by quality.
+constexpr int kFewPoints = 64;
+constexpr int kManyPoints = 200;
 
 /// What the parts of the analyzer do not look at themselves.
 void validate_rest(const AnalyzerSettings& settings) {
@@ -20,9 +26,9 @@ void validate_rest(const AnalyzerSettings& settings) {
   }
 }
 
-Cadence::Picture picture_of(const TrackedFrame& tracked) {
-  if (tracked.repeated) return Cadence::Picture::kSame;
-  return tracked.alike ? Cadence::Picture::kAlike : Cadence::Picture::kOther;
+Cadence::Picture picture_of(bool repeated, bool alike) {
+  if (repeated) return Cadence::Picture::kSame;
+  return alike ? Cadence::Picture::kAlike : Cadence::Picture::kOther;
 }
 
 /// The same motion in 1 / `factor` of the time.
@@ -53,7 +59,20 @@ struct MotionAnalyzer::Impl {
     validate_rest(given);
   }
 
+  /// The mean is that of its points, and tracker=opencv gives those that objects are measured by.
+  bool needs_tracker() const {
+    return settings.motion == MotionKind::kMean || settings.tracker.kind == TrackerKind::kOpenCv;
+  }
+
+  FieldPoints::Settings own_points() const {
+    const TrackerQuality quality = settings.tracker.quality;
+    return {std::min(settings.tracker.max_features,
+                     quality == TrackerQuality::kFine ? kManyPoints : kFewPoints),
+            quality != TrackerQuality::kFast};
+  }
+
   AnalyzerSettings settings;
+  ReducedFrame reduced;
   std::unique_ptr<Tracker> tracker;
   MotionEstimator motion;
   MotionFilter filter;
@@ -100,32 +119,43 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   if (impl_->last_running_time_ns && running_time_ns <= *impl_->last_running_time_ns) restart();
   const std::optional<int64_t> last_ns = impl_->last_running_time_ns;
   const bool may_wait = impl_->cadence.would_wait(running_time_ns);
-  const TrackedFrame& tracked =
-      impl_->tracker->track(frame, may_wait ? Repeats::kAlike : Repeats::kSame);
+  const Repeats repeats = may_wait ? Repeats::kAlike : Repeats::kSame;
+  const AnalyzerSettings& settings = impl_->settings;
+  const bool by_points = settings.motion == MotionKind::kMean;
+  if (!by_points) impl_->reduced.read(frame, repeats);
+  const TrackedFrame* tracked = nullptr;
+  if (impl_->needs_tracker()) tracked = &impl_->tracker->track(frame, repeats);
   impl_->last_running_time_ns = running_time_ns;
 
   FrameAnalysis analysis;
   analysis.width = frame.width;
   analysis.height = frame.height;
-  analysis.features = tracked.features;
-  analysis.restarted = tracked.restarted || !last_ns;
+  const bool comparable = by_points ? !tracked->restarted : impl_->reduced.is_comparable();
+  const bool repeated = by_points ? tracked->repeated : impl_->reduced.is_repeated();
+  const bool alike = by_points ? tracked->alike : impl_->reduced.is_alike();
+  analysis.restarted = !comparable || !last_ns;
+  if (analysis.restarted) {
+    impl_->motion.reset();
+  } else {
+    const Cadence::Step step = impl_->cadence.see(picture_of(repeated, alike), running_time_ns);
+    if (step.waits) return impl_->wait();
+    analysis.interval_ns = std::max(step.interval_ns, kLeastInterval_ns);
+  }
+  const SceneMotion scene =
+      impl_->motion.estimate(settings.motion, frame, impl_->reduced, {tracked, impl_->own_points()},
+                             std::max(analysis.interval_ns, kLeastInterval_ns), settings.pointer);
+  analysis.features = scene.features;
+  analysis.restarted = analysis.restarted || scene.restarted;
   if (analysis.restarted) {
     impl_->cadence.cut(running_time_ns);
-    impl_->motion.reset();
     impl_->filter.reset();
+    analysis.interval_ns = 0;
     return impl_->latest = analysis;
   }
-  const Cadence::Step step = impl_->cadence.see(picture_of(tracked), running_time_ns);
-  if (step.waits) return impl_->wait();
 
-  const AnalyzerSettings& settings = impl_->settings;
-  analysis.interval_ns = std::max(step.interval_ns, kLeastInterval_ns);
-  const SceneMotion scene =
-      impl_->motion.estimate(settings.motion, tracked.tracks, frame.width, frame.height,
-                             analysis.interval_ns, settings.pointer);
   const double interval_s = static_cast<double>(analysis.interval_ns) * 1e-9;
   ImageMotion felt = scene.felt;
-  if (tracked.repeated) {
+  if (repeated) {
     impl_->filter.stop();
     felt = ImageMotion();
     felt.tracked = scene.felt.tracked;
@@ -134,7 +164,7 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   analysis.motion = bound_motion(felt, frame.width, interval_s);
   analysis.model = scene.model;
   analysis.objects = scene.objects;
-  analysis.tracks = &tracked.tracks;
+  analysis.tracks = scene.tracks;
   analysis.background = scene.background;
   analysis.object_list = scene.object_list;
   const ImageMotion steady =
@@ -160,7 +190,9 @@ std::optional<FrameAnalysis> MotionAnalyzer::repeat(int64_t running_time_ns) {
 }
 
 void MotionAnalyzer::restart() {
+  impl_->reduced.restart();
   impl_->tracker->restart();
+  impl_->motion.reset();
   impl_->controller->reset();
   impl_->cadence.restart();
   impl_->latest = {};

@@ -12,7 +12,7 @@
 #include "core/force/motion_rendering.h"
 #include "core/image_view.h"
 #include "core/motion/image_motion.h"
-#include "core/motion/motion_estimator.h"
+#include "core/motion/scene_motion.h"
 #include "core/tracking/tracker.h"
 #include "core/wrench.h"
 

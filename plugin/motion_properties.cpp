@@ -98,7 +98,8 @@ void install_motion_properties(GObjectClass* c) {
                             "Time against error of tracker=patch; docs/tracking.md has the figures",
                             quality_type(), static_cast<int>(tracker.quality), kControllable));
   install(kPropMaxFeatures,
-          g_param_spec_uint("max-features", "Maximum features", "Points followed at once", 1, 10000,
+          g_param_spec_uint("max-features", "Maximum features",
+                            "Largest number of points followed at once", 1, 10000,
                             static_cast<guint>(tracker.max_features), kControllable));
   install(kPropQualityLevel,
           g_param_spec_double("quality-level", "Quality level",

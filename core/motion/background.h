@@ -9,32 +9,40 @@
 
 namespace spidar {
 
-/// Which model the background has in one frame, and how well.
-struct Background {
-  MotionModel model;
-  double sigma_px = 0;  ///< noise of a track's displacement, each coordinate
-  double coverage = 1;  ///< share of the frame that speaks for the model; 1 while still
+/// A block at the border of the picture counts as two elsewhere: objects are rarely there.
+constexpr double kBorderVotes = 2;
+
+/// Displacements that may say how the camera moves.
+struct BackgroundVotes {
+  std::vector<Displacement> points;
+  std::vector<double> weights;     ///< > 0, one a point
+  std::vector<uint8_t> at_border;  ///< one a point: 1 at the border of the picture
+  double all = 0;                  ///< votes of the whole picture, those of textureless parts too
+  Eigen::Vector2d size_px{1, 1};   ///< of the picture
+
+  void clear();
 };
 
-/// The lowest rung of the ladder that explains the tracks, from frame to frame.
+/// The lowest rung of the ladder that explains the votes, from frame to frame.
 ///
-/// Each track counts by its share of the frame: a cell of a grid has one vote, at the border two,
-/// that the tracks in it share. An object in front of a plain background may hold all the tracks,
-/// but hardly the frame: a model other than 'still' needs kLeastCoverage of all votes, those of the
-/// empty cells included.
+/// An object in front of a plain background may hold all the votes, but hardly the picture. Where
+/// less than half of the picture votes, a model other than 'still' needs a fifth of all votes,
+/// those of the textureless parts included, or fewer that are spread over the picture.
 ///
 /// Rungs compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil. Trans.
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
 /// coordinates of a track, d = 2 for all rungs, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2. The
 /// smallest wins, with hysteresis: a higher rung must be better by kMargin parameters' worth, a
 /// lower one must be better in kPatience frames in succession. Higher rungs are only fitted when
-/// the one in use stops explaining the tracks, and not in every frame when that does not help.
+/// the one in use stops explaining the votes, and not in every frame when that does not help.
 class SPIDAR_API BackgroundEstimator {
  public:
   BackgroundEstimator();
 
-  /// Displacements between two frames of `width` × `height` pixels, as displacements() makes them.
-  const Background& estimate(const std::vector<Displacement>& points, int width, int height);
+  /// Votes of one frame.
+  const Background& estimate(const BackgroundVotes& votes);
+
+  const Background& background() const { return background_; }
 
   /// For the tests and the benchmark: models that were fitted for the last frame.
   int fitted() const { return fitted_; }
@@ -45,28 +53,29 @@ class SPIDAR_API BackgroundEstimator {
  private:
   struct Scored {
     MotionModel model;
-    double coverage = 1;
+    double coverage = 0;
     double cost = 0;  ///< Σ w ρ
     double gric = 0;
   };
 
-  void weigh(int width, int height);
-  double coverage_of(const MotionModel& model) const;
-  bool score(ModelKind kind, Scored& scored);
-  bool climb(Scored& current);
-  void descend(Scored& current);
-  void learn_noise(const MotionModel& model, bool nothing_better);
+  void weigh(const BackgroundVotes& votes);
+  double coverage_of(const MotionModel& model, const BackgroundVotes& votes, double& spread) const;
+  bool score(ModelKind kind, const MotionModel& start, const BackgroundVotes& votes,
+             Scored& scored);
+  bool is_explained(const MotionModel& model) const;
+  bool climb(const MotionModel& start, const BackgroundVotes& votes, Scored& current);
+  void descend(const MotionModel& start, const BackgroundVotes& votes, Scored& current);
+  void learn_noise(const MotionModel& model);
 
-  WeightedTracks evidence_;
+  WeightedDisplacements evidence_;
   RobustFitter fitter_;
+  std::vector<MotionModel> known_;
   std::vector<double> residuals_px_;
-  std::vector<int> cell_of_;    ///< of each point
-  std::vector<int> cell_size_;  ///< points in it
   double effective_points_ = 0;
-  double covered_ = 0;   ///< coverage if all points agreed
-  double scale_ = 1;     ///< frame px for a px of a picture of kNoiseLength_px
-  double noise_px_ = 0;  ///< at that scale
-  int patience_ = 0;     ///< frames in which a lower rung was better
+  double voting_ = 0;         ///< votes of all points
+  bool is_textured_ = false;  ///< most of the picture votes
+  double noise_px_ = 0;
+  int patience_ = 0;  ///< frames in which a lower rung was better
   int frames_since_climb_ = 0;
   double refused_cost_ = 0;  ///< mean cost when climbing did not help
   int fitted_ = 0;

@@ -1,9 +1,36 @@
 #include "core/motion/motion_estimator.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace spidar {
 namespace {
+
+/// Blocks this near to the border of the picture are at it.
+constexpr int kBorderBlocks = 2;
+/// Smaller eigenvalue of the structure tensor, (grey / px)²: from the first on a block may vote,
+/// with much more than the second it has its full vote.
+constexpr double kLeastTexture = 6;
+constexpr double kFullTexture = 24;
+/// A block that its own motion explains as badly as this has half a vote, grey².
+constexpr double kBadResidual = 60;
+
+/// Points that move as the background's blocks say, px of the field's picture, and so many of them
+/// for each that its model needs, refine it.
+constexpr double kPointReach_px = 0.5;
+constexpr double kPointNoise_px = 0.1;
+constexpr int kPointsForEach = 4;
+/// Blocks among the tracks are numbered from here on.
+constexpr uint32_t kFirstBlockId = 1u << 31;
+
+/// The same in pixels of which `scale` are one of those.
+Background in_pixels_of(const Background& background, double scale) {
+  Background result = background;
+  result.model.shift_px *= scale;
+  result.model.perspective_1_px /= scale;
+  result.sigma_px *= scale;
+  return result;
+}
 
 /// The camera does the inverse of what the picture does.
 ImageMotion camera_motion(const Background& background, int tracked, double interval_s) {
@@ -27,76 +54,211 @@ ImageMotion motion_of(const MovingObject& object) {
   return motion;
 }
 
-double weight_at(const Eigen::Vector2d& pointer_px, const MovingObject& object, int frame_height) {
-  const Eigen::Vector2d outside_px =
-      ((pointer_px - object.position_px).cwiseAbs() - object.size_px / 2).cwiseMax(0.0);
-  const double sigma_px = kPointerReach * frame_height;
-  return object.area_px2() * std::exp(-outside_px.squaredNorm() / (2 * sigma_px * sigma_px));
+/// Where the centre of the field's picture is in the frame, from the frame's centre: both leave out
+/// what does not fill a pixel at the right and at the bottom.
+Eigen::Vector2d field_offset_px(const PaddedImage& picture, const ReducedFrame& frame,
+                                double scale) {
+  return {(picture.width() * scale - frame.width()) / 2,
+          (picture.height() * scale - frame.height()) / 2};
 }
 
 }  // namespace
 
-ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
-                              const Eigen::Vector2d& pointer_px, int frame_height) {
-  ImageMotion sum;
-  double weights = 0;
-  double variance = 0;
-  for (const MovingObject& object : objects) {
-    if (object.tracks == 0) continue;
-    const double weight = weight_at(pointer_px, object, frame_height);
-    weights += weight;
-    sum.velocity_px_s += weight * object.relative_px_s;
-    sum.growth_1_s += weight * object.growth_1_s;
-    sum.roll_rad_s += weight * object.roll_rad_s;
-    sum.tracked += object.tracks;
-    variance += weight * weight * object.noise_px_s * object.noise_px_s;
-  }
-  if (weights == 0) return sum;
-  sum.velocity_px_s /= weights;
-  sum.growth_1_s /= weights;
-  sum.roll_rad_s /= weights;
-  sum.noise_px_s = std::sqrt(variance) / weights;
-  return sum;
+MotionEstimator::MotionEstimator() {
+  votes_.points.reserve(kMostDisplacements);
+  votes_.weights.reserve(kMostDisplacements);
+  votes_.at_border.reserve(kMostDisplacements);
+  evidence_.points.reserve(kMostDisplacements);
+  evidence_.weights.reserve(kMostDisplacements);
+  placed_.reserve(kMostDisplacements);
+  tracks_.reserve(2 * kMostDisplacements);
 }
 
-SceneMotion MotionEstimator::estimate(MotionKind kind, const std::vector<Track>& tracks, int width,
-                                      int height, int64_t interval_ns,
-                                      const Eigen::Vector2d& pointer) {
+/// Textured blocks say how the camera moves: the better, the more of their structure goes in both
+/// directions and the better it fits; at the border of the picture twice, where something moved by
+/// itself until now half as much.
+void MotionEstimator::collect_votes() {
+  votes_.clear();
+  const BlockGrid& grid = field_.grid();
+  const std::vector<float>& persistence = objects_.persistence();
+  votes_.size_px = {grid.columns * kBlock_px, grid.rows * kBlock_px};
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const bool at_border = std::min(column, grid.columns - 1 - column) < kBorderBlocks ||
+                             std::min(row, grid.rows - 1 - row) < kBorderBlocks;
+      votes_.all += at_border ? kBorderVotes : 1;
+      const auto i = static_cast<size_t>(row * grid.columns + column);
+      const MotionBlock& block = field_.blocks()[i];
+      const double texture = static_cast<double>(block.weakest_texture());
+      if (texture < kLeastTexture || votes_.points.size() >= kMostDisplacements) continue;
+      double weight = texture / (texture + kFullTexture) /
+                      (1 + static_cast<double>(block.residual) / kBadResidual);
+      if (at_border) weight *= kBorderVotes;
+      if (!persistence.empty()) {
+        weight *= 1 - static_cast<double>(persistence[origin_of(field_, i)]) / 2;
+      }
+      const Eigen::Vector2d moved_px =
+          Eigen::Vector2f(block.moved_x_px, block.moved_y_px).cast<double>();
+      const Eigen::Vector2d at_px = Eigen::Vector2f(block.x_px, block.y_px).cast<double>();
+      votes_.points.push_back({0, at_px - moved_px, moved_px});
+      votes_.weights.push_back(weight);
+      votes_.at_border.push_back(at_border);
+    }
+  }
+}
+
+/// The points in px of the field's picture.
+void MotionEstimator::collect_points(const ReducedFrame& reduced,
+                                     const std::vector<Track>& tracks) {
+  const double scale = reduced.factor() * field_.scale();
+  const Eigen::Vector2d offset_px = field_offset_px(field_.picture(), reduced, scale);
+  const Eigen::Vector2d centre_px((reduced.width() - 1) / 2.0, (reduced.height() - 1) / 2.0);
+  placed_.clear();
+  for (const Track& track : tracks) {
+    if (placed_.size() >= kMostDisplacements) return;
+    const Eigen::Vector2d from_px =
+        Eigen::Vector2f(track.from.x_px, track.from.y_px).cast<double>();
+    const Eigen::Vector2d to_px = Eigen::Vector2f(track.to.x_px, track.to.y_px).cast<double>();
+    placed_.push_back(
+        {FieldPoints::block_at(reduced, field_, track.to),
+         {track.id, (from_px - centre_px - offset_px) / scale, (to_px - from_px) / scale}});
+  }
+}
+
+/// The same model again, by the points that it explains: blocks are right to a tenth of a pixel,
+/// points to a few hundredths of one of the frame's.
+void MotionEstimator::refine_background(Background& background) {
+  const ModelKind kind = background.model.kind;
+  if (kind == ModelKind::kStill) return;
+  evidence_.points.clear();
+  const double reach_px = std::max(kPointReach_px, 2 * background.sigma_px);
+  for (const PlacedPoint& point : placed_) {
+    const Eigen::Vector2d expected_px = background.model.displacement_px(point.moved.at_px);
+    if ((point.moved.moved_px - expected_px).norm() < reach_px) {
+      evidence_.points.push_back(point.moved);
+    }
+  }
+  if (evidence_.points.size() < static_cast<size_t>(kPointsForEach * least_points(kind))) return;
+  evidence_.weights.assign(evidence_.points.size(), 1.0);
+  evidence_.sigma_px = kPointNoise_px;
+  const auto refined = fitter_.refine(kind, background.model, evidence_);
+  if (!refined) return;
+  // Far from the points it must not say something else.
+  const double x_px = field_.picture().width() / 2.0;
+  const double y_px = field_.picture().height() / 2.0;
+  for (const Eigen::Vector2d& corner_px :
+       {Eigen::Vector2d(-x_px, -y_px), Eigen::Vector2d(x_px, -y_px), Eigen::Vector2d(-x_px, y_px),
+        Eigen::Vector2d(x_px, y_px)}) {
+    const Eigen::Vector2d change_px =
+        refined->displacement_px(corner_px) - background.model.displacement_px(corner_px);
+    if (change_px.norm() > reach_px) return;
+  }
+  background.model = *refined;
+}
+
+void MotionEstimator::choose_points(const ImageView& frame, const ReducedFrame& reduced,
+                                    const Points& points) {
+  const std::vector<uint32_t>& owners = objects_.owners();
+  const bool camera_moves = estimator_.background().model.kind != ModelKind::kStill;
+  wishes_.resize(field_.blocks().size());
+  for (size_t i = 0; i < wishes_.size(); ++i) {
+    wishes_[i] = i < owners.size() && owners[i] != 0 ? PointWish::kMany
+                 : camera_moves                      ? PointWish::kSome
+                                                     : PointWish::kNone;
+  }
+  points_.choose(frame, reduced, field_, wishes_, points.own);
+}
+
+/// What was looked at: the points, and the blocks that have none.
+void MotionEstimator::report_tracks(const ReducedFrame& reduced,
+                                    const std::vector<Track>& followed) {
+  tracks_.assign(followed.begin(), followed.end());
+  const auto scale = static_cast<float>(reduced.factor() * field_.scale());
+  const Eigen::Vector2d offset_px =
+      field_offset_px(field_.picture(), reduced, static_cast<double>(scale));
+  const float middle_x =
+      static_cast<float>(offset_px.x()) + (static_cast<float>(reduced.width()) - 1) / 2;
+  const float middle_y =
+      static_cast<float>(offset_px.y()) + (static_cast<float>(reduced.height()) - 1) / 2;
+  has_point_.assign(field_.blocks().size(), 0);
+  for (const PlacedPoint& point : placed_) has_point_[point.block] = 1;
+  for (size_t i = 0; i < field_.blocks().size(); ++i) {
+    const MotionBlock& block = field_.blocks()[i];
+    if (has_point_[i] != 0 || static_cast<double>(block.weakest_texture()) < kLeastTexture)
+      continue;
+    const ImagePoint to{middle_x + scale * block.x_px, middle_y + scale * block.y_px};
+    const ImagePoint from{to.x_px - scale * block.moved_x_px, to.y_px - scale * block.moved_y_px};
+    tracks_.push_back({kFirstBlockId + static_cast<uint32_t>(i), from, to});
+  }
+}
+
+SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
+                                      const ReducedFrame& reduced, const Points& points,
+                                      int64_t interval_ns, const Eigen::Vector2d& pointer) {
   if (kind != kind_) drop_unneeded(kind);
   SceneMotion scene;
   if (kind == MotionKind::kMean) {
-    scene.felt = mean_motion(tracks, interval_ns);
+    scene.restarted = points.given->restarted;
+    scene.tracks = &points.given->tracks;
+    scene.features = points.given->features;
+    if (!scene.restarted) scene.felt = mean_motion(points.given->tracks, interval_ns);
+    return scene;
+  }
+  if (reduced.is_repeated() && field_.has_picture()) {
+    field_.stand_still();
+  } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {
+    scene.restarted = true;
+    estimator_.reset();
+    objects_.reset();
+    dominant_.reset();
+    points_.reset();
+    choose_points(frame, reduced, points);
     return scene;
   }
   const double interval_s = static_cast<double>(interval_ns) * 1e-9;
-  displacements(tracks, width, height, points_);
-  const Background& background = background_.estimate(points_, width, height);
-  scene.background = &background;
+  if (!points.given) points_.follow(frame, reduced, field_);
+  const std::vector<Track>& followed = points.given ? points.given->tracks : points_.tracks();
+  collect_points(reduced, followed);
+  collect_votes();
+  Background background = estimator_.estimate(votes_);
+  refine_background(background);
+  const double scale = reduced.factor() * field_.scale();
+  background_ = in_pixels_of(background, scale);
+  scene.background = &background_;
   scene.model = background.model.kind;
-  scene.camera = camera_motion(background, static_cast<int>(points_.size()), interval_s);
+  scene.camera = camera_motion(background_, static_cast<int>(votes_.points.size()), interval_s);
   if (kind == MotionKind::kCamera) {
     scene.felt = scene.camera;
-    return scene;
+  } else {
+    const FieldInFrame field{field_, scale, field_offset_px(field_.picture(), reduced, scale),
+                             interval_s, placed_};
+    const std::vector<MovingObject>& objects = objects_.update(field, background);
+    scene.objects = static_cast<int>(objects.size());
+    scene.object_list = &objects;
+    // Also while all of them are felt: who then asks for one gets the one that was looked at.
+    scene.dominant = dominant_.choose(objects);
+    if (kind == MotionKind::kObjects) {
+      const Eigen::Vector2d pointer_px((pointer.x() - 0.5) * reduced.width(),
+                                       (pointer.y() - 0.5) * reduced.height());
+      scene.felt = motion_at_pointer(objects, pointer_px, reduced.height());
+    } else if (scene.dominant) {
+      scene.felt = motion_of(*scene.dominant);
+    }
   }
-  const std::vector<MovingObject>& objects =
-      objects_.update(points_, background, width, height, interval_s);
-  scene.objects = static_cast<int>(objects.size());
-  scene.object_list = &objects;
-  // Also while all of them are felt: who then asks for one gets the one that was looked at.
-  scene.dominant = dominant_.choose(objects, interval_s);
-  if (kind == MotionKind::kObjects) {
-    const Eigen::Vector2d pointer_px((pointer.x() - 0.5) * width, (pointer.y() - 0.5) * height);
-    scene.felt = motion_at_pointer(objects, pointer_px, height);
-  } else if (scene.dominant) {
-    scene.felt = motion_of(*scene.dominant);
-  }
+  report_tracks(reduced, followed);
+  scene.tracks = &tracks_;
+  if (!points.given) choose_points(frame, reduced, points);
+  scene.features = static_cast<int>(tracks_.size());
   return scene;
 }
 
 /// What a kind does not keep up to date would be stale when it is needed again.
 void MotionEstimator::drop_unneeded(MotionKind kind) {
   kind_ = kind;
-  if (kind == MotionKind::kMean) background_.reset();
+  if (kind == MotionKind::kMean) {
+    field_.restart();
+    estimator_.reset();
+  }
   if (kind == MotionKind::kMean || kind == MotionKind::kCamera) {
     objects_.reset();
     dominant_.reset();
@@ -104,7 +266,9 @@ void MotionEstimator::drop_unneeded(MotionKind kind) {
 }
 
 void MotionEstimator::reset() {
-  background_.reset();
+  points_.reset();
+  field_.restart();
+  estimator_.reset();
   objects_.reset();
   dominant_.reset();
 }

@@ -1,80 +1,69 @@
-/// Which motion of the picture is felt.
+/// Finds the motion that is felt in successive frames.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/api.h"
+#include "core/field/block_field.h"
+#include "core/field/field_points.h"
+#include "core/field/reduced_frame.h"
 #include "core/motion/background.h"
 #include "core/motion/dominant_object.h"
 #include "core/motion/image_motion.h"
 #include "core/motion/objects.h"
+#include "core/motion/scene_motion.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
 
-enum class MotionKind {
-  kMean,     ///< mean velocity of all points: the paper's eq. 9–10
-  kObject,   ///< the dominant object against the background
-  kObjects,  ///< all objects against the background, weighted by area and nearness to the pointer
-  kCamera,   ///< what the camera does
-};
-
-/// How far from the pointer an object is still felt: σ of the Gaussian kernel, a share of the
-/// frame's height.
-constexpr double kPointerReach = 0.25;
-
-/// Mean motion of the objects, each weighted by area_px2() · exp(−d² / 2σ²), d the distance of
-/// `pointer_px` (from the frame's centre) from the nearest edge of the object's box, 0 within it.
-/// An object at the pointer counts by its size alone; what is a quarter of the frame's height away
-/// counts 0.61, half of it 0.14, all of it 0.0003 of that. A single object is felt as it is,
-/// wherever it is: the pointer chooses, it does not weaken. Objects at rest count, those out of
-/// sight do not.
-SPIDAR_API ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
-                                         const Eigen::Vector2d& pointer_px, int frame_height);
-
-/// What the tracks of one frame say.
-struct SceneMotion {
-  ImageMotion felt;
-  /// Of the background; nothing with kMean, which looks at no model.
-  std::optional<ModelKind> model;
-  /// Of the camera: where the background goes to the left it goes to the right, where the
-  /// background grows it goes in. Zero with kMean.
-  ImageMotion camera;
-  int objects = 0;  ///< that are known, seen or not; 0 with kMean and kCamera
-  /// What was found, in detail: valid until the next estimate(). Null with
-  /// kMean; no objects with kCamera either.
-  const Background* background = nullptr;
-  const std::vector<MovingObject>* object_list = nullptr;  ///< in the order of birth
-  /// The object that `object` follows, one of the list; null while there is none.
-  const MovingObject* dominant = nullptr;
-};
-
-/// tracks → motion. Keeps what must be known of the frames before. Takes no memory from the heap
-/// but when it is made.
+/// Frames → motion. Keeps what must be known of the frames before. Takes no memory from the heap
+/// after the first frames of a size.
 class SPIDAR_API MotionEstimator {
  public:
-  MotionEstimator() { points_.reserve(kMostDisplacements); }
+  MotionEstimator();
 
-  /// Tracks between two frames of `width` × `height` pixels that are shown `interval_ns` apart, >
-  /// 0. `pointer` is a place of the picture, (0, 0) its top left and (1, 1) its bottom right
-  /// corner; it may lie outside. Only kObjects looks at it. Another kind than in the frame before
-  /// begins anew where it needs what that one did not keep.
-  SceneMotion estimate(MotionKind kind, const std::vector<Track>& tracks, int width, int height,
-                       int64_t interval_ns, const Eigen::Vector2d& pointer = {0.5, 0.5});
+  /// What is looked at beside the field of blocks.
+  struct Points {
+    /// Tracks of the frame by somebody else; null: the estimator follows points of its own.
+    const TrackedFrame* given = nullptr;
+    FieldPoints::Settings own;
+  };
+
+  /// The frame that was shown `interval_ns` > 0 after the one before, in whole and `reduced`.
+  /// kMean is the mean of the points given, which it needs; all others look at the frame itself and
+  /// take points for the last fraction of a pixel. `pointer` is a place of the picture, (0, 0) its
+  /// top left and (1, 1) its bottom right corner; it may lie outside. Only kObjects looks at it.
+  /// Another kind than in the frame before begins anew where it needs what that one did not keep.
+  SceneMotion estimate(MotionKind kind, const ImageView& frame, const ReducedFrame& reduced,
+                       const Points& points, int64_t interval_ns,
+                       const Eigen::Vector2d& pointer = {0.5, 0.5});
 
   /// A cut, a seek: the next frame has nothing to do with the one before.
   void reset();
 
  private:
   void drop_unneeded(MotionKind kind);
+  void collect_votes();
+  void collect_points(const ReducedFrame& reduced, const std::vector<Track>& tracks);
+  void refine_background(Background& background);
+  void choose_points(const ImageView& frame, const ReducedFrame& reduced, const Points& points);
+  void report_tracks(const ReducedFrame& reduced, const std::vector<Track>& followed);
 
   MotionKind kind_ = MotionKind::kMean;
-  std::vector<Displacement> points_;
-  BackgroundEstimator background_;
+  BlockField field_;
+  BackgroundVotes votes_;
+  BackgroundEstimator estimator_;
   ObjectTracker objects_;
   DominantObject dominant_;
+  FieldPoints points_;
+  RobustFitter fitter_;
+  WeightedDisplacements evidence_;
+  std::vector<PlacedPoint> placed_;
+  std::vector<PointWish> wishes_;
+  std::vector<uint8_t> has_point_;  ///< of each block
+  std::vector<Track> tracks_;
+  Background background_;  ///< in px of the frame
 };
 
 }  // namespace spidar

@@ -65,6 +65,7 @@ bool fit_linear(const std::vector<Displacement>& points, const std::vector<doubl
 bool refine_homography(const std::vector<Displacement>& points, const std::vector<double>& weights,
                        MotionModel& model) {
   constexpr int kSteps = 4;
+  constexpr double kSmall = 1e-5;   // px, at kUnit_px from the centre
   constexpr double kUnit_px = 256;  // lengths near 1, so that the normal matrix is well scaled
   using Vector8 = Eigen::Matrix<double, 8, 1>;
   for (int step = 0; step < kSteps; ++step) {
@@ -98,6 +99,8 @@ bool refine_homography(const std::vector<Displacement>& points, const std::vecto
     model.linear(1, 1) += change[4] / kUnit_px;
     model.shift_px += Eigen::Vector2d(change[2], change[5]);
     model.perspective_1_px += Eigen::Vector2d(change[6], change[7]) / (kUnit_px * kUnit_px);
+    // Each step squares the error.
+    if (change.cwiseAbs().maxCoeff() < kSmall) break;
   }
   return true;
 }

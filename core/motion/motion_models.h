@@ -59,6 +59,13 @@ struct MotionModel {
   SPIDAR_API double roll_rad() const;
 };
 
+/// Which model the background has in one frame, and how well.
+struct Background {
+  MotionModel model;
+  double sigma_px = 0;  ///< noise of a displacement, each coordinate
+  double coverage = 1;  ///< share of the picture's votes that speak for the model
+};
+
 /// Least squares: minimises Σ w |moved − displacement(at)|², w ≥ 0, one weight a point.
 /// Nothing when the points do not determine the model: too few, in one place, on one line.
 /// The homography is found by Gauss–Newton from the affine solution, a fixed number of steps:

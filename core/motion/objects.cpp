@@ -2,240 +2,331 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "core/motion/salience.h"
 
 namespace spidar {
 namespace {
 
-/// Not explained by the background: P(χ²₂ > 9) = 1 % of its tracks.
-constexpr double kMovingSigmas = 3;
-/// Neighbours on an object, as a share of the frame's height: four times the space between tracks
-/// when 200 of them fill the frame. Few hold on to a small object, and far apart.
-constexpr double kReach = 1.0 / 4;
-/// Groups are the same object when their displacements differ by less than this share, plus noise.
-constexpr double kSameMotion = 0.3;
+/// Regions are the same object when their motions differ by less than this share, plus this much.
+constexpr double kSameMotion = 0.5;
+constexpr double kSameMotion_px = 1;
 constexpr int kBornAfter = 2;
-/// An object that is lost goes on for this long: tracks fail for a frame or two now and then.
-constexpr double kCoast_s = 0.1;
-constexpr size_t kLeastToSee = 2;
-constexpr int kLeastVotes = 2;
-
-/// For the candidates and groups of kMostDisplacements and the tracks of kMostObjects.
-constexpr size_t kFrameMemory_bytes = 512 * 1024;
-
-bool same_motion(const Eigen::Vector2d& a_px, const Eigen::Vector2d& b_px, double sigma_px) {
-  const double fastest_px = std::max(a_px.norm(), b_px.norm());
-  return (a_px - b_px).norm() < kSameMotion * fastest_px + kMovingSigmas * sigma_px;
-}
-
-bool owns(const std::vector<uint32_t>& sorted, uint32_t id) {
-  return std::binary_search(sorted.begin(), sorted.end(), id);
-}
+constexpr int kBornAfterBlocks = 8;
+/// Where an object is expected that was not seen, as a share of the sum of both boxes' sides.
+constexpr double kReach = 0.75;
+/// An object that is lost goes on for this long: its blocks fail for a frame or two now and then.
+constexpr double kCoast_s = 0.05;
+/// Share of the new value in the velocity of an object, which thereby is late by 0.7 of a frame.
+constexpr double kNewest = 0.5;
+/// A camera slower than this is still, px of the field's picture a frame.
+constexpr double kCameraStill_px = 0.25;
+/// An object turns or grows when this many blocks say so and the GRIC finds it worth it.
+constexpr size_t kLeastForSimilarity = 6;
+/// Motion of the blocks of one object differs by this share besides the noise: it is not rigid.
+/// Points are the object's own when they move as the median of its blocks does, up to this share of
+/// it and so many px of the field's picture; so many of them say more than the blocks.
+constexpr double kPointReachShare = 0.35;
+constexpr double kPointReach_px = 0.5;
+constexpr double kLeastPoints = 4;
+constexpr double kPointShare = 0.5;
+/// Noise of a point's displacement, px of the field's picture, and a share of the displacement.
+constexpr double kPointNoise_px = 0.1;
+constexpr double kPointNoiseShare = 0.03;
+/// Its points agree with one motion when the mean of ρ is below this; 4 is that of outliers.
+constexpr double kRigid = 1;
+/// An object that was none of the scene's layers for so many frames may become more like one.
+constexpr int kProvenAfter = 3;
+/// What is larger than this share of the picture is no object but an error of the background; much
+/// less of it where hardly anything speaks for the background.
+constexpr double kMostOfPicture = 0.75;
+constexpr double kMostOfUnknown = 0.4;
+constexpr double kKnownCoverage = 0.07;
+constexpr double kObjectNoiseShare = 0.1;
 
 }  // namespace
 
-ObjectTracker::ObjectTracker() : memory_(kFrameMemory_bytes) {
-  relative_.reserve(kMostDisplacements);
+bool ObjectTracker::Life::is_born() const {
+  return frames_seen >= kBornAfter && blocks_seen >= kBornAfterBlocks;
+}
+
+ObjectTracker::ObjectTracker() {
   lives_.reserve(kMostObjects);
+  region_ids_.reserve(RegionFinder::kMostRegions);
+  order_.reserve(RegionFinder::kMostRegions);
   objects_.reserve(kMostObjects);
-  spare_.resize(kMostObjects);
-  for (Life& life : spare_) {
-    life.track_ids.reserve(2 * kMostDisplacements);
-    life.group.reserve(kMostDisplacements);
-  }
+  evidence_.points.reserve(kMostDisplacements);
+  evidence_.weights.reserve(kMostDisplacements);
 }
 
 void ObjectTracker::reset() {
-  drop([](const Life&) { return true; });
+  moving_.reset();
+  owners_.clear();
+  lives_.clear();
   objects_.clear();
 }
 
-/// Displacements against the background, and the groups in them.
-ObjectTracker::Clusters ObjectTracker::find_relative(const std::vector<Displacement>& points,
-                                                     const Frame& frame) {
-  relative_ = points;
-  Indices moving(memory_.resource());
-  moving.reserve(points.size());
-  const double least_px = kMovingSigmas * frame.sigma_px;
-  for (size_t i = 0; i < relative_.size(); ++i) {
-    Displacement& point = relative_[i];
-    point.moved_px -= frame.background->model.displacement_px(point.at_px);
-    if (point.moved_px.squaredNorm() > least_px * least_px) moving.push_back(static_cast<int>(i));
-  }
-  return finder_.find(relative_, moving, {frame.reach_px, frame.sigma_px});
+bool ObjectTracker::is_same_motion(const Life& life, const Region& region,
+                                   const FieldInFrame& frame) const {
+  const Eigen::Vector2d expected_px = life.velocity_px_s * frame.interval_s;
+  const double fastest_px = std::max(expected_px.norm(), region.relative_px.norm());
+  return (region.relative_px - expected_px).norm() < kSameMotion * fastest_px + kSameMotion_px;
 }
 
-/// A group is the object that most of its tracks were on. Several groups may be one object, when
-/// they move alike.
-void ObjectTracker::claim_by_tracks(Clusters& clusters, const Frame& frame) {
-  Clusters left(memory_.resource());
-  left.reserve(clusters.size());
-  for (Cluster& cluster : clusters) {
-    Life* best = nullptr;
-    int most_votes = 0;
-    for (Life& life : lives_) {
-      const auto votes =
-          static_cast<int>(std::count_if(cluster.group.begin(), cluster.group.end(), [&](int i) {
-            return owns(life.track_ids, relative_[static_cast<size_t>(i)].id);
-          }));
-      if (votes >= kLeastVotes && votes > most_votes) {
-        most_votes = votes;
-        best = &life;
+/// The object that most of the region's blocks were on; null when that is none.
+ObjectTracker::Life* ObjectTracker::owner_of(int16_t region) {
+  Life* best = nullptr;
+  int most = 0;
+  for (Life& life : lives_) {
+    int votes = 0;
+    for (size_t i = 0; i < owners_before_.size(); ++i) {
+      votes += finder_.labels()[i] == region && owners_before_[i] == life.object.id;
+    }
+    if (votes > most) {
+      most = votes;
+      best = &life;
+    }
+  }
+  return best;
+}
+
+/// The object out of sight that is expected there with such a motion; null when there is none.
+ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const FieldInFrame& frame) {
+  for (Life& life : lives_) {
+    if (life.claimed || !life.is_born()) continue;
+    const Eigen::Vector2d sides_px =
+        (life.region.high_px - life.region.low_px) + (region.high_px - region.low_px);
+    const Eigen::Vector2d apart_px = (life.region.position_px - region.position_px).cwiseAbs();
+    if ((apart_px.array() < kReach * sides_px.array()).all() &&
+        is_same_motion(life, region, frame)) {
+      return &life;
+    }
+  }
+  return nullptr;
+}
+
+void ObjectTracker::bear(const Region& region) {
+  if (lives_.size() >= kMostObjects) return;
+  lives_.emplace_back();
+  Life& life = lives_.back();
+  life.object.id = next_id_++;
+  life.region = region;
+  life.claimed = true;
+}
+
+/// Gives each region to an object. The largest of those of an object is the object.
+void ObjectTracker::claim(const FieldInFrame& frame) {
+  const std::vector<Region>& regions = finder_.find(frame.field, *relative_);
+  region_ids_.assign(regions.size(), 0);
+  for (Life& life : lives_) life.claimed = false;
+  order_.resize(regions.size());
+  for (size_t k = 0; k < order_.size(); ++k) order_[k] = k;
+  std::sort(order_.begin(), order_.end(),
+            [&](size_t a, size_t b) { return regions[a].blocks > regions[b].blocks; });
+  for (const size_t k : order_) {
+    const Region& region = regions[k];
+    Life* life = owner_of(static_cast<int16_t>(k));
+    if (life && life->claimed) {
+      if (is_same_motion(*life, region, frame)) {
+        region_ids_[k] = life->object.id;
+        continue;
       }
+      life = nullptr;
     }
     // Noise does not move alike twice.
-    const bool unborn = best && best->frames_seen < kBornAfter;
-    const bool must_agree = best && (best->claimed || unborn);
-    if (!best || (unborn && !cluster.is_coherent()) ||
-        (must_agree && !same_motion(best->object.relative_px_s * frame.interval_s, cluster.moved_px,
-                                    frame.sigma_px))) {
-      left.push_back(std::move(cluster));
+    if (life && !life->is_born() && !is_same_motion(*life, region, frame)) {
+      life = nullptr;
+    }
+    if (!life) life = expected_at(region, frame);
+    if (!life) {
+      bear(region);
+      region_ids_[k] = lives_.empty() ? 0 : lives_.back().object.id;
       continue;
     }
-    best->group.insert(best->group.end(), cluster.group.begin(), cluster.group.end());
-    if (!best->claimed) best->object.relative_px_s = cluster.moved_px / frame.interval_s;
-    best->claimed = true;
-  }
-  clusters = std::move(left);
-}
-
-bool ObjectTracker::belongs(const Cluster& cluster, const Life& life, const Frame& frame) {
-  const Eigen::Vector2d moved_px = life.object.relative_px_s * frame.interval_s;
-  return (life.object.position_px - cluster.position_px).norm() < frame.reach_px &&
-         same_motion(moved_px, cluster.moved_px, frame.sigma_px);
-}
-
-/// A group without known tracks is the object that was to be expected there. What was seen only
-/// once is not expected anywhere.
-void ObjectTracker::claim_by_place(Clusters& clusters, const Frame& frame) {
-  Clusters left(memory_.resource());
-  left.reserve(clusters.size());
-  for (Cluster& cluster : clusters) {
-    Life* nearest = nullptr;
-    double nearest_px = frame.reach_px;
-    for (Life& life : lives_) {
-      if (life.frames_seen < kBornAfter || !belongs(cluster, life, frame)) continue;
-      const double distance_px = (life.object.position_px - cluster.position_px).norm();
-      if (distance_px < nearest_px) {
-        nearest_px = distance_px;
-        nearest = &life;
-      }
-    }
-    if (!nearest) {
-      left.push_back(std::move(cluster));
-      continue;
-    }
-    nearest->group.insert(nearest->group.end(), cluster.group.begin(), cluster.group.end());
-    nearest->claimed = true;
-  }
-  clusters = std::move(left);
-}
-
-void ObjectTracker::bear(const Clusters& clusters, const Frame& frame) {
-  for (const Cluster& cluster : clusters) {
-    if (lives_.size() >= kMostObjects) return;
-    const bool part_of_another = std::any_of(lives_.begin(), lives_.end(), [&](const Life& life) {
-      return belongs(cluster, life, frame);
-    });
-    if (part_of_another || !cluster.is_coherent()) continue;
-    Life life = std::move(spare_.back());
-    spare_.pop_back();
-    life.object = MovingObject();
-    life.object.id = next_id_++;
-    life.frames_seen = 0;
-    life.resting_s = 0;
-    life.claimed = false;
-    life.group.assign(cluster.group.begin(), cluster.group.end());
-    see(life, cluster, frame);
-    life.group.clear();
-    lives_.push_back(std::move(life));
+    life->claimed = true;
+    life->region = region;
+    region_ids_[k] = life->object.id;
   }
 }
 
-void ObjectTracker::see(Life& life, const Cluster& cluster, const Frame& frame) {
+/// The blocks of an object that show how they move.
+void ObjectTracker::collect_blocks(const Life& life, const FieldInFrame& frame) {
+  evidence_.points.clear();
+  const std::vector<MotionBlock>& blocks = frame.field.blocks();
+  for (size_t i = 0; i < owners_.size(); ++i) {
+    const RelativeBlock& relative = (*relative_)[i];
+    if (owners_[i] != life.object.id || !relative.has_texture) continue;
+    if (evidence_.points.size() >= kMostDisplacements) break;
+    const Eigen::Vector2d moved_px(relative.x_px, relative.y_px);
+    const Eigen::Vector2d at_px(blocks[i].x_px, blocks[i].y_px);
+    evidence_.points.push_back({0, at_px - moved_px, moved_px});
+  }
+  evidence_.weights.assign(evidence_.points.size(), 1.0);
+  evidence_.sigma_px =
+      std::max(2 * background_->sigma_px, kObjectNoiseShare * life.region.relative_px.norm());
+}
+
+/// Points on the object that move about as `motion` says. False when they are too few.
+bool ObjectTracker::collect_points(const Life& life, const MotionModel& motion,
+                                   const FieldInFrame& frame) {
+  evidence_.points.clear();
+  for (const PlacedPoint& point : frame.points) {
+    if (owners_[point.block] != life.object.id) continue;
+    Displacement relative = point.moved;
+    relative.moved_px -= background_->model.displacement_px(relative.at_px);
+    const Eigen::Vector2d expected_px = motion.displacement_px(relative.at_px);
+    const double reach_px = kPointReachShare * expected_px.norm() + kPointReach_px;
+    if ((relative.moved_px - expected_px).norm() < reach_px) evidence_.points.push_back(relative);
+  }
+  evidence_.weights.assign(evidence_.points.size(), 1.0);
+  evidence_.sigma_px = std::max(kPointNoise_px, kPointNoiseShare * life.region.relative_px.norm());
+  const auto n = static_cast<double>(evidence_.points.size());
+  return n >= kLeastPoints && n >= kPointShare * life.region.blocks;
+}
+
+/// A similarity if that explains the evidence better by its price in the GRIC, and by as much again
+/// so that it does not flicker.
+void ObjectTracker::climb(MotionModel& motion) {
+  const size_t n = evidence_.points.size();
+  if (motion.kind == ModelKind::kSimilarity || n < kLeastForSimilarity) return;
+  const auto similarity = fitter_.refine(ModelKind::kSimilarity, motion, evidence_);
+  const double price = 4 * std::log(4 * static_cast<double>(n));
+  if (similarity && robust_cost(*similarity, evidence_) + price < robust_cost(motion, evidence_)) {
+    motion = *similarity;
+  }
+}
+
+/// The blocks tell how the object moves, and the points on it to a fraction of a pixel.
+void ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
+  MotionModel motion;
+  motion.kind = ModelKind::kTranslation;
+  motion.shift_px = life.region.relative_px;
+  collect_blocks(life, frame);
+  climb(motion);
   MovingObject& object = life.object;
-  const Eigen::Vector2d behind_px = frame.background->model.displacement_px(cluster.position_px);
-  object.position_px = cluster.position_px + behind_px + cluster.moved_px;
-  object.size_px = cluster.size_px;
-  object.relative_px_s = cluster.moved_px / frame.interval_s;
-  object.on_screen_px_s = (behind_px + cluster.moved_px) / frame.interval_s;
-  object.growth_1_s = cluster.motion.growth() / frame.interval_s;
-  object.roll_rad_s = cluster.motion.roll_rad() / frame.interval_s;
-  object.model = cluster.motion.kind;
-  object.tracks = static_cast<int>(cluster.members.size());
-  object.noise_px_s = frame.sigma_px / std::sqrt(object.tracks) / frame.interval_s;
-  life.track_ids.clear();
-  const auto keep = [&](int i) { life.track_ids.push_back(relative_[static_cast<size_t>(i)].id); };
-  std::for_each(life.group.begin(), life.group.end(), keep);
-  std::for_each(cluster.members.begin(), cluster.members.end(), keep);
-  std::sort(life.track_ids.begin(), life.track_ids.end());
+  object.tracks = life.region.blocks;
+  life.is_rigid = false;
+  if (collect_points(life, motion, frame)) {
+    const auto refined = fitter_.refine(motion.kind, motion, evidence_);
+    if (refined) motion = *refined;
+    climb(motion);
+    const auto n = static_cast<double>(evidence_.points.size());
+    object.tracks = static_cast<int>(n);
+    life.is_rigid = robust_cost(motion, evidence_) < kRigid * n;
+    life.region.relative_px =
+        motion.displacement_px(life.region.position_px - life.region.relative_px);
+  }
+  object.model = motion.kind;
+  object.growth_1_s = motion.growth() / frame.interval_s;
+  object.roll_rad_s = motion.roll_rad() / frame.interval_s;
+  object.noise_px_s = frame.scale * evidence_.sigma_px / 2 /
+                      std::sqrt(static_cast<double>(object.tracks)) / frame.interval_s;
+}
+
+/// Place and velocity in the frame, from those of the region in the field's picture.
+void ObjectTracker::place(Life& life, const FieldInFrame& frame) const {
+  MovingObject& object = life.object;
+  const Region& region = life.region;
+  object.position_px = frame.scale * region.position_px + frame.offset_px;
+  object.size_px = frame.scale * (region.high_px - region.low_px);
+  object.area_px2 = frame.scale * frame.scale * region.blocks * kBlockArea_px;
+  object.relative_px_s = frame.scale * life.velocity_px_s;
+  object.on_screen_px_s =
+      object.relative_px_s + frame.scale * region.background_px / frame.interval_s;
+}
+
+void ObjectTracker::see(Life& life, const FieldInFrame& frame) {
+  measure(life, frame);
+  const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
+  const bool goes_on = life.frames_seen > 0 && velocity_px_s.dot(life.velocity_px_s) > 0;
+  const double share = life.is_rigid || !goes_on ? 1 : kNewest;
+  life.velocity_px_s += share * (velocity_px_s - life.velocity_px_s);
   ++life.frames_seen;
+  life.blocks_seen += life.region.blocks;
   life.unseen_s = 0;
+  life.resting_s = 0;
+  place(life, frame);
+  MovingObject& object = life.object;
+  const double known = background_->coverage < kKnownCoverage ? kMostOfUnknown : kMostOfPicture;
+  const bool too_large = life.region.blocks > known * static_cast<double>(owners_.size());
+  life.proven += salience(life.region, camera_, false) > 0;
+  object.prominence = too_large ? 0 : salience(life.region, camera_, life.proven >= kProvenAfter);
+  life.is_layer = object.prominence == 0;
 }
 
-/// One frame more: where it is now, or that it is out of sight.
-void ObjectTracker::live(Life& life, const Frame& frame) {
-  // Those of its tracks that do not stand out now may be slow, not gone.
-  Indices tracks(life.group.begin(), life.group.end(), memory_.resource());
-  for (size_t i = 0; i < relative_.size(); ++i) {
-    if (owns(life.track_ids, relative_[i].id)) tracks.push_back(static_cast<int>(i));
+/// Its place shows nothing that moves by itself: it rests there, or it is out of sight.
+void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
+  int resting = 0;  // blocks
+  for (size_t i = 0; i < owners_before_.size(); ++i) {
+    if (owners_before_[i] != life.object.id || finder_.labels()[i] != kNoRegion) continue;
+    owners_[i] = life.object.id;
+    if (!(*relative_)[i].has_texture) continue;
+    ++resting;
   }
-  std::sort(tracks.begin(), tracks.end());
-  tracks.erase(std::unique(tracks.begin(), tracks.end()), tracks.end());
-
   MovingObject& object = life.object;
-  const Cluster cluster = finder_.describe(relative_, std::move(tracks), frame.sigma_px);
-  if (cluster.members.size() >= kLeastToSee) {
-    see(life, cluster, frame);
+  if (resting > 0) {
+    life.velocity_px_s.setZero();
+    life.resting_s += frame.interval_s;
+    life.unseen_s = 0;
+    object.tracks = resting;
   } else {
     object.tracks = 0;
-    object.position_px += object.on_screen_px_s * frame.interval_s;
     life.unseen_s += frame.interval_s;
   }
-  life.resting_s = life.claimed || object.tracks == 0 ? 0 : life.resting_s + frame.interval_s;
-  const double felt_px_s = life.unseen_s > kCoast_s ? 0 : object.relative_px_s.norm();
-  const double share = 1 - std::exp(-frame.interval_s / MovingObject::kProminence_s);
-  object.prominence += share * (object.area_px2() * felt_px_s - object.prominence);
-  life.group.clear();
-  life.claimed = false;
+  object.growth_1_s = 0;
+  object.roll_rad_s = 0;
+  life.region.position_px += life.velocity_px_s * frame.interval_s + life.region.background_px;
+  object.prominence = 0;
+  place(life, frame);
 }
 
-template <typename Dead>
-void ObjectTracker::drop(Dead&& dead) {
-  size_t kept = 0;
-  for (size_t i = 0; i < lives_.size(); ++i) {
-    if (dead(lives_[i])) {
-      spare_.push_back(std::move(lives_[i]));
+const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame,
+                                                       const Background& background) {
+  const BlockField& field = frame.field;
+  const size_t n = field.blocks().size();
+  if (owners_.size() != n) owners_.assign(n, 0);
+  owners_before_.resize(n);
+  expected_.resize(n);
+  for (size_t i = 0; i < n; ++i) {
+    owners_before_[i] = owners_[origin_of(field, i)];
+    const uint32_t owner = owners_before_[i];
+    expected_[i] = owner != 0 && std::any_of(lives_.begin(), lives_.end(), [&](const Life& life) {
+                     return life.object.id == owner && life.is_born();
+                   });
+  }
+  background_ = &background;
+  relative_ = &moving_.find(field, background, expected_);
+  camera_ = {0, kCameraStill_px};
+  for (const RelativeBlock& block : *relative_) {
+    camera_.speed_px += std::hypot(block.background_x_px, block.background_y_px);
+  }
+  camera_.speed_px /= static_cast<double>(std::max<size_t>(n, 1));
+
+  claim(frame);
+  for (size_t i = 0; i < n; ++i) {
+    const int16_t label = finder_.labels()[i];
+    owners_[i] = label == kNoRegion ? 0 : region_ids_[static_cast<size_t>(label)];
+  }
+  for (Life& life : lives_) {
+    if (life.claimed) {
+      see(life, frame);
     } else {
-      if (kept < i) lives_[kept] = std::move(lives_[i]);
-      ++kept;
+      miss(life, frame);
     }
   }
-  lives_.resize(kept);
-}
-
-const std::vector<MovingObject>& ObjectTracker::update(const std::vector<Displacement>& points,
-                                                       const Background& background, int width,
-                                                       int height, double interval_s) {
-  const Frame frame{&background, interval_s, kReach * std::min(width, height), background.sigma_px};
-  memory_.release();
-  Clusters clusters = find_relative(points, frame);
-  claim_by_tracks(clusters, frame);
-  claim_by_place(clusters, frame);
-  drop([](const Life& life) { return life.frames_seen < kBornAfter && !life.claimed; });
-  for (Life& life : lives_) live(life, frame);
-  drop([](const Life& life) { return life.unseen_s > kForgotten_s || life.resting_s > kAtRest_s; });
-  bear(clusters, frame);
+  const auto is_over = [](const Life& life) {
+    return (!life.is_born() && !life.claimed) || life.unseen_s > kForgotten_s ||
+           life.resting_s > kAtRest_s;
+  };
+  lives_.erase(std::remove_if(lives_.begin(), lives_.end(), is_over), lives_.end());
 
   objects_.clear();
   for (const Life& life : lives_) {
-    if (life.frames_seen < kBornAfter) continue;
+    if (!life.is_born() || life.is_layer) continue;
     objects_.push_back(life.object);
     if (life.unseen_s <= kCoast_s) continue;
     objects_.back().relative_px_s.setZero();
     objects_.back().on_screen_px_s.setZero();
-    objects_.back().growth_1_s = 0;
-    objects_.back().roll_rad_s = 0;
   }
   return objects_;
 }

@@ -1,4 +1,4 @@
-/// What moves beyond the background.
+/// Follows what moves beyond the background from frame to frame.
 #pragma once
 
 #include <cstdint>
@@ -7,48 +7,48 @@
 #include <Eigen/Core>
 
 #include "core/api.h"
+#include "core/field/block_field.h"
 #include "core/motion/background.h"
-#include "core/motion/frame_memory.h"
 #include "core/motion/motion_models.h"
-#include "core/motion/object_clusters.h"
+#include "core/motion/moving_blocks.h"
+#include "core/motion/moving_object.h"
+#include "core/motion/regions.h"
+#include "core/motion/salience.h"
 
 namespace spidar {
 
-/// One object in one frame. Image frame I about the centre of the frame: x right, y down.
-struct MovingObject {
-  uint32_t id = 0;  ///< the same for as long as it lives, never used again
-  Eigen::Vector2d position_px = Eigen::Vector2d::Zero();     ///< of its middle
-  Eigen::Vector2d size_px = Eigen::Vector2d::Zero();         ///< of the box around its tracks
-  Eigen::Vector2d relative_px_s = Eigen::Vector2d::Zero();   ///< velocity against the background
-  Eigen::Vector2d on_screen_px_s = Eigen::Vector2d::Zero();  ///< velocity that the viewer sees
-  double growth_1_s = 0;                                     ///< see ImageMotion, both against …
-  double roll_rad_s = 0;                                     ///< … the background
-  ModelKind model = ModelKind::kTranslation;                 ///< translation or similarity
-  int tracks = 0;                                            ///< 0 while it is out of sight
-  double noise_px_s = 0;  ///< standard error of each coordinate of relative_px_s
-  /// Area × speed, smoothed over kProminence_s: what one would look at.
-  double prominence = 0;
-
-  /// Box with a margin of the space between tracks: a few tracks in a row have an area, too.
-  double area_px2() const { return (size_px.x() + kMargin_px) * (size_px.y() + kMargin_px); }
-  static constexpr double kMargin_px = 10;
-  static constexpr double kProminence_s = 0.5;
+/// A point that was followed, in px of the field's picture from its centre.
+struct PlacedPoint {
+  size_t block = 0;  ///< that it is in now
+  Displacement moved;
 };
 
-/// Objects from frame to frame. Tracks that the background does not explain (further than 3 σ) and
-/// that hang together are an object from the second frame on in which they do. The tracks that it
-/// had before say which object a group is, and failing that, place and velocity: so it stays the
-/// same when another one crosses or hides it. It dies when it is out of sight for kForgotten_s or
-/// at rest for kAtRest_s; until then it may stand still.
+/// Field of block motion of one frame, and how its pixels lie in the frame.
+struct FieldInFrame {
+  const BlockField& field;
+  double scale = 1;  ///< frame px to one of the field's picture
+  /// Of the field's centre from the frame's, px of the frame.
+  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
+  double interval_s = 0;  ///< since the frame before, > 0
+  const std::vector<PlacedPoint>& points;
+};
+
+/// Objects from frame to frame. A region that moves by itself is an object from the second frame on
+/// in which it does so alike. It is the object that most of its blocks were before, or else one
+/// that is expected there. It dies when it is out of sight for kForgotten_s or at rest for
+/// kAtRest_s; until then it may stand still.
 class SPIDAR_API ObjectTracker {
  public:
   ObjectTracker();
 
-  /// Tracks between two frames of `width` × `height` pixels that are shown `interval_s` apart, and
-  /// the background that they have. Valid until the next call; in the order of birth.
-  const std::vector<MovingObject>& update(const std::vector<Displacement>& points,
-                                          const Background& background, int width, int height,
-                                          double interval_s);
+  /// Valid until the next call; in the order of birth. `background` in pixels of the field's
+  /// picture.
+  const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background);
+
+  /// How likely each block belongs to no background, see MovingBlocks::persistence().
+  const std::vector<float>& persistence() const { return moving_.persistence(); }
+  /// The object that each block is of in the last frame, its id; 0 for none.
+  const std::vector<uint32_t>& owners() const { return owners_; }
 
   /// A cut, a seek: nothing is known.
   void reset();
@@ -60,37 +60,46 @@ class SPIDAR_API ObjectTracker {
  private:
   struct Life {
     MovingObject object;
-    std::vector<uint32_t> track_ids;  ///< sorted
+    Region region;  ///< of the last frame in which it was seen
+    Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< of the field, smoothed
     int frames_seen = 0;
+    int blocks_seen = 0;  ///< in all those frames
+    int proven = 0;
     double unseen_s = 0;
     double resting_s = 0;
-    std::vector<int> group;  ///< that it has in this frame, indices of its points
-    bool claimed = false;    ///< by a group of this frame
-  };
-  using Clusters = std::pmr::vector<Cluster>;
-  struct Frame {
-    const Background* background;
-    double interval_s;
-    double reach_px;
-    double sigma_px;
+    bool claimed = false;   ///< by a region of this frame
+    bool is_rigid = false;  ///< its points agree
+    bool is_layer = false;  ///< rather a part of the scene than an object in it
+
+    bool is_born() const;
   };
 
-  Clusters find_relative(const std::vector<Displacement>& points, const Frame& frame);
-  void claim_by_tracks(Clusters& clusters, const Frame& frame);
-  /// In place and motion.
-  static bool belongs(const Cluster& cluster, const Life& life, const Frame& frame);
-  void claim_by_place(Clusters& clusters, const Frame& frame);
-  void bear(const Clusters& clusters, const Frame& frame);
-  void live(Life& life, const Frame& frame);
-  template <typename Dead>
-  void drop(Dead&& dead);
-  void see(Life& life, const Cluster& cluster, const Frame& frame);
+  void claim(const FieldInFrame& frame);
+  Life* owner_of(int16_t region);
+  Life* expected_at(const Region& region, const FieldInFrame& frame);
+  bool is_same_motion(const Life& life, const Region& region, const FieldInFrame& frame) const;
+  void bear(const Region& region);
+  void see(Life& life, const FieldInFrame& frame);
+  void miss(Life& life, const FieldInFrame& frame);
+  void measure(Life& life, const FieldInFrame& frame);
+  bool collect_points(const Life& life, const MotionModel& motion, const FieldInFrame& frame);
+  void climb(MotionModel& motion);
+  void collect_blocks(const Life& life, const FieldInFrame& frame);
+  void place(Life& life, const FieldInFrame& frame) const;
 
-  FrameMemory memory_;
-  ClusterFinder finder_;
-  std::vector<Displacement> relative_;  ///< to the background
+  MovingBlocks moving_;
+  RegionFinder finder_;
+  RobustFitter fitter_;
+  WeightedDisplacements evidence_;
+  const std::vector<RelativeBlock>* relative_ = nullptr;
+  CameraMotion camera_;
+  const Background* background_ = nullptr;
+  std::vector<uint8_t> expected_;
+  std::vector<uint32_t> owners_;
+  std::vector<uint32_t> owners_before_;  ///< carried to the places of this frame
+  std::vector<uint32_t> region_ids_;     ///< object of each region
+  std::vector<size_t> order_;            ///< regions, the largest first
   std::vector<Life> lives_;
-  std::vector<Life> spare_;  ///< their memory is for those to be born
   std::vector<MovingObject> objects_;
   uint32_t next_id_ = 1;
 };

@@ -1,79 +1,44 @@
 #include "core/motion/robust_fit.h"
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
 namespace spidar {
 namespace {
 
-constexpr int kSamplesForEachPoint = 32;
-constexpr double kMissed = 0.01;  // accepted chance that no sample was free of outliers
-constexpr int kFinalRefits = 3;
+/// Of two points: with half of the votes for the background one in four is free of outliers, and
+/// none of so many is with a chance of 1e-5.
+constexpr int kPairs = 40;
+/// Points of a pair that are nearer than this share of the points' spread do not tell how the
+/// picture turns and grows.
+constexpr double kLeastDistanceShare = 0.5;
+/// The first steps reach further, for the start is as good as two of its points.
+constexpr int kFarSteps = 2;
+constexpr int kSteps = 5;
+constexpr double kFarther = 4;
 
-struct Candidate {
+/// The similarity that moves both points as they did.
+MotionModel through(const Displacement& a, const Displacement& b) {
+  const Eigen::Vector2d q = b.at_px - a.at_px;
+  const Eigen::Vector2d d = b.moved_px - a.moved_px;
+  const double grow = d.dot(q) / q.squaredNorm();
+  const double turn = (d.y() * q.x() - d.x() * q.y()) / q.squaredNorm();
   MotionModel model;
-  double cost;
-};
+  model.kind = ModelKind::kSimilarity;
+  model.linear << grow, -turn, turn, grow;
+  model.shift_px = a.moved_px - model.linear * a.at_px;
+  return model;
+}
 
-/// Points in proportion to their weights. std::minstd_rand is the same on every machine; the
-/// distributions of <random> are not.
-class Sampler {
- public:
-  /// `sums` is memory to use.
-  Sampler(const std::vector<double>& weights, std::vector<double>& sums) : sums_(sums) {
-    sums_.clear();
-    double sum = 0;
-    for (const double weight : weights) sums_.push_back(sum += weight);
-  }
-
-  size_t draw() {
-    const double span = static_cast<double>(std::minstd_rand::max() - std::minstd_rand::min());
-    const double place = static_cast<double>(random_() - std::minstd_rand::min()) / span;
-    const auto found = std::lower_bound(sums_.begin(), sums_.end(), place * sums_.back());
-    return std::min(static_cast<size_t>(found - sums_.begin()), sums_.size() - 1);
-  }
-
-  double sum() const { return sums_.back(); }
-
- private:
-  std::vector<double>& sums_;
-  std::minstd_rand random_;
-};
-
-/// Weights of the model's inliers, 0 for the others; their sum.
-double inlier_weights(const MotionModel& model, const WeightedTracks& evidence,
-                      std::vector<double>& inliers) {
+double spread_px2(const std::vector<Displacement>& points) {
   double sum = 0;
-  for (size_t i = 0; i < evidence.points.size(); ++i) {
-    const bool inlier = point_cost(model, evidence.points[i], evidence.sigma_px) < kMostCost;
-    inliers[i] = inlier ? evidence.weights[i] : 0;
-    sum += inliers[i];
-  }
-  return sum;
-}
-
-/// Fits to the inliers of `best`; false when that is no better.
-bool refit(const WeightedTracks& evidence, std::vector<double>& inliers, Candidate& best) {
-  const auto model = fit_model(best.model.kind, evidence.points, inliers);
-  if (!model) return false;
-  const double cost = robust_cost(*model, evidence, best.cost);
-  if (!(cost < best.cost)) return false;
-  best = {*model, cost};
-  inlier_weights(best.model, evidence, inliers);
-  return true;
-}
-
-/// Samples that are needed so that one is free of outliers.
-int samples_needed(double inlier_share, int points) {
-  const double good = std::pow(std::min(inlier_share, 1.0), points);
-  if (good >= 1 - kMissed) return 1;
-  return static_cast<int>(std::min(1e6, std::ceil(std::log(kMissed) / std::log1p(-good))));
+  for (const Displacement& point : points) sum += point.at_px.squaredNorm();
+  return points.empty() ? 0 : sum / static_cast<double>(points.size());
 }
 
 }  // namespace
 
-double robust_cost(const MotionModel& model, const WeightedTracks& evidence, double limit) {
+double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence, double limit) {
   double cost = 0;
   for (size_t i = 0; i < evidence.points.size() && cost <= limit; ++i) {
     cost += evidence.weights[i] * point_cost(model, evidence.points[i], evidence.sigma_px);
@@ -82,45 +47,51 @@ double robust_cost(const MotionModel& model, const WeightedTracks& evidence, dou
 }
 
 RobustFitter::RobustFitter() {
-  constexpr auto kMostToSample = static_cast<size_t>(least_points(ModelKind::kHomography));
-  weight_sums_.reserve(kMostDisplacements);
-  inliers_.reserve(kMostDisplacements);
-  sample_.reserve(kMostToSample);
-  ones_.reserve(kMostToSample);
+  weights_.reserve(kMostDisplacements);
 }
 
-std::optional<MotionModel> RobustFitter::fit(ModelKind kind, const WeightedTracks& evidence) {
-  const auto size = static_cast<size_t>(least_points(kind));
+MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
+                                const std::vector<MotionModel>& known) {
+  MotionModel best;
+  double least = 1e300;
+  const auto consider = [&](const MotionModel& model) {
+    const double cost = robust_cost(model, evidence, least);
+    if (!(cost < least)) return;
+    least = cost;
+    best = model;
+  };
+  for (const MotionModel& model : known) consider(model);
   const size_t n = evidence.points.size();
-  if (size == 0) return MotionModel();
-  if (n < size) return std::nullopt;
+  if (n < 2) return best;
+  const double least_px2 = kLeastDistanceShare * kLeastDistanceShare * spread_px2(evidence.points);
+  // std::minstd_rand is the same on every machine; the distributions of <random> are not.
+  std::minstd_rand random;
+  for (int k = 0; k < kPairs; ++k) {
+    const Displacement& a = evidence.points[random() % n];
+    const Displacement& b = evidence.points[random() % n];
+    if ((b.at_px - a.at_px).squaredNorm() > least_px2) consider(through(a, b));
+  }
+  return best;
+}
 
-  Sampler sampler(evidence.weights, weight_sums_);
-  sample_.resize(size);
-  ones_.assign(size, 1.0);
-  inliers_.resize(n);
-  std::optional<Candidate> best;
-  int needed = kSamplesForEachPoint * static_cast<int>(size);
-  for (int k = 0; k < needed; ++k) {
-    for (Displacement& point : sample_) point = evidence.points[sampler.draw()];
-    const auto model = fit_model(kind, sample_, ones_);
-    if (!model) continue;
-    const double limit = best ? best->cost : 1e300;
-    const double cost = robust_cost(*model, evidence, limit);
-    if (!(cost < limit)) continue;
-    best = {*model, cost};
-    inlier_weights(best->model, evidence, inliers_);
-    refit(evidence, inliers_, *best);
-    double share = 0;
-    for (const double weight : inliers_) share += weight;
-    share /= sampler.sum();
-    needed = std::min(needed, samples_needed(share, static_cast<int>(size)));
+std::optional<MotionModel> RobustFitter::refine(ModelKind kind, const MotionModel& start,
+                                                const WeightedDisplacements& evidence) {
+  std::optional<MotionModel> model = start;
+  if (kind == ModelKind::kStill) return MotionModel();
+  weights_.resize(evidence.points.size());
+  for (int step = 0; step < kSteps && model; ++step) {
+    const double reach_px = 2 * evidence.sigma_px * std::max(1.0, std::ldexp(kFarther, -step));
+    for (size_t i = 0; i < weights_.size(); ++i) {
+      const Displacement& point = evidence.points[i];
+      const double e2 = (point.moved_px - model->displacement_px(point.at_px)).squaredNorm();
+      const double w = 1 / (1 + e2 / (reach_px * reach_px));
+      weights_[i] = evidence.weights[i] * w * w;
+    }
+    // The homography is costly, and what is far is as far from its affine part.
+    const bool far = step < kFarSteps;
+    model = fit_model(far ? std::min(kind, ModelKind::kAffine) : kind, evidence.points, weights_);
   }
-  if (!best) return std::nullopt;
-  for (int k = 0; k < kFinalRefits; ++k) {
-    if (!refit(evidence, inliers_, *best)) break;
-  }
-  return best->model;
+  return model;
 }
 
 }  // namespace spidar

@@ -1,4 +1,4 @@
-/// Models of tracks some of which belong to something else.
+/// Models of displacements some of which belong to something else.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace spidar {
 
-/// Tracks to explain.
-struct WeightedTracks {
+/// Displacements to explain.
+struct WeightedDisplacements {
   std::vector<Displacement> points;
   std::vector<double> weights;  ///< ≥ 0, one a point
   double sigma_px = 1;          ///< noise of a displacement, each coordinate, > 0
@@ -28,26 +28,27 @@ inline double point_cost(const MotionModel& model, const Displacement& point, do
 }
 
 /// Σ w ρ. Gives up above `limit` and returns something larger.
-SPIDAR_API double robust_cost(const MotionModel& model, const WeightedTracks& evidence,
+SPIDAR_API double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence,
                               double limit = 1e300);
 
-/// Finds the model of least robust_cost() among those that a bounded number of random samples lead
-/// to (MSAC: Torr and Zisserman 2000; refined locally: Chum, Matas and Kittler 2003). Points are
-/// drawn by their weights. The same evidence gives the same model, bit for bit. Keeps nothing from
-/// one fit to the next but its memory, which is enough for kMostDisplacements.
+/// Finds models of small robust_cost() in a bounded number of steps. The same evidence gives the
+/// same model, bit for bit. Takes no memory beyond that for kMostDisplacements.
 class SPIDAR_API RobustFitter {
  public:
   RobustFitter();
 
-  /// At most 32 samples a parameter pair, fewer when a good model is found early (99 % confidence).
-  /// Nothing when the points do not determine the model.
-  std::optional<MotionModel> fit(ModelKind kind, const WeightedTracks& evidence);
+  /// The best of similarities through pairs of points (MSAC: Torr and Zisserman: MLESAC, 2000) and
+  /// of the `known` models.
+  MotionModel start(const WeightedDisplacements& evidence, const std::vector<MotionModel>& known);
+
+  /// The model of that kind that iteratively reweighted least squares leads to from `start`, with
+  /// the weights of Geman and McClure, 1 / (1 + e² / 4σ²)². Nothing when the points do not
+  /// determine it.
+  std::optional<MotionModel> refine(ModelKind kind, const MotionModel& start,
+                                    const WeightedDisplacements& evidence);
 
  private:
-  std::vector<double> weight_sums_;
-  std::vector<double> inliers_;
-  std::vector<Displacement> sample_;
-  std::vector<double> ones_;
+  std::vector<double> weights_;
 };
 
 }  // namespace spidar

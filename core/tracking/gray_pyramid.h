@@ -14,7 +14,7 @@ namespace spidar {
 /// over the edge without being asked.
 class PaddedImage {
  public:
-  static constexpr int kPad_px = 16;
+  static constexpr int kPad_px = 32;
 
   /// Keeps the memory when the size is the same.
   void resize(int width, int height);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/tracking/fine_window.h"
 #include "core/tracking/followed_point.h"
 #include "core/tracking/gray_pyramid.h"
 #include "core/tracking/light_change.h"
@@ -36,12 +37,6 @@ Budget budget_of(TrackerQuality quality) {
   return {0.5, true};
 }
 
-/// Refinement in the frame is worth it from this share of the reduced picture's structure on, both
-/// over the same piece of picture: a window there has more than twice the pixels.
-constexpr float kFineStrength = 0.25f;
-constexpr int kFineWindow_px = LumaNeighbourhood::kWindow_px;
-using FineTemplate = WindowTemplate<kFineWindow_px>;
-
 /// A cut: at least kMinForCut points were looked for and fewer than this share was found.
 constexpr double kFoundAfterCut = 0.1;
 constexpr size_t kMinForCut = 10;
@@ -64,7 +59,7 @@ struct PatchTracker::Impl {
   RepeatedPicture repeated_picture;
 
   std::vector<FollowedPoint> points;  // the oldest first
-  std::vector<FineTemplate> fine;     // of the points, in the frame before; may be longer
+  std::vector<FineWindow> fine;       // of the points, in the frame before; may be longer
   PointGrid grid;
   PointChooser chooser;
   PointFollower follower;
@@ -88,7 +83,7 @@ struct PatchTracker::Impl {
   bool follow(const ImageView& frame);
   template <typename Which>
   Tally count(Which&& which) const;
-  ImagePoint place_in_frame(const FollowedPoint& point, const FineTemplate& was,
+  ImagePoint place_in_frame(const FollowedPoint& point, const FineWindow& was,
                             const ImageView& frame, float gain);
   void settle(const ImageView& frame, float gain);
   void report();
@@ -198,33 +193,16 @@ bool PatchTracker::Impl::follow(const ImageView& frame) {
   return !cut;
 }
 
-/// From the reduced picture and, if it helps, from the frame: the mean of both, each weighted by
-/// the inverse of its variance.
-ImagePoint PatchTracker::Impl::place_in_frame(const FollowedPoint& point, const FineTemplate& was,
+/// In the frame itself where that helps, else as found in the reduced picture.
+ImagePoint PatchTracker::Impl::place_in_frame(const FollowedPoint& point, const FineWindow& was,
                                               const ImageView& frame, float gain) {
   const auto scale = static_cast<float>(factor);
   const ImagePoint moved = point.match.to - point.at;
   const ImagePoint coarse{point.frame.x_px + scale * moved.x_px,
                           point.frame.y_px + scale * moved.y_px};
-  const bool has_structure =
-      uses_fine() && scale * scale * was.strength() >= kFineStrength * point.match.strength;
-  if (!has_structure) return coarse;
-
-  MatchSettings settings;
-  settings.iterations = 3;
-  settings.step_px = 0.03f;
-  settings.reach_px = 0.5f + 0.5f * scale;
-  settings.gain = gain;
-  WindowMatch match;
-  match.centre = coarse;
-  const ReadablePixels pixels = neighbourhood.around(frame, coarse, settings.reach_px);
-  if (!was.find(pixels, settings, match)) return coarse;
-  if (match.residual > PointFollower::kSameThing) return coarse;
-  const float coarse_px2 = scale * scale * point.match.variance_px2;
-  const float both_px2 = coarse_px2 + match.variance_px2;
-  const float share = both_px2 > 0 ? coarse_px2 / both_px2 : 1;
-  return {coarse.x_px + share * (match.centre.x_px - coarse.x_px),
-          coarse.y_px + share * (match.centre.y_px - coarse.y_px)};
+  if (!uses_fine()) return coarse;
+  return was.place(neighbourhood, frame, factor,
+                   {coarse, point.match.variance_px2, point.match.strength, gain});
 }
 
 /// Brings the points to the new frame.
@@ -278,7 +256,7 @@ void PatchTracker::Impl::read_fine_templates(const ImageView& frame) {
   if (fine.size() < points.size()) fine.resize(points.size());
   if (!uses_fine()) return;
   for (size_t i = 0; i < points.size(); ++i) {
-    fine[i].read(neighbourhood.around(frame, points[i].frame, 0), points[i].frame);
+    fine[i].read(neighbourhood, frame, points[i].frame);
   }
 }
 

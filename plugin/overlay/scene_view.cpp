@@ -6,7 +6,7 @@
 namespace spidar {
 namespace {
 
-/// The limit of ObjectTracker: what is further from the background moves by itself.
+/// What is further from the background moves by itself.
 constexpr double kMovingSigmas = 3;
 
 bool by_id(const SceneTrack& a, const SceneTrack& b) {
@@ -21,8 +21,7 @@ bool has(const std::vector<SceneTrack>& sorted, uint32_t id) {
 
 bool is_in_box(const MovingObject& object, const Eigen::Vector2d& at_px) {
   const Eigen::Vector2d distance_px = (at_px - object.position_px).cwiseAbs();
-  const Eigen::Vector2d reach_px = (object.size_px.array() / 2 + MovingObject::kMargin_px).matrix();
-  return (distance_px.array() <= reach_px.array()).all();
+  return (distance_px.array() <= object.size_px.array() / 2).all();
 }
 
 }  // namespace

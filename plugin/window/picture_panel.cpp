@@ -47,8 +47,7 @@ void draw_objects(const Brush& brush, const PictureMap& map, const FrameFacts& f
                                   visible.y + 0.5 * (visible.height - 1));
   for (const MovingObject& object : facts.scene.objects) {
     if (object.tracks == 0) continue;
-    const Eigen::Vector2d half_px =
-        (object.size_px.array() / 2 + MovingObject::kMargin_px).matrix();
+    const Eigen::Vector2d half_px = object.size_px / 2;
     const ImVec2 low = im(map(centre_px + object.position_px - half_px));
     const ImVec2 high = im(map(centre_px + object.position_px + half_px));
     brush.list.AddRect(low, high, kObjectColor, 0, 0, static_cast<float>(brush.scale));

@@ -43,17 +43,18 @@ class HardFrames : public testing::TestWithParam<NamedTracker> {
       test::Film film = test::motion_case(name).film(kWidth, kHeight, seed);
       const std::unique_ptr<Tracker> tracker = GetParam().make();
       MotionEstimator estimator;
+      ReducedFrame reduced;
       for (int n = 0; n < kFrames; ++n) {
-        const TrackedFrame& tracked = tracker->track(film.draw(n));
+        const ImageView frame = film.draw(n);
+        const TrackedFrame& tracked = tracker->track(frame);
+        reduced.read(frame);
+        const SceneMotion scene =
+            estimator.estimate(MotionKind::kObject, frame, reduced, {&tracked, {}}, kFrame_ns);
         if (tracked.restarted) {
           EXPECT_TRUE(tracked.tracks.empty()) << "frame " << n;
-          estimator.reset();
-          continue;
         }
         const ImageMotion mean = mean_motion(tracked.tracks, kFrame_ns);
         EXPECT_EQ(mean.velocity_px_s, Eigen::Vector2d(0, 0)) << "frame " << n;
-        const SceneMotion scene =
-            estimator.estimate(MotionKind::kObject, tracked.tracks, kWidth, kHeight, kFrame_ns);
         EXPECT_EQ(scene.felt.velocity_px_s, Eigen::Vector2d(0, 0)) << "frame " << n;
         EXPECT_EQ(scene.camera.velocity_px_s, Eigen::Vector2d(0, 0)) << "frame " << n;
         EXPECT_EQ(scene.objects, 0) << "frame " << n;

@@ -59,57 +59,32 @@ TEST(NoAllocation, PoseSolver) {
 constexpr int kWidth = 640;
 constexpr int kHeight = 360;
 
-Track as_track(const Displacement& point) {
-  const Eigen::Vector2d middle((kWidth - 1) / 2.0, (kHeight - 1) / 2.0);
-  const Eigen::Vector2f from = (middle + point.at_px).cast<float>();
-  const Eigen::Vector2f to = (middle + point.at_px + point.moved_px).cast<float>();
-  return {point.id, {from.x(), from.y()}, {to.x(), to.y()}};
-}
-
-/// A frame of a lively scene: the camera changes its kind every ten frames, objects enter and leave
-/// again, there are strays, and now and then there are more tracks than are looked at, or none.
-std::vector<Track> lively_frame(TrackSource& source, int n) {
-  std::vector<Track> tracks;
-  if (n % 37 == 36) return tracks;
-  const MotionModel camera = sample_model(static_cast<ModelKind>(n / 10 % kModelKinds));
-  const int count = n % 23 == 22 ? 900 : 150;
-  for (const Displacement& point : source.moved(camera, count, 0.1)) {
-    tracks.push_back(as_track(point));
-  }
-  for (int k = 0; k < n / 5 % 6; ++k) {
-    MotionModel own;
-    own.kind = ModelKind::kSimilarity;
-    own.shift_px << 8 - 3 * k, k % 2 == 0 ? 9 : -9;
-    own.linear << 0.03 * k, -0.02, 0.02, 0.03 * k;
-    const Eigen::Vector2d middle(-250 + 100 * k, 20 * k - 50);
-    for (uint32_t i = 0; i < 12; ++i) {
-      const double dx = source.uniform(-30, 30);
-      Displacement point =
-          source.moved(own, middle + Eigen::Vector2d(dx, source.uniform(-30, 30)), 0.1);
-      point.id = 1'000'000 + 100 * static_cast<uint32_t>(k) + i;
-      tracks.push_back(as_track(point));
-    }
-  }
-  for (int i = 0; i < 20; ++i) tracks.push_back(as_track(source.stray()));
-  return tracks;
-}
-
+/// A lively scene: the camera does something else every ten frames, discs come and go.
 TEST(NoAllocation, Motion) {
-  for (const MotionKind kind :
-       {MotionKind::kMean, MotionKind::kObject, MotionKind::kObjects, MotionKind::kCamera}) {
-    TrackSource source(3);
+  // Regions and objects come and go: after a turn of the scene all memory has been used once.
+  constexpr int kTurn = 60;
+  for (const MotionKind kind : {MotionKind::kObject, MotionKind::kObjects, MotionKind::kCamera}) {
+    MovingScene scene(kWidth, kHeight);
+    for (const double radius_px : {50.0, 40.0, 30.0}) scene.add_disc(radius_px);
     MotionEstimator estimator;
+    ReducedFrame reduced;
     int most_objects = 0;
-    for (int n = 0; n < 150; ++n) {
-      const std::vector<Track> tracks = lively_frame(source, n);
-      if (n % 60 == 59) estimator.reset();
+    for (int n = 0; n < 3 * kTurn; ++n) {
+      const int t = n % kTurn;
+      const Placement camera{
+          {1.5 * t, 0}, t > 20 ? 1 + 0.01 * (t - 20) : 1, t > 40 ? 0.01 * (t - 40) : 0};
+      const double x_px = -300 + 10 * t;
+      const ImageView picture = scene.draw(camera, {{{x_px, 100}}, {{-x_px, -100}}, {{x_px, -20}}});
+      if (t == kTurn - 1) estimator.reset();
       const size_t before = allocations;
-      const SceneMotion scene = estimator.estimate(kind, tracks, kWidth, kHeight, 40'000'000);
-      ASSERT_EQ(allocations, before) << "motion " << static_cast<int>(kind) << ", frame " << n;
-      most_objects = std::max(most_objects, scene.objects);
+      reduced.read(picture);
+      const SceneMotion found = estimator.estimate(kind, picture, reduced, {}, 40'000'000);
+      if (n >= kTurn) {
+        ASSERT_EQ(allocations, before) << "motion " << static_cast<int>(kind) << ", frame " << n;
+      }
+      most_objects = std::max(most_objects, found.objects);
     }
-    const bool looks_for_objects = kind == MotionKind::kObject || kind == MotionKind::kObjects;
-    EXPECT_EQ(most_objects > 2, looks_for_objects) << "the scene is lively";
+    EXPECT_EQ(most_objects > 1, kind != MotionKind::kCamera) << "the scene is lively";
   }
 }
 

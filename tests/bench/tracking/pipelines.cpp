@@ -7,11 +7,14 @@
 namespace spidar::bench {
 namespace {
 
-std::unique_ptr<Tracker> make_patch(TrackerQuality quality, int points = 200) {
+std::unique_ptr<Tracker> make_patch(int points) {
   TrackerSettings settings;
-  settings.quality = quality;
   settings.max_features = points;
   return std::make_unique<PatchTracker>(settings);
+}
+
+std::unique_ptr<Tracker> make_nothing() {
+  return nullptr;
 }
 
 }  // namespace
@@ -20,15 +23,11 @@ const std::vector<Pipeline>& pipelines() {
   static const std::vector<Pipeline> all = {
       {"naive", "naive wiring of OpenCV", false, make_naive},
       {"opencv", "tracker=opencv", true, [] { return std::make_unique<OpenCvTracker>(); }},
-      {"fast", "tracker=patch quality=fast", true,
-       [] { return make_patch(TrackerQuality::kFast); }},
-      {"balanced", "tracker=patch", true, [] { return make_patch(TrackerQuality::kBalanced); }},
-      {"fine", "tracker=patch quality=fine", true,
-       [] { return make_patch(TrackerQuality::kFine); }},
-      {"points-50", "tracker=patch max-features=50", true,
-       [] { return make_patch(TrackerQuality::kBalanced, 50); }},
-      {"points-400", "tracker=patch max-features=400", true,
-       [] { return make_patch(TrackerQuality::kBalanced, 400); }},
+      {"fast", "motion=object quality=fast", true, make_nothing, FieldPoints::Settings{64, false}},
+      {"balanced", "motion=object", true, make_nothing, FieldPoints::Settings{64, true}},
+      {"fine", "motion=object quality=fine", true, make_nothing, FieldPoints::Settings{200, true}},
+      {"patch", "tracker=patch of motion=mean", true, [] { return make_patch(200); }},
+      {"patch-400", "the same with max-features=400", true, [] { return make_patch(400); }},
       {"dis", "DIS ultrafast at 480 px", true, make_dis_ultrafast},
       {"farneback", "Farneback at 480 px", true, make_farneback},
       {"phase", "phase correlation at 480 px", true, make_phase_correlation},

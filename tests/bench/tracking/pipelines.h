@@ -3,9 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/field/field_points.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar::bench {
@@ -17,6 +19,9 @@ struct Pipeline {
   /// where another one went.
   bool keeps_ids;
   std::function<std::unique_ptr<Tracker>()> make;
+  /// Points that the motion of objects takes beside its field of blocks, instead of a tracker's.
+  /// The tracks are then those points and the blocks that have none.
+  std::optional<FieldPoints::Settings> own_points = std::nullopt;
 };
 
 const std::vector<Pipeline>& pipelines();

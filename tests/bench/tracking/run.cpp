@@ -39,28 +39,34 @@ void Runner::link(int height) {
 
 void Runner::run(const test::Film& film, const std::vector<test::Picture>& frames, bool errors,
                  Score& score) {
-  tracker_->restart();
+  if (tracker_) tracker_->restart();
   motion_.reset();
+  reduced_.restart();
   before_.clear();
   int looked_for = 0;
   for (size_t n = 0; n < frames.size(); ++n) {
     const int frame = static_cast<int>(n);
+    const ImageView view = frames[n].view();
     const double begin_ms = thread_time_ms();
-    const TrackedFrame* tracked = &tracker_->track(frames[n].view());
+    const TrackedFrame* tracked = tracker_ ? &tracker_->track(view) : nullptr;
     double ms = thread_time_ms() - begin_ms;
-    if (!pipeline_->keeps_ids) {
+    if (tracked && !pipeline_->keeps_ids) {
       linked_ = *tracked;
       link(film.height());
       tracked = &linked_;
     }
-    SceneMotion scene;
-    if (tracked->restarted) {
-      motion_.reset();
-    } else {
-      const double middle_ms = thread_time_ms();
-      scene = motion_.estimate(MotionKind::kObject, tracked->tracks, film.width(), film.height(),
-                               kFrame_ns);
-      ms += thread_time_ms() - middle_ms;
+    const double middle_ms = thread_time_ms();
+    reduced_.read(view);
+    const SceneMotion scene = motion_.estimate(
+        MotionKind::kObject, view, reduced_,
+        {tracked, pipeline_->own_points.value_or(FieldPoints::Settings())}, kFrame_ns);
+    ms += thread_time_ms() - middle_ms;
+    if (!tracked) {
+      own_.restarted = scene.restarted;
+      own_.features = scene.features;
+      own_.tracks.clear();
+      if (scene.tracks) own_.tracks = *scene.tracks;
+      tracked = &own_;
     }
     if (n > 0) score.ms.push_back(ms);
     if (n > 0 && errors) {
@@ -77,12 +83,28 @@ void Runner::run(const test::Film& film, const std::vector<test::Picture>& frame
 }
 
 void Runner::run(const FlowPair& pair, Score& score) {
-  tracker_->restart();
-  const int looked_for = tracker_->track(pair.before.view()).features;
-  score.add_tracks(
-      tracker_->track(pair.after.view()), looked_for,
-      [&](const Eigen::Vector2d& from_px) { return pair.truth.at(from_px.x(), from_px.y()); },
-      kReferenceWidth_px / pair.before.width);
+  const auto truth = [&](const Eigen::Vector2d& from_px) {
+    return pair.truth.at(from_px.x(), from_px.y());
+  };
+  const double unit = kReferenceWidth_px / pair.before.width;
+  if (tracker_) {
+    tracker_->restart();
+    const int looked_for = tracker_->track(pair.before.view()).features;
+    score.add_tracks(tracker_->track(pair.after.view()), looked_for, truth, unit);
+    return;
+  }
+  motion_.reset();
+  reduced_.restart();
+  const MotionEstimator::Points points{nullptr, *pipeline_->own_points};
+  for (const test::Picture* picture : {&pair.before, &pair.after}) {
+    reduced_.read(picture->view());
+    const SceneMotion scene =
+        motion_.estimate(MotionKind::kObject, picture->view(), reduced_, points, kFrame_ns);
+    if (!scene.tracks) continue;
+    own_.tracks = *scene.tracks;
+    own_.features = scene.features;
+  }
+  score.add_tracks(own_, static_cast<int>(own_.tracks.size()), truth, unit);
 }
 
 std::vector<Score> run_all(std::deque<Runner>& runners, const test::Film& film,

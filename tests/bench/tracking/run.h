@@ -33,7 +33,9 @@ class Runner {
   const Pipeline* pipeline_;
   std::unique_ptr<Tracker> tracker_;
   MotionEstimator motion_;
+  ReducedFrame reduced_;
   TrackedFrame linked_;
+  TrackedFrame own_;  ///< of a pipeline without a tracker
   std::vector<Track> before_;
   uint32_t next_id_ = 0;
 };

@@ -1,0 +1,291 @@
+#include "core/field/block_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace spidar {
+namespace {
+
+/// Added to the diagonal of the structure tensor, (grey / px)²: where there is hardly texture the
+/// whole pixel stays.
+constexpr float kRegularization = 2;
+/// The search is right to half a pixel or it is wrong.
+constexpr float kMostStep_px = 1;
+/// The coarse picture's pixels are so many of the picture's.
+constexpr int kCoarser = 4;
+/// What difference_if_moved() may read around a block.
+constexpr int kReach_px = PaddedImage::kPad_px - 2;
+
+/// Mean and contrast of two pictures of one size, grey levels.
+struct LightChange {
+  double mean_before = 0;
+  double mean_now = 0;
+  double gain = 1;
+
+  bool is_noticed() const {
+    constexpr double kNoticed_grey = 1.5;
+    constexpr double kNoticedGain = 0.03;
+    return std::abs(mean_now - mean_before) > kNoticed_grey || std::abs(gain - 1) > kNoticedGain;
+  }
+};
+
+void mean_and_variance(const PaddedImage& picture, double& mean, double& variance) {
+  int64_t sum = 0;
+  int64_t squares = 0;
+  for (int y = 0; y < picture.height(); ++y) {
+    const uint8_t* row = picture.row(y);
+    int row_sum = 0;
+    int row_squares = 0;
+    for (int x = 0; x < picture.width(); ++x) {
+      row_sum += row[x];
+      row_squares += row[x] * row[x];
+    }
+    sum += row_sum;
+    squares += row_squares;
+  }
+  const auto n = static_cast<double>(picture.width()) * picture.height();
+  mean = static_cast<double>(sum) / n;
+  variance = static_cast<double>(squares) / n - mean * mean;
+}
+
+LightChange light_change(const PaddedImage& before, const PaddedImage& now) {
+  LightChange change;
+  double variance_before = 0;
+  double variance_now = 0;
+  mean_and_variance(before, change.mean_before, variance_before);
+  mean_and_variance(now, change.mean_now, variance_now);
+  // Below a grey level there is nothing but rounding to compare.
+  if (variance_before >= 1 && variance_now >= 1) {
+    change.gain = std::sqrt(variance_now / variance_before);
+  }
+  return change;
+}
+
+/// Whether `before` with its values replaced is clearly more like `now`.
+bool makes_alike(const PaddedImage& before, const PaddedImage& now,
+                 const std::array<uint8_t, 256>& table) {
+  constexpr double kAlike = 0.8;
+  int64_t as_it_was = 0;
+  int64_t replaced = 0;
+  for (int y = 0; y < now.height(); ++y) {
+    const uint8_t* p = before.row(y);
+    const uint8_t* q = now.row(y);
+    for (int x = 0; x < now.width(); ++x) {
+      as_it_was += std::abs(q[x] - p[x]);
+      replaced += std::abs(q[x] - table[p[x]]);
+    }
+  }
+  return static_cast<double>(replaced) < kAlike * static_cast<double>(as_it_was);
+}
+
+void replace_values(const std::array<uint8_t, 256>& table, PaddedImage& picture) {
+  for (int y = 0; y < picture.height(); ++y) {
+    uint8_t* row = picture.row(y);
+    for (int x = 0; x < picture.width(); ++x) row[x] = table[row[x]];
+  }
+  picture.repeat_border();
+}
+
+/// A cut leaves at least this difference a pixel, after the best match of each block …
+constexpr int kLeastCut_grey = 5;
+/// … and this share of that of a block's pixels from their mean.
+constexpr double kCutShare = 0.6;
+
+/// Σ |pixel − mean| of a block.
+int difference_from_mean(const PaddedImage& picture, int x_px, int y_px) {
+  int sum = 0;
+  for (int y = 0; y < kBlock_px; ++y) {
+    const uint8_t* row = picture.row(y_px + y) + x_px;
+    for (int x = 0; x < kBlock_px; ++x) sum += row[x];
+  }
+  const int mean = (sum + kBlockArea_px / 2) / kBlockArea_px;
+  int difference = 0;
+  for (int y = 0; y < kBlock_px; ++y) {
+    const uint8_t* row = picture.row(y_px + y) + x_px;
+    for (int x = 0; x < kBlock_px; ++x) difference += std::abs(row[x] - mean);
+  }
+  return difference;
+}
+
+}  // namespace
+
+float MotionBlock::weakest_texture() const {
+  const float unequal = xx - yy;
+  return (xx + yy - std::sqrt(unequal * unequal + 4 * xy * xy)) / 2;
+}
+
+void BlockField::resize(const PaddedImage& base) {
+  base_width_ = base.width();
+  base_height_ = base.height();
+  scale_ = field_scale(base_width_, base_height_);
+  has_picture_ = false;
+}
+
+BlockField::Result BlockField::update(const PaddedImage& base) {
+  if (base.width() != base_width_ || base.height() != base_height_) resize(base);
+  std::swap(before_, now_);
+  std::swap(coarse_before_, coarse_now_);
+  reduce_to_field(base, scale_, now_);
+  reduce_blocks(now_.view(), kCoarser, coarse_now_);
+  coarse_now_.repeat_border();
+  if (!has_picture_) {
+    has_picture_ = true;
+    grid_ = BlockGrid::over(now_.width(), now_.height());
+    matches_.assign(static_cast<size_t>(grid_.size()), BlockMatch());
+    coarse_grid_ = BlockGrid::over(coarse_now_.width(), coarse_now_.height());
+    coarse_matches_.assign(static_cast<size_t>(coarse_grid_.size()), BlockMatch());
+    blocks_.assign(static_cast<size_t>(grid_.size()), MotionBlock());
+    before_.resize(now_.width(), now_.height());
+    return Result::kFirst;
+  }
+  compensate_light();
+  find_hints();
+  search_.find(before_, now_, grid_, hints_, matches_);
+  if (is_cut()) {
+    stand_still();
+    return Result::kCut;
+  }
+  for (size_t i = 0; i < blocks_.size(); ++i) refine(i);
+  return Result::kMoved;
+}
+
+/// Blocks of another picture fit hardly better than their own mean does.
+bool BlockField::is_cut() const {
+  int64_t between = 0;
+  for (const BlockMatch& match : matches_) between += match.difference;
+  const auto pixels = static_cast<int64_t>(grid_.size()) * kBlockArea_px;
+  if (between < kLeastCut_grey * pixels) return false;
+  int64_t within = 0;
+  for (int row = 0; row < grid_.rows; ++row) {
+    for (int column = 0; column < grid_.columns; ++column) {
+      within += difference_from_mean(now_, grid_.x_px(column), grid_.y_px(row));
+    }
+  }
+  return static_cast<double>(between) > kCutShare * static_cast<double>(within);
+}
+
+/// Where the light of the whole picture has changed, the picture before is given that of now: a
+/// lamp that flickers, a fade, a shutter. It has, if that makes the two more alike.
+void BlockField::compensate_light() {
+  const LightChange change = light_change(coarse_before_, coarse_now_);
+  if (!change.is_noticed()) return;
+  std::array<uint8_t, 256> table;
+  for (size_t v = 0; v < table.size(); ++v) {
+    const double value = change.gain * (static_cast<double>(v) - change.mean_before);
+    table[v] = static_cast<uint8_t>(std::clamp(value + change.mean_now + 0.5, 0.0, 255.0));
+  }
+  if (!makes_alike(coarse_before_, coarse_now_, table)) return;
+  replace_values(table, coarse_before_);
+  replace_values(table, before_);
+}
+
+/// Blocks of a quarter of the resolution cover four by four: where something has jumped they find
+/// it, as far as all others look.
+void BlockField::find_hints() {
+  hints_.clear();
+  if (coarse_grid_.size() == 0) return;
+  search_.find(coarse_before_, coarse_now_, coarse_grid_, hints_, coarse_matches_);
+  const auto coarse_place = [](int centre_px, int begin_px, int count) {
+    const int place = (centre_px / kCoarser - begin_px) / kBlock_px;
+    return std::min(std::max(place, 0), count - 1);
+  };
+  for (int row = 0; row < grid_.rows; ++row) {
+    for (int column = 0; column < grid_.columns; ++column) {
+      const int i = coarse_place(grid_.x_px(column) + kBlock_px / 2, coarse_grid_.left_px,
+                                 coarse_grid_.columns);
+      const int j =
+          coarse_place(grid_.y_px(row) + kBlock_px / 2, coarse_grid_.top_px, coarse_grid_.rows);
+      BlockMatch hint = coarse_matches_[static_cast<size_t>(j * coarse_grid_.columns + i)];
+      hint.dx = static_cast<int16_t>(kCoarser * hint.dx);
+      hint.dy = static_cast<int16_t>(kCoarser * hint.dy);
+      hints_.push_back(hint);
+    }
+  }
+}
+
+void BlockField::stand_still() {
+  for (BlockMatch& match : matches_) match = BlockMatch();
+  for (MotionBlock& block : blocks_) {
+    block.moved_x_px = 0;
+    block.moved_y_px = 0;
+    block.residual = 0;
+    block.difference = 0;
+  }
+}
+
+void BlockField::refine(size_t index) {
+  const BlockMatch& match = matches_[index];
+  const int column = static_cast<int>(index) % grid_.columns;
+  const int row = static_cast<int>(index) / grid_.columns;
+  const int x_px = grid_.x_px(column);
+  const int y_px = grid_.y_px(row);
+  const BlockSums s =
+      vectors::compare_blocks({now_.row(y_px) + x_px, now_.stride()},
+                              {before_.row(y_px + match.dy) + x_px + match.dx, before_.stride()});
+
+  // Derivatives are 1/4 of the sums' units. An offset common to all pixels is not motion.
+  constexpr float kPixels = kBlockArea_px;
+  const auto mean = [](int32_t sum) { return static_cast<float>(sum) / kPixels; };
+  const float gx = mean(s.x);
+  const float gy = mean(s.y);
+  const float d = mean(s.difference);
+  MotionBlock& block = blocks_[index];
+  block.xx = (mean(s.xx) - gx * gx) / 16;
+  block.xy = (mean(s.xy) - gx * gy) / 16;
+  block.yy = (mean(s.yy) - gy * gy) / 16;
+  const float xd = (mean(s.xd) - gx * d) / 4;
+  const float yd = (mean(s.yd) - gy * d) / 4;
+  const float dd = mean(s.squared) - d * d;
+
+  // now(p) = before(p + from − e): e = −(Σ g gᵀ)⁻¹ Σ g d.
+  const float a = block.xx + kRegularization;
+  const float b = block.yy + kRegularization;
+  const float determinant = a * b - block.xy * block.xy;
+  const auto clamp = [](float step_px) {
+    return std::min(std::max(step_px, -kMostStep_px), kMostStep_px);
+  };
+  const float ex = clamp(-(b * xd - block.xy * yd) / determinant);
+  const float ey = clamp(-(a * yd - block.xy * xd) / determinant);
+  block.x_px = static_cast<float>(x_px) + 0.5f * static_cast<float>(kBlock_px - now_.width());
+  block.y_px = static_cast<float>(y_px) + 0.5f * static_cast<float>(kBlock_px - now_.height());
+  block.moved_x_px = ex - static_cast<float>(match.dx);
+  block.moved_y_px = ey - static_cast<float>(match.dy);
+  const float left = dd + 2 * (ex * xd + ey * yd) + ex * ex * block.xx + 2 * ex * ey * block.xy +
+                     ey * ey * block.yy;
+  block.residual = std::max(0.0f, left);
+  block.difference = match.difference;
+}
+
+int BlockField::difference_if_moved(int block, float x_px, float y_px) const {
+  const int left = grid_.x_px(block % grid_.columns);
+  const int top = grid_.y_px(block / grid_.columns);
+  const float from_x = static_cast<float>(left) - x_px;
+  const float from_y = static_cast<float>(top) - y_px;
+  if (!(std::abs(x_px) < 4096 && std::abs(y_px) < 4096)) return -1;
+  const int x = static_cast<int>(std::floor(from_x));
+  const int y = static_cast<int>(std::floor(from_y));
+  if (x < -kReach_px || y < -kReach_px || x + 1 + kBlock_px > now_.width() + kReach_px ||
+      y + 1 + kBlock_px > now_.height() + kReach_px) {
+    return -1;
+  }
+  const auto share = [](float fraction) {
+    return static_cast<int>(fraction * kFractionOne + 0.5f);
+  };
+  const BlockPixels here{now_.row(top) + left, now_.stride()};
+  const auto there = [&](int j, int i) {
+    return BlockPixels{before_.row(y + j) + x + i, before_.stride()};
+  };
+  int least = vectors::bilinear_difference(here, there(0, 0), share(from_x - static_cast<float>(x)),
+                                           share(from_y - static_cast<float>(y)));
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      least = std::min(least, vectors::block_difference(here, there(j, i), least));
+    }
+  }
+  return least;
+}
+
+}  // namespace spidar

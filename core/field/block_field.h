@@ -1,0 +1,89 @@
+/// How each part of the picture moves, from one frame to the next.
+#pragma once
+
+#include <vector>
+
+#include "core/field/block_kernels.h"
+#include "core/field/block_search.h"
+#include "core/field/field_picture.h"
+
+namespace spidar {
+
+/// A block of kBlock_px × kBlock_px pixels of the picture that the field looks at. Lengths in
+/// pixels of that picture, the origin its centre; x right, y down.
+struct MotionBlock {
+  float x_px = 0;  ///< of its centre
+  float y_px = 0;
+  float moved_x_px = 0;  ///< since the picture before
+  float moved_y_px = 0;
+  /// Structure tensor, mean over the block and free of a common slope, (grey / px)².
+  float xx = 0;
+  float xy = 0;
+  float yy = 0;
+  /// What its motion leaves unexplained: mean squared difference, free of a common offset, grey².
+  float residual = 0;
+  int difference = 0;  ///< Σ |now − before| at the nearest whole pixel
+
+  float texture() const { return xx + yy; }
+  /// Smaller eigenvalue of the structure tensor: how well the motion along an edge is known, too.
+  float weakest_texture() const;
+};
+
+/// Block motion between two pictures of about 427 × 240 px: whole pixels by BlockSearch, then one
+/// Gauss–Newton step with the derivatives of both pictures, which makes it second-order exact
+/// (Benhimane and Malis: Real-time image-based tracking of planes using efficient second-order
+/// minimization, IROS 2004).
+class BlockField {
+ public:
+  enum class Result {
+    kFirst,  ///< nothing to compare it with: the first picture, or one of another size
+    kCut,    ///< a picture of something else; like kFirst, all blocks stand still
+    kMoved,
+  };
+
+  /// `base` is the picture of the frame reduced by a power of 2.
+  Result update(const PaddedImage& base);
+
+  /// The same picture again: nothing has moved.
+  void stand_still();
+
+  /// Forgets the picture before.
+  void restart() { has_picture_ = false; }
+  bool has_picture() const { return has_picture_; }
+
+  const PaddedImage& picture() const { return now_; }
+  const BlockGrid& grid() const { return grid_; }
+  /// Row by row; of the last update().
+  const std::vector<MotionBlock>& blocks() const { return blocks_; }
+  /// Pixels of the base to one of the picture.
+  double scale() const { return pixels_to_one(scale_); }
+
+  /// Σ |now − before| of a block if it had moved by (`x_px`, `y_px`): the smallest of the nearest
+  /// whole pixels and the exact place. Negative when that is out of reach.
+  int difference_if_moved(int block, float x_px, float y_px) const;
+
+ private:
+  void resize(const PaddedImage& base);
+  void compensate_light();
+  void find_hints();
+  bool is_cut() const;
+  void refine(size_t index);
+
+  FieldScale scale_ = FieldScale::kSame;
+  int base_width_ = 0;
+  int base_height_ = 0;
+  bool has_picture_ = false;
+  PaddedImage before_;
+  PaddedImage now_;
+  BlockGrid grid_;
+  BlockSearch search_;
+  PaddedImage coarse_before_;  ///< a quarter of the picture's sides
+  PaddedImage coarse_now_;
+  BlockGrid coarse_grid_;
+  std::vector<BlockMatch> coarse_matches_;
+  std::vector<BlockMatch> hints_;
+  std::vector<BlockMatch> matches_;
+  std::vector<MotionBlock> blocks_;
+};
+
+}  // namespace spidar

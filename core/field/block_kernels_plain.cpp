@@ -1,0 +1,56 @@
+#include <cstdlib>
+
+#include "core/field/block_kernels.h"
+
+namespace spidar::plain {
+
+int block_difference(BlockPixels a, BlockPixels b, int limit) {
+  int sum = 0;
+  for (int y = 0; y < kBlock_px; ++y) {
+    if (y == kBlock_px / 2 && sum >= limit) return sum;
+    for (int x = 0; x < kBlock_px; ++x) {
+      sum += std::abs(a.pixels[y * a.stride + x] - b.pixels[y * b.stride + x]);
+    }
+  }
+  return sum;
+}
+
+int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y) {
+  int sum = 0;
+  for (int y = 0; y < kBlock_px; ++y) {
+    for (int x = 0; x < kBlock_px; ++x) {
+      const uint8_t* p = before.pixels + y * before.stride + x;
+      const uint8_t* q = p + before.stride;
+      const int upper = (kFractionOne - fraction_x) * p[0] + fraction_x * p[1];
+      const int lower = (kFractionOne - fraction_x) * q[0] + fraction_x * q[1];
+      const int value = ((kFractionOne - fraction_y) * upper + fraction_y * lower + 128) >> 8;
+      sum += std::abs(value - now.pixels[y * now.stride + x]);
+    }
+  }
+  return sum;
+}
+
+BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
+  BlockSums sums;
+  for (int y = 0; y < kBlock_px; ++y) {
+    for (int x = 0; x < kBlock_px; ++x) {
+      const uint8_t* p = now.pixels + y * now.stride + x;
+      const uint8_t* q = before.pixels + y * before.stride + x;
+      const int gx = p[1] - p[-1] + q[1] - q[-1];
+      const int gy = p[now.stride] - p[-now.stride] + q[before.stride] - q[-before.stride];
+      const int d = p[0] - q[0];
+      sums.xx += gx * gx;
+      sums.xy += gx * gy;
+      sums.yy += gy * gy;
+      sums.x += gx;
+      sums.y += gy;
+      sums.xd += gx * d;
+      sums.yd += gy * d;
+      sums.difference += d;
+      sums.squared += d * d;
+    }
+  }
+  return sums;
+}
+
+}  // namespace spidar::plain

@@ -1,0 +1,217 @@
+#include "core/field/block_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <limits>
+
+#include "core/field/block_kernels.h"
+
+namespace spidar {
+namespace {
+
+/// What a pixel of deviation from the neighbours' median has to gain: an eighth of a grey level for
+/// each pixel of the block, up to kMostDeviation_px.
+constexpr int kLambda = kBlockArea_px / 8;
+constexpr int kMostDeviation_px = 8;
+/// A block that differs by no more than a grey level a pixel is not improved.
+constexpr int kGoodDifference = kBlockArea_px;
+/// From three grey levels a pixel on it may have jumped: see the hints.
+constexpr int kDoubtfulDifference = 3 * kBlockArea_px;
+/// From eight grey levels a pixel on nothing fits: it is looked for further afield.
+constexpr int kBadDifference = 8 * kBlockArea_px;
+constexpr int kFarthest_px = 16;
+constexpr int kNearest_px = 4;
+constexpr int kMostSteps = 8;
+/// Blocks may reach over the rim by the padding less what compare_blocks() and the interpolation
+/// read around them.
+constexpr int kReach_px = PaddedImage::kPad_px - 2;
+
+struct Vector {
+  int dx;
+  int dy;
+  bool operator==(const Vector& o) const { return dx == o.dx && dy == o.dy; }
+};
+
+int middle(int a, int b, int c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+/// The search of one block.
+class Walk {
+ public:
+  Walk(const PaddedImage& before, BlockPixels block, int x_px, int y_px)
+      : before_(before),
+        block_(block),
+        origin_(before.row(y_px) + x_px),
+        low_{-x_px - kReach_px, -y_px - kReach_px},
+        high_{before.width() + kReach_px - kBlock_px - x_px,
+              before.height() + kReach_px - kBlock_px - y_px} {}
+
+  void expect(Vector expected) { expected_ = expected; }
+
+  /// Each vector once.
+  void add_candidate(Vector v) {
+    v = inside(v);
+    const auto end = candidates_.begin() + count_;
+    if (std::find(candidates_.begin(), end, v) == end)
+      candidates_[static_cast<size_t>(count_++)] = v;
+  }
+
+  void try_candidates() {
+    for (int i = 0; i < count_; ++i) try_at(candidates_[static_cast<size_t>(i)]);
+  }
+
+  void try_hint(Vector hint) { try_at(inside(hint)); }
+
+  /// Every second pixel around rest: for the few blocks of a coarse picture.
+  void search_everywhere() {
+    for (int dy = -kFarthest_px; dy <= kFarthest_px; dy += 2) {
+      for (int dx = -kFarthest_px; dx <= kFarthest_px; dx += 2) try_at(inside({dx, dy}));
+    }
+  }
+
+  void search_far() {
+    static constexpr std::array<Vector, 8> kAround{
+        {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
+    for (int step = kFarthest_px; step >= kNearest_px; step /= 2) {
+      const Vector from = best_;
+      for (const Vector& v : kAround) {
+        try_at(inside({from.dx + step * v.dx, from.dy + step * v.dy}));
+      }
+    }
+  }
+
+  /// One pixel at a time, never back to where it came from.
+  void walk_downhill() {
+    static constexpr std::array<Vector, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    int came_by = -1;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Vector from = best_;
+      int taken = -1;
+      for (int k = 0; k < 4; ++k) {
+        if (came_by >= 0 && k == (came_by + 2) % 4) continue;
+        const Vector& v = kSteps[static_cast<size_t>(k)];
+        const Vector to{from.dx + v.dx, from.dy + v.dy};
+        if (inside(to) == to && try_at(to)) taken = k;
+      }
+      if (taken < 0) return;
+      came_by = taken;
+    }
+  }
+
+  int difference() const { return difference_; }
+  BlockMatch match() const {
+    return {static_cast<int16_t>(best_.dx), static_cast<int16_t>(best_.dy), difference_};
+  }
+
+ private:
+  Vector inside(Vector v) const {
+    return {std::min(std::max(v.dx, low_.dx), high_.dx),
+            std::min(std::max(v.dy, low_.dy), high_.dy)};
+  }
+
+  bool try_at(Vector v) {
+    const int deviation_px = std::abs(v.dx - expected_.dx) + std::abs(v.dy - expected_.dy);
+    const int dearer = kLambda * std::min(deviation_px, kMostDeviation_px);
+    if (dearer >= cost_) return false;
+    const BlockPixels there{origin_ + v.dy * before_.stride() + v.dx, before_.stride()};
+    const int difference = vectors::block_difference(block_, there, cost_ - dearer);
+    if (difference + dearer >= cost_) return false;
+    cost_ = difference + dearer;
+    difference_ = difference;
+    best_ = v;
+    return true;
+  }
+
+  const PaddedImage& before_;
+  BlockPixels block_;
+  const uint8_t* origin_;
+  Vector low_;
+  Vector high_;
+  Vector expected_{0, 0};
+  std::array<Vector, 9> candidates_{};
+  int count_ = 0;
+  Vector best_{0, 0};
+  int cost_ = std::numeric_limits<int>::max();
+  int difference_ = 0;
+};
+
+Vector vector_of(const BlockMatch& match) {
+  return {match.dx, match.dy};
+}
+
+}  // namespace
+
+BlockGrid BlockGrid::over(int width, int height) {
+  BlockGrid grid;
+  grid.columns = width / kBlock_px;
+  grid.rows = height / kBlock_px;
+  grid.left_px = (width - grid.columns * kBlock_px) / 2;
+  grid.top_px = (height - grid.rows * kBlock_px) / 2;
+  return grid;
+}
+
+int BlockGrid::x_px(int column) const {
+  return left_px + column * kBlock_px;
+}
+
+int BlockGrid::y_px(int row) const {
+  return top_px + row * kBlock_px;
+}
+
+void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const BlockGrid& grid,
+                       const std::vector<BlockMatch>& hints, std::vector<BlockMatch>& matches) {
+  last_ = matches;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const auto i = static_cast<size_t>(row * grid.columns + column);
+      const auto above = i - static_cast<size_t>(grid.columns);
+      const auto below = i + static_cast<size_t>(grid.columns);
+      const bool has_left = column > 0;
+      const bool has_right = column + 1 < grid.columns;
+      const bool has_above = row > 0;
+      const int x_px = grid.x_px(column);
+      const int y_px = grid.y_px(row);
+      Walk walk(before, {now.row(y_px) + x_px, now.stride()}, x_px, y_px);
+
+      Vector expected = vector_of(last_[i]);
+      if (has_left && has_above && has_right) {
+        const BlockMatch& a = matches[i - 1];
+        const BlockMatch& b = matches[above];
+        const BlockMatch& c = matches[above + 1];
+        expected = {middle(a.dx, b.dx, c.dx), middle(a.dy, b.dy, c.dy)};
+      } else if (has_left) {
+        expected = vector_of(matches[i - 1]);
+      } else if (has_above) {
+        expected = vector_of(matches[above]);
+      }
+      walk.expect(expected);
+      walk.add_candidate(expected);
+      if (has_left) walk.add_candidate(vector_of(matches[i - 1]));
+      if (has_above) walk.add_candidate(vector_of(matches[above]));
+      if (has_above && has_right) walk.add_candidate(vector_of(matches[above + 1]));
+      walk.add_candidate(vector_of(last_[i]));
+      if (has_right) walk.add_candidate(vector_of(last_[i + 1]));
+      if (row + 1 < grid.rows) walk.add_candidate(vector_of(last_[below]));
+      if (has_left) walk.add_candidate(vector_of(last_[i - 1]));
+      walk.add_candidate({0, 0});
+      walk.try_candidates();
+      if (walk.difference() > kGoodDifference) walk.walk_downhill();
+      // Only what nothing near explains is looked for further afield: a pattern that repeats itself
+      // looks the same at many places.
+      if (walk.difference() > kDoubtfulDifference) {
+        if (hints.empty()) {
+          walk.search_everywhere();
+        } else {
+          walk.try_hint(vector_of(hints[i]));
+          if (walk.difference() > kBadDifference) walk.search_far();
+        }
+        walk.walk_downhill();
+      }
+      matches[i] = walk.match();
+    }
+  }
+}
+
+}  // namespace spidar

@@ -1,0 +1,75 @@
+/// Points in the blocks of a field, for the last fraction of a pixel.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/field/block_field.h"
+#include "core/field/reduced_frame.h"
+#include "core/image_view.h"
+#include "core/tracking/fine_window.h"
+#include "core/tracking/luma_neighbourhood.h"
+#include "core/tracking/tracker.h"
+
+namespace spidar {
+
+/// What points a block is to have.
+enum class PointWish : uint8_t {
+  kNone,
+  kSome,  ///< one in a few blocks: the background, whose motion all of them share
+  kMany,  ///< one in each block: an object
+};
+
+/// Follows corners from where the field says they go: one window in the reduced picture, one in the
+/// frame, no search. A point that goes elsewhere is dropped.
+class FieldPoints {
+ public:
+  /// At most `most` points; with `refines` in the frame itself, not only in the reduced picture.
+  struct Settings {
+    int most = 64;
+    bool refines = true;
+  };
+
+  FieldPoints();
+
+  /// Looks for the points in `frame`; `field` has just been updated with it.
+  void follow(const ImageView& frame, const ReducedFrame& reduced, const BlockField& field);
+
+  /// Points found by the last follow(): where they were and where they are.
+  const std::vector<Track>& tracks() const { return tracks_; }
+
+  /// The block that a place of the frame is in, px.
+  static size_t block_at(const ReducedFrame& reduced, const BlockField& field, ImagePoint frame_px);
+
+  /// Drops points of blocks that want none and adds some where they are wanted; a wish for each
+  /// block. Takes what the next follow() needs of `frame`.
+  void choose(const ImageView& frame, const ReducedFrame& reduced, const BlockField& field,
+              const std::vector<PointWish>& wishes, const Settings& settings);
+
+  int count() const { return static_cast<int>(points_.size()); }
+
+  /// Forgets all points.
+  void reset() { points_.clear(); }
+
+ private:
+  struct Point {
+    uint32_t id = 0;
+    ImagePoint at;     ///< px of the base
+    ImagePoint frame;  ///< px of the frame
+  };
+
+  bool find(Point& point, const FineWindow& window, const ImageView& frame,
+            const ReducedFrame& reduced, const BlockField& field);
+  void add(PointWish wish, const ReducedFrame& reduced, const BlockField& field,
+           const std::vector<PointWish>& wishes, const Settings& settings);
+
+  std::vector<Point> points_;
+  std::vector<FineWindow> windows_;  ///< of the points when they were chosen; may be longer
+  std::vector<Track> tracks_;
+  std::vector<uint8_t> taken_;  ///< a block has a point
+  LumaNeighbourhood neighbourhood_;
+  bool refines_ = true;
+  uint32_t next_id_ = 0;
+};
+
+}  // namespace spidar

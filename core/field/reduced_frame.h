@@ -1,0 +1,49 @@
+/// A frame, small: what everything that looks for motion begins with.
+#pragma once
+
+#include "core/api.h"
+#include "core/image_view.h"
+#include "core/tracking/gray_pyramid.h"
+#include "core/tracking/repeated_picture.h"
+#include "core/tracking/tracker.h"
+
+namespace spidar {
+
+/// Reduces each frame once for all that look at it.
+class SPIDAR_API ReducedFrame {
+ public:
+  /// A frame that repeats the picture before is not taken: the next one is compared with that
+  /// picture. Throws as require_usable() does.
+  void read(const ImageView& frame, Repeats repeats = Repeats::kSame);
+
+  /// Mean of each factor() × factor() block of the frame, see halving_factor(); its border is
+  /// repeated.
+  const PaddedImage& base() const { return base_; }
+  /// The same of the frame before, if it is comparable.
+  const PaddedImage& before() const { return before_; }
+  int factor() const { return factor_; }
+  int width() const { return width_; }  ///< of the frame, px
+  int height() const { return height_; }
+  /// The frame showed the picture before again.
+  bool is_repeated() const { return is_repeated_; }
+  /// Not so, but it would with Repeats::kAlike.
+  bool is_alike() const { return is_alike_; }
+  /// The frame before had the same size.
+  bool is_comparable() const { return is_comparable_; }
+
+  /// The next frame is not compared with this one.
+  void restart() { width_ = 0; }
+
+ private:
+  PaddedImage base_;
+  PaddedImage before_;
+  int factor_ = 1;
+  int width_ = 0;
+  int height_ = 0;
+  bool is_comparable_ = false;
+  bool is_repeated_ = false;
+  bool is_alike_ = false;
+  RepeatedPicture repeated_picture_;
+};
+
+}  // namespace spidar

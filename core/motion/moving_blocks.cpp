@@ -1,0 +1,173 @@
+#include "core/motion/moving_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+/// Against the background, px of the field's picture; 0.7 px in a frame of 480 lines.
+constexpr float kLeastMotion_px = 0.35f;
+constexpr float kMotionSigmas = 3;
+/// Below this sum of the tensor's eigenvalues, (grey / px)², a block says nothing.
+constexpr float kLeastTexture = 4;
+/// Mean squared grey levels that the background's motion must cost by the structure tensor, and by
+/// how much more where the block's own motion explains it badly.
+constexpr float kLeastEvidence = 3;
+constexpr float kEvidencePerResidual = 0.1f;
+/// Grey levels a pixel that the background's motion must cost in the picture itself: a fixed part,
+/// a share of the picture's noise, and a share of what the block's own motion costs.
+constexpr float kWorse_grey = 0.5f;
+constexpr float kWorseByNoise = 0.3f;
+constexpr float kWorseShare = 0.15f;
+
+constexpr int kLeastNeighbours = 3;
+/// A block without texture moves with so many around it, when they are most of those that know.
+constexpr int kNeighboursOfUnknown = 4;
+/// One that stands still but is surrounded by so many moves, too: its own motion is an error.
+constexpr int kNeighboursOfStill = 7;
+
+constexpr float kForgets = 0.5f;
+/// What has stood out for two frames or more needs one neighbour.
+constexpr float kLasting = 0.5f;
+constexpr int kNeighboursOfLasting = 1;
+
+}  // namespace
+
+size_t origin_of(const BlockField& field, size_t index) {
+  const BlockGrid& grid = field.grid();
+  const MotionBlock& block = field.blocks()[index];
+  const int column = static_cast<int>(index) % grid.columns;
+  const int row = static_cast<int>(index) / grid.columns;
+  const auto back = [](int place, float moved_px, int count) {
+    const long from = std::lround(static_cast<float>(place) - moved_px / kBlock_px);
+    return static_cast<int>(std::clamp(from, 0L, static_cast<long>(count - 1)));
+  };
+  return static_cast<size_t>(back(row, block.moved_y_px, grid.rows) * grid.columns +
+                             back(column, block.moved_x_px, grid.columns));
+}
+
+void MovingBlocks::reset() {
+  persistence_.clear();
+}
+
+/// Motion of each block against the background.
+void MovingBlocks::compare(const BlockField& field, const Background& background) {
+  const std::vector<MotionBlock>& blocks = field.blocks();
+  relative_.resize(blocks.size());
+  residuals_.clear();
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const MotionBlock& block = blocks[i];
+    const Eigen::Vector2d at_px(block.x_px, block.y_px);
+    // The model maps from the picture before to this one; it hardly differs between both places.
+    const Eigen::Vector2d there_px = at_px - background.model.displacement_px(at_px);
+    const Eigen::Vector2f moved_px = background.model.displacement_px(there_px).cast<float>();
+    RelativeBlock& relative = relative_[i];
+    relative.background_x_px = moved_px.x();
+    relative.background_y_px = moved_px.y();
+    relative.x_px = block.moved_x_px - moved_px.x();
+    relative.y_px = block.moved_y_px - moved_px.y();
+    relative.has_texture = block.texture() > kLeastTexture;
+    residuals_.push_back(block.residual);
+  }
+  const auto third = residuals_.begin() + static_cast<ptrdiff_t>(residuals_.size() / 3);
+  std::nth_element(residuals_.begin(), third, residuals_.end());
+  picture_noise_ = *third;
+}
+
+MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t index, double noise_px,
+                                            bool expected) const {
+  const MotionBlock& block = field.blocks()[index];
+  const RelativeBlock& relative = relative_[index];
+  if (!relative.has_texture) return Judgement::kUnknown;
+  const float x = relative.x_px;
+  const float y = relative.y_px;
+  const float least_px = std::max(kLeastMotion_px, kMotionSigmas * static_cast<float>(noise_px));
+  if (x * x + y * y < least_px * least_px) return Judgement::kStill;
+  const float evidence = x * x * block.xx + 2 * x * y * block.xy + y * y * block.yy;
+  if (evidence < kLeastEvidence * (1 + kEvidencePerResidual * block.residual)) {
+    return Judgement::kStill;
+  }
+  const int with_background = field.difference_if_moved(
+      static_cast<int>(index), relative.background_x_px, relative.background_y_px);
+  if (with_background < 0) return Judgement::kUnknown;
+  const float worse = static_cast<float>(with_background - block.difference);
+  const float least_worse =
+      expected ? 0
+               : kBlockArea_px * (kWorse_grey + kWorseByNoise * std::sqrt(picture_noise_)) +
+                     kWorseShare * static_cast<float>(block.difference);
+  return worse < least_worse ? Judgement::kStill : Judgement::kMoves;
+}
+
+void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      int moving = 0;
+      int known = 0;
+      for (int j = std::max(row - 1, 0); j <= std::min(row + 1, grid.rows - 1); ++j) {
+        for (int i = std::max(column - 1, 0); i <= std::min(column + 1, grid.columns - 1); ++i) {
+          if (i == column && j == row) continue;
+          const Judgement judgement = judgements_[static_cast<size_t>(j * grid.columns + i)];
+          moving += judgement == Judgement::kMoves;
+          known += judgement != Judgement::kUnknown;
+        }
+      }
+      const auto index = static_cast<size_t>(row * grid.columns + column);
+      bool moves = false;
+      switch (judgements_[index]) {
+        case Judgement::kMoves:
+          moves = moving >= kLeastNeighbours ||
+                  (moving >= kNeighboursOfLasting && seen_[index] > kLasting);
+          break;
+        case Judgement::kUnknown:
+          moves = moving >= kNeighboursOfUnknown && 3 * moving >= 2 * known;
+          break;
+        case Judgement::kStill:
+          moves = moving >= kNeighboursOfStill;
+          break;
+      }
+      relative_[index].moves = moves;
+    }
+  }
+}
+
+void MovingBlocks::remember(const BlockField& field) {
+  const size_t n = relative_.size();
+  persistence_before_.swap(persistence_);
+  if (persistence_before_.size() != n) persistence_before_.assign(n, 0);
+  persistence_.resize(n);
+  seen_before_.swap(seen_);
+  if (seen_before_.size() != n) seen_before_.assign(n, 0);
+  seen_.resize(n);
+  for (size_t i = 0; i < n; ++i) {
+    const auto o = origin_of(field, i);
+    float before = seen_before_[o];
+    const int W = field.grid().columns, H = field.grid().rows;
+    int ox = int(o) % W, oy = int(o) / W;
+    if (ox > 0) before = std::max(before, .9f * seen_before_[o - 1]);
+    if (ox + 1 < W) before = std::max(before, .9f * seen_before_[o + 1]);
+    if (oy > 0) before = std::max(before, .9f * seen_before_[o - W]);
+    if (oy + 1 < H) before = std::max(before, .9f * seen_before_[o + W]);
+    seen_[i] = .6f * before + .4f * (judgements_[i] == Judgement::kMoves);
+  }
+}
+
+const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
+                                                     const Background& background,
+                                                     const std::vector<uint8_t>& expected) {
+  compare(field, background);
+  judgements_.resize(relative_.size());
+  for (size_t i = 0; i < judgements_.size(); ++i) {
+    const bool is_expected = i < expected.size() && expected[i] != 0;
+    judgements_[i] = judge(field, i, background.sigma_px, is_expected);
+  }
+  remember(field);
+  ask_neighbours(field.grid());
+  for (size_t i = 0; i < relative_.size(); ++i) {
+    const float b = persistence_before_[origin_of(field, i)];
+    persistence_[i] = kForgets * b + (1 - kForgets) * (relative_[i].moves ? 1.0f : 0.0f);
+  }
+  return relative_;
+}
+
+}  // namespace spidar

@@ -1,0 +1,128 @@
+#include "core/motion/regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace spidar {
+namespace {
+
+double median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+int RegionFinder::root_of(int block) {
+  auto i = static_cast<size_t>(block);
+  while (parent_[i] != static_cast<int>(i)) {
+    parent_[i] = parent_[static_cast<size_t>(parent_[i])];
+    i = static_cast<size_t>(parent_[i]);
+  }
+  return static_cast<int>(i);
+}
+
+void RegionFinder::join(int a, int b) {
+  a = root_of(a);
+  b = root_of(b);
+  parent_[static_cast<size_t>(std::max(a, b))] = std::min(a, b);
+}
+
+void RegionFinder::describe(const BlockField& field, const std::vector<RelativeBlock>& relative,
+                            Region& region, int16_t label) {
+  const BlockGrid& grid = field.grid();
+  x_px_.clear();
+  y_px_.clear();
+  Eigen::Matrix2d tensor = Eigen::Matrix2d::Zero();
+  region.low_px.setConstant(1e9);
+  region.high_px.setConstant(-1e9);
+  for (size_t i = 0; i < labels_.size(); ++i) {
+    if (labels_[i] != label) continue;
+    const MotionBlock& block = field.blocks()[i];
+    const int column = static_cast<int>(i) % grid.columns;
+    const int row = static_cast<int>(i) / grid.columns;
+    ++region.blocks;
+    region.border_blocks +=
+        column == 0 || row == 0 || column + 1 == grid.columns || row + 1 == grid.rows;
+    const Eigen::Vector2d at_px(block.x_px, block.y_px);
+    region.position_px += at_px;
+    region.low_px =
+        region.low_px.cwiseMin(at_px.array().matrix() - Eigen::Vector2d::Constant(kBlock_px / 2));
+    region.high_px = region.high_px.cwiseMax(at_px + Eigen::Vector2d::Constant(kBlock_px / 2));
+    region.background_px +=
+        Eigen::Vector2d(relative[i].background_x_px, relative[i].background_y_px);
+    if (!relative[i].has_texture) continue;
+    tensor(0, 0) += static_cast<double>(block.xx);
+    tensor(0, 1) += static_cast<double>(block.xy);
+    tensor(1, 1) += static_cast<double>(block.yy);
+    x_px_.push_back(relative[i].x_px);
+    y_px_.push_back(relative[i].y_px);
+  }
+  const double trace = tensor(0, 0) + tensor(1, 1);
+  const double root = std::hypot(tensor(0, 0) - tensor(1, 1), 2 * tensor(0, 1));
+  region.roundness = trace > 0 ? (trace - root) / (trace + root) : 0;
+  region.position_px /= region.blocks;
+  region.background_px /= region.blocks;
+  if (!x_px_.empty()) region.relative_px << median(x_px_), median(y_px_);
+}
+
+const std::vector<Region>& RegionFinder::find(const BlockField& field,
+                                              const std::vector<RelativeBlock>& relative) {
+  const BlockGrid& grid = field.grid();
+  const auto n = relative.size();
+  x_px_.reserve(n);
+  y_px_.reserve(n);
+  parent_.resize(n);
+  for (size_t i = 0; i < n; ++i) parent_[i] = static_cast<int>(i);
+  const auto moves = [&](int column, int row) {
+    return column >= 0 && row >= 0 && column < grid.columns &&
+           relative[static_cast<size_t>(row * grid.columns + column)].moves;
+  };
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      if (!moves(column, row)) continue;
+      const int i = row * grid.columns + column;
+      const auto alike = [&](int j) {
+        const RelativeBlock& a = relative[static_cast<size_t>(i)];
+        const RelativeBlock& b = relative[static_cast<size_t>(j)];
+        if (!a.has_texture || !b.has_texture) return true;
+        const float ma = a.x_px * a.x_px + a.y_px * a.y_px, mb = b.x_px * b.x_px + b.y_px * b.y_px;
+        static const float R = 0.5f, A = 0.3f;
+        const float dx = a.x_px - b.x_px, dy = a.y_px - b.y_px,
+                    tol = A + R * std::sqrt(std::max(ma, mb));
+        return dx * dx + dy * dy < tol * tol;
+      };
+      if (moves(column - 1, row) && alike(i - 1)) join(i, i - 1);
+      for (int k = -1; k <= 1; ++k) {
+        if (moves(column + k, row - 1) && alike(i - grid.columns + k))
+          join(i, i - grid.columns + k);
+      }
+    }
+  }
+
+  size_.assign(n, 0);
+  for (size_t i = 0; i < n; ++i) {
+    if (relative[i].moves) ++size_[static_cast<size_t>(root_of(static_cast<int>(i)))];
+  }
+  regions_.clear();
+  region_of_root_.assign(n, kNoRegion);
+  labels_.assign(n, kNoRegion);
+  for (size_t i = 0; i < n; ++i) {
+    if (!relative[i].moves) continue;
+    const auto root = static_cast<size_t>(root_of(static_cast<int>(i)));
+    if (size_[root] < kLeastBlocks) continue;
+    if (region_of_root_[root] == kNoRegion) {
+      region_of_root_[root] = static_cast<int16_t>(regions_.size());
+      regions_.emplace_back();
+    }
+    labels_[i] = region_of_root_[root];
+  }
+  for (size_t k = 0; k < regions_.size(); ++k) {
+    describe(field, relative, regions_[k], static_cast<int16_t>(k));
+  }
+  return regions_;
+}
+
+}  // namespace spidar

@@ -1,0 +1,62 @@
+/// Blocks that hang together and move by themselves.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/field/block_field.h"
+#include "core/motion/moving_blocks.h"
+
+namespace spidar {
+
+/// A connected part of the picture that moves by itself. Lengths in pixels of the field's picture,
+/// places from its centre.
+struct Region {
+  int blocks = 0;
+  int border_blocks = 0;                                  ///< of them at the border of the picture
+  Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
+  Eigen::Vector2d low_px = Eigen::Vector2d::Zero();       ///< upper left corner of its box
+  Eigen::Vector2d high_px = Eigen::Vector2d::Zero();      ///< lower right
+  Eigen::Vector2d relative_px = Eigen::Vector2d::Zero();  ///< median motion against the background
+  Eigen::Vector2d background_px = Eigen::Vector2d::Zero();  ///< mean motion of the background there
+  /// Smaller over larger eigenvalue of the structure tensor of all of it: 0 for a single edge,
+  /// whose motion along itself nobody can see.
+  double roundness = 0;
+};
+
+/// Blocks of no region.
+constexpr int16_t kNoRegion = -1;
+
+/// Finds the regions of a field, the eight neighbours of a block being connected with it.
+class RegionFinder {
+ public:
+  RegionFinder() { regions_.reserve(kMostRegions); }
+
+  /// Of the blocks that move. Regions of less than kLeastBlocks are left out.
+  const std::vector<Region>& find(const BlockField& field,
+                                  const std::vector<RelativeBlock>& relative);
+
+  /// The region of each block, or kNoRegion.
+  const std::vector<int16_t>& labels() const { return labels_; }
+
+  static constexpr int kLeastBlocks = 2;
+  static constexpr size_t kMostRegions = 128;  ///< that memory is taken for at once
+
+ private:
+  int root_of(int block);
+  void join(int a, int b);
+  void describe(const BlockField& field, const std::vector<RelativeBlock>& relative, Region& region,
+                int16_t label);
+
+  std::vector<int> parent_;
+  std::vector<int> size_;
+  std::vector<int16_t> region_of_root_;
+  std::vector<int16_t> labels_;
+  std::vector<float> x_px_;
+  std::vector<float> y_px_;
+  std::vector<Region> regions_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,37 @@
+#include "core/motion/salience.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+/// See Region::roundness.
+constexpr double kLeastRoundness = 0.02;
+/// Blocks at the border over the square root of all: 1 for a square that leans against one side.
+constexpr double kBorder = 1.2;
+/// How much the score falls with it in any case.
+constexpr double kBorderCost = 0.5;
+/// Speed as a share of the camera's that an object has at least.
+constexpr double kLeastShareOfCamera = 0.2;
+/// What was followed before may be so much more like a layer.
+constexpr double kTrusted = 1.4;
+/// What is less of an object than this is none.
+constexpr double kLeastLikelihood = 0.3;
+
+}  // namespace
+
+double salience(const Region& region, const CameraMotion& camera, bool was_followed) {
+  if (region.roundness < kLeastRoundness) return 0;
+  const double speed_px = region.relative_px.norm();
+  const double touching = region.border_blocks / std::sqrt(static_cast<double>(region.blocks));
+  const double score = region.blocks * kBlockArea_px * speed_px / (1 + kBorderCost * touching);
+  if (camera.speed_px < camera.still_px) return score;
+  const double trust = was_followed ? kTrusted : 1;
+  const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));
+  const double share = speed_px * trust / (kLeastShareOfCamera * camera.speed_px);
+  const double likelihood = inside * std::min(1.0, share * share);
+  return likelihood < kLeastLikelihood ? 0 : likelihood * score;
+}
+
+}  // namespace spidar

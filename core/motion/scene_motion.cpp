@@ -1,0 +1,40 @@
+#include "core/motion/scene_motion.h"
+
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+double weight_at(const Eigen::Vector2d& pointer_px, const MovingObject& object, int frame_height) {
+  const Eigen::Vector2d outside_px =
+      ((pointer_px - object.position_px).cwiseAbs() - object.size_px / 2).cwiseMax(0.0);
+  const double sigma_px = kPointerReach * frame_height;
+  return object.area_px2 * std::exp(-outside_px.squaredNorm() / (2 * sigma_px * sigma_px));
+}
+
+}  // namespace
+
+ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
+                              const Eigen::Vector2d& pointer_px, int frame_height) {
+  ImageMotion sum;
+  double weights = 0;
+  double variance = 0;
+  for (const MovingObject& object : objects) {
+    if (object.tracks == 0) continue;
+    const double weight = weight_at(pointer_px, object, frame_height);
+    weights += weight;
+    sum.velocity_px_s += weight * object.relative_px_s;
+    sum.growth_1_s += weight * object.growth_1_s;
+    sum.roll_rad_s += weight * object.roll_rad_s;
+    sum.tracked += object.tracks;
+    variance += weight * weight * object.noise_px_s * object.noise_px_s;
+  }
+  if (weights == 0) return sum;
+  sum.velocity_px_s /= weights;
+  sum.growth_1_s /= weights;
+  sum.roll_rad_s /= weights;
+  sum.noise_px_s = std::sqrt(variance) / weights;
+  return sum;
+}
+
+}  // namespace spidar

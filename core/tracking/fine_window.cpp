@@ -1,0 +1,32 @@
+#include "core/tracking/fine_window.h"
+
+namespace spidar {
+namespace {
+
+/// Refinement in the frame is worth it from this share of the reduced picture's structure on, both
+/// over the same piece of picture: a window there has more than twice the pixels.
+constexpr float kFineStrength = 0.25f;
+
+}  // namespace
+
+ImagePoint FineWindow::place(LumaNeighbourhood& neighbourhood, const ImageView& frame, int factor,
+                             const CoarsePlace& coarse) const {
+  const auto scale = static_cast<float>(factor);
+  if (scale * scale * window_.strength() < kFineStrength * coarse.strength) return coarse.at;
+  MatchSettings settings;
+  settings.iterations = 3;
+  settings.step_px = 0.03f;
+  settings.reach_px = 0.5f + 0.5f * scale;
+  settings.gain = coarse.gain;
+  WindowMatch match;
+  match.centre = coarse.at;
+  const ReadablePixels pixels = neighbourhood.around(frame, coarse.at, settings.reach_px);
+  if (!window_.find(pixels, settings, match) || match.residual > kSameThing) return coarse.at;
+  const float coarse_px2 = scale * scale * coarse.variance_px2;
+  const float both_px2 = coarse_px2 + match.variance_px2;
+  const float share = both_px2 > 0 ? coarse_px2 / both_px2 : 1;
+  return {coarse.at.x_px + share * (match.centre.x_px - coarse.at.x_px),
+          coarse.at.y_px + share * (match.centre.y_px - coarse.at.y_px)};
+}
+
+}  // namespace spidar

@@ -1,0 +1,206 @@
+// The steps of the field of block motion, each against its definition: the vector code gives the
+// bits of the plain one, and a block of a picture that has moved is found where it came from.
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/field/block_field.h"
+#include "core/field/block_kernels.h"
+#include "core/field/field_picture.h"
+#include "core/motion/salience.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+using test::Picture;
+using test::Texture;
+
+PaddedImage padded(const Picture& picture) {
+  PaddedImage image;
+  reduce_blocks(picture.view(), 1, image);
+  image.repeat_border();
+  return image;
+}
+
+/// Grey levels of all sizes, black and white next to each other among them.
+PaddedImage noise(int width, int height, uint32_t seed) {
+  Picture picture(width, height);
+  std::mt19937 random(seed);
+  picture.fill([&](double, double) {
+    const auto value = static_cast<uint32_t>(random());
+    return value % 4 == 0 ? (value & 16 ? 255.0 : 0.0) : static_cast<double>(value >> 24);
+  });
+  return padded(picture);
+}
+
+/// A texture that has moved by (`x`, `y`).
+PaddedImage moved_texture(double x, double y, double gain = 1, double offset = 0) {
+  Picture picture(427, 240);
+  const Texture texture(1, 8);
+  picture.fill([&](double px, double py) {
+    return std::min(255.0, std::max(0.0, gain * texture.at(px - x, py - y) + offset));
+  });
+  return padded(picture);
+}
+
+BlockPixels at(const PaddedImage& image, int x, int y) {
+  return {image.row(y) + x, image.stride()};
+}
+
+TEST(FieldSteps, KernelsAreTheirDefinitionBitForBit) {
+  for (uint32_t seed = 1; seed <= 20; ++seed) {
+    const PaddedImage a = noise(64, 48, seed);
+    const PaddedImage b = noise(64, 48, seed + 100);
+    for (int k = 0; k < 30; ++k) {
+      const int x = k - 5;
+      const BlockPixels now = at(a, 20, 16);
+      const BlockPixels before = at(b, x, k % 7);
+      EXPECT_EQ(vectors::compare_blocks(now, before), plain::compare_blocks(now, before));
+      for (const int limit : {0, 10000, 1 << 30}) {
+        EXPECT_EQ(vectors::block_difference(now, before, limit),
+                  plain::block_difference(now, before, limit));
+      }
+      EXPECT_EQ(vectors::bilinear_difference(now, before, k % 17, (3 * k) % 17),
+                plain::bilinear_difference(now, before, k % 17, (3 * k) % 17));
+    }
+  }
+}
+
+TEST(FieldSteps, TwoThirdsAreTheMeanOfTheirAreas) {
+  for (const int width : {48, 97, 640}) {
+    for (const int height : {30, 31, 32}) {
+      const PaddedImage image = noise(width, height, 7);
+      PaddedImage fast;
+      PaddedImage plain;
+      vectors::reduce_to_two_thirds(image, fast);
+      plain::reduce_to_two_thirds(image, plain);
+      ASSERT_EQ(fast.width(), width * 2 / 3);
+      ASSERT_EQ(fast.height(), height * 2 / 3);
+      for (int y = 0; y < fast.height(); ++y) {
+        for (int x = 0; x < fast.width(); ++x) {
+          ASSERT_EQ(fast.row(y)[x], plain.row(y)[x]) << x << ", " << y;
+          // Half of the pixel between two belongs to each; the mean is rounded.
+          double sum = 0;
+          for (int j = 0; j < 2; ++j) {
+            for (int i = 0; i < 2; ++i) {
+              const int px = x / 2 * 3 + (x % 2 == 0 ? i : 1 + i);
+              const int py = y / 2 * 3 + (y % 2 == 0 ? j : 1 + j);
+              const double wx = px % 3 == 1 ? 0.5 : 1;
+              const double wy = py % 3 == 1 ? 0.5 : 1;
+              sum += wx * wy * image.row(py)[px];
+            }
+          }
+          ASSERT_NEAR(fast.row(y)[x], sum / 2.25, 0.5 + 1e-9);
+        }
+      }
+    }
+  }
+}
+
+TEST(FieldSteps, ThePictureHasAboutTheSameAreaWhateverTheFrame) {
+  EXPECT_EQ(field_scale(427, 240), FieldScale::kSame);
+  EXPECT_EQ(field_scale(640, 360), FieldScale::kTwoThirds);
+  EXPECT_EQ(field_scale(480, 270), FieldScale::kSame);
+  EXPECT_EQ(field_scale(270, 480), FieldScale::kSame);
+  EXPECT_EQ(field_scale(900, 900), FieldScale::kHalf);
+  EXPECT_EQ(field_scale(600, 20), FieldScale::kSame) << "no side becomes less than 16 px";
+}
+
+/// The displacement of a block's middle, away from the rim, where the picture goes on as it began.
+void expect_field(const BlockField& field, double x_px, double y_px, double tolerance_px) {
+  const BlockGrid& grid = field.grid();
+  for (int row = 4; row + 4 < grid.rows; ++row) {
+    for (int column = 4; column + 4 < grid.columns; ++column) {
+      const MotionBlock& block = field.blocks()[static_cast<size_t>(row * grid.columns + column)];
+      if (block.weakest_texture() < 6) continue;
+      ASSERT_NEAR(block.moved_x_px, x_px, tolerance_px) << column << ", " << row;
+      ASSERT_NEAR(block.moved_y_px, y_px, tolerance_px) << column << ", " << row;
+    }
+  }
+}
+
+/// The search is right to the nearest whole pixel, half a pixel off at most: the step that follows
+/// has to halve that at least.
+constexpr double kBlockTolerance_px = 0.25;
+
+TEST(FieldSteps, BlocksMoveAsThePictureDoes) {
+  for (const auto& [x, y] : {std::pair{0.0, 0.0}, {3.0, -2.0}, {5.5, 1.25}, {-12.3, 7.7}}) {
+    BlockField field;
+    EXPECT_EQ(field.update(moved_texture(0, 0)), BlockField::Result::kFirst);
+    EXPECT_EQ(field.update(moved_texture(x, y)), BlockField::Result::kMoved);
+    expect_field(field, x, y, kBlockTolerance_px);
+    // Again the same way: what a block did before is where its search begins.
+    EXPECT_EQ(field.update(moved_texture(2 * x, 2 * y)), BlockField::Result::kMoved);
+    expect_field(field, x, y, kBlockTolerance_px);
+  }
+}
+
+TEST(FieldSteps, LightThatChangesIsNoMotion) {
+  BlockField field;
+  field.update(moved_texture(0, 0));
+  EXPECT_EQ(field.update(moved_texture(3, 1, 0.8, 10)), BlockField::Result::kMoved);
+  expect_field(field, 3, 1, kBlockTolerance_px);
+}
+
+TEST(FieldSteps, AnotherPictureIsACut) {
+  BlockField field;
+  field.update(noise(427, 240, 1));
+  EXPECT_EQ(field.update(noise(427, 240, 2)), BlockField::Result::kCut);
+  for (const MotionBlock& block : field.blocks()) EXPECT_EQ(block.moved_x_px, 0);
+  EXPECT_EQ(field.update(noise(320, 240, 2)), BlockField::Result::kFirst) << "another size";
+}
+
+TEST(FieldSteps, DifferenceIsLeastWhereTheBlockCameFrom) {
+  BlockField field;
+  field.update(moved_texture(0, 0));
+  field.update(moved_texture(2.5, 1));
+  const int middle = field.grid().size() / 2;
+  const int there = field.difference_if_moved(middle, 2.5f, 1);
+  EXPECT_LT(there, field.difference_if_moved(middle, 0, 0));
+  EXPECT_LT(there, field.difference_if_moved(middle, 5, 3));
+  EXPECT_LT(field.difference_if_moved(middle, 1000, 0), 0) << "out of reach";
+  EXPECT_LT(field.difference_if_moved(middle, std::nanf(""), 0), 0);
+}
+
+Region region(int blocks, int border_blocks, double speed_px) {
+  Region made;
+  made.blocks = blocks;
+  made.border_blocks = border_blocks;
+  made.relative_px << speed_px, 0;
+  made.roundness = 1;
+  return made;
+}
+
+TEST(Salience, IsAreaTimesSpeed) {
+  const CameraMotion still{0, 0.25};
+  EXPECT_DOUBLE_EQ(salience(region(8, 0, 3), still, false),
+                   2 * salience(region(4, 0, 3), still, false));
+  EXPECT_DOUBLE_EQ(salience(region(8, 0, 3), still, false),
+                   3 * salience(region(8, 0, 1), still, false));
+}
+
+TEST(Salience, ALayerOfTheSceneHasNoneWhileTheCameraMoves) {
+  const CameraMotion still{0, 0.25};
+  const CameraMotion moving{10, 0.25};
+  const Region layer = region(25, 12, 5);
+  EXPECT_GT(salience(layer, still, false), 0);
+  EXPECT_EQ(salience(layer, moving, false), 0) << "it leans on the border";
+  EXPECT_GT(salience(region(25, 2, 5), moving, false), 0);
+  EXPECT_EQ(salience(region(25, 0, 0.5), moving, false), 0) << "slow beside the camera";
+  EXPECT_EQ(salience(region(25, 8, 5), moving, false), 0);
+  EXPECT_GT(salience(region(25, 8, 5), moving, true), 0) << "an object that leaves the picture";
+}
+
+TEST(Salience, ASingleEdgeHasNone) {
+  Region edge = region(10, 0, 5);
+  edge.roundness = 0;
+  EXPECT_EQ(salience(edge, {0, 0.25}, false), 0);
+}
+
+}  // namespace
+}  // namespace spidar

@@ -1,0 +1,228 @@
+// What makes motion go wrong on real films, each cause in a film made for it.
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/motion_analyzer.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+using Eigen::Vector2d;
+using test::Picture;
+using test::Texture;
+
+constexpr int kWidth = 640;
+constexpr int kHeight = 360;
+constexpr int64_t kFrame_ns = 40'000'000;
+constexpr double kFrame_s = 0.04;
+/// An object is felt from the second pair of frames on in which it moves.
+constexpr int kFelt = 3;
+
+/// Grey level at a place of frame n, in px from the upper left corner.
+using Scene = std::function<double(int n, const Vector2d& at)>;
+
+/// Sensor noise of 1.5 grey levels, as the films of the benchmark have it.
+Picture draw(const Scene& scene, int n) {
+  Picture picture(kWidth, kHeight);
+  std::mt19937 random(static_cast<uint32_t>(n));
+  std::normal_distribution<double> noise(0, 1.5);
+  picture.fill([&](double x, double y) {
+    return std::clamp(scene(n, {x, y}) + noise(random), 0.0, 255.0);
+  });
+  return picture;
+}
+
+std::vector<FrameAnalysis> analyze(const Scene& scene, int frames) {
+  MotionAnalyzer analyzer;
+  std::vector<FrameAnalysis> found;
+  for (int n = 0; n < frames; ++n) {
+    const Picture picture = draw(scene, n);
+    found.push_back(analyzer.analyze(picture.view(), n * kFrame_ns));
+  }
+  return found;
+}
+
+Vector2d moved_px(const FrameAnalysis& frame) {
+  return frame.motion.velocity_px_s * kFrame_s;
+}
+
+/// Right as the benchmark of real films has it: within 30 degrees and a factor of 2.
+void expect_right(const FrameAnalysis& frame, const Vector2d& true_px, int n) {
+  const Vector2d found_px = moved_px(frame);
+  ASSERT_GT(found_px.norm(), 0.5 * true_px.norm()) << "frame " << n;
+  EXPECT_LT(found_px.norm(), 2 * true_px.norm()) << "frame " << n;
+  EXPECT_GT(found_px.dot(true_px), std::cos(0.5236) * found_px.norm() * true_px.norm())
+      << "frame " << n << ": " << found_px.transpose();
+}
+
+void expect_right(const Scene& scene, int frames, const std::function<Vector2d(int)>& true_px,
+                  int first = kFelt) {
+  const std::vector<FrameAnalysis> found = analyze(scene, frames);
+  for (int n = first; n < frames; ++n) expect_right(found[static_cast<size_t>(n)], true_px(n), n);
+}
+
+bool in_disc(const Vector2d& at, const Vector2d& centre, double radius_px) {
+  return (at - centre).norm() < radius_px;
+}
+
+const Texture& background() {
+  static const Texture texture(1, 10);
+  return texture;
+}
+const Texture& foreground() {
+  static const Texture texture(2, 10);
+  return texture;
+}
+
+TEST(FilmCauses, AJointedBodyMovesAsItsTrunk) {
+  // A trunk with four limbs that swing as it goes.
+  const auto trunk = [](int n) { return Vector2d(150.0 + 6 * n, 180); };
+  expect_right(
+      [&](int n, const Vector2d& at) {
+        const Vector2d from = at - trunk(n);
+        if (std::abs(from.x()) < 40 && std::abs(from.y()) < 60) {
+          return foreground().at(from.x(), from.y());
+        }
+        for (int limb = 0; limb < 4; ++limb) {
+          const double side = limb % 2 == 0 ? -1 : 1;
+          const double swing_px = 4 * std::sin(0.8 * n + limb);
+          const Vector2d middle(side * 60, (limb < 2 ? -40 : 40) + swing_px);
+          if (((from - middle).array().abs() < Vector2d(20, 12).array()).all()) {
+            return foreground().at(from.x(), from.y() - swing_px);
+          }
+        }
+        return background().at(at.x(), at.y());
+      },
+      24, [](int) { return Vector2d(6, 0); });
+}
+
+TEST(FilmCauses, LayersOfASceneAreNoObjectsWhileTheCameraMoves) {
+  // A hedge in front of a field: the camera goes sideways, and what is near goes faster.
+  const std::vector<FrameAnalysis> found = analyze(
+      [](int n, const Vector2d& at) {
+        if (at.y() > 290) return foreground().at(at.x() + 9.0 * n, at.y());
+        return background().at(at.x() + 5.0 * n, at.y());
+      },
+      20);
+  for (int n = kFelt; n < 20; ++n) {
+    EXPECT_EQ(moved_px(found[static_cast<size_t>(n)]), Vector2d(0, 0)) << "frame " << n;
+  }
+}
+
+TEST(FilmCauses, ASkyWithoutTextureIsNoBackground) {
+  // The upper half is plain; a disc crosses it while the camera pans.
+  expect_right(
+      [](int n, const Vector2d& at) {
+        if (in_disc(at, {150.0 + 5 * n, 100}, 50)) {
+          return foreground().at(at.x() - 5.0 * n, at.y());
+        }
+        return at.y() < 180 ? 180.0 : background().at(at.x() + 4.0 * n, at.y());
+      },
+      20, [](int) { return Vector2d(9, 0); });
+}
+
+TEST(FilmCauses, WaterThatGlittersIsNoObject) {
+  // Every patch of the water goes somewhere else in each frame, before a still shore.
+  constexpr int kPatch_px = 40;
+  const std::vector<FrameAnalysis> found = analyze(
+      [](int n, const Vector2d& at) {
+        if (at.y() < 180) return background().at(at.x(), at.y());
+        const int patch =
+            static_cast<int>(at.x()) / kPatch_px + 100 * (static_cast<int>(at.y()) / kPatch_px);
+        std::minstd_rand random(static_cast<uint32_t>(1 + 977 * patch + 31337 * n));
+        random.discard(3);
+        const double x = static_cast<double>(random() % 9) - 4;
+        const double y = static_cast<double>(random() % 9) - 4;
+        return foreground().at(at.x() + x, at.y() + y);
+      },
+      20);
+  int felt = 0;
+  for (const FrameAnalysis& frame : found) felt += moved_px(frame).norm() > 0;
+  // An object has to move alike in two pairs of frames, to half of its speed and two pixels: two
+  // of the 81 motions of a patch do with a chance of about a quarter.
+  EXPECT_LT(felt, 20 / 2);
+}
+
+TEST(FilmCauses, AfterAFadeFromBlackTheObjectIsFeltAndNotTheBackground) {
+  expect_right(
+      [](int n, const Vector2d& at) {
+        const double light = std::min(1.0, n / 8.0);
+        const bool inside = in_disc(at, {200.0 + 6 * n, 180}, 60);
+        return light * (inside ? foreground().at(at.x() - 6.0 * n, at.y())
+                               : background().at(at.x() + 3.0 * n, at.y()));
+      },
+      20, [](int) { return Vector2d(9, 0); }, 8 + kFelt);
+}
+
+TEST(FilmCauses, AnObjectMayFillHalfOfTheFrame) {
+  expect_right(
+      [](int n, const Vector2d& at) {
+        // 420 × 275 px are half of 640 × 360.
+        const Vector2d from = at - Vector2d(300.0 + 3 * n, 180);
+        if (std::abs(from.x()) < 210 && std::abs(from.y()) < 137) {
+          return foreground().at(from.x(), from.y());
+        }
+        return background().at(at.x(), at.y());
+      },
+      15, [](int) { return Vector2d(3, 0); });
+}
+
+TEST(FilmCauses, WhatTheCameraFollowsMovesAgainstTheBackground) {
+  // It stays in the middle of the picture: only what is behind it moves.
+  expect_right(
+      [](int n, const Vector2d& at) {
+        if (in_disc(at, {320, 180}, 55)) return foreground().at(at.x(), at.y());
+        return background().at(at.x() + 7.0 * n, at.y() + 1.0 * n);
+      },
+      20, [](int) { return Vector2d(7, 1); });
+}
+
+TEST(FilmCauses, InFieldsOfTwoTimesTheMotionIsNotReversed) {
+  // Interlaced: even rows are half a frame earlier than odd ones.
+  const std::vector<FrameAnalysis> found = analyze(
+      [](int n, const Vector2d& at) {
+        const double t = static_cast<int>(at.y()) % 2 == 0 ? n : n + 0.5;
+        if (in_disc(at, {160.0 + 8 * t, 180}, 60)) {
+          return foreground().at(at.x() - 8.0 * t, at.y());
+        }
+        return background().at(at.x(), at.y());
+      },
+      20);
+  for (int n = kFelt; n < 20; ++n) {
+    expect_right(found[static_cast<size_t>(n)], Vector2d(8, 0), n);
+  }
+}
+
+TEST(FilmCauses, ANewShotIsFeltWithinThreeFrames) {
+  // Shots of eight frames, each with a disc of its own that goes another way.
+  const std::vector<Texture> walls{Texture(11, 10), Texture(12, 10), Texture(13, 10)};
+  const std::vector<Vector2d> ways{{6, 0}, {0, 5}, {-6, 2}};
+  const std::vector<FrameAnalysis> found = analyze(
+      [&](int n, const Vector2d& at) {
+        const auto shot = static_cast<size_t>(n / 8);
+        const int t = n % 8;
+        const Vector2d middle = Vector2d(320, 180) + (t - 4) * ways[shot];
+        if (in_disc(at, middle, 60)) {
+          const Vector2d on = at - middle;
+          return foreground().at(on.x(), on.y());
+        }
+        return walls[shot].at(at.x(), at.y());
+      },
+      24);
+  for (int n = 0; n < 24; ++n) {
+    const FrameAnalysis& frame = found[static_cast<size_t>(n)];
+    if (n % 8 == 0) {
+      EXPECT_EQ(moved_px(frame), Vector2d(0, 0)) << "a cut, frame " << n;
+    }
+    if (n % 8 >= 3) expect_right(frame, ways[static_cast<size_t>(n / 8)], n);
+  }
+}
+
+}  // namespace
+}  // namespace spidar
