@@ -7,6 +7,12 @@ namespace {
 
 constexpr double kMaxRate = 10;
 
+/// There is a wrench to be felt now.
+bool has_wanted(const TickRecord& record) noexcept {
+  return record.playing && (record.found == Found::kExact || record.found == Found::kInterpolated ||
+                            record.found == Found::kHeld);
+}
+
 }  // namespace
 
 HapticLoop::HapticLoop(const Profile& profile, Device& device, const SafetyLimits& limits)
@@ -173,9 +179,7 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
 }
 
 void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
-  const bool valid = record.found == Found::kExact || record.found == Found::kInterpolated ||
-                     record.found == Found::kHeld;
-  const bool wanted = record.playing && valid;
+  const bool wanted = has_wanted(record);
   const bool closing = closing_.load(std::memory_order_acquire);
   const bool nothing = !wanted || record.wanted.stacked().isZero(0);
   const bool idle = idle_.idle(!nothing, grip_.pose().position_m, dt_s);
@@ -194,9 +198,11 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
 void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
   tension_command_.leave_out(grip_.faulty_string());
   const StructureMatrix W = structure_matrix(profile_.geometry, grip_.pose());
-  const StringVector wanted_N = grip_.trusted()
-                                    ? tension_command_.solve(W, record.commanded, heat_.limit_N())
-                                    : tension_command_.fade(record.commanded);
+  // On its way to rest the wrench may still be large when its time is nearly over: solved for, the
+  // tensions would have no time left.
+  const bool fresh = has_wanted(record) && grip_.trusted() && state_ != DeviceState::kClosing;
+  const StringVector wanted_N = fresh ? tension_command_.solve(W, record.commanded, heat_.limit_N())
+                                      : tension_command_.fade(record.commanded);
   const StringVector limited_N = tension_slew_.apply(energised_ * wanted_N, profile_, dt_s);
   record.tension_N = bound_tensions(limited_N, profile_);
   const Eigen::Matrix<double, 6, 1> delivered = W * record.tension_N;

@@ -13,6 +13,8 @@ namespace {
 
 /// Tensions become volts and are read back: a quotient and two products.
 constexpr double kRounding_N = 1e-9;
+/// An exchange with the simulated device takes a millisecond of its time, however late the tick is.
+constexpr double kExchange_s = 1e-3;
 /// Of the bounds at rest, for a zero that is wrong.
 constexpr double kZeroMargin = 1.1;
 
@@ -63,9 +65,9 @@ void SeamWatch::see(const Tick& tick, const std::string& where) {
   ++largest_.playing_ticks;
   largest_.playing_force_N = std::max(largest_.playing_force_N, force);
   stop_energy_J_ +=
+      kExchange_s *
       std::max(0.0, tick.felt.wrench.force_N.dot(tick.felt.velocity_m_s) +
-                        tick.felt.wrench.torque_Nm.dot(tick.felt.angular_velocity_rad_s)) *
-      tick.dt_s;
+                        tick.felt.wrench.torque_Nm.dot(tick.felt.angular_velocity_rad_s));
 }
 
 void SeamWatch::fail(const Tick& tick, const std::string& what, const std::string& where) {
