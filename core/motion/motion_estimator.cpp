@@ -184,8 +184,9 @@ void MotionEstimator::report_tracks(const ReducedFrame& reduced,
   for (const PlacedPoint& point : placed_) has_point_[point.block] = 1;
   for (size_t i = 0; i < field_.blocks().size(); ++i) {
     const MotionBlock& block = field_.blocks()[i];
-    if (has_point_[i] != 0 || static_cast<double>(block.weakest_texture()) < kLeastTexture)
-      continue;
+    const bool shows_motion =
+        objects_.is_measured(i) || static_cast<double>(block.weakest_texture()) >= kLeastTexture;
+    if (has_point_[i] != 0 || !shows_motion) continue;
     const ImagePoint to{middle_x + scale * block.x_px, middle_y + scale * block.y_px};
     const ImagePoint from{to.x_px - scale * block.moved_x_px, to.y_px - scale * block.moved_y_px};
     tracks_.push_back({kFirstBlockId + static_cast<uint32_t>(i), from, to});

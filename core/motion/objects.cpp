@@ -204,7 +204,7 @@ void ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
   collect_blocks(life, frame);
   climb(motion);
   MovingObject& object = life.object;
-  object.tracks = life.region.blocks;
+  object.tracks = static_cast<int>(evidence_.points.size());
   life.is_rigid = false;
   if (collect_points(life, motion, frame)) {
     const auto refined = fitter_.refine(motion.kind, motion, evidence_);
@@ -220,7 +220,7 @@ void ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
   object.growth_1_s = motion.growth() / frame.interval_s;
   object.roll_rad_s = motion.roll_rad() / frame.interval_s;
   object.noise_px_s = frame.scale * evidence_.sigma_px / 2 /
-                      std::sqrt(static_cast<double>(object.tracks)) / frame.interval_s;
+                      std::sqrt(static_cast<double>(std::max(object.tracks, 1))) / frame.interval_s;
 }
 
 /// Place and velocity in the frame, from those of the region in the field's picture.

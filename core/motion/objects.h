@@ -50,6 +50,11 @@ class SPIDAR_API ObjectTracker {
   /// The object that each block is of in the last frame, its id; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 
+  /// Whether a block has told in the last frame how an object moves.
+  bool is_measured(size_t block) const {
+    return block < owners_.size() && owners_[block] != 0 && (*relative_)[block].has_texture;
+  }
+
   /// A cut, a seek: nothing is known.
   void reset();
 
