@@ -55,12 +55,11 @@ void FramePainter::set(int x, int y, const Components& value) {
       *sample = static_cast<uint8_t>(value[c]);
       continue;
     }
+    // A word need not lie at an even address: the frame's memory may begin anywhere.
     const auto word = static_cast<uint16_t>(value[c] << GST_VIDEO_FORMAT_INFO_SHIFT(format, c));
-    if (GST_VIDEO_FORMAT_INFO_IS_LE(format)) {
-      GST_WRITE_UINT16_LE(sample, word);
-    } else {
-      GST_WRITE_UINT16_BE(sample, word);
-    }
+    const bool low_first = GST_VIDEO_FORMAT_INFO_IS_LE(format);
+    sample[low_first ? 0 : 1] = static_cast<uint8_t>(word & 0xFF);
+    sample[low_first ? 1 : 0] = static_cast<uint8_t>(word >> 8);
   }
 }
 

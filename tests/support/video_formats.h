@@ -43,11 +43,10 @@ inline void write_sample(const GstVideoFormatInfo& format, guint component, guin
   const guint below = depth - 8;
   const guint value = level << below | (rest & ((1u << below) - 1));
   const auto word = static_cast<guint16>(value << GST_VIDEO_FORMAT_INFO_SHIFT(&format, component));
-  if (GST_VIDEO_FORMAT_INFO_IS_LE(&format)) {
-    GST_WRITE_UINT16_LE(sample, word);
-  } else {
-    GST_WRITE_UINT16_BE(sample, word);
-  }
+  // A word need not lie at an even address.
+  const bool low_first = GST_VIDEO_FORMAT_INFO_IS_LE(&format);
+  sample[low_first ? 0 : 1] = static_cast<guint8>(word & 0xFF);
+  sample[low_first ? 1 : 0] = static_cast<guint8>(word >> 8);
 }
 
 /// Of a component of a pixel, bytes: in words V of a plane that it shares with U is the second one.
@@ -60,8 +59,9 @@ inline int component_offset(const GstVideoFormatInfo& format, guint component) {
 /// A component of one pixel, in its own numbers.
 inline guint read_sample(const GstVideoFormatInfo& format, guint component, const guint8* sample) {
   if (GST_VIDEO_FORMAT_INFO_DEPTH(&format, component) <= 8) return *sample;
-  const guint word = GST_VIDEO_FORMAT_INFO_IS_LE(&format) ? GST_READ_UINT16_LE(sample)
-                                                          : GST_READ_UINT16_BE(sample);
+  const bool low_first = GST_VIDEO_FORMAT_INFO_IS_LE(&format);
+  const guint word = static_cast<guint>(sample[low_first ? 0 : 1]) |
+                     static_cast<guint>(sample[low_first ? 1 : 0]) << 8;
   return word >> GST_VIDEO_FORMAT_INFO_SHIFT(&format, component);
 }
 
