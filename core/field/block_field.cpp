@@ -89,10 +89,13 @@ void replace_values(const std::array<uint8_t, 256>& table, PaddedImage& picture)
   picture.repeat_border();
 }
 
-/// A cut leaves at least this difference a pixel, after the best match of each block …
+/// A cut leaves at least this difference a pixel, after the best match of each block. Of the blocks
+/// whose pixels differ from their mean by the second at least, the third share is lost then: a
+/// block is, whose best match leaves the fourth share of that difference.
 constexpr int kLeastCut_grey = 5;
-/// … and this share of that of a block's pixels from their mean.
-constexpr double kCutShare = 0.6;
+constexpr int kLeastContrast_grey = 4;
+constexpr double kCutShare = 0.8;
+constexpr double kLostShare = 0.5;
 
 /// Σ |pixel − mean| of a block.
 int difference_from_mean(const PaddedImage& picture, int x_px, int y_px) {
@@ -152,19 +155,25 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
   return Result::kMoved;
 }
 
-/// Blocks of another picture fit hardly better than their own mean does.
+/// Blocks of another picture fit hardly better than their own mean does: nearly all of them, while
+/// of a picture that moves, however fast, some are found.
 bool BlockField::is_cut() const {
   int64_t between = 0;
   for (const BlockMatch& match : matches_) between += match.difference;
   const auto pixels = static_cast<int64_t>(grid_.size()) * kBlockArea_px;
   if (between < kLeastCut_grey * pixels) return false;
-  int64_t within = 0;
+  int with_texture = 0;
+  int lost = 0;
   for (int row = 0; row < grid_.rows; ++row) {
     for (int column = 0; column < grid_.columns; ++column) {
-      within += difference_from_mean(now_, grid_.x_px(column), grid_.y_px(row));
+      const int within = difference_from_mean(now_, grid_.x_px(column), grid_.y_px(row));
+      if (within < kLeastContrast_grey * kBlockArea_px) continue;
+      ++with_texture;
+      const int found = matches_[static_cast<size_t>(row * grid_.columns + column)].difference;
+      lost += found > kLostShare * within;
     }
   }
-  return static_cast<double>(between) > kCutShare * static_cast<double>(within);
+  return lost > kCutShare * with_texture;
 }
 
 /// Where the light of the whole picture has changed, the picture before is given that of now: a

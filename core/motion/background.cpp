@@ -19,7 +19,6 @@ constexpr double kLeastSpread = 0.2;
 constexpr double kLeastNoise_px = 0.05;
 constexpr double kMostNoise_px = 2;
 constexpr double kNoiseAtFirst_px = 0.1;
-constexpr double kLeastForNoise = 0.1;  // inliers of those that vote
 constexpr double kNoiseQuantile = 0.3;
 constexpr double kNoiseLearnt = 0.4;  // share of the new value in each frame
 constexpr double kOutlierSigmas = 2.5;
@@ -46,6 +45,7 @@ void BackgroundVotes::clear() {
   points.clear();
   weights.clear();
   at_border.clear();
+  sources.clear();
   all = 0;
 }
 
@@ -170,17 +170,18 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
   current = best;
 }
 
-/// From a low quantile of all residuals: up to half of the votes may be for something else.
-void BackgroundEstimator::learn_noise(const MotionModel& model) {
-  residuals_px_.clear();
-  for (const Displacement& point : evidence_.points) {
-    residuals_px_.push_back((point.moved_px - model.displacement_px(point.at_px)).norm());
+/// From a low quantile: what moves by itself may not have been told yet. Where most of the picture
+/// is plain, what is not may all be an object, and the noise is taken for that of good pictures.
+void BackgroundEstimator::learn_noise() {
+  double found_px = kNoiseAtFirst_px;
+  if (residuals_px_.size() >= kLeastVotes &&
+      (is_textured_ || background_.coverage >= kLeastCoverage)) {
+    const auto n = static_cast<double>(residuals_px_.size());
+    const auto place = residuals_px_.begin() + static_cast<ptrdiff_t>(kNoiseQuantile * n);
+    std::nth_element(residuals_px_.begin(), place, residuals_px_.end());
+    // Quantiles of a Rayleigh distribution.
+    found_px = *place / std::sqrt(-2 * std::log(1 - kNoiseQuantile));
   }
-  const auto n = static_cast<double>(residuals_px_.size());
-  const auto place = residuals_px_.begin() + static_cast<ptrdiff_t>(kNoiseQuantile * n);
-  std::nth_element(residuals_px_.begin(), place, residuals_px_.end());
-  // Quantiles of a Rayleigh distribution.
-  const double found_px = *place / std::sqrt(-2 * std::log(1 - kNoiseQuantile));
   noise_px_ += kNoiseLearnt * (std::clamp(found_px, kLeastNoise_px, kMostNoise_px) - noise_px_);
 }
 
@@ -214,8 +215,6 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   } else if (current.model.kind != ModelKind::kStill) {
     descend(start, votes, current);
   }
-  // What nothing speaks for tells nothing of the noise.
-  if (current.coverage * votes.all >= kLeastForNoise * voting_) learn_noise(current.model);
   background_.model = current.model;
   background_.coverage = current.coverage;
   background_.sigma_px = noise_px_;

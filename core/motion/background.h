@@ -17,6 +17,7 @@ struct BackgroundVotes {
   std::vector<Displacement> points;
   std::vector<double> weights;     ///< > 0, one a point
   std::vector<uint8_t> at_border;  ///< one a point: 1 at the border of the picture
+  std::vector<size_t> sources;     ///< one a point: what it is a displacement of, see learn_noise()
   double all = 0;                  ///< votes of the whole picture, those of textureless parts too
   Eigen::Vector2d size_px{1, 1};   ///< of the picture
 
@@ -42,6 +43,20 @@ class SPIDAR_API BackgroundEstimator {
   /// Votes of one frame.
   const Background& estimate(const BackgroundVotes& votes);
 
+  /// Learns the noise of the displacements from the votes given to the last estimate(), to be used
+  /// in the next one. What `moves(source)` is true for moves by itself and tells nothing of it.
+  template <typename Moves>
+  void learn_noise(const BackgroundVotes& votes, Moves&& moves) {
+    residuals_px_.clear();
+    for (size_t i = 0; i < votes.points.size(); ++i) {
+      if (moves(votes.sources[i])) continue;
+      const Displacement& point = votes.points[i];
+      const Eigen::Vector2d expected_px = background_.model.displacement_px(point.at_px);
+      residuals_px_.push_back((point.moved_px - expected_px).norm());
+    }
+    learn_noise();
+  }
+
   const Background& background() const { return background_; }
 
   /// For the tests and the benchmark: models that were fitted for the last frame.
@@ -65,7 +80,7 @@ class SPIDAR_API BackgroundEstimator {
   bool is_explained(const MotionModel& model) const;
   bool climb(const MotionModel& start, const BackgroundVotes& votes, Scored& current);
   void descend(const MotionModel& start, const BackgroundVotes& votes, Scored& current);
-  void learn_noise(const MotionModel& model);
+  void learn_noise();
 
   WeightedDisplacements evidence_;
   RobustFitter fitter_;

@@ -68,6 +68,7 @@ MotionEstimator::MotionEstimator() {
   votes_.points.reserve(kMostDisplacements);
   votes_.weights.reserve(kMostDisplacements);
   votes_.at_border.reserve(kMostDisplacements);
+  votes_.sources.reserve(kMostDisplacements);
   evidence_.points.reserve(kMostDisplacements);
   evidence_.weights.reserve(kMostDisplacements);
   placed_.reserve(kMostDisplacements);
@@ -103,6 +104,7 @@ void MotionEstimator::collect_votes() {
       votes_.points.push_back({0, at_px - moved_px, moved_px});
       votes_.weights.push_back(weight);
       votes_.at_border.push_back(at_border);
+      votes_.sources.push_back(i);
     }
   }
 }
@@ -230,10 +232,12 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
   scene.camera = camera_motion(background_, static_cast<int>(votes_.points.size()), interval_s);
   if (kind == MotionKind::kCamera) {
     scene.felt = scene.camera;
+    estimator_.learn_noise(votes_, [](size_t) { return false; });
   } else {
     const FieldInFrame field{field_, scale, field_offset_px(field_.picture(), reduced, scale),
                              interval_s, placed_};
     const std::vector<MovingObject>& objects = objects_.update(field, background);
+    estimator_.learn_noise(votes_, [this](size_t block) { return objects_.moves(block); });
     scene.objects = static_cast<int>(objects.size());
     scene.object_list = &objects;
     // Also while all of them are felt: who then asks for one gets the one that was looked at.

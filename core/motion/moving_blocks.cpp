@@ -6,8 +6,10 @@
 namespace spidar {
 namespace {
 
-/// Against the background, px of the field's picture; 0.7 px in a frame of 480 lines.
+/// Against the background, px of the field's picture: 0.7 px in a frame of 480 lines, and less
+/// where the camera is still, for no model of its motion can be wrong there.
 constexpr float kLeastMotion_px = 0.35f;
+constexpr float kLeastMotionWhileStill_px = 0.15f;
 constexpr float kMotionSigmas = 3;
 /// Below this sum of the tensor's eigenvalues, (grey / px)², a block says nothing.
 constexpr float kLeastTexture = 4;
@@ -15,6 +17,9 @@ constexpr float kLeastTexture = 4;
 /// how much more where the block's own motion explains it badly.
 constexpr float kLeastEvidence = 3;
 constexpr float kEvidencePerResidual = 0.1f;
+/// What is known to be there may become this much slower before a still camera until it rests: no
+/// model of the camera's motion can be wrong then.
+constexpr float kSlower = 0.25f;
 /// Grey levels a pixel that the background's motion must cost in the picture itself: a fixed part,
 /// a share of the picture's noise, and a share of what the block's own motion costs.
 constexpr float kWorse_grey = 0.5f;
@@ -27,10 +32,14 @@ constexpr int kNeighboursOfUnknown = 4;
 /// One that stands still but is surrounded by so many moves, too: its own motion is an error.
 constexpr int kNeighboursOfStill = 7;
 
-constexpr float kForgets = 0.5f;
-/// What has stood out for two frames or more needs one neighbour.
+/// What has stood out in two of the last frames needs one neighbour.
 constexpr float kLasting = 0.5f;
 constexpr int kNeighboursOfLasting = 1;
+/// Shares of the newest frame in what is remembered of those before, and what counts of a block
+/// that stood out beside the one that this one came from.
+constexpr float kStandsOutLearnt = 0.4f;
+constexpr float kBeside = 0.9f;
+constexpr float kPersistenceLearnt = 0.5f;
 
 }  // namespace
 
@@ -49,6 +58,7 @@ size_t origin_of(const BlockField& field, size_t index) {
 
 void MovingBlocks::reset() {
   persistence_.clear();
+  stood_out_.clear();
 }
 
 /// Motion of each block against the background.
@@ -82,10 +92,13 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
   if (!relative.has_texture) return Judgement::kUnknown;
   const float x = relative.x_px;
   const float y = relative.y_px;
-  const float least_px = std::max(kLeastMotion_px, kMotionSigmas * static_cast<float>(noise_px));
+  const float slower = expected && camera_is_still_ ? kSlower : 1;
+  const float least_px =
+      slower * std::max(kLeastMotion_px, kMotionSigmas * static_cast<float>(noise_px));
   if (x * x + y * y < least_px * least_px) return Judgement::kStill;
   const float evidence = x * x * block.xx + 2 * x * y * block.xy + y * y * block.yy;
-  if (evidence < kLeastEvidence * (1 + kEvidencePerResidual * block.residual)) {
+  const float least_evidence = slower * slower * kLeastEvidence;
+  if (evidence < least_evidence * (1 + kEvidencePerResidual * block.residual)) {
     return Judgement::kStill;
   }
   const int with_background = field.difference_if_moved(
@@ -117,7 +130,7 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
       switch (judgements_[index]) {
         case Judgement::kMoves:
           moves = moving >= kLeastNeighbours ||
-                  (moving >= kNeighboursOfLasting && seen_[index] > kLasting);
+                  (moving >= kNeighboursOfLasting && stood_out_[index] > kLasting);
           break;
         case Judgement::kUnknown:
           moves = moving >= kNeighboursOfUnknown && 3 * moving >= 2 * known;
@@ -131,24 +144,35 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
   }
 }
 
-void MovingBlocks::remember(const BlockField& field) {
+/// How much each block has stood out of late. What is small may have moved on to the next block.
+void MovingBlocks::remember_judgements(const BlockField& field) {
+  const size_t n = judgements_.size();
+  stood_out_before_.swap(stood_out_);
+  if (stood_out_before_.size() != n) stood_out_before_.assign(n, 0);
+  stood_out_.resize(n);
+  const auto columns = static_cast<size_t>(field.grid().columns);
+  for (size_t i = 0; i < n; ++i) {
+    const size_t origin = origin_of(field, i);
+    float beside = 0;
+    if (origin % columns > 0) beside = std::max(beside, stood_out_before_[origin - 1]);
+    if (origin % columns + 1 < columns) beside = std::max(beside, stood_out_before_[origin + 1]);
+    if (origin >= columns) beside = std::max(beside, stood_out_before_[origin - columns]);
+    if (origin + columns < n) beside = std::max(beside, stood_out_before_[origin + columns]);
+    const float before = std::max(stood_out_before_[origin], kBeside * beside);
+    const float now = judgements_[i] == Judgement::kMoves ? 1.0f : 0.0f;
+    stood_out_[i] = before + kStandsOutLearnt * (now - before);
+  }
+}
+
+void MovingBlocks::remember_motion(const BlockField& field) {
   const size_t n = relative_.size();
   persistence_before_.swap(persistence_);
   if (persistence_before_.size() != n) persistence_before_.assign(n, 0);
   persistence_.resize(n);
-  seen_before_.swap(seen_);
-  if (seen_before_.size() != n) seen_before_.assign(n, 0);
-  seen_.resize(n);
   for (size_t i = 0; i < n; ++i) {
-    const auto o = origin_of(field, i);
-    float before = seen_before_[o];
-    const int W = field.grid().columns, H = field.grid().rows;
-    int ox = int(o) % W, oy = int(o) / W;
-    if (ox > 0) before = std::max(before, .9f * seen_before_[o - 1]);
-    if (ox + 1 < W) before = std::max(before, .9f * seen_before_[o + 1]);
-    if (oy > 0) before = std::max(before, .9f * seen_before_[o - W]);
-    if (oy + 1 < H) before = std::max(before, .9f * seen_before_[o + W]);
-    seen_[i] = .6f * before + .4f * (judgements_[i] == Judgement::kMoves);
+    const float before = persistence_before_[origin_of(field, i)];
+    const float now = relative_[i].moves ? 1.0f : 0.0f;
+    persistence_[i] = before + kPersistenceLearnt * (now - before);
   }
 }
 
@@ -156,17 +180,15 @@ const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
                                                      const Background& background,
                                                      const std::vector<uint8_t>& expected) {
   compare(field, background);
+  camera_is_still_ = background.model.kind == ModelKind::kStill;
   judgements_.resize(relative_.size());
   for (size_t i = 0; i < judgements_.size(); ++i) {
     const bool is_expected = i < expected.size() && expected[i] != 0;
     judgements_[i] = judge(field, i, background.sigma_px, is_expected);
   }
-  remember(field);
+  remember_judgements(field);
   ask_neighbours(field.grid());
-  for (size_t i = 0; i < relative_.size(); ++i) {
-    const float b = persistence_before_[origin_of(field, i)];
-    persistence_[i] = kForgets * b + (1 - kForgets) * (relative_[i].moves ? 1.0f : 0.0f);
-  }
+  remember_motion(field);
   return relative_;
 }
 

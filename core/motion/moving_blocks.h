@@ -42,14 +42,17 @@ class MovingBlocks {
   void compare(const BlockField& field, const Background& background);
   Judgement judge(const BlockField& field, size_t index, double noise_px, bool expected) const;
   void ask_neighbours(const BlockGrid& grid);
-  void remember(const BlockField& field);
+  void remember_judgements(const BlockField& field);
+  void remember_motion(const BlockField& field);
 
   std::vector<RelativeBlock> relative_;
   std::vector<Judgement> judgements_;
   std::vector<float> persistence_;
   std::vector<float> persistence_before_;
-  std::vector<float> seen_, seen_before_;
+  std::vector<float> stood_out_;
+  std::vector<float> stood_out_before_;
   std::vector<float> residuals_;
+  bool camera_is_still_ = true;
   float picture_noise_ = 0;  ///< mean squared difference of what is explained best, grey²
 };
 

@@ -11,19 +11,23 @@ namespace {
 /// Regions are the same object when their motions differ by less than this share, plus this much.
 constexpr double kSameMotion = 0.5;
 constexpr double kSameMotion_px = 1;
+/// An object is what was seen in so many frames, with so many blocks in all of them together: what
+/// is small has to be seen more often.
 constexpr int kBornAfter = 2;
 constexpr int kBornAfterBlocks = 8;
 /// Where an object is expected that was not seen, as a share of the sum of both boxes' sides.
 constexpr double kReach = 0.75;
 /// An object that is lost goes on for this long: its blocks fail for a frame or two now and then.
 constexpr double kCoast_s = 0.05;
-/// Share of the new value in the velocity of an object, which thereby is late by 0.7 of a frame.
+/// Share of the new value in the velocity of an object that is not rigid, which thereby is late by
+/// a frame.
 constexpr double kNewest = 0.5;
 /// A camera slower than this is still, px of the field's picture a frame.
 constexpr double kCameraStill_px = 0.25;
 /// An object turns or grows when this many blocks say so and the GRIC finds it worth it.
 constexpr size_t kLeastForSimilarity = 6;
 /// Motion of the blocks of one object differs by this share besides the noise: it is not rigid.
+constexpr double kObjectNoiseShare = 0.1;
 /// Points are the object's own when they move as the median of its blocks does, up to this share of
 /// it and so many px of the field's picture; so many of them say more than the blocks.
 constexpr double kPointReachShare = 0.35;
@@ -42,7 +46,6 @@ constexpr int kProvenAfter = 3;
 constexpr double kMostOfPicture = 0.75;
 constexpr double kMostOfUnknown = 0.4;
 constexpr double kKnownCoverage = 0.07;
-constexpr double kObjectNoiseShare = 0.1;
 
 }  // namespace
 
@@ -105,13 +108,15 @@ ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const Fiel
   return nullptr;
 }
 
-void ObjectTracker::bear(const Region& region) {
-  if (lives_.size() >= kMostObjects) return;
+/// The id of a new object; 0 when there are too many.
+uint32_t ObjectTracker::create(const Region& region) {
+  if (lives_.size() >= kMostObjects) return 0;
   lives_.emplace_back();
   Life& life = lives_.back();
   life.object.id = next_id_++;
   life.region = region;
   life.claimed = true;
+  return life.object.id;
 }
 
 /// Gives each region to an object. The largest of those of an object is the object.
@@ -139,8 +144,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
     }
     if (!life) life = expected_at(region, frame);
     if (!life) {
-      bear(region);
-      region_ids_[k] = lives_.empty() ? 0 : lives_.back().object.id;
+      region_ids_[k] = create(region);
       continue;
     }
     life->claimed = true;
@@ -235,7 +239,7 @@ void ObjectTracker::place(Life& life, const FieldInFrame& frame) const {
       object.relative_px_s + frame.scale * region.background_px / frame.interval_s;
 }
 
-void ObjectTracker::see(Life& life, const FieldInFrame& frame) {
+void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   measure(life, frame);
   const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
   const bool goes_on = life.frames_seen > 0 && velocity_px_s.dot(life.velocity_px_s) > 0;
@@ -309,7 +313,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   }
   for (Life& life : lives_) {
     if (life.claimed) {
-      see(life, frame);
+      observe(life, frame);
     } else {
       miss(life, frame);
     }

@@ -50,6 +50,8 @@ class SPIDAR_API ObjectTracker {
   /// The object that each block is of in the last frame, its id; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 
+  /// Whether a block moved by itself in the last frame.
+  bool moves(size_t block) const { return (*relative_)[block].moves; }
   /// Whether a block has told in the last frame how an object moves.
   bool is_measured(size_t block) const {
     return block < owners_.size() && owners_[block] != 0 && (*relative_)[block].has_texture;
@@ -83,8 +85,8 @@ class SPIDAR_API ObjectTracker {
   Life* owner_of(int16_t region);
   Life* expected_at(const Region& region, const FieldInFrame& frame);
   bool is_same_motion(const Life& life, const Region& region, const FieldInFrame& frame) const;
-  void bear(const Region& region);
-  void see(Life& life, const FieldInFrame& frame);
+  uint32_t create(const Region& region);
+  void observe(Life& life, const FieldInFrame& frame);
   void miss(Life& life, const FieldInFrame& frame);
   void measure(Life& life, const FieldInFrame& frame);
   bool collect_points(const Life& life, const MotionModel& motion, const FieldInFrame& frame);
