@@ -8,7 +8,6 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
   const MovingObject* best = nullptr;
   double most = 0;
   for (const MovingObject& object : objects) {
-    // What is out of sight for a moment is not left for what is hardly anything.
     const double prominence = object.prominence * (object.id == id_ ? kClearly : 1);
     if (best && prominence <= most) continue;
     best = &object;

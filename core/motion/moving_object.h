@@ -19,7 +19,7 @@ struct MovingObject {
   double growth_1_s = 0;                                     ///< see ImageMotion, both against …
   double roll_rad_s = 0;                                     ///< … the background
   ModelKind model = ModelKind::kTranslation;                 ///< translation or similarity
-  int tracks = 0;         ///< blocks that it was measured with; 0 while it is out of sight
+  int tracks = 0;         ///< points or blocks it was measured with; 0: out of sight
   double noise_px_s = 0;  ///< standard error of each coordinate of relative_px_s
   double area_px2 = 0;    ///< of its blocks
   double prominence = 0;  ///< what one would look at, see salience()
