@@ -50,6 +50,15 @@ static inline gboolean gst_buffer_get_spidar_motion(GstBuffer* buffer, GstSpidar
       G_TYPE_DOUBLE, &motion->torque_y, "torque-z", G_TYPE_DOUBLE, &motion->torque_z, NULL);
 }
 
+/* Whether the frame shows the picture before again, so that the wrench of that one holds on. */
+static inline gboolean gst_buffer_repeats_spidar_motion(GstBuffer* buffer) {
+  GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
+  gboolean repeated = FALSE;
+  return meta != NULL &&
+         gst_structure_get_boolean(gst_custom_meta_get_structure(meta), "repeated", &repeated) &&
+         repeated;
+}
+
 /* The tracks of a frame as GstSpidarMotionTrack; NULL without the meta, else to be freed with
  * g_array_unref(). */
 static inline GArray* gst_buffer_get_spidar_tracks(GstBuffer* buffer) {

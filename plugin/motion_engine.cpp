@@ -14,15 +14,6 @@ int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
 }
 
-/// How long a frame's wrench holds when no later frame is known (live): until the next one is due,
-/// and while it may be a little late. With SafetyLimits::ramp_s the force is gone 50 ms after a
-/// frame that does not come, and at any frame rate from 11/s on it does not dip between two that
-/// do.
-int64_t hold_time_ns(int64_t interval_ns) {
-  constexpr int64_t kLate_ns = 10 * 1000 * 1000;
-  return interval_ns > 0 ? std::min(interval_ns + kLate_ns, WrenchTimeline::kLongestHold_ns) : 0;
-}
-
 /// Of frames that are closer together one timestamp is wrong: their distance is no time to divide a
 /// motion by. An eighth of what the caps promise, as far as they can be believed.
 int64_t least_interval_ns(const GstVideoInfo& info, double rate) {
@@ -273,7 +264,8 @@ void MotionEngine::pass_gap(GstClockTime running_time) {
   // What videorate makes of a frame that is to be shown again.
   const std::optional<FrameAnalysis> analysis = follows ? analyzer_.repeat(paced_ns) : std::nullopt;
   if (analysis) {
-    schedule_.add({running_ns, hold_time_ns(since_ns), analysis->wrench, analysis->repeated});
+    schedule_.add(
+        {running_ns, WrenchTimeline::hold_after(since_ns), analysis->wrench, analysis->repeated});
   } else {
     run_out(running_time);
   }
@@ -350,8 +342,8 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   last_paced_ns_ = paced_ns;
   if (since_ns > 0) last_interval_ns_ = since_ns;
   if (!in_place) {
-    schedule_.add(
-        {running_ns, hold_time_ns(since_ns), report.analysis.wrench, report.analysis.repeated});
+    schedule_.add({running_ns, WrenchTimeline::hold_after(since_ns), report.analysis.wrench,
+                   report.analysis.repeated});
   }
   if (trace_.is_open()) {
     report.trace_failed =

@@ -55,6 +55,8 @@ bool copy_scaled(GstBuffer* to, GstBuffer* from, double scale_x, double scale_y,
   g_array_unref(tracks);
   GstStructure* structure = add_meta(to);
   set_values(structure, motion);
+  gst_structure_set(structure, "repeated", G_TYPE_BOOLEAN, gst_buffer_repeats_spidar_motion(from),
+                    nullptr);
   set_tracks(structure, scaled);
   return true;
 }
@@ -128,6 +130,8 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, const Scen
   }
   GstStructure* structure = add_meta(buffer);
   set_values(structure, motion);
+  gst_structure_set(structure, "repeated", G_TYPE_BOOLEAN, report.analysis.repeated ? TRUE : FALSE,
+                    nullptr);
   set_tracks(structure, tracks);
 }
 

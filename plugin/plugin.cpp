@@ -2,9 +2,11 @@
 
 #include "plugin/device_provider.h"
 #include "plugin/spidar_motion.h"
+#include "plugin/track/spidar_extract.h"
 
 static gboolean plugin_init(GstPlugin* plugin) {
   return GST_ELEMENT_REGISTER(spidarmotion, plugin) &&
+         GST_ELEMENT_REGISTER(spidarextract, plugin) &&
          GST_DEVICE_PROVIDER_REGISTER(spidardeviceprovider, plugin);
 }
 

@@ -57,6 +57,15 @@ class SPIDAR_API WrenchTimeline {
   static constexpr int64_t kApproach_ns = 15'000'000;
   /// No frame is to be held longer. TimedWrench::hold_ns may say otherwise: it is the caller's.
   static constexpr int64_t kLongestHold_ns = 100'000'000;
+  /// TimedWrench::hold_ns of a frame that comes `interval_ns` after the one before, when no later
+  /// frame is known (live): until the next one is due, and while it may be a little late. With
+  /// SafetyLimits::ramp_s the force is gone 50 ms after a frame that does not come, and at any
+  /// frame rate from 11/s on it does not dip between two that do.
+  static constexpr int64_t hold_after(int64_t interval_ns) noexcept {
+    constexpr int64_t kLate_ns = 10'000'000;
+    if (interval_ns <= 0) return 0;
+    return interval_ns < kLongestHold_ns - kLate_ns ? interval_ns + kLate_ns : kLongestHold_ns;
+  }
   /// From a full wrench to rest when it has expired, and from rest to a full one after a gap.
   /// SafetyLimits::ramp_s is the same.
   static constexpr int64_t kRamp_ns = 40'000'000;

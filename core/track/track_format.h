@@ -1,0 +1,44 @@
+/// What a haptic track is: the wanted wrench as six channels of samples, like sound.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/wrench.h"
+
+namespace spidar {
+
+/// Samples of a track that this project writes: one a millisecond, as the haptic loop feels them.
+constexpr int kTrackRate_Hz = 1000;
+constexpr int64_t kTrackPeriod_ns = 1'000'000'000 / kTrackRate_Hz;
+/// fx fy fz tx ty tz, in the device frame D.
+constexpr size_t kTrackChannels = 6;
+/// A sample of 1.0 is this much. What is more is clipped by encodings of integers only.
+constexpr double kTrackForceScale_N = 10;
+constexpr double kTrackTorqueScale_Nm = 1;
+
+/// One moment of a track: shares of the full scale.
+using TrackSample = std::array<float, kTrackChannels>;
+
+inline TrackSample to_track_sample(const Wrench& wrench) noexcept {
+  TrackSample sample;
+  for (size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    sample[i] = static_cast<float>(wrench.force_N[axis] / kTrackForceScale_N);
+    sample[i + 3] = static_cast<float>(wrench.torque_Nm[axis] / kTrackTorqueScale_Nm);
+  }
+  return sample;
+}
+
+inline Wrench to_wrench(const TrackSample& sample) noexcept {
+  Wrench wrench;
+  for (size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    wrench.force_N[axis] = kTrackForceScale_N * static_cast<double>(sample[i]);
+    wrench.torque_Nm[axis] = kTrackTorqueScale_Nm * static_cast<double>(sample[i + 3]);
+  }
+  return wrench;
+}
+
+}  // namespace spidar

@@ -1,0 +1,238 @@
+/**
+ * SECTION:element-spidarextract
+ * @title: spidarextract
+ * @short_description: a haptic track from a video that spidarmotion has analysed
+ *
+ * The video passes from `sink` to `src` untouched. The pad `wrench` gives what `spidarmotion
+ * attach-meta=true` wants to be felt, before any safety step, as six channels of sound: force x, y,
+ * z and torque x, y, z, 1000 samples a second, F32. A sample of 1.0 is 10 N or 1 N m. Between two
+ * frames the samples follow the curve that the haptic loop feels.
+ *
+ * Buffers are 40 ms long, and marked as gaps where there is no force. A sample is known when the
+ * frame after the next one is: `wrench` reports that latency. Either source pad may be left
+ * unlinked. Where both lead to sinks that wait for their first buffer, the video needs a queue.
+ *
+ * Played backwards, `wrench` has gap events in place of samples.
+ *
+ * ## Example launch line
+ * |[
+ * gst-launch-1.0 filesrc location=film.mp4 ! decodebin ! spidarmotion device=none attach-meta=true
+ * ! spidarextract name=x x.wrench ! matroskamux ! filesink location=film.haptic.mka
+ * ]| Records the haptic track of a film as fast as it can be decoded.
+ *
+ * Since: 0.1
+ */
+#include "plugin/track/spidar_extract.h"
+
+#include <gst/base/gstflowcombiner.h>
+
+#include "plugin/gstspidarmotionmeta.h"
+#include "plugin/track/track_stream.h"
+
+GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);
+#define GST_CAT_DEFAULT gst_spidar_extract_debug
+
+using spidar::FrameWrench;
+using spidar::TrackStream;
+
+struct _GstSpidarExtract {
+  GstElement parent;
+
+  GstPad* sink;
+  GstPad* src;
+  GstPad* wrench;
+  // Streaming thread.
+  TrackStream* track;
+  GstFlowCombiner* flows;
+  gboolean complained;  // that frames have no meta
+};
+
+static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
+    "sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
+static GstStaticPadTemplate src_template = GST_STATIC_PAD_TEMPLATE(
+    "src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
+static GstStaticPadTemplate wrench_template = GST_STATIC_PAD_TEMPLATE(
+    "wrench", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(SPIDAR_TRACK_CAPS));
+
+G_DEFINE_TYPE_WITH_CODE(GstSpidarExtract, gst_spidar_extract, GST_TYPE_ELEMENT,
+                        GST_DEBUG_CATEGORY_INIT(gst_spidar_extract_debug, "spidarextract", 0,
+                                                "haptic track of a video"))
+GST_ELEMENT_REGISTER_DEFINE(spidarextract, "spidarextract", GST_RANK_NONE, GST_TYPE_SPIDAR_EXTRACT)
+
+// --- streaming thread --------------------------------------------------------------------------
+
+static FrameWrench read_frame(GstBuffer* buffer) {
+  FrameWrench frame;
+  frame.pts = GST_BUFFER_PTS(buffer);
+  frame.duration = GST_BUFFER_DURATION(buffer);
+  GstSpidarMotion motion;
+  if (gst_buffer_get_spidar_motion(buffer, &motion)) {
+    frame.known = true;
+    frame.compared = motion.interval > 0;
+    frame.repeats = gst_buffer_repeats_spidar_motion(buffer);
+    frame.wrench = {{motion.force_x, motion.force_y, motion.force_z},
+                    {motion.torque_x, motion.torque_y, motion.torque_z}};
+  }
+  return frame;
+}
+
+/// Counts what a pad has said into what is said upstream.
+static GstFlowReturn combined(GstSpidarExtract* self, GstPad* pad, GstFlowReturn flow) {
+  return gst_flow_combiner_update_pad_flow(self->flows, pad, flow);
+}
+
+static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuffer* buffer) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  const FrameWrench frame = read_frame(buffer);
+  // A frame without a picture has no meta, and is none to complain of.
+  if (!frame.known && !self->complained && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP)) {
+    self->complained = TRUE;
+    GST_ELEMENT_WARNING(
+        self, STREAM, FORMAT,
+        ("Frames come without the data of spidarmotion: the haptic track is silent "
+         "where they do."),
+        ("Put 'spidarmotion attach-meta=true' in front of spidarextract, and nothing "
+         "that cuts or turns the picture between them."));
+  }
+  const GstFlowReturn track_flow = self->track->add(frame);
+  combined(self, self->wrench, track_flow);
+  return combined(self, self->src, gst_pad_push(self->src, buffer));
+}
+
+static gboolean gst_spidar_extract_sink_event(GstPad*, GstObject* parent, GstEvent* event) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_FLUSH_START:
+    case GST_EVENT_SEGMENT_DONE:
+      gst_pad_push_event(self->wrench, gst_event_ref(event));
+      break;
+    case GST_EVENT_FLUSH_STOP:
+      self->track->flush();
+      gst_flow_combiner_reset(self->flows);
+      gst_pad_push_event(self->wrench, gst_event_ref(event));
+      break;
+    case GST_EVENT_STREAM_START:
+      self->track->begin_stream(GST_ELEMENT(self), event);
+      break;
+    case GST_EVENT_SEGMENT:
+      combined(self, self->wrench, self->track->begin_segment(event));
+      break;
+    case GST_EVENT_GAP: {
+      GstClockTime time;
+      gst_event_parse_gap(event, &time, nullptr);
+      combined(self, self->wrench, self->track->add_gap(time));
+      break;
+    }
+    case GST_EVENT_EOS:
+      combined(self, self->wrench, self->track->finish());
+      gst_pad_push_event(self->wrench, gst_event_ref(event));
+      break;
+    default:
+      break;
+  }
+  return gst_pad_push_event(self->src, event) || GST_EVENT_TYPE(event) == GST_EVENT_EOS;
+}
+
+/// Caps and memory are a matter between upstream and whoever takes the video.
+static gboolean gst_spidar_extract_sink_query(GstPad* pad, GstObject* parent, GstQuery* query) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  switch (GST_QUERY_TYPE(query)) {
+    case GST_QUERY_CAPS:
+    case GST_QUERY_ACCEPT_CAPS:
+    case GST_QUERY_ALLOCATION:
+      if (gst_pad_is_linked(self->src)) return gst_pad_peer_query(self->src, query);
+      break;
+    default:
+      break;
+  }
+  return gst_pad_query_default(pad, parent, query);
+}
+
+// --- from downstream ---------------------------------------------------------------------------
+
+static gboolean gst_spidar_extract_src_query(GstPad* pad, GstObject* parent, GstQuery* query) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  if (GST_QUERY_TYPE(query) == GST_QUERY_CAPS || GST_QUERY_TYPE(query) == GST_QUERY_ACCEPT_CAPS) {
+    if (gst_pad_is_linked(self->sink)) return gst_pad_peer_query(self->sink, query);
+  }
+  return gst_pad_query_default(pad, parent, query);
+}
+
+static gboolean gst_spidar_extract_wrench_query(GstPad* pad, GstObject* parent, GstQuery* query) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  if (GST_QUERY_TYPE(query) != GST_QUERY_LATENCY) return gst_pad_query_default(pad, parent, query);
+  if (!gst_pad_peer_query(self->sink, query)) return FALSE;
+  gboolean live;
+  GstClockTime min, max;
+  gst_query_parse_latency(query, &live, &min, &max);
+  min += TrackStream::latency_ns();
+  if (GST_CLOCK_TIME_IS_VALID(max)) max += TrackStream::latency_ns();
+  gst_query_set_latency(query, live, min, max);
+  return TRUE;
+}
+
+/// That the samples come late is not the decoder's fault, and other caps of theirs are not its
+/// business.
+static gboolean gst_spidar_extract_wrench_event(GstPad* pad, GstObject* parent, GstEvent* event) {
+  if (GST_EVENT_TYPE(event) == GST_EVENT_QOS || GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
+    gst_event_unref(event);
+    return TRUE;
+  }
+  return gst_pad_event_default(pad, parent, event);
+}
+
+// --- object ------------------------------------------------------------------------------------
+
+static GstStateChangeReturn gst_spidar_extract_change_state(GstElement* element,
+                                                            GstStateChange transition) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(element);
+  if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) self->complained = FALSE;
+  const GstStateChangeReturn result =
+      GST_ELEMENT_CLASS(gst_spidar_extract_parent_class)->change_state(element, transition);
+  if (transition == GST_STATE_CHANGE_PAUSED_TO_READY) {
+    self->track->reset();
+    gst_flow_combiner_reset(self->flows);
+  }
+  return result;
+}
+
+static void gst_spidar_extract_finalize(GObject* object) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(object);
+  delete self->track;
+  gst_flow_combiner_unref(self->flows);
+  G_OBJECT_CLASS(gst_spidar_extract_parent_class)->finalize(object);
+}
+
+static GstPad* add_pad(GstSpidarExtract* self, GstStaticPadTemplate* pad_template) {
+  GstPad* pad = gst_pad_new_from_static_template(pad_template, pad_template->name_template);
+  gst_element_add_pad(GST_ELEMENT(self), pad);
+  return pad;
+}
+
+static void gst_spidar_extract_init(GstSpidarExtract* self) {
+  self->sink = add_pad(self, &sink_template);
+  gst_pad_set_chain_function(self->sink, gst_spidar_extract_chain);
+  gst_pad_set_event_function(self->sink, gst_spidar_extract_sink_event);
+  gst_pad_set_query_function(self->sink, gst_spidar_extract_sink_query);
+  self->src = add_pad(self, &src_template);
+  gst_pad_set_query_function(self->src, gst_spidar_extract_src_query);
+  self->wrench = add_pad(self, &wrench_template);
+  gst_pad_set_query_function(self->wrench, gst_spidar_extract_wrench_query);
+  gst_pad_set_event_function(self->wrench, gst_spidar_extract_wrench_event);
+  self->track = new TrackStream(self->wrench);
+  self->flows = gst_flow_combiner_new();
+  gst_flow_combiner_add_pad(self->flows, self->src);
+  gst_flow_combiner_add_pad(self->flows, self->wrench);
+}
+
+static void gst_spidar_extract_class_init(GstSpidarExtractClass* klass) {
+  GstElementClass* element_class = GST_ELEMENT_CLASS(klass);
+  G_OBJECT_CLASS(klass)->finalize = gst_spidar_extract_finalize;
+  element_class->change_state = gst_spidar_extract_change_state;
+  gst_element_class_set_static_metadata(
+      element_class, "SPIDAR track extractor", "Filter/Analyzer/Video",
+      "Gives what spidarmotion wants to be felt as a track of six channels", "gst-spidar");
+  for (GstStaticPadTemplate* pad_template : {&sink_template, &src_template, &wrench_template}) {
+    gst_element_class_add_static_pad_template(element_class, pad_template);
+  }
+}

@@ -1,0 +1,85 @@
+/// The second pad of spidarextract: wrenches of frames become buffers of samples.
+#pragma once
+
+#include <cstdint>
+
+#include <gst/gst.h>
+
+#include "core/track/track_format.h"
+#include "core/track/track_sampler.h"
+
+namespace spidar {
+
+/// Caps of a haptic track as this project writes it. The mask of 5.1 comes first, though these are
+/// no loudspeakers: FLAC has no other, containers give it back for none, and audioconvert does not
+/// convert between the two. A caps filter asks for the other.
+#define SPIDAR_TRACK_CAPS_WITH(mask)                                                   \
+  "audio/x-raw, format = (string) F32LE, layout = (string) interleaved, rate = (int) " \
+  "1000, channels = (int) 6, channel-mask = (bitmask) " mask
+#define SPIDAR_TRACK_CAPS SPIDAR_TRACK_CAPS_WITH("0x3f") "; " SPIDAR_TRACK_CAPS_WITH("0x0")
+
+/// What is said of one frame.
+struct FrameWrench {
+  GstClockTime pts = GST_CLOCK_TIME_NONE;
+  GstClockTime duration = GST_CLOCK_TIME_NONE;
+  bool known = false;     ///< it was analysed
+  bool compared = false;  ///< with a frame before: its wrench holds until the next one is due
+  bool repeats = false;   ///< shows the picture of the frame before
+  bool discont = false;   ///< begins anew
+  Wrench wrench;
+};
+
+/// Streaming thread only. All methods that return a flow push what has become known.
+class TrackStream {
+ public:
+  static constexpr GstClockTime kBuffer_ns = 40 * GST_MSECOND;
+  /// The curve between two frames needs the one after them; where that is further away than this
+  /// the samples do not wait for it.
+  static constexpr GstClockTime kLookAhead_ns = 100 * GST_MSECOND;
+
+  /// `pad` belongs to the element that owns this.
+  explicit TrackStream(GstPad* pad);
+  ~TrackStream();
+  TrackStream(const TrackStream&) = delete;
+  TrackStream& operator=(const TrackStream&) = delete;
+
+  /// Another stream begins upstream: what it is called here.
+  void begin_stream(GstElement* element, const GstEvent* stream_start);
+  /// Of the video. What is pending of the last one is pushed.
+  GstFlowReturn begin_segment(const GstEvent* event);
+  GstFlowReturn add(const FrameWrench& frame);
+  /// There are no frames from here on.
+  GstFlowReturn add_gap(GstClockTime pts);
+  /// Everything up to the end of the last frame, which ends at rest.
+  GstFlowReturn finish();
+  /// Everything that is pending is forgotten.
+  void flush();
+  /// So is the segment.
+  void reset();
+
+  /// How long a sample may wait in here.
+  static constexpr GstClockTime latency_ns() { return kBuffer_ns + kLookAhead_ns; }
+
+ private:
+  bool negotiate();
+  void begin_at(int64_t first_frame_ns);
+  GstFlowReturn put_until(int64_t time_ns);
+  GstFlowReturn put(const TrackSample& sample, GstClockTime pts);
+  GstFlowReturn push();
+
+  GstPad* const pad_;
+  GstSegment segment_{};
+  bool negotiated_ = false;
+  bool begun_ = false;
+  TrackSampler sampler_;
+  int64_t last_frame_ns_ = 0;
+  int64_t interval_ns_ = 0;  // its duration, or the time since the one before
+  // The buffer that is being filled.
+  GstBuffer* buffer_ = nullptr;
+  GstMapInfo map_{};
+  size_t filled_ = 0;
+  bool silent_ = true;
+  bool discont_ = true;
+};
+
+}  // namespace spidar

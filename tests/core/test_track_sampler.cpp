@@ -1,0 +1,109 @@
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/track/track_format.h"
+#include "core/track/track_sampler.h"
+
+namespace spidar {
+namespace {
+
+constexpr int64_t kLookAhead_ns = 100'000'000;
+
+Wrench wrench_of(double k) {
+  return {{std::sin(k), 2 * std::cos(3 * k), 0.3 * k}, {0.01 * k, 0.1 * std::sin(2 * k), -0.02}};
+}
+
+/// Frames that are not whole milliseconds apart, every fifth of which shows the picture before.
+std::vector<TimedWrench> film(int frames, int64_t interval_ns) {
+  std::vector<TimedWrench> film;
+  for (int i = 0; i < frames; ++i) {
+    const bool repeated = i % 5 == 4;
+    const int shown = repeated ? i - 1 : i;
+    film.push_back(
+        {i * interval_ns, WrenchTimeline::hold_after(interval_ns), wrench_of(shown), repeated});
+  }
+  return film;
+}
+
+TEST(TrackSampler, TakesTheCurveThatIsFeltWhenAllFramesAreKnown) {
+  for (const int64_t interval_ns : {8'333'333, 33'366'667, 40'000'000, 90'000'000}) {
+    SCOPED_TRACE(interval_ns);
+    const std::vector<TimedWrench> frames = film(20, interval_ns);
+    WrenchTimeline known;
+    for (const TimedWrench& frame : frames) known.push(frame);
+    TrackSampler sampler;
+    sampler.begin(0);
+    int64_t time_ns = 0;
+    for (const TimedWrench& frame : frames) {
+      ASSERT_TRUE(sampler.add(frame));
+      // Repeated frames put off what is settled by up to two intervals.
+      while (sampler.next_ns() < sampler.settled_ns(3 * interval_ns)) {
+        ASSERT_EQ(sampler.next_ns(), time_ns);
+        const Wrench sample = sampler.take();
+        const Wrench felt = known.at(time_ns).wrench;
+        ASSERT_EQ(sample.stacked(), felt.stacked()) << time_ns;
+        time_ns += kTrackPeriod_ns;
+      }
+    }
+    EXPECT_GT(time_ns, 16 * interval_ns);
+  }
+}
+
+TEST(TrackSampler, BeginsAtTheNextWholeMillisecond) {
+  TrackSampler sampler;
+  sampler.begin(0);
+  EXPECT_EQ(sampler.next_ns(), 0);
+  sampler.begin(7'000'001);
+  EXPECT_EQ(sampler.next_ns(), 8'000'000);
+}
+
+TEST(TrackSampler, DoesNotWaitForAFrameThatIsFarAway) {
+  TrackSampler sampler;
+  sampler.begin(0);
+  sampler.add({0, 0, wrench_of(1)});
+  EXPECT_LT(sampler.settled_ns(kLookAhead_ns), 0);
+  sampler.add({40'000'000, 0, wrench_of(2)});
+  EXPECT_EQ(sampler.settled_ns(kLookAhead_ns), 0);
+  sampler.add({500'000'000, 0, wrench_of(3)});
+  EXPECT_EQ(sampler.settled_ns(kLookAhead_ns), 400'000'000);
+}
+
+TEST(TrackSampler, RampsToRestWhereNoFrameFollows) {
+  TrackSampler sampler;
+  sampler.begin(0);
+  const Wrench last = wrench_of(1);
+  const int64_t hold_ns = WrenchTimeline::hold_after(40'000'000);
+  sampler.add({0, hold_ns, last});
+  const double steepest_N = 1.5 * last.force_N.norm() * kTrackPeriod_ns / WrenchTimeline::kRamp_ns;
+  Eigen::Vector3d before = last.force_N;
+  for (int ms = 0; ms < 200; ++ms) {
+    const Eigen::Vector3d force = sampler.take().force_N;
+    const bool held = ms * kTrackPeriod_ns <= hold_ns;
+    const bool at_rest = ms * kTrackPeriod_ns > hold_ns + WrenchTimeline::kRamp_ns;
+    EXPECT_TRUE(!held || force == last.force_N) << ms;
+    EXPECT_TRUE(!at_rest || force.isZero(0)) << ms;
+    EXPECT_LE((force - before).norm(), steepest_N * (1 + 1e-9)) << ms;
+    before = force;
+  }
+}
+
+TEST(TrackSampler, RefusesTimesThatDoNotRise) {
+  TrackSampler sampler;
+  sampler.begin(0);
+  EXPECT_TRUE(sampler.add({40'000'000, 0, wrench_of(1)}));
+  EXPECT_FALSE(sampler.add({40'000'000, 0, wrench_of(2)}));
+  EXPECT_FALSE(sampler.add({0, 0, wrench_of(2)}));
+  EXPECT_TRUE(sampler.add({80'000'000, 0, wrench_of(2)}));
+}
+
+TEST(TrackFormat, FullScaleIsTenNewtonsAndOneNewtonMetre) {
+  const TrackSample sample = to_track_sample({{10, -10, 5}, {1, -1, 0.25}});
+  EXPECT_EQ(sample, (TrackSample{1, -1, 0.5F, 1, -1, 0.25F}));
+  EXPECT_EQ(to_wrench(sample).stacked(), (Wrench{{10, -10, 5}, {1, -1, 0.25}}).stacked());
+}
+
+}  // namespace
+}  // namespace spidar

@@ -1,0 +1,253 @@
+// spidarextract: frames with the meta of spidarmotion in, a track out.
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <gst/check/gstharness.h>
+#include <gtest/gtest.h>
+
+#include "core/track/track_format.h"
+#include "plugin/gstspidarmotionmeta.h"
+#include "plugin/motion_meta.h"
+#include "plugin/track/spidar_extract.h"
+#include "plugin/track/track_stream.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+constexpr const char* kVideo = "video/x-raw,format=GRAY8,width=16,height=16,framerate=25/1";
+
+Wrench wrench_of(double k) {
+  return {{3 * std::sin(0.3 * k), std::cos(0.2 * k), 0.5 - k * 1e-3}, {0.1 * std::sin(k), 0, 0.02}};
+}
+
+GstBuffer* bare_frame(GstClockTime pts) {
+  GstBuffer* frame = gst_buffer_new_allocate(nullptr, 256, nullptr);
+  GST_BUFFER_PTS(frame) = pts;
+  GST_BUFFER_DURATION(frame) = kFrame;
+  return frame;
+}
+
+GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench) {
+  GstBuffer* frame = bare_frame(pts);
+  FrameReport report;
+  report.running_time = pts;
+  report.analysis.interval_ns = kFrame;
+  SceneView scene;
+  scene.wrench = wrench;
+  attach_motion_meta(frame, report, scene, 16, 16);
+  return frame;
+}
+
+class Extract : public testing::Test {
+ protected:
+  void SetUp() override {
+    static const bool registered = [] {
+      gst_init(nullptr, nullptr);
+      register_motion_meta();
+      return GST_ELEMENT_REGISTER(spidarextract, nullptr) != FALSE;
+    }();
+    ASSERT_TRUE(registered);
+    open("wrench");
+  }
+  void TearDown() override { close(); }
+
+  void open(const char* pad) {
+    close();
+    element = gst_element_factory_make("spidarextract", nullptr);
+    bus = gst_bus_new();
+    gst_element_set_bus(element, bus);
+    h = gst_harness_new_with_element(element, "sink", pad);
+    gst_harness_set_src_caps_str(h, kVideo);
+  }
+
+  void close() {
+    if (!h) return;
+    gst_harness_teardown(h);
+    gst_bus_set_flushing(bus, TRUE);
+    gst_object_unref(bus);
+    gst_object_unref(element);
+    h = nullptr;
+  }
+
+  void begin_segment(double rate, GstClockTime start, GstClockTime stop = GST_CLOCK_TIME_NONE) {
+    GstSegment segment;
+    gst_segment_init(&segment, GST_FORMAT_TIME);
+    segment.rate = rate;
+    segment.start = segment.time = segment.position = start;
+    segment.stop = stop;
+    ASSERT_TRUE(gst_harness_push_event(h, gst_event_new_segment(&segment)));
+  }
+
+  void take_all() {
+    while (GstBuffer* buffer = gst_harness_try_pull(h)) {
+      GstMapInfo map;
+      gst_buffer_map(buffer, &map, GST_MAP_READ);
+      EXPECT_EQ(GST_BUFFER_DURATION(buffer), map.size / sizeof(TrackSample) * kTrackPeriod_ns);
+      if (samples.empty()) begin = GST_BUFFER_PTS(buffer);
+      EXPECT_EQ(GST_BUFFER_PTS(buffer), begin + samples.size() * kTrackPeriod_ns);
+      bool silent = true;
+      for (size_t at = 0; at < map.size; at += sizeof(TrackSample)) {
+        TrackSample sample;
+        std::memcpy(sample.data(), map.data + at, sizeof sample);
+        for (float value : sample) silent = silent && value == 0;
+        samples.push_back(sample);
+      }
+      EXPECT_EQ(GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP) != FALSE, silent);
+      gst_buffer_unmap(buffer, &map);
+      gst_buffer_unref(buffer);
+    }
+  }
+
+  int warnings() {
+    int count = 0;
+    while (GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_WARNING)) {
+      ++count;
+      gst_message_unref(message);
+    }
+    return count;
+  }
+
+  GstHarness* h = nullptr;
+  GstElement* element = nullptr;
+  GstBus* bus = nullptr;
+  std::vector<TrackSample> samples;
+  GstClockTime begin = 0;
+};
+
+TEST_F(Extract, AMinuteOfFilmGivesSixtyThousandSamplesThatMeetEveryFrame) {
+  constexpr int kFrames = 1500;
+  for (int i = 0; i < kFrames; ++i) {
+    ASSERT_EQ(gst_harness_push(h, make_frame(static_cast<GstClockTime>(i) * kFrame, wrench_of(i))),
+              GST_FLOW_OK);
+  }
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  ASSERT_EQ(samples.size(), 60000u);
+  EXPECT_EQ(begin, 0u);
+  for (int i = 0; i < kFrames; ++i) {
+    // What a float is rounded by, of a full scale of 10 N.
+    const Wrench felt = to_wrench(samples[static_cast<size_t>(40 * i)]);
+    ASSERT_LE((felt.stacked() - wrench_of(i).stacked()).norm(), 1e-6) << i;
+  }
+  EXPECT_EQ(warnings(), 0);
+}
+
+TEST_F(Extract, PassesTheVideoOnUntouched) {
+  open("src");
+  GstBuffer* frame = make_frame(0, wrench_of(1));
+  ASSERT_EQ(gst_harness_push(h, frame), GST_FLOW_OK);
+  GstBuffer* out = gst_harness_pull(h);
+  EXPECT_EQ(out, frame);
+  gst_buffer_unref(out);
+  GstCaps* caps = gst_pad_get_current_caps(h->sinkpad);
+  GstCaps* given = gst_caps_from_string(kVideo);
+  EXPECT_TRUE(gst_caps_is_equal(caps, given));
+  gst_caps_unref(given);
+  gst_caps_unref(caps);
+}
+
+TEST_F(Extract, IsSilentAndSaysSoOnceWhereFramesHaveNoMeta) {
+  for (GstClockTime i = 0; i < 25; ++i) gst_harness_push(h, bare_frame(i * kFrame));
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  EXPECT_EQ(samples.size(), 1000u);
+  for (const TrackSample& sample : samples) EXPECT_EQ(sample, TrackSample{});
+  EXPECT_EQ(warnings(), 1);
+}
+
+TEST_F(Extract, BeginsWhereASeekLeads) {
+  gst_harness_push(h, make_frame(0, wrench_of(1)));
+  gst_harness_push(h, make_frame(kFrame, wrench_of(2)));
+  gst_harness_push_event(h, gst_event_new_flush_start());
+  gst_harness_push_event(h, gst_event_new_flush_stop(TRUE));
+  begin_segment(1, 4320 * GST_MSECOND);
+  for (GstClockTime i = 108; i < 120; ++i) {
+    gst_harness_push(h, make_frame(i * kFrame, wrench_of(static_cast<double>(i))));
+  }
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  EXPECT_EQ(begin, 4320 * GST_MSECOND);
+  EXPECT_EQ(samples.size(), 480u);
+  EXPECT_EQ(samples[0], to_track_sample(wrench_of(108)));
+}
+
+TEST_F(Extract, ATrackBeginsWithItsSegmentAndNotWithTheFirstFrame) {
+  gst_harness_push(h, make_frame(2 * kFrame, wrench_of(1)));
+  gst_harness_push(h, make_frame(3 * kFrame, wrench_of(2)));
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  EXPECT_EQ(begin, 0u);
+  ASSERT_EQ(samples.size(), 160u);
+  EXPECT_EQ(samples[0], TrackSample{});
+  EXPECT_EQ(samples[80], to_track_sample(wrench_of(1)));
+}
+
+TEST_F(Extract, EndsWithTheSegment) {
+  begin_segment(1, 0, 100 * GST_MSECOND);
+  for (GstClockTime i = 0; i < 10; ++i) gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  EXPECT_EQ(samples.size(), 100u);
+}
+
+TEST_F(Extract, AGapOfTheVideoIsRest) {
+  for (GstClockTime i = 0; i < 5; ++i) gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
+  gst_harness_push_event(h, gst_event_new_gap(5 * kFrame, 10 * kFrame));
+  for (GstClockTime i = 15; i < 20; ++i) gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  ASSERT_EQ(samples.size(), 800u);
+  for (size_t ms = 200; ms < 560; ++ms) EXPECT_EQ(samples[ms], TrackSample{}) << ms;
+  EXPECT_EQ(samples[600], to_track_sample(wrench_of(1)));
+}
+
+TEST_F(Extract, BackwardsThereAreGapsOnly) {
+  begin_segment(-1, 0, 10 * kFrame);
+  for (GstClockTime i = 10; i-- > 0;) gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
+  take_all();
+  EXPECT_TRUE(samples.empty());
+  int gaps = 0;
+  while (GstEvent* event = gst_harness_try_pull_event(h)) {
+    if (GST_EVENT_TYPE(event) == GST_EVENT_GAP) ++gaps;
+    gst_event_unref(event);
+  }
+  EXPECT_EQ(gaps, 10);
+}
+
+TEST_F(Extract, ReportsHowLongSamplesWait) {
+  gst_harness_set_upstream_latency(h, 7 * GST_MSECOND);
+  EXPECT_EQ(gst_harness_query_latency(h), 7 * GST_MSECOND + TrackStream::latency_ns());
+  open("src");
+  gst_harness_set_upstream_latency(h, 7 * GST_MSECOND);
+  EXPECT_EQ(gst_harness_query_latency(h), 7 * GST_MSECOND);
+}
+
+TEST_F(Extract, NoSampleWaitsLongerThanThat) {
+  for (GstClockTime i = 0; i < 50; ++i) {
+    gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
+    take_all();
+    EXPECT_GE(samples.size() * kTrackPeriod_ns + TrackStream::latency_ns(), i * kFrame);
+  }
+}
+
+TEST_F(Extract, TakesTheMaskThatDownstreamWants) {
+  for (const char* mask : {"0x3f", "0x0"}) {
+    open("wrench");
+    gst_harness_set_sink_caps_str(
+        h, (std::string("audio/x-raw,format=F32LE,layout=interleaved,rate=1000,channels=6,"
+                        "channel-mask=(bitmask)") +
+            mask)
+               .c_str());
+    gst_harness_push(h, make_frame(0, wrench_of(1)));
+    gst_harness_push_event(h, gst_event_new_eos());
+    GstBuffer* buffer = gst_harness_try_pull(h);
+    EXPECT_NE(buffer, nullptr) << mask;
+    if (buffer) gst_buffer_unref(buffer);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test
