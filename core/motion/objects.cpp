@@ -17,6 +17,11 @@ constexpr int kBornAfter = 2;
 constexpr int kBornAfterBlocks = 8;
 /// Where an object is expected that was not seen, as a share of the sum of both boxes' sides.
 constexpr double kReach = 0.75;
+/// How many blocks an object usually has is what it had of late: the time constant in s by which
+/// fewer are believed, while more are believed at once.
+constexpr double kUsual_s = 0.8;
+/// Less than this share of them is a rim: the rest of the object is hidden.
+constexpr double kMostShows = 0.5;
 /// An object that is lost goes on for this long: its blocks fail for a frame or two now and then.
 constexpr double kCoast_s = 0.05;
 /// Share of the new value in the velocity of an object that is not rigid, which thereby is late by
@@ -24,21 +29,6 @@ constexpr double kCoast_s = 0.05;
 constexpr double kNewest = 0.5;
 /// A camera slower than this is still, px of the field's picture a frame.
 constexpr double kCameraStill_px = 0.25;
-/// An object turns or grows when this many blocks say so and the GRIC finds it worth it.
-constexpr size_t kLeastForSimilarity = 6;
-/// Motion of the blocks of one object differs by this share besides the noise: it is not rigid.
-constexpr double kObjectNoiseShare = 0.1;
-/// Points are the object's own when they move as the median of its blocks does, up to this share of
-/// it and so many px of the field's picture; so many of them say more than the blocks.
-constexpr double kPointReachShare = 0.35;
-constexpr double kPointReach_px = 0.5;
-constexpr double kLeastPoints = 4;
-constexpr double kPointShare = 0.5;
-/// Noise of a point's displacement, px of the field's picture, and a share of the displacement.
-constexpr double kPointNoise_px = 0.1;
-constexpr double kPointNoiseShare = 0.03;
-/// Its points agree with one motion when the mean of ρ is below this; 4 is that of outliers.
-constexpr double kRigid = 1;
 /// An object that was none of the scene's layers for so many frames may become more like one.
 constexpr int kProvenAfter = 3;
 /// What is larger than this share of the picture is no object but an error of the background; much
@@ -58,8 +48,6 @@ ObjectTracker::ObjectTracker() {
   region_ids_.reserve(RegionFinder::kMostRegions);
   order_.reserve(RegionFinder::kMostRegions);
   objects_.reserve(kMostObjects);
-  evidence_.points.reserve(kMostDisplacements);
-  evidence_.weights.reserve(kMostDisplacements);
 }
 
 void ObjectTracker::reset() {
@@ -93,19 +81,21 @@ ObjectTracker::Life* ObjectTracker::owner_of(int16_t region) {
   return best;
 }
 
-/// The object out of sight that is expected there with such a motion; null when there is none.
+/// The object out of sight that is expected nearest to it with such a motion; null when there is
+/// none.
 ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const FieldInFrame& frame) {
+  Life* best = nullptr;
+  double nearest_px = 0;
   for (Life& life : lives_) {
-    if (life.claimed || !life.is_born()) continue;
-    const Eigen::Vector2d sides_px =
-        (life.region.high_px - life.region.low_px) + (region.high_px - region.low_px);
-    const Eigen::Vector2d apart_px = (life.region.position_px - region.position_px).cwiseAbs();
-    if ((apart_px.array() < kReach * sides_px.array()).all() &&
-        is_same_motion(life, region, frame)) {
-      return &life;
-    }
+    if (life.claimed || !life.is_born() || !is_same_motion(life, region, frame)) continue;
+    const Eigen::Vector2d sides_px = life.expected_sides_px + region.high_px - region.low_px;
+    const Eigen::Vector2d apart_px = (life.expected_px - region.position_px).cwiseAbs();
+    if ((apart_px.array() >= kReach * sides_px.array()).any()) continue;
+    if (best && apart_px.norm() >= nearest_px) continue;
+    best = &life;
+    nearest_px = apart_px.norm();
   }
-  return nullptr;
+  return best;
 }
 
 /// The id of a new object; 0 when there are too many.
@@ -138,11 +128,11 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       }
       life = nullptr;
     }
-    // Noise does not move alike twice.
-    if (life && !life->is_born() && !is_same_motion(*life, region, frame)) {
-      life = nullptr;
+    if (!life || !life->is_born()) {
+      Life* back = expected_at(region, frame);
+      // Noise does not move alike twice.
+      if (back || (life && !is_same_motion(*life, region, frame))) life = back;
     }
-    if (!life) life = expected_at(region, frame);
     if (!life) {
       region_ids_[k] = create(region);
       continue;
@@ -151,80 +141,6 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
     life->region = region;
     region_ids_[k] = life->object.id;
   }
-}
-
-/// The blocks of an object that show how they move.
-void ObjectTracker::collect_blocks(const Life& life, const FieldInFrame& frame) {
-  evidence_.points.clear();
-  const std::vector<MotionBlock>& blocks = frame.field.blocks();
-  for (size_t i = 0; i < owners_.size(); ++i) {
-    const RelativeBlock& relative = (*relative_)[i];
-    if (owners_[i] != life.object.id || !relative.has_texture) continue;
-    if (evidence_.points.size() >= kMostDisplacements) break;
-    const Eigen::Vector2d moved_px(relative.x_px, relative.y_px);
-    const Eigen::Vector2d at_px(blocks[i].x_px, blocks[i].y_px);
-    evidence_.points.push_back({0, at_px - moved_px, moved_px});
-  }
-  evidence_.weights.assign(evidence_.points.size(), 1.0);
-  evidence_.sigma_px =
-      std::max(2 * background_->sigma_px, kObjectNoiseShare * life.region.relative_px.norm());
-}
-
-/// Points on the object that move about as `motion` says. False when they are too few.
-bool ObjectTracker::collect_points(const Life& life, const MotionModel& motion,
-                                   const FieldInFrame& frame) {
-  evidence_.points.clear();
-  for (const PlacedPoint& point : frame.points) {
-    if (owners_[point.block] != life.object.id) continue;
-    Displacement relative = point.moved;
-    relative.moved_px -= background_->model.displacement_px(relative.at_px);
-    const Eigen::Vector2d expected_px = motion.displacement_px(relative.at_px);
-    const double reach_px = kPointReachShare * expected_px.norm() + kPointReach_px;
-    if ((relative.moved_px - expected_px).norm() < reach_px) evidence_.points.push_back(relative);
-  }
-  evidence_.weights.assign(evidence_.points.size(), 1.0);
-  evidence_.sigma_px = std::max(kPointNoise_px, kPointNoiseShare * life.region.relative_px.norm());
-  const auto n = static_cast<double>(evidence_.points.size());
-  return n >= kLeastPoints && n >= kPointShare * life.region.blocks;
-}
-
-/// A similarity if that explains the evidence better by its price in the GRIC, and by as much again
-/// so that it does not flicker.
-void ObjectTracker::climb(MotionModel& motion) {
-  const size_t n = evidence_.points.size();
-  if (motion.kind == ModelKind::kSimilarity || n < kLeastForSimilarity) return;
-  const auto similarity = fitter_.refine(ModelKind::kSimilarity, motion, evidence_);
-  const double price = 4 * std::log(4 * static_cast<double>(n));
-  if (similarity && robust_cost(*similarity, evidence_) + price < robust_cost(motion, evidence_)) {
-    motion = *similarity;
-  }
-}
-
-/// The blocks tell how the object moves, and the points on it to a fraction of a pixel.
-void ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
-  MotionModel motion;
-  motion.kind = ModelKind::kTranslation;
-  motion.shift_px = life.region.relative_px;
-  collect_blocks(life, frame);
-  climb(motion);
-  MovingObject& object = life.object;
-  object.tracks = static_cast<int>(evidence_.points.size());
-  life.is_rigid = false;
-  if (collect_points(life, motion, frame)) {
-    const auto refined = fitter_.refine(motion.kind, motion, evidence_);
-    if (refined) motion = *refined;
-    climb(motion);
-    const auto n = static_cast<double>(evidence_.points.size());
-    object.tracks = static_cast<int>(n);
-    life.is_rigid = robust_cost(motion, evidence_) < kRigid * n;
-    life.region.relative_px =
-        motion.displacement_px(life.region.position_px - life.region.relative_px);
-  }
-  object.model = motion.kind;
-  object.growth_1_s = motion.growth() / frame.interval_s;
-  object.roll_rad_s = motion.roll_rad() / frame.interval_s;
-  object.noise_px_s = frame.scale * evidence_.sigma_px / 2 /
-                      std::sqrt(static_cast<double>(std::max(object.tracks, 1))) / frame.interval_s;
 }
 
 /// Place and velocity in the frame, from those of the region in the field's picture.
@@ -239,12 +155,27 @@ void ObjectTracker::place(Life& life, const FieldInFrame& frame) const {
       object.relative_px_s + frame.scale * region.background_px / frame.interval_s;
 }
 
+void ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
+  MovingObject& object = life.object;
+  const ObjectMotion found = meter_.measure(
+      object.id, life.region, {frame.field, *relative_, owners_, frame.points, *background_});
+  life.is_rigid = found.is_rigid;
+  life.region.relative_px = found.relative_px;
+  object.tracks = found.tracks;
+  object.model = found.model.kind;
+  object.growth_1_s = found.model.growth() / frame.interval_s;
+  object.roll_rad_s = found.model.roll_rad() / frame.interval_s;
+  object.noise_px_s = frame.scale * found.sigma_px / 2 /
+                      std::sqrt(static_cast<double>(std::max(object.tracks, 1))) / frame.interval_s;
+}
+
 void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   measure(life, frame);
   const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
   const bool goes_on = life.frames_seen > 0 && velocity_px_s.dot(life.velocity_px_s) > 0;
   const double share = life.is_rigid || !goes_on ? 1 : kNewest;
   life.velocity_px_s += share * (velocity_px_s - life.velocity_px_s);
+  expect(life, frame);
   ++life.frames_seen;
   life.blocks_seen += life.region.blocks;
   life.unseen_s = 0;
@@ -258,30 +189,62 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   life.is_layer = object.prominence == 0;
 }
 
-/// Its place shows nothing that moves by itself: it rests there, or it is out of sight.
-void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
-  int resting = 0;  // blocks
+/// Blocks that an object had and that move with the background now. `textured`: those of them that
+/// show it.
+int ObjectTracker::count_resting(const Life& life, int& textured) const {
+  int all = 0;
+  textured = 0;
   for (size_t i = 0; i < owners_before_.size(); ++i) {
     if (owners_before_[i] != life.object.id || finder_.labels()[i] != kNoRegion) continue;
-    owners_[i] = life.object.id;
-    if (!(*relative_)[i].has_texture) continue;
-    ++resting;
+    ++all;
+    textured += (*relative_)[i].has_texture;
   }
+  return all;
+}
+
+/// Its place shows nothing that moves by itself. Where most of it showed until now it rests there;
+/// where only a rim of it did, it is out of sight and goes on as it went.
+void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
-  if (resting > 0) {
-    life.velocity_px_s.setZero();
+  const int resting = count_resting(life, object.tracks);
+  if (object.tracks > 0 && resting >= kMostShows * life.usual_blocks) {
+    for (size_t i = 0; i < owners_before_.size(); ++i) {
+      const bool is_its = owners_before_[i] == object.id && finder_.labels()[i] == kNoRegion;
+      if (is_its) owners_[i] = object.id;
+    }
+    life.expected_px_s.setZero();
     life.resting_s += frame.interval_s;
     life.unseen_s = 0;
-    object.tracks = resting;
   } else {
     object.tracks = 0;
     life.unseen_s += frame.interval_s;
   }
+  go_on_unseen(life, frame);
+  life.region.position_px = life.expected_px;
+  life.velocity_px_s = life.expected_px_s;
   object.growth_1_s = 0;
   object.roll_rad_s = 0;
-  life.region.position_px += life.velocity_px_s * frame.interval_s + life.region.background_px;
   object.prominence = 0;
   place(life, frame);
+}
+
+void ObjectTracker::go_on_unseen(Life& life, const FieldInFrame& frame) const {
+  life.expected_px += life.expected_px_s * frame.interval_s + life.region.background_px;
+}
+
+/// What is to be known of it if it goes out of sight.
+void ObjectTracker::expect(Life& life, const FieldInFrame& frame) const {
+  const double blocks = life.region.blocks;
+  const double forgotten = std::min(1.0, frame.interval_s / kUsual_s);
+  life.usual_blocks =
+      std::max(blocks, life.usual_blocks + forgotten * (blocks - life.usual_blocks));
+  if (blocks < kMostShows * life.usual_blocks) {
+    go_on_unseen(life, frame);
+    return;
+  }
+  life.expected_px = life.region.position_px;
+  life.expected_px_s = life.velocity_px_s;
+  life.expected_sides_px = life.region.high_px - life.region.low_px;
 }
 
 const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame,

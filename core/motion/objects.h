@@ -12,16 +12,11 @@
 #include "core/motion/motion_models.h"
 #include "core/motion/moving_blocks.h"
 #include "core/motion/moving_object.h"
+#include "core/motion/object_motion.h"
 #include "core/motion/regions.h"
 #include "core/motion/salience.h"
 
 namespace spidar {
-
-/// A point that was followed, in px of the field's picture from its centre.
-struct PlacedPoint {
-  size_t block = 0;  ///< that it is in now
-  Displacement moved;
-};
 
 /// Field of block motion of one frame, and how its pixels lie in the frame.
 struct FieldInFrame {
@@ -34,9 +29,10 @@ struct FieldInFrame {
 };
 
 /// Objects from frame to frame. A region that moves by itself is an object from the second frame on
-/// in which it does so alike. It is the object that most of its blocks were before, or else one
-/// that is expected there. It dies when it is out of sight for kForgotten_s or at rest for
-/// kAtRest_s; until then it may stand still.
+/// in which it does so alike. It is the object that most of its blocks were before, or else the one
+/// out of sight that is expected there: an object that goes behind another one, or behind something
+/// that stands in front of it, comes back with its id. It dies when it is out of sight for
+/// kForgotten_s or at rest for kAtRest_s; until then it may stand still.
 class SPIDAR_API ObjectTracker {
  public:
   ObjectTracker();
@@ -69,6 +65,12 @@ class SPIDAR_API ObjectTracker {
     MovingObject object;
     Region region;  ///< of the last frame in which it was seen
     Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< of the field, smoothed
+    double usual_blocks = 0;                                  ///< that show when nothing hides it
+    /// Where it is, how it goes and how large it is by the last frame in which most of it showed:
+    /// what shows of an object that goes out of sight is a rim that tells none of it.
+    Eigen::Vector2d expected_px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d expected_px_s = Eigen::Vector2d::Zero();
+    Eigen::Vector2d expected_sides_px = Eigen::Vector2d::Zero();
     int frames_seen = 0;
     int blocks_seen = 0;  ///< in all those frames
     int proven = 0;
@@ -87,17 +89,16 @@ class SPIDAR_API ObjectTracker {
   bool is_same_motion(const Life& life, const Region& region, const FieldInFrame& frame) const;
   uint32_t create(const Region& region);
   void observe(Life& life, const FieldInFrame& frame);
+  int count_resting(const Life& life, int& textured) const;
   void miss(Life& life, const FieldInFrame& frame);
+  void expect(Life& life, const FieldInFrame& frame) const;
+  void go_on_unseen(Life& life, const FieldInFrame& frame) const;
   void measure(Life& life, const FieldInFrame& frame);
-  bool collect_points(const Life& life, const MotionModel& motion, const FieldInFrame& frame);
-  void climb(MotionModel& motion);
-  void collect_blocks(const Life& life, const FieldInFrame& frame);
   void place(Life& life, const FieldInFrame& frame) const;
 
   MovingBlocks moving_;
   RegionFinder finder_;
-  RobustFitter fitter_;
-  WeightedDisplacements evidence_;
+  ObjectMeter meter_;
   const std::vector<RelativeBlock>* relative_ = nullptr;
   CameraMotion camera_;
   const Background* background_ = nullptr;

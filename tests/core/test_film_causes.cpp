@@ -7,49 +7,33 @@
 #include <gtest/gtest.h>
 
 #include "core/motion_analyzer.h"
-#include "tests/support/picture.h"
+#include "tests/support/scene_film.h"
 #include "tests/support/texture.h"
 
 namespace spidar {
 namespace {
 
 using Eigen::Vector2d;
+using test::in_disc;
 using test::Picture;
+using test::Scene;
 using test::Texture;
 
-constexpr int kWidth = 640;
-constexpr int kHeight = 360;
-constexpr int64_t kFrame_ns = 40'000'000;
-constexpr double kFrame_s = 0.04;
 /// An object is felt from the second pair of frames on in which it moves.
 constexpr int kFelt = 3;
-
-/// Grey level at a place of frame n, in px from the upper left corner.
-using Scene = std::function<double(int n, const Vector2d& at)>;
-
-/// Sensor noise of 1.5 grey levels, as the films of the benchmark have it.
-Picture draw(const Scene& scene, int n) {
-  Picture picture(kWidth, kHeight);
-  std::mt19937 random(static_cast<uint32_t>(n));
-  std::normal_distribution<double> noise(0, 1.5);
-  picture.fill([&](double x, double y) {
-    return std::clamp(scene(n, {x, y}) + noise(random), 0.0, 255.0);
-  });
-  return picture;
-}
 
 std::vector<FrameAnalysis> analyze(const Scene& scene, int frames) {
   MotionAnalyzer analyzer;
   std::vector<FrameAnalysis> found;
   for (int n = 0; n < frames; ++n) {
-    const Picture picture = draw(scene, n);
-    found.push_back(analyzer.analyze(picture.view(), n * kFrame_ns));
+    const Picture picture = test::draw(scene, n);
+    found.push_back(analyzer.analyze(picture.view(), n * test::kSceneFrame_ns));
   }
   return found;
 }
 
 Vector2d moved_px(const FrameAnalysis& frame) {
-  return frame.motion.velocity_px_s * kFrame_s;
+  return frame.motion.velocity_px_s * test::kSceneFrame_s;
 }
 
 /// Right as the benchmark of real films has it: within 30 degrees and a factor of 2.
@@ -65,10 +49,6 @@ void expect_right(const Scene& scene, int frames, const std::function<Vector2d(i
                   int first = kFelt) {
   const std::vector<FrameAnalysis> found = analyze(scene, frames);
   for (int n = first; n < frames; ++n) expect_right(found[static_cast<size_t>(n)], true_px(n), n);
-}
-
-bool in_disc(const Vector2d& at, const Vector2d& centre, double radius_px) {
-  return (at - centre).norm() < radius_px;
 }
 
 const Texture& background() {

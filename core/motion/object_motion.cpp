@@ -1,0 +1,103 @@
+#include "core/motion/object_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+/// An object turns or grows when this many blocks say so and the GRIC finds it worth it.
+constexpr size_t kLeastForSimilarity = 6;
+/// Motion of the blocks of one object differs by this share besides the noise: it is not rigid.
+constexpr double kObjectNoiseShare = 0.1;
+/// Points are the object's own when they move as the median of its blocks does, up to this share of
+/// it and so many px of the field's picture; so many of them say more than the blocks.
+constexpr double kPointReachShare = 0.35;
+constexpr double kPointReach_px = 0.5;
+constexpr double kLeastPoints = 4;
+constexpr double kPointShare = 0.5;
+/// Noise of a point's displacement, px of the field's picture, and a share of the displacement.
+constexpr double kPointNoise_px = 0.1;
+constexpr double kPointNoiseShare = 0.03;
+/// Its points agree with one motion when the mean of ρ is below this; 4 is that of outliers.
+constexpr double kRigid = 1;
+
+}  // namespace
+
+ObjectMeter::ObjectMeter() {
+  collected_.points.reserve(kMostDisplacements);
+  collected_.weights.reserve(kMostDisplacements);
+}
+
+/// The blocks of an object that show how they move.
+void ObjectMeter::collect_blocks(uint32_t id, const Region& region,
+                                 const ObjectEvidence& evidence) {
+  collected_.points.clear();
+  const std::vector<MotionBlock>& blocks = evidence.field.blocks();
+  for (size_t i = 0; i < evidence.owners.size(); ++i) {
+    const RelativeBlock& relative = evidence.relative[i];
+    if (evidence.owners[i] != id || !relative.has_texture) continue;
+    if (collected_.points.size() >= kMostDisplacements) break;
+    const Eigen::Vector2d moved_px(relative.x_px, relative.y_px);
+    const Eigen::Vector2d at_px(blocks[i].x_px, blocks[i].y_px);
+    collected_.points.push_back({0, at_px - moved_px, moved_px});
+  }
+  collected_.weights.assign(collected_.points.size(), 1.0);
+  collected_.sigma_px =
+      std::max(2 * evidence.background.sigma_px, kObjectNoiseShare * region.relative_px.norm());
+}
+
+/// Points on the object that move about as `motion` says. False when they are too few.
+bool ObjectMeter::collect_points(uint32_t id, const Region& region, const MotionModel& motion,
+                                 const ObjectEvidence& evidence) {
+  collected_.points.clear();
+  for (const PlacedPoint& point : evidence.points) {
+    if (evidence.owners[point.block] != id) continue;
+    Displacement relative = point.moved;
+    relative.moved_px -= evidence.background.model.displacement_px(relative.at_px);
+    const Eigen::Vector2d expected_px = motion.displacement_px(relative.at_px);
+    const double reach_px = kPointReachShare * expected_px.norm() + kPointReach_px;
+    if ((relative.moved_px - expected_px).norm() < reach_px) collected_.points.push_back(relative);
+  }
+  collected_.weights.assign(collected_.points.size(), 1.0);
+  collected_.sigma_px = std::max(kPointNoise_px, kPointNoiseShare * region.relative_px.norm());
+  const auto n = static_cast<double>(collected_.points.size());
+  return n >= kLeastPoints && n >= kPointShare * region.blocks;
+}
+
+/// A similarity if that explains the evidence better by its price in the GRIC, and by as much again
+/// so that it does not flicker.
+void ObjectMeter::climb(MotionModel& motion) {
+  const size_t n = collected_.points.size();
+  if (motion.kind == ModelKind::kSimilarity || n < kLeastForSimilarity) return;
+  const auto similarity = fitter_.refine(ModelKind::kSimilarity, motion, collected_);
+  const double price = 4 * std::log(4 * static_cast<double>(n));
+  if (similarity &&
+      robust_cost(*similarity, collected_) + price < robust_cost(motion, collected_)) {
+    motion = *similarity;
+  }
+}
+
+ObjectMotion ObjectMeter::measure(uint32_t id, const Region& region,
+                                  const ObjectEvidence& evidence) {
+  ObjectMotion found;
+  found.model.kind = ModelKind::kTranslation;
+  found.model.shift_px = region.relative_px;
+  found.relative_px = region.relative_px;
+  collect_blocks(id, region, evidence);
+  climb(found.model);
+  found.tracks = static_cast<int>(collected_.points.size());
+  if (collect_points(id, region, found.model, evidence)) {
+    const auto refined = fitter_.refine(found.model.kind, found.model, collected_);
+    if (refined) found.model = *refined;
+    climb(found.model);
+    const auto n = static_cast<double>(collected_.points.size());
+    found.tracks = static_cast<int>(n);
+    found.is_rigid = robust_cost(found.model, collected_) < kRigid * n;
+    found.relative_px = found.model.displacement_px(region.position_px - region.relative_px);
+  }
+  found.sigma_px = collected_.sigma_px;
+  return found;
+}
+
+}  // namespace spidar

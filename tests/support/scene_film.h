@@ -1,0 +1,40 @@
+/// Films given by the grey level of each place, and what the analysis finds in them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <random>
+
+#include <Eigen/Core>
+
+#include "tests/support/picture.h"
+
+namespace spidar::test {
+
+/// Grey level at a place of frame n, in px from the upper left corner.
+using Scene = std::function<double(int n, const Eigen::Vector2d& at_px)>;
+
+/// A film of 640 × 360 px at 25 frames a second.
+constexpr int kSceneWidth = 640;
+constexpr int kSceneHeight = 360;
+constexpr int64_t kSceneFrame_ns = 40'000'000;
+constexpr double kSceneFrame_s = 0.04;
+
+/// Frame n with sensor noise of 1.5 grey levels, as the films of the benchmark have it.
+inline Picture draw(const Scene& scene, int n) {
+  Picture picture(kSceneWidth, kSceneHeight);
+  std::mt19937 random(static_cast<uint32_t>(n));
+  std::normal_distribution<double> noise(0, 1.5);
+  picture.fill([&](double x, double y) {
+    return std::clamp(scene(n, {x, y}) + noise(random), 0.0, 255.0);
+  });
+  return picture;
+}
+
+inline bool in_disc(const Eigen::Vector2d& at_px, const Eigen::Vector2d& centre_px,
+                    double radius_px) {
+  return (at_px - centre_px).norm() < radius_px;
+}
+
+}  // namespace spidar::test
