@@ -77,12 +77,13 @@ void install_motion_properties(GObjectClass* c) {
     g_object_class_install_property(c, id, spec);
   };
 
-  install(kPropDevice, g_param_spec_string(
-                           "device", "Device",
-                           "Haptic device: 'sim' (simulated SPIDAR), a board as of spidarctl list "
-                           "('usb', 'usb:ID', 'uart:PATH', 'mouse') or 'none' (analyse only); "
-                           "opened from NULL to READY",
-                           defaults.device.c_str(), kReady));
+  install(
+      kPropDevice,
+      g_param_spec_string("device", "Device",
+                          "Haptic device: 'sim' (simulated SPIDAR), a board as of spidarctl list "
+                          "('usb', 'usb:ID', 'uart:PATH', 'mouse', 'ff') or 'none' (analyse only); "
+                          "opened from NULL to READY",
+                          defaults.device.c_str(), kReady));
   install(kPropProfile, g_param_spec_string(
                             "profile", "Profile",
                             "Geometry and drives of the device: a name of the shipped profiles or "

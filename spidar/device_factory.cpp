@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "spidar/boards/board_device.h"
+#include "spidar/boards/force_feedback_board.h"
 #include "spidar/boards/uart_board.h"
 #include "spidar/boards/usb_board.h"
 #include "spidar/emulation/wire_simulation.h"
 #include "spidar/protocols/uart_motor.h"
 #include "spidar/simulated_device.h"
+#include "spidar/transports/evdev_transport.h"
 #include "spidar/transports/tty_transport.h"
 
 namespace spidar {
@@ -63,10 +65,15 @@ std::unique_ptr<Device> make_device(const std::string& spec, const Profile& prof
     board = std::make_unique<UsbBoard>(UsbFamily::kCyverse, spec, rest, profile);
   if (kind == "mouse" && named)
     board = std::make_unique<UsbBoard>(UsbFamily::kMouse, spec, rest, profile);
+  if (kind == "ff" && named)
+    board = std::make_unique<ForceFeedbackBoard>(spec, profile,
+                                                 std::make_unique<EvdevTransport>(spec, rest),
+                                                 ForceFeedbackBoard::Updates::kOwnThread);
   if (kind == "uart" && !rest.empty()) board = make_uart(spec, rest, profile);
   if (!board)
-    throw DeviceError("unknown device \"" + spec +
-                      "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse");
+    throw DeviceError(
+        "unknown device \"" + spec +
+        "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse, ff, ff:PATH");
   return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
 }
 

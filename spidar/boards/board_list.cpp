@@ -5,6 +5,7 @@
 #include "spidar/boards/usb_kinds.h"
 #include "spidar/device.h"
 #include "spidar/profile.h"
+#include "spidar/transports/evdev_list.h"
 #include "spidar/transports/tty_list.h"
 #include "spidar/transports/usb_bus.h"
 
@@ -21,14 +22,33 @@ constexpr const char* kSimulated[][3] = {
     {"sim:simple", "simulated SPIDAR behind the Simple board's packets", kPositiveProfile},
     {"sim:uart", "simulated SPIDAR behind the UART boards' packets", kUartProfile},
     {"sim:mouse", "simulated SPIDAR-mouse", kDefaultProfile},
+    {"sim:ff", "simulated force-feedback joystick", kDefaultProfile},
 };
 
 bool begins(const std::string& text, const std::string& with) {
   return text.compare(0, with.size(), with) == 0;
 }
 
-bool is_mouse(const std::string& device) {
-  return device == "sim:mouse" || device == "mouse" || begins(device, "mouse:");
+/// It takes a force instead of tensions.
+bool takes_force(const std::string& device) {
+  const std::string board = begins(device, "sim:") ? device.substr(4) : device;
+  const std::string kind = board.substr(0, board.find(':'));
+  return kind == "mouse" || kind == "ff";
+}
+
+BoardInfo force_feedback(const EvdevInfo& device) {
+  BoardInfo board;
+  board.device = "ff:" + device.path;
+  board.name = device.name.empty() ? "force-feedback device" : device.name;
+  board.path = device.path;
+  board.serial = device.serial;
+  board.usb_id = device.id;
+  if (!device.constant) board.note = "rumble only: strength without direction";
+  if (!device.accessible) board.note = "no permission: udev rule 70-spidar.rules";
+  board.accessible = device.accessible;
+  board.profile = default_profile(board.device);
+  board.has_strings = false;
+  return board;
 }
 
 BoardInfo uart_board(const std::string& device, const std::string& path) {
@@ -69,14 +89,15 @@ std::vector<BoardInfo> list_boards() {
       const std::string spec = std::string(device_of(kind.family)) + ":" + device.path;
       boards.push_back({spec, kind.name, device.path, device.serial, kind.id(), kind.trial,
                         device.accessible ? kind.note : "no permission: udev rule 70-spidar.rules",
-                        device.accessible, default_profile(spec), !is_mouse(spec)});
+                        device.accessible, default_profile(spec), !takes_force(spec)});
     }
   }
   for (const TtyLine& line : list_tty_lines())
     if (line.named) boards.push_back(uart_board("uart:" + line.path, line.path));
+  for (const EvdevInfo& device : list_force_feedback()) boards.push_back(force_feedback(device));
   for (const auto& simulated : kSimulated)
     boards.push_back({simulated[0], simulated[1], "", "", "", Trial::kEmulated, "", true,
-                      simulated[2], !is_mouse(simulated[0])});
+                      simulated[2], !takes_force(simulated[0])});
   return boards;
 }
 
@@ -111,6 +132,10 @@ BoardInfo board_info(const std::string& device) {
   } else if (kind == "mouse") {
     unknown.name = "SPIDAR-mouse";
     unknown.trial = Trial::kInferred;
+    unknown.has_strings = false;
+  } else if (kind == "ff") {
+    unknown.name = "force-feedback device";
+    unknown.path = id;
     unknown.has_strings = false;
   } else if (kind == "uart" && !id.empty()) {
     return uart_board(device, id.substr(0, id.find(',')));

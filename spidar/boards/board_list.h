@@ -34,7 +34,8 @@ struct BoardInfo {
 };
 
 /// What is plugged in, then the simulated ones. Nothing is opened, sent or energised. Serial lines
-/// do not say what is behind them: listed are those that a udev rule calls /dev/spidar…. A machine
+/// do not say what is behind them: listed are those that a udev rule calls /dev/spidar…. Input
+/// devices are listed when they have force feedback. A machine
 /// without USB has none.
 SPIDAR_API std::vector<BoardInfo> list_boards();
 

@@ -5,10 +5,12 @@
 
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/digits.h"
+#include "spidar/boards/force_feedback_board.h"
 #include "spidar/boards/mouse_board.h"
 #include "spidar/boards/sh4_board.h"
 #include "spidar/boards/simple_board.h"
 #include "spidar/boards/uart_board.h"
+#include "spidar/emulation/emulated_force_feedback.h"
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
 #include "spidar/simulated_device.h"
@@ -38,7 +40,7 @@ class SimulatedMotors final : public EmulatedMotors {
   DeviceReading reading_;
 };
 
-/// A mouse has neither strings nor encoders: its force goes nowhere.
+/// A mouse or a joystick has neither strings nor encoders: its force goes nowhere.
 class NoMotors final : public EmulatedMotors {
  public:
   void put_out(const std::array<int, kMaxStrings>&) noexcept override {}
@@ -104,9 +106,14 @@ std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Prof
     motors = std::make_unique<NoMotors>();
     board = std::make_unique<MouseBoard>(name, profile,
                                          transport_to(std::make_unique<EmulatedMouse>(*motors)));
+  } else if (kind == "ff") {
+    motors = std::make_unique<NoMotors>();
+    board = std::make_unique<ForceFeedbackBoard>(
+        name, profile, transport_to(std::make_unique<EmulatedForceFeedback>(*motors)),
+        ForceFeedbackBoard::Updates::kInCycle);
   } else {
     throw DeviceError("unknown simulated board \"" + kind +
-                      "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse");
+                      "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff");
   }
   return std::make_unique<WireSimulation>(std::move(motors), std::move(board));
 }

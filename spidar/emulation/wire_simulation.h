@@ -11,9 +11,9 @@
 
 namespace spidar {
 
-/// `board`: "sh4", "simple", "uart" or "mouse". The grip, its hand and its motors are those of
-/// SimulatedDevice; volts and counts take the way over the packets, and the board's code is the one
-/// that drives the real board. Without a thread and without a guardian. `wire` makes faults.
+/// `board`: "sh4", "simple", "uart", "mouse" or "ff". The grip, its hand and its motors are those
+/// of SimulatedDevice; volts and counts take the way over the packets, and the board's code is the
+/// one that drives the real board. Without a thread and without a guardian. `wire` makes faults.
 /// Throws DeviceError for another board, or when the board cannot drive the profile, and
 /// std::invalid_argument as SimulatedDevice does.
 SPIDAR_API std::unique_ptr<Device> make_wire_simulation(

@@ -12,7 +12,7 @@ namespace spidar {
 struct LastWill {
   enum class Wire : uint32_t {
     kUsb,       ///< usbfs: bulk or interrupt packets to one endpoint
-    kTerminal,  ///< a tty
+    kTerminal,  ///< a file that packets are written to: a tty, or an input device
   };
   static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
   static constexpr size_t kMaxLength = 512;

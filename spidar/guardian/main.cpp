@@ -61,7 +61,8 @@ bool send_terminal(const LastWill& will) {
   for (uint32_t i = 0; i < will.packets; ++i) {
     for (size_t sent = 0; sent < will.length[i];) {
       const ssize_t more = write(will.file, will.packet[i].data() + sent, will.length[i] - sent);
-      if (more < 0 && errno != EAGAIN && errno != EINTR) return errno == EIO || errno == ENXIO;
+      if (more < 0 && errno != EAGAIN && errno != EINTR)
+        return errno == EIO || errno == ENXIO || errno == ENODEV;
       if (more > 0) sent += static_cast<size_t>(more);
       pollfd room{will.file, POLLOUT, 0};
       if (more <= 0 && poll(&room, 1, kTransfer_ms) == 0) return false;

@@ -17,6 +17,7 @@ Opens DEVICE, reads it for a tenth of a second with the motors at zero, and tell
 struct Found {
   DeviceReading reading;
   LinkHealth health;
+  std::string description;  // by the open device
 };
 
 Found read(ChosenDevice& chosen) {
@@ -30,6 +31,7 @@ Found read(ChosenDevice& chosen) {
       return true;
     });
     found.health = chosen.device->health();
+    found.description = chosen.device->description();
   }
   if (!read && !interrupted())
     throw DeviceError(chosen.device->name() + ": gave no reading; check cable and power");
@@ -41,6 +43,7 @@ void print(const ChosenDevice& chosen, const Found& found) {
   std::cout << "device    " << chosen.board.device << "\nboard     " << chosen.board.name
             << "\nevidence  " << to_string(chosen.board.trial);
   if (!chosen.board.note.empty()) std::cout << "; " << chosen.board.note;
+  if (!found.description.empty()) std::cout << "\nfound     " << found.description;
   if (!chosen.board.path.empty()) std::cout << "\npath      " << chosen.board.path;
   if (!chosen.board.serial.empty()) std::cout << "\nserial    " << chosen.board.serial;
   std::cout << "\nprofile   " << profile.name << ": " << profile.description << "\ncounts    "
@@ -76,6 +79,7 @@ void print_json(const ChosenDevice& chosen, const Found& found) {
                                      {"board", chosen.board.name},
                                      {"evidence", to_string(chosen.board.trial)},
                                      {"note", chosen.board.note},
+                                     {"found", found.description},
                                      {"path", chosen.board.path},
                                      {"serial", chosen.board.serial},
                                      {"profile", chosen.profile.name},

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "tests/emulated_bus/evdev_files.h"
 #include "tests/emulated_bus/usb_files.h"
 
 namespace spidar::test {
@@ -33,11 +34,19 @@ UsbKind kind_named(const std::string& name) {
   return name == "mouse" ? UsbKind::kMouse : UsbKind::kNone;
 }
 
+EvdevKind evdev_named(const std::string& name) {
+  if (name == "stick") return EvdevKind::kStick;
+  if (name == "wheel") return EvdevKind::kWheel;
+  return name == "pad" ? EvdevKind::kPad : EvdevKind::kNone;
+}
+
 /// Fresh pages are zeros, which is how all of BusState begins.
 BusState* map_state() {
   const char* named = std::getenv("SPIDAR_EMULATED_BUS");
   const UsbKind kind = kind_named(named ? named : "");
-  const char* path = kind == UsbKind::kNone ? named : nullptr;
+  const EvdevKind input = evdev_named(named ? named : "");
+  const bool own = kind != UsbKind::kNone || input != EvdevKind::kNone;
+  const char* path = own ? nullptr : named;
   const int file = path ? real_open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600) : -1;
   if (path && (file < 0 || ftruncate(file, sizeof(BusState)) != 0)) {
     std::fprintf(stderr, "emulated bus: %s: %s\n", path, std::strerror(errno));
@@ -49,6 +58,7 @@ BusState* map_state() {
   set_lock_file(file);
   auto* state = static_cast<BusState*>(memory);
   if (kind != UsbKind::kNone) plug_into(*state, 0, kind, "");
+  if (input != EvdevKind::kNone) plug_evdev_into(*state, 0, input);
   return state;
 }
 
@@ -81,6 +91,7 @@ void clear_bus() {
     port.has_driver = false;
     port.halts_cleared = 0;
   }
+  for (size_t i = 0; i < kEvdevPorts; ++i) unplug_evdev(i);
 }
 
 }  // namespace spidar::test

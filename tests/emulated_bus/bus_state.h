@@ -8,6 +8,7 @@
 
 #include "core/api.h"
 #include "spidar/link_fault.h"
+#include "tests/emulated_bus/evdev_port.h"
 
 namespace spidar::test {
 
@@ -56,11 +57,12 @@ struct BusState {
   std::array<UsbPort, kPorts> port;
   std::atomic<size_t> files_opened{0};
   std::array<SharedFile, kSharedFiles> file;  ///< the newest ones
+  std::array<EvdevPort, kEvdevPorts> evdev;
 };
 
 /// The bus of this process: shared with the processes that have the same $SPIDAR_EMULATED_BUS, a
 /// file that is made when it is not there; without, its own. When that is "sh4", "simple" or
-/// "mouse", its own with such a board.
+/// "mouse", its own with such a board; "stick", "wheel" or "pad", with such an input device.
 SPIDAR_API BusState& bus();
 
 /// The device is in the list of the bus from now on, as 1-1, 1-2, …, at rest.

@@ -1,6 +1,6 @@
-// The functions by which libusb reaches the system, for files of an emulated bus; everything else
-// goes to the kernel as ever. Symbols of this library come before libc's and libudev's, when a
-// program is linked with it or by LD_PRELOAD.
+// The functions by which libusb and force feedback reach the system, for files of an emulated bus;
+// everything else goes to the kernel as ever. Symbols of this library come before libc's and
+// libudev's, when a program is linked with it or by LD_PRELOAD.
 #undef _FILE_OFFSET_BITS  // it would rename open to open64
 #undef _FORTIFY_SOURCE
 
@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <dirent.h>
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <string>
 #include <sys/mman.h>
@@ -19,6 +21,7 @@
 #include "core/api.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/descriptors.h"
+#include "tests/emulated_bus/evdev_files.h"
 #include "tests/emulated_bus/usb_files.h"
 
 namespace spidar::test {
@@ -78,7 +81,7 @@ bool open_emulated(const char* path, int& file) {
 
 int open_any(const char* path, int flags, unsigned mode) {
   int file = -1;
-  return open_emulated(path, file) ? file : real_open(path, flags, mode);
+  return open_emulated(path, file) ? file : real_open(evdev_path(path).c_str(), flags, mode);
 }
 
 }  // namespace
@@ -95,6 +98,8 @@ SPIDAR_API int __open64_2(const char* path, int flags);
 SPIDAR_API int ioctl(int file, unsigned long request, ...);
 SPIDAR_API int close(int file);
 SPIDAR_API int access(const char* path, int mode);
+SPIDAR_API DIR* opendir(const char* path);
+SPIDAR_API ssize_t write(int file, const void* bytes, size_t length);
 
 int open(const char* path, int flags, ...) {
   va_list arguments;
@@ -127,6 +132,7 @@ int ioctl(int file, unsigned long request, ...) {
   va_end(arguments);
   int result = 0;
   if (usb_ioctl(file, request, argument, result)) return result;
+  if (evdev_ioctl(file, request, argument, result)) return result;
   return static_cast<int>(syscall(SYS_ioctl, file, request, argument));
 }
 
@@ -138,10 +144,22 @@ int close(int file) {
 int access(const char* path, int mode) {
   int address = 0;
   if (std::sscanf(path, "/dev/bus/usb/001/%d", &address) != 1)
-    return static_cast<int>(syscall(SYS_faccessat, AT_FDCWD, path, mode));
+    return static_cast<int>(syscall(SYS_faccessat, AT_FDCWD, evdev_path(path).c_str(), mode));
   const int port = port_with_address(address);
   if (port >= 0 && !bus().port[static_cast<size_t>(port)].forbidden) return 0;
   errno = port < 0 ? ENOENT : EACCES;
   return -1;
+}
+
+DIR* opendir(const char* path) {
+  using Opendir = DIR* (*)(const char*);
+  static const auto next = reinterpret_cast<Opendir>(dlsym(RTLD_NEXT, "opendir"));
+  return next(evdev_path(path).c_str());
+}
+
+ssize_t write(int file, const void* bytes, size_t length) {
+  long result = 0;
+  if (evdev_write(file, bytes, length, result)) return result;
+  return syscall(SYS_write, file, bytes, length);
 }
 }

@@ -18,7 +18,10 @@ class SharedBus {
     close(file);
     setenv("SPIDAR_EMULATED_BUS", path_.c_str(), 1);
   }
-  ~SharedBus() { std::filesystem::remove(path_); }
+  ~SharedBus() {
+    std::filesystem::remove(path_);
+    std::filesystem::remove_all(path_ + ".input");
+  }
   SharedBus(const SharedBus&) = delete;
   SharedBus& operator=(const SharedBus&) = delete;
 

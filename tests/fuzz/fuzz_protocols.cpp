@@ -8,6 +8,7 @@
 
 #include "numbers.h"
 #include "spidar/protocols/count_unwrapper.h"
+#include "spidar/protocols/force_feedback.h"
 #include "spidar/protocols/sh4.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/protocols/uart_motor.h"
@@ -88,6 +89,19 @@ void fuzz_mouse(ByteView bytes) {
           "fuzz_protocols: the mouse pulls too hard");
 }
 
+void fuzz_force_feedback(ByteView bytes) {
+  if (const auto effect = ff::decode_effect(bytes)) {
+    // Level −32768 is a step more than full, on both axes at 45°.
+    require(std::hypot(effect->right, effect->up) < 1.0001 && effect->rumble >= 0 &&
+                effect->rumble <= 1,
+            "fuzz_protocols: an effect is stronger than full");
+  }
+  if (const auto event = ff::decode_event(bytes)) {
+    const auto again = ff::decode_event(ff::encode_gain(event->value));
+    require(again && again->value == event->value, "fuzz_protocols: an event is another");
+  }
+}
+
 void fuzz_counts(ByteView bytes, int bits) {
   CountUnwrapper unwrapper(bits);
   std::array<uint32_t, kMaxStrings> raw{};
@@ -129,6 +143,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       fuzz_mouse(data[0] & 128 ? rest : first(rest, mouse::kReportSize));
       break;
     default:
+      if (data[0] & 64) {
+        fuzz_force_feedback(
+            first(rest, data[0] & 128 ? size_t{ff::kEffectSize} : size_t{ff::kEventSize}));
+        break;
+      }
       fuzz_counts(rest, data[0] & 128 ? 16 : 24);
       break;
   }

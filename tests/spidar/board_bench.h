@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "spidar/boards/board_device.h"
+#include "spidar/boards/force_feedback_board.h"
 #include "spidar/boards/mouse_board.h"
 #include "spidar/boards/sh4_board.h"
 #include "spidar/boards/simple_board.h"
 #include "spidar/boards/uart_board.h"
+#include "spidar/emulation/emulated_force_feedback.h"
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
@@ -18,10 +20,10 @@
 
 namespace spidar::test {
 
-enum class Kind { kSh4, kSimple, kUart, kMouse };
+enum class Kind { kSh4, kSimple, kUart, kMouse, kForceFeedback };
 
 inline std::string name_of(Kind kind) {
-  constexpr const char* kNames[] = {"sh4", "simple", "uart", "mouse"};
+  constexpr const char* kNames[] = {"sh4", "simple", "uart", "mouse", "ff"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -43,6 +45,10 @@ struct BoardBench {
       case Kind::kMouse:
         return std::make_unique<MouseBoard>(
             "mouse", profile, transport_to(std::make_unique<EmulatedMouse>(recorded)));
+      case Kind::kForceFeedback:
+        return std::make_unique<ForceFeedbackBoard>(
+            "ff", profile, transport_to(std::make_unique<EmulatedForceFeedback>(recorded)),
+            ForceFeedbackBoard::Updates::kInCycle);
       case Kind::kUart:
         break;
     }
@@ -59,6 +65,15 @@ struct BoardBench {
     settings.threaded = threaded;
     settings.count_zero = count_zero;
     return std::make_unique<BoardDevice>(board(), settings);
+  }
+
+  /// The encoders of strings; a mouse and a joystick take a force instead.
+  bool counts() const { return kind != Kind::kMouse && kind != Kind::kForceFeedback; }
+  /// Cycles in which it speaks to the device once.
+  int cycles() const {
+    return kind == Kind::kMouse           ? 4
+           : kind == Kind::kForceFeedback ? ForceFeedbackBoard::kUpdate_ms
+                                          : 1;
   }
 
   const Kind kind;

@@ -26,14 +26,14 @@ void tick_until_running(HapticSession& session) {
 class Boards : public testing::TestWithParam<Kind>, public BoardBench {
  protected:
   Boards() : BoardBench(GetParam()) {}
-  bool counts() const { return kind != Kind::kMouse; }
 };
 const auto kNameOf = [](const testing::TestParamInfo<Kind>& kind) { return name_of(kind.param); };
 INSTANTIATE_TEST_SUITE_P(, Boards,
-                         testing::Values(Kind::kSh4, Kind::kSimple, Kind::kUart, Kind::kMouse),
+                         testing::Values(Kind::kSh4, Kind::kSimple, Kind::kUart, Kind::kMouse,
+                                         Kind::kForceFeedback),
                          kNameOf);
 
-/// All but the mouse, which has a force instead of motors and no encoders.
+/// All but the mouse and the joystick, which have a force instead of motors and no encoders.
 class BoardsThatCount : public Boards {};
 INSTANTIATE_TEST_SUITE_P(, BoardsThatCount, testing::Values(Kind::kSh4, Kind::kSimple, Kind::kUart),
                          kNameOf);
@@ -120,10 +120,9 @@ TEST_P(Boards, EveryFaultIsNamedCountedAndForgotten) {
   const auto device = this->device();
   device->open();
   const auto exchange = [&] {
-    // The mouse is spoken to every fourth time.
     DeviceReading reading;
     ExchangeStatus worst = ExchangeStatus::kOk;
-    for (int i = 0; i < (counts() ? 1 : 4); ++i) {
+    for (int i = 0; i < cycles(); ++i) {
       const ExchangeStatus status = device->exchange(all_volts(1), reading);
       if (status != ExchangeStatus::kOk) worst = status;
     }
@@ -415,18 +414,19 @@ TEST(BoardDevice, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
 
 TEST(DeviceFactory, ListsWhatItKnowsForOtherNames) {
   const Profile profile = load_profile("spidar-g6x3-v2-r");
-  for (const std::string spec : {"foo", "", "usb:", "sim:", "uart", "uart:", "mouse:"}) {
+  for (const std::string spec : {"foo", "", "usb:", "sim:", "uart", "uart:", "mouse:", "ff:"}) {
     try {
       make_device(spec, profile);
       FAIL() << spec;
     } catch (const DeviceError& error) {
       EXPECT_EQ(error.what(), "unknown device \"" + spec +
                                   "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, "
-                                  "mouse");
+                                  "mouse, ff, ff:PATH");
     }
   }
-  for (const std::string spec : {"usb", "usb:3", "usb:1-2.3", "uart:/dev/ttyUSB0,/dev/ttyUSB1",
-                                 "mouse", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse"}) {
+  for (const std::string spec :
+       {"usb", "usb:3", "usb:1-2.3", "uart:/dev/ttyUSB0,/dev/ttyUSB1", "mouse", "sim:sh4",
+        "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "ff", "ff:/dev/input/event3"}) {
     EXPECT_EQ(make_device(spec, profile)->name(), spec);
   }
   EXPECT_THROW(make_device("sim:x", profile), DeviceError);

@@ -29,9 +29,11 @@ namespace {
 constexpr const char* kUsbProfile = "spidar-g6x3-v2-r";
 constexpr const char* kUartProfile = "spidar-g6x5-r";
 
-MotorVolts one_volt() {
+/// For every string; a joystick, which takes their sum, would feel nothing of that.
+MotorVolts one_volt(const std::string& device = "") {
   MotorVolts volts;
   volts.volt.fill(1);
+  if (device == "ff") volts.volt = {1};
   return volts;
 }
 
@@ -56,7 +58,7 @@ void leave_files_to_a_child() {
   if (forks) leave_files_to_a_child();
   DeviceReading reading;
   for (;;) {
-    if (device->exchange(one_volt(), reading) != ExchangeStatus::kLost) continue;
+    if (device->exchange(one_volt(spec), reading) != ExchangeStatus::kLost) continue;
     device->close();
     device->open();
   }
@@ -128,6 +130,30 @@ TEST(Guardian, ZeroesUsbBoardsWhoseFilesAForkedChildHasToo) {
   victim.end(SIGKILL);
   wait_for([&] { return port.at_rest(); });
   plug(0, UsbKind::kSh4);  // the child goes
+  clear_bus();
+}
+
+TEST(Guardian, TakesJoysticksToZeroWhenTheHostIsKilledOrStopped) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  for (const int signal : {SIGKILL, SIGTERM, SIGSTOP}) {
+    Victim victim("ff", "spidar-g6x3-v2-r");
+    wait_for([&] { return !evdev_levels(0).at_rest() || !victim.lives(); });
+    ASSERT_TRUE(victim.lives());
+    EXPECT_EQ(port.autocentre, 0);
+    if (signal == SIGSTOP) {
+      victim.send(signal);
+      wait_for([&] { return evdev_levels(0).at_rest(); });
+      victim.send(SIGCONT);
+      wait_for([&] { return !evdev_levels(0).at_rest() || !victim.lives(); });
+      ASSERT_TRUE(victim.lives());
+      victim.end(SIGKILL);
+    } else {
+      victim.end(signal);
+    }
+    wait_for([&] { return evdev_levels(0).at_rest() && port.autocentre == 0xFFFF; });
+    // Once nobody has the file any more, its effects are erased.
+    wait_for([&] { return evdev_levels(0).at_rest() && !port.effect[0].used; });
+  }
   clear_bus();
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/protocols/count_unwrapper.h"
+#include "spidar/protocols/force_feedback.h"
 #include "spidar/protocols/sh4.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/protocols/uart_motor.h"
@@ -198,6 +199,61 @@ TEST(UartMotor, ReplyHasPositionsThenVelocities) {
   std::array<uint8_t, uart_motor::kMaxReplyLength> packet{};
   EXPECT_EQ(uart_motor::encode_reading(reading, 2, kB3M, packet), reply.size());
   EXPECT_TRUE(std::equal(reply.begin(), reply.end(), packet.begin()));
+}
+
+// --- force feedback
+
+TEST(ForceFeedbackPackets, AreTheKernelsStructures) {
+  // struct ff_effect: type, id, direction, trigger, replay, then what is of the type from 16 on.
+  std::vector<uint8_t> right = {0x52, 0, 0x03, 0, 0x00, 0xC0};
+  right = padded(right, 48);
+  right[16] = 0xFE;  // −2
+  right[17] = 0xFF;
+  EXPECT_EQ(bytes_of(ff::encode_constant(3, ff::Direction::kRight, -2)), right);
+  std::vector<uint8_t> rumble = padded({0x50, 0, 0xFF, 0xFF}, 48);
+  rumble[16] = 0x34;
+  rumble[17] = 0x12;
+  EXPECT_EQ(bytes_of(ff::encode_rumble(ff::kNewEffect, 0x1234)), rumble);
+  // struct input_event: two longs of time, then EV_FF, code, value.
+  std::vector<uint8_t> play = padded({}, 24);
+  play[16] = 0x15;
+  play[18] = 2;
+  play[20] = 1;
+  EXPECT_EQ(bytes_of(ff::encode_play(2, true)), play);
+  play[18] = 0x61;  // FF_AUTOCENTER
+  play[20] = 0xCD;
+  play[21] = 0xAB;
+  EXPECT_EQ(bytes_of(ff::encode_autocentre(0xABCD)), play);
+}
+
+TEST(ForceFeedbackPackets, DirectionsAreThoseOfTheKernel) {
+  // Documentation of struct ff_effect: 0 down, 0x4000 left, 0x8000 up, 0xC000 right.
+  struct Case {
+    uint16_t direction;
+    double right, up;
+  };
+  for (const Case c :
+       {Case{0, 0, -1}, Case{0x4000, -1, 0}, Case{0x8000, 0, 1}, Case{0xC000, 1, 0}}) {
+    const auto bytes =
+        ff::encode_constant(0, static_cast<ff::Direction>(c.direction), ff::kFullLevel);
+    const auto effect = ff::decode_effect(bytes);
+    ASSERT_TRUE(effect);
+    EXPECT_NEAR(effect->right, c.right, 1e-9);  // sine and cosine
+    EXPECT_NEAR(effect->up, c.up, 1e-9);
+  }
+  EXPECT_FALSE(ff::decode_effect(view(padded({0x51}, 48))));  // periodic
+  EXPECT_FALSE(ff::decode_effect(view(padded({0x52}, 47))));
+  EXPECT_FALSE(ff::decode_event(view(padded({}, 24))));
+}
+
+TEST(ForceFeedbackPackets, LevelsAreClamped) {
+  const auto level = [](int wanted) {
+    return ff::decode_effect(ff::encode_constant(0, ff::Direction::kRight, wanted))->right;
+  };
+  EXPECT_NEAR(level(100'000), 1, 1e-9);
+  EXPECT_NEAR(level(-100'000), -1, 1e-9);
+  EXPECT_EQ(ff::decode_effect(ff::encode_rumble(0, 100'000))->rumble, 1);
+  EXPECT_EQ(ff::decode_effect(ff::encode_rumble(0, -1))->rumble, 0);
 }
 
 // --- mouse

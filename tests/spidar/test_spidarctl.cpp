@@ -123,6 +123,7 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
       {"calibrate nothing", "unknown device \"nothing\""},
       {"info nothing", "unknown device \"nothing\""},
       {"rest sim:mouse", "is for devices with strings"},
+      {"rest sim:ff", "is for devices with strings"},
       {"monitor sim:sh4 --profile spidar-gcc", "wants negative volts"},
       {"zero uart:/no/such/line", "/no/such/line"},
       {"selftest sim --write-profile /no/such/folder/a.toml", "cannot be written"},
@@ -192,13 +193,15 @@ TEST(Spidarctl, ListTellsDevicesApart) {
 }
 
 TEST(Spidarctl, InfoReadsEachBoard) {
-  for (const std::string device : {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse"}) {
+  for (const std::string device :
+       {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff"}) {
     SCOPED_TRACE(device);
     const Outcome outcome = run("info " + device);
     EXPECT_EQ(outcome.status, 0);
     expect_contains(outcome.text, "device    " + device + "\n");
     expect_contains(outcome.text, "inputs    0x0000");
   }
+  expect_contains(run("info sim:ff").text, "found     emulated stick, force feedback on two axes");
   expect_contains(run("info sim:sh4 --json").text, "\"profile\" : \"spidar-g6x3-v2-r\"");
 }
 

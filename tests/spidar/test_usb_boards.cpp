@@ -101,8 +101,9 @@ TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
   EXPECT_EQ(line.path, "/no/such/line");
   EXPECT_FALSE(line.accessible);
   // What a board begins with is a profile that it can drive.
-  for (const std::string device : {"usb:1-1", "usb:1-2", "usb:5", "uart:/dev/ttyUSB0", "mouse",
-                                   "sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse"})
+  for (const std::string device :
+       {"usb:1-1", "usb:1-2", "usb:5", "uart:/dev/ttyUSB0", "mouse", "sim", "sim:sh4", "sim:simple",
+        "sim:uart", "sim:mouse", "sim:ff", "ff", "ff:/dev/input/event0"})
     EXPECT_NO_THROW(make_device(device, load_profile(board_info(device).profile))) << device;
 }
 

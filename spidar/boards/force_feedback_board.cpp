@@ -1,0 +1,221 @@
+#include "spidar/boards/force_feedback_board.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "spidar/boards/opening.h"
+#include "spidar/thread_setup.h"
+
+namespace spidar {
+namespace {
+
+constexpr int64_t kUpdate_ns = ForceFeedbackBoard::kUpdate_ms * kSecond_ns / 1000;
+constexpr std::array<ff::Direction, 2> kDirections{ff::Direction::kRight, ff::Direction::kUp};
+/// Of the way from the middle to where the strings leave the frame.
+constexpr double kReach = 0.5;
+
+template <typename Structure>
+MutableBytes bytes_of(Structure& structure) noexcept {
+  return {reinterpret_cast<uint8_t*>(&structure), sizeof structure};
+}
+
+int64_t soon_ns() noexcept {
+  return monotonic_now_ns() + kSecond_ns / 10;
+}
+
+}  // namespace
+
+ForceFeedbackBoard::ForceFeedbackBoard(std::string name, const Profile& profile,
+                                       std::unique_ptr<Transport> transport, Updates updates)
+    : name_(std::move(name)),
+      profile_(profile),
+      rest_N_(profile.min_tension_N()),
+      zero_length_m_(profile.zero_count_length_m()),
+      transport_(std::move(transport)),
+      updates_(updates) {
+  for (int i = 0; i < profile.geometry.count; ++i)
+    reach_m_ = reach_m_.cwiseMax(
+        kReach * profile.geometry.exit_m[static_cast<size_t>(i)].head<2>().cwiseAbs());
+}
+
+void ForceFeedbackBoard::open() {
+  transport_->open();
+  try {
+    const LinkFault fault = open_exchange(
+        [&](int64_t deadline_ns) {
+          return transport_->exchange({ff::kDescribe}, bytes_of(description_), deadline_ns).fault;
+        },
+        *transport_);
+    if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+    begin_effects();
+  } catch (...) {
+    transport_->close();
+    throw;
+  }
+  cycle_ = 0;
+  fault_ = LinkFault::kNone;
+  for (auto& force_N : force_N_) force_N = 0;
+  for (auto& place : place_) place = 0;
+  if (updates_ == Updates::kInCycle) return;
+  stop_ = false;
+  thread_ = start_thread("spidar-ff", [this] { run(); });
+}
+
+void ForceFeedbackBoard::begin_effects() {
+  const std::string device = name_ + ": \"" + description_.name.data() + "\" ";
+  if (!description_.constant && !description_.rumble)
+    throw DeviceError(device +
+                      "has no force feedback (neither FF_CONSTANT nor FF_RUMBLE); spidarctl list "
+                      "names devices that have");
+  if (description_.effects == 0)
+    throw DeviceError(device + "has no room for an effect; another driver may help");
+  const bool both = description_.constant && description_.axes > 1 && description_.effects > 1;
+  effect_count_ = both ? 2 : 1;
+  effects_ = {};
+  // What earlier programs left would scale the force, or add to it.
+  if (description_.gain) send(ff::encode_gain(ff::kFullGain));
+  if (description_.autocentre) send(ff::encode_autocentre(0));
+  for (size_t i = 0; i < effect_count_; ++i) {
+    LinkFault fault = upload(i, 0);
+    if (fault == LinkFault::kNone) fault = send(ff::encode_play(effects_[i].number, true));
+    if (fault != LinkFault::kNone)
+      throw DeviceError(device + "does not take an effect: " + to_string(fault) +
+                        "; close other programs that use its force feedback");
+  }
+}
+
+LinkFault ForceFeedbackBoard::send(ByteView event) noexcept {
+  return transport_->exchange({event}, {}, soon_ns()).fault;
+}
+
+LinkFault ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
+  Effect& of = effects_[effect];
+  const ff::EffectBytes bytes = description_.constant
+                                    ? ff::encode_constant(of.number, kDirections[effect], level)
+                                    : ff::encode_rumble(of.number, level);
+  const Transfer transfer = transport_->exchange({bytes}, bytes_of(of.number), soon_ns());
+  of.known = transfer.fault == LinkFault::kNone;
+  if (of.known) of.level = level;
+  return transfer.fault;
+}
+
+int ForceFeedbackBoard::wanted_level(size_t effect) const noexcept {
+  const double right = force_N_[0] / ff::kFullForce_N, up = force_N_[1] / ff::kFullForce_N;
+  if (!std::isfinite(right) || !std::isfinite(up)) return 0;
+  if (!description_.constant)
+    return static_cast<int>(std::lround(ff::kFullStrength * std::min(1.0, std::hypot(right, up))));
+  // What is too strong keeps its direction.
+  const double largest =
+      effect_count_ > 1 ? std::max(std::abs(right), std::abs(up)) : std::abs(right);
+  const double share = (effect == 0 ? right : up) / std::max(1.0, largest);
+  return static_cast<int>(std::lround(ff::kFullLevel * share));
+}
+
+LinkFault ForceFeedbackBoard::update() noexcept {
+  ff::Position position;
+  LinkFault fault = transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
+  if (fault == LinkFault::kNone) {
+    place_[0] = position.right;
+    place_[1] = position.up;
+    for (size_t i = 0; i < effect_count_; ++i) {
+      const size_t effect = (turn_ + i) % effect_count_;
+      const int level = wanted_level(effect);
+      if (effects_[effect].known && effects_[effect].level == level) continue;
+      fault = upload(effect, level);
+      turn_ = effect + 1;
+      break;
+    }
+  }
+  if (fault != LinkFault::kNone && fault != LinkFault::kGone) transport_->recover();
+  return fault;
+}
+
+void ForceFeedbackBoard::run() noexcept {
+  while (!stop_) {
+    fault_ = update();
+    // From its end: a driver that takes long is not asked more often for that.
+    sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
+  }
+}
+
+Pose ForceFeedbackBoard::stick_pose() const noexcept {
+  Pose pose;
+  for (int axis = 0; axis < 2; ++axis)
+    pose.position_m[axis] =
+        reach_m_[axis] * place_[static_cast<size_t>(axis)] / ff::Position::kFull;
+  return pose;
+}
+
+Eigen::Vector2d ForceFeedbackBoard::force_at(const Pose& pose,
+                                             const MotorVolts& volts) const noexcept {
+  StringVector tension_N = StringVector::Zero();
+  double above = 0;  // the strings' least tension, as a share of it
+  for (int i = 0; i < profile_.geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    const StringDrive& drive = profile_.drives[k];
+    tension_N[i] = volts.volt[k] * drive.motor_sign * drive.newtons_per_volt;
+    if (rest_N_[i] > 0) above = std::max(above, tension_N[i] / rest_N_[i] - 1);
+  }
+  // The strings' own pull at rest, which fades out as soon as they pull for a force. Below their
+  // least tension they are on their way to zero.
+  StringVector rest_N = std::max(0.0, 1 - above) * rest_N_;
+  rest_N = rest_N.cwiseMin(tension_N.cwiseMax(0));
+  return structure_matrix(profile_.geometry, pose).topRows<2>() * (tension_N - rest_N);
+}
+
+LinkFault ForceFeedbackBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
+                                    int64_t) noexcept {
+  // The pose of the reading before, for which the volts were made.
+  const Eigen::Vector2d force_N = force_at(stick_pose(), volts);
+  force_N_[0] = force_N.x();
+  force_N_[1] = force_N.y();
+  LinkFault fault = fault_;
+  if (updates_ == Updates::kInCycle)
+    fault = cycle_++ % kUpdate_ms == 0 ? update() : LinkFault::kNone;
+  if (fault != LinkFault::kNone) return fault;
+  const StringVector length_m = string_lengths_m(profile_.geometry, stick_pose());
+  for (int i = 0; i < profile_.geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    const StringDrive& drive = profile_.drives[k];
+    if (drive.metres_per_count > 0)
+      reading.count[k] =
+          drive.encoder_sign * static_cast<int32_t>(std::lround((length_m[i] - zero_length_m_[i]) /
+                                                                drive.metres_per_count));
+  }
+  reading.inputs = 0;
+  return LinkFault::kNone;
+}
+
+void ForceFeedbackBoard::close() noexcept {
+  if (thread_.joinable()) {
+    stop_ = true;
+    thread_.join();
+  }
+  for (size_t i = 0; i < effect_count_; ++i) {
+    if (effects_[i].number == ff::kNewEffect) continue;
+    if (effects_[i].level != 0 || !effects_[i].known) upload(i, 0);
+    send(ff::encode_play(effects_[i].number, false));
+  }
+  if (effect_count_ > 0 && description_.autocentre) send(ff::encode_autocentre(ff::kFullGain));
+  effect_count_ = 0;
+  transport_->close();
+}
+
+std::vector<LastWill> ForceFeedbackBoard::last_wills() const {
+  const ff::EventBytes first = ff::encode_play(effects_[0].number, false);
+  const ff::EventBytes last = ff::encode_play(effects_[effect_count_ - 1].number, false);
+  if (!description_.autocentre) return wills(*transport_, {first, last});
+  return wills(*transport_, {first, last, ff::encode_autocentre(ff::kFullGain)});
+}
+
+std::string ForceFeedbackBoard::description() const {
+  std::string text = std::string(description_.name.data()) + ", ";
+  if (!description_.constant)
+    return text + "rumble only: the strength of the force is felt, not its direction";
+  if (effect_count_ > 1) return text + "force feedback on two axes";
+  return text + "force feedback on one axis: forces up and down are not felt";
+}
+
+}  // namespace spidar

@@ -1,0 +1,91 @@
+/// Force-feedback joysticks, wheels and gamepads of Linux: up to two force axes, and a position.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/api.h"
+#include "spidar/boards/board.h"
+#include "spidar/profile.h"
+#include "spidar/protocols/force_feedback.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// Stands in for the strings of any profile: their pull on the grip, where the stick says that it
+/// is, is the force; only x and y of it are felt. A stick that is pushed all the way is half way
+/// from the middle to where the strings leave the frame, which is the edge of the picture for
+/// pointer=grip. What strings at their least tension pull away from the middle is not given to the
+/// stick: it rests anywhere.
+///
+/// Drivers may take long for an update, or lose some when they come too fast. So one effect for
+/// each axis plays all the time, and its level is set at most every kUpdate_ms, one effect at a
+/// time, and only to another value.
+class SPIDAR_API ForceFeedbackBoard final : public Board {
+ public:
+  static constexpr int kUpdate_ms = 5;
+
+  enum class Updates {
+    kOwnThread,  ///< cycle() never waits for the driver
+    kInCycle,    ///< every kUpdate_ms-th cycle(), for emulations
+  };
+
+  ForceFeedbackBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
+                     Updates updates);
+  ~ForceFeedbackBoard() override { close(); }
+
+  void open() override;
+  LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
+                  int64_t deadline_ns) noexcept override;
+  /// Done by whoever makes the updates.
+  void recover() noexcept override {}
+  /// The position has its own zero.
+  void zero_counts() noexcept override {}
+  void close() noexcept override;
+  std::vector<LastWill> last_wills() const override;
+  /// With one sentence on what it lacks.
+  std::string description() const override;
+  const std::string& name() const noexcept override { return name_; }
+
+ private:
+  struct Effect {
+    int16_t number = ff::kNewEffect;
+    int level = 0;       ///< that it has; of a rumble its strength
+    bool known = false;  ///< whether it has that level
+  };
+
+  void begin_effects();
+  LinkFault upload(size_t effect, int level) noexcept;
+  LinkFault send(ByteView event) noexcept;
+  int wanted_level(size_t effect) const noexcept;
+  /// Reads the position, sets one level.
+  LinkFault update() noexcept;
+  void run() noexcept;
+  Pose stick_pose() const noexcept;
+  Eigen::Vector2d force_at(const Pose& pose, const MotorVolts& volts) const noexcept;
+
+  const std::string name_;
+  const Profile profile_;
+  const StringVector rest_N_;
+  const StringVector zero_length_m_;
+  Eigen::Vector2d reach_m_ = Eigen::Vector2d::Zero();  ///< of the stick, x and y
+  const std::unique_ptr<Transport> transport_;
+  const Updates updates_;
+
+  ff::Description description_;
+  std::array<Effect, 2> effects_{};  ///< right and up; of a rumble the first
+  size_t effect_count_ = 0;
+  size_t turn_ = 0;  ///< the effect that is looked at first
+  int cycle_ = 0;
+  std::thread thread_;
+  std::atomic<bool> stop_{false};
+  std::atomic<LinkFault> fault_{LinkFault::kNone};  ///< of the newest update
+  std::array<std::atomic<double>, 2> force_N_{};
+  std::array<std::atomic<int>, 2> place_{};  ///< of the stick, of ff::Position::kFull
+};
+
+}  // namespace spidar

@@ -1,0 +1,45 @@
+/// A force-feedback joystick as a program.
+#pragma once
+
+#include <array>
+
+#include "core/api.h"
+#include "spidar/emulation/emulated_board.h"
+#include "spidar/protocols/force_feedback.h"
+
+namespace spidar {
+
+/// Its digits are what its playing effects add up to: level to the right and up, and strength of
+/// the rumble. Its counts are where the stick is, of ff::Position::kFull: to the right and up.
+class SPIDAR_API EmulatedForceFeedback final : public EmulatedBoard {
+ public:
+  /// A stick with two axes, gain, autocentre and room for sixteen effects.
+  static ff::Description stick() noexcept;
+
+  explicit EmulatedForceFeedback(EmulatedMotors& motors,
+                                 const ff::Description& description = stick()) noexcept
+      : motors_(motors), description_(description) {}
+
+  void receive(ByteView bytes) noexcept override;
+  size_t reply(MutableBytes bytes) noexcept override;
+
+ private:
+  struct Slot {
+    ff::Effect effect;
+    bool used = false;
+    bool plays = false;
+  };
+
+  void upload(const ff::Effect& effect) noexcept;
+  void put_out() noexcept;
+  template <typename Structure>
+  void answer(const Structure& structure) noexcept;
+
+  EmulatedMotors& motors_;
+  const ff::Description description_;
+  std::array<Slot, 16> slots_{};
+  std::array<uint8_t, sizeof(ff::Description)> reply_{};
+  size_t due_ = 0;
+};
+
+}  // namespace spidar

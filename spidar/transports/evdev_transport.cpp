@@ -1,0 +1,214 @@
+#include "spidar/transports/evdev_transport.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fcntl.h>
+#include <linux/input.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+#include "spidar/device.h"
+#include "spidar/monotonic.h"
+#include "spidar/transports/evdev_list.h"
+
+namespace spidar {
+namespace {
+
+constexpr int64_t kBusyCheck_ns = 10'000'000;
+
+template <size_t Bits>
+using BitSet = std::array<uint8_t, Bits / 8 + 1>;
+
+template <size_t N>
+bool has(const std::array<uint8_t, N>& bits, unsigned bit) noexcept {
+  return bits[bit / 8] >> bit % 8 & 1;
+}
+
+/// Which codes of an event type the device has; none when it does not say.
+template <size_t Bits>
+BitSet<Bits> codes(int file, unsigned type) noexcept {
+  BitSet<Bits> bits{};
+  if (ioctl(file, EVIOCGBIT(type, sizeof bits), bits.data()) < 0) bits.fill(0);
+  return bits;
+}
+
+LinkFault fault_of(int error) noexcept {
+  switch (error) {
+    case ENODEV:
+    case ENXIO:
+    case EBADF:
+      return LinkFault::kGone;
+    case ETIMEDOUT:
+      return LinkFault::kTimeout;
+    case EINVAL:
+    case ENOSYS:
+    case ENOSPC:
+      return LinkFault::kStall;
+    default:
+      return LinkFault::kBusError;
+  }
+}
+
+/// False, and errno, when another process has locked it, or its guardian has.
+bool lock(int file) noexcept {
+  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
+  while (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK || monotonic_now_ns() > until_ns) return false;
+    sleep_until_ns(monotonic_now_ns() + kBusyCheck_ns);
+  }
+  return true;
+}
+
+/// The place on an axis, −kFull … kFull; false when the device is gone.
+bool place_on(int file, int axis, int16_t& place) noexcept {
+  input_absinfo info{};
+  if (ioctl(file, EVIOCGABS(static_cast<unsigned>(axis)), &info) < 0) return false;
+  const double range = double{1} * info.maximum - info.minimum;
+  const double share =
+      range > 0 ? (double{2} * info.value - info.maximum - info.minimum) / range : 0;
+  place = static_cast<int16_t>(std::lround(ff::Position::kFull * std::clamp(share, -1.0, 1.0)));
+  return true;
+}
+
+template <typename Structure>
+size_t put(const Structure& structure, MutableBytes reply) noexcept {
+  const size_t length = std::min(sizeof structure, reply.size);
+  std::memcpy(reply.data, &structure, length);
+  return length;
+}
+
+}  // namespace
+
+EvdevTransport::EvdevTransport(std::string name, std::string path)
+    : name_(std::move(name)), path_(std::move(path)) {}
+
+EvdevTransport::~EvdevTransport() {
+  close();
+}
+
+void EvdevTransport::fail(const std::string& path, const std::string& what) {
+  const int error = errno;
+  close();
+  std::string advice;
+  if (error == EACCES)
+    advice = "; install the udev rule 70-spidar.rules and plug the device in again";
+  if (error == ENOENT || error == ENXIO || error == ENODEV)
+    advice = "; spidarctl list names the devices that are plugged in";
+  if (error == ENOTTY) advice = "; it is no input device, write ff:/dev/input/eventN";
+  if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
+  throw DeviceError(name_ + ": " + path + " " + what + ": " + std::strerror(error) + advice);
+}
+
+void EvdevTransport::open() {
+  close();
+  std::string path = path_;
+  if (path.empty()) {
+    const std::vector<EvdevInfo> devices = list_force_feedback();
+    if (devices.empty())
+      throw DeviceError(name_ +
+                        ": no device with force feedback is plugged in that the kernel has a "
+                        "driver for");
+    path = devices.front().path;
+  }
+  file_ = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  if (file_ < 0) fail(path, "cannot be opened");
+  int version = 0;
+  if (ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
+  if (!lock(file_)) fail(path, "cannot be locked");
+  find_axes();
+}
+
+/// A wheel's other axes are its pedals. Drivers tell wheels by an axis or a button that only wheels
+/// have, or only by their name.
+void EvdevTransport::find_axes() noexcept {
+  const auto axes = codes<ABS_CNT>(file_, EV_ABS);
+  const auto keys = codes<KEY_CNT>(file_, EV_KEY);
+  std::array<char, 128> name{};
+  ioctl(file_, EVIOCGNAME(name.size() - 1), name.data());
+  const bool is_wheel =
+      has(axes, ABS_WHEEL) || has(keys, BTN_WHEEL) || strcasestr(name.data(), "wheel");
+  right_axis_ = has(axes, ABS_X) ? ABS_X : has(axes, ABS_WHEEL) ? ABS_WHEEL : -1;
+  up_axis_ = has(axes, ABS_Y) && !is_wheel ? ABS_Y : -1;
+}
+
+ff::Description EvdevTransport::describe() const noexcept {
+  ff::Description description;
+  const auto bits = codes<FF_CNT>(file_, EV_FF);
+  description.constant = has(bits, FF_CONSTANT);
+  description.rumble = has(bits, FF_RUMBLE);
+  description.gain = has(bits, FF_GAIN);
+  description.autocentre = has(bits, FF_AUTOCENTER);
+  int effects = 0;
+  ioctl(file_, EVIOCGEFFECTS, &effects);
+  description.effects = static_cast<uint8_t>(std::clamp(effects, 0, 255));
+  description.axes = static_cast<uint8_t>((right_axis_ >= 0) + (up_axis_ >= 0));
+  ioctl(file_, EVIOCGNAME(description.name.size() - 1), description.name.data());
+  return description;
+}
+
+bool EvdevTransport::read_position(ff::Position& position) const noexcept {
+  int effects = 0;
+  // A device without axes is asked as well: the answer says that it is still there.
+  if (ioctl(file_, EVIOCGEFFECTS, &effects) < 0) return false;
+  if (right_axis_ >= 0 && !place_on(file_, right_axis_, position.right)) return false;
+  if (up_axis_ >= 0 && !place_on(file_, up_axis_, position.up)) return false;
+  position.up = static_cast<int16_t>(-position.up);  // y of a stick is down
+  return true;
+}
+
+LinkFault EvdevTransport::send(ByteView packet, MutableBytes reply, size_t& received) noexcept {
+  if (packet.size == ff::kDescribeSize) {
+    received = put(describe(), reply);
+    return LinkFault::kNone;
+  }
+  if (packet.size == ff::kPositionSize) {
+    ff::Position position;
+    if (!read_position(position)) return fault_of(errno);
+    received = put(position, reply);
+    return LinkFault::kNone;
+  }
+  if (packet.size == ff::kEffectSize) {
+    ff_effect effect{};
+    std::memcpy(&effect, packet.data, sizeof effect);
+    int result = 0;
+    do {
+      result = ioctl(file_, EVIOCSFF, &effect);
+    } while (result < 0 && errno == EINTR);
+    if (result < 0) return fault_of(errno);
+    received = put(effect.id, reply);
+    return LinkFault::kNone;
+  }
+  const ssize_t written = ::write(file_, packet.data, packet.size);
+  return written == static_cast<ssize_t>(packet.size) ? LinkFault::kNone : fault_of(errno);
+}
+
+Transfer EvdevTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                                  int64_t) noexcept {
+  if (file_ < 0) return {LinkFault::kGone, 0};
+  size_t received = 0;
+  for (const ByteView packet : packets) {
+    const LinkFault fault = send(packet, reply, received);
+    if (fault != LinkFault::kNone) return {fault, 0};
+  }
+  return {received < reply.size ? LinkFault::kShort : LinkFault::kNone, received};
+}
+
+std::optional<LastWill> EvdevTransport::last_will() const {
+  LastWill will;
+  will.wire = LastWill::Wire::kTerminal;
+  will.file = file_;
+  return will;
+}
+
+void EvdevTransport::close() noexcept {
+  if (file_ >= 0) ::close(file_);
+  file_ = -1;
+}
+
+}  // namespace spidar

@@ -1,0 +1,360 @@
+// evdev as far as force feedback uses it.
+#undef _FORTIFY_SOURCE
+
+#include "tests/emulated_bus/evdev_files.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <filesystem>
+#include <linux/input.h>
+#include <string>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#include <vector>
+
+#include "spidar/monotonic.h"
+#include "spidar/protocols/force_feedback.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/evdev_port.h"
+#include "tests/emulated_bus/usb_files.h"
+
+namespace spidar::test {
+
+/// What is called, with access to all of a port.
+struct EvdevCalls {
+  EvdevPort& port;
+
+  int upload(ff_effect& effect);
+  int erase(size_t number);
+  int query(unsigned long request, void* argument);
+  int event(const ff::Event& event);
+};
+
+namespace {
+
+constexpr const char* kDev = "/dev/input/";
+constexpr const char* kSysfs = "/sys/class/input";
+
+/// Beside the file of a bus that is shared, else a folder of this process's own.
+class Folder {
+ public:
+  Folder() {
+    const char* bus_file = std::getenv("SPIDAR_EMULATED_BUS");
+    if (bus_file && std::strchr(bus_file, '/')) {
+      path = std::string(bus_file) + ".input";
+    } else {
+      path = std::filesystem::temp_directory_path() / "spidar-input-XXXXXX";
+      own_ = mkdtemp(path.data()) != nullptr;
+    }
+  }
+  ~Folder() {
+    std::error_code error;
+    if (own_) std::filesystem::remove_all(path, error);
+  }
+
+  std::string path;
+
+ private:
+  bool own_ = false;
+};
+
+const std::string& folder() {
+  static const Folder it;
+  return it.path;
+}
+
+std::string device_file(size_t number) {
+  return folder() + "/dev/event" + std::to_string(number);
+}
+std::string sysfs_folder(size_t number) {
+  return folder() + "/sys/event" + std::to_string(number);
+}
+
+/// Without write(), which asks for the bus, which may be about to be made.
+void put_file(const std::string& path, const std::string& text) {
+  const int file = real_open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0 || syscall(SYS_write, file, text.data(), text.size()) < 0) std::abort();
+  syscall(SYS_close, file);
+}
+
+bool is_constant(EvdevKind kind) {
+  return kind == EvdevKind::kStick || kind == EvdevKind::kWheel;
+}
+
+std::vector<unsigned> ff_bits(EvdevKind kind) {
+  switch (kind) {
+    case EvdevKind::kStick:
+      return {FF_CONSTANT, FF_RUMBLE, FF_GAIN, FF_AUTOCENTER};
+    case EvdevKind::kWheel:
+      return {FF_CONSTANT, FF_AUTOCENTER};
+    case EvdevKind::kPad:
+      return {FF_RUMBLE};
+    default:
+      return {};
+  }
+}
+
+std::vector<unsigned> abs_bits(EvdevKind kind) {
+  if (kind == EvdevKind::kWheel) return {ABS_X, ABS_Y};  // the second is a pedal
+  if (kind == EvdevKind::kKeyboard) return {};
+  return {ABS_X, ABS_Y};
+}
+
+const char* name_of(EvdevKind kind) {
+  switch (kind) {
+    case EvdevKind::kStick:
+      return "Emulated Stick";
+    case EvdevKind::kWheel:
+      return "Emulated Racing Wheel";
+    case EvdevKind::kPad:
+      return "Emulated Pad";
+    default:
+      return "Emulated Keyboard";
+  }
+}
+
+/// As the kernel prints it: words, the highest first.
+std::string sysfs_bits(const std::vector<unsigned>& bits) {
+  unsigned long words[2] = {};
+  for (const unsigned bit : bits) words[bit / 64] |= 1UL << bit % 64;
+  std::array<char, 40> text{};
+  if (words[1] != 0)
+    std::snprintf(text.data(), text.size(), "%lx %lx\n", words[1], words[0]);
+  else
+    std::snprintf(text.data(), text.size(), "%lx\n", words[0]);
+  return text.data();
+}
+
+int put_bits(const std::vector<unsigned>& bits, void* argument, size_t size) {
+  auto* bytes = static_cast<uint8_t*>(argument);
+  std::fill_n(bytes, size, uint8_t{0});
+  for (const unsigned bit : bits)
+    if (bit / 8 < size) bytes[bit / 8] = static_cast<uint8_t>(bytes[bit / 8] | 1 << bit % 8);
+  return static_cast<int>(size);
+}
+
+void erase(EvdevPort::Effect& effect) {
+  effect.plays = effect.used = false;
+  effect.right = effect.up = effect.rumble = 0;
+}
+
+void forget(EvdevPort& port) {
+  for (EvdevPort::Effect& effect : port.effect) erase(effect);
+  port.uploads = port.unchanged = port.plays = 0;
+  port.shortest_ns = 0;
+  for (auto& axis : port.axis) axis = 0;
+  port.gain = port.autocentre = 0;
+  port.upload_ms = port.upload_error = 0;
+}
+
+void unplug_from(BusState& state, size_t number) {
+  EvdevPort& port = state.evdev[number];
+  port.kind = EvdevKind::kNone;
+  for (EvdevPort::Effect& effect : port.effect) erase(effect);
+  std::error_code error;
+  std::filesystem::remove(device_file(number), error);
+  std::filesystem::remove_all(sysfs_folder(number), error);
+}
+
+/// The port whose file that is; nullptr and `is_evdev` when it was unplugged.
+EvdevPort* port_of(int file, bool& is_evdev) {
+  struct stat status {};
+  is_evdev = false;
+  if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return nullptr;
+  for (EvdevPort& port : bus().evdev) {
+    if (port.kind == EvdevKind::kNone || port.inode != status.st_ino) continue;
+    is_evdev = true;
+    return &port;
+  }
+  if (status.st_nlink > 0) return nullptr;
+  // The file of a device that was pulled out.
+  std::array<char, 512> target{};
+  const std::string link = "/proc/self/fd/" + std::to_string(file);
+  if (readlink(link.c_str(), target.data(), target.size() - 1) > 0)
+    is_evdev = std::strncmp(target.data(), folder().c_str(), folder().size()) == 0;
+  return nullptr;
+}
+
+}  // namespace
+
+int EvdevCalls::upload(ff_effect& wanted) {
+  const int64_t now_ns = monotonic_now_ns();
+  const int64_t passed_ns = now_ns - port.last_upload_ns.exchange(now_ns);
+  if (port.shortest_ns == 0 || passed_ns < port.shortest_ns) port.shortest_ns = passed_ns;
+  if (port.upload_ms > 0) sleep_until_ns(now_ns + port.upload_ms * kSecond_ns / 1000);
+  if (port.upload_error != 0) return -port.upload_error;
+  const bool fits = is_constant(port.kind) ? wanted.type == FF_CONSTANT : wanted.type == FF_RUMBLE;
+  if (!fits) return -EINVAL;
+  auto at = static_cast<size_t>(wanted.id);
+  if (wanted.id == -1) {
+    at = 0;
+    while (at < port.effect.size() && port.effect[at].used) ++at;
+    if (at == port.effect.size()) return -ENOSPC;
+  }
+  if (at >= port.effect.size() || (wanted.id != -1 && !port.effect[at].used)) return -EINVAL;
+  wanted.id = static_cast<int16_t>(at);
+  const auto effect = ff::decode_effect({reinterpret_cast<const uint8_t*>(&wanted), sizeof wanted});
+  EvdevPort::Effect& kept = port.effect[at];
+  const auto rounded = [](double share, int full) {
+    return static_cast<int>(std::lround(share * full));
+  };
+  const int right = rounded(effect->right, ff::kFullLevel);
+  const int up = rounded(effect->up, ff::kFullLevel);
+  const int rumble = rounded(effect->rumble, ff::kFullStrength);
+  if (kept.used && kept.right == right && kept.up == up && kept.rumble == rumble) ++port.unchanged;
+  kept.right = right;
+  kept.up = up;
+  kept.rumble = rumble;
+  kept.used = true;
+  ++port.uploads;
+  return 0;
+}
+
+int EvdevCalls::erase(size_t number) {
+  if (number >= port.effect.size() || !port.effect[number].used) return -EINVAL;
+  spidar::test::erase(port.effect[number]);
+  return 0;
+}
+
+int EvdevCalls::query(unsigned long request, void* argument) {
+  const unsigned number = _IOC_NR(request);
+  const size_t size = _IOC_SIZE(request);
+  if (request == EVIOCGVERSION) {
+    *static_cast<int*>(argument) = EV_VERSION;
+    return 0;
+  }
+  if (request == EVIOCGEFFECTS) {
+    *static_cast<int*>(argument) = static_cast<int>(port.effect.size());
+    return 0;
+  }
+  if (number == _IOC_NR(EVIOCGNAME(0))) {
+    std::snprintf(static_cast<char*>(argument), size, "%s", name_of(port.kind));
+    return static_cast<int>(std::strlen(static_cast<char*>(argument)) + 1);
+  }
+  if (number == _IOC_NR(EVIOCGBIT(EV_FF, 0))) return put_bits(ff_bits(port.kind), argument, size);
+  if (number == _IOC_NR(EVIOCGBIT(EV_ABS, 0))) return put_bits(abs_bits(port.kind), argument, size);
+  if (number == _IOC_NR(EVIOCGBIT(EV_KEY, 0))) return put_bits({}, argument, size);
+  if (number >= _IOC_NR(EVIOCGABS(0))) {
+    const size_t axis = number - _IOC_NR(EVIOCGABS(0));
+    if (axis >= port.axis.size()) return -EINVAL;
+    auto& info = *static_cast<input_absinfo*>(argument);
+    info = {};
+    info.value = port.axis[axis];
+    info.minimum = -1000;
+    info.maximum = 1000;
+    return 0;
+  }
+  return -EINVAL;
+}
+
+int EvdevCalls::event(const ff::Event& event) {
+  if (event.code == FF_GAIN) {
+    port.gain = event.value;
+  } else if (event.code == FF_AUTOCENTER) {
+    port.autocentre = event.value;
+  } else if (event.code < port.effect.size() && port.effect[event.code].used) {
+    port.effect[event.code].plays = event.value > 0;
+    if (event.value > 0) ++port.plays;
+  }
+  return 0;
+}
+
+std::string evdev_path(const char* path) {
+  const auto begins = [path](const char* with) {
+    return std::strncmp(path, with, std::strlen(with)) == 0;
+  };
+  if (!begins(kDev) && !begins(kSysfs)) return path;
+  bus();  // what $SPIDAR_EMULATED_BUS plugs in
+  if (begins(kDev)) return folder() + "/dev/" + (path + std::strlen(kDev));
+  return folder() + "/sys" + (path + std::strlen(kSysfs));
+}
+
+bool evdev_ioctl(int file, unsigned long request, void* argument, int& result) {
+  if (_IOC_TYPE(request) != 'E') return false;
+  bool is_evdev = false;
+  EvdevPort* port = port_of(file, is_evdev);
+  if (!is_evdev) return false;
+  result = -ENODEV;
+  if (port) {
+    EvdevCalls calls{*port};
+    result = request == EVIOCSFF    ? calls.upload(*static_cast<ff_effect*>(argument))
+             : request == EVIOCRMFF ? calls.erase(reinterpret_cast<size_t>(argument))
+                                    : calls.query(request, argument);
+  }
+  if (result >= 0) return true;
+  errno = -result;
+  result = -1;
+  return true;
+}
+
+bool evdev_write(int file, const void* bytes, size_t length, long& result) {
+  const auto event = ff::decode_event({static_cast<const uint8_t*>(bytes), length});
+  if (!event) return false;  // far the most of what programs write
+  bool is_evdev = false;
+  EvdevPort* port = port_of(file, is_evdev);
+  if (!is_evdev) return false;
+  result = static_cast<long>(length);
+  if (port) {
+    EvdevCalls{*port}.event(*event);
+  } else {
+    errno = ENODEV;
+    result = -1;
+  }
+  return true;
+}
+
+EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind) {
+  unplug_from(state, number);
+  EvdevPort& port = state.evdev[number];
+  forget(port);
+  const std::string sysfs = sysfs_folder(number) + "/device";
+  std::filesystem::create_directories(folder() + "/dev");
+  std::filesystem::create_directories(sysfs + "/capabilities");
+  std::filesystem::create_directories(sysfs + "/id");
+  put_file(sysfs + "/capabilities/ff", sysfs_bits(ff_bits(kind)));
+  put_file(sysfs + "/name", std::string(name_of(kind)) + "\n");
+  put_file(sysfs + "/uniq", "\n");
+  put_file(sysfs + "/id/vendor", "1209\n");
+  put_file(sysfs + "/id/product", "000" + std::to_string(static_cast<int>(kind)) + "\n");
+  put_file(device_file(number), "");
+  struct stat status {};
+  if (stat(device_file(number).c_str(), &status) != 0) std::abort();
+  port.inode = status.st_ino;
+  port.kind = kind;
+  return port;
+}
+
+EvdevPort& plug_evdev(size_t number, EvdevKind kind) {
+  return plug_evdev_into(bus(), number, kind);
+}
+
+void unplug_evdev(size_t number) {
+  unplug_from(bus(), number);
+}
+
+EvdevLevels evdev_levels(size_t number) {
+  EvdevPort& port = bus().evdev[number];
+  const int file = real_open(device_file(number).c_str(), O_RDWR | O_CLOEXEC, 0);
+  const bool abandoned = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
+  if (abandoned)
+    for (EvdevPort::Effect& effect : port.effect) erase(effect);
+  if (file >= 0) syscall(SYS_close, file);
+  EvdevLevels levels;
+  for (const EvdevPort::Effect& effect : port.effect) {
+    if (!effect.plays) continue;
+    levels.right += effect.right;
+    levels.up += effect.up;
+    levels.rumble += effect.rumble;
+  }
+  return levels;
+}
+
+}  // namespace spidar::test

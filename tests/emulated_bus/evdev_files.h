@@ -1,0 +1,26 @@
+/// Files of the emulated input devices. They are real files in a folder of the emulated bus, so
+/// that they can be listed, locked and passed on to another process; calls are answered here.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "tests/emulated_bus/evdev_port.h"
+
+namespace spidar::test {
+
+struct BusState;
+
+/// plug_evdev() while the bus is being made.
+EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind);
+
+/// Where `path` of /dev/input or /sys/class/input lies; other paths are left as they are.
+std::string evdev_path(const char* path);
+
+/// As ioctl(2), of a file of an input device; false when it is not one.
+bool evdev_ioctl(int file, unsigned long request, void* argument, int& result);
+
+/// As write(2), of a file of an input device; false when it is not one.
+bool evdev_write(int file, const void* bytes, size_t length, long& result);
+
+}  // namespace spidar::test
