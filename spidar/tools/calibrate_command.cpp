@@ -6,8 +6,8 @@
 #include <optional>
 #include <unistd.h>
 
-#include "spidar/calibration.h"
-#include "spidar/count_recorder.h"
+#include "spidar/calibration/calibration.h"
+#include "spidar/calibration/count_recorder.h"
 #include "spidar/device_factory.h"
 #include "spidar/monotonic.h"
 #include "spidar/profile_writer.h"

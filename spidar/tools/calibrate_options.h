@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/grip/pose.h"
-#include "spidar/calibration.h"
+#include "spidar/calibration/calibration.h"
 #include "spidar/profile.h"
 #include "spidar/tools/command_line.h"
 

@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "spidar/calibration.h"
+#include "spidar/calibration/calibration.h"
 #include "spidar/profile.h"
 
 namespace spidar {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <exception>
 
-#include "spidar/count_recorder.h"
+#include "spidar/calibration/count_recorder.h"
 #include "spidar/monotonic.h"
 #include "spidar/simulated_device.h"
 #include "tests/spidar/calibration_samples.h"

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "spidar/calibration.h"
+#include "spidar/calibration/calibration.h"
 #include "spidar/profile.h"
 #include "spidar/tools/hand_motion.h"
 

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/count_recorder.h"
+#include "spidar/calibration/count_recorder.h"
 #include "spidar/haptic_loop.h"
 #include "spidar/profile_writer.h"
 #include "spidar/simulated_device.h"

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/grip/pose.h"
-#include "spidar/calibration_model.h"
+#include "spidar/calibration/model.h"
 
 namespace spidar {
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "core/api.h"
-#include "spidar/calibration.h"
+#include "spidar/calibration/calibration.h"
 #include "spidar/device.h"
 #include "spidar/profile.h"
 

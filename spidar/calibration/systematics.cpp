@@ -1,4 +1,4 @@
-#include "spidar/calibration_systematics.h"
+#include "spidar/calibration/systematics.h"
 
 #include <algorithm>
 #include <cmath>

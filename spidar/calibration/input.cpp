@@ -1,4 +1,4 @@
-#include "spidar/calibration_input.h"
+#include "spidar/calibration/input.h"
 
 #include <algorithm>
 #include <cmath>

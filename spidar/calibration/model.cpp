@@ -1,4 +1,4 @@
-#include "spidar/calibration_model.h"
+#include "spidar/calibration/model.h"
 
 #include <Eigen/QR>
 

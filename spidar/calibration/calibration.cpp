@@ -1,18 +1,18 @@
-#include "spidar/calibration.h"
+#include "spidar/calibration/calibration.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "core/grip/pose_solver.h"
-#include "spidar/bundle_adjustment.h"
-#include "spidar/calibration_input.h"
-#include "spidar/calibration_model.h"
-#include "spidar/calibration_noise.h"
-#include "spidar/calibration_start.h"
-#include "spidar/calibration_systematics.h"
+#include "spidar/calibration/bundle_adjustment.h"
+#include "spidar/calibration/input.h"
+#include "spidar/calibration/model.h"
+#include "spidar/calibration/noise.h"
+#include "spidar/calibration/observability.h"
+#include "spidar/calibration/start.h"
+#include "spidar/calibration/systematics.h"
 #include "spidar/grip_model.h"
-#include "spidar/observability.h"
 #include "spidar/toml_field.h"
 
 namespace spidar {

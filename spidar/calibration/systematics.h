@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "spidar/bundle_adjustment.h"
-#include "spidar/calibration_model.h"
+#include "spidar/calibration/bundle_adjustment.h"
+#include "spidar/calibration/model.h"
 
 namespace spidar {
 

@@ -1,4 +1,4 @@
-#include "spidar/count_recorder.h"
+#include "spidar/calibration/count_recorder.h"
 
 #include <algorithm>
 #include <cmath>

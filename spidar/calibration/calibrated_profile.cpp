@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "spidar/calibration.h"
+#include "spidar/calibration/calibration.h"
 #include "spidar/toml_field.h"
 
 namespace spidar {

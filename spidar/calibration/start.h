@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "spidar/bundle_adjustment.h"
-#include "spidar/calibration_model.h"
+#include "spidar/calibration/bundle_adjustment.h"
+#include "spidar/calibration/model.h"
 
 namespace spidar {
 

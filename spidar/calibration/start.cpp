@@ -1,4 +1,4 @@
-#include "spidar/calibration_start.h"
+#include "spidar/calibration/start.h"
 
 #include <algorithm>
 #include <cmath>

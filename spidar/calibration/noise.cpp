@@ -1,4 +1,4 @@
-#include "spidar/calibration_noise.h"
+#include "spidar/calibration/noise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "spidar/calibration.h"
-#include "spidar/calibration_input.h"
-#include "spidar/calibration_model.h"
+#include "spidar/calibration/calibration.h"
+#include "spidar/calibration/input.h"
+#include "spidar/calibration/model.h"
 #include "spidar/toml_field.h"
 
 namespace spidar {

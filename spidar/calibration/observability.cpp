@@ -1,4 +1,4 @@
-#include "spidar/observability.h"
+#include "spidar/calibration/observability.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "spidar/bundle_adjustment.h"
+#include "spidar/calibration/bundle_adjustment.h"
 
 #include <cmath>
 #include <memory>

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/grip/string_geometry.h"
-#include "spidar/calibration.h"
-#include "spidar/calibration_model.h"
+#include "spidar/calibration/calibration.h"
+#include "spidar/calibration/model.h"
 #include "spidar/profile.h"
 
 namespace spidar {

@@ -7,7 +7,7 @@
 
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
-#include "spidar/calibration.h"
+#include "spidar/calibration/calibration.h"
 #include "spidar/profile.h"
 
 namespace spidar {
