@@ -16,7 +16,7 @@
 
 #include "core/grip/pose_solver.h"
 #include "line_reader.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 using namespace spidar;
 

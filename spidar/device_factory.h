@@ -7,7 +7,7 @@
 #include "core/api.h"
 #include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

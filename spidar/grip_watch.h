@@ -11,7 +11,7 @@
 #include "core/wrench.h"
 #include "spidar/device.h"
 #include "spidar/pose_trouble.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

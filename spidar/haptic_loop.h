@@ -14,7 +14,7 @@
 #include "spidar/latency_histogram.h"
 #include "spidar/motor_heat.h"
 #include "spidar/playback_clock.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/safety.h"
 #include "spidar/seqlock.h"
 #include "spidar/spsc_ring.h"

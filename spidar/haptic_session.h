@@ -11,7 +11,7 @@
 #include "spidar/device.h"
 #include "spidar/haptic_loop.h"
 #include "spidar/playback_clock.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/safety.h"
 #include "spidar/scheduling.h"
 #include "spidar/tick_trace.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/grip/string_geometry.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

@@ -9,7 +9,7 @@
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

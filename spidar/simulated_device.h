@@ -12,7 +12,7 @@
 #include "core/wrench.h"
 #include "spidar/device.h"
 #include "spidar/grip_model.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

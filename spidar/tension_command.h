@@ -5,7 +5,7 @@
 #include "core/grip/string_geometry.h"
 #include "core/grip/tension_solver.h"
 #include "core/wrench.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

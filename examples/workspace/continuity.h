@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 /// The largest step of a string at 1 kHz beside the bounds of tests/support/tension_step.h, for the
 /// weights of the loop. A table of all `profiles` as Markdown,

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/grip/tension_solver.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 /// What is minimised when tensions are chosen: ½‖S(W t − f)‖² + ½ε‖t − t_ref‖².
 struct Weights {

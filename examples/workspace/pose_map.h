@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 /// Writes PROFILE-position.csv and PROFILE-rotation.csv into `folder` and draws them as
 /// PROFILE.png.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 /// Where the grip is: anywhere within ± `reach_m` of the centre in x, y and z, turned by up to
 /// `angle_rad` about any axis, each amount as likely as another.

@@ -4,7 +4,7 @@
 
 #include "spidar/boards/usb_kinds.h"
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/transports/evdev_list.h"
 #include "spidar/transports/tty_list.h"
 #include "spidar/transports/usb_bus.h"

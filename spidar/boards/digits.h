@@ -6,7 +6,7 @@
 #include <string>
 
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/protocols/uart_motor.h"
 
 namespace spidar {

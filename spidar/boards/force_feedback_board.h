@@ -10,7 +10,7 @@
 
 #include "core/api.h"
 #include "spidar/boards/board.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/transports/transport.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/api.h"
 #include "spidar/boards/board.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/transports/transport.h"
 

@@ -8,7 +8,7 @@
 #include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/usb_kinds.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/transports/usb_transport.h"
 
 namespace spidar {

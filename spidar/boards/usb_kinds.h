@@ -9,7 +9,7 @@
 #include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/board_list.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/transports/usb_transport.h"
 
 namespace spidar {

@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "spidar/calibration/calibration.h"
-#include "spidar/toml_field.h"
+#include "spidar/profiles/toml_field.h"
 
 namespace spidar {
 namespace {

@@ -13,7 +13,7 @@
 #include "spidar/calibration/start.h"
 #include "spidar/calibration/systematics.h"
 #include "spidar/grip_model.h"
-#include "spidar/toml_field.h"
+#include "spidar/profiles/toml_field.h"
 
 namespace spidar {
 namespace {

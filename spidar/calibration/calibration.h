@@ -11,7 +11,7 @@
 #include "core/api.h"
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

@@ -5,7 +5,7 @@
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/input.h"
 #include "spidar/calibration/model.h"
-#include "spidar/toml_field.h"
+#include "spidar/profiles/toml_field.h"
 
 namespace spidar {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "spidar/haptic_loop.h"
+#include "spidar/profiles/toml_field.h"
 #include "spidar/safety.h"
-#include "spidar/toml_field.h"
 
 namespace spidar {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/api.h"
 #include "spidar/calibration/calibration.h"
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

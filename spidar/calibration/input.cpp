@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "core/grip/pose_solver.h"
-#include "spidar/toml_field.h"
+#include "spidar/profiles/toml_field.h"
 
 namespace spidar {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/grip/string_geometry.h"
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/model.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

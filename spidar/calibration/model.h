@@ -8,7 +8,7 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "spidar/calibration/calibration.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

@@ -10,7 +10,7 @@
 #include "spidar/calibration/count_recorder.h"
 #include "spidar/device_factory.h"
 #include "spidar/monotonic.h"
-#include "spidar/profile_writer.h"
+#include "spidar/profiles/profile_writer.h"
 #include "spidar/simulated_device.h"
 #include "spidar/tools/calibrate_options.h"
 #include "spidar/tools/calibrate_report.h"

@@ -6,7 +6,7 @@
 
 #include "core/grip/pose.h"
 #include "spidar/calibration/calibration.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "spidar/calibration/calibration.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

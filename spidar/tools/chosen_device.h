@@ -7,7 +7,7 @@
 #include "spidar/boards/board_list.h"
 #include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {

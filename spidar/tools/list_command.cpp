@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "spidar/boards/board_list.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/json_text.h"

@@ -3,7 +3,7 @@
 
 #include "core/grip/pose_solver.h"
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

@@ -1,7 +1,7 @@
 #include <iostream>
 #include <string>
 
-#include "spidar/profile_writer.h"
+#include "spidar/profiles/profile_writer.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/selftest_report.h"

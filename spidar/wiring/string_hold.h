@@ -6,7 +6,7 @@
 #include "core/api.h"
 #include "core/grip/string_geometry.h"
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

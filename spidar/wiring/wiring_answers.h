@@ -7,7 +7,7 @@
 
 #include "core/api.h"
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/wiring/string_hold.h"
 
 namespace spidar {

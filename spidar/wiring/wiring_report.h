@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/api.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/wiring/wiring_answers.h"
 
 namespace spidar {

@@ -12,7 +12,7 @@
 
 #include "call_timer.h"
 #include "core/grip/tension_solver.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "tests/core/tension_reference.h"
 #include "tests/spidar/profile_tension_cases.h"
 #include "tests/support/tension_cases.h"

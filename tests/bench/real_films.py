@@ -51,7 +51,7 @@ def play(build, film, properties):
             GST_PLUGIN_PATH=str(build / "plugin"),
             GST_REGISTRY=str(Path(folder) / "registry"),
         )
-        environment.setdefault("SPIDAR_PROFILE_PATH", "spidar/profiles")
+        environment.setdefault("SPIDAR_PROFILE_PATH", "spidar/profiles/shipped")
         subprocess.run(
             ["gst-launch-1.0", "-q", "filesrc", f"location={film}", "!", "decodebin", "!",
              "spidarmotion", "device=none", "post-messages=false", f"trace={trace}", *properties,

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/grip_pointer.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 namespace {

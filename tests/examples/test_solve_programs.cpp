@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "tests/core/tension_reference.h"
 #include "tests/support/tension_cases.h"
 

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "spidar/calibration/calibration.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/tools/hand_motion.h"
 
 namespace spidar::test {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "spidar/haptic_loop.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "tests/support/fake_device.h"
 
 namespace spidar::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/grip/tension_solver.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "tests/support/string_samples.h"
 
 namespace spidar::test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/simulated_device.h"
 
 namespace spidar::test {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip_model.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 using namespace spidar;
 

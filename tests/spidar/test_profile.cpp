@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace fs = std::filesystem;
 using namespace spidar;

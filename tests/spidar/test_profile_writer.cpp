@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/profile_writer.h"
+#include "spidar/profiles/profile_writer.h"
 #include "tests/spidar/calibration_samples.h"
 
 namespace fs = std::filesystem;

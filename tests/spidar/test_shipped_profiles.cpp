@@ -1,4 +1,4 @@
-// The profiles in spidar/profiles against the published numbers they were written from.
+// The profiles in spidar/profiles/shipped against the published numbers they were written from.
 
 #include <cmath>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 using namespace spidar;
 
@@ -175,7 +175,7 @@ TEST(ShippedProfiles, NoneIsUntestedAndTheDefaultIsAmongThem) {
   EXPECT_EQ(tested.count(kDefaultProfile), 1u);
   std::set<std::string> shipped;
   const char* folder = std::getenv("SPIDAR_PROFILE_PATH");
-  ASSERT_NE(folder, nullptr) << "run through `meson test`, or set it to spidar/profiles";
+  ASSERT_NE(folder, nullptr) << "run through `meson test`, or set it to spidar/profiles/shipped";
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     shipped.insert(entry.path().stem().string());
   EXPECT_EQ(shipped, tested);

@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace fs = std::filesystem;
 

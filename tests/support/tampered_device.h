@@ -7,7 +7,7 @@
 #include <string>
 
 #include "spidar/device.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar::test {
 

@@ -13,7 +13,7 @@
 
 #include <toml++/toml.h>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

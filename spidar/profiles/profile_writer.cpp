@@ -1,4 +1,4 @@
-#include "spidar/profile_writer.h"
+#include "spidar/profiles/profile_writer.h"
 
 #include <cerrno>
 #include <charconv>

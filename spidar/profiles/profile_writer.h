@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/api.h"
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

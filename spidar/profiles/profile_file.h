@@ -27,7 +27,7 @@
 
 #include <string>
 
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 

@@ -1,4 +1,4 @@
-/// The profiles of spidar/profiles/, which are part of the library.
+/// The profiles of spidar/profiles/shipped/, which are part of the library.
 #pragma once
 
 namespace spidar {

@@ -9,8 +9,8 @@ END = "profile"  # of a raw string; no profile has )profile" in it
 output, *files = map(Path, sys.argv[1:])
 rows = "".join(f'    {{"{file.stem}", R"{END}({file.read_text(encoding="utf-8")}){END}"}},\n' for file in files)
 output.write_text(
-    f"""// Made by spidar/embed_profiles.py from spidar/profiles/.
-#include "spidar/shipped_profiles.h"
+    f"""// Made by spidar/profiles/embed_profiles.py from spidar/profiles/shipped/.
+#include "spidar/profiles/shipped_profiles.h"
 
 namespace spidar {{
 namespace {{

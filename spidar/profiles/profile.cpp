@@ -1,4 +1,4 @@
-#include "spidar/profile.h"
+#include "spidar/profiles/profile.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "spidar/profile_file.h"
-#include "spidar/shipped_profiles.h"
+#include "spidar/profiles/profile_file.h"
+#include "spidar/profiles/shipped_profiles.h"
 
 namespace spidar {
 namespace {

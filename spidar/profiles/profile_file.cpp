@@ -1,10 +1,10 @@
-#include "spidar/profile_file.h"
+#include "spidar/profiles/profile_file.h"
 
 #include <algorithm>
 #include <limits>
 #include <string_view>
 
-#include "spidar/toml_field.h"
+#include "spidar/profiles/toml_field.h"
 
 namespace spidar {
 namespace {
