@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "spidar/thread_setup.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 namespace {

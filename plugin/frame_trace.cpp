@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/analysis_json.h"
-#include "spidar/sigpipe_block.h"
+#include "spidar/realtime/sigpipe_block.h"
 
 namespace spidar {
 namespace {

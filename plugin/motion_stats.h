@@ -9,7 +9,7 @@
 
 #include "core/motion_analyzer.h"
 #include "spidar/haptic_session.h"
-#include "spidar/latency_histogram.h"
+#include "spidar/realtime/latency_histogram.h"
 
 namespace spidar {
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-#include "spidar/thread_setup.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 

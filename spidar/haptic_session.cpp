@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "spidar/loop_thread.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 #include "spidar/trace_thread.h"
 
 namespace spidar {

@@ -12,8 +12,8 @@
 #include "spidar/haptic_loop.h"
 #include "spidar/playback_clock.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/realtime/scheduling.h"
 #include "spidar/safety.h"
-#include "spidar/scheduling.h"
 #include "spidar/tick_trace.h"
 
 namespace spidar {

@@ -3,8 +3,8 @@
 #include <future>
 #include <utility>
 
-#include "spidar/monotonic.h"
-#include "spidar/thread_setup.h"
+#include "spidar/realtime/monotonic.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 

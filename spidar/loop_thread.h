@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "spidar/haptic_loop.h"
-#include "spidar/scheduling.h"
+#include "spidar/realtime/scheduling.h"
 
 namespace spidar {
 

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "spidar/seqlock.h"
-#include "spidar/spsc_ring.h"
+#include "spidar/realtime/seqlock.h"
+#include "spidar/realtime/spsc_ring.h"
 
 namespace spidar {
 namespace {

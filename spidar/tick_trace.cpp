@@ -9,7 +9,7 @@
 #include <string_view>
 #include <unistd.h>
 
-#include "spidar/sigpipe_block.h"
+#include "spidar/realtime/sigpipe_block.h"
 
 namespace spidar {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "spidar/thread_setup.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 

@@ -6,7 +6,7 @@
 
 #include <GLFW/glfw3.h>
 
-#include "spidar/thread_setup.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "spidar/monotonic.h"
-#include "spidar/thread_setup.h"
+#include "spidar/realtime/monotonic.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 namespace {

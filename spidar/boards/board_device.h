@@ -12,8 +12,8 @@
 #include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
 #include "spidar/guardian/guardian.h"
-#include "spidar/latency_histogram.h"
-#include "spidar/spsc_ring.h"
+#include "spidar/realtime/latency_histogram.h"
+#include "spidar/realtime/spsc_ring.h"
 
 namespace spidar {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "spidar/boards/opening.h"
-#include "spidar/thread_setup.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "spidar/guardian/last_will.h"
 #include "spidar/link_fault.h"
-#include "spidar/monotonic.h"
 #include "spidar/protocols/bytes.h"
+#include "spidar/realtime/monotonic.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar {

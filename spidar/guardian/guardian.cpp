@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "spidar/device.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 
 extern char** environ;
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "spidar/device.h"
-#include "spidar/latency_histogram.h"
+#include "spidar/realtime/latency_histogram.h"
 
 namespace spidar {
 

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "spidar/haptic_loop.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "spidar/device.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 #include "spidar/transports/evdev_list.h"
 
 namespace spidar {

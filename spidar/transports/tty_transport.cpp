@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "spidar/device.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar {
 namespace {

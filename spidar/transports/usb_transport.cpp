@@ -7,7 +7,7 @@
 #include <libusb.h>
 
 #include "spidar/device.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar {
 namespace {

@@ -8,7 +8,7 @@
 #include <exception>
 
 #include "spidar/calibration/count_recorder.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 #include "spidar/simulated_device.h"
 #include "tests/spidar/calibration_samples.h"
 

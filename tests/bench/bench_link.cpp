@@ -10,10 +10,10 @@
 
 #include "spidar/boards/board_settings.h"
 #include "spidar/device_factory.h"
-#include "spidar/latency_histogram.h"
-#include "spidar/monotonic.h"
 #include "spidar/protocols/sh4.h"
-#include "spidar/thread_setup.h"
+#include "spidar/realtime/latency_histogram.h"
+#include "spidar/realtime/monotonic.h"
+#include "spidar/realtime/thread_setup.h"
 #include "spidar/transports/usb_transport.h"
 #include "tests/emulated_bus/bus_state.h"
 

@@ -20,8 +20,8 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/monotonic.h"
 #include "spidar/protocols/force_feedback.h"
+#include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/usb_files.h"

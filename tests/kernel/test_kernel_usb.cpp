@@ -19,7 +19,7 @@
 #include "spidar/device_factory.h"
 #include "spidar/guardian/last_will.h"
 #include "spidar/haptic_session.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 #include "tests/kernel/usbip_board.h"
 #include "tests/support/child_process.h"
 #include "tests/support/recorded_motors.h"

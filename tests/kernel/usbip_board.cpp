@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "spidar/emulation/emulated_usb.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/descriptors.h"
 
 namespace spidar::test {

@@ -11,7 +11,7 @@
 #include "spidar/boards/board_list.h"
 #include "spidar/device_factory.h"
 #include "spidar/haptic_session.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/board_bench.h"
 #include "tests/support/temporary_folder.h"

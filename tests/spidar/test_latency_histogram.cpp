@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "spidar/latency_histogram.h"
+#include "spidar/realtime/latency_histogram.h"
 
 namespace spidar {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/seqlock.h"
-#include "spidar/spsc_ring.h"
+#include "spidar/realtime/seqlock.h"
+#include "spidar/realtime/spsc_ring.h"
 
 namespace spidar {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gst/app/gstappsrc.h>
 
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "examples/play/trace_reader.h"
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 #include "tests/bench/skew/player.h"
 #include "tests/support/temporary_folder.h"
 

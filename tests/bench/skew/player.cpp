@@ -6,7 +6,7 @@
 
 #include <gst/audio/gstaudioclock.h>
 
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 #include "tests/bench/skew/sound_card.h"
 
 namespace spidar::bench {

@@ -4,7 +4,7 @@
 
 #include <gst/video/gstvideosink.h>
 
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gst/audio/gstaudiosink.h>
 
-#include "spidar/monotonic.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/api.h"
-#include "spidar/scheduling.h"
+#include "spidar/realtime/scheduling.h"
 
 namespace spidar {
 

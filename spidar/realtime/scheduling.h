@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "spidar/latency_histogram.h"
+#include "spidar/realtime/latency_histogram.h"
 
 namespace spidar {
 

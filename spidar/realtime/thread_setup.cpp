@@ -1,4 +1,4 @@
-#include "spidar/thread_setup.h"
+#include "spidar/realtime/thread_setup.h"
 
 #include <algorithm>
 #include <cstring>
