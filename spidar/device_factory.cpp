@@ -11,7 +11,7 @@
 #include "spidar/boards/usb_board.h"
 #include "spidar/emulation/wire_simulation.h"
 #include "spidar/protocols/uart_motor.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "spidar/transports/evdev_transport.h"
 #include "spidar/transports/tty_transport.h"
 

@@ -12,8 +12,8 @@
 #include "spidar/calibration/observability.h"
 #include "spidar/calibration/start.h"
 #include "spidar/calibration/systematics.h"
-#include "spidar/grip_model.h"
 #include "spidar/profiles/toml_field.h"
+#include "spidar/simulation/grip_model.h"
 
 namespace spidar {
 namespace {

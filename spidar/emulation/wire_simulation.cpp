@@ -13,7 +13,7 @@
 #include "spidar/emulation/emulated_force_feedback.h"
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 
 namespace spidar {
 namespace {

@@ -11,7 +11,7 @@
 #include "spidar/device_factory.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/calibrate_options.h"
 #include "spidar/tools/calibrate_report.h"
 #include "spidar/tools/commands.h"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <ostream>
 
-#include "spidar/grip_model.h"
+#include "spidar/simulation/grip_model.h"
 #include "spidar/tools/json_text.h"
 
 namespace spidar {

@@ -3,8 +3,8 @@
 #include <iostream>
 #include <limits>
 
-#include "spidar/grip_model.h"
 #include "spidar/haptic_loop.h"
+#include "spidar/simulation/grip_model.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/json_text.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "spidar/grip_model.h"
+#include "spidar/simulation/grip_model.h"
 
 namespace spidar {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "spidar/calibration/count_recorder.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/calibration_samples.h"
 
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "spidar/haptic_loop.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "spidar/tension_command.h"
 #include "tests/support/tampered_device.h"
 

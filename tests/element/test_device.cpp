@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/haptic_loop.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"

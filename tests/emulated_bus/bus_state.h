@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/api.h"
-#include "spidar/link_fault.h"
+#include "spidar/transports/link_fault.h"
 #include "tests/emulated_bus/evdev_port.h"
 
 namespace spidar::test {

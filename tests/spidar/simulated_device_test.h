@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/profiles/profile.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 
 namespace spidar::test {
 

@@ -12,7 +12,7 @@
 #include "spidar/calibration/count_recorder.h"
 #include "spidar/haptic_loop.h"
 #include "spidar/profiles/profile_writer.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/calibration_samples.h"
 #include "tests/support/fake_device.h"
 

@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "spidar/grip_model.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/simulation/grip_model.h"
 
 using namespace spidar;
 

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
 
 namespace spidar::test {

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/haptic_loop.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "tests/support/seam_watch.h"
 #include "tests/support/tampered_device.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "spidar/tension_command.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tampered_device.h"

@@ -11,7 +11,7 @@
 
 #include "spidar/emulation/miswired_device.h"
 #include "spidar/safety.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 #include "spidar/wiring/wiring_answers.h"
 #include "spidar/wiring/wiring_report.h"
 

@@ -6,7 +6,7 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 
 namespace spidar::test {
 

@@ -11,8 +11,8 @@
 #include "core/grip/pose.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
-#include "spidar/grip_model.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/simulation/grip_model.h"
 
 namespace spidar {
 

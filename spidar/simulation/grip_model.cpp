@@ -1,4 +1,4 @@
-#include "spidar/grip_model.h"
+#include "spidar/simulation/grip_model.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "spidar/simulated_device.h"
+#include "spidar/simulation/simulated_device.h"
 
 #include <algorithm>
 #include <array>
