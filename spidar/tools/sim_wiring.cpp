@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "spidar/emulation/miswired_device.h"
+#include "spidar/tools/miswired_device.h"
 
 namespace spidar {
 

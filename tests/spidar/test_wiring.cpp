@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/emulation/miswired_device.h"
 #include "spidar/safety.h"
 #include "spidar/simulation/simulated_device.h"
+#include "spidar/tools/miswired_device.h"
 #include "spidar/wiring/wiring_answers.h"
 #include "spidar/wiring/wiring_report.h"
 

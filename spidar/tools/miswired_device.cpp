@@ -1,4 +1,4 @@
-#include "spidar/emulation/miswired_device.h"
+#include "spidar/tools/miswired_device.h"
 
 #include <sstream>
 #include <stdexcept>
