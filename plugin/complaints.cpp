@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "spidar/motor_heat.h"
+#include "spidar/loop/motor_heat.h"
 
 GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
 #define GST_CAT_DEFAULT gst_spidar_motion_debug

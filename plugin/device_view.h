@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/grip/string_geometry.h"
-#include "spidar/tick_record.h"
+#include "spidar/loop/tick_record.h"
 
 namespace spidar {
 

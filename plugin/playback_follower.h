@@ -10,7 +10,7 @@
 
 #include "plugin/playback_sync.h"
 #include "plugin/presentation_delay.h"
-#include "spidar/playback_clock.h"
+#include "spidar/loop/playback_clock.h"
 
 namespace spidar {
 

@@ -7,7 +7,7 @@
 
 #include <gst/gst.h>
 
-#include "spidar/playback_clock.h"
+#include "spidar/loop/playback_clock.h"
 
 namespace spidar {
 

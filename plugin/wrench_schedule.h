@@ -10,7 +10,7 @@
 
 #include "core/force/wrench_timeline.h"
 #include "plugin/instant_rate.h"
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 
 namespace spidar {
 

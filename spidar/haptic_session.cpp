@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "spidar/loop_thread.h"
+#include "spidar/loop/loop_thread.h"
+#include "spidar/loop/trace_thread.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/trace_thread.h"
 
 namespace spidar {
 

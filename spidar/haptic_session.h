@@ -9,12 +9,12 @@
 #include "core/api.h"
 #include "core/force/wrench_timeline.h"
 #include "spidar/device.h"
-#include "spidar/haptic_loop.h"
-#include "spidar/playback_clock.h"
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/playback_clock.h"
+#include "spidar/loop/safety.h"
+#include "spidar/loop/tick_trace.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/realtime/scheduling.h"
-#include "spidar/safety.h"
-#include "spidar/tick_trace.h"
 
 namespace spidar {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/safety.h"
 #include "spidar/profiles/toml_field.h"
-#include "spidar/safety.h"
 
 namespace spidar {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/conformance_report.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/json_text.h"

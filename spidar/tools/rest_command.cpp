@@ -1,7 +1,7 @@
 #include <iostream>
 #include <limits>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/terminal.h"

@@ -9,7 +9,7 @@
 #include <iostream>
 #include <unistd.h>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/tools/command_line.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "spidar/haptic_loop.h"
-#include "spidar/safety.h"
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/safety.h"
 
 namespace spidar {
 namespace {

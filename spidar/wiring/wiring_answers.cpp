@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 
 namespace spidar {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/tension_command.h"
 #include "spidar/simulation/simulated_device.h"
-#include "spidar/tension_command.h"
 #include "tests/support/tampered_device.h"
 
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"

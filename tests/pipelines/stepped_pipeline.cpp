@@ -5,7 +5,7 @@
 #include <gst/base/gstbasesink.h>
 
 #include "plugin/spidar_motion.h"
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 
 namespace spidar::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile.h"
 #include "tests/support/fake_device.h"
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/calibration/count_recorder.h"
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/calibration_samples.h"

@@ -10,7 +10,7 @@
 
 #include "spidar/device_factory.h"
 #include "spidar/haptic_session.h"
-#include "spidar/loop_thread.h"
+#include "spidar/loop/loop_thread.h"
 #include "tests/support/fake_device.h"
 
 namespace spidar::test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/motor_heat.h"
+#include "spidar/loop/motor_heat.h"
 #include "tests/spidar/loop_driver.h"
 
 namespace spidar::test {

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/seam_watch.h"
 #include "tests/support/tampered_device.h"

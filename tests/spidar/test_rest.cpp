@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/loop/tension_command.h"
 #include "spidar/simulation/simulated_device.h"
-#include "spidar/tension_command.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tampered_device.h"
 

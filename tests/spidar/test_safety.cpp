@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/safety.h"
+#include "spidar/loop/safety.h"
 
 namespace spidar {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/tick_trace.h"
+#include "spidar/loop/tick_trace.h"
 
 namespace spidar {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/safety.h"
-#include "spidar/tension_command.h"
+#include "spidar/loop/safety.h"
+#include "spidar/loop/tension_command.h"
 
 namespace spidar::test {
 namespace {

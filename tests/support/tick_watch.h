@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 
 namespace spidar::test {
 

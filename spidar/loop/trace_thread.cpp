@@ -1,4 +1,4 @@
-#include "spidar/trace_thread.h"
+#include "spidar/loop/trace_thread.h"
 
 #include <chrono>
 

@@ -1,4 +1,4 @@
-#include "spidar/grip_watch.h"
+#include "spidar/loop/grip_watch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "spidar/tension_command.h"
+#include "spidar/loop/tension_command.h"
 
 #include <algorithm>
 #include <cmath>

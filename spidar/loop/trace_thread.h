@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "spidar/haptic_loop.h"
-#include "spidar/tick_trace.h"
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/tick_trace.h"
 
 namespace spidar {
 

@@ -1,4 +1,4 @@
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <thread>
 
-#include "spidar/haptic_loop.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/realtime/scheduling.h"
 
 namespace spidar {

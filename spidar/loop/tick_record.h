@@ -7,8 +7,8 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
-#include "spidar/pose_trouble.h"
-#include "spidar/safety.h"
+#include "spidar/loop/pose_trouble.h"
+#include "spidar/loop/safety.h"
 
 namespace spidar {
 

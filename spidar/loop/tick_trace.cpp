@@ -1,4 +1,4 @@
-#include "spidar/tick_trace.h"
+#include "spidar/loop/tick_trace.h"
 
 #include <array>
 #include <cerrno>

@@ -10,7 +10,7 @@
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
-#include "spidar/pose_trouble.h"
+#include "spidar/loop/pose_trouble.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {

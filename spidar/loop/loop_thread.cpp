@@ -1,4 +1,4 @@
-#include "spidar/loop_thread.h"
+#include "spidar/loop/loop_thread.h"
 
 #include <future>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "spidar/safety.h"
+#include "spidar/loop/safety.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/api.h"
-#include "spidar/tick_record.h"
+#include "spidar/loop/tick_record.h"
 
 namespace spidar {
 
