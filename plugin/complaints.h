@@ -4,7 +4,7 @@
 #include <gst/gst.h>
 
 #include "plugin/motion_engine.h"
-#include "plugin/motion_properties.h"
+#include "plugin/properties/motion_properties.h"
 
 namespace spidar {
 

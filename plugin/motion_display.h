@@ -8,9 +8,9 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/display_properties.h"
 #include "plugin/motion_engine.h"
 #include "plugin/overlay/scene_view.h"
+#include "plugin/properties/display_properties.h"
 #include "plugin/window/window.h"
 
 namespace spidar {

@@ -14,9 +14,9 @@
 #include "plugin/frame_luma.h"
 #include "plugin/frame_trace.h"
 #include "plugin/grip_pointer.h"
-#include "plugin/motion_properties.h"
 #include "plugin/motion_stats.h"
 #include "plugin/playback_follower.h"
+#include "plugin/properties/motion_properties.h"
 #include "plugin/wrench_schedule.h"
 #include "spidar/haptic_session.h"
 

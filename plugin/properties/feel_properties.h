@@ -3,7 +3,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/motion_properties.h"
+#include "plugin/properties/motion_properties.h"
 
 namespace spidar {
 

@@ -1,6 +1,6 @@
-#include "plugin/motion_properties.h"
+#include "plugin/properties/motion_properties.h"
 
-#include "plugin/feel_properties.h"
+#include "plugin/properties/feel_properties.h"
 #include "spidar/boards/board_list.h"
 
 namespace spidar {

@@ -1,4 +1,4 @@
-#include "plugin/display_properties.h"
+#include "plugin/properties/display_properties.h"
 
 namespace spidar {
 namespace {

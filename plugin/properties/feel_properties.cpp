@@ -1,4 +1,4 @@
-#include "plugin/feel_properties.h"
+#include "plugin/properties/feel_properties.h"
 
 namespace spidar {
 namespace {

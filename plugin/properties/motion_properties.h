@@ -7,7 +7,7 @@
 #include <gst/gst.h>
 
 #include "core/motion_analyzer.h"
-#include "plugin/display_properties.h"
+#include "plugin/properties/display_properties.h"
 
 namespace spidar {
 
