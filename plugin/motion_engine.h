@@ -15,9 +15,9 @@
 #include "plugin/frame_trace.h"
 #include "plugin/grip_pointer.h"
 #include "plugin/motion_stats.h"
-#include "plugin/playback_follower.h"
 #include "plugin/properties/motion_properties.h"
-#include "plugin/wrench_schedule.h"
+#include "plugin/timing/playback_follower.h"
+#include "plugin/timing/wrench_schedule.h"
 #include "spidar/haptic_session.h"
 
 namespace spidar {

@@ -44,7 +44,7 @@
 #include "plugin/motion_engine.h"
 #include "plugin/motion_message.h"
 #include "plugin/motion_meta.h"
-#include "plugin/step_watch.h"
+#include "plugin/timing/step_watch.h"
 
 GST_DEBUG_CATEGORY(gst_spidar_motion_debug);
 #define GST_CAT_DEFAULT gst_spidar_motion_debug

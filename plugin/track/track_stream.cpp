@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "plugin/instant_rate.h"
+#include "plugin/timing/instant_rate.h"
 
 namespace spidar {
 namespace {

@@ -6,7 +6,7 @@
 #include <gst/check/gsttestclock.h>
 #include <gtest/gtest.h>
 
-#include "plugin/playback_sync.h"
+#include "plugin/timing/playback_sync.h"
 #include "tests/support/element_harness.h"
 
 namespace spidar::test {

@@ -1,7 +1,7 @@
 // What waits until the haptic loop has room for it.
 #include <gtest/gtest.h>
 
-#include "plugin/wrench_schedule.h"
+#include "plugin/timing/wrench_schedule.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tick_watch.h"
 

@@ -9,7 +9,7 @@
 #include <gst/gst.h>
 
 #include "core/force/wrench_timeline.h"
-#include "plugin/instant_rate.h"
+#include "plugin/timing/instant_rate.h"
 #include "spidar/loop/haptic_loop.h"
 
 namespace spidar {

@@ -1,4 +1,4 @@
-#include "plugin/presentation_delay.h"
+#include "plugin/timing/presentation_delay.h"
 
 #include <algorithm>
 #include <optional>

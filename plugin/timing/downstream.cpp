@@ -1,4 +1,4 @@
-#include "plugin/downstream.h"
+#include "plugin/timing/downstream.h"
 
 namespace spidar {
 namespace {

@@ -1,4 +1,4 @@
-#include "plugin/playback_follower.h"
+#include "plugin/timing/playback_follower.h"
 
 #include <chrono>
 #include <utility>

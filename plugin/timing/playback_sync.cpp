@@ -1,4 +1,4 @@
-#include "plugin/playback_sync.h"
+#include "plugin/timing/playback_sync.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "plugin/wrench_schedule.h"
+#include "plugin/timing/wrench_schedule.h"
 
 namespace spidar {
 namespace {

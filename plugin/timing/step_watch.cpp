@@ -1,8 +1,8 @@
-#include "plugin/step_watch.h"
+#include "plugin/timing/step_watch.h"
 
-#include "plugin/downstream.h"
 #include "plugin/motion_engine.h"
 #include "plugin/spidar_motion.h"
+#include "plugin/timing/downstream.h"
 
 namespace spidar {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/downstream.h"
+#include "plugin/timing/downstream.h"
 
 namespace spidar {
 

@@ -8,8 +8,8 @@
 
 #include <gst/gst.h>
 
-#include "plugin/playback_sync.h"
-#include "plugin/presentation_delay.h"
+#include "plugin/timing/playback_sync.h"
+#include "plugin/timing/presentation_delay.h"
 #include "spidar/loop/playback_clock.h"
 
 namespace spidar {
