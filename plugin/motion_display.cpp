@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "plugin/motion_meta.h"
 #include "plugin/overlay/video_overlay.h"
+#include "plugin/reports/motion_meta.h"
 #include "plugin/window/element_source.h"
 
 namespace spidar {

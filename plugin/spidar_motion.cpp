@@ -39,11 +39,11 @@
 #include <new>
 #include <string>
 
-#include "plugin/complaints.h"
 #include "plugin/motion_display.h"
 #include "plugin/motion_engine.h"
-#include "plugin/motion_message.h"
-#include "plugin/motion_meta.h"
+#include "plugin/reports/complaints.h"
+#include "plugin/reports/motion_message.h"
+#include "plugin/reports/motion_meta.h"
 #include "plugin/timing/step_watch.h"
 
 GST_DEBUG_CATEGORY(gst_spidar_motion_debug);

@@ -26,7 +26,7 @@
 
 #include <gst/base/gstflowcombiner.h>
 
-#include "plugin/gstspidarmotionmeta.h"
+#include "plugin/reports/gstspidarmotionmeta.h"
 #include "plugin/track/track_stream.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);

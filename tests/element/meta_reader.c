@@ -1,5 +1,5 @@
 /* A program in C that reads the meta. */
-#include "plugin/gstspidarmotionmeta.h"
+#include "plugin/reports/gstspidarmotionmeta.h"
 
 gboolean read_motion_in_c (GstBuffer * buffer, GstSpidarMotion * motion);
 GArray *read_tracks_in_c (GstBuffer * buffer);

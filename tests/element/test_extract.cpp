@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/track/track_format.h"
-#include "plugin/gstspidarmotionmeta.h"
-#include "plugin/motion_meta.h"
+#include "plugin/reports/gstspidarmotionmeta.h"
+#include "plugin/reports/motion_meta.h"
 #include "plugin/track/spidar_extract.h"
 #include "plugin/track/track_stream.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/gstspidarmotionmeta.h"
+#include "plugin/reports/gstspidarmotionmeta.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 

@@ -1,4 +1,4 @@
-#include "plugin/motion_stats.h"
+#include "plugin/reports/motion_stats.h"
 
 namespace spidar {
 namespace {

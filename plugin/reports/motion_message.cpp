@@ -1,4 +1,4 @@
-#include "plugin/motion_message.h"
+#include "plugin/reports/motion_message.h"
 
 namespace spidar {
 

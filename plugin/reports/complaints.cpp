@@ -1,4 +1,4 @@
-#include "plugin/complaints.h"
+#include "plugin/reports/complaints.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
-#include "plugin/motion_meta.h"
+#include "plugin/reports/motion_meta.h"
 
-#include "plugin/gstspidarmotionmeta.h"
+#include "plugin/reports/gstspidarmotionmeta.h"
 
 namespace spidar {
 namespace {

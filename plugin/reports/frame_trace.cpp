@@ -1,4 +1,4 @@
-#include "plugin/frame_trace.h"
+#include "plugin/reports/frame_trace.h"
 
 #include <cerrno>
 #include <charconv>
