@@ -1,6 +1,6 @@
 #include <gst/gst.h>
 
-#include "plugin/device_provider.h"
+#include "plugin/provider/device_provider.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/track/spidar_extract.h"
 

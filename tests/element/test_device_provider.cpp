@@ -5,7 +5,7 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-#include "plugin/device_provider.h"
+#include "plugin/provider/device_provider.h"
 #include "spidar/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/element_harness.h"

@@ -18,13 +18,13 @@
  *
  * Since: 0.1
  */
-#include "plugin/device_provider.h"
+#include "plugin/provider/device_provider.h"
 
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "plugin/board_watch.h"
+#include "plugin/provider/board_watch.h"
 #include "plugin/spidar_motion.h"
 
 using spidar::BoardInfo;

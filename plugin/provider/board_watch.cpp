@@ -1,4 +1,4 @@
-#include "plugin/board_watch.h"
+#include "plugin/provider/board_watch.h"
 
 #include <algorithm>
 #include <iterator>
