@@ -39,7 +39,7 @@
 #include <new>
 #include <string>
 
-#include "plugin/motion_display.h"
+#include "plugin/display/motion_display.h"
 #include "plugin/motion_engine.h"
 #include "plugin/reports/complaints.h"
 #include "plugin/reports/motion_message.h"

@@ -10,7 +10,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "plugin/motion_display.h"
+#include "plugin/display/motion_display.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/window/layout.h"
 #include "tests/support/element_harness.h"

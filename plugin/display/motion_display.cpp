@@ -1,10 +1,10 @@
-#include "plugin/motion_display.h"
+#include "plugin/display/motion_display.h"
 
 #include <utility>
 
+#include "plugin/display/element_source.h"
 #include "plugin/overlay/video_overlay.h"
 #include "plugin/reports/motion_meta.h"
-#include "plugin/window/element_source.h"
 
 namespace spidar {
 

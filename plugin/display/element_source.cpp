@@ -1,4 +1,4 @@
-#include "plugin/window/element_source.h"
+#include "plugin/display/element_source.h"
 
 #include <algorithm>
 #include <cmath>
