@@ -51,6 +51,16 @@ check_layout() {
     fi
 }
 
+# check_reference FOLDER: Doxygen reads the public headers without a warning.
+check_reference() {
+    say "reference: doxygen $(doxygen --version)"
+    if meson compile -C "$1" docs; then
+        checks+=(--passed reference)
+    else
+        checks+=(--failed "reference: meson compile -C $1 docs")
+    fi
+}
+
 # run_on_bare_debian RESULTS
 run_on_bare_debian() {
     local what="tests/run.sh and examples/play.sh --ball on a bare Debian"
@@ -86,6 +96,7 @@ case ${1-} in
     build_and_test build-ci-address "${sanitized[@]}" \
         -Db_sanitize=address,undefined -Dbenchmarks=disabled -- \
         -t 4 --no-suite numerics --no-suite examples --no-suite kernel
+    check_reference build-ci-address
     say "thread sanitizer: what runs on several threads, and a player to which anything is done at random." \
         "GLib and GStreamer are not built with it: their locks are told to it (tests/support/tsan_glib.cpp)," \
         "what they do between themselves it does not see"
