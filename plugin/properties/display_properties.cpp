@@ -14,26 +14,26 @@ void install_display_properties(GObjectClass* c) {
   g_object_class_install_property(
       c, kPropOverlay,
       g_param_spec_boolean("overlay", "Overlay",
-                           "Draw tracks and force as arrows into the video; frames are then "
-                           "written to, and copied where others hold them",
+                           "Draw tracks and force as arrows into the video. Frames that other "
+                           "elements hold are copied first",
                            defaults.overlay, kPlaying));
   g_object_class_install_property(
       c, kPropArrowScale,
       g_param_spec_double("arrow-scale", "Arrow scale",
-                          "Length of a track's arrow to the way that the point went since the "
-                          "frame before",
+                          "Length of a track's arrow, as a multiple of the point's displacement "
+                          "since the previous frame",
                           0.1, 100.0, defaults.arrow_scale, kControllable));
   g_object_class_install_property(
       c, kPropDebugWindow,
       g_param_spec_boolean("debug-window", "Debug window",
-                           "Show picture, tracks, grip, tensions and settings in a window of its "
-                           "own, from READY on; false again when the user closes it",
+                           "Show picture, tracks, grip, tensions and settings in a window. Becomes "
+                           "false when the user closes the window",
                            defaults.debug_window, kPlaying));
   g_object_class_install_property(
       c, kPropAttachMeta,
       g_param_spec_boolean("attach-meta", "Attach meta",
                            "Attach a GstSpidarMotionMeta with motion, tracks and wrench to each "
-                           "frame; the picture is neither copied nor written to",
+                           "frame. The picture is neither copied nor changed",
                            defaults.attach_meta, kPlaying));
 }
 

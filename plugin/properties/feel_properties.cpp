@@ -12,12 +12,12 @@ GType controller_type() {
   static const GType type = [] {
     static const GEnumValue values[] = {
         {static_cast<int>(ControllerKind::kLinear),
-         "Linear: full force at the largest speed seen so far (eq. 11-13)", "linear"},
+         "Linear: full force at the largest speed so far (eq. 11-13)", "linear"},
         {static_cast<int>(ControllerKind::kNonlinear),
          "Nonlinear: arctangent of the speed (eq. 14-15)", "nonlinear"},
         {static_cast<int>(ControllerKind::kAdaptive),
-         "Adaptive: nonlinear, its steepness following the speeds of the scene within a decade of "
-         "alpha either way, with a dead zone at the noise of the measurement",
+         "Adaptive: nonlinear, with an alpha that follows the speeds of the scene (a tenth to ten "
+         "times the one that is set) and no force below the measurement's noise",
          "adaptive"},
         {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionController", values);
@@ -31,12 +31,14 @@ GType motion_type() {
         {static_cast<int>(MotionKind::kMean), "Mean velocity of all tracked points (eq. 9-10)",
          "mean"},
         {static_cast<int>(MotionKind::kObject),
-         "The dominant object against the background; at rest where only the camera moves",
+         "The dominant object relative to the background; no force when only the camera moves",
          "object"},
         {static_cast<int>(MotionKind::kObjects),
-         "All objects against the background, weighted by their area and nearness to the pointer",
+         "All objects relative to the background, weighted by area and by distance from the "
+         "pointer",
          "objects"},
-        {static_cast<int>(MotionKind::kCamera), "What the camera does: ride along", "camera"},
+        {static_cast<int>(MotionKind::kCamera),
+         "The motion of the camera, as if the viewer moved with it", "camera"},
         {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionMotion", values);
   }();
@@ -48,8 +50,7 @@ GType pointer_type() {
     static const GEnumValue values[] = {
         {static_cast<int>(PointerKind::kFixed), "At pointer-x, pointer-y", "fixed"},
         {static_cast<int>(PointerKind::kGrip),
-         "Where the grip is: half of the way to the exits of the strings is the edge of the "
-         "picture",
+         "Position of the grip; half of the way to the strings' exits is the edge of the picture",
          "grip"},
         {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionPointer", values);
@@ -68,55 +69,61 @@ void install_feel_properties(GObjectClass* c) {
   };
 
   install(kPropController,
-          g_param_spec_enum("controller", "Controller", "How speed becomes force",
+          g_param_spec_enum("controller", "Controller", "How speed is converted to force",
                             controller_type(), static_cast<int>(gain.kind), kControllable));
-  install(kPropMotion, g_param_spec_enum("motion", "Motion", "Which motion of the picture is felt",
-                                         motion_type(), static_cast<int>(defaults.analyzer.motion),
-                                         kControllable));
+  install(
+      kPropMotion,
+      g_param_spec_enum("motion", "Motion", "Which motion in the picture is rendered as force",
+                        motion_type(), static_cast<int>(defaults.analyzer.motion), kControllable));
   install(kPropPointer,
-          g_param_spec_enum("pointer", "Pointer", "What points at the picture, for motion=objects",
-                            pointer_type(), static_cast<int>(defaults.pointer), kControllable));
+          g_param_spec_enum("pointer", "Pointer",
+                            "Which position weights the objects of motion=objects", pointer_type(),
+                            static_cast<int>(defaults.pointer), kControllable));
   install(kPropPointerX, g_param_spec_double(
                              "pointer-x", "Pointer x",
-                             "Place of the fixed pointer: 0 is the left edge of the picture, 1 the "
-                             "right one. Also used by pointer=grip while there is no grip",
+                             "Horizontal position of the pointer: 0 is the left edge of the "
+                             "picture, 1 the right edge. pointer=grip uses it while no device runs",
                              0.0, 1.0, defaults.analyzer.pointer.x(), kControllable));
+  install(kPropPointerY,
+          g_param_spec_double(
+              "pointer-y", "Pointer y",
+              "Vertical position of the pointer: 0 is the top of the picture, 1 the bottom", 0.0,
+              1.0, defaults.analyzer.pointer.y(), kControllable));
+  install(kPropMaxForce,
+          g_param_spec_double("max-force", "Maximum force",
+                              "Largest force on the grip, in newtons (Fmax of eq. 12 and 15)", 0.0,
+                              20.0, gain.max_force_N, kControllable));
   install(
-      kPropPointerY,
-      g_param_spec_double("pointer-y", "Pointer y",
-                          "Place of the fixed pointer: 0 is the top of the picture, 1 the bottom",
-                          0.0, 1.0, defaults.analyzer.pointer.y(), kControllable));
-  install(kPropMaxForce, g_param_spec_double("max-force", "Maximum force",
-                                             "Largest force on the grip, N (Fmax of eq. 12 and 15)",
-                                             0.0, 20.0, gain.max_force_N, kControllable));
-  install(kPropAlpha,
-          g_param_spec_double("alpha", "Alpha",
-                              "Steepness of the nonlinear controller, seconds per pixel of a frame "
-                              "480 lines high: half the maximum force is reached at 1/alpha px/s; "
-                              "the adaptive controller begins there",
-                              1e-6, 10.0, gain.alpha_s_px, kControllable));
+      kPropAlpha,
+      g_param_spec_double(
+          "alpha", "Alpha",
+          "How quickly force rises with speed (nonlinear and adaptive controller), in seconds per "
+          "pixel of a frame 480 lines high: half of the maximum force is reached at 1/alpha px/s",
+          1e-6, 10.0, gain.alpha_s_px, kControllable));
   install(kPropDepthGain,
-          g_param_spec_double("depth-gain", "Depth gain",
-                              "Force towards the viewer of what grows: 1 feels a growth like the "
-                              "speed that it gives half a frame's height away; 0 is off",
-                              0.0, 100.0, defaults.analyzer.axes.depth, kControllable));
+          g_param_spec_double(
+              "depth-gain", "Depth gain",
+              "Force towards the viewer when the object grows. With 1, growth counts as the speed "
+              "that it causes at half a frame's height from the centre; 0 turns it off",
+              0.0, 100.0, defaults.analyzer.axes.depth, kControllable));
   install(kPropRollGain,
-          g_param_spec_double("roll-gain", "Roll gain",
-                              "Torque about the view axis of what turns: 1 feels a turn like the "
-                              "speed that it gives half a frame's height away; 0 is off",
-                              0.0, 100.0, defaults.analyzer.axes.roll, kControllable));
+          g_param_spec_double(
+              "roll-gain", "Roll gain",
+              "Torque about the view axis when the object turns. With 1, rotation counts as the "
+              "speed that it causes at half a frame's height from the centre; 0 turns it off",
+              0.0, 100.0, defaults.analyzer.axes.roll, kControllable));
   install(
       kPropFilterMinCutoff,
-      g_param_spec_double("filter-min-cutoff", "Filter minimum cutoff",
-                          "One-Euro filter on the motion: cutoff while it is steady, Hz. Less is "
-                          "steadier and later, by 1/(2 pi cutoff) seconds; 0 is no filter",
-                          0.0, 1000.0, filter.min_cutoff_Hz, kControllable));
-  install(
-      kPropFilterBeta,
-      g_param_spec_double("filter-beta", "Filter beta",
-                          "One-Euro filter on the motion: Hz by which the cutoff rises for each "
-                          "px/s^2 of change, in a frame 480 lines high",
-                          0.0, 10.0, filter.beta_s_px, kControllable));
+      g_param_spec_double(
+          "filter-min-cutoff", "Filter minimum cutoff",
+          "Cutoff frequency of the motion's One-Euro filter while the motion is steady, in Hz. "
+          "Lower values are smoother and delay by 1/(2 pi cutoff) seconds; 0 turns the filter off",
+          0.0, 1000.0, filter.min_cutoff_Hz, kControllable));
+  install(kPropFilterBeta,
+          g_param_spec_double("filter-beta", "Filter beta",
+                              "How much the One-Euro filter's cutoff rises with the motion's rate "
+                              "of change, in Hz per px/s^2 of a frame 480 lines high",
+                              0.0, 10.0, filter.beta_s_px, kControllable));
 
   gst_type_mark_as_plugin_api(controller_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
   gst_type_mark_as_plugin_api(motion_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);

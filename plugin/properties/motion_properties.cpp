@@ -10,7 +10,7 @@ GType tracker_type() {
   static const GType type = [] {
     static const GEnumValue values[] = {
         {static_cast<int>(TrackerKind::kPatch),
-         "Small windows from coarse to fine, one strongest point a cell", "patch"},
+         "Small windows matched from coarse to fine, spread evenly over the picture", "patch"},
         {static_cast<int>(TrackerKind::kOpenCv),
          "OpenCV's Shi-Tomasi points and pyramidal Lucas-Kanade (eq. 1-8)", "opencv"},
         {0, nullptr, nullptr}};
@@ -23,12 +23,9 @@ GType quality_type() {
   static const GType type = [] {
     static const GEnumValue values[] = {
         {static_cast<int>(TrackerQuality::kFast),
-         "In the reduced picture only: two thirds of balanced's time, 0.04 px (median, 720p)",
-         "fast"},
-        {static_cast<int>(TrackerQuality::kBalanced),
-         "Refined in the frame: 0.02 px (median, 720p)", "balanced"},
-        {static_cast<int>(TrackerQuality::kFine),
-         "More points on the grid, fewer for what moves: 1.1 of balanced's time, 0.02 px", "fine"},
+         "Only in the reduced picture: least time, largest error", "fast"},
+        {static_cast<int>(TrackerQuality::kBalanced), "Refined in the frame", "balanced"},
+        {static_cast<int>(TrackerQuality::kFine), "More points", "fine"},
         {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionQuality", values);
   }();
@@ -39,8 +36,9 @@ GType on_device_error_type() {
   static const GType type = [] {
     static const GEnumValue values[] = {
         {static_cast<int>(OnDeviceError::kWarn),
-         "Post a warning, play on, take the device back when it returns", "warn"},
-        {static_cast<int>(OnDeviceError::kError), "Post an error and stop", "error"},
+         "Post a warning, continue the video, and reopen the device when it returns", "warn"},
+        {static_cast<int>(OnDeviceError::kError), "Post an error, which stops the pipeline",
+         "error"},
         {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionOnDeviceError", values);
   }();
@@ -77,75 +75,76 @@ void install_motion_properties(GObjectClass* c) {
     g_object_class_install_property(c, id, spec);
   };
 
+  install(kPropDevice, g_param_spec_string(
+                           "device", "Device",
+                           "Haptic device: 'sim' (simulated SPIDAR), a board that 'spidarctl "
+                           "list' prints ('usb', 'usb:ID', 'uart:PATH', 'mouse', 'ff'), or 'none' "
+                           "(analysis only). Opened in the change from NULL to READY",
+                           defaults.device.c_str(), kReady));
   install(
-      kPropDevice,
-      g_param_spec_string("device", "Device",
-                          "Haptic device: 'sim' (simulated SPIDAR), a board as of spidarctl list "
-                          "('usb', 'usb:ID', 'uart:PATH', 'mouse', 'ff') or 'none' (analyse only); "
-                          "opened from NULL to READY",
-                          defaults.device.c_str(), kReady));
-  install(kPropProfile, g_param_spec_string(
-                            "profile", "Profile",
-                            "Geometry and drives of the device: a name of the shipped profiles or "
-                            "the path of a .toml file; unset: one that the device's board can "
-                            "drive; read from NULL to READY",
-                            defaults.used_profile().c_str(), kReady));
+      kPropProfile,
+      g_param_spec_string(
+          "profile", "Profile",
+          "Geometry and motors of the device: the name of a shipped profile or the path of a .toml "
+          "file. If unset, a profile that fits the board. Read in the change from NULL to READY",
+          defaults.used_profile().c_str(), kReady));
   install_feel_properties(c);
   install(kPropTracker,
           g_param_spec_enum("tracker", "Tracker", "How points are followed", tracker_type(),
                             static_cast<int>(tracker.kind), kControllable));
   install(kPropQuality,
           g_param_spec_enum("quality", "Quality",
-                            "Time against error of tracker=patch; docs/tracking.md has the figures",
+                            "Trade-off between computing time and error of the tracker",
                             quality_type(), static_cast<int>(tracker.quality), kControllable));
   install(kPropMaxFeatures,
           g_param_spec_uint("max-features", "Maximum features",
-                            "Largest number of points followed at once", 1, 10000,
+                            "Largest number of points that are tracked at once", 1, 10000,
                             static_cast<guint>(tracker.max_features), kControllable));
   install(kPropQualityLevel,
           g_param_spec_double("quality-level", "Quality level",
-                              "Weakest corner that is followed, as a share of the strongest one's "
-                              "smaller eigenvalue (Shi-Tomasi)",
+                              "Weakest corner that is tracked, as a share of the strongest "
+                              "corner's smaller eigenvalue (Shi-Tomasi)",
                               1e-6, 1.0, tracker.quality_level, kControllable));
   install(kPropMinDistance,
-          g_param_spec_double("min-distance", "Minimum distance",
-                              "Between two features, in pixels of a frame 480 lines high", 0.0,
-                              480.0, tracker.min_distance_px, kControllable));
-  install(kPropTsOffset,
-          g_param_spec_int64("ts-offset", "Timestamp offset",
-                             "Feel the motion later (positive) or earlier (negative) than it is "
-                             "shown, ns",
-                             -10 * GST_SECOND, 10 * GST_SECOND, 0, kControllable));
+          g_param_spec_double(
+              "min-distance", "Minimum distance",
+              "Least distance between two tracked points, in pixels of a frame 480 lines high", 0.0,
+              480.0, tracker.min_distance_px, kControllable));
+  install(kPropTsOffset, g_param_spec_int64("ts-offset", "Timestamp offset",
+                                            "Render the force later (positive) or earlier "
+                                            "(negative) than the frame is shown, in nanoseconds",
+                                            -10 * GST_SECOND, 10 * GST_SECOND, 0, kControllable));
   install(
       kPropOnDeviceError,
       g_param_spec_enum("on-device-error", "On device error",
-                        "What to do when the device fails while playing", on_device_error_type(),
+                        "What happens when the device fails while playing", on_device_error_type(),
                         static_cast<int>(defaults.on_device_error), kPlaying));
   install(kPropPostMessages,
           g_param_spec_boolean("post-messages", "Post messages",
                                "Post a 'spidar-motion' element message for each frame",
                                defaults.post_messages, kPlaying));
-  install(kPropTrace, g_param_spec_string(
-                          "trace", "Trace",
-                          "Write motion and force to this file, a line a frame: CSV, or JSON with "
-                          "background and objects when its name ends in .jsonl; opened from "
-                          "READY to PAUSED",
-                          nullptr, kReady));
-  install(kPropHapticTrace,
-          g_param_spec_string("haptic-trace", "Haptic trace",
-                              "Write forces, string tensions and pose to this file, CSV with a row "
-                              "a millisecond; opened from NULL to READY",
+  install(kPropTrace,
+          g_param_spec_string("trace", "Trace",
+                              "Write one line for each frame with motion and force to this file: "
+                              "CSV, or JSON with background and objects if the name ends in "
+                              ".jsonl. Opened in the change from READY to PAUSED",
                               nullptr, kReady));
-  install(kPropMute, g_param_spec_boolean(
-                         "mute", "Mute",
-                         "Hold the force at rest: it ramps there at once, and comes back with "
-                         "the next frame after this is turned off",
-                         defaults.mute, kControllable));
+  install(
+      kPropHapticTrace,
+      g_param_spec_string("haptic-trace", "Haptic trace",
+                          "Write one CSV line for each millisecond with forces, string tensions "
+                          "and pose to this file. Opened in the change from NULL to READY",
+                          nullptr, kReady));
+  install(kPropMute,
+          g_param_spec_boolean("mute", "Mute",
+                               "While true, no force: it ramps to zero at once, and returns with "
+                               "the next frame after the property is set to false",
+                               defaults.mute, kControllable));
   install_display_properties(c);
-  install(kPropStats,
-          g_param_spec_boxed("stats", "Statistics",
-                             "Frames, analysis time, state and timing of the haptic loop",
-                             GST_TYPE_STRUCTURE, kRead));
+  install(kPropStats, g_param_spec_boxed(
+                          "stats", "Statistics",
+                          "Statistics: frames, analysis time, state and timing of the haptic loop",
+                          GST_TYPE_STRUCTURE, kRead));
 
   gst_type_mark_as_plugin_api(tracker_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
   gst_type_mark_as_plugin_api(quality_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
