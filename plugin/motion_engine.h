@@ -31,6 +31,9 @@ enum class FrameProblem {
   kNotShown,          ///< outside the segment, or cropped to nothing
 };
 
+/// In words, for the log.
+const char* to_string(FrameProblem problem);
+
 /// What became of one frame.
 struct FrameReport {
   FrameProblem problem = FrameProblem::kNone;

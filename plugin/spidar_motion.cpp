@@ -151,6 +151,20 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     self->display->show(report, display, settings, *frame);
   });
   if (!processed) return GST_FLOW_ERROR;
+  if (report.analyzed) {
+    const spidar::FrameAnalysis& found = report.analysis;
+    GST_LOG_OBJECT(self,
+                   "frame of %" GST_TIME_FORMAT
+                   ": %.1f, %.1f px/s, %d objects, %.3f, %.3f N in "
+                   "%" G_GINT64_FORMAT " us%s%s",
+                   GST_TIME_ARGS(report.running_time), found.motion.velocity_px_s.x(),
+                   found.motion.velocity_px_s.y(), found.objects, found.wrench.force_N.x(),
+                   found.wrench.force_N.y(), static_cast<gint64>(report.took_ns / 1000),
+                   found.restarted ? ", restarted" : "", found.repeated ? ", repeated" : "");
+  } else {
+    GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
+                     GST_TIME_ARGS(GST_BUFFER_PTS(frame->buffer)), to_string(report.problem));
+  }
   self->complaints->look_at_frame(report);
   if (report.analyzed && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, report);
@@ -204,11 +218,13 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
   MotionEngine& engine = *self->engine;
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
+      GST_DEBUG_OBJECT(self, "flush: what was scheduled is cancelled");
       engine.flush();
       break;
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
+      GST_DEBUG_OBJECT(self, "end of flush%s", reset_time ? ", running time starts at zero" : "");
       // Again: a frame may have been on its way through when the flush began.
       engine.flush();
       engine.restart_timing();
@@ -221,6 +237,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     case GST_EVENT_SEGMENT: {
       const GstSegment* segment;
       gst_event_parse_segment(event, &segment);
+      GST_DEBUG_OBJECT(self, "segment: %" GST_SEGMENT_FORMAT, segment);
       if (!same_playback(trans->segment, *segment)) engine.restart();
       engine.begin_segment();
       break;
@@ -230,10 +247,13 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       gst_event_parse_gap(event, &time, &duration);
       // Played backwards it begins at its end.
       if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
+      GST_DEBUG_OBJECT(self, "gap from %" GST_TIME_FORMAT ", force ends there",
+                       GST_TIME_ARGS(time));
       engine.run_out(running_time_of(trans->segment, time));
       break;
     }
     case GST_EVENT_EOS:
+      GST_DEBUG_OBJECT(self, "end of stream");
       engine.end_of_stream();
       break;
     default:
@@ -246,14 +266,17 @@ static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* e
   if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) {
     GstClockTime latency;
     gst_event_parse_latency(event, &latency);
-    GST_DEBUG_OBJECT(trans, "latency is %" GST_TIME_FORMAT, GST_TIME_ARGS(latency));
+    GST_DEBUG_OBJECT(trans, "latency: %" GST_TIME_FORMAT, GST_TIME_ARGS(latency));
     GST_SPIDAR_MOTION(trans)->engine->set_latency(latency);
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
+    GST_DEBUG_OBJECT(trans, "reconfigured: looking for the sink again");
     GST_SPIDAR_MOTION(trans)->engine->look_for_sink();
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_INSTANT_RATE_SYNC_TIME) {
     gdouble multiplier;
     GstClockTime running_time, upstream;
     gst_event_parse_instant_rate_sync_time(event, &multiplier, &running_time, &upstream);
+    GST_DEBUG_OBJECT(trans, "rate is multiplied by %g from %" GST_TIME_FORMAT " on", multiplier,
+                     GST_TIME_ARGS(running_time));
     GST_SPIDAR_MOTION(trans)->engine->change_rate(multiplier, running_time, upstream);
   }
   return GST_BASE_TRANSFORM_CLASS(gst_spidar_motion_parent_class)->src_event(trans, event);
@@ -264,6 +287,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   GST_OBJECT_LOCK(self);
   const std::string trace = self->properties->trace;
   GST_OBJECT_UNLOCK(self);
+  GST_DEBUG_OBJECT(self, "start; trace: %s", trace.empty() ? "none" : trace.c_str());
   self->complaints->start();
   self->complaints->look_at_place();
   const std::string reason = self->engine->start(trace);
@@ -277,6 +301,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
 
 static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_DEBUG_OBJECT(self, "stop");
   if (!self->engine->stop()) {
     GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("The end of the trace could not be written."),
                         ("Disk full?"));
@@ -336,6 +361,8 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     const bool opened =
         guarded(self, "opening the device", [&] { trace_problem = engine.open(properties); });
     if (!opened) return GST_STATE_CHANGE_FAILURE;
+    GST_INFO_OBJECT(self, "opened device '%s' with profile '%s'", properties.device.c_str(),
+                    properties.used_profile().c_str());
     if (!trace_problem.empty()) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The video and the force go on without it."));
@@ -344,6 +371,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
   } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
     self->steps->begin(element);
   } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
+    GST_DEBUG_OBJECT(self, "paused: force ramps to rest");
     engine.set_playing(false);
   }
 
@@ -356,12 +384,14 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
       break;
     case GST_STATE_CHANGE_PAUSED_TO_PLAYING:
       if (result != GST_STATE_CHANGE_FAILURE) engine.set_playing(true);
+      GST_DEBUG_OBJECT(self, "playing: force may begin");
       break;
     case GST_STATE_CHANGE_PAUSED_TO_READY:
       self->steps->end();
       break;
     case GST_STATE_CHANGE_READY_TO_NULL:
       engine.close();
+      GST_INFO_OBJECT(self, "closed the device");
       set_opened(self, false);
       break;
     default:

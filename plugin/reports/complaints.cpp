@@ -106,7 +106,10 @@ void Complaints::look_at_strings(const MotionEngine& engine) {
 
 void Complaints::look_at_pose(const MotionEngine& engine) {
   const LoopSnapshot loop = engine.loop_snapshot();
-  if (loop.untrusted_ns == 0) pose_lost_ = false;
+  if (loop.untrusted_ns == 0 && pose_lost_) {
+    GST_INFO_OBJECT(element_, "the pose of the grip is known again");
+    pose_lost_ = false;
+  }
   if (loop.untrusted_ns > kPoseLost_ns && !pose_lost_) {
     pose_lost_ = true;
     GST_ELEMENT_WARNING(
@@ -136,9 +139,10 @@ bool Complaints::look_at_device(const MotionEngine& engine, OnDeviceError policy
   device_state_ = state;
   if (state == before) return true;
   if (state != DeviceState::kLost) {
-    if (before == DeviceState::kLost) GST_INFO_OBJECT(element_, "device is back");
+    if (before == DeviceState::kLost) GST_INFO_OBJECT(element_, "the device is back");
     return true;
   }
+  GST_INFO_OBJECT(element_, "the device is lost%s", engine.device_fault().c_str());
   const std::string text = "The haptic device does not answer" + engine.device_fault() + ".";
   if (policy == OnDeviceError::kError) {
     GST_ELEMENT_ERROR(element_, RESOURCE, WRITE, ("%s", text.c_str()), ("on-device-error=error"));
