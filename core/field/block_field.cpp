@@ -113,6 +113,23 @@ int difference_from_mean(const PaddedImage& picture, int x_px, int y_px) {
   return difference;
 }
 
+bool is_finite_motion(float x_px, float y_px) {
+  constexpr float kMost_px = 4096;
+  return std::abs(x_px) < kMost_px && std::abs(y_px) < kMost_px;
+}
+
+/// A place between two pixels.
+struct Place {
+  int pixel;
+  int fraction;  ///< of kFractionOne
+
+  Place(int begin_px, float moved_px) {
+    const float place = static_cast<float>(begin_px) + moved_px;
+    pixel = static_cast<int>(std::floor(place));
+    fraction = static_cast<int>((place - static_cast<float>(pixel)) * kFractionOne + 0.5f);
+  }
+};
+
 }  // namespace
 
 float MotionBlock::weakest_texture() const {
@@ -268,33 +285,51 @@ void BlockField::refine(size_t index) {
   block.difference = match.difference;
 }
 
+/// Whether a block may begin between this pixel and the next ones of both directions.
+bool BlockField::is_in_reach(int left_px, int top_px) const {
+  return left_px >= -kReach_px && top_px >= -kReach_px &&
+         left_px + 1 + kBlock_px <= now_.width() + kReach_px &&
+         top_px + 1 + kBlock_px <= now_.height() + kReach_px;
+}
+
 int BlockField::difference_if_moved(int block, float x_px, float y_px) const {
+  if (!is_finite_motion(x_px, y_px)) return -1;
   const int left = grid_.x_px(block % grid_.columns);
   const int top = grid_.y_px(block / grid_.columns);
-  const float from_x = static_cast<float>(left) - x_px;
-  const float from_y = static_cast<float>(top) - y_px;
-  if (!(std::abs(x_px) < 4096 && std::abs(y_px) < 4096)) return -1;
-  const int x = static_cast<int>(std::floor(from_x));
-  const int y = static_cast<int>(std::floor(from_y));
-  if (x < -kReach_px || y < -kReach_px || x + 1 + kBlock_px > now_.width() + kReach_px ||
-      y + 1 + kBlock_px > now_.height() + kReach_px) {
-    return -1;
-  }
-  const auto share = [](float fraction) {
-    return static_cast<int>(fraction * kFractionOne + 0.5f);
-  };
+  const Place x(left, -x_px);
+  const Place y(top, -y_px);
+  if (!is_in_reach(x.pixel, y.pixel)) return -1;
   const BlockPixels here{now_.row(top) + left, now_.stride()};
   const auto there = [&](int j, int i) {
-    return BlockPixels{before_.row(y + j) + x + i, before_.stride()};
+    return BlockPixels{before_.row(y.pixel + j) + x.pixel + i, before_.stride()};
   };
-  int least = vectors::bilinear_difference(here, there(0, 0), share(from_x - static_cast<float>(x)),
-                                           share(from_y - static_cast<float>(y)));
+  int least = vectors::bilinear_difference(here, there(0, 0), x.fraction, y.fraction);
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < 2; ++i) {
       least = std::min(least, vectors::block_difference(here, there(j, i), least));
     }
   }
   return least;
+}
+
+StayingPixels BlockField::staying_pixels(int block, float x_px, float y_px, int beside_x_px,
+                                         int beside_y_px) const {
+  if (!is_finite_motion(x_px, y_px)) return {};
+  const int left = grid_.x_px(block % grid_.columns) + beside_x_px;
+  const int top = grid_.y_px(block / grid_.columns) + beside_y_px;
+  const auto moved = [&](const PaddedImage& picture, const Place& x, const Place& y) {
+    return MovedBlock{{picture.row(y.pixel) + x.pixel, picture.stride()}, x.fraction, y.fraction};
+  };
+  const Place from_x(left, -x_px);
+  const Place from_y(top, -y_px);
+  const Place to_x(left, x_px);
+  const Place to_y(top, y_px);
+  if (!is_in_reach(left, top) || !is_in_reach(from_x.pixel, from_y.pixel) ||
+      !is_in_reach(to_x.pixel, to_y.pixel))
+    return {};
+  return vectors::staying_pixels({now_.row(top) + left, now_.stride()},
+                                 {before_.row(top) + left, before_.stride()},
+                                 moved(before_, from_x, from_y), moved(now_, to_x, to_y));
 }
 
 }  // namespace spidar

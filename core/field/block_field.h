@@ -62,11 +62,17 @@ class BlockField {
   /// whole pixels and the exact place. Negative when that is out of reach.
   int difference_if_moved(int block, float x_px, float y_px) const;
 
+  /// Pixels of a block, or of what is `beside_x_px`, `beside_y_px` beside it, that stayed where
+  /// they were while what is around them moved by (`x_px`, `y_px`); none when that is out of reach.
+  StayingPixels staying_pixels(int block, float x_px, float y_px, int beside_x_px = 0,
+                               int beside_y_px = 0) const;
+
  private:
   void resize(const PaddedImage& base);
   void compensate_light();
   void find_hints();
   bool is_cut() const;
+  bool is_in_reach(int left_px, int top_px) const;
   void refine(size_t index);
 
   FieldScale scale_ = FieldScale::kSame;

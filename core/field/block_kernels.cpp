@@ -47,6 +47,41 @@ struct HalfInterpolated {
              weighted(cv::v_load_expand(pixels + 9), right)) {}
 };
 
+/// A block that begins between pixels, row by row from the top.
+class InterpolatedRows {
+ public:
+  explicit InterpolatedRows(const MovedBlock& block)
+      : next_(block.pixels.pixels),
+        stride_(block.pixels.stride),
+        left_(lanes(kFractionOne - block.fraction_x)),
+        right_(lanes(block.fraction_x)),
+        above_(lanes(kFractionOne - block.fraction_y)),
+        below_(lanes(block.fraction_y)),
+        upper_(next_, left_, right_) {}
+
+  v_uint8x16 next() {
+    next_ += stride_;
+    const HalfInterpolated lower(next_, left_, right_);
+    const v_uint16x8 half = lanes(128);
+    const v_uint16x8 low = (weighted(upper_.low, above_) + weighted(lower.low, below_) + half) >> 8;
+    const v_uint16x8 high =
+        (weighted(upper_.high, above_) + weighted(lower.high, below_) + half) >> 8;
+    upper_ = lower;
+    return cv::v_pack(low, high);
+  }
+
+ private:
+  static v_uint16x8 lanes(int w) { return cv::v_setall_u16(static_cast<uint16_t>(w)); }
+
+  const uint8_t* next_;
+  ptrdiff_t stride_;
+  v_uint16x8 left_;
+  v_uint16x8 right_;
+  v_uint16x8 above_;
+  v_uint16x8 below_;
+  HalfInterpolated upper_;
+};
+
 }  // namespace
 
 int block_difference(BlockPixels a, BlockPixels b, int limit) {
@@ -58,22 +93,36 @@ int block_difference(BlockPixels a, BlockPixels b, int limit) {
 }
 
 int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y) {
-  const auto lanes = [](int w) { return cv::v_setall_u16(static_cast<uint16_t>(w)); };
-  const v_uint16x8 left = lanes(kFractionOne - fraction_x);
-  const v_uint16x8 right = lanes(fraction_x);
-  const v_uint16x8 above = lanes(kFractionOne - fraction_y);
-  const v_uint16x8 below = lanes(fraction_y);
-  const v_uint16x8 half = lanes(128);
+  InterpolatedRows moved({before, fraction_x, fraction_y});
   unsigned sum = 0;
-  HalfInterpolated upper(before.pixels, left, right);
   for (int y = 0; y < kBlock_px; ++y) {
-    const HalfInterpolated lower(before.pixels + (y + 1) * before.stride, left, right);
-    const v_uint16x8 low = (weighted(upper.low, above) + weighted(lower.low, below) + half) >> 8;
-    const v_uint16x8 high = (weighted(upper.high, above) + weighted(lower.high, below) + half) >> 8;
-    sum += cv::v_reduce_sad(cv::v_pack(low, high), cv::v_load(now.pixels + y * now.stride));
-    upper = lower;
+    sum += cv::v_reduce_sad(moved.next(), cv::v_load(now.pixels + y * now.stride));
   }
   return static_cast<int>(sum);
+}
+
+StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
+                             const MovedBlock& to) {
+  const v_uint8x16 none = cv::v_setzero_u8();
+  const v_uint8x16 one = cv::v_setall_u8(1);
+  const v_uint8x16 most = cv::v_setall_u8(kNear_grey);
+  const v_uint8x16 clearly = cv::v_setall_u8(kClearlyStays_grey);
+  InterpolatedRows moved_from(from);
+  InterpolatedRows moved_to(to);
+  unsigned near = 0;
+  unsigned exact = 0;
+  for (int y = 0; y < kBlock_px; ++y) {
+    const v_uint8x16 is = cv::v_load(now.pixels + y * now.stride);
+    const v_uint8x16 was = cv::v_load(before.pixels + y * before.stride);
+    const v_uint8x16 changed = cv::v_absdiff(is, was);
+    const v_uint8x16 moving =
+        cv::v_max(cv::v_absdiff(is, moved_from.next()), cv::v_absdiff(was, moved_to.next()));
+    // Differences of 8-bit lanes end at 0.
+    const v_uint8x16 stays = (changed <= most) & (moving - changed >= clearly) & one;
+    near += cv::v_reduce_sad(stays, none);
+    exact += cv::v_reduce_sad(stays & (changed == none), none);
+  }
+  return {static_cast<int>(near), static_cast<int>(exact)};
 }
 
 BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
@@ -121,6 +170,11 @@ int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int
 
 BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
   return plain::compare_blocks(now, before);
+}
+
+StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
+                             const MovedBlock& to) {
+  return plain::staying_pixels(now, before, from, to);
 }
 #endif
 

@@ -39,6 +39,25 @@ struct BlockSums {
   }
 };
 
+/// Pixels of a block that stayed where they were, as if the motion around them were none of theirs.
+struct StayingPixels {
+  int near = 0;   ///< that have changed by kNear_grey at most
+  int exact = 0;  ///< of these, that have not changed at all
+
+  bool operator==(const StayingPixels& o) const { return near == o.near && exact == o.exact; }
+};
+constexpr int kNear_grey = 3;
+/// A pixel stays when the motion would have changed it by so many grey levels more than it changed.
+constexpr int kClearlyStays_grey = 8;
+
+/// A block that begins between pixels: each of its pixels is read `fraction_x`, `fraction_y` (0 …
+/// kFractionOne) of a pixel to the right and below.
+struct MovedBlock {
+  BlockPixels pixels;
+  int fraction_x = 0;
+  int fraction_y = 0;
+};
+
 namespace vectors {
 /// Σ |a − b|. Stops after half of the rows when these alone reach `limit`, and then returns their
 /// sum.
@@ -50,6 +69,14 @@ int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int
 
 /// Reads one pixel around both blocks.
 BlockSums compare_blocks(BlockPixels now, BlockPixels before);
+
+/// Compares a block `now` with what is at its place in the picture `before`. `from` is where the
+/// motion around it would have brought it from, in the picture before; `to` where it would have
+/// brought the block before to, in the picture of now. Of both the larger difference counts: what
+/// stays in front of something that moves is seen by what should have been covered, and by what
+/// should have been uncovered. Reads one column and row more of `from` and `to`.
+StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
+                             const MovedBlock& to);
 }  // namespace vectors
 
 /// The same by their definition.
@@ -57,6 +84,8 @@ namespace plain {
 int block_difference(BlockPixels a, BlockPixels b, int limit);
 int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y);
 BlockSums compare_blocks(BlockPixels now, BlockPixels before);
+StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
+                             const MovedBlock& to);
 }  // namespace plain
 
 }  // namespace spidar

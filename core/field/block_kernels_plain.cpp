@@ -1,8 +1,19 @@
+#include <algorithm>
 #include <cstdlib>
 
 #include "core/field/block_kernels.h"
 
 namespace spidar::plain {
+namespace {
+
+int interpolated(const uint8_t* pixel, ptrdiff_t stride, int fraction_x, int fraction_y) {
+  const uint8_t* below = pixel + stride;
+  const int upper = (kFractionOne - fraction_x) * pixel[0] + fraction_x * pixel[1];
+  const int lower = (kFractionOne - fraction_x) * below[0] + fraction_x * below[1];
+  return ((kFractionOne - fraction_y) * upper + fraction_y * lower + 128) >> 8;
+}
+
+}  // namespace
 
 int block_difference(BlockPixels a, BlockPixels b, int limit) {
   int sum = 0;
@@ -20,10 +31,7 @@ int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int
   for (int y = 0; y < kBlock_px; ++y) {
     for (int x = 0; x < kBlock_px; ++x) {
       const uint8_t* p = before.pixels + y * before.stride + x;
-      const uint8_t* q = p + before.stride;
-      const int upper = (kFractionOne - fraction_x) * p[0] + fraction_x * p[1];
-      const int lower = (kFractionOne - fraction_x) * q[0] + fraction_x * q[1];
-      const int value = ((kFractionOne - fraction_y) * upper + fraction_y * lower + 128) >> 8;
+      const int value = interpolated(p, before.stride, fraction_x, fraction_y);
       sum += std::abs(value - now.pixels[y * now.stride + x]);
     }
   }
@@ -51,6 +59,28 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
     }
   }
   return sums;
+}
+
+StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
+                             const MovedBlock& to) {
+  const auto moved = [](const MovedBlock& block, int x, int y) {
+    return interpolated(block.pixels.pixels + y * block.pixels.stride + x, block.pixels.stride,
+                        block.fraction_x, block.fraction_y);
+  };
+  StayingPixels staying;
+  for (int y = 0; y < kBlock_px; ++y) {
+    for (int x = 0; x < kBlock_px; ++x) {
+      const int is = now.pixels[y * now.stride + x];
+      const int was = before.pixels[y * before.stride + x];
+      const int changed = std::abs(is - was);
+      const int moving =
+          std::max(std::abs(is - moved(from, x, y)), std::abs(was - moved(to, x, y)));
+      if (changed > kNear_grey || moving - changed < kClearlyStays_grey) continue;
+      ++staying.near;
+      staying.exact += changed == 0;
+    }
+  }
+  return staying;
 }
 
 }  // namespace spidar::plain

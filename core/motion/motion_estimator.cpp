@@ -92,6 +92,7 @@ void MotionEstimator::collect_votes() {
       const MotionBlock& block = field_.blocks()[i];
       const double texture = static_cast<double>(block.weakest_texture());
       if (texture < kLeastTexture || votes_.points.size() >= kMostDisplacements) continue;
+      if (objects_.is_burned_in(i)) continue;
       double weight = texture / (texture + kFullTexture) /
                       (1 + static_cast<double>(block.residual) / kBadResidual);
       if (at_border) weight *= kBorderVotes;
@@ -164,8 +165,9 @@ void MotionEstimator::choose_points(const ImageView& frame, const ReducedFrame& 
   const bool camera_moves = estimator_.background().model.kind != ModelKind::kStill;
   wishes_.resize(field_.blocks().size());
   for (size_t i = 0; i < wishes_.size(); ++i) {
+    const bool shows_background = camera_moves && !objects_.is_burned_in(i);
     wishes_[i] = i < owners.size() && owners[i] != 0 ? PointWish::kMany
-                 : camera_moves                      ? PointWish::kSome
+                 : shows_background                  ? PointWish::kSome
                                                      : PointWish::kNone;
   }
   points_.choose(frame, reduced, field_, wishes_, points.own);

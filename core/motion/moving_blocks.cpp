@@ -59,6 +59,7 @@ size_t origin_of(const BlockField& field, size_t index) {
 void MovingBlocks::reset() {
   persistence_.clear();
   stood_out_.clear();
+  burned_in_.reset();
 }
 
 /// Motion of each block against the background.
@@ -112,6 +113,20 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
   return worse < least_worse ? Judgement::kStill : Judgement::kMoves;
 }
 
+void MovingBlocks::leave_out_burned_in(const BlockField& field,
+                                       const std::vector<uint8_t>& expected) {
+  burned_in_.begin(judgements_.size(), !camera_is_still_, picture_noise_);
+  for (size_t i = 0; i < judgements_.size(); ++i) {
+    if (judgements_[i] != Judgement::kMoves) continue;
+    burned_in_.look(field, {i, relative_[i].background_x_px, relative_[i].background_y_px,
+                            i < expected.size() && expected[i] != 0});
+  }
+  burned_in_.end(field.grid());
+  for (size_t i = 0; i < judgements_.size(); ++i) {
+    if (burned_in_.holds(i)) judgements_[i] = Judgement::kBurnedIn;
+  }
+}
+
 void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
@@ -122,7 +137,7 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
           if (i == column && j == row) continue;
           const Judgement judgement = judgements_[static_cast<size_t>(j * grid.columns + i)];
           moving += judgement == Judgement::kMoves;
-          known += judgement != Judgement::kUnknown;
+          known += judgement == Judgement::kMoves || judgement == Judgement::kStill;
         }
       }
       const auto index = static_cast<size_t>(row * grid.columns + column);
@@ -137,6 +152,8 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
           break;
         case Judgement::kStill:
           moves = moving >= kNeighboursOfStill;
+          break;
+        case Judgement::kBurnedIn:
           break;
       }
       relative_[index].moves = moves;
@@ -186,6 +203,7 @@ const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
     const bool is_expected = i < expected.size() && expected[i] != 0;
     judgements_[i] = judge(field, i, background.sigma_px, is_expected);
   }
+  leave_out_burned_in(field, expected);
   remember_judgements(field);
   ask_neighbours(field.grid());
   remember_motion(field);

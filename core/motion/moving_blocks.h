@@ -6,6 +6,7 @@
 
 #include "core/field/block_field.h"
 #include "core/motion/background.h"
+#include "core/motion/burned_in.h"
 
 namespace spidar {
 
@@ -34,13 +35,17 @@ class MovingBlocks {
   /// with the motion of what is on it.
   const std::vector<float>& persistence() const { return persistence_; }
 
+  /// What belongs to the screen: it says neither how the camera nor how anything else moves.
+  const BurnedIn& burned_in() const { return burned_in_; }
+
   void reset();
 
  private:
-  enum class Judgement : uint8_t { kStill, kMoves, kUnknown };
+  enum class Judgement : uint8_t { kStill, kMoves, kUnknown, kBurnedIn };
 
   void compare(const BlockField& field, const Background& background);
   Judgement judge(const BlockField& field, size_t index, double noise_px, bool expected) const;
+  void leave_out_burned_in(const BlockField& field, const std::vector<uint8_t>& expected);
   void ask_neighbours(const BlockGrid& grid);
   void remember_judgements(const BlockField& field);
   void remember_motion(const BlockField& field);
@@ -52,6 +57,7 @@ class MovingBlocks {
   std::vector<float> stood_out_;
   std::vector<float> stood_out_before_;
   std::vector<float> residuals_;
+  BurnedIn burned_in_;
   bool camera_is_still_ = true;
   float picture_noise_ = 0;  ///< mean squared difference of what is explained best, grey²
 };

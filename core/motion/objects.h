@@ -43,6 +43,8 @@ class SPIDAR_API ObjectTracker {
 
   /// How likely each block belongs to no background, see MovingBlocks::persistence().
   const std::vector<float>& persistence() const { return moving_.persistence(); }
+  /// Whether a block shows what belongs to the screen, see BurnedIn.
+  bool is_burned_in(size_t block) const { return moving_.burned_in().holds(block); }
   /// The object that each block is of in the last frame, its id; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 

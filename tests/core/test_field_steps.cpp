@@ -67,6 +67,19 @@ TEST(FieldSteps, KernelsAreTheirDefinitionBitForBit) {
       }
       EXPECT_EQ(vectors::bilinear_difference(now, before, k % 17, (3 * k) % 17),
                 plain::bilinear_difference(now, before, k % 17, (3 * k) % 17));
+      // Half of the pixels stay, some of them exactly.
+      PaddedImage changed = a;
+      for (int i = 0; i < 64; ++i) {
+        for (int j = 0; j < 48; j += 2) {
+          changed.row(j)[i] = static_cast<uint8_t>(std::max(0, a.row(j)[i] - (i + j) % 5));
+        }
+      }
+      const MovedBlock from{before, k % 17, (3 * k) % 17};
+      const MovedBlock to{at(a, 25 - x, 12), (5 * k) % 17, k % 3};
+      const StayingPixels staying = plain::staying_pixels(now, at(changed, 20, 16), from, to);
+      EXPECT_EQ(vectors::staying_pixels(now, at(changed, 20, 16), from, to), staying);
+      EXPECT_GT(staying.near, staying.exact);
+      EXPECT_GT(staying.exact, kBlockArea_px / 4);
     }
   }
 }

@@ -1,0 +1,105 @@
+#include "core/motion/burned_in.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+/// So many pixels of a block say that something stays.
+constexpr int kLeastPixels = 16;
+/// With noise of a grey level after reduction, 0.35 of the pixels that stay are exactly the same;
+/// of what is burned in it is nearly all of them, or 0.6 where an encoder has added something. Half
+/// of them is between the two; the standard deviation of their number is √n / 2. White and black
+/// parts of an object lose their noise, too: where a block is not in its place, more is asked.
+constexpr float kExactShare = 0.5f;
+constexpr float kExactShareElsewhere = 0.75f;
+/// A block that is nearer to its place than this has not moved, px of the field's picture.
+constexpr float kInPlace_px = 0.5f;
+/// The film beside what stays in the same block draws the block's motion along, by up to this.
+constexpr float kDrawnAlong_px = 1;
+/// Mean squared difference that the noise of the film cannot explain: so many times that of the
+/// noise, and so many grey levels squared.
+constexpr float kTimesNoise = 4;
+constexpr float kLeastResidual_grey2 = 6;
+/// What a pair in which a block stays adds, where every other one takes 1 away. From kLasting on,
+/// which takes two of them, the block goes on to count as burned in, for six pairs at most.
+constexpr int kGain = 3;
+constexpr int kLasting = 4;
+constexpr int kMost = 9;
+/// How far beside a block it is looked for what stays: the edge of a bar may be just outside.
+constexpr int kBeside_px = 4;
+
+bool is_same(const StayingPixels& staying, float least_share) {
+  const auto near = static_cast<float>(staying.near);
+  const auto exact = static_cast<float>(staying.exact);
+  return staying.near >= kLeastPixels && exact > least_share * near + std::sqrt(near) / 2;
+}
+
+}  // namespace
+
+void BurnedIn::reset() {
+  lasting_.clear();
+  holds_.clear();
+}
+
+void BurnedIn::begin(size_t blocks, bool camera_moves, float noise_grey2) {
+  signs_.assign(blocks, Sign::kNone);
+  if (lasting_.size() != blocks) lasting_.assign(blocks, 0);
+  camera_moves_ = camera_moves;
+  unexplained_grey2_ = std::max(kLeastResidual_grey2, kTimesNoise * noise_grey2);
+}
+
+bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {
+  const auto stays = [&](int x_px, int y_px) {
+    const StayingPixels staying = field.staying_pixels(
+        static_cast<int>(block.index), block.background_x_px, block.background_y_px, x_px, y_px);
+    return is_same(staying, kExactShareElsewhere);
+  };
+  return stays(-kBeside_px, 0) || stays(kBeside_px, 0) || stays(0, -kBeside_px) ||
+         stays(0, kBeside_px);
+}
+
+void BurnedIn::look(const BlockField& field, const Block& block) {
+  if (!camera_moves_) return;
+  const MotionBlock& own = field.blocks()[block.index];
+  const float moved_px = std::hypot(own.moved_x_px, own.moved_y_px);
+  const StayingPixels staying = field.staying_pixels(static_cast<int>(block.index),
+                                                     block.background_x_px, block.background_y_px);
+  Sign& sign = signs_[block.index];
+  if (is_same(staying, moved_px < kDrawnAlong_px ? kExactShare : kExactShareElsewhere)) {
+    sign = Sign::kStays;
+  } else if (own.residual > unexplained_grey2_) {
+    const bool in_place = moved_px < kInPlace_px;
+    sign = stays_beside(field, block)       ? Sign::kStays
+           : in_place && !block.is_expected ? Sign::kInPlace
+                                            : Sign::kUnexplained;
+  }
+}
+
+bool BurnedIn::is_beside_staying(const BlockGrid& grid, size_t index) const {
+  const int column = static_cast<int>(index) % grid.columns;
+  const int row = static_cast<int>(index) / grid.columns;
+  for (int j = std::max(row - 1, 0); j <= std::min(row + 1, grid.rows - 1); ++j) {
+    for (int i = std::max(column - 1, 0); i <= std::min(column + 1, grid.columns - 1); ++i) {
+      if (lasting_[static_cast<size_t>(j * grid.columns + i)] >= kLasting) return true;
+    }
+  }
+  return false;
+}
+
+void BurnedIn::end(const BlockGrid& grid) {
+  for (size_t i = 0; i < signs_.size(); ++i) {
+    const int change = signs_[i] == Sign::kStays ? kGain : -1;
+    lasting_[i] = static_cast<uint8_t>(std::clamp(lasting_[i] + change, 0, kMost));
+  }
+  holds_.assign(signs_.size(), 0);
+  if (!camera_moves_) return;
+  for (size_t i = 0; i < signs_.size(); ++i) {
+    holds_[i] = signs_[i] == Sign::kStays || signs_[i] == Sign::kInPlace ||
+                lasting_[i] >= kLasting ||
+                (signs_[i] == Sign::kUnexplained && is_beside_staying(grid, i));
+  }
+}
+
+}  // namespace spidar

@@ -1,0 +1,240 @@
+// What is burned into a film does not move with a camera that pans: logos, subtitles, clocks, bars,
+// a still picture in the picture. It belongs to the screen and is felt by nobody.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/motion_analyzer.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+using Eigen::Vector2d;
+using test::Picture;
+using test::Texture;
+
+constexpr int kWidth = 640;
+constexpr int kHeight = 360;
+constexpr int kFrames = 30;
+constexpr int64_t kFrame_ns = 40'000'000;
+constexpr double kFrame_s = 0.04;
+/// An object is felt from the second pair of frames on in which it moves.
+constexpr int kFelt = 3;
+const double kDegree_rad = std::acos(-1.0) / 180;
+
+constexpr double kWhite = 235;
+constexpr double kBlack = 16;
+
+/// Grey level at a place of frame n, in px from the upper left corner.
+using Scene = std::function<double(int n, const Vector2d& at)>;
+/// What is put over a frame after it was taken: the grey level there, given that of the film.
+using Caption = std::function<double(int n, const Vector2d& at, double film)>;
+
+const Texture& background() {
+  static const Texture texture(1, 10);
+  return texture;
+}
+const Texture& foreground() {
+  static const Texture texture(2, 10);
+  return texture;
+}
+
+bool in_box(const Vector2d& at, double left, double top, double width, double height) {
+  return at.x() >= left && at.x() < left + width && at.y() >= top && at.y() < top + height;
+}
+
+/// Whether a place is in the stroke of a letter: 5 × 7 cells with gaps of one around them, of which
+/// each letter has its own half.
+bool in_letter(const Vector2d& at, double cell_px, uint32_t text) {
+  const auto i = static_cast<int>(std::floor(at.x() / cell_px));
+  const auto j = static_cast<int>(std::floor(at.y() / cell_px));
+  if (i < 0 || j < 0 || j >= 7 || i % 6 == 5) return false;
+  std::minstd_rand random(text * 7919 + static_cast<uint32_t>(i * 7 + j) * 104729 + 1);
+  random.discard(4);
+  return random() % 2 == 0;
+}
+
+/// Light letters with a dark rim of a pixel and a half, as subtitles have it.
+double write(const Vector2d& at, const Vector2d& corner, double width, double cell_px,
+             uint32_t text, double film) {
+  if (!in_box(at, corner.x() - 2, corner.y() - 2, width + 4, 7 * cell_px + 4)) return film;
+  const auto inked = [&](double x, double y) {
+    const Vector2d from = at - corner + Vector2d(x, y);
+    return from.x() < width && in_letter(from, cell_px, text);
+  };
+  if (inked(0, 0)) return kWhite;
+  for (const double r : {-1.5, 1.5}) {
+    if (inked(r, 0) || inked(0, r)) return kBlack;
+  }
+  return film;
+}
+
+struct Burned {
+  std::string name;
+  Caption caption;
+};
+
+double logo(const Vector2d& at, double share, double film) {
+  if (!in_box(at, 540, 24, 70, 50)) return film;
+  const double own =
+      (at - Vector2d(575, 49)).norm() < 20 || in_box(at, 545, 60, 60, 8) ? kWhite : 60;
+  return share * own + (1 - share) * film;
+}
+
+const std::vector<Burned>& captions() {
+  static const std::vector<Burned> all{
+      {"Logo", [](int, const Vector2d& at, double film) { return logo(at, 1, film); }},
+      {"SemitransparentLogo",
+       [](int, const Vector2d& at, double film) { return logo(at, 0.5, film); }},
+      {"Subtitles",
+       [](int n, const Vector2d& at, double film) {
+         // One from the 6th to the 15th frame, another at once after it.
+         if (n < 6 || n >= 24) return film;
+         return write(at, {140, 310}, 360, 4, n < 15 ? 1 : 2, film);
+       }},
+      {"Clock",
+       [](int n, const Vector2d& at, double film) {
+         // The last of its digits changes every tenth frame.
+         film = write(at, {40, 30}, 96, 4, 3, film);
+         return write(at, {136, 30}, 24, 4, 4 + static_cast<uint32_t>(n) / 10, film);
+       }},
+      {"Letterbox", [](int, const Vector2d& at,
+                       double film) { return at.y() < 45 || at.y() >= 315 ? kBlack : film; }},
+      {"Pillarbox", [](int, const Vector2d& at,
+                       double film) { return at.x() < 80 || at.x() >= 560 ? kBlack : film; }},
+      {"HeadUpDisplay",
+       [](int n, const Vector2d& at, double film) {
+         film = write(at, {20, 320}, 120, 3, 20, film);
+         film = write(at, {500, 320}, 120, 3, 21 + static_cast<uint32_t>(n) / 5, film);
+         const double from_middle = (at - Vector2d(320, 180)).norm();
+         if (std::abs(from_middle - 40) < 1.5) return kWhite;
+         if (in_box(at, 20, 20, 150, 14)) return at.x() < 150 - n ? 200.0 : kBlack;
+         return film;
+       }},
+      {"StillPictureInPicture",
+       [](int, const Vector2d& at, double film) {
+         return in_box(at, 440, 30, 170, 96) ? foreground().at(at.x(), at.y() + 500) : film;
+       }},
+  };
+  return all;
+}
+
+/// Frames before anything is put over them. Sensor noise of 1.5 grey levels, as the films of the
+/// benchmark have it.
+std::vector<Picture> take(const Scene& scene) {
+  std::vector<Picture> film(kFrames, Picture(kWidth, kHeight));
+  for (int n = 0; n < kFrames; ++n) {
+    std::mt19937 random(static_cast<uint32_t>(n));
+    std::normal_distribution<double> noise(0, 1.5);
+    film[static_cast<size_t>(n)].fill([&](double x, double y) {
+      return std::clamp(scene(n, {x, y}) + noise(random), 0.0, 255.0);
+    });
+  }
+  return film;
+}
+
+std::vector<FrameAnalysis> analyze(const std::vector<Picture>& film,
+                                   const Caption& caption = nullptr) {
+  MotionAnalyzer analyzer;
+  std::vector<FrameAnalysis> found;
+  Picture picture(kWidth, kHeight);
+  for (int n = 0; n < kFrames; ++n) {
+    const Picture& taken = film[static_cast<size_t>(n)];
+    picture.fill([&](double x, double y) {
+      const double grey = *taken.view().at(static_cast<int>(x), static_cast<int>(y));
+      return caption ? caption(n, {x, y}, grey) : grey;
+    });
+    found.push_back(analyzer.analyze(picture.view(), n * kFrame_ns));
+  }
+  return found;
+}
+
+class BurnedIn : public testing::TestWithParam<Burned> {};
+
+TEST_P(BurnedIn, AddsNothingToAPan) {
+  static const std::vector<Vector2d> pans{{6, 0}, {-2.5, 0.5}, {1, 4}};
+  static const std::vector<std::vector<Picture>> films = [] {
+    std::vector<std::vector<Picture>> taken;
+    for (const Vector2d& pan : pans) {
+      taken.push_back(take([&](int n, const Vector2d& at) {
+        const Vector2d from = at + n * pan;
+        return background().at(from.x(), from.y());
+      }));
+    }
+    return taken;
+  }();
+  for (size_t k = 0; k < films.size(); ++k) {
+    SCOPED_TRACE(testing::Message() << "pan of " << pans[k].transpose() << " px a frame");
+    const std::vector<FrameAnalysis> found = analyze(films[k], GetParam().caption);
+    for (int n = 0; n < kFrames; ++n) {
+      const Vector2d moved_px = found[static_cast<size_t>(n)].motion.velocity_px_s * kFrame_s;
+      EXPECT_EQ(moved_px, Vector2d(0, 0)) << "frame " << n;
+    }
+  }
+}
+
+/// As strong as without the caption to 10 % and in that direction to 15°, over the film; and always
+/// felt about that way.
+void expect_plain(const std::vector<Picture>& film, const std::vector<FrameAnalysis>& plain,
+                  const Caption& caption) {
+  const std::vector<FrameAnalysis> found = analyze(film, caption);
+  double ff = 0;
+  double pp = 0;
+  double fp = 0;
+  for (size_t n = kFelt; n < kFrames; ++n) {
+    const Vector2d& f = found[n].motion.velocity_px_s;
+    const Vector2d& p = plain[n].motion.velocity_px_s;
+    ASSERT_GT(p.norm(), 0) << "frame " << n;
+    EXPECT_GT(f.dot(p), std::cos(30 * kDegree_rad) * f.norm() * p.norm()) << "frame " << n;
+    ff += f.squaredNorm();
+    pp += p.squaredNorm();
+    fp += f.dot(p);
+  }
+  EXPECT_NEAR(std::sqrt(ff / pp), 1, 0.1);
+  EXPECT_GT(fp / std::sqrt(ff * pp), std::cos(15 * kDegree_rad));
+}
+
+TEST_P(BurnedIn, LeavesAnObjectInFrontOfAPanAsItIs) {
+  static const std::vector<Picture> film = take([](int n, const Vector2d& at) {
+    const Vector2d middle(200.0 + 4 * n, 190);
+    if ((at - middle).norm() < 55) return foreground().at(at.x() - 4.0 * n, at.y());
+    return background().at(at.x() + 4.0 * n, at.y());
+  });
+  static const std::vector<FrameAnalysis> plain = analyze(film);
+  expect_plain(film, plain, GetParam().caption);
+}
+
+TEST_P(BurnedIn, LeavesWhatTheCameraFollowsAsItIs) {
+  // It stays where it is on the screen, to the last fraction of a pixel: only the film's noise
+  // tells it from a logo.
+  static const std::vector<Picture> film = take([](int n, const Vector2d& at) {
+    if ((at - Vector2d(330, 200)).norm() < 55) return foreground().at(at.x(), at.y());
+    return background().at(at.x() + 7.0 * n, at.y() + 1.0 * n);
+  });
+  static const std::vector<FrameAnalysis> plain = analyze(film);
+  expect_plain(film, plain, GetParam().caption);
+}
+
+TEST_P(BurnedIn, LeavesAnObjectBeforeAStillCameraAsItIs) {
+  static const std::vector<Picture> film = take([](int n, const Vector2d& at) {
+    const Vector2d middle(200.0 + 6 * n, 190);
+    if ((at - middle).norm() < 55) return foreground().at(at.x() - 6.0 * n, at.y());
+    return background().at(at.x(), at.y());
+  });
+  static const std::vector<FrameAnalysis> plain = analyze(film);
+  expect_plain(film, plain, GetParam().caption);
+}
+
+INSTANTIATE_TEST_SUITE_P(Captions, BurnedIn, testing::ValuesIn(captions()),
+                         [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace spidar
