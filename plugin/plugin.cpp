@@ -1,5 +1,6 @@
 #include <gst/gst.h>
 
+#include "plugin/feel/feel_tracer.h"
 #include "plugin/provider/device_provider.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/track/spidar_extract.h"
@@ -7,7 +8,8 @@
 static gboolean plugin_init(GstPlugin* plugin) {
   return GST_ELEMENT_REGISTER(spidarmotion, plugin) &&
          GST_ELEMENT_REGISTER(spidarextract, plugin) &&
-         GST_DEVICE_PROVIDER_REGISTER(spidardeviceprovider, plugin);
+         GST_DEVICE_PROVIDER_REGISTER(spidardeviceprovider, plugin) &&
+         gst_spidar_feel_tracer_register(plugin);
 }
 
 #define PACKAGE "gst-spidar"

@@ -189,7 +189,7 @@ def main():
     screen = Screen()
     os.environ.pop("SPIDAR_PROFILE_PATH", None)
     os.environ["GST_PLUGIN_PATH"] = str(build / "plugin")
-    os.environ["PATH"] = f"{build / 'spidar' / 'tools'}:{os.environ['PATH']}"
+    os.environ["PATH"] = f"{build / 'spidar' / 'tools'}:{build / 'plugin'}:{os.environ['PATH']}"
 
     pages = ["README.md", "CONTRIBUTING.md"]
     pages += sorted(str(page.relative_to(source)) for page in (source / "docs").rglob("*.md"))

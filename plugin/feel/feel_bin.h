@@ -1,0 +1,19 @@
+/// A video filter for players that know nothing of it.
+#pragma once
+
+#include <gst/gst.h>
+
+G_BEGIN_DECLS
+
+#define GST_TYPE_SPIDAR_FEEL_BIN (gst_spidar_feel_bin_get_type())
+/// videoconvert ! spidarmotion ! videoconvert, where spidarmotion is there only once the video has
+/// begun to play: what looks at films without playing them (thumbnails, tags) opens no device. A
+/// device that cannot be opened is a warning, and the video plays without it. Of several in a
+/// process the first that plays has the device, until it leaves PAUSED for READY.
+G_DECLARE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST, SPIDAR_FEEL_BIN, GstBin)
+
+G_END_DECLS
+
+/// `properties` are those of spidarmotion, a line NAME=VALUE each; nullptr: none. Nullptr when an
+/// element is missing. A floating reference.
+GstElement* gst_spidar_feel_bin_new(const char* properties);

@@ -1,0 +1,66 @@
+/**
+ * SECTION:tracer-spidarfeel
+ * @title: spidarfeel
+ * @short_description: lets the videos of any player be felt
+ *
+ * Gives every playbin and playbin3 that shows video and has no video-filter one with #spidarmotion.
+ * The program spidar-feel runs a player with it. `SPIDAR_FEEL` in the environment has properties of
+ * #spidarmotion, a line NAME=VALUE each.
+ *
+ * The device is opened when a video begins to play, not before, and closed when it is stopped.
+ *
+ * Since: 0.1
+ */
+#define GST_USE_UNSTABLE_API
+#include "plugin/feel/feel_tracer.h"
+
+#include <gst/gsttracer.h>
+
+#include "plugin/feel/feel_bin.h"
+
+struct GstSpidarFeelTracer {
+  GstTracer parent;
+};
+struct GstSpidarFeelTracerClass {
+  GstTracerClass parent;
+};
+
+G_DEFINE_TYPE(GstSpidarFeelTracer, gst_spidar_feel_tracer, GST_TYPE_TRACER)
+
+static constexpr guint kPlayVideo = 1;  // of GstPlayFlags, which is no public type
+
+static bool is_playbin(GstElement* element) {
+  GstElementFactory* factory = gst_element_get_factory(element);
+  const char* name = factory ? GST_OBJECT_NAME(factory) : nullptr;
+  return g_strcmp0(name, "playbin") == 0 || g_strcmp0(name, "playbin3") == 0;
+}
+
+/// Of all elements, in any thread: quick for all but players.
+static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
+                                GstStateChange transition) {
+  if (transition != GST_STATE_CHANGE_READY_TO_PAUSED || !is_playbin(element)) return;
+  GstElement* filter = nullptr;
+  guint flags = 0;
+  g_object_get(element, "video-filter", &filter, "flags", &flags, nullptr);
+  if (filter || (flags & kPlayVideo) == 0) {
+    gst_clear_object(&filter);  // the application's own, or this tracer's of the film before
+    return;
+  }
+  filter = gst_spidar_feel_bin_new(g_getenv(SPIDAR_FEEL_VARIABLE));
+  if (filter)
+    g_object_set(element, "video-filter", filter, nullptr);
+  else
+    g_printerr(
+        "spidar-feel: the elements videoconvert or capsfilter are missing; nothing is felt\n");
+}
+
+static void gst_spidar_feel_tracer_init(GstSpidarFeelTracer* self) {
+  gst_tracing_register_hook(GST_TRACER(self), "element-change-state-pre",
+                            G_CALLBACK(before_state_change));
+}
+
+static void gst_spidar_feel_tracer_class_init(GstSpidarFeelTracerClass*) {}
+
+gboolean gst_spidar_feel_tracer_register(GstPlugin* plugin) {
+  return gst_tracer_register(plugin, "spidarfeel", GST_TYPE_SPIDAR_FEEL_TRACER);
+}

@@ -1,0 +1,151 @@
+// spidar-feel: runs a player so that its video is felt.
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+#include <gst/gst.h>
+
+#include "plugin/feel/feel_tracer.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kUsage = 2;
+constexpr int kCannotRun = 126;
+constexpr int kNoProgram = 127;
+
+constexpr const char* kHelp =
+    R"(usage: spidar-feel [PROPERTY=VALUE... --] PROGRAM [ARGUMENT...]
+
+Runs PROGRAM, a player that uses GStreamer, so that the video it plays is felt on a SPIDAR or on a
+force-feedback joystick. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
+
+  spidar-feel totem film.mp4
+  spidar-feel device=usb controller=adaptive max-force=2 -- gst-play-1.0 film.mp4
+)";
+
+struct Wish {
+  std::vector<std::string> properties;  ///< NAME=VALUE
+  char** program = nullptr;             ///< and its arguments
+};
+
+[[noreturn]] void fail(int status, const std::string& what) {
+  std::fprintf(stderr, "spidar-feel: %s\n", what.c_str());
+  std::exit(status);
+}
+
+Wish parse(int argc, char** argv) {
+  Wish wish;
+  if (argc < 2) fail(kUsage, "no PROGRAM given; spidar-feel --help tells more");
+  if (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0) {
+    std::fputs(kHelp, stdout);
+    std::exit(0);
+  }
+  if (std::strcmp(argv[1], "--version") == 0) {
+    std::puts("spidar-feel " PACKAGE_VERSION);
+    std::exit(0);
+  }
+  int at = 1;
+  while (at < argc && argv[at][0] != '-' && std::strchr(argv[at], '='))
+    wish.properties.emplace_back(argv[at++]);
+  const bool separated = at < argc && std::strcmp(argv[at], "--") == 0;
+  if (!wish.properties.empty() && !separated)
+    fail(kUsage, "write -- between the properties and the program: spidar-feel " +
+                     wish.properties.front() + " -- PROGRAM");
+  if (separated) ++at;
+  if (at == argc) fail(kUsage, "no PROGRAM given; spidar-feel --help tells more");
+  if (argv[at][0] == '-')
+    fail(kUsage, std::string(argv[at]) + " is no option; spidar-feel --help tells more");
+  wish.program = argv + at;
+  return wish;
+}
+
+/// Where the plugin is when GStreamer does not look there: beside this program in a folder where it
+/// was built, else where it was installed.
+std::string plugin_folder() {
+  std::error_code error;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& folder : {beside, fs::path(SPIDAR_PLUGIN_DIR)})
+    if (fs::exists(folder / "libgstspidar.so", error)) return folder.string();
+  return {};
+}
+
+bool has_plugin() {
+  GstElementFactory* factory = gst_element_factory_find("spidarmotion");
+  if (!factory) return false;
+  gst_object_unref(factory);
+  return true;
+}
+
+/// Leaves an environment in which GStreamer finds the plugin.
+void find_plugin() {
+  gst_init(nullptr, nullptr);
+  if (has_plugin()) return;
+  const std::string folder = plugin_folder();
+  if (!folder.empty()) {
+    const char* before = g_getenv("GST_PLUGIN_PATH");
+    const std::string path = before && *before ? folder + ":" + before : folder;
+    g_setenv("GST_PLUGIN_PATH", path.c_str(), TRUE);
+    gst_registry_scan_path(gst_registry_get(), folder.c_str());
+  }
+  if (!has_plugin())
+    fail(kCannotRun,
+         "GStreamer does not find the plugin of gst-spidar; name its folder in GST_PLUGIN_PATH");
+}
+
+/// Exits with what is wrong with `text`, which is NAME=VALUE.
+void check(GObjectClass* element, const std::string& text) {
+  const size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
+  GParamSpec* property = g_object_class_find_property(element, name.c_str());
+  if (!property || !(property->flags & G_PARAM_WRITABLE))
+    fail(kUsage, "spidarmotion has no property \"" + name +
+                     "\" that can be set; gst-inspect-1.0 spidarmotion lists them");
+  if (value.find('\n') != std::string::npos) fail(kUsage, name + ": a value is one line");
+  GValue parsed = G_VALUE_INIT;
+  g_value_init(&parsed, property->value_type);
+  const bool understood = gst_value_deserialize_with_pspec(&parsed, value.c_str(), property);
+  // Changes what is out of range.
+  const bool wrong = !understood || g_param_value_validate(property, &parsed);
+  g_value_unset(&parsed);
+  if (wrong)
+    fail(kUsage, name + ": \"" + value +
+                     "\" is not among its values; gst-inspect-1.0 spidarmotion lists them");
+}
+
+void check_all(const std::vector<std::string>& properties) {
+  GstElement* element = gst_element_factory_make("spidarmotion", nullptr);
+  if (!element) fail(kCannotRun, "the plugin of gst-spidar cannot be loaded");
+  gst_object_ref_sink(element);
+  for (const std::string& property : properties) check(G_OBJECT_GET_CLASS(element), property);
+  gst_object_unref(element);
+}
+
+void set_environment(const std::vector<std::string>& properties) {
+  std::string lines;
+  for (const std::string& property : properties) lines += property + "\n";
+  g_setenv(SPIDAR_FEEL_VARIABLE, lines.c_str(), TRUE);
+  const char* tracers = g_getenv("GST_TRACERS");
+  const std::string all = tracers && *tracers ? std::string(tracers) + ";spidarfeel" : "spidarfeel";
+  g_setenv("GST_TRACERS", all.c_str(), TRUE);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Wish wish = parse(argc, argv);
+  find_plugin();
+  check_all(wish.properties);
+  set_environment(wish.properties);
+  execvp(wish.program[0], wish.program);
+  const int error = errno;
+  fail(error == ENOENT ? kNoProgram : kCannotRun,
+       std::string(wish.program[0]) + ": " + std::strerror(error));
+}

@@ -1,0 +1,114 @@
+// A player of the plainest kind, which knows nothing of haptics: playbin does as the arguments say.
+//
+// feel-player PLAYBIN FILM STEP...: PLAYBIN is playbin or playbin3. Steps are
+//   own-filter, own-sink    the application's own video-filter; its own spidarmotion, device=none
+//   preroll, play, pause, stop, other (a second player is used from now on)
+//   frames=N, wait=MS       until so many more frames were shown; for so long
+//   loaded                  says whether the plugin is in this process
+//   stay                    for ever
+//   exit                    without stopping
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string>
+#include <thread>
+#include <unistd.h>
+
+#include <gst/gst.h>
+
+#include "tests/emulated_bus/bus_state.h"
+
+namespace {
+
+std::atomic<int> frames_shown{0};
+
+void shown(GstElement*, GstBuffer*, GstPad*, gpointer) {
+  ++frames_shown;
+}
+
+GstElement* make_player(const char* playbin, const std::string& film) {
+  GstElement* player = gst_element_factory_make(playbin, nullptr);
+  GstElement* sink = gst_element_factory_make("fakesink", nullptr);
+  g_object_set(sink, "sync", TRUE, "signal-handoffs", TRUE, nullptr);
+  g_signal_connect(sink, "handoff", G_CALLBACK(shown), nullptr);
+  gchar* uri = gst_filename_to_uri(film.c_str(), nullptr);
+  g_object_set(player, "uri", uri, "video-sink", sink, nullptr);
+  g_free(uri);
+  return player;
+}
+
+/// Ends the program when the player fails.
+void set_state(GstElement* player, GstState state) {
+  gst_element_set_state(player, state);
+  if (gst_element_get_state(player, nullptr, nullptr, GST_CLOCK_TIME_NONE) !=
+      GST_STATE_CHANGE_FAILURE)
+    return;
+  std::fputs("the player fails\n", stderr);
+  std::exit(1);
+}
+
+void wait_for_frames(int frames) {
+  const int until = frames_shown + frames;
+  while (frames_shown < until) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+bool is_loaded() {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);)
+    if (line.find("libgstspidar.so") != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spidar::test::bus();  // or the linker leaves it out
+  gst_init(nullptr, nullptr);
+  if (argc < 3) return 2;
+  GstElement* players[] = {make_player(argv[1], argv[2]), make_player(argv[1], argv[2])};
+  size_t now = 0;
+  for (int i = 3; i < argc; ++i) {
+    const std::string step = argv[i];
+    const std::string name = step.substr(0, step.find('='));
+    const int number = name == step ? 0 : std::atoi(step.c_str() + name.size() + 1);
+    GstElement* player = players[now];
+    const std::map<std::string, GstState> states{{"preroll", GST_STATE_PAUSED},
+                                                 {"play", GST_STATE_PLAYING},
+                                                 {"pause", GST_STATE_PAUSED},
+                                                 {"stop", GST_STATE_NULL}};
+    if (states.count(name)) {
+      set_state(player, states.at(name));
+    } else if (name == "own-filter") {
+      g_object_set(player, "video-filter", gst_element_factory_make("identity", nullptr), nullptr);
+    } else if (name == "own-sink") {
+      g_object_set(
+          player, "video-sink",
+          gst_parse_bin_from_description(
+              "videoconvert ! spidarmotion device=none ! fakesink sync=true", TRUE, nullptr),
+          nullptr);
+    } else if (name == "other") {
+      now = 1;
+    } else if (name == "frames") {
+      wait_for_frames(number);
+    } else if (name == "wait") {
+      std::this_thread::sleep_for(std::chrono::milliseconds(number));
+    } else if (name == "loaded") {
+      std::puts(is_loaded() ? "loaded" : "not loaded");
+    } else if (name == "stay") {
+      for (;;) pause();
+    } else if (name == "exit") {
+      std::exit(0);
+    } else {
+      std::fprintf(stderr, "%s: no such step\n", argv[i]);
+      return 2;
+    }
+  }
+  for (GstElement* player : players) {
+    gst_element_set_state(player, GST_STATE_NULL);
+    gst_object_unref(player);
+  }
+  return 0;
+}
