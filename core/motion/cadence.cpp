@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
+
 namespace spidar {
 namespace {
 
@@ -32,9 +34,7 @@ void Cadence::remember(const Shown& shown) {
 int64_t Cadence::median_ns() const {
   std::array<int64_t, kPictures> sorted{};
   for (size_t i = 0; i < count_; ++i) sorted[i] = latest(i).interval_ns;
-  const auto middle = sorted.begin() + static_cast<ptrdiff_t>(count_ / 2);
-  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<ptrdiff_t>(count_));
-  return *middle;
+  return median(sorted.begin(), sorted.begin() + static_cast<ptrdiff_t>(count_));
 }
 
 /// How long the next picture may be shown: the second longest of the latest intervals, for one

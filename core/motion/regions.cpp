@@ -4,17 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/quantile.h"
+
 namespace spidar {
-namespace {
-
-double median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
-
-}  // namespace
-
 int RegionFinder::root_of(int block) {
   auto i = static_cast<size_t>(block);
   while (parent_[i] != static_cast<int>(i)) {
@@ -65,7 +57,9 @@ void RegionFinder::describe(const BlockField& field, const std::vector<RelativeB
   region.roundness = trace > 0 ? (trace - root) / (trace + root) : 0;
   region.position_px /= region.blocks;
   region.background_px /= region.blocks;
-  if (!x_px_.empty()) region.relative_px << median(x_px_), median(y_px_);
+  if (x_px_.empty()) return;
+  region.relative_px.x() = static_cast<double>(median(x_px_.begin(), x_px_.end()));
+  region.relative_px.y() = static_cast<double>(median(y_px_.begin(), y_px_.end()));
 }
 
 const std::vector<Region>& RegionFinder::find(const BlockField& field,

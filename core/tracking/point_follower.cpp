@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/quantile.h"
+
 namespace spidar {
 namespace {
 
@@ -34,12 +36,6 @@ bool has_room(const PaddedImage& image, ImagePoint p) {
   return p.x_px >= kHalf_px && p.y_px >= kHalf_px &&
          p.x_px <= static_cast<float>(image.width()) - 1 - kHalf_px &&
          p.y_px <= static_cast<float>(image.height()) - 1 - kHalf_px;
-}
-
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -117,7 +113,8 @@ void PointFollower::follow(const GrayPyramid& before, const GrayPyramid& now,
 
   bool others_moved = !moved_x_.empty();
   ImagePoint common;  // motion of the others
-  if (others_moved) common = {median(moved_x_), median(moved_y_)};
+  if (others_moved)
+    common = {median(moved_x_.begin(), moved_x_.end()), median(moved_y_.begin(), moved_y_.end())};
   int block_searches = 0;
   int in_vain = 0;
   for (FollowedPoint& point : points) {

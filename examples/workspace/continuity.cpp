@@ -6,12 +6,14 @@
 #include <stdexcept>
 
 #include "core/grip/tension_solver.h"
+#include "core/quantile.h"
 #include "examples/workspace/delivery.h"
-#include "examples/workspace/quantile.h"
 #include "tests/support/grip_path.h"
 #include "tests/support/tension_step.h"
 
 namespace {
+
+using spidar::quantile;
 
 using spidar::test::GripPath;
 using spidar::test::PathLimits;

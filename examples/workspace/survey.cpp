@@ -4,11 +4,13 @@
 #include <cstdio>
 #include <random>
 
+#include "core/quantile.h"
 #include "examples/workspace/delivery.h"
 #include "examples/workspace/force_closure.h"
-#include "examples/workspace/quantile.h"
 
 namespace {
+
+using spidar::quantile;
 
 constexpr int kPoses = 4000;  // a share is then known to ±0.8 % (one standard deviation) or better
 constexpr int kDirections = 32;

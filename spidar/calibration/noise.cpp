@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
+
 namespace spidar {
 namespace {
 
@@ -11,9 +13,7 @@ constexpr double kMaxCorrelation = 0.9999;
 }  // namespace
 
 double median(Eigen::VectorXd values) {
-  double* const middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  return *middle;
+  return median(values.data(), values.data() + values.size());
 }
 
 double robust_sigma_m(const Eigen::VectorXd& norms_m, int redundant, int parameters,

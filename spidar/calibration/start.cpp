@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/quantile.h"
+
 namespace spidar {
 namespace {
 
@@ -96,14 +98,11 @@ class Search {
 
   Bundle repaired(const Candidate& candidate) const {
     const std::vector<double>& errors = candidate.errors;
-    std::vector<double> sorted = errors;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double median = *middle;
+    const double typical = median(errors);
     Bundle bundle = candidate.bundle;
     for (size_t k = 0; k < samples_.size(); ++k) {
-      if (errors[k] <= kBad * median) continue;
-      const auto is_good = [&](size_t j) { return errors[j] <= kGood * median; };
+      if (errors[k] <= kBad * typical) continue;
+      const auto is_good = [&](size_t j) { return errors[j] <= kGood * typical; };
       bundle.poses[k] = candidate.bundle.poses[nearest(samples_, samples_[k], is_good)];
     }
     return bundle;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/quantile.h"
 #include "spidar/simulation/grip_model.h"
 
 namespace spidar {
@@ -28,12 +29,6 @@ struct Explanation {
   double correlation = 0;
   double worth = -1;  // correlation less the cost of the faults
 };
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
 
 class Judge {
  public:

@@ -15,6 +15,7 @@
 
 #include "spidar/profiles/profile.h"
 #include "tests/core/tension_reference.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/tension_cases.h"
 
 namespace spidar::test {
@@ -35,13 +36,6 @@ std::string contents(const std::filesystem::path& path) {
 
 class SolvePrograms : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "solve-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
   /// `program` is a path in the build folder's examples/, with arguments.
   Output run(const std::string& program, const std::string& input) const {
     std::ofstream(folder / "in") << input;
@@ -61,7 +55,8 @@ class SolvePrograms : public testing::Test {
     return output;
   }
 
-  std::filesystem::path folder;
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder = temporary_.path;
 };
 
 TEST_F(SolvePrograms, TensionsOfAKnownProblem) {

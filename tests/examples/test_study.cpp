@@ -15,9 +15,12 @@
 #include "examples/study/answers.h"
 #include "examples/study/schedule.h"
 #include "examples/study/terminal.h"
+#include "tests/support/temporary_folder.h"
 
 namespace study {
 namespace {
+
+using spidar::test::TemporaryFolder;
 
 const std::vector<std::string> kClips{"a.avi", "b.avi", "c.avi"};
 
@@ -74,13 +77,6 @@ TEST(StudySchedule, IsRandomButTheSameEachTime) {
 
 class StudyFile : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
-    folder = mkdtemp(name.data());
-    path = folder / "answers.csv";
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
   std::string error_of(const std::string& content) {
     std::ofstream(path) << content;
     try {
@@ -91,7 +87,8 @@ class StudyFile : public testing::Test {
     return "";
   }
 
-  std::filesystem::path folder, path;
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder = temporary_.path, path = folder / "answers.csv";
 };
 
 TEST_F(StudyFile, IsResumedWhereItEnded) {

@@ -11,9 +11,12 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.h"
+
 namespace {
 
 using nlohmann::json;
+using spidar::test::TemporaryFolder;
 
 constexpr int kFrames = 12;
 
@@ -48,13 +51,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
 
 class TrackVideo : public testing::Test {
  protected:
-  void SetUp() override {
-    gst_init(nullptr, nullptr);
-    std::string name = (std::filesystem::temp_directory_path() / "track-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
+  void SetUp() override { gst_init(nullptr, nullptr); }
 
   /// A ball in front of a plain background; `format` as GStreamer names it.
   std::string clip(const std::string& format) const {
@@ -76,7 +73,8 @@ class TrackVideo : public testing::Test {
     return output;
   }
 
-  std::filesystem::path folder;
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder = temporary_.path;
 };
 
 TEST_F(TrackVideo, SaysWhatTheElementsTracesSay) {

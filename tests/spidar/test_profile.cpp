@@ -11,9 +11,11 @@
 #include <gtest/gtest.h>
 
 #include "spidar/profiles/profile.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace spidar;
+using spidar::test::TemporaryFolder;
 
 namespace {
 
@@ -52,21 +54,14 @@ note = "another book"
 
 class Folder {
  public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "spidar-profile-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-  }
-  ~Folder() { fs::remove_all(path_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-    return path_ / name;
+    std::ofstream(path() / name) << text;
+    return path() / name;
   }
-  const fs::path& path() const { return path_; }
+  const fs::path& path() const { return folder_.path; }
 
  private:
-  fs::path path_;
+  TemporaryFolder folder_;
 };
 
 class Environment {

@@ -10,6 +10,7 @@
 
 #include "spidar/profiles/profile_writer.h"
 #include "tests/spidar/calibration_samples.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace spidar;
@@ -19,17 +20,11 @@ namespace {
 
 class Folder {
  public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "spidar-writer-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  bool is_empty() const { return fs::is_empty(path_); }
+  std::string file(const std::string& name) const { return (folder_.path / name).string(); }
+  bool is_empty() const { return fs::is_empty(folder_.path); }
 
  private:
-  fs::path path_;
+  TemporaryFolder folder_;
 };
 
 void expect_same(const Profile& a, const Profile& b) {

@@ -9,21 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "spidar/loop/tick_trace.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spidar {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that is gone after the test.
-struct TemporaryFolder {
-  TemporaryFolder() {
-    std::string name = fs::temp_directory_path() / "spidar-trace-XXXXXX";
-    path = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { fs::remove_all(path); }
-  fs::path path;
-};
+using test::TemporaryFolder;
 
 std::vector<std::string> fields(const std::string& line) {
   std::vector<std::string> result;

@@ -15,6 +15,7 @@
 #include "spidar/transports/tty_list.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
 namespace {
@@ -167,12 +168,11 @@ TEST_F(UartLines, OpenSaysWhatIsWrong) {
 }
 
 TEST(TtyList, IsOfAdaptersAndOfLinesThatAreNamed) {
-  std::string folder = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const TemporaryFolder temporary;
+  const std::string folder = temporary.path;
   for (const char* name : {"ttyUSB1", "ttyS0", "spidar0", "ttyACM0", "null"})
     std::ofstream(folder + "/" + name) << "";
   const std::vector<TtyLine> lines = list_tty_lines(folder);
-  std::filesystem::remove_all(folder);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0].path, folder + "/spidar0");
   EXPECT_TRUE(lines[0].named);

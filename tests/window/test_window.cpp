@@ -13,6 +13,7 @@
 #include "plugin/window/layout.h"
 #include "plugin/window/window.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/video_frames.h"
 #include "tests/support/virtual_display.h"
 #include "tests/window/fake_source.h"
@@ -187,8 +188,8 @@ TEST_F(WindowTest, KeysChangeSettingsAndQClosesTheWindow) {
 
 TEST_F(WindowTest, SSavesAPicture) {
   const std::filesystem::path before = std::filesystem::current_path();
-  std::string folder = (std::filesystem::temp_directory_path() / "spidar-XXXXXX").string();
-  std::filesystem::current_path(mkdtemp(folder.data()));
+  const TemporaryFolder folder;
+  std::filesystem::current_path(folder.path);
   {
     Window window(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
     window.press(GLFW_KEY_S);
@@ -197,13 +198,12 @@ TEST_F(WindowTest, SSavesAPicture) {
   }
   std::filesystem::current_path(before);
   int pictures = 0;
-  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+  for (const auto& file : std::filesystem::directory_iterator(folder.path)) {
     EXPECT_EQ(file.path().extension(), ".png");
     EXPECT_GT(file.file_size(), 1000u);
     ++pictures;
   }
   EXPECT_EQ(pictures, 1);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_F(WindowTest, APictureThatCannotBeWrittenSaysWhy) {

@@ -1,0 +1,39 @@
+/// Order statistics of small samples.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+namespace spidar {
+
+/// The value that the share `share`, 0 … 1, of [first, last) does not exceed. The range has at
+/// least one value; its order is changed.
+template <typename Iterator>
+typename std::iterator_traits<Iterator>::value_type quantile(Iterator first, Iterator last,
+                                                             double share) {
+  const double highest = static_cast<double>(std::distance(first, last) - 1);
+  const Iterator at = first + static_cast<std::ptrdiff_t>(share * highest + 0.5);
+  std::nth_element(first, at, last);
+  return *at;
+}
+
+/// The order of `values` is changed.
+template <typename Value>
+Value quantile(std::vector<Value>& values, double share) {
+  return quantile(values.begin(), values.end(), share);
+}
+
+/// Of an even number of values the upper one of the two in the middle.
+template <typename Iterator>
+typename std::iterator_traits<Iterator>::value_type median(Iterator first, Iterator last) {
+  return quantile(first, last, 0.5);
+}
+
+template <typename Value>
+Value median(std::vector<Value> values) {
+  return median(values.begin(), values.end());
+}
+
+}  // namespace spidar
