@@ -9,9 +9,6 @@
 namespace spidar {
 namespace {
 
-/// Added to the diagonal of the structure tensor, (grey / px)²: where there is hardly texture the
-/// whole pixel stays.
-constexpr float kRegularization = 2;
 /// The search is right to half a pixel or it is wrong.
 constexpr float kMostStep_px = 1;
 /// The coarse picture's pixels are so many of the picture's.

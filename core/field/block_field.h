@@ -67,6 +67,10 @@ class BlockField {
   StayingPixels staying_pixels(int block, float x_px, float y_px, int beside_x_px = 0,
                                int beside_y_px = 0) const;
 
+  /// Added to the diagonal of the structure tensor, (grey / px)²: where there is hardly texture the
+  /// whole pixel stays.
+  static constexpr float kRegularization = 2;
+
  private:
   void resize(const PaddedImage& base);
   void compensate_light();

@@ -110,6 +110,8 @@ double BackgroundEstimator::coverage_of(const MotionModel& model, const Backgrou
 /// False when the votes do not determine such a model, or it does not cover the picture.
 bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
                                 const BackgroundVotes& votes, Scored& scored) {
+  const bool may_cover = is_textured_ || voting_ >= kLeastCoverageIfSpread * votes.all;
+  if (kind != ModelKind::kStill && !may_cover) return false;
   const auto model = fitter_.refine(kind, start, evidence_);
   if (!model) return false;
   if (kind != ModelKind::kStill) ++fitted_;

@@ -15,7 +15,7 @@ constexpr double kLeastDistanceShare = 0.5;
 /// The first steps reach further, for the start is as good as two of its points.
 constexpr int kFarSteps = 2;
 constexpr int kSteps = 5;
-constexpr double kFarther = 4;
+constexpr double kFarther = 8;
 
 /// The similarity that moves both points as they did.
 MotionModel through(const Displacement& a, const Displacement& b) {
