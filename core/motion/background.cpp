@@ -34,6 +34,9 @@ constexpr int kPatience = 5;
 /// Climbing that did not help is not tried again for this many frames, unless the mean of ρ rose.
 constexpr int kClimbInterval = 5;
 constexpr double kRisen = 0.1;
+/// Above this mean of ρ half of the votes are outliers and the camera's motion is not known: it is
+/// looked for in every frame.
+constexpr double kLost = 2;
 
 ModelKind next(ModelKind kind, int step) {
   return static_cast<ModelKind>(static_cast<int>(kind) + step);
@@ -207,7 +210,9 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   const bool explained = is_explained(current.model);
   ++frames_since_climb_;
   bool climbed = false;
-  if (!explained && (frames_since_climb_ >= kClimbInterval || cost > refused_cost_ + kRisen)) {
+  const bool is_due =
+      frames_since_climb_ >= kClimbInterval || cost > refused_cost_ + kRisen || cost > kLost;
+  if (!explained && is_due) {
     climbed = climb(start, votes, current);
     frames_since_climb_ = climbed ? kClimbInterval : 0;
     refused_cost_ = cost;

@@ -170,6 +170,24 @@ TEST(Background, FollowsThePanBehindAnObjectThatHasTwoFifthsOfTheVotes) {
   }
 }
 
+TEST(Background, IsFoundInTheFirstFrameInWhichItCanBeSeenAgain) {
+  // A camera so fast that every block is wrong, for longer and shorter than climbing waits.
+  MotionModel pan;
+  pan.kind = ModelKind::kTranslation;
+  pan.shift_px << -9, 2;
+  for (int lost = 1; lost <= 8; ++lost) {
+    TrackSource source(static_cast<uint32_t>(lost));
+    BackgroundEstimator estimator;
+    settle(estimator, source, pan, 5, kSigma_px);
+    settle(estimator, source, pan, lost, kSigma_px, 200);
+    pan.shift_px = -pan.shift_px;
+    const Background found = settle(estimator, source, pan, 1, kSigma_px);
+    EXPECT_EQ(found.model.kind, ModelKind::kTranslation) << lost << " frames";
+    // 200 points that do not count alike, at worst as 100.
+    EXPECT_LT((found.model.shift_px - pan.shift_px).norm(), 5 * kSigma_px / std::sqrt(100.0));
+  }
+}
+
 TEST(Background, NothingButNoiseIsStillHoweverStrong) {
   // Up to 5 px of a frame of 360 lines, in px of a field of 240, and beyond what is learnt.
   for (const double sigma_px : {0.05, 0.2, 0.4, 1.0, 2.0, 5.0 * 240 / 360}) {
