@@ -20,6 +20,9 @@ constexpr double kBadResidual = 60;
 constexpr double kPointReach_px = 0.5;
 constexpr double kPointNoise_px = 0.1;
 constexpr int kPointsForEach = 4;
+/// By this much of ρ on the mean they may make the blocks' votes dearer: an outlier's is 4, so it
+/// is as much as if one vote in a hundred became one.
+constexpr double kMostDearer = 0.04;
 /// Blocks among the tracks are numbered from here on.
 constexpr uint32_t kFirstBlockId = 1u << 31;
 
@@ -30,6 +33,17 @@ Background in_pixels_of(const Background& background, double scale) {
   result.model.perspective_1_px /= scale;
   result.sigma_px *= scale;
   return result;
+}
+
+/// Mean of ρ over the votes, see point_cost().
+double mean_cost(const MotionModel& model, const BackgroundVotes& votes, double sigma_px) {
+  double sum = 0;
+  double all = 0;
+  for (size_t i = 0; i < votes.points.size(); ++i) {
+    sum += votes.weights[i] * point_cost(model, votes.points[i], sigma_px);
+    all += votes.weights[i];
+  }
+  return all > 0 ? sum / all : 0;
 }
 
 /// The camera does the inverse of what the picture does.
@@ -156,6 +170,10 @@ void MotionEstimator::refine_background(Background& background) {
         refined->displacement_px(corner_px) - background.model.displacement_px(corner_px);
     if (change_px.norm() > reach_px) return;
   }
+  // Nor where the blocks are: many points may be on one layer of a scene with depth.
+  const double dearer =
+      mean_cost(*refined, votes_, reach_px / 2) - mean_cost(background.model, votes_, reach_px / 2);
+  if (dearer > kMostDearer) return;
   background.model = *refined;
 }
 

@@ -17,9 +17,11 @@ constexpr float kLeastTexture = 4;
 /// how much more where the block's own motion explains it badly.
 constexpr float kLeastEvidence = 3;
 constexpr float kEvidencePerResidual = 0.1f;
-/// What is known to be there may become this much slower before a still camera until it rests: no
-/// model of the camera's motion can be wrong then.
-constexpr float kSlower = 0.25f;
+/// What is known to be there may become this much slower until it rests: it does not stop because
+/// it falls below the threshold, and a trunk that did would leave its motion to the faster limbs.
+/// Before a still camera it may go further, for no model of the camera's motion can be wrong there.
+constexpr float kSlower = 0.6f;
+constexpr float kSlowerWhileStill = 0.25f;
 /// Grey levels a pixel that the background's motion must cost in the picture itself: a fixed part,
 /// a share of the picture's noise, and a share of what the block's own motion costs.
 constexpr float kWorse_grey = 0.5f;
@@ -93,7 +95,7 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
   if (!relative.has_texture) return Judgement::kUnknown;
   const float x = relative.x_px;
   const float y = relative.y_px;
-  const float slower = expected && camera_is_still_ ? kSlower : 1;
+  const float slower = !expected ? 1 : camera_is_still_ ? kSlowerWhileStill : kSlower;
   const float least_px =
       slower * std::max(kLeastMotion_px, kMotionSigmas * static_cast<float>(noise_px));
   if (x * x + y * y < least_px * least_px) return Judgement::kStill;

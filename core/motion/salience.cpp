@@ -12,7 +12,8 @@ constexpr double kLeastRoundness = 0.02;
 constexpr double kBorder = 1.2;
 /// How much the score falls with it in any case.
 constexpr double kBorderCost = 0.5;
-/// Speed as a share of the camera's that an object has at least.
+/// Speed as a share of the camera's that an object has at least, and twice that when it goes the
+/// same way as the background, as what is nearer does.
 constexpr double kLeastShareOfCamera = 0.2;
 /// What was followed before may be so much more like a layer.
 constexpr double kTrusted = 1.4;
@@ -24,12 +25,16 @@ constexpr double kLeastLikelihood = 0.3;
 double salience(const Region& region, const CameraMotion& camera, bool was_followed) {
   if (region.roundness < kLeastRoundness) return 0;
   const double speed_px = region.relative_px.norm();
+  if (speed_px == 0) return 0;
   const double touching = region.border_blocks / std::sqrt(static_cast<double>(region.blocks));
   const double score = region.blocks * kBlockArea_px * speed_px / (1 + kBorderCost * touching);
   if (camera.speed_px < camera.still_px) return score;
   const double trust = was_followed ? kTrusted : 1;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));
-  const double share = speed_px * trust / (kLeastShareOfCamera * camera.speed_px);
+  const double along_px = region.relative_px.dot(region.background_px.normalized());
+  const double least_px =
+      kLeastShareOfCamera * camera.speed_px * (1 + std::max(0.0, along_px / speed_px));
+  const double share = speed_px * trust / least_px;
   const double likelihood = inside * std::min(1.0, share * share);
   return likelihood < kLeastLikelihood ? 0 : likelihood * score;
 }

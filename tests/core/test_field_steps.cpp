@@ -223,6 +223,16 @@ TEST(Salience, ALayerOfTheSceneHasNoneWhileTheCameraMoves) {
   EXPECT_GT(salience(region(25, 8, 5), moving, true), 0) << "an object that leaves the picture";
 }
 
+TEST(Salience, WhatGoesAsTheBackgroundDoesIsNearerAndNoObject) {
+  const CameraMotion moving{10, 0.25};
+  Region slow = region(25, 0, 1.8);
+  EXPECT_GT(salience(slow, moving, false), 0);
+  slow.background_px << -10, 0;
+  EXPECT_GT(salience(slow, moving, false), 0) << "the camera follows it";
+  slow.background_px << 10, 0;
+  EXPECT_EQ(salience(slow, moving, false), 0);
+}
+
 TEST(Salience, ASingleEdgeHasNone) {
   Region edge = region(10, 0, 5);
   edge.roundness = 0;
