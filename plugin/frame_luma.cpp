@@ -99,6 +99,9 @@ ImageView FrameLuma::view(const GstVideoFrame& frame) {
   if (GST_VIDEO_FRAME_IS_INTERLACED(&frame) && luma.height >= 2) {
     // A crop that begins on an odd line begins with the other field.
     luma = first_field(luma, GST_VIDEO_FRAME_IS_TFF(&frame) == (shown.y % 2 == 0));
+  } else if (combing_.see(luma)) {
+    // Nobody says which field is the earlier one: always the same will do.
+    luma = first_field(luma, true);
   }
   return luma;
 }

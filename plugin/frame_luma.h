@@ -6,6 +6,7 @@
 
 #include <gst/video/video.h>
 
+#include "core/field/combing.h"
 #include "core/image_view.h"
 
 namespace spidar {
@@ -31,7 +32,8 @@ bool holds_picture(const GstVideoFrame& frame);
 
 /// Reads plane 0 of planar and semi-planar formats in place, with its stride and of as many bits
 /// as it has; makes luma of packed RGB; honours a crop meta; of interlaced frames it takes the
-/// first field, because the two fields are two moments.
+/// first field, because the two fields are two moments, and so it does of those that are interlaced
+/// and not flagged.
 class FrameLuma {
  public:
   /// In pixels; the caps allow no less, a crop may leave less.
@@ -44,6 +46,7 @@ class FrameLuma {
  private:
   ImageView first_field(const ImageView& frame, bool top_first);
 
+  Combing combing_;
   std::vector<uint8_t> converted_;
   std::vector<uint8_t> field_;
 };

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "plugin/frame_luma.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
@@ -181,6 +183,43 @@ TEST(Frames, InterlacedFramesAreMeasuredByOneField) {
   ASSERT_EQ(h.motions().size(), 2u);
   EXPECT_NEAR(h.motions()[1].velocity_x, 100, kTolerance_px_s);
   EXPECT_NEAR(h.motions()[1].velocity_y, 0, kTolerance_px_s);
+}
+
+/// The luma that is analysed of a frame in which `flagged` says that its fields are two moments.
+std::vector<uint8_t> analysed_luma(GstBuffer* frame, bool flagged) {
+  GstVideoInfo info;
+  gst_video_info_set_interlaced_format(
+      &info, GST_VIDEO_FORMAT_GRAY8,
+      flagged ? GST_VIDEO_INTERLACE_MODE_INTERLEAVED : GST_VIDEO_INTERLACE_MODE_PROGRESSIVE, 640,
+      480);
+  GST_VIDEO_INFO_FIELD_ORDER(&info) = GST_VIDEO_FIELD_ORDER_TOP_FIELD_FIRST;
+  GstVideoFrame mapped;
+  EXPECT_TRUE(gst_video_frame_map(&mapped, &info, frame, GST_MAP_READ));
+  FrameLuma luma;
+  const ImageView view = luma.view(mapped);
+  std::vector<uint8_t> pixels;
+  for (int y = 0; y < view.height; ++y) pixels.insert(pixels.end(), view.at(0, y), view.at(640, y));
+  gst_video_frame_unmap(&mapped);
+  return pixels;
+}
+
+TEST(Frames, FieldsThatAreNotFlaggedAreReadAsThoseThatAre) {
+  // The bottom field is later: what it shows has moved on by `step_px`.
+  for (const double step_px : {0.0, 5.0}) {
+    ElementHarness h;
+    h.set_caps(make_caps("GRAY8", 640, 480));
+    GstBuffer* frame = make_frame(h.info(), 0, 0);
+    GstMapInfo map;
+    gst_buffer_map(frame, &map, GST_MAP_WRITE);
+    for (int y = 1; y < 480; y += 2) {
+      for (int x = 0; x < 640; ++x) map.data[y * 640 + x] = grey(x - step_px, y);
+    }
+    gst_buffer_unmap(frame, &map);
+    const std::vector<uint8_t> whole = analysed_luma(frame, false);
+    const std::vector<uint8_t> field = analysed_luma(frame, true);
+    EXPECT_EQ(whole == field, step_px > 0) << "fields apart by " << step_px << " px";
+    gst_buffer_unref(frame);
+  }
 }
 
 }  // namespace

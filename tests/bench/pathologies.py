@@ -1,0 +1,367 @@
+#!/usr/bin/env python3
+"""Are films as they come felt as the plain film? pathologies.py BUILD [CLIP...]: makes variants of a film with ffmpeg,
+plays them through the spidarmotion of a meson build folder, and prints a table with a row for each.
+
+Without a CLIP the films are made, too: one with a moving object in front of a pan, and the pan alone. A CLIP is
+something that ffmpeg reads, with one shot of two seconds or more.
+
+strength: root mean square of the force, over that of the plain film. angle: between the two curves of force, as vectors
+over time. steps: root mean square of the change of force in a millisecond, over that of the plain film. rest: largest
+force, N, where none belongs: in films without an object, in a freeze. Within: strength 0.9 … 1.1 and angle below 15
+degrees, both beyond what coding the film at crf 17 … 23 does to it; steps at most 1.5; rest below 2 mN. Not counted are
+the first half second, in which the rhythm of the frames is learnt, and the time of a fade and three frames after it.
+
+The plain film of drawings on twos is that of every second picture, of a telecined film the film, of an interlaced one
+with two pictures in a frame that of every second picture, of a ramp of speed the ramp by timestamps."""
+
+import array
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+RATE = 24
+SAMPLE_S = 0.001
+CHANNELS = 6
+FULL_SCALE_N = 10
+SKIPPED_S = 0.5
+SETTLED_S = 3.5 / RATE
+SIZE = "640x360"
+MADE_S = 4
+STRENGTH, ANGLE, STEPS, REST_N = 0.1, 15, 1.5, 0.002
+LOSSLESS = ["-c:v", "ffv1", "-pix_fmt", "yuv420p"]
+
+
+def x264(crf, *more):
+    return ["-c:v", "libx264", "-crf", str(crf), "-pix_fmt", "yuv420p", *more]
+
+
+def ffmpeg(*arguments):
+    subprocess.run(["ffmpeg", "-v", "error", "-nostdin", "-y", *map(str, arguments)], check=True)
+
+
+class Player:
+    """Plays films through the element and returns their force at each millisecond."""
+
+    def __init__(self, build, folder):
+        self.environment = dict(os.environ, GST_PLUGIN_PATH=str(build / "plugin"),
+                                GST_REGISTRY=str(folder / "registry"))
+        self.environment.setdefault("SPIDAR_PROFILE_PATH", "spidar/profiles")
+        self.samples = folder / "force.f32"
+
+    def force(self, film, behind_decoder=""):
+        subprocess.run(
+            ["gst-launch-1.0", "-q", "filesrc", f"location={film}", "!", "decodebin", "!",
+             *behind_decoder.split(), "spidarmotion", "device=none", "post-messages=false",
+             "attach-meta=true", "!", "spidarextract", "name=x", "x.wrench", "!", "filesink",
+             f"location={self.samples}"],
+            env=self.environment, check=True, stdout=subprocess.DEVNULL)
+        values = array.array("f", self.samples.read_bytes())
+        return [tuple(FULL_SCALE_N * v for v in values[i:i + 3])
+                for i in range(0, len(values), CHANNELS)]
+
+
+def made_texture(seed, file, size):
+    """Shapes of all sizes as photographs have them: noise, blurred by several amounts and added."""
+    w, h = size
+    layers = [(2, 1.0), (5, 2.2), (14, 5.0)]
+    noise = "".join(f"nullsrc=s={w}x{h}:d=0.04:r=25,geq=lum='128+110*(random({seed + i})-0.5)':cb=128:cr=128,"
+                    f"gblur=sigma={sigma},lutyuv=y='clip((val-128)*{gain}*1.6+128\\,0\\,255)'[l{i}];"
+                    for i, (sigma, gain) in enumerate(layers))
+    ffmpeg("-filter_complex", noise + "[l0][l1]blend=all_mode=average[a];[a][l2]blend=all_mode=average,"
+           "lutyuv=y='clip((val-128)*2.6+128\\,16\\,235)'", "-frames:v", 1, file)
+
+
+def make_films(folder):
+    """At twice the size, then reduced, so that things move by halves of a pixel, too."""
+    wall, thing = folder / "wall.png", folder / "thing.png"
+    made_texture(1, wall, (2000, 1100))
+    made_texture(7, thing, (240, 240))
+    pan = "crop=1280:720:x='200+150*sin(0.9*t+0.3)+60*t':y='150+40*cos(0.7*t)'"
+    disc = "format=yuva420p,geq=lum='lum(X,Y)':cb=128:cr=128:a='255*lt(hypot(X-120,Y-120),115)'"
+    way = "x='520+200*sin(1.3*t)':y='240+120*cos(1.3*t)'"
+    end = f"scale={SIZE.replace('x', ':')}:flags=area,noise=c0s=3:c0f=t,format=yuv420p"
+    loop = ["-loop", 1, "-framerate", RATE, "-t", MADE_S]
+    ffmpeg(*loop, "-i", wall, "-vf", f"{pan},{end}", *LOSSLESS, folder / "pan.mkv")
+    ffmpeg(*loop, "-i", wall, *loop, "-i", thing, "-filter_complex",
+           f"[0]{pan}[w];[1]{disc}[d];[w][d]overlay={way}:eval=frame,{end}", *LOSSLESS,
+           folder / "object.mkv")
+    return [folder / "object.mkv", folder / "pan.mkv"]
+
+
+class Variant:
+    """A film that is made from the plain one."""
+
+    def __init__(self, group, name, filters="", coding=LOSSLESS, complex_filters=None, behind="",
+                 plain="", rest=None, spans=None, extra=()):
+        self.group, self.name, self.filters, self.coding = group, name, filters, coding
+        self.complex_filters, self.behind, self.plain = complex_filters, behind, plain
+        self.rest, self.spans, self.extra = rest, spans, extra
+
+    def make(self, film, out):
+        if self.complex_filters:
+            ffmpeg("-i", film, "-filter_complex", self.complex_filters, "-fps_mode", "vfr",
+                   *self.coding, out)
+        else:
+            ffmpeg("-i", film, "-vf", self.filters or "null", "-fps_mode", "vfr", *self.coding, out)
+
+
+def text(what, x, y, size, color="white", more=""):
+    return f"drawtext=font=Sans:text='{what}':x={x}:y={y}:fontsize={size}:fontcolor={color}{more}"
+
+
+OUTLINE = ":borderw=2:bordercolor=black"
+
+
+def captions():
+    logo = f"drawbox=x=iw-90:y=20:w=70:h=40:color=gray:t=fill,{text('TV 5', 'w-84', 26, 26)}"
+    see_through = text("TV 5", "w-100", 20, 34, "white@0.5")
+    subtitles = ",".join(
+        text(words, "(w-tw)/2", "h-48", 24, more=f"{OUTLINE}:enable='between(t,{t},{t + 1.1})'")
+        for words, t in (("We shall never know who it was", 0.6), ("or where they went", 1.8),
+                         ("in that long summer.", 2.9)))
+    clock = text("%{pts\\:hms}", 20, 20, 26, more=":box=1:boxcolor=black")
+    letterbox = ("drawbox=x=0:y=0:w=iw:h=ih/8:color=black:t=fill,"
+                 "drawbox=x=0:y=ih-ih/8:w=iw:h=ih/8:color=black:t=fill")
+    pillarbox = ("drawbox=x=0:y=0:w=iw/8:h=ih:color=black:t=fill,"
+                 "drawbox=x=iw-iw/8:y=0:w=iw/8:h=ih:color=black:t=fill")
+    display = ",".join([text("HP 72  AMMO 18/90", 16, "h-40", 22, more=OUTLINE),
+                        text("%{n}", "w-90", "h-40", 22, more=OUTLINE),
+                        "drawbox=x=16:y=16:w=150:h=14:color=black:t=fill",
+                        "drawbox=x=18:y=18:w=120:h=10:color=white:t=fill",
+                        "drawbox=x=iw/2-14:y=ih/2-1:w=28:h=2:color=white:t=fill",
+                        "drawbox=x=iw/2-1:y=ih/2-14:w=2:h=28:color=white:t=fill"])
+    still = ("[0]split[a][b];[b]trim=end_frame=1,scale=iw/4:ih/4,hflip,loop=-1:1,setpts=N/FRAME_RATE/TB[p];"
+             "[a][p]overlay=x=W-w-20:y=20:shortest=1")
+    for crf in (0, 23):
+        coding, how = (LOSSLESS, "") if crf == 0 else (x264(crf), f", crf {crf}")
+        for name, filters in (("logo", logo), ("half-transparent logo", see_through),
+                              ("subtitles", subtitles), ("clock", clock), ("letterbox", letterbox),
+                              ("pillarbox", pillarbox), ("head-up display", display)):
+            yield Variant("captions", name + how, filters, coding)
+        yield Variant("captions", "still picture in picture" + how, coding=coding, complex_filters=still)
+
+
+def every(n):
+    return f"select='not(mod(n,{n}))'"
+
+
+def variants(length_s):
+    middle = length_s / 2
+    yield Variant("repeats", "24 in 30", "fps=30")
+    yield Variant("repeats", "24 in 60", "fps=60")
+    yield Variant("repeats", "24 in 60, crf 23", "fps=60", x264(23))
+    yield Variant("repeats", "24 in 25", "fps=25")
+    yield Variant("repeats", "on twos", every(2) + ",fps=24", plain=every(2))
+    yield Variant("repeats", "on threes", every(3) + ",fps=24", plain=every(3))
+    yield Variant("repeats", "one in eleven repeated", "select='mod(n,11)-7',fps=24")
+    yield Variant("repeats", "one in seven dropped", "select='mod(n,7)-3'")
+    yield Variant("repeats", "variable rate", "select='not(eq(mod(n*n,13),4)+eq(mod(n,5),2))'")
+    yield Variant("repeats", "videorate to 30", behind="videorate ! video/x-raw,framerate=30/1 !")
+    yield Variant("repeats", "videorate to 60", behind="videorate ! video/x-raw,framerate=60/1 !")
+    interlaced = ["-flags", "+ildct+ilme", "-top", 1]
+    for crf in (18, 23):
+        yield Variant("fields", f"3:2 telecine, flagged, crf {crf}", "telecine=pattern=23",
+                      x264(crf, *interlaced))
+        yield Variant("fields", f"3:2 telecine, not flagged, crf {crf}",
+                      "telecine=pattern=23,setfield=prog", x264(crf))
+        yield Variant("fields", f"interlaced, flagged, crf {crf}", "tinterlace=interleave_top",
+                      x264(crf, *interlaced), plain=every(2))
+        yield Variant("fields", f"interlaced, not flagged, crf {crf}",
+                      "tinterlace=interleave_top,setfield=prog", x264(crf), plain=every(2))
+    yield from captions()
+    fade_s = 0.5
+    after = [(SKIPPED_S + SETTLED_S, length_s)]
+    yield Variant("editing", "fade from black", f"fade=in:st=0:d={fade_s}", spans=after)
+    yield Variant("editing", "fade to black and back",
+                  f"fade=out:st={middle - fade_s}:d={fade_s}:enable='lt(t,{middle})',"
+                  f"fade=in:st={middle}:d={fade_s}:enable='gte(t,{middle})'",
+                  spans=[(SKIPPED_S, middle - fade_s), (middle + fade_s + SETTLED_S, length_s)])
+    yield Variant("light", "flicker of 10 %", "lutyuv=y='clip(val*1.1,0,255)':enable='mod(n,2)'")
+    yield Variant("light", "flicker of 10 %, slow",
+                  "eq=eval=frame:contrast='1+0.1*sin(9*t)'")
+    for crf in (29, 35):
+        yield Variant("coding", f"crf {crf}", coding=x264(crf))
+    for crf in (23, 35):
+        yield Variant("coding", f"grain, crf {crf}", "noise=c0s=10:c0f=t", x264(crf))
+    shake = "crop=iw-32:ih-32:x='16+8*sin(13*t)+5*sin(29*t+1)':y='16+7*sin(11*t+2)+5*sin(31*t)'"
+    yield Variant("camera", "hand-held shake", shake, plain="crop=iw-32:ih-32")
+    yield Variant("camera", "zoom",
+                  "scale=w='trunc(iw*(1+0.04*t)/2)*2':h='trunc(ih*(1+0.04*t)/2)*2':eval=frame,crop=%s" %
+                  "{w}:{h}")
+    ramp = "setpts='PTS*(1.25-0.25*sin(2*T))'"
+    yield Variant("camera", "speed ramp, resampled", f"{ramp},fps=24", plain=ramp)
+
+
+def freeze(folder, film, player, length_s):
+    """A second in which the picture stands, then the film goes on."""
+    middle = length_s / 2
+    at = round(middle * RATE)
+    out = folder / "variant.mkv"
+    ffmpeg("-i", film, "-vf", f"loop=loop={RATE}:size=1:start={at},setpts=N/{RATE}/TB", *LOSSLESS, out)
+    force = player.force(out)
+    moved = [round(1000 * (at + RATE) / RATE), round(1000 * at / RATE)]
+    shifted = force[:moved[1]] + force[moved[0]:]
+    still = force[moved[1] + 150:moved[0] - 60]
+    return shifted, [(SKIPPED_S, middle - 0.05), (middle + SETTLED_S, length_s)], still
+
+
+def cuts(folder, film, player, plain, length_s):
+    """Shots of a second, in turns from the film and its mirror image."""
+    mirror, out = folder / "mirror.mkv", folder / "variant.mkv"
+    ffmpeg("-i", film, "-vf", "hflip", *LOSSLESS, mirror)
+    ffmpeg("-i", film, "-i", mirror, "-filter_complex",
+           f"[0][1]blend=all_expr='if(lt(mod(T,2),1),A,B)'", *LOSSLESS, out)
+    mirrored = player.force(mirror)
+    expected = [(a if (t // 1000) % 2 == 0 else b) for t, (a, b) in enumerate(zip(plain, mirrored))]
+    spans = [(max(k, SKIPPED_S) + SETTLED_S, k + 1 - 0.05) for k in range(math.floor(length_s))]
+    return player.force(out), expected, spans
+
+
+def dissolve(folder, film, player, plain, length_s):
+    mirror, out = folder / "mirror.mkv", folder / "variant.mkv"
+    middle, fade_s = length_s / 2, 0.5
+    ffmpeg("-i", film, "-i", mirror, "-filter_complex",
+           f"[0][1]blend=all_expr='A+(B-A)*clip((T-{middle - fade_s})/{fade_s},0,1)'", *LOSSLESS, out)
+    mirrored = player.force(mirror)
+    expected = [(a if t < 1000 * middle else b) for t, (a, b) in enumerate(zip(plain, mirrored))]
+    return player.force(out), expected, [(SKIPPED_S, middle - fade_s - 0.05), (middle + SETTLED_S, length_s)]
+
+
+def norm(v):
+    return math.sqrt(sum(x * x for x in v))
+
+
+def compare(force, plain, spans):
+    """strength, angle in degrees, steps."""
+    ff = pp = fp = steps = plain_steps = 0.0
+    for begin_s, end_s in spans:
+        first, end = round(begin_s / SAMPLE_S), min(round(end_s / SAMPLE_S), len(force), len(plain))
+        for i in range(max(first, 1), end):
+            f, p = force[i], plain[i]
+            ff += sum(x * x for x in f)
+            pp += sum(x * x for x in p)
+            fp += sum(x * y for x, y in zip(f, p))
+            steps += sum((x - y) ** 2 for x, y in zip(f, force[i - 1]))
+            plain_steps += sum((x - y) ** 2 for x, y in zip(p, plain[i - 1]))
+    if pp == 0 or ff == 0:
+        return 0.0, 180.0, 0.0
+    angle = math.degrees(math.acos(max(-1.0, min(1.0, fp / math.sqrt(ff * pp)))))
+    return math.sqrt(ff / pp), angle, math.sqrt(steps / plain_steps)
+
+
+def span_of_encodes(film, player, out, plain, spans):
+    """What usual coding does to strength and angle."""
+    strength = angle = 0.0
+    for crf in (17, 20, 23):
+        ffmpeg("-i", film, *x264(crf), out)
+        compared = compare(player.force(out), plain, spans)
+        strength = max(strength, abs(compared[0] - 1))
+        angle = max(angle, compared[1])
+    return strength, angle
+
+
+class Table:
+    def __init__(self):
+        self.rows = self.within = 0
+        self.strength, self.angle = STRENGTH, ANGLE
+
+    def begin(self, name):
+        self.strength, self.angle = STRENGTH, ANGLE
+        print(f"\n### {name}\n")
+        print("| | film | strength | angle | steps | rest, N | |\n|---|---|---|---|---|---|---|", flush=True)
+
+    def add(self, variant_group, name, compared=None, rest_N=None):
+        cells = ["", "", ""]
+        fits = True
+        if compared:
+            strength, angle, steps = compared
+            cells = [f"{strength:.2f}", f"{angle:.0f}", f"{steps:.2f}"]
+            fits = abs(strength - 1) <= self.strength and angle < self.angle and steps <= STEPS
+        if rest_N is not None:
+            fits = fits and rest_N < REST_N
+        cells.append("" if rest_N is None else f"{rest_N:.3f}")
+        self.rows += 1
+        self.within += fits
+        print("|", " | ".join([variant_group, name, *cells, "" if fits else "**outside**"]), "|", flush=True)
+
+
+def probe(film):
+    """Width, height and length in seconds."""
+    out = subprocess.run(
+        ["ffprobe", "-v", "error", "-select_streams", "v:0", "-count_packets", "-show_entries",
+         "stream=width,height,nb_read_packets", "-of", "csv=p=0", film],
+        check=True, capture_output=True, text=True).stdout.strip().split(",")
+    return int(out[0]), int(out[1]), int(out[2]) / RATE
+
+
+def measure(name, film, player, folder, table):
+    width, height, length_s = probe(film)
+    plain = player.force(film)
+    counted = plain[round(SKIPPED_S / SAMPLE_S):]
+    has_object = max(map(norm, counted), default=0) > 0.05
+    table.begin(f"{name}: {width}×{height}, {length_s:.1f} s, "
+                + (f"{math.sqrt(sum(norm(f) ** 2 for f in counted) / len(counted)):.2f} N rms"
+                   if has_object else "only the camera moves"))
+    whole = [(SKIPPED_S, length_s - 0.1)]
+    out = folder / "variant.mkv"
+
+    if has_object:
+        strength, angle = span_of_encodes(film, player, out, plain, whole)
+        table.strength += strength
+        table.angle += angle
+        table.add("coding", "crf 17 … 23, at most", (1 + strength, angle, 1))
+
+    def add(group, title, force, expected, spans):
+        if has_object:
+            table.add(group, title, compare(force, expected, spans))
+        else:
+            table.add(group, title, rest_N=max(map(norm, force)))
+
+    for variant in variants(length_s):
+        variant.filters = variant.filters.replace("{w}", str(width)).replace("{h}", str(height))
+        variant.make(film, out)
+        expected = plain
+        if variant.plain and has_object:
+            other = folder / "plain.mkv"
+            ffmpeg("-i", film, "-vf", variant.plain, "-fps_mode", "vfr", *LOSSLESS, other)
+            expected = player.force(other)
+        add(variant.group, variant.name, player.force(out, variant.behind), expected,
+            variant.spans or whole)
+    shifted, spans, still = freeze(folder, film, player, length_s)
+    table.add("editing", "frozen for a second",
+              compare(shifted, plain, spans) if has_object else None, rest_N=max(map(norm, still)))
+    for title, make in (("cuts", cuts), ("dissolve", dissolve)):
+        force, expected, spans = make(folder, film, player, plain, length_s)
+        add("editing", title, force, expected, spans)
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit("usage: pathologies.py BUILD [CLIP...]")
+    for tool in ("ffmpeg", "ffprobe", "gst-launch-1.0"):
+        if not shutil.which(tool):
+            sys.exit(f"pathologies.py: needs {tool}")
+    build = Path(sys.argv[1]).resolve()
+    table = Table()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        player = Player(build, folder)
+        clips = [Path(c) for c in sys.argv[2:]]
+        films = []
+        for clip in clips:
+            film = folder / f"plain-{clip.stem}.mkv"
+            ffmpeg("-i", clip, "-an", "-vf", f"setpts=N/{RATE}/TB,scale=in_range=auto:out_range=tv,format=yuv420p",
+                   "-r", RATE, *LOSSLESS, film)
+            films.append((clip.stem, film))
+        for film in [] if clips else make_films(folder):
+            films.append((f"made: {film.stem}", film))
+        for title, film in films:
+            measure(title, film, player, folder, table)
+    print(f"\n{table.within} of {table.rows} within.")
+
+
+main()

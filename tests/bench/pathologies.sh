@@ -1,0 +1,8 @@
+#!/bin/sh
+# The table of docs/films.md: pathologies.sh BUILD [CLIP...]. What it measures is said in pathologies.py; without a CLIP
+# nothing has to be downloaded. Needs ffmpeg.
+set -eu
+cd "$(dirname "$0")/../.."
+build=${1:?usage: tests/bench/pathologies.sh BUILD [CLIP...]}
+meson compile -C "$build" gstspidar
+exec python3 tests/bench/pathologies.py "$@"

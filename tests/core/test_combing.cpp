@@ -1,0 +1,76 @@
+// Interlaced films that say they are not: the combs of what moves between two fields give them
+// away.
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/field/combing.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+namespace {
+
+using test::Picture;
+using test::Texture;
+
+/// A disc of 5 % of the picture that moves by `step_px` from the first field to the second.
+Picture fields(double step_px, int width = 640, int height = 480) {
+  static const Texture wall(1, 5);
+  static const Texture disc(2, 5);
+  Picture picture(width, height);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 3);
+  const double radius_px = std::sqrt(0.05 * width * height / std::acos(-1.0));
+  picture.fill([&](double x, double y) {
+    const double moved_px = static_cast<int>(y) % 2 == 0 ? 0 : step_px;
+    const bool inside = std::hypot(x - width / 2.0 - moved_px, y - height / 2.0) < radius_px;
+    const double grey = inside ? disc.at(x - moved_px, y) : wall.at(x, y);
+    return std::min(255.0, std::max(0.0, grey + noise(random)));
+  });
+  return picture;
+}
+
+TEST(Combing, VectorsGiveTheShareOfTheDefinition) {
+  std::vector<uint8_t> lines;
+  std::mt19937 random(1);
+  for (const int width : {16, 47, 640}) {
+    Picture noise(width, 480);
+    noise.fill([&](double, double) { return static_cast<double>(random() % 256); });
+    for (const Picture& picture : {noise, fields(6, width)}) {
+      const double share = plain::comb_share(picture.view(), lines);
+      EXPECT_GT(share, 0);
+      EXPECT_EQ(comb_share(picture.view(), lines), share);
+    }
+  }
+}
+
+TEST(Combing, AFilmIsTakenForInterlacedFromItsFirstCombOn) {
+  Combing combing;
+  const Picture whole = fields(0);
+  EXPECT_FALSE(combing.see(whole.view())) << "nothing has moved";
+  EXPECT_TRUE(combing.see(fields(6).view()));
+  // A telecined film has whole pictures in between, and a still shot shows nothing of its fields.
+  for (int n = 0; n < 100; ++n) EXPECT_TRUE(combing.see(whole.view()));
+}
+
+TEST(Combing, AFilmThatIsNotAnyMoreIsTakenForWhatItIs) {
+  Combing combing;
+  ASSERT_TRUE(combing.see(fields(6).view()));
+  const Picture whole = fields(0);
+  int frames = 0;
+  while (combing.see(whole.view()) && frames < 1000) ++frames;
+  EXPECT_GT(frames, 5 * 24) << "a still part of five seconds";
+  EXPECT_LT(frames, 15 * 24);
+}
+
+TEST(Combing, LargeFramesAreReducedByOneFieldAnyway) {
+  Combing combing;
+  EXPECT_FALSE(combing.see(fields(12, 1920, 1080).view()));
+}
+
+}  // namespace
+}  // namespace spidar
