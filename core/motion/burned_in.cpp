@@ -71,9 +71,10 @@ void BurnedIn::look(const BlockField& field, const Block& block) {
     sign = Sign::kStays;
   } else if (own.residual > unexplained_grey2_) {
     const bool in_place = moved_px < kInPlace_px;
-    sign = stays_beside(field, block)       ? Sign::kStays
-           : in_place && !block.is_expected ? Sign::kInPlace
-                                            : Sign::kUnexplained;
+    sign = block.is_expected            ? Sign::kUnexplained
+           : stays_beside(field, block) ? Sign::kStays
+           : in_place                   ? Sign::kInPlace
+                                        : Sign::kUnexplained;
   }
 }
 
