@@ -134,6 +134,7 @@ void append_json(const FrameAnalysis& frame, int64_t running_time_ns, int64_t st
       .field("width_px", frame.width)
       .field("height_px", frame.height)
       .field("restarted", frame.restarted)
+      .field("repeated", frame.same_picture)
       .field("features", frame.features);
   write(json.key("motion"), frame.motion);
   json.key("wrench")

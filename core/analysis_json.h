@@ -16,8 +16,8 @@ struct JsonOptions {
 /// Appends one JSON object and a line end. Keys carry their units; positions are pixels from the
 /// centre of the frame, x right, y down:
 ///
-///     running_time_ns, stream_time_ns, interval_ns, width_px, height_px, restarted, features,
-///     motion: {velocity_px_s: [x, y], growth_1_s, roll_rad_s, tracked},
+///     running_time_ns, stream_time_ns, interval_ns, width_px, height_px, restarted, repeated,
+///     features, motion: {velocity_px_s: [x, y], growth_1_s, roll_rad_s, tracked},
 ///     wrench: {force_N: [x, y, z], torque_Nm: [x, y, z]},
 ///     background: {model, shift_px, linear: [[xx, xy], [yx, yy]], perspective_1_px, sigma_px,
 ///                  coverage} or null,
@@ -26,6 +26,7 @@ struct JsonOptions {
 ///     points: [[id, x, y, moved x, moved y], …] where they are in this frame, if asked for
 ///
 /// (see ImageMotion, MotionModel and MovingObject; an object's velocity is against the background).
+/// `repeated`: the frame shows the picture before again, and everything else is that picture's.
 /// Numbers in the "C" locale, as short as they can be read back exactly; what is not finite, which
 /// JSON has no number for, is null. Does not allocate when `line` has the capacity.
 SPIDAR_API void append_json(const FrameAnalysis& frame, int64_t running_time_ns,

@@ -88,6 +88,7 @@ struct MotionAnalyzer::Impl {
 FrameAnalysis MotionAnalyzer::Impl::wait() const {
   FrameAnalysis analysis = latest;
   analysis.restarted = false;
+  analysis.same_picture = true;
   // From zero on there is nothing that could go on.
   analysis.repeated = !analysis.wrench.stacked().isZero(0);
   return analysis;
@@ -140,6 +141,7 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
     const Cadence::Step step = impl_->cadence.see(picture_of(repeated, alike), running_time_ns);
     if (step.waits) return impl_->wait();
     analysis.interval_ns = std::max(step.interval_ns, kLeastInterval_ns);
+    analysis.same_picture = repeated || alike;
   }
   const SceneMotion scene =
       impl_->motion.estimate(settings.motion, frame, impl_->reduced, {tracked, impl_->own_points()},
@@ -186,6 +188,7 @@ std::optional<FrameAnalysis> MotionAnalyzer::repeat(int64_t running_time_ns) {
   impl_->filter.stop();
   impl_->latest.motion = {};
   impl_->latest.wrench = {};
+  impl_->latest.same_picture = true;
   return impl_->latest;
 }
 

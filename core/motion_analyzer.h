@@ -47,6 +47,9 @@ struct FrameAnalysis {
   /// The picture before is shown again, and may yet belong to something that moves: motion and
   /// wrench are those of the frame before.
   bool repeated = false;
+  /// The frame shows the picture before again, whether that waits (`repeated`) or rests: the same
+  /// pixels, or what the noise of coding has made of them.
+  bool same_picture = false;
   /// The time in which the motion happened, see Cadence: between two pictures, which may be more
   /// than two frames apart; 0 after a restart.
   int64_t interval_ns = 0;

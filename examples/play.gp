@@ -31,7 +31,7 @@ plot frames using 1:4 title "x, right", frames using 1:5 title "y, up"
 
 wanted(axis) = axis . " wanted"
 delivered(axis) = axis . " at the grip"
-# What a hand does not feel: kFelt_N of the player.
+# What a hand does not feel: kFeltForce_N of core/force/force_limit.h.
 set object 1 rectangle from graph 0, first -0.04 to graph 1, first 0.04 behind \
     fillcolor rgb "#ececec" fillstyle solid noborder
 set ylabel "force, N"

@@ -159,6 +159,7 @@ void MotionEngine::set_max_force(double max_force_N) {
 
 void MotionEngine::set_muted(bool muted) {
   schedule_.set_muted(muted);
+  limit_watch_.set_muted(muted);
 }
 
 void MotionEngine::flush() {
@@ -189,6 +190,7 @@ void MotionEngine::refresh_clock() {
 GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
+  describe_limit(force_limit(), structure);
   const std::lock_guard<std::mutex> lock(session_mutex_);
   if (session_) {
     describe_session(*session_, structure);
@@ -197,6 +199,16 @@ GstStructure* MotionEngine::stats() const {
                       nullptr);
   }
   return structure;
+}
+
+ForceLimit MotionEngine::force_limit() const {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  return limit_watch_.limit(open_loop(), true);
+}
+
+std::optional<LoopSnapshot> MotionEngine::open_loop() const {
+  if (!session_) return std::nullopt;
+  return session_->loop().snapshot();
 }
 
 std::optional<Eigen::Vector2d> MotionEngine::grip_place() const {
@@ -259,6 +271,7 @@ void MotionEngine::restart_timing() {
     schedule_.restart();
     if (follower_) follower_->set_skipped(0);
   }
+  limit_watch_.forget();
   last_running_ns_ = -1;
   frames_in_segment_ = 0;
   last_interval_ns_ = 0;
@@ -284,8 +297,10 @@ void MotionEngine::pass_gap(GstClockTime running_time) {
   if (analysis) {
     schedule_.add(
         {running_ns, WrenchTimeline::hold_after(since_ns), analysis->wrench, analysis->repeated});
+    limit_watch_.repeat(schedule_.at_sink_ns(running_ns), analysis->wrench);
   } else {
     run_out(running_time);
+    limit_watch_.repeat(schedule_.at_sink_ns(running_ns), Wrench());
   }
   last_paced_ns_ = paced_ns;
   last_running_ns_ = running_ns;
@@ -363,9 +378,11 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     schedule_.add({running_ns, WrenchTimeline::hold_after(since_ns), report.analysis.wrench,
                    report.analysis.repeated});
   }
+  limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis, settings.motion);
+  report.limit = limit_watch_.limit(open_loop(), false);
   if (trace_.is_open()) {
-    report.trace_failed =
-        !trace_.write(running_ns, static_cast<int64_t>(report.stream_time), report.analysis);
+    report.trace_failed = !trace_.write(running_ns, static_cast<int64_t>(report.stream_time),
+                                        report.analysis, report.limit);
   }
   stats_.add(report.analysis, report.took_ns);
   return report;

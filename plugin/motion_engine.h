@@ -15,6 +15,7 @@
 #include "plugin/grip_pointer.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/reports/frame_trace.h"
+#include "plugin/reports/limit_watch.h"
 #include "plugin/reports/motion_stats.h"
 #include "plugin/timing/playback_follower.h"
 #include "plugin/timing/wrench_schedule.h"
@@ -41,8 +42,9 @@ struct FrameReport {
   GstClockTime running_time = GST_CLOCK_TIME_NONE;
   GstClockTime stream_time = GST_CLOCK_TIME_NONE;
   FrameAnalysis analysis;
-  int64_t took_ns = 0;        ///< the analysis
-  bool trace_failed = false;  ///< the trace could not be written and was closed
+  int64_t took_ns = 0;                   ///< the analysis
+  ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame
+  bool trace_failed = false;             ///< the trace could not be written and was closed
 };
 
 /// Analysis, trace and haptic session of one element. Methods are grouped by the thread they belong
@@ -88,6 +90,8 @@ class MotionEngine {
   /// Looks at the pipeline's clock now; a thread does that by itself.
   void refresh_clock();
   GstStructure* stats() const;
+  /// What has kept the force from being felt in the last second of what is on the screen.
+  ForceLimit force_limit() const;
   /// False with device=none or while closed.
   bool look_at_device(DeviceView& view) const;
   /// Null with device=none or while closed.
@@ -121,6 +125,8 @@ class MotionEngine {
   LoopSnapshot loop_snapshot() const;
 
  private:
+  /// Nothing while no device is open.
+  std::optional<LoopSnapshot> open_loop() const;
   /// Time of a frame on a scale on which the distance to the last frame is that of showing them.
   int64_t pace(int64_t running_ns);
 
@@ -147,6 +153,7 @@ class MotionEngine {
   int64_t last_interval_ns_ = 0;
 
   MotionStats stats_;
+  LimitWatch limit_watch_;
 };
 
 }  // namespace spidar

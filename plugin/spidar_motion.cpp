@@ -21,7 +21,10 @@
  * `running-time`, `duration` (#GstClockTime), `features`, `tracked` (uint), `velocity-x`,
  * `velocity-y` (pixels of the frame per second of running time; x right, y down), `force-x`,
  * `force-y`, `force-z` (newtons; x right, y up, z towards the viewer), `torque-x`, `torque-y`,
- * `torque-z` (newton metres).
+ * `torque-z` (newton metres), `repeated` (boolean: the frame shows the picture before again),
+ * `limit` (string: what has kept the force of the last second from being felt, "none" when it was)
+ * and, unless that is "none", `limit-reason` (string: the same as a sentence). `stats` has the last
+ * two for the picture on the screen.
  *
  * ## Example launch lines
  * |[

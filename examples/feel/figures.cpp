@@ -32,11 +32,6 @@ double seen_px_s(const ImageMotion& motion, int height) {
   return std::hypot(velocity_px_s.norm(), kRim_px * motion.growth_1_s, kRim_px * motion.roll_rad_s);
 }
 
-/// Size of force and torque together, N.
-double size_N(const Wrench& wrench) {
-  return std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / kTorqueArm_m);
-}
-
 }  // namespace
 
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -80,9 +75,9 @@ FeelFigures feel(const Film& film, const FilterSettings& filter_settings,
     speeds.push_back(speed_px_s);
     forces.push_back(force_N);
     figures.mean_force_N += frame.interval_s * force_N;
-    if (force_N >= kLeastFelt_N) figures.felt += frame.interval_s;
+    if (force_N >= kFeltForce_N) figures.felt += frame.interval_s;
     if (force_N >= kAtLimit * controller_settings.max_force_N) figures.at_limit += frame.interval_s;
-    if (change_N > kWeberFraction * larger_N && change_N > kLeastFelt_N) {
+    if (change_N > kWeberFraction * larger_N && change_N > kFeltForce_N) {
       figures.told_apart += frame.interval_s;
     }
   }

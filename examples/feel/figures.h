@@ -3,15 +3,14 @@
 
 #include <vector>
 
+#include "core/force/force_limit.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 #include "examples/feel/film.h"
 
 namespace spidar {
 
-/// Smallest force that is felt, mean of wrist, elbow and shoulder (IEEE Trans. Haptics 2013, PubMed
-/// 24808327), and the Weber fraction of force, about that of the same paper.
-constexpr double kLeastFelt_N = 0.04;
+/// The Weber fraction of force, about that of the paper that kFeltForce_N is from.
 constexpr double kWeberFraction = 0.10;
 /// What is slower than this, in px/s of a frame 480 lines high, does not count as moving.
 constexpr double kMoving_px_s = 1;
@@ -20,10 +19,10 @@ constexpr double kAtLimit = 0.95;  ///< of the maximum force
 /// Shares of the time in which something moves, 0 … 1.
 struct FeelFigures {
   double moving = 0;        ///< share of the whole film
-  double felt = 0;          ///< the force is at least kLeastFelt_N
+  double felt = 0;          ///< the force is at least kFeltForce_N
   double at_limit = 0;      ///< the force is at least kAtLimit of the maximum: speeds feel alike
   double told_apart = 0;    ///< the force differs from that of the frame before by more than …
-                            ///< … kWeberFraction of the larger one, and by kLeastFelt_N
+                            ///< … kWeberFraction of the larger one, and by kFeltForce_N
   double rank = 0;          ///< Spearman's correlation of seen speed and size of the force
   double mean_force_N = 0;  ///< while something moves
 };

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "core/force/force_limit.h"
 #include "examples/gnuplot.h"
+#include "examples/play/unfelt.h"
 
 namespace {
 
@@ -31,6 +33,19 @@ void print_row(const char* name, const Histogram& values) {
             values.quantile(0.999), values.max());
 }
 
+/// Instead of numbers near zero, that there was no force.
+void print_forces(const SessionRecord::Numbers& numbers) {
+  const auto is_felt = [](const Histogram& force_N) {
+    return force_N.count() > 0 && force_N.max() >= spidar::kFeltForce_N;
+  };
+  if (!is_felt(numbers.wanted_N) && !is_felt(numbers.delivered_N)) {
+    std::printf("%-26snone that a hand feels\n", "force");
+    return;
+  }
+  print_row("force wanted, N", numbers.wanted_N);
+  print_row("force at the grip, N", numbers.delivered_N);
+}
+
 double number_of(const GstStructure* stats, const char* name) {
   double value = NAN;
   gst_structure_get_double(stats, name, &value);
@@ -52,6 +67,7 @@ std::string to_text(const GValue* value) {
 
 /// Continues a paragraph of "name value" pairs; `column` is where it stands.
 gboolean print_field(GQuark name, const GValue* value, void* column) {
+  if (name == g_quark_from_static_string("limit-reason")) return TRUE;  // was said above
   const std::string pair = std::string(g_quark_to_string(name)) + " " + to_text(value);
   auto& at = *static_cast<size_t*>(column);
   constexpr size_t kWidth = 78;
@@ -79,8 +95,7 @@ void print_report(const SessionRecord::Numbers& numbers, const GstStructure* sta
               numbers.duration_s, numbers.shown);
   std::printf("%-26s%10s%10s%10s%10s%10s\n", "", "median", "95 %", "99 %", "99.9 %", "maximum");
   print_row("speed, px/s", numbers.speed_px_s);
-  print_row("force wanted, N", numbers.wanted_N);
-  print_row("force at the grip, N", numbers.delivered_N);
+  print_forces(numbers);
   print_row("analysis, ms a frame", number_of(stats, "analysis-ms-median"),
             number_of(stats, "analysis-ms-p95"), NAN, NAN, number_of(stats, "analysis-ms-max"));
   print_row("loop wakes up late, ms", numbers.lateness_ms);
@@ -89,7 +104,7 @@ void print_report(const SessionRecord::Numbers& numbers, const GstStructure* sta
 
   if (numbers.ticks > 0) {
     std::printf(
-        "\nForce above %.2f N, which a hand feels: %.1f %% of the time.\n", kFelt_N,
+        "\nForce above %.2f N, which a hand feels: %.1f %% of the time.\n", spidar::kFeltForce_N,
         100.0 * static_cast<double>(numbers.felt_ticks) / static_cast<double>(numbers.ticks));
   }
   const Histogram& skew_ms = numbers.skew.signed_ms();
@@ -98,6 +113,8 @@ void print_report(const SessionRecord::Numbers& numbers, const GstStructure* sta
                 " frames; positive when the force is later.\n",
                 skew_ms.min(), skew_ms.max(), skew_ms.count());
   }
+  const char* const limit = gst_structure_get_string(stats, "limit");
+  std::printf("%s", unfelt_text(numbers.limits, limit ? limit : "").c_str());
   std::printf("\nThe element says:\n");
   size_t column = 0;
   gst_structure_foreach(stats, print_field, &column);

@@ -2,9 +2,16 @@
 
 #include <cmath>
 
+#include "core/force/force_limit.h"
+
 namespace {
 
-enum MotionColumn : size_t { kRunningTime, kVelocity, kWanted = kVelocity + 2 };
+enum MotionColumn : size_t {
+  kRunningTime,
+  kVelocity,
+  kWanted = kVelocity + 2,
+  kLimit = kWanted + 3
+};
 
 enum HapticColumn : size_t {
   kMonotonic,
@@ -24,8 +31,13 @@ double seconds(int64_t ns) {
 }  // namespace
 
 std::vector<std::string> SessionRecord::motion_columns() {
-  return {"running_time_ns", "velocity_x_px_s", "velocity_y_px_s",
-          "force_x_N",       "force_y_N",       "force_z_N"};
+  return {"running_time_ns",
+          "velocity_x_px_s",
+          "velocity_y_px_s",
+          "force_x_N",
+          "force_y_N",
+          "force_z_N",
+          "limit"};
 }
 
 std::vector<std::string> SessionRecord::haptic_columns() {
@@ -51,6 +63,7 @@ void SessionRecord::add_motion(const TraceReader::Fields& row) {
   }
   last_frame_ns_ = frame_ns;
   ++numbers_.frames;
+  ++numbers_.limits[std::string(row[kLimit])];
   numbers_.speed_px_s.add(speed_px_s);
   numbers_.wanted_N.add(std::hypot(wanted_N[0], wanted_N[1], wanted_N[2]));
   numbers_.frames_curve.add(seconds(frame_ns), {position_px_[0], position_px_[1], velocity_px_s[0],
@@ -69,7 +82,7 @@ void SessionRecord::add_haptic(const TraceReader::Fields& row) {
   now_.running_ns = running_ns;
   const double delivered_N = std::hypot(now_.force_N[0], now_.force_N[1], now_.force_N[2]);
   ++numbers_.ticks;
-  if (delivered_N > kFelt_N) ++numbers_.felt_ticks;
+  if (delivered_N >= spidar::kFeltForce_N) ++numbers_.felt_ticks;
   numbers_.delivered_N.add(delivered_N);
   std::array<double, 2 + kStrings> curve = {now_.force_N[0], now_.force_N[1]};
   for (size_t i = 0; i < kStrings; ++i) curve[2 + i] = to_number(row[kTension + i]);

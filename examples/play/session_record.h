@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -10,9 +11,6 @@
 #include "examples/play/series.h"
 #include "examples/play/skew.h"
 #include "examples/play/trace_reader.h"
-
-/// Smallest force that a hand feels: IEEE Trans. Haptics 2013, PubMed 24808327.
-constexpr double kFelt_N = 0.04;
 
 constexpr size_t kStrings = 8;
 
@@ -41,12 +39,13 @@ class SessionRecord {
   struct Numbers {
     uint64_t frames = 0;  ///< analysed
     uint64_t shown = 0;
-    double duration_s = 0;  ///< of the video that was played
+    double duration_s = 0;                   ///< of the video that was played
+    std::map<std::string, uint64_t> limits;  ///< how many frames, by the nick of spidar::ForceLimit
     Histogram speed_px_s;
     Histogram wanted_N;       ///< what the controller asks for, a frame
     Histogram delivered_N;    ///< what the strings give, a tick
     uint64_t ticks = 0;       ///< while playing
-    uint64_t felt_ticks = 0;  ///< of these, with more than kFelt_N
+    uint64_t felt_ticks = 0;  ///< of these, with kFeltForce_N or more
     Histogram lateness_ms;    ///< of the loop's wake-up
     Skew skew;
     Series<6> frames_curve;  ///< position [px], velocity [px/s], wanted force [N]; x, y of each

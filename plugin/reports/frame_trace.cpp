@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kHeader =
     "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
-    "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm\n";
+    "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit\n";
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -44,7 +44,7 @@ std::string FrameTrace::open(const std::string& path) {
 }
 
 void FrameTrace::append_csv(int64_t running_time_ns, int64_t stream_time_ns,
-                            const FrameAnalysis& frame) {
+                            const FrameAnalysis& frame, ForceLimit limit) {
   append(line_, running_time_ns);
   append(line_, stream_time_ns);
   append(line_, frame.features);
@@ -56,16 +56,16 @@ void FrameTrace::append_csv(int64_t running_time_ns, int64_t stream_time_ns,
                        torque.y(), torque.z()}) {
     append(line_, value);
   }
-  line_.back() = '\n';
+  line_.append(nick(limit)).push_back('\n');
 }
 
-bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns,
-                       const FrameAnalysis& frame) {
+bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
+                       ForceLimit limit) {
   line_.clear();
   if (json_) {
     append_json(frame, running_time_ns, stream_time_ns, {}, line_);
   } else {
-    append_csv(running_time_ns, stream_time_ns, frame);
+    append_csv(running_time_ns, stream_time_ns, frame, limit);
   }
   const SigpipeBlock no_sigpipe;
   if (std::fwrite(line_.data(), 1, line_.size(), file_) == line_.size()) return true;

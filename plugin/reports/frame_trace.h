@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "core/force/force_limit.h"
 #include "core/motion_analyzer.h"
 
 namespace spidar {
@@ -21,13 +22,15 @@ class FrameTrace {
   bool is_open() const { return file_ != nullptr; }
 
   /// False when the disk is full or gone: the trace is closed then.
-  bool write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame);
+  bool write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
+             ForceLimit limit);
 
   /// False when the last rows could not be written.
   bool close();
 
  private:
-  void append_csv(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame);
+  void append_csv(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
+                  ForceLimit limit);
 
   std::FILE* file_ = nullptr;
   bool json_ = false;

@@ -13,12 +13,14 @@ void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameRepo
       "stream-time", G_TYPE_UINT64, report.stream_time,                  //
       "running-time", G_TYPE_UINT64, report.running_time,                //
       "duration", G_TYPE_UINT64, GST_BUFFER_DURATION(buffer),            //
+      "repeated", G_TYPE_BOOLEAN, frame.same_picture ? TRUE : FALSE,     //
       "features", G_TYPE_UINT, static_cast<guint>(frame.features),       //
       "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),  //
       "velocity-x", G_TYPE_DOUBLE, velocity.x(), "velocity-y", G_TYPE_DOUBLE, velocity.y(),
       "force-x", G_TYPE_DOUBLE, force.x(), "force-y", G_TYPE_DOUBLE, force.y(), "force-z",
       G_TYPE_DOUBLE, force.z(), "torque-x", G_TYPE_DOUBLE, torque.x(), "torque-y", G_TYPE_DOUBLE,
       torque.y(), "torque-z", G_TYPE_DOUBLE, torque.z(), nullptr);
+  describe_limit(report.limit, s);
   gst_element_post_message(element, gst_message_new_element(GST_OBJECT(element), s));
 }
 

@@ -80,6 +80,11 @@ double WrenchSchedule::rate_multiplier() const {
   return instant_rate_.multiplier();
 }
 
+int64_t WrenchSchedule::at_sink_ns(int64_t running_ns) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return instant_rate_.at_sink(running_ns + skipped_before_ns_);
+}
+
 void WrenchSchedule::skip(GstClockTime duration) {
   const std::lock_guard<std::mutex> lock(mutex_);
   skipped_ns_ += static_cast<int64_t>(duration);

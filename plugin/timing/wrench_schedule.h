@@ -37,6 +37,8 @@ class WrenchSchedule {
   /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
   double rate_multiplier() const;
+  /// Running time at the sink of a frame that has this running time here, as far as is known.
+  int64_t at_sink_ns(int64_t running_ns) const;
   /// The sink has stepped over so much of running time: it shows what follows as much earlier.
   void skip(GstClockTime duration);
   /// Since running time began, in ns.

@@ -125,7 +125,12 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
                   loop.last.playing ? "" : "  not playing");
     next(kTextColor, line);
   }
-  next(note.empty() ? kTextColor : kFeltColor, note.empty() ? "h: help" : note.c_str());
+  if (note.empty()) {
+    next(state.limit == ForceLimit::kNone ? kTextColor : kFeltColor,
+         ("h: help    " + felt_line(state)).c_str());
+  } else {
+    next(kFeltColor, note.c_str());
+  }
   brush.list.PopClipRect();
 }
 

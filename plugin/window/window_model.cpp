@@ -28,6 +28,11 @@ void MotionHistory::forget() {
   largest_speed_px_s_ = 0;
 }
 
+std::string felt_line(const ElementState& state) {
+  if (state.limit == ForceLimit::kNone) return "felt";
+  return std::string("not felt: ") + sentence(state.limit);
+}
+
 double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height) {
   if (frame_height <= 0) return 0;
   const Eigen::Vector2d velocity_px_s =

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/force/force_limit.h"
 #include "core/motion_analyzer.h"
 #include "plugin/device_view.h"
 #include "plugin/overlay/scene_view.h"
@@ -32,6 +33,7 @@ struct ElementState {
   std::string name;
   std::optional<DeviceView> device;  ///< nothing with device=none or while it is closed
   std::vector<Setting> settings;
+  ForceLimit limit = ForceLimit::kNone;  ///< of the force in the last second
 
   /// Null when there is none of this name.
   const Setting* setting(const std::string& setting_name) const;
@@ -74,6 +76,9 @@ class MotionHistory {
   std::deque<Moment> moments_;
   double largest_speed_px_s_ = 0;
 };
+
+/// "felt", or "not felt: " and why, for the last line of the window.
+std::string felt_line(const ElementState& state);
 
 /// Speed that the gain controller would be given for this motion (see render_motion()), px/s.
 double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height);

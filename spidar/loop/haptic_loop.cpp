@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/force/force_limit.h"
+
 namespace spidar {
 namespace {
 
@@ -37,6 +39,7 @@ void HapticLoop::open() {
   device_.open();
   closing_.store(false, std::memory_order_release);
   counters_ = {};
+  unfelt_ns_ = 0;
   grip_.clear_counters();
   ticked_ = false;
   energise();
@@ -122,6 +125,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     exchange(record);
     untrusted_ns_ = grip_.trusted() ? 0 : untrusted_ns_ + passed_ns;
   }
+  unfelt_ns_ = size_N(record.commanded) < kFeltForce_N ? unfelt_ns_ + passed_ns : 0;
   record.device = state_;
   record.pose = grip_.pose();
   record.pose_residual_m = grip_.residual_m();
@@ -244,6 +248,7 @@ void HapticLoop::publish(const TickRecord& record) noexcept {
   LoopSnapshot snapshot{record, counters_, limits_};
   snapshot.pose_trouble = grip_.trouble();
   snapshot.untrusted_ns = untrusted_ns_;
+  snapshot.unfelt_ns = unfelt_ns_;
   snapshot.motor_heat = heat_.hottest();
   snapshot.held_back = tension_command_.held_back();
   snapshot_.store(snapshot);

@@ -150,6 +150,7 @@ class SPIDAR_API HapticLoop {
   double acknowledged_energised_ = 0;
   int errors_in_a_row_ = 0;
   int64_t untrusted_ns_ = 0;  // for how long the pose has not been trusted
+  int64_t unfelt_ns_ = 0;     // for how long no force was to be felt
   bool ticked_ = false;
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;

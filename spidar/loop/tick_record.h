@@ -103,7 +103,8 @@ struct LoopSnapshot {
   SafetyLimits limits;  ///< that held in the last tick
   PoseTrouble pose_trouble = PoseTrouble::kNotYet;
   int64_t untrusted_ns = 0;  ///< for how long the pose has not been trusted; 0 while it is
-  double motor_heat = 0;     ///< of the warmest motor, see MotorHeat
+  int64_t unfelt_ns = 0;  ///< for how long the command has been too weak to feel; 0 while it is not
+  double motor_heat = 0;  ///< of the warmest motor, see MotorHeat
   /// Less force than wanted: a string is out, or a motor is warm.
   bool held_back = false;
 };

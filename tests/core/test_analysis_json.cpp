@@ -48,6 +48,7 @@ TEST(AnalysisJson, HasEverythingThatWasFoundToTheLastBit) {
   EXPECT_EQ(j["width_px"], 320);
   EXPECT_EQ(j["height_px"], 180);
   EXPECT_EQ(j["restarted"], false);
+  EXPECT_EQ(j["repeated"], false);
   EXPECT_EQ(j["features"], frame.features);
   expect_vector(j["motion"]["velocity_px_s"], frame.motion.velocity_px_s);
   EXPECT_EQ(j["motion"]["tracked"], frame.motion.tracked);

@@ -1,4 +1,5 @@
 // The meta that travels with the frame, read as a program in C reads it.
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -74,6 +75,20 @@ TEST_F(Meta, SaysWhatTheMessageSaysAndTheTracks) {
     EXPECT_NEAR(track.to_y - track.from_y, -1, 0.5) << track.id;
   }
   gst_buffer_unref(out);
+}
+
+TEST_F(Meta, SaysWhichFramesRepeatThePictureBefore) {
+  open("attach-meta=true");
+  const std::array<double, 5> moved_px{0, 3, 3, 6, 6};
+  for (size_t n = 0; n < moved_px.size(); ++n) {
+    const GstClockTime at = static_cast<GstClockTime>(n) * kFrame;
+    ASSERT_EQ(h->push(make_frame(h->info(), moved_px[n], 0), at), GST_FLOW_OK);
+    GstBuffer* const out = gst_harness_pull(h->harness());
+    const bool repeated = n > 0 && moved_px[n] == moved_px[n - 1];
+    EXPECT_EQ(gst_buffer_repeats_spidar_motion(out) != FALSE, repeated) << n;
+    EXPECT_EQ(h->motions().back().repeated, repeated) << n;
+    gst_buffer_unref(out);
+  }
 }
 
 TEST_F(Meta, TheFirstFrameHasNothingToCompareWith) {

@@ -9,6 +9,7 @@
 #include "examples/play/histogram.h"
 #include "examples/play/series.h"
 #include "examples/play/skew.h"
+#include "examples/play/unfelt.h"
 
 namespace {
 
@@ -87,6 +88,35 @@ TEST(Series, ALongOneStaysSmallAndKeepsItsPeak) {
   // Bins double from a millisecond until 8000 of them span the 1000 s: at most 0.25 s wide, twice
   // that while they fill, and they are named after their first sample.
   EXPECT_NEAR(peak_s, 123.456, 0.5);
+}
+
+TEST(Unfelt, SaysNothingWhenEverythingIsFelt) {
+  EXPECT_EQ(unfelt_text({{"none", 100}}, "none"), "");
+  EXPECT_EQ(unfelt_text({}, ""), "");
+}
+
+TEST(Unfelt, IsOneSentenceWhenThereIsOneReason) {
+  EXPECT_EQ(unfelt_text({{"nothing-moves", 100}}, "nothing-moves"),
+            "Nothing was felt: Nothing moves in the picture.\n");
+}
+
+TEST(Unfelt, LeavesOutWhatWasBeforePlaying) {
+  EXPECT_EQ(unfelt_text({{"not-playing", 3}, {"device-starting", 2}, {"muted", 100}}, "muted"),
+            "Nothing was felt: The force is muted (mute=true).\n");
+  EXPECT_EQ(unfelt_text({{"not-playing", 3}, {"none", 100}}, "none"), "");
+}
+
+TEST(Unfelt, HasTheMostFrequentReasonFirstAndThatOfTheEndLast) {
+  EXPECT_EQ(unfelt_text({{"none", 499}, {"muted", 100}, {"nothing-moves", 400}, {"late", 1}},
+                        "nothing-moves"),
+            "Nothing was felt in 50.1 % of the frames:\n"
+            "40.0 %  Nothing moves in the picture.\n"
+            "10.0 %  The force is muted (mute=true).\n"
+            "Nothing was felt in the last second: Nothing moves in the picture.\n");
+}
+
+TEST(Unfelt, PassesOnAReasonThatItDoesNotKnow) {
+  EXPECT_EQ(unfelt_text({{"new-reason", 2}}, "new-reason"), "Nothing was felt: new-reason\n");
 }
 
 TEST(Skew, JoinsInEitherOrder) {

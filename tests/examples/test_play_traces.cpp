@@ -101,10 +101,12 @@ void add_haptic(SessionRecord& record, const std::string& line) {
 
 TEST(SessionRecord, MotionIsSummedUpwards) {
   SessionRecord record;
-  add_motion(record, "0,0,0,0,0,0");
-  add_motion(record, "500000000,30,-40,0.3,0.4,0");
+  add_motion(record, "0,0,0,0,0,0,nothing-to-compare");
+  add_motion(record, "500000000,30,-40,0.3,0.4,0,none");
   const SessionRecord::Numbers& numbers = record.numbers();
   EXPECT_EQ(numbers.frames, 2u);
+  EXPECT_EQ(numbers.limits.at("nothing-to-compare"), 1u);
+  EXPECT_EQ(numbers.limits.at("none"), 1u);
   EXPECT_DOUBLE_EQ(numbers.duration_s, 0.5);
   EXPECT_DOUBLE_EQ(numbers.speed_px_s.max(), 50.0);
   EXPECT_DOUBLE_EQ(numbers.wanted_N.max(), 0.5);

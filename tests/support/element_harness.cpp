@@ -28,7 +28,16 @@ MotionMessage parse_motion_message(GstMessage* message) {
       G_TYPE_DOUBLE, &f.x(), "force-y", G_TYPE_DOUBLE, &f.y(), "force-z", G_TYPE_DOUBLE, &f.z(),
       "torque-x", G_TYPE_DOUBLE, &t.x(), "torque-y", G_TYPE_DOUBLE, &t.y(), "torque-z",
       G_TYPE_DOUBLE, &t.z(), nullptr);
-  if (!complete) g_error("incomplete spidar-motion message: %s", gst_structure_to_string(s));
+  gboolean repeated = FALSE;
+  const char* const limit = gst_structure_get_string(s, "limit");
+  const bool says_more = limit && gst_structure_get_boolean(s, "repeated", &repeated);
+  if (!complete || !says_more)
+    g_error("incomplete spidar-motion message: %s", gst_structure_to_string(s));
+  m.repeated = repeated != FALSE;
+  m.limit = limit;
+  if (const char* const reason = gst_structure_get_string(s, "limit-reason")) {
+    m.limit_reason = reason;
+  }
   return m;
 }
 

@@ -22,6 +22,8 @@ struct MotionMessage {
   guint features = 0, tracked = 0;
   double velocity_x = 0, velocity_y = 0;
   Wrench wrench;
+  bool repeated = false;
+  std::string limit, limit_reason;  ///< the latter may be missing
 };
 MotionMessage parse_motion_message(GstMessage* message);
 

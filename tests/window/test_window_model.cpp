@@ -16,6 +16,13 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
+TEST(FeltLine, SaysWhyNothingIsFelt) {
+  ElementState state;
+  EXPECT_EQ(felt_line(state), "felt");
+  state.limit = ForceLimit::kCameraOnly;
+  EXPECT_EQ(felt_line(state), std::string("not felt: ") + sentence(ForceLimit::kCameraOnly));
+}
+
 TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
   for (const auto& [width, height] :
        {std::pair{1280, 800}, {640, 480}, {3840, 2160}, {20, 10}, {1, 1}, {0, 0}, {500, 2000}}) {

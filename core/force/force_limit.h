@@ -1,0 +1,88 @@
+/// Why there is no force to be felt.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/api.h"
+#include "core/motion/scene_motion.h"
+#include "core/wrench.h"
+
+namespace spidar {
+
+struct FrameAnalysis;
+
+/// The smallest force that a hand feels, the mean of wrist, elbow and shoulder: IEEE Trans. Haptics
+/// 2013, PubMed 24808327.
+constexpr double kFeltForce_N = 0.04;
+
+/// What keeps the force below kFeltForce_N. The first ones are reasons of the device and of the
+/// playback, which hold whatever the video shows; the others are reasons of the video.
+enum class ForceLimit {
+  kNone,  ///< nothing does: there is a force
+  kDeviceLost,
+  kDeviceStarting,
+  kGripUnknown,
+  kMuted,
+  kNotPlaying,
+  kNoFrames,
+  kNothingToCompare,
+  kRepeatedFrames,
+  kFewPictures,
+  kTooFewPoints,
+  kCameraOnly,
+  kNothingMoves,
+  kTooWeak,
+  kLate,
+  kNoDevice,
+};
+constexpr size_t kForceLimits = static_cast<size_t>(ForceLimit::kNoDevice) + 1;
+
+/// For programs: "none", "camera-only", …
+SPIDAR_API const char* nick(ForceLimit limit) noexcept;
+/// For people: a whole sentence. Empty for kNone.
+SPIDAR_API const char* sentence(ForceLimit limit) noexcept;
+
+/// Size of a wrench as one force: torque counts by the arm kTorqueArm_m, as render_motion() makes
+/// it.
+SPIDAR_API double size_N(const Wrench& wrench) noexcept;
+
+/// Reasons of the video, of one frame that was analysed for `motion`.
+SPIDAR_API ForceLimit limit_of(const FrameAnalysis& frame, MotionKind motion);
+
+/// The latest frames, and what limited the force of the last second of them. Not thread-safe. Takes
+/// no memory.
+class SPIDAR_API ForceLimitHistory {
+ public:
+  static constexpr int64_t kWindow_ns = 1'000'000'000;
+  /// More are forgotten: a second at 60 frames/s and 16 s of frames that wait to be shown.
+  static constexpr size_t kFrames = 1024;
+
+  /// A frame that is shown at `shown_ns`, with the size of its force. A time that does not rise
+  /// forgets those before.
+  void add(int64_t shown_ns, double force_N, ForceLimit limit) noexcept;
+
+  /// Of the frames shown in the second up to `now_ns`: kNone when one of them has a force that is
+  /// felt; kRepeatedFrames when all of them show the same picture; else the reason that most
+  /// pictures have.
+  ForceLimit limit(int64_t now_ns) const noexcept;
+
+  void forget() noexcept { count_ = 0; }
+
+ private:
+  struct Frame {
+    int64_t shown_ns = 0;
+    double force_N = 0;
+    ForceLimit limit = ForceLimit::kNone;
+  };
+  const Frame& latest(size_t i) const noexcept {
+    return frames_[(next_ + 2 * kFrames - 1 - i) % kFrames];
+  }
+
+  std::array<Frame, kFrames> frames_{};
+  size_t count_ = 0;
+  size_t next_ = 0;
+};
+
+}  // namespace spidar

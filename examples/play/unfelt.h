@@ -1,0 +1,12 @@
+/// Why nothing was felt.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+/// Lines that say in how many of the frames nothing was felt and why, the most frequent reason
+/// first, and why nothing was felt in the last second. `frames` counts frames by the nick of their
+/// spidar::ForceLimit, `last` is that of the last second; both may have nicks that are not known.
+/// Frames before the video played do not count. Empty when everything was felt.
+std::string unfelt_text(const std::map<std::string, uint64_t>& frames, const std::string& last);

@@ -1,0 +1,81 @@
+#include "plugin/reports/limit_watch.h"
+
+#include <algorithm>
+
+namespace spidar {
+namespace {
+
+/// A hand that moves a slack string about loses the pose for shorter than this.
+constexpr int64_t kGripLost_ns = 100'000'000;
+
+/// Nothing was felt for as long as is looked at, and there is no frame whose time it is.
+bool is_late(const LoopSnapshot& loop) {
+  return loop.unfelt_ns >= ForceLimitHistory::kWindow_ns &&
+         (loop.last.found == Found::kExpired || loop.last.found == Found::kNothing);
+}
+
+}  // namespace
+
+ForceLimit limit_of_device(const LoopSnapshot& loop, bool muted) {
+  switch (loop.last.device) {
+    case DeviceState::kLost:
+      return ForceLimit::kDeviceLost;
+    case DeviceState::kOpening:
+    case DeviceState::kClosing:
+    case DeviceState::kClosed:
+      return ForceLimit::kDeviceStarting;
+    case DeviceState::kRunning:
+    case DeviceState::kIdle:
+      break;
+  }
+  if (loop.untrusted_ns > kGripLost_ns) return ForceLimit::kGripUnknown;
+  if (muted) return ForceLimit::kMuted;
+  return loop.last.playing ? ForceLimit::kNone : ForceLimit::kNotPlaying;
+}
+
+void LimitWatch::add(int64_t shown_ns, const FrameAnalysis& frame, MotionKind motion) {
+  const ForceLimit limit = limit_of(frame, motion);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_.add(shown_ns, size_N(frame.wrench), limit);
+  newest_ns_ = shown_ns;
+}
+
+void LimitWatch::repeat(int64_t shown_ns, const Wrench& wrench) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_.add(shown_ns, size_N(wrench), ForceLimit::kRepeatedFrames);
+  newest_ns_ = shown_ns;
+}
+
+void LimitWatch::forget() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_.forget();
+  newest_ns_ = 0;
+}
+
+void LimitWatch::set_muted(bool muted) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  muted_ = muted;
+}
+
+ForceLimit LimitWatch::limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!loop) {
+    const ForceLimit of_video = frames_.limit(newest_ns_);
+    return of_video == ForceLimit::kNone ? ForceLimit::kNoDevice : of_video;
+  }
+  const ForceLimit of_device = limit_of_device(*loop, muted_);
+  if (of_device != ForceLimit::kNone) return of_device;
+  const int64_t screen_ns = loop->last.running_ns;
+  const int64_t now_ns = up_to_screen ? screen_ns : newest_ns_;
+  const ForceLimit of_video = frames_.limit(now_ns);
+  const bool due = now_ns <= screen_ns;
+  return of_video == ForceLimit::kNone && due && is_late(*loop) ? ForceLimit::kLate : of_video;
+}
+
+void describe_limit(ForceLimit limit, GstStructure* structure) {
+  gst_structure_set(structure, "limit", G_TYPE_STRING, nick(limit), nullptr);
+  if (limit == ForceLimit::kNone) return;
+  gst_structure_set(structure, "limit-reason", G_TYPE_STRING, sentence(limit), nullptr);
+}
+
+}  // namespace spidar

@@ -1,0 +1,46 @@
+/// Why nothing is felt: reasons of the video, the playback and the device together.
+#pragma once
+
+#include <mutex>
+#include <optional>
+
+#include <gst/gst.h>
+
+#include "core/force/force_limit.h"
+#include "core/motion_analyzer.h"
+#include "spidar/loop/tick_record.h"
+
+namespace spidar {
+
+/// A reason of the device or of the playback, which holds whatever the video shows; kNone when
+/// there is none. A device that is off because nothing was to be felt for minutes is none: it comes
+/// back with the force.
+ForceLimit limit_of_device(const LoopSnapshot& loop, bool muted);
+
+/// Thread-safe.
+class LimitWatch {
+ public:
+  /// A frame that the sink shows at the running time `shown_ns`.
+  void add(int64_t shown_ns, const FrameAnalysis& frame, MotionKind motion);
+  /// The same for a frame that has no picture and stands for the one before.
+  void repeat(int64_t shown_ns, const Wrench& wrench);
+  /// Running time begins anew.
+  void forget();
+  void set_muted(bool muted);
+
+  /// Of the last second up to the frame added last, or to the picture on the screen when that is
+  /// `up_to_screen`. `loop` is nothing while no device is open: then the reasons of the video come
+  /// first, for the device is missing by choice.
+  ForceLimit limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const;
+
+ private:
+  mutable std::mutex mutex_;
+  ForceLimitHistory frames_;
+  int64_t newest_ns_ = 0;
+  bool muted_ = false;
+};
+
+/// Adds limit (string, see nick()) and, unless that is "none", limit-reason (string: a sentence).
+void describe_limit(ForceLimit limit, GstStructure* structure);
+
+}  // namespace spidar
