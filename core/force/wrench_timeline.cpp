@@ -98,6 +98,25 @@ void WrenchTimeline::join_smoothly(Way& next) noexcept {
                     elapsed_s(last.from_ns, last.to_ns), elapsed_s(last.to_ns, next.to_ns));
 }
 
+int64_t WrenchTimeline::approach_after(int64_t interval_ns) noexcept {
+  const double share_ns = kApproachShare * static_cast<double>(interval_ns);
+  return std::max(std::min(kApproach_ns, interval_ns), static_cast<int64_t>(share_ns));
+}
+
+/// When `added`, which follows `before`, can be met if it became known just now.
+int64_t WrenchTimeline::soonest(const TimedWrench& before,
+                                const TimedWrench& added) const noexcept {
+  if (present_ns_ == INT64_MIN) return INT64_MIN;
+  constexpr int64_t kFar_ns = 1'000'000'000;
+  const auto interval_ns =
+      static_cast<int64_t>(std::min<uint64_t>(kFar_ns, elapsed_ns(before.time_ns, added.time_ns)));
+  const int64_t now_ns = std::min(present_ns_, INT64_MAX - kFar_ns);
+  const int64_t least_ns = now_ns + std::min(kApproach_ns, interval_ns);
+  if (added.wrench.stacked().isZero(0) || has_expired(before, present_ns_)) return least_ns;
+  const int64_t latest_ns = std::min(added.time_ns, INT64_MAX - kFar_ns) + kLatest_ns;
+  return std::max(least_ns, std::min(now_ns + approach_after(interval_ns), latest_ns));
+}
+
 bool WrenchTimeline::push(const TimedWrench& added) noexcept {
   Way next;
   next.frame = added;
@@ -109,11 +128,7 @@ bool WrenchTimeline::push(const TimedWrench& added) noexcept {
       if (!has_expired(last.frame, present_ns_)) hold_until(last.frame, added);
       return true;
     }
-    const int64_t approach_ns = static_cast<int64_t>(
-        std::min<uint64_t>(kApproach_ns, elapsed_ns(last.frame.time_ns, added.time_ns)));
-    const int64_t soonest_ns = present_ns_ == INT64_MIN
-                                   ? INT64_MIN
-                                   : std::min(present_ns_, INT64_MAX - kApproach_ns) + approach_ns;
+    const int64_t soonest_ns = soonest(last.frame, added);
     const bool late = std::max(soonest_ns, last.to_ns) > added.time_ns;
     // On its way to rest the grip feels nothing any more that a late frame could fade in over.
     const bool at_rest = present_ns_ >= last.to_ns && has_expired(last.frame, present_ns_);

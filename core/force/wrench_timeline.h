@@ -51,10 +51,19 @@ struct TimelineResult {
 class SPIDAR_API WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
-  /// A frame that is known less than this ahead of its time, or less than the interval to the frame
-  /// before where that is shorter, is met so long after it is known. A step would be felt as a
-  /// knock; late touch is noticed from 50 ms on only.
+  /// A frame that is known less than approach_after() ahead of its time is met so long after it is
+  /// known, for a step would be felt as a knock. To rest, and from it, it takes kApproach_ns.
   static constexpr int64_t kApproach_ns = 15'000'000;
+  /// Share of the interval between two frames: the less often pictures change, the more the force
+  /// changes at once, and the longer that takes. A force that changes during this share of the time
+  /// has 1 / √kApproachShare = 1.49 times the rms step of one that changes all the time.
+  static constexpr double kApproachShare = 0.45;
+  /// No frame is met later than this after its time, unless it became known too late for that. Late
+  /// touch is noticed from 50 ms on.
+  static constexpr int64_t kLatest_ns = 30'000'000;
+  /// kApproachShare of the interval to the frame before; at least kApproach_ns, or the interval
+  /// where that is shorter.
+  static int64_t approach_after(int64_t interval_ns) noexcept;
   /// No frame is to be held longer. TimedWrench::hold_ns may say otherwise: it is the caller's.
   static constexpr int64_t kLongestHold_ns = 100'000'000;
   /// TimedWrench::hold_ns of a frame that comes `interval_ns` after the one before, when no later
@@ -104,6 +113,7 @@ class SPIDAR_API WrenchTimeline {
 
   Way& way(size_t i) noexcept { return ways_[(first_ + i) % kCapacity]; }
   const Way& way(size_t i) const noexcept { return ways_[(first_ + i) % kCapacity]; }
+  int64_t soonest(const TimedWrench& before, const TimedWrench& added) const noexcept;
   /// Only now the slope at the last frame can be told, if its way is still to come.
   void join_smoothly(Way& next) noexcept;
   /// On the way `i` or, after it, at its frame.

@@ -170,7 +170,7 @@ TEST_P(RandomFrames, BecomeKnownWithoutAStepNorACorner) {
   constexpr double kStep_s = 1e-9 * kStep_ns;
   // On a way of T ≥ 1 ms over d ≤ 6 N: slope up to 1.5 d/T with level ends or 2 d/T with others,
   // bent by up to 18 d/T² (see above). One that fades in over others adds theirs, and twice the
-  // product of both slopes; of the frames of 15 ms, as many as ever fade at a time here: 4.
+  // product of both slopes; of the frames on their way, as many as ever fade at a time here: 4.
   constexpr double kSteepest = 4 * 2 * 6 / 1e-3;
   constexpr double kBent = 4 * 18 * 6 / 1e-6 + 2 * 1.5 / 1e-3 * kSteepest;
   constexpr double kRounding = 4 * 4e-15;
@@ -201,7 +201,7 @@ TEST_P(RandomFrames, BecomeKnownWithoutAStepNorACorner) {
 TEST(WrenchTimeline, MeetsInTimeWhatIsKnownAnApproachAhead) {
   WrenchTimeline timeline;
   timeline.push(timed(0, 1));
-  const int64_t known_ns = kFrame_ns - WrenchTimeline::kApproach_ns;
+  const int64_t known_ns = kFrame_ns - WrenchTimeline::approach_after(kFrame_ns);
   timeline.at(known_ns);
   timeline.push(timed(kFrame_ns, 3));
   EXPECT_EQ(timeline.at(kFrame_ns).found, Found::kExact);
@@ -209,19 +209,38 @@ TEST(WrenchTimeline, MeetsInTimeWhatIsKnownAnApproachAhead) {
 }
 
 TEST(WrenchTimeline, MeetsWhatIsKnownLaterAnApproachAfterwards) {
-  for (const int64_t late_ns : {-WrenchTimeline::kApproach_ns + 1, int64_t{0}, kFrame_ns / 4}) {
+  for (const int64_t late_ns :
+       {-WrenchTimeline::approach_after(kFrame_ns) + 1, int64_t{0}, kFrame_ns / 4}) {
     SCOPED_TRACE(late_ns);
     WrenchTimeline timeline;
     timeline.push(timed(0, 1, kHold_ns));
     const int64_t known_ns = kFrame_ns + late_ns;
     timeline.at(known_ns);
     timeline.push(timed(kFrame_ns, 3));
-    const int64_t met_ns = known_ns + WrenchTimeline::kApproach_ns;
+    const int64_t met_ns = known_ns + WrenchTimeline::approach_after(kFrame_ns);
     EXPECT_TRUE(same_bits(timeline.at(known_ns).wrench, wrench_of(1)));
     EXPECT_EQ(timeline.at(met_ns - 1).found, Found::kInterpolated);
     EXPECT_EQ(timeline.at(met_ns - 1).frame_time_ns, kFrame_ns);
     EXPECT_EQ(timeline.at(met_ns).found, Found::kHeld);
     EXPECT_TRUE(same_bits(timeline.at(met_ns).wrench, wrench_of(3)));
+  }
+}
+
+TEST(WrenchTimeline, TakesLongerWherePicturesChangeSeldomButNotToRest) {
+  constexpr int64_t kInterval_ns = 125'000'000;  // drawn on threes
+  for (const double next_N : {3.0, 0.0}) {
+    SCOPED_TRACE(next_N);
+    WrenchTimeline timeline;
+    timeline.push(timed(0, 1, 2 * kInterval_ns));
+    timeline.at(kInterval_ns);
+    timeline.push(next_N > 0 ? timed(kInterval_ns, next_N)
+                             : TimedWrench{kInterval_ns, 0, Wrench()});
+    const int64_t met_ns =
+        kInterval_ns + (next_N > 0 ? WrenchTimeline::kLatest_ns : WrenchTimeline::kApproach_ns);
+    EXPECT_EQ(timeline.at(met_ns - 1).found, Found::kInterpolated);
+    EXPECT_NE(timeline.at(met_ns).found, Found::kInterpolated);
+    const Wrench met = next_N > 0 ? wrench_of(next_N) : Wrench();
+    EXPECT_TRUE(same_bits(timeline.at(met_ns).wrench, met));
   }
 }
 
