@@ -233,19 +233,6 @@ DeviceState MotionEngine::device_state() const {
   return session_ ? session_->loop().snapshot().last.device : DeviceState::kClosed;
 }
 
-std::string MotionEngine::device_fault() const {
-  const LinkFault fault = session_ ? session_->device().health().last_fault : LinkFault::kNone;
-  return fault == LinkFault::kNone ? "" : std::string(": ") + to_string(fault);
-}
-
-int MotionEngine::faulty_string() const {
-  return session_ ? session_->loop().snapshot().last.faulty_string : -1;
-}
-
-LoopSnapshot MotionEngine::loop_snapshot() const {
-  return session_ ? session_->loop().snapshot() : LoopSnapshot{};
-}
-
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
   schedule_.change_rate(multiplier, running_time, upstream);

@@ -117,12 +117,6 @@ class MotionEngine {
   std::optional<Eigen::Vector2d> grip_place() const;
   /// kClosed with device=none.
   DeviceState device_state() const;
-  /// ": unplugged", ": time-out", …: what happened to the link last; empty when there is no link.
-  std::string device_fault() const;
-  /// −1 when all strings are well, or with device=none.
-  int faulty_string() const;
-  /// All zero without a device.
-  LoopSnapshot loop_snapshot() const;
 
  private:
   /// Nothing while no device is open.

@@ -4,10 +4,11 @@
 #include "plugin/provider/device_provider.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/track/spidar_extract.h"
+#include "plugin/track/spidar_sink.h"
 
 static gboolean plugin_init(GstPlugin* plugin) {
   return GST_ELEMENT_REGISTER(spidarmotion, plugin) &&
-         GST_ELEMENT_REGISTER(spidarextract, plugin) &&
+         GST_ELEMENT_REGISTER(spidarextract, plugin) && GST_ELEMENT_REGISTER(spidarsink, plugin) &&
          GST_DEVICE_PROVIDER_REGISTER(spidardeviceprovider, plugin) &&
          gst_spidar_feel_tracer_register(plugin);
 }

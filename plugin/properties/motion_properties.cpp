@@ -32,19 +32,6 @@ GType quality_type() {
   return type;
 }
 
-GType on_device_error_type() {
-  static const GType type = [] {
-    static const GEnumValue values[] = {
-        {static_cast<int>(OnDeviceError::kWarn),
-         "Post a warning, continue the video, and reopen the device when it returns", "warn"},
-        {static_cast<int>(OnDeviceError::kError), "Post an error, which stops the pipeline",
-         "error"},
-        {0, nullptr, nullptr}};
-    return g_enum_register_static("GstSpidarMotionOnDeviceError", values);
-  }();
-  return type;
-}
-
 constexpr auto kRead = static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS);
 constexpr auto kReadWrite = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS);
 /// Changeable while playing, and by a GstController.
@@ -63,6 +50,19 @@ std::string string_of(const GValue* value) {
 }
 
 }  // namespace
+
+GType on_device_error_type() {
+  static const GType type = [] {
+    static const GEnumValue values[] = {
+        {static_cast<int>(OnDeviceError::kWarn),
+         "Post a warning, continue the video, and reopen the device when it returns", "warn"},
+        {static_cast<int>(OnDeviceError::kError), "Post an error, which stops the pipeline",
+         "error"},
+        {0, nullptr, nullptr}};
+    return g_enum_register_static("GstSpidarMotionOnDeviceError", values);
+  }();
+  return type;
+}
 
 std::string MotionProperties::used_profile() const {
   return profile.empty() ? default_profile(device) : profile;

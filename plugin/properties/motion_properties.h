@@ -59,6 +59,9 @@ enum PropertyId : guint {
   kPropMute,
 };
 
+/// Of the property `on-device-error`.
+GType on_device_error_type();
+
 /// Registers all of them, `stats` included.
 void install_motion_properties(GObjectClass* object_class);
 

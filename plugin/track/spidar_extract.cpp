@@ -34,6 +34,7 @@ GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);
 
 using spidar::FrameWrench;
 using spidar::TrackStream;
+using spidar::Wrench;
 
 struct _GstSpidarExtract {
   GstElement parent;
@@ -61,7 +62,8 @@ GST_ELEMENT_REGISTER_DEFINE(spidarextract, "spidarextract", GST_RANK_NONE, GST_T
 
 // --- streaming thread --------------------------------------------------------------------------
 
-static FrameWrench read_frame(GstBuffer* buffer) {
+/// `last` is the wrench of the frame before.
+static FrameWrench read_frame(GstBuffer* buffer, const Wrench& last) {
   FrameWrench frame;
   frame.pts = GST_BUFFER_PTS(buffer);
   frame.duration = GST_BUFFER_DURATION(buffer);
@@ -69,9 +71,11 @@ static FrameWrench read_frame(GstBuffer* buffer) {
   if (gst_buffer_get_spidar_motion(buffer, &motion)) {
     frame.known = true;
     frame.compared = motion.interval > 0;
-    frame.repeats = gst_buffer_repeats_spidar_motion(buffer);
     frame.wrench = {{motion.force_x, motion.force_y, motion.force_z},
                     {motion.torque_x, motion.torque_y, motion.torque_z}};
+    // A picture that has been standing for long is not felt any more, which is another wrench.
+    frame.repeats =
+        gst_buffer_repeats_spidar_motion(buffer) && frame.wrench.stacked() == last.stacked();
   }
   return frame;
 }
@@ -83,7 +87,7 @@ static GstFlowReturn combined(GstSpidarExtract* self, GstPad* pad, GstFlowReturn
 
 static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuffer* buffer) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
-  const FrameWrench frame = read_frame(buffer);
+  const FrameWrench frame = read_frame(buffer, self->track->last_wrench());
   // A frame without a picture has no meta, and is none to complain of.
   if (!frame.known && !self->complained && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP)) {
     self->complained = TRUE;

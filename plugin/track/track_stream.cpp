@@ -117,6 +117,7 @@ GstFlowReturn TrackStream::add(const FrameWrench& frame) {
     const int64_t hold_ns = follows ? WrenchTimeline::hold_after(since_ns) : 0;
     sampler_.add({time_ns, hold_ns, frame.wrench, frame.repeats});
   }
+  last_wrench_ = frame.wrench;
   interval_ns_ = has_duration ? signed_ns(to - from) : since_ns;
   last_frame_ns_ = time_ns;
   constexpr auto kAhead_ns = static_cast<int64_t>(kLookAhead_ns);

@@ -57,6 +57,9 @@ class TrackStream {
   /// So is the segment.
   void reset();
 
+  /// Of the frame added last.
+  const Wrench& last_wrench() const { return last_wrench_; }
+
   /// How long a sample may wait in here.
   static constexpr GstClockTime latency_ns() { return kBuffer_ns + kLookAhead_ns; }
 
@@ -73,6 +76,7 @@ class TrackStream {
   bool begun_ = false;
   TrackSampler sampler_;
   int64_t last_frame_ns_ = 0;
+  Wrench last_wrench_;
   int64_t interval_ns_ = 0;  // its duration, or the time since the one before
   // The buffer that is being filled.
   GstBuffer* buffer_ = nullptr;

@@ -35,6 +35,10 @@ bool HapticLoop::schedule(const TimedWrench& entry) noexcept {
   return scheduled_.push({generation_.load(std::memory_order_acquire), entry});
 }
 
+bool HapticLoop::schedule(const TrackBlock& block) noexcept {
+  return scheduled_blocks_.push({generation_.load(std::memory_order_acquire), block});
+}
+
 void HapticLoop::open() {
   device_.open();
   closing_.store(false, std::memory_order_release);
@@ -135,15 +139,21 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
 
 void HapticLoop::forget_timeline(uint32_t generation) noexcept {
   timeline_.clear();
+  track_.clear();
   timeline_generation_ = generation;
   newest_ns_ = INT64_MIN;
   reached_ns_ = INT64_MIN;
 }
 
+/// Scheduled after a flush that took place just now: for the next tick.
+bool HapticLoop::is_of_the_future(uint32_t generation) const noexcept {
+  return static_cast<int32_t>(generation - timeline_generation_) > 0;  // the number wraps round
+}
+
 void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
   const uint32_t generation = generation_.load(std::memory_order_acquire);
   if (generation != timeline_generation_) forget_timeline(generation);
-  while (const Scheduled* next = scheduled_.front()) {
+  while (const auto* next = scheduled_.front()) {
     if (next->generation == timeline_generation_) {
       const bool soon = timeline_.size() < 2 || before_newest_ns_ - kHorizon_ns <= running_ns;
       // At a high frame rate the horizon holds more frames than the timeline, which would forget
@@ -159,11 +169,25 @@ void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
       } else {
         ++counters_.refused_wrenches;
       }
-    } else if (static_cast<int32_t>(next->generation - timeline_generation_) > 0) {
-      return;  // flushed just now: for the next tick. Signed, for the number wraps round.
+    } else if (is_of_the_future(next->generation)) {
+      return;
     }
     scheduled_.drop();
   }
+}
+
+TimelineResult HapticLoop::read_track(bool playing, int64_t running_ns) noexcept {
+  const TrackBlock* next = nullptr;
+  while (const auto* oldest = scheduled_blocks_.front()) {
+    if (is_of_the_future(oldest->generation)) break;
+    if (oldest->generation == timeline_generation_) {
+      if (!playing) break;
+      next = track_.read(oldest->entry, running_ns) ? nullptr : &oldest->entry;
+      if (next) break;
+    }
+    scheduled_blocks_.drop();
+  }
+  return playing ? track_.at(running_ns, next) : TimelineResult();
 }
 
 void HapticLoop::find_wanted(TickRecord& record) noexcept {
@@ -172,8 +196,10 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
       clock_.plays_at(record.monotonic_ns) && clock_.rate > 0 && clock_.rate < kMaxRate;
   if (record.playing) record.running_ns = clock_.running_at(record.monotonic_ns);
   take_scheduled(record.playing, record.running_ns);
+  const TimelineResult of_track = read_track(record.playing, record.running_ns);
   if (!record.playing) return;
-  const TimelineResult result = timeline_.at(record.running_ns);
+  const bool has_track = of_track.found != Found::kNothing;
+  const TimelineResult result = has_track ? of_track : timeline_.at(record.running_ns);
   record.found = result.found;
   record.frame_ns = result.frame_time_ns;
   record.wanted = result.wrench;

@@ -8,6 +8,7 @@
 #include "core/force/wrench_timeline.h"
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
+#include "core/track/track_reader.h"
 #include "spidar/device.h"
 #include "spidar/loop/grip_watch.h"
 #include "spidar/loop/idle_watch.h"
@@ -55,6 +56,9 @@ class SPIDAR_API HapticLoop {
   /// For the running time `entry.time_ns` on the screen. False when the ring is full: the loop does
   /// not run, does not play, or is far behind.
   bool schedule(const TimedWrench& entry) noexcept;
+  /// The same with samples of a track, in the order of their times. Where there are any they are
+  /// felt, and no frames.
+  bool schedule(const TrackBlock& block) noexcept;
 
   // --- any thread
 
@@ -102,15 +106,18 @@ class SPIDAR_API HapticLoop {
   void close() noexcept;
 
  private:
+  template <typename Entry>
   struct Scheduled {
     uint32_t generation = 0;
-    TimedWrench entry;
+    Entry entry;
   };
 
   void energise() noexcept;
   void lose() noexcept;
   void forget_timeline(uint32_t generation) noexcept;
+  bool is_of_the_future(uint32_t generation) const noexcept;
   void take_scheduled(bool playing, int64_t running_ns) noexcept;
+  TimelineResult read_track(bool playing, int64_t running_ns) noexcept;
   void find_wanted(TickRecord& record) noexcept;
   void command(TickRecord& record, double dt_s) noexcept;
   void pull(TickRecord& record, double dt_s) noexcept;
@@ -121,7 +128,8 @@ class SPIDAR_API HapticLoop {
   const Profile profile_;
   Device& device_;
   // Shared.
-  SpscRing<Scheduled, 256> scheduled_;
+  SpscRing<Scheduled<TimedWrench>, 256> scheduled_;
+  SpscRing<Scheduled<TrackBlock>, 64> scheduled_blocks_;
   SpscRing<TickRecord, 4096> records_;
   std::atomic<uint32_t> generation_{0};
   std::atomic<bool> closing_{false};
@@ -133,6 +141,7 @@ class SPIDAR_API HapticLoop {
   PlaybackClock clock_;
   SafetyLimits limits_;
   WrenchTimeline timeline_;
+  TrackReader track_;
   uint32_t timeline_generation_ = 0;
   int64_t newest_ns_ = INT64_MIN;  // running time of the newest wrench in the timeline
   int64_t before_newest_ns_ = INT64_MIN;

@@ -2,8 +2,8 @@
 """Runs the command lines of README.md, CONTRIBUTING.md and docs/.
 
 check_commands.py SOURCE BUILD: every block of code in these pages is taken for lines of a shell and run, line
-by line, in a folder that looks like SOURCE with BUILD as build/ and a short film under the names that the
-pages use. All must end with status 0, on a virtual screen, without profiles or plugins that are installed.
+by line, in a folder that looks like SOURCE with BUILD as build/, a short film under the names that the
+pages use, and its haptic tracks. All must end with status 0, on a virtual screen, without profiles or plugins that are installed.
 
 An HTML comment before a block says what is different, for the whole block, or, in parentheses, for lines that
 contain some text:
@@ -28,6 +28,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 FILMS = ("film.mp4", "vtest.avi", "ball.avi", "telephone.mp4")
+TRACKS = {  # of these films, and what writes them
+    "film.haptic.flac": "audioconvert dithering=none noise-shaping=none ! flacenc blocksize=40",
+    "film.haptic.mka": "matroskamux",
+    "film.haptic.wav": "wavenc",
+}
 WORKERS = 2
 LONGEST_S = 50  # of a line that ends; the test has a limit of its own
 ENDLESS_S = 2
@@ -109,6 +114,13 @@ def make_film(folder):
     )
     for name in FILMS[1:]:
         shutil.copy(film, folder / name)
+    for name, encoder in TRACKS.items():
+        subprocess.run(
+            f"gst-launch-1.0 -q filesrc location={film} ! decodebin ! videoconvert ! spidarmotion device=none "
+            f"attach-meta=true ! spidarextract name=x x.wrench ! {encoder} ! filesink location={folder / name}",
+            shell=True,
+            check=True,
+        )
 
 
 def make_folder(folder, source, build):
@@ -126,6 +138,8 @@ def run(line, films, source, build):
         make_folder(folder, source, build)
         for film in FILMS:
             (folder / film).symlink_to(films / film)
+        for track in TRACKS:
+            shutil.copy(films / track, folder / track)
         text = re.sub(r"file:///\w+/", f"file://{folder}/", line.command)
         script = "\n".join(["set -eo pipefail", *line.exports, text])
         process = subprocess.Popen(

@@ -1,0 +1,55 @@
+#include "core/track/track_reader.h"
+
+#include <algorithm>
+
+namespace spidar {
+namespace {
+
+/// Samples that are further apart have others between them that are missing; and in the slowest
+/// motion no sample is felt for longer than a frame.
+int64_t longest_step_ns(int64_t period_ns) {
+  return std::min(period_ns + period_ns / 2, WrenchTimeline::kLongestHold_ns);
+}
+
+}  // namespace
+
+bool TrackReader::read(const TrackBlock& block, int64_t time_ns) noexcept {
+  for (; read_ < block.count && block.time_ns(read_) <= time_ns; ++read_) {
+    // Of samples that come late only those count that are newer than what was felt.
+    if (block.time_ns(read_) <= last_ns_) continue;
+    last_ = block.samples[read_];
+    last_ns_ = block.time_ns(read_);
+    period_ns_ = block.period_ns();
+  }
+  if (read_ < block.count) return false;
+  read_ = 0;
+  return true;
+}
+
+TimelineResult TrackReader::at(int64_t time_ns, const TrackBlock* next) const noexcept {
+  TimelineResult result;
+  if (last_ns_ == INT64_MIN) return result;
+  result.frame_time_ns = last_ns_;
+  result.wrench = to_wrench(last_);
+  const int64_t since_ns = time_ns - last_ns_;
+  if (since_ns <= 0) {
+    // A clock may go back a little; further back it is another time.
+    if (since_ns < -kHold_ns) return {};
+    result.found = since_ns == 0 ? Found::kExact : Found::kHeld;
+    return result;
+  }
+  if (next) {
+    const int64_t step_ns = next->time_ns(read_) - last_ns_;
+    if (step_ns <= longest_step_ns(std::max(period_ns_, next->period_ns()))) {
+      const double s = static_cast<double>(since_ns) / static_cast<double>(step_ns);
+      result.wrench = interpolate(result.wrench, to_wrench(next->samples[read_]), s);
+      result.found = Found::kInterpolated;
+      return result;
+    }
+  }
+  const int64_t held_ns = std::max(kHold_ns, longest_step_ns(period_ns_));
+  result.found = since_ns <= held_ns ? Found::kHeld : Found::kExpired;
+  return result;
+}
+
+}  // namespace spidar

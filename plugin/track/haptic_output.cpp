@@ -1,0 +1,103 @@
+#include "plugin/track/haptic_output.h"
+
+#include <utility>
+
+#include "plugin/reports/motion_stats.h"
+#include "spidar/device_factory.h"
+
+namespace spidar {
+namespace {
+
+int64_t monotonic_now(void*) {
+  return HapticSession::monotonic_now_ns();
+}
+
+}  // namespace
+
+void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
+  now_ = now;
+  now_user_ = user;
+}
+
+std::string HapticOutput::open(const std::string& device, const std::string& profile_name,
+                               const std::string& haptic_trace) {
+  const Profile profile = load_profile(profile_name);
+  SessionSettings settings;
+  settings.trace_path = haptic_trace;
+  settings.threaded = now_ == nullptr;
+  const auto make_session = [&] {
+    return std::make_unique<HapticSession>(profile, make_device(device, profile), settings);
+  };
+  std::string trace_problem;
+  std::unique_ptr<HapticSession> session;
+  try {
+    session = make_session();
+  } catch (const TraceError& error) {
+    trace_problem = error.what();
+    settings.trace_path.clear();
+    session = make_session();
+  }
+  HapticLoop& loop = session->loop();
+  auto follower = std::make_unique<PlaybackFollower>(
+      element_,
+      [this, &loop](const PlaybackClock& clock) {
+        loop.set_playback_clock(clock);
+        refreshed_();
+      },
+      now_ ? now_ : monotonic_now, now_user_, settings.threaded);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  loop.set_limits(limits_);
+  follower->set_latency(latency_);
+  follower->set_offset(offset_ns_);
+  session_ = std::move(session);
+  follower_ = std::move(follower);
+  return trace_problem;
+}
+
+void HapticOutput::close() {
+  std::unique_ptr<HapticSession> session;
+  std::unique_ptr<PlaybackFollower> follower;  // ends before the loop that it publishes to
+  const std::lock_guard<std::mutex> lock(mutex_);
+  session = std::move(session_);
+  follower = std::move(follower_);
+}
+
+void HapticOutput::set_playing(bool playing) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->set_playing(playing);
+}
+
+void HapticOutput::set_latency(GstClockTime latency) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  latency_ = latency;
+  if (follower_) follower_->set_latency(latency);
+}
+
+void HapticOutput::set_offset(GstClockTimeDiff offset_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  offset_ns_ = offset_ns;
+  if (follower_) follower_->set_offset(offset_ns);
+}
+
+void HapticOutput::set_max_force(double max_force_N) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  limits_.max_force_N = max_force_N;
+  if (session_) session_->loop().set_limits(limits_);
+}
+
+void HapticOutput::expect_base_time() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->expect_base_time();
+}
+
+void HapticOutput::refresh_clock() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->refresh();
+}
+
+void HapticOutput::describe(GstStructure* structure) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (session_) describe_session(*session_, structure);
+}
+
+}  // namespace spidar

@@ -1,0 +1,366 @@
+/**
+ * SECTION:element-spidarsink
+ * @title: spidarsink
+ * @short_description: feel a haptic track with a SPIDAR haptic device
+ *
+ * Plays a haptic track, as spidarextract and spidartrack make them: sound of six channels, force x,
+ * y, z and torque x, y, z, of which 1.0 is 10 N or 1 N m. F32, S16, S24 or S32, from 200 to 8000
+ * samples a second; channel-mask 0 or 0x3f.
+ *
+ * A sample is felt when a video sink shows the frame of the same running time: at base time +
+ * running time + pipeline latency + #GstBaseSink:ts-offset. Between two samples the force is
+ * interpolated. The safety chain is that of spidarmotion. Before PLAYING, in PAUSED, and from 50 ms
+ * after the last sample there is no force. The sink provides no clock.
+ *
+ * At another rate than 1 a track keeps its amplitude; its time changes.
+ *
+ * ## Example launch line
+ * |[
+ * gst-launch-1.0 filesrc location=film.haptic.flac ! flacparse ! flacdec ! spidarsink
+ * ]| Feels a recorded track.
+ *
+ * Since: 0.1
+ */
+#include "plugin/track/spidar_sink.h"
+
+#include <exception>
+#include <string>
+
+#include "plugin/reports/device_complaints.h"
+#include "plugin/timing/instant_rate.h"
+#include "plugin/track/block_schedule.h"
+#include "plugin/track/haptic_output.h"
+#include "plugin/track/sink_properties.h"
+#include "plugin/track/track_input.h"
+
+GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
+#define GST_CAT_DEFAULT gst_spidar_sink_debug
+
+using spidar::BlockSchedule;
+using spidar::HapticOutput;
+using spidar::SinkProperties;
+using spidar::TrackBlock;
+using spidar::TrackFaults;
+
+/// Samples are handed to the haptic loop this long before they are felt.
+static constexpr gint64 kAhead_ns = 200 * 1000 * 1000;
+
+struct _GstSpidarSink {
+  GstBaseSink parent;
+
+  GMutex setting;              // what is set reaches the output in the order it was set
+  SinkProperties* properties;  // object lock
+  TrackFaults faults;          // object lock; so far in this stream
+  guint64 samples;             // object lock
+  BlockSchedule* schedule;
+  HapticOutput* output;
+  // Streaming thread.
+  spidar::TrackInput* input;
+  spidar::DeviceComplaints* complaints;
+  gboolean said_not_finite, said_beyond_full, said_no_time;
+};
+
+// The second kind of caps is refused with a sentence, which is more than a link that fails says.
+static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
+    "sink", GST_PAD_SINK, GST_PAD_ALWAYS,
+    GST_STATIC_CAPS(
+        "audio/x-raw, format = (string) { F32LE, S16LE, S24LE, S24_32LE, S32LE }, layout = "
+        "(string) interleaved, rate = (int) [ 200, 8000 ], channels = (int) 6, "
+        "channel-mask = (bitmask) { 0x0, 0x3f }; "
+        "audio/x-raw, format = (string) { F32LE, S16LE, S24LE, S24_32LE, S32LE }, layout = "
+        "(string) interleaved, rate = (int) [ 1, max ], channels = (int) [ 1, max ]"));
+
+G_DEFINE_TYPE_WITH_CODE(GstSpidarSink, gst_spidar_sink, GST_TYPE_BASE_SINK,
+                        GST_DEBUG_CATEGORY_INIT(gst_spidar_sink_debug, "spidarsink", 0,
+                                                "haptic track to a SPIDAR"))
+GST_ELEMENT_REGISTER_DEFINE(spidarsink, "spidarsink", GST_RANK_NONE, GST_TYPE_SPIDAR_SINK)
+
+HapticOutput& gst_spidar_sink_output(GstSpidarSink* self) {
+  return *self->output;
+}
+
+// --- streaming thread --------------------------------------------------------------------------
+
+static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  const std::string problem = self->input->set_caps(caps);
+  if (problem.empty()) return TRUE;
+  GST_ELEMENT_ERROR(self, STREAM, WRONG_TYPE, ("%s", problem.c_str()),
+                    ("caps %" GST_PTR_FORMAT, static_cast<void*>(caps)));
+  return FALSE;
+}
+
+/// Samples are handed on ahead of their time: render() waits, the base class does not.
+static void gst_spidar_sink_get_times(GstBaseSink*, GstBuffer*, GstClockTime* start,
+                                      GstClockTime* end) {
+  *start = *end = GST_CLOCK_TIME_NONE;
+}
+
+/// Waits until what has this running time is due, less `ahead_ns`; `object` is what the sink is
+/// prerolled with when it is paused meanwhile.
+static GstFlowReturn wait_until(GstSpidarSink* self, GstMiniObject* object, gint64 running_ns,
+                                gint64 ahead_ns) {
+  GstBaseSink* sink = GST_BASE_SINK(self);
+  GstClockReturn waited;
+  do {
+    const GstFlowReturn flow = gst_base_sink_do_preroll(sink, object);
+    if (flow != GST_FLOW_OK) return flow;
+    const gint64 due_ns = running_ns + static_cast<gint64>(gst_base_sink_get_latency(sink)) +
+                          gst_base_sink_get_ts_offset(sink) - ahead_ns;
+    waited = gst_base_sink_wait_clock(sink, static_cast<GstClockTime>(MAX(due_ns, 0)), nullptr);
+    if (sink->flushing) return GST_FLOW_FLUSHING;
+  } while (waited == GST_CLOCK_UNSCHEDULED);
+  return GST_FLOW_OK;
+}
+
+/// Says each thing once a stream.
+static void complain(GstSpidarSink* self, const TrackFaults& faults, bool has_time) {
+  if (faults.not_finite > 0 && !self->said_not_finite) {
+    self->said_not_finite = TRUE;
+    GST_ELEMENT_WARNING(self, STREAM, DECODE,
+                        ("The haptic track has samples that are no numbers: they are rest."),
+                        ("NaN or infinite."));
+  }
+  if (faults.beyond_full > 0 && !self->said_beyond_full) {
+    self->said_beyond_full = TRUE;
+    GST_ELEMENT_WARNING(
+        self, STREAM, DECODE,
+        ("The haptic track has samples beyond full scale, 10 N and 1 N m; max-force "
+         "holds all the same."),
+        ("Is it sound for ears?"));
+  }
+  if (!has_time && !self->said_no_time) {
+    self->said_no_time = TRUE;
+    GST_ELEMENT_WARNING(self, STREAM, FORMAT,
+                        ("Samples without a timestamp cannot be felt in time; they are left out."),
+                        ("No PTS, or decades ahead, or a segment that is not in time. A parser "
+                         "before the decoder, or rawaudioparse, adds them."));
+  }
+}
+
+static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  GST_OBJECT_LOCK(self);
+  const double gain = self->properties->gain;
+  const spidar::OnDeviceError policy = self->properties->on_device_error;
+  GST_OBJECT_UNLOCK(self);
+  const guint64 samples_before = self->input->samples();
+  const GstFlowReturn flow =
+      self->input->read(buffer, sink->segment, gain, [self, buffer](const TrackBlock& block) {
+        const GstFlowReturn waited =
+            wait_until(self, GST_MINI_OBJECT_CAST(buffer), block.begin_ns, kAhead_ns);
+        if (waited == GST_FLOW_OK) self->schedule->add(block);
+        return waited;
+      });
+  const bool has_time =
+      flow != GST_FLOW_OK || self->input->samples() > samples_before ||
+      (sink->segment.format == GST_FORMAT_TIME && GST_BUFFER_PTS_IS_VALID(buffer));
+  GST_OBJECT_LOCK(self);
+  self->faults = self->input->faults();
+  self->samples = self->input->samples();
+  GST_OBJECT_UNLOCK(self);
+  complain(self, self->input->faults(), has_time);
+  if (!self->complaints->look_at(self->output->session(), policy)) return GST_FLOW_ERROR;
+  return flow;
+}
+
+static GstFlowReturn gst_spidar_sink_wait_event(GstBaseSink* sink, GstEvent* event) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  const GstFlowReturn flow = gst_base_sink_do_preroll(sink, GST_MINI_OBJECT_CAST(event));
+  const bool is_end = GST_EVENT_TYPE(event) == GST_EVENT_EOS;
+  const GstClockTime end = self->input->end();
+  if (flow != GST_FLOW_OK || !is_end || !spidar::is_time(end)) return flow;
+  return wait_until(self, GST_MINI_OBJECT_CAST(event), static_cast<gint64>(end), 0);
+}
+
+static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_FLUSH_START:
+      self->schedule->forget();
+      break;
+    case GST_EVENT_FLUSH_STOP: {
+      gboolean reset_time;
+      gst_event_parse_flush_stop(event, &reset_time);
+      // Again: a buffer may have been on its way when the flush began.
+      self->schedule->forget();
+      self->input->restart();
+      if (reset_time) self->output->expect_base_time();
+      break;
+    }
+    case GST_EVENT_STREAM_START:
+      self->said_not_finite = self->said_beyond_full = self->said_no_time = FALSE;
+      break;
+    case GST_EVENT_SEGMENT:
+      self->input->restart();
+      break;
+    default:
+      break;
+  }
+  return GST_BASE_SINK_CLASS(gst_spidar_sink_parent_class)->event(sink, event);
+}
+
+static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  self->complaints->start();
+  delete self->input;
+  self->input = new spidar::TrackInput;
+  self->schedule->forget();
+  return TRUE;
+}
+
+static gboolean gst_spidar_sink_stop(GstBaseSink* sink) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  self->schedule->forget();
+  // Here, because what is said on the way to NULL reaches nobody.
+  if (self->output->session()) self->output->session()->drain_trace();
+  self->complaints->look_at_haptic_trace(self->output->session());
+  return TRUE;
+}
+
+// --- states ------------------------------------------------------------------------------------
+
+static gboolean gst_spidar_sink_send_event(GstElement* element, GstEvent* event) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(element);
+  if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) {
+    GstClockTime latency;
+    gst_event_parse_latency(event, &latency);
+    self->output->set_latency(latency);
+  }
+  return GST_ELEMENT_CLASS(gst_spidar_sink_parent_class)->send_event(element, event);
+}
+
+static gboolean open_device(GstSpidarSink* self) {
+  GST_OBJECT_LOCK(self);
+  const SinkProperties properties = *self->properties;
+  GST_OBJECT_UNLOCK(self);
+  try {
+    const std::string trace_problem =
+        self->output->open(properties.device, properties.used_profile(), properties.haptic_trace);
+    if (!trace_problem.empty()) {
+      GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
+                          ("The force goes on without it."));
+    }
+    self->schedule->connect(&self->output->session()->loop());
+    return TRUE;
+  } catch (const spidar::ProfileError& e) {
+    GST_ELEMENT_ERROR(self, RESOURCE, SETTINGS, ("%s", e.what()), ("while opening the device"));
+  } catch (const spidar::DeviceError& e) {
+    GST_ELEMENT_ERROR(self, RESOURCE, OPEN_WRITE, ("%s", e.what()), ("while opening the device"));
+  } catch (const std::exception& e) {
+    GST_ELEMENT_ERROR(self, LIBRARY, FAILED, ("%s", e.what()), ("while opening the device"));
+  }
+  return FALSE;
+}
+
+static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
+                                                         GstStateChange transition) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(element);
+  if (transition == GST_STATE_CHANGE_NULL_TO_READY && !open_device(self)) {
+    return GST_STATE_CHANGE_FAILURE;
+  }
+  if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) self->output->set_playing(false);
+  const GstStateChangeReturn result =
+      GST_ELEMENT_CLASS(gst_spidar_sink_parent_class)->change_state(element, transition);
+  if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING && result != GST_STATE_CHANGE_FAILURE) {
+    self->output->set_playing(true);
+  }
+  const bool closes =
+      transition == GST_STATE_CHANGE_READY_TO_NULL ||
+      (transition == GST_STATE_CHANGE_NULL_TO_READY && result == GST_STATE_CHANGE_FAILURE);
+  if (closes) {
+    self->schedule->connect(nullptr);
+    self->output->close();
+  }
+  return result;
+}
+
+// --- object ------------------------------------------------------------------------------------
+
+static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue* value,
+                                         GParamSpec* spec) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  g_mutex_lock(&self->setting);
+  GST_OBJECT_LOCK(self);
+  const bool known = set_sink_property(*self->properties, id, value);
+  GST_OBJECT_UNLOCK(self);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  if (id == spidar::kSinkMute) self->schedule->set_muted(g_value_get_boolean(value));
+  if (id == spidar::kSinkMaxForce) self->output->set_max_force(g_value_get_double(value));
+  g_mutex_unlock(&self->setting);
+}
+
+static GstStructure* stats(GstSpidarSink* self) {
+  GST_OBJECT_LOCK(self);
+  const TrackFaults faults = self->faults;
+  const guint64 samples = self->samples;
+  GST_OBJECT_UNLOCK(self);
+  GstStructure* structure = gst_structure_new(
+      "spidar-sink-stats", "samples", G_TYPE_UINT64, samples, "samples-not-finite", G_TYPE_UINT64,
+      faults.not_finite, "samples-beyond-full-scale", G_TYPE_UINT64, faults.beyond_full,
+      "samples-refused", G_TYPE_UINT64, self->schedule->refused(), nullptr);
+  self->output->describe(structure);
+  return structure;
+}
+
+static void gst_spidar_sink_get_property(GObject* object, guint id, GValue* value,
+                                         GParamSpec* spec) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  if (id == spidar::kSinkStats) {
+    g_value_take_boxed(value, stats(self));
+    return;
+  }
+  GST_OBJECT_LOCK(self);
+  const bool known = get_sink_property(*self->properties, id, value);
+  GST_OBJECT_UNLOCK(self);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+}
+
+static void follow_ts_offset(GObject* object, GParamSpec*, gpointer) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  self->output->set_offset(gst_base_sink_get_ts_offset(GST_BASE_SINK(self)));
+}
+
+static void gst_spidar_sink_finalize(GObject* object) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  delete self->complaints;
+  delete self->input;
+  delete self->output;
+  delete self->schedule;
+  delete self->properties;
+  g_mutex_clear(&self->setting);
+  G_OBJECT_CLASS(gst_spidar_sink_parent_class)->finalize(object);
+}
+
+static void gst_spidar_sink_init(GstSpidarSink* self) {
+  g_mutex_init(&self->setting);
+  self->properties = new SinkProperties;
+  self->schedule = new BlockSchedule;
+  self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->schedule->hand_on(); });
+  self->input = new spidar::TrackInput;
+  self->complaints = new spidar::DeviceComplaints(GST_ELEMENT(self), "The haptic track");
+  g_signal_connect(self, "notify::ts-offset", G_CALLBACK(follow_ts_offset), nullptr);
+}
+
+static void gst_spidar_sink_class_init(GstSpidarSinkClass* klass) {
+  GObjectClass* object_class = G_OBJECT_CLASS(klass);
+  GstElementClass* element_class = GST_ELEMENT_CLASS(klass);
+  GstBaseSinkClass* sink_class = GST_BASE_SINK_CLASS(klass);
+  object_class->set_property = gst_spidar_sink_set_property;
+  object_class->get_property = gst_spidar_sink_get_property;
+  object_class->finalize = gst_spidar_sink_finalize;
+  spidar::install_sink_properties(object_class);
+  gst_element_class_set_static_metadata(element_class, "SPIDAR sink", "Sink/Haptic",
+                                        "Feel a haptic track with a SPIDAR haptic device",
+                                        "gst-spidar");
+  gst_element_class_add_static_pad_template(element_class, &sink_template);
+  element_class->change_state = gst_spidar_sink_change_state;
+  element_class->send_event = gst_spidar_sink_send_event;
+  sink_class->set_caps = gst_spidar_sink_set_caps;
+  sink_class->get_times = gst_spidar_sink_get_times;
+  sink_class->render = gst_spidar_sink_render;
+  sink_class->wait_event = gst_spidar_sink_wait_event;
+  sink_class->event = gst_spidar_sink_event;
+  sink_class->start = gst_spidar_sink_start;
+  sink_class->stop = gst_spidar_sink_stop;
+}

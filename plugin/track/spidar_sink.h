@@ -1,0 +1,21 @@
+/// The element `spidarsink`.
+#pragma once
+
+#include <gst/base/gstbasesink.h>
+#include <gst/gst.h>
+
+G_BEGIN_DECLS
+
+#define GST_TYPE_SPIDAR_SINK (gst_spidar_sink_get_type())
+G_DECLARE_FINAL_TYPE(GstSpidarSink, gst_spidar_sink, GST, SPIDAR_SINK, GstBaseSink)
+
+GST_ELEMENT_REGISTER_DECLARE(spidarsink)
+
+G_END_DECLS
+
+namespace spidar {
+class HapticOutput;
+}
+
+/// For tests that step the element by hand.
+spidar::HapticOutput& gst_spidar_sink_output(GstSpidarSink* self);

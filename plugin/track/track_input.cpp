@@ -1,0 +1,162 @@
+#include "plugin/track/track_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "plugin/timing/instant_rate.h"
+
+namespace spidar {
+namespace {
+
+constexpr guint64 kMaskOf5_1 = 0x3f;
+
+std::string hexadecimal(guint64 mask) {
+  gchar* const text = g_strdup_printf("0x%" G_GINT64_MODIFIER "x", mask);
+  std::string result = text;
+  g_free(text);
+  return result;
+}
+
+/// Neither "none" nor the one that containers give back for it.
+std::string strange_mask(const GstCaps* caps) {
+  guint64 mask = 0;
+  const GstStructure* structure = gst_caps_get_structure(caps, 0);
+  if (!gst_structure_get(structure, "channel-mask", GST_TYPE_BITMASK, &mask, nullptr)) return {};
+  return mask == 0 || mask == kMaskOf5_1 ? std::string() : hexadecimal(mask);
+}
+
+}  // namespace
+
+std::string TrackInput::set_caps(const GstCaps* caps) {
+  GstAudioInfo info;
+  if (!gst_audio_info_from_caps(&info, caps)) return "These caps are not raw sound.";
+  const int channels = GST_AUDIO_INFO_CHANNELS(&info);
+  const int rate_Hz = GST_AUDIO_INFO_RATE(&info);
+  if (channels != static_cast<int>(kTrackChannels)) {
+    return "Sound of " + std::to_string(channels) +
+           " channels is no haptic track: it has 6, force x, y, z and torque x, y, z.";
+  }
+  if (rate_Hz < kLowestRate_Hz || rate_Hz > kHighestRate_Hz) {
+    return "A haptic track has from " + std::to_string(kLowestRate_Hz) + " to " +
+           std::to_string(kHighestRate_Hz) + " samples a second, best 1000, not " +
+           std::to_string(rate_Hz) + ".";
+  }
+  const std::string mask = strange_mask(caps);
+  if (!mask.empty()) {
+    return "The channel-mask " + mask +
+           " may have moved the axes of a haptic track to other channels: it has to be 0 or 0x3f.";
+  }
+  info_ = info;
+  thinner_.begin(rate_Hz);
+  restart();
+  return {};
+}
+
+void TrackInput::restart() {
+  thinner_.restart();
+  next_pts_ = end_ = GST_CLOCK_TIME_NONE;
+}
+
+void TrackInput::unpack(const guint8* data, size_t count) {
+  const GstAudioFormatInfo* format = info_.finfo;
+  const size_t values = count * kTrackChannels;
+  const bool floats = GST_AUDIO_FORMAT_INFO_IS_FLOAT(format);
+  void* into;
+  if (floats) {
+    doubles_.resize(values);
+    into = doubles_.data();
+  } else {
+    integers_.resize(values);
+    into = integers_.data();
+  }
+  // The flag makes zeros of the bits that a smaller format does not have; by default it repeats
+  // others.
+  format->unpack_func(format, GST_AUDIO_PACK_FLAG_TRUNCATE_RANGE, into, data,
+                      static_cast<gint>(values));
+  if (floats) return;
+  constexpr double kFullScale = 2147483648.0;
+  doubles_.resize(values);
+  std::transform(integers_.begin(), integers_.end(), doubles_.begin(),
+                 [](gint32 value) { return value / kFullScale; });
+}
+
+TrackSample TrackInput::sample(size_t i, double gain) {
+  TrackSample sample;
+  bool finite = true, beyond = false;
+  for (size_t channel = 0; channel < kTrackChannels; ++channel) {
+    const double value = doubles_[i * kTrackChannels + channel];
+    finite = finite && std::isfinite(value);
+    beyond = beyond || std::fabs(value) > 1;
+    sample[channel] = static_cast<float>(gain * value);
+  }
+  ++samples_;
+  if (finite && beyond) ++faults_.beyond_full;
+  if (finite) return sample;
+  ++faults_.not_finite;
+  return {};
+}
+
+GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, double gain,
+                               const Give& give) {
+  const int rate_Hz = GST_AUDIO_INFO_RATE(&info_);
+  const auto frame_bytes = static_cast<size_t>(GST_AUDIO_INFO_BPF(&info_));
+  const size_t count = gst_buffer_get_size(buffer) / frame_bytes;
+  const auto length = [rate_Hz](size_t samples) {
+    return gst_util_uint64_scale_int(samples, GST_SECOND, rate_Hz);
+  };
+  GstClockTime pts = GST_BUFFER_PTS(buffer);
+  if (!GST_CLOCK_TIME_IS_VALID(pts)) pts = next_pts_;
+  if (segment.format != GST_FORMAT_TIME || !is_time(pts) || count == 0) return GST_FLOW_OK;
+  if (pts != next_pts_) thinner_.restart();
+  const bool backwards = segment.rate < 0;
+  next_pts_ = backwards ? GST_CLOCK_TIME_NONE : pts + length(count);
+
+  guint64 from = 0, to = 0;
+  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, pts + length(count), &from, &to)) {
+    return GST_FLOW_OK;
+  }
+  const GstClockTime begin =
+      gst_segment_to_running_time(&segment, GST_FORMAT_TIME, backwards ? to : from);
+  if (!is_time(begin)) return GST_FLOW_OK;
+  const auto index = [&](GstClockTime time) {
+    return std::min(count, static_cast<size_t>(
+                               gst_util_uint64_scale_int_round(time - pts, rate_Hz, GST_SECOND)));
+  };
+  const size_t first = index(from), last = index(to);
+
+  GstMapInfo map;
+  if (!gst_buffer_map(buffer, &map, GST_MAP_READ)) return GST_FLOW_ERROR;
+  unpack(map.data, count);
+  gst_buffer_unmap(buffer, &map);
+
+  const double period_ns = 1e9 / rate_Hz / std::fabs(segment.rate);
+  const double group = static_cast<double>(thinner_.group());
+  const auto at_ns = [&](double samples_after_begin) {
+    return static_cast<int64_t>(begin) + std::llround(samples_after_begin * period_ns);
+  };
+  TrackBlock block;
+  for (size_t i = first; i < last; ++i) {
+    TrackSample next = sample(backwards ? first + last - 1 - i : i, gain);
+    if (thinner_.add(next)) {
+      if (block.count == 0) {
+        // The mean belongs to the middle of its samples, of which the last was added. Backwards the
+        // first sample ends where the buffer does.
+        const double middle = static_cast<double>(i - first) - (group - 1) / 2;
+        block.begin_ns = at_ns(backwards ? middle + 1 : middle);
+      }
+      block.samples[block.count++] = next;
+    }
+    if (block.count == TrackBlock::kCapacity || (i + 1 == last && block.count > 0)) {
+      block.duration_ns =
+          std::max<int64_t>(std::llround(static_cast<double>(block.count) * group * period_ns), 1);
+      const GstFlowReturn flow = give(block);
+      if (flow != GST_FLOW_OK) return flow;
+      block.count = 0;
+    }
+  }
+  end_ = static_cast<GstClockTime>(at_ns(static_cast<double>(last - first)));
+  return GST_FLOW_OK;
+}
+
+}  // namespace spidar

@@ -1,0 +1,59 @@
+/// From buffers of sound to blocks of a haptic track.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gst/audio/audio.h>
+#include <gst/gst.h>
+
+#include "core/track/track_block.h"
+#include "core/track/track_thinner.h"
+
+namespace spidar {
+
+/// What was wrong with the samples of a stream, and how often.
+struct TrackFaults {
+  uint64_t not_finite = 0;   ///< samples of which a channel is no number: at rest instead
+  uint64_t beyond_full = 0;  ///< samples of which a channel is more than the full scale
+};
+
+/// Streaming thread only.
+class TrackInput {
+ public:
+  static constexpr int kLowestRate_Hz = 200;
+  static constexpr int kHighestRate_Hz = 8000;
+
+  /// Empty, or why sound of these caps is no haptic track, in a sentence that says what would be.
+  std::string set_caps(const GstCaps* caps);
+  /// The next buffer has nothing to do with the one before.
+  void restart();
+
+  /// Gives the samples of `buffer` that lie in `segment`, times `gain`, in blocks of rising running
+  /// time, until `give` returns something else than GST_FLOW_OK. Played backwards the last sample
+  /// comes first. A buffer without a timestamp follows the one before.
+  using Give = std::function<GstFlowReturn(const TrackBlock&)>;
+  GstFlowReturn read(GstBuffer* buffer, const GstSegment& segment, double gain, const Give& give);
+
+  /// Running time of the end of what was read; GST_CLOCK_TIME_NONE before.
+  GstClockTime end() const { return end_; }
+  const TrackFaults& faults() const { return faults_; }
+  uint64_t samples() const { return samples_; }
+
+ private:
+  void unpack(const guint8* data, size_t count);
+  TrackSample sample(size_t i, double gain);
+
+  GstAudioInfo info_{};
+  TrackThinner thinner_;
+  GstClockTime next_pts_ = GST_CLOCK_TIME_NONE;
+  GstClockTime end_ = GST_CLOCK_TIME_NONE;
+  std::vector<gdouble> doubles_;  // of a buffer, as the format unpacks
+  std::vector<gint32> integers_;
+  TrackFaults faults_;
+  uint64_t samples_ = 0;
+};
+
+}  // namespace spidar

@@ -1,0 +1,75 @@
+/// A track that plays into a spidarsink on a GstTestClock, whose haptic loop is ticked by hand.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gst/check/gsttestclock.h>
+#include <gst/gst.h>
+
+#include "core/track/track_format.h"
+#include "plugin/track/haptic_output.h"
+#include "tests/support/tick_watch.h"
+
+namespace spidar::test {
+
+constexpr const char* kTrackCaps =
+    "audio/x-raw,format=F32LE,layout=interleaved,rate=1000,channels=6,channel-mask=(bitmask)0x3f";
+
+/// All buffers and the end are pushed before the pipeline plays: while it does, the sink waits for
+/// the clock and for nothing else.
+class SteppedTrack {
+ public:
+  explicit SteppedTrack(const std::string& properties = "", const std::string& caps = kTrackCaps);
+  ~SteppedTrack();
+  SteppedTrack(const SteppedTrack&) = delete;
+  SteppedTrack& operator=(const SteppedTrack&) = delete;
+
+  /// A buffer of bytes as the caps have them.
+  template <typename Sample>
+  void push(const std::vector<Sample>& samples, GstClockTime pts, int rate_Hz = 1000) {
+    push_bytes(samples.data(), samples.size() * sizeof(Sample), pts,
+               gst_util_uint64_scale_int(samples.size(), GST_SECOND, rate_Hz));
+  }
+  void push_bytes(const void* bytes, size_t size, GstClockTime pts, GstClockTime duration);
+  void end() { stream_.push_back(GST_MINI_OBJECT_CAST(gst_event_new_eos())); }
+
+  /// To PAUSED, and sends what was pushed on its way.
+  void send();
+  /// Sends what was pushed. Returns when the state is reached.
+  void set_state(GstState state);
+  /// As a flushing seek does: what comes is pushed anew.
+  void seek(double rate, GstClockTime start, GstClockTime stop = GST_CLOCK_TIME_NONE);
+  /// Both clocks go on by a millisecond, the sink takes what is due then, and the loop ticks.
+  TickRecord tick();
+  TickRecord run(int ticks);
+  /// Whether EOS was posted.
+  bool ended();
+  /// Texts of warnings and errors since the last call.
+  std::vector<std::string> complaints();
+
+  GstElement* sink() const { return sink_; }
+  GstElement* pipeline() const { return pipeline_; }
+  guint64 stat(const char* name) const;
+
+ private:
+  void begin_segment(double rate, GstClockTime start, GstClockTime stop);
+  void let_through();
+
+  GstTestClock* clock_;
+  GstElement* pipeline_;
+  GstElement* sink_;
+  GstPad* source_;
+  std::vector<GstMiniObject*> stream_;  // not yet sent
+  std::thread sender_;
+  GstBus* bus_;
+  HapticOutput* output_;
+  TickWatch watch_;
+  bool ended_ = false;
+  bool failed_ = false;
+  std::vector<std::string> complaints_;
+};
+
+}  // namespace spidar::test

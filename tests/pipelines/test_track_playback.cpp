@@ -1,0 +1,259 @@
+// What spidarsink makes of tracks, good and bad. On a test clock, every tick under watch.
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/stepped_track.h"
+
+namespace spidar::test {
+namespace {
+
+TrackSample sample_at(double ms) {
+  const auto share = static_cast<float>(0.15 * std::sin(0.01 * ms));
+  return {share, -share / 2, share / 3, share / 100, 0, -share / 50};
+}
+
+/// One second in which sample n is sample_at(first + n · step).
+std::vector<TrackSample> curve(double first = 0, double step = 1, int count = 1000) {
+  std::vector<TrackSample> samples;
+  for (int i = 0; i < count; ++i) samples.push_back(sample_at(first + step * i));
+  return samples;
+}
+
+void expect_wanted(const TickRecord& tick, double ms, double tolerance) {
+  EXPECT_TRUE(tick.found == Found::kExact || tick.found == Found::kInterpolated) << ms;
+  const Wrench expected = to_wrench(sample_at(ms));
+  EXPECT_LE((tick.wanted.stacked() - expected.stacked()).norm(), tolerance) << ms;
+}
+
+/// What a linear interpolation between samples `step_ms` apart is wrong by: h²/8 · |f''|, with
+/// |f''| below 0.15 · 0.01² · 10 N · √(1 + 1/4 + 1/9).
+double interpolation_error(double step_ms) {
+  return step_ms * step_ms / 8 * 0.15 * 1e-4 * 10 * 1.2 + 1e-6;
+}
+
+TEST(TrackPlayback, FeelsTheSampleWhoseRunningTimeItIs) {
+  SteppedTrack track;
+  for (int second = 0; second < 3; ++second) {
+    track.push(curve(1000.0 * second), static_cast<GstClockTime>(second) * GST_SECOND);
+  }
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  for (int ms = 1; ms < 3000; ++ms) expect_wanted(track.tick(), ms, 1e-6);
+  EXPECT_EQ(track.run(51).commanded.stacked().norm(), 0) << "at rest after the end";
+  EXPECT_TRUE(track.ended());
+  EXPECT_EQ(track.stat("samples"), 3000u);
+  EXPECT_EQ(track.stat("samples-refused"), 0u);
+  EXPECT_TRUE(track.complaints().empty());
+}
+
+TEST(TrackPlayback, TakesEveryFormatAndMask) {
+  for (const char* format : {"F32LE", "S16LE", "S24LE", "S24_32LE", "S32LE"}) {
+    for (const char* mask : {"0x0", "0x3f"}) {
+      SCOPED_TRACE(std::string(format) + " " + mask);
+      SteppedTrack track("", std::string("audio/x-raw,layout=interleaved,rate=1000,channels=6,") +
+                                 "format=" + format + ",channel-mask=(bitmask)" + mask);
+      const int bits = std::strcmp(format, "F32LE") == 0 ? 0 : std::stoi(format + 1);
+      std::vector<guint8> bytes;
+      for (const TrackSample& sample : curve()) {
+        for (const float value : sample) {
+          guint8 encoded[4];
+          if (bits == 0) {
+            GST_WRITE_FLOAT_LE(encoded, value);
+          } else {
+            GST_WRITE_UINT32_LE(encoded, static_cast<guint32>(static_cast<gint32>(
+                                             std::lround(std::ldexp(value, bits - 1)))));
+          }
+          const bool is_padded = bits == 0 || std::strcmp(format, "S24_32LE") == 0;
+          bytes.insert(bytes.end(), encoded, encoded + (is_padded ? 4 : bits / 8));
+        }
+      }
+      track.push_bytes(bytes.data(), bytes.size(), 0, GST_SECOND);
+      track.end();
+      track.set_state(GST_STATE_PLAYING);
+      // Half a step on each of six axes, of 10 N at most.
+      const double half_step = bits == 0 ? 0 : 10 * std::ldexp(0.5, 1 - bits) * std::sqrt(6);
+      for (int ms = 1; ms < 300; ++ms) expect_wanted(track.tick(), ms, half_step + 1e-6);
+    }
+  }
+}
+
+TEST(TrackPlayback, TakesEveryRate) {
+  for (const int rate_Hz : {200, 441, 1000, 1500, 4000, 8000}) {
+    SCOPED_TRACE(rate_Hz);
+    SteppedTrack track("", "audio/x-raw,format=F32LE,layout=interleaved,channels=6,rate=" +
+                               std::to_string(rate_Hz) + ",channel-mask=(bitmask)0x3f");
+    const double step_ms = 1000.0 / rate_Hz;
+    track.push(curve(0, step_ms, rate_Hz), 0, rate_Hz);
+    track.end();
+    track.set_state(GST_STATE_PLAYING);
+    // The mean of a group spans as much of the curve again.
+    const double group_ms = step_ms * std::ceil(rate_Hz / 1000.0);
+    track.run(8);
+    for (int ms = 9; ms < 900; ++ms) {
+      expect_wanted(track.tick(), ms, 2 * interpolation_error(group_ms));
+    }
+  }
+}
+
+TEST(TrackPlayback, TakesBuffersOfAnySize) {
+  for (const int size : {1, 7, 40, 2700}) {
+    SCOPED_TRACE(size);
+    SteppedTrack track;
+    for (int at = 0; at < 2700; at += size) {
+      track.push(curve(at, 1, size), static_cast<GstClockTime>(at) * GST_MSECOND);
+    }
+    track.end();
+    track.set_state(GST_STATE_PLAYING);
+    for (int ms = 1; ms < 1000; ++ms) expect_wanted(track.tick(), ms, 1e-6);
+    EXPECT_EQ(track.stat("samples-refused"), 0u);
+  }
+}
+
+TEST(TrackPlayback, NothingIsFeltInPausedAndItGoesOnWhereItWas) {
+  SteppedTrack track;
+  track.push(curve(), 0);
+  track.end();
+  track.set_state(GST_STATE_PAUSED);
+  EXPECT_EQ(track.run(100).commanded.stacked().norm(), 0);
+  track.set_state(GST_STATE_PLAYING);
+  for (int ms = 1; ms < 200; ++ms) expect_wanted(track.tick(), ms, 1e-6);
+  track.set_state(GST_STATE_PAUSED);
+  EXPECT_EQ(track.run(50).commanded.stacked().norm(), 0);
+  EXPECT_EQ(track.run(1000).commanded.stacked().norm(), 0);
+  track.set_state(GST_STATE_PLAYING);
+  for (int ms = 200; ms < 900; ++ms) expect_wanted(track.tick(), ms, 1e-6);
+}
+
+TEST(TrackPlayback, ASeekIsExactToTheSampleAndForgetsWhatWasThere) {
+  SteppedTrack track;
+  track.push(curve(), 0);
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  track.run(100);
+  track.seek(1, 4320 * GST_MSECOND);
+  track.push(curve(4000), 4 * GST_SECOND);
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  track.tick();
+  for (int ms = 2; ms < 600; ++ms) {
+    const TickRecord tick = track.tick();
+    EXPECT_EQ(tick.running_ns, ms * 1'000'000);
+    expect_wanted(tick, 4320 + ms, 1e-6);
+  }
+}
+
+TEST(TrackPlayback, AnotherRateChangesTheTimeAndNotTheAmplitude) {
+  for (const double rate : {0.5, 2.0}) {
+    SCOPED_TRACE(rate);
+    SteppedTrack track;
+    track.push(curve(), 0);
+    track.end();
+    track.set_state(GST_STATE_PAUSED);
+    track.seek(rate, 0);
+    track.push(curve(), 0);
+    track.end();
+    track.set_state(GST_STATE_PLAYING);
+    track.tick();
+    for (int ms = 2; ms < 400; ++ms) expect_wanted(track.tick(), rate * ms, interpolation_error(1));
+  }
+}
+
+TEST(TrackPlayback, BackwardsTheLastSampleComesFirst) {
+  SteppedTrack track;
+  track.push(curve(), 0);
+  track.end();
+  track.set_state(GST_STATE_PAUSED);
+  track.seek(-1, 0, GST_SECOND);
+  for (int at = 960; at >= 0; at -= 40) {
+    track.push(curve(at, 1, 40), static_cast<GstClockTime>(at) * GST_MSECOND);
+  }
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  track.tick();
+  for (int ms = 2; ms < 1000; ++ms) expect_wanted(track.tick(), 1000 - ms, 1e-6);
+}
+
+TEST(TrackPlayback, AGapIsRestAndWhatFollowsComesBackWithoutAKick) {
+  SteppedTrack track;
+  track.push(curve(0, 1, 200), 0);
+  track.push(curve(500, 1, 500), 500 * GST_MSECOND);
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  EXPECT_GT(track.run(199).commanded.stacked().norm(), 0);
+  EXPECT_EQ(track.run(50).commanded.stacked().norm(), 0);
+  track.run(300);
+  for (int ms = 550; ms < 900; ++ms) {
+    const TickRecord tick = track.tick();
+    expect_wanted(tick, ms, 1e-6);
+    EXPECT_TRUE(ms <= 600 || tick.commanded.stacked() == tick.wanted.stacked()) << ms;
+  }
+}
+
+TEST(TrackPlayback, BadSamplesAreRestAndAreNamedOnce) {
+  std::vector<TrackSample> samples = curve();
+  samples[100][0] = std::numeric_limits<float>::quiet_NaN();
+  samples[200][5] = std::numeric_limits<float>::infinity();
+  for (size_t i = 300; i < 400; ++i) samples[i] = TrackSample{1e30F, -1e30F};
+  SteppedTrack track("max-force=2");
+  track.push(samples, 0);
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  for (int ms = 1; ms < 1000; ++ms) {
+    const TickRecord tick = track.tick();
+    EXPECT_LE(tick.commanded.force_N.norm(), 2 * (1 + 1e-12));
+    EXPECT_TRUE(tick.commanded.is_finite());
+  }
+  EXPECT_EQ(track.stat("samples-not-finite"), 2u);
+  EXPECT_EQ(track.stat("samples-beyond-full-scale"), 100u);
+  const std::vector<std::string> complaints = track.complaints();
+  ASSERT_EQ(complaints.size(), 2u);
+  EXPECT_NE(complaints[0].find("no numbers"), std::string::npos) << complaints[0];
+  EXPECT_NE(complaints[1].find("full scale"), std::string::npos) << complaints[1];
+}
+
+TEST(TrackPlayback, WhatIsNoTrackIsRefusedWithASentence) {
+  const std::string raw = "audio/x-raw,format=F32LE,layout=interleaved,";
+  const std::pair<std::string, std::string> cases[] = {
+      {raw + "rate=1000,channels=5,channel-mask=(bitmask)0x37", "5 channels"},
+      {raw + "rate=1000,channels=8,channel-mask=(bitmask)0xc3f", "8 channels"},
+      {raw + "rate=1000,channels=6,channel-mask=(bitmask)0xc0f", "0xc0f"},
+      {raw + "rate=48000,channels=6,channel-mask=(bitmask)0x3f", "48000"},
+      {raw + "rate=96,channels=6,channel-mask=(bitmask)0x3f", "96"}};
+  for (const auto& [caps, word] : cases) {
+    SCOPED_TRACE(caps);
+    SteppedTrack track("", caps);
+    track.push(std::vector<float>(480), 0);
+    track.end();
+    track.send();
+    std::vector<std::string> complaints;
+    while (complaints.empty()) complaints = track.complaints();
+    EXPECT_NE(complaints[0].find(word), std::string::npos) << complaints[0];
+  }
+}
+
+TEST(TrackPlayback, GainMuteAndOffset) {
+  SteppedTrack track("gain=0.5 ts-offset=100000000");
+  for (int second = 0; second < 3; ++second) {
+    track.push(curve(1000.0 * second), static_cast<GstClockTime>(second) * GST_SECOND);
+  }
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  track.run(200);
+  const Wrench expected = 0.5 * to_wrench(sample_at(101));
+  EXPECT_LE((track.tick().wanted.stacked() - expected.stacked()).norm(), 1e-6);
+  g_object_set(track.sink(), "mute", TRUE, nullptr);
+  EXPECT_EQ(track.run(50).commanded.stacked().norm(), 0);
+  EXPECT_EQ(track.run(300).commanded.stacked().norm(), 0);
+  g_object_set(track.sink(), "mute", FALSE, nullptr);
+  const TickRecord tick = track.run(300);
+  EXPECT_EQ(tick.found, Found::kExact) << "0.2 s later it is there again";
+  EXPECT_EQ(tick.running_ns, (201 + 350 + 300 - 100) * GST_MSECOND);
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,147 @@
+/// What is felt of the samples of a track.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/spidar/loop_driver.h"
+#include "tests/support/tick_watch.h"
+
+namespace spidar::test {
+namespace {
+
+float share_at(int64_t ms) {
+  return 0.2F * static_cast<float>(std::sin(0.02 * static_cast<double>(ms)));
+}
+
+TrackBlock block_of(int64_t begin_ms, size_t count = TrackBlock::kCapacity) {
+  TrackBlock block;
+  block.begin_ns = begin_ms * kMs;
+  block.count = count;
+  block.duration_ns = static_cast<int64_t>(count) * kMs;
+  for (size_t i = 0; i < count; ++i) {
+    const float share = share_at(begin_ms + static_cast<int64_t>(i));
+    block.samples[i] = {share, -share, 0, 0, share / 10, 0};
+  }
+  return block;
+}
+
+struct TrackDriver : LoopDriver {
+  TrackDriver() { open(); }
+
+  TickRecord watched_tick() {
+    now_ns += kMs;
+    return watch.tick(*loop, now_ns);
+  }
+  TickRecord watched_run(int ticks) {
+    TickRecord record;
+    for (int i = 0; i < ticks; ++i) record = watched_tick();
+    return record;
+  }
+  void schedule(int64_t from_ms, int64_t to_ms) {
+    for (int64_t ms = from_ms; ms < to_ms; ms += TrackBlock::kCapacity) {
+      ASSERT_TRUE(loop->schedule(block_of(ms)));
+    }
+  }
+
+  TickWatch watch;
+};
+
+TEST(HapticLoopTrack, FeelsEverySample) {
+  TrackDriver driver;
+  driver.schedule(0, 400);
+  driver.play(0);
+  for (int ms = 1; ms < 400; ++ms) {
+    const TickRecord record = driver.watched_tick();
+    ASSERT_EQ(record.found, Found::kExact) << ms;
+    ASSERT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * share_at(ms));
+    ASSERT_EQ(record.wanted.force_N.y(), -record.wanted.force_N.x());
+    // After the ramp in the wrench is within the limits, and so it is commanded.
+    ASSERT_TRUE(ms <= 60 || record.commanded.stacked() == record.wanted.stacked()) << ms;
+  }
+}
+
+TEST(HapticLoopTrack, RestsWithinFiftyMillisecondsOfTheLastSampleAndComesBackWithoutAKick) {
+  TrackDriver driver;
+  driver.schedule(0, 80);
+  driver.play(0);
+  EXPECT_GT(driver.watched_run(79).commanded.force_N.norm(), 1);
+  EXPECT_EQ(driver.watched_run(50).commanded.stacked().norm(), 0);
+  driver.watched_run(20);
+  driver.schedule(160, 320);
+  const TickRecord back = driver.watched_run(161 - 149 + 60);
+  EXPECT_EQ(back.commanded.stacked(), back.wanted.stacked());
+  EXPECT_GT(back.commanded.force_N.norm(), 0.1);
+}
+
+TEST(HapticLoopTrack, NothingIsFeltBeforePlayingAndInPaused) {
+  TrackDriver driver;
+  driver.schedule(0, 400);
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(driver.watched_tick().commanded.stacked().norm(), 0);
+  driver.play(0);
+  EXPECT_GT(driver.watched_run(80).commanded.force_N.norm(), 1);
+  driver.pause();
+  EXPECT_EQ(driver.watched_run(50).commanded.stacked().norm(), 0);
+  driver.play(80 * kMs);
+  const TickRecord record = driver.watched_run(100);
+  EXPECT_EQ(record.running_ns, 180 * kMs);
+  EXPECT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * share_at(180));
+}
+
+TEST(HapticLoopTrack, AFlushForgetsSamplesAlsoThoseOfABlockThatIsBeingRead) {
+  TrackDriver driver;
+  driver.schedule(0, 2000);
+  driver.play(0);
+  driver.watched_run(100);
+  driver.loop->cancel_scheduled();
+  EXPECT_EQ(driver.watched_tick().found, Found::kNothing);
+  driver.schedule(1000, 1400);
+  driver.play(1000 * kMs);
+  const TickRecord record = driver.watched_run(90);
+  EXPECT_EQ(record.found, Found::kExact);
+  EXPECT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * share_at(1090));
+}
+
+TEST(HapticLoopTrack, AFlushMakesRoomAlsoWhileNothingPlays) {
+  TrackDriver driver;
+  int blocks = 0;
+  while (driver.loop->schedule(block_of(40 * blocks))) ++blocks;
+  EXPECT_GE(blocks, 60) << "two seconds and more of a track fit";
+  driver.loop->cancel_scheduled();
+  driver.watched_tick();
+  EXPECT_TRUE(driver.loop->schedule(block_of(0)));
+}
+
+TEST(HapticLoopTrack, NoSampleHoweverBadBreaksALimit) {
+  const float inf = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float huge = std::numeric_limits<float>::max();
+  TrackDriver driver;
+  driver.play(0);
+  int64_t ms = 0;
+  for (const float bad : {inf, -inf, nan, huge, -huge}) {
+    for (const size_t count : {size_t{1}, size_t{3}, TrackBlock::kCapacity}) {
+      TrackBlock block = block_of(ms, count);
+      for (size_t i = 0; i < count; i += 2) block.samples[i][i % kTrackChannels] = bad;
+      ASSERT_TRUE(driver.loop->schedule(block));
+      ms += static_cast<int64_t>(count);
+    }
+  }
+  // The watch fails the test where a limit of force, torque or their change is broken.
+  driver.watched_run(static_cast<int>(ms) + 60);
+  EXPECT_EQ(driver.watch.last().commanded.stacked().norm(), 0);
+  EXPECT_GT(driver.watch.felt(), 100u);
+  EXPECT_GT(driver.counters().rejected_wrenches, 0u);
+}
+
+TEST(HapticLoopTrack, WhereThereIsATrackFramesAreNotFelt) {
+  TrackDriver driver;
+  for (int i = 0; i < 20; ++i) driver.loop->schedule({i * 40 * kMs, 50 * kMs, push_right(-1)});
+  driver.play(0);
+  EXPECT_EQ(driver.watched_run(100).wanted.force_N.x(), -1);
+  driver.schedule(120, 400);
+  EXPECT_EQ(driver.watched_run(150).wanted.force_N.x(), kTrackForceScale_N * share_at(250));
+}
+
+}  // namespace
+}  // namespace spidar::test
