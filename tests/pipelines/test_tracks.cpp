@@ -69,8 +69,8 @@ struct Container {
 };
 
 std::vector<Container> containers() {
-  // 24 bits: half a step.
-  const float half_step_24 = std::ldexp(1.0F, -24);
+  // 24 bits: half a step, and what a float below 1 is rounded by.
+  const float half_step_24 = std::ldexp(1.0F, -24) + std::ldexp(1.0F, -25);
   const std::string s24 = std::string(kNoDither) + "audio/x-raw,format=S24LE ! ";
   return {
       {"f32.mka", "matroskamux ! ", "matroskademux ! ", 0},

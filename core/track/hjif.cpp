@@ -1,0 +1,250 @@
+#include "core/track/hjif.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "core/track/keyframes.h"
+
+namespace spidar {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array<const char*, kTrackChannels> kChannelNames = {
+    "Force x, to the right: 1 is 10 N",
+    "Force y, up: 1 is 10 N",
+    "Force z, towards the viewer: 1 is 10 N",
+    "Torque about x: 1 is 1 N m",
+    "Torque about y: 1 is 1 N m",
+    "Torque about z: 1 is 1 N m"};
+/// Largest timescale of the format's main profile, ticks a second.
+constexpr int64_t kMostTicks_Hz = 48000;
+/// What the haptic loop can make of a curve.
+constexpr int kUpperLimit_Hz = kTrackRate_Hz / 2;
+
+template <typename Number>
+void append(std::string& text, Number number) {
+  std::array<char, 32> digits;
+  text.append(digits.data(),
+              std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+}
+
+double amplitude_of(float sample) {
+  if (!std::isfinite(sample)) return 0;
+  constexpr double kSteps = 1e5;
+  return std::round(std::clamp(static_cast<double>(sample), -1.0, 1.0) * kSteps) / kSteps;
+}
+
+void append_channel(std::string& text, const std::vector<TrackSample>& samples, size_t channel,
+                    double tolerance) {
+  std::vector<double> values;
+  values.reserve(samples.size());
+  for (const TrackSample& sample : samples) values.push_back(amplitude_of(sample[channel]));
+  text += R"({"id":)";
+  append(text, channel);
+  text += R"(,"description":")";
+  text += kChannelNames[channel];
+  text += R"(","gain":1.0,"mixing_coefficient":1.0,"body_part_mask":0,"frequency_sampling":)";
+  append(text, kTrackRate_Hz);
+  text += R"(,"sample_count":)";
+  append(text, samples.size());
+  text += R"(,"bands":[{"band_type":"Curve","curve_type":"Linear","lower_frequency_limit":0,)"
+          R"("upper_frequency_limit":)";
+  append(text, kUpperLimit_Hz);
+  text += R"(,"effects":[{"effect_type":"Basis","position":0,"phase":0.0,"base_signal":"Sine",)"
+          R"("keyframes":[)";
+  bool first = true;
+  for (const size_t i : choose_keyframes(values, tolerance)) {
+    text += first ? R"({"relative_position":)" : R"(,{"relative_position":)";
+    first = false;
+    append(text, i);
+    text += R"(,"amplitude_modulation":)";
+    append(text, values[i] + 0.0);  // of −0 and 0 only the second
+    text += '}';
+  }
+  text += "]}]}]}";
+}
+
+[[noreturn]] void fail(const std::string& where, const std::string& what) {
+  throw HjifError("HJIF: " + where + " " + what);
+}
+
+const Json& member(const Json& object, const char* name, const std::string& where) {
+  if (!object.is_object()) fail(where, "is no object");
+  const auto found = object.find(name);
+  if (found == object.end()) fail(where, std::string("has no ") + name);
+  return *found;
+}
+
+const Json& array(const Json& object, const char* name, const std::string& where) {
+  const Json& value = member(object, name, where);
+  if (!value.is_array()) fail(where + "." + name, "is no array");
+  return value;
+}
+
+std::string text_of(const Json& object, const char* name, const std::string& where) {
+  const Json& value = member(object, name, where);
+  if (!value.is_string()) fail(where + "." + name, "is no string");
+  return value.get<std::string>();
+}
+
+/// A finite number of at most ±`most`.
+double number(const Json& object, const char* name, const std::string& where, double most) {
+  const Json& value = member(object, name, where);
+  if (!value.is_number()) fail(where + "." + name, "is no number");
+  const double result = value.get<double>();
+  if (!(std::fabs(result) <= most)) fail(where + "." + name, "is out of range");
+  return result;
+}
+
+/// Of ticks, from 0 to 2^31 − 1 as in the format.
+int64_t ticks(const Json& object, const char* name, const std::string& where) {
+  const double value = number(object, name, where, INT32_MAX);
+  if (value < 0 || value != std::floor(value)) fail(where + "." + name, "is no number of ticks");
+  return static_cast<int64_t>(value);
+}
+
+struct Keyframe {
+  int64_t tick;
+  double amplitude;
+};
+
+/// Adds curves to samples that grow as needed.
+class Curves {
+ public:
+  Curves(int64_t ticks_Hz, size_t most_samples) : ticks_Hz_(ticks_Hz), most_(most_samples) {}
+
+  void add(const std::vector<Keyframe>& curve, size_t channel, double gain,
+           const std::string& where) {
+    if (curve.empty()) return;
+    reach(index_before(curve.back().tick) + 1, where);
+    put(curve.front(), channel, gain);
+    for (size_t k = 1; k < curve.size(); ++k) {
+      const Keyframe &a = curve[k - 1], &b = curve[k];
+      const double length = static_cast<double>(b.tick - a.tick);
+      for (size_t i = index_before(a.tick) + 1; i <= index_before(b.tick); ++i) {
+        const double after =
+            static_cast<double>(i) * static_cast<double>(ticks_Hz_) / kTrackRate_Hz -
+            static_cast<double>(a.tick);
+        const double value = a.amplitude + (b.amplitude - a.amplitude) * after / length;
+        samples_[i][channel] += static_cast<float>(gain * value);
+      }
+    }
+  }
+
+  void reach(size_t count, const std::string& where) {
+    if (count > most_) fail(where, "is longer than a track may be");
+    if (samples_.size() < count) samples_.resize(count);
+  }
+
+  std::vector<TrackSample> take() { return std::move(samples_); }
+
+ private:
+  /// The last sample at or before the tick.
+  size_t index_before(int64_t tick) const {
+    return static_cast<size_t>(tick * kTrackRate_Hz / ticks_Hz_);
+  }
+  /// Where a keyframe is a sample.
+  void put(const Keyframe& keyframe, size_t channel, double gain) {
+    const size_t i = index_before(keyframe.tick);
+    if (static_cast<int64_t>(i) * ticks_Hz_ == keyframe.tick * kTrackRate_Hz) {
+      samples_[i][channel] += static_cast<float>(gain * keyframe.amplitude);
+    }
+  }
+
+  const int64_t ticks_Hz_;
+  const size_t most_;
+  std::vector<TrackSample> samples_;
+};
+
+std::vector<Keyframe> read_keyframes(const Json& effect, const std::string& where) {
+  const int64_t begin = ticks(effect, "position", where);
+  std::vector<Keyframe> curve;
+  const Json& keyframes = array(effect, "keyframes", where);
+  for (size_t k = 0; k < keyframes.size(); ++k) {
+    const std::string at = where + ".keyframes[" + std::to_string(k) + "]";
+    const int64_t tick = begin + ticks(keyframes[k], "relative_position", at);
+    if (!curve.empty() && tick <= curve.back().tick) fail(at, "is not after the one before");
+    curve.push_back({tick, number(keyframes[k], "amplitude_modulation", at, 1)});
+  }
+  return curve;
+}
+
+void read_channel(const Json& channel, size_t number_of_channel, Curves& curves,
+                  const std::string& where) {
+  const double gain = number(channel, "gain", where, 1e3);
+  if (channel.contains("sample_count") && channel.contains("frequency_sampling")) {
+    const auto count = static_cast<size_t>(ticks(channel, "sample_count", where));
+    if (ticks(channel, "frequency_sampling", where) == kTrackRate_Hz) {
+      curves.reach(count, where + ".sample_count");
+    }
+  }
+  const Json& bands = array(channel, "bands", where);
+  for (size_t b = 0; b < bands.size(); ++b) {
+    const std::string band = where + ".bands[" + std::to_string(b) + "]";
+    const std::string type = text_of(bands[b], "band_type", band);
+    if (type != "Curve") fail(band, "is of type " + type + ": only curves are forces");
+    const std::string curve = text_of(bands[b], "curve_type", band);
+    if (curve != "Linear") fail(band, "is a curve of type " + curve + ", not Linear");
+    const Json& effects = array(bands[b], "effects", band);
+    for (size_t e = 0; e < effects.size(); ++e) {
+      const std::string effect = band + ".effects[" + std::to_string(e) + "]";
+      curves.add(read_keyframes(effects[e], effect), number_of_channel, gain, effect);
+    }
+  }
+}
+
+int64_t timescale_of(const Json& root) {
+  if (!root.contains("timescale")) return kTrackRate_Hz;
+  const int64_t ticks_Hz = ticks(root, "timescale", "the file");
+  if (ticks_Hz < 1 || ticks_Hz > kMostTicks_Hz) fail("timescale", "is not from 1 to 48000");
+  return ticks_Hz;
+}
+
+}  // namespace
+
+std::string write_hjif(const std::vector<TrackSample>& samples, double tolerance) {
+  std::string text =
+      R"({"version":"2023","profile":"Main","level":1,"date":"2023-01-01","description":)"
+      R"("Wanted wrench on a grip","timescale":)";
+  append(text, kTrackRate_Hz);
+  text += R"(,"avatars":[],"perceptions":[{"id":0,"avatar_id":0,"description":)"
+          R"("Force and torque on the grip","perception_modality":"Force","effect_library":[],)"
+          R"("reference_devices":[],"channels":[)";
+  for (size_t channel = 0; channel < kTrackChannels; ++channel) {
+    if (channel > 0) text += ',';
+    append_channel(text, samples, channel, tolerance);
+  }
+  return text + R"(]}],"syncs":[]})" + "\n";
+}
+
+std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples) {
+  Json root;
+  try {
+    root = Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw HjifError(std::string("HJIF: no JSON: ") + error.what());
+  }
+  Curves curves(timescale_of(root), most_samples);
+  const Json& perceptions = array(root, "perceptions", "the file");
+  for (size_t p = 0; p < perceptions.size(); ++p) {
+    const std::string where = "perceptions[" + std::to_string(p) + "]";
+    if (text_of(perceptions[p], "perception_modality", where) != "Force") continue;
+    const Json& channels = array(perceptions[p], "channels", where);
+    if (channels.size() != kTrackChannels) {
+      fail(where, "has " + std::to_string(channels.size()) +
+                      " channels; a haptic track has 6, force x, y, z and torque x, y, z");
+    }
+    for (size_t c = 0; c < channels.size(); ++c) {
+      read_channel(channels[c], c, curves, where + ".channels[" + std::to_string(c) + "]");
+    }
+    return curves.take();
+  }
+  fail("the file", "has no perception of modality Force");
+}
+
+}  // namespace spidar

@@ -1,0 +1,38 @@
+/// Haptic tracks in MPEG's format for haptics, ISO/IEC 23090-31.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/api.h"
+#include "core/track/track_format.h"
+
+namespace spidar {
+
+/// What was wrong with a file, and where.
+class SPIDAR_API HjifError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// HJIF of a track of 1000 samples a second: one perception of modality Force with six channels, fx
+/// fy fz tx ty tz, 1.0 of which is the full scale. There is no modality for torque: the
+/// descriptions of the channels say which is which. Each channel is one curve of straight lines,
+/// whose keyframes are samples: what lies between differs from the samples by at most `tolerance`
+/// of the full scale, and the keyframes themselves by half of 1e-5. Amplitudes beyond the full
+/// scale are clipped, as the format demands; what is no number is 0.
+SPIDAR_API std::string write_hjif(const std::vector<TrackSample>& samples, double tolerance = 4e-4);
+
+/// The longest track that read_hjif() takes: 12 h.
+constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
+
+/// Samples, 1000 a second, of the first perception of modality Force, which has to have six
+/// channels. Curves of straight lines are evaluated and summed, times the gain of their channel;
+/// before its first and after its last keyframe an effect is silent. Throws HjifError: no JSON, a
+/// value that is missing or out of range, other bands or curves, or more than `most_samples`.
+SPIDAR_API std::vector<TrackSample> read_hjif(const std::string& text,
+                                              size_t most_samples = kMostHjifSamples);
+
+}  // namespace spidar

@@ -1,0 +1,31 @@
+#include "core/track/keyframes.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace spidar {
+
+std::vector<size_t> choose_keyframes(const std::vector<double>& values, double tolerance) {
+  std::vector<size_t> chosen;
+  if (values.empty()) return chosen;
+  chosen.push_back(0);
+  size_t begin = 0;
+  while (begin + 1 < values.size()) {
+    double lowest = -std::numeric_limits<double>::infinity();
+    double highest = std::numeric_limits<double>::infinity();
+    size_t end = begin + 1;
+    for (size_t i = begin + 1; i < values.size() && lowest <= highest; ++i) {
+      const double distance = static_cast<double>(i - begin);
+      const double rise = values[i] - values[begin];
+      const double slope = rise / distance;
+      if (slope >= lowest && slope <= highest) end = i;
+      lowest = std::max(lowest, (rise - tolerance) / distance);
+      highest = std::min(highest, (rise + tolerance) / distance);
+    }
+    chosen.push_back(end);
+    begin = end;
+  }
+  return chosen;
+}
+
+}  // namespace spidar

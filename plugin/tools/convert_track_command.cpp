@@ -1,0 +1,51 @@
+#include <iostream>
+
+#include "plugin/tools/spidartrack_commands.h"
+#include "plugin/tools/track_samples.h"
+#include "plugin/tools/track_summary.h"
+#include "spidar/tools/command_line.h"
+#include "spidar/tools/commands.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kHelp = R"(usage: spidartrack convert FROM TO [OPTION]...
+
+FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), or a trace of
+spidarmotion (.csv). TO is what its name ends in: .flac, .mka, .wav, .hjif or .funscript.
+
+  --tolerance SHARE  of the full scale, by which HJIF may differ between its keyframes; 0.0004
+  --axis CHANNEL     that a funscript has: fx, fy, fz, tx, ty or tz; fy
+)";
+
+size_t parse_axis(const std::string& text) {
+  for (size_t i = 0; i < kTrackChannels; ++i) {
+    if (text == channel_name(i)) return i;
+  }
+  throw UsageError("--axis: \"" + text + "\" is none of fx, fy, fz, tx, ty, tz");
+}
+
+}  // namespace
+
+int convert_track_command(int argc, char** argv) {
+  bool help = false;
+  SaveOptions options;
+  options.funscript_axis = 1;
+  const std::vector<std::string> operands = parse_options(
+      argc, argv,
+      {{"tolerance", true,
+        [&](const std::string& text) {
+          options.hjif_tolerance = parse_number("--tolerance", text, 0, 1, "");
+        }},
+       {"axis", true, [&](const std::string& text) { options.funscript_axis = parse_axis(text); }},
+       {"help", false, [&](const std::string&) { help = true; }}});
+  if (help) {
+    std::cout << kHelp;
+    return kDone;
+  }
+  if (operands.size() != 2) throw UsageError("FROM and TO are needed, and nothing else");
+  save_track(operands[1], load_track(operands[0]), options);
+  return kDone;
+}
+
+}  // namespace spidar

@@ -1,0 +1,13 @@
+/// What spidartrack can do. Each takes its own command line, argv[0] being its name, and returns
+/// the exit status. They throw UsageError, std::runtime_error.
+#pragma once
+
+namespace spidar {
+
+int check_track_command(int argc, char** argv);
+int convert_track_command(int argc, char** argv);
+int plot_track_command(int argc, char** argv);
+int record_track_command(int argc, char** argv);
+int track_info_command(int argc, char** argv);
+
+}  // namespace spidar

@@ -1,0 +1,225 @@
+#include "plugin/tools/track_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+#include <gst/gst.h>
+
+#include "core/track/hjif.h"
+#include "core/track/track_reader.h"
+#include "core/track/track_sampler.h"
+#include "plugin/track/track_file.h"
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be read");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<TrackSample> samples_of(const TrackFile& track) {
+  std::vector<TrackSample> samples(
+      static_cast<size_t>((track.duration_ns + kTrackPeriod_ns / 2) / kTrackPeriod_ns));
+  TrackReader reader;
+  size_t next = 0;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const auto time_ns = static_cast<int64_t>(i) * kTrackPeriod_ns;
+    while (next < track.blocks.size() && reader.read(track.blocks[next], time_ns)) ++next;
+    const TimelineResult result =
+        reader.at(time_ns, next < track.blocks.size() ? &track.blocks[next] : nullptr);
+    const bool has = result.found == Found::kExact || result.found == Found::kInterpolated;
+    if (has) samples[i] = to_track_sample(result.wrench);
+  }
+  // Samples that are whole milliseconds are taken over to the bit.
+  for (const TrackBlock& block : track.blocks) {
+    if (block.begin_ns % kTrackPeriod_ns != 0 || block.period_ns() != kTrackPeriod_ns) continue;
+    for (size_t i = 0; i < block.count; ++i) {
+      const auto index = static_cast<size_t>(block.time_ns(i) / kTrackPeriod_ns);
+      if (index < samples.size()) samples[index] = block.samples[i];
+    }
+  }
+  return samples;
+}
+
+/// One row of a trace: running time, stream time, features, tracked, velocity, force, torque.
+constexpr size_t kTraceColumns = 12, kForceColumn = 6;
+
+std::vector<TrackSample> samples_of_trace(const std::string& path) {
+  std::istringstream rows(read_text(path));
+  std::string row;
+  std::getline(rows, row);
+  if (row.rfind("running_time_ns,stream_time_ns,", 0) != 0) {
+    throw std::runtime_error(path + ": is no trace of spidarmotion");
+  }
+  TrackSampler sampler;
+  sampler.begin(0);
+  std::vector<TrackSample> samples;
+  int64_t last_ns = -1, interval_ns = 0;
+  const auto take_until = [&](int64_t time_ns) {
+    while (sampler.next_ns() < time_ns) samples.push_back(to_track_sample(sampler.take()));
+  };
+  for (int line = 2; std::getline(rows, row); ++line) {
+    std::vector<double> cells;
+    std::istringstream in(row);
+    for (std::string cell; std::getline(in, cell, ',');)
+      cells.push_back(std::strtod(cell.c_str(), nullptr));
+    if (cells.size() < kTraceColumns) {
+      throw std::runtime_error(path + ":" + std::to_string(line) + ": a row has " +
+                               std::to_string(kTraceColumns) + " columns");
+    }
+    const auto time_ns = static_cast<int64_t>(cells[1]);
+    const auto* value = &cells[kForceColumn];
+    interval_ns = last_ns < 0 ? 0 : time_ns - last_ns;
+    sampler.add({time_ns,
+                 WrenchTimeline::hold_after(interval_ns),
+                 {{value[0], value[1], value[2]}, {value[3], value[4], value[5]}}});
+    last_ns = time_ns;
+    take_until(sampler.settled_ns(INT64_MAX / 4));
+  }
+  sampler.add({last_ns + interval_ns, 0, Wrench()});
+  take_until(last_ns + interval_ns);
+  return samples;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+/// Positions from 0 to 100, 50 in the middle, wherever the line between those before and after is
+/// off by a step.
+std::string funscript(const std::vector<TrackSample>& samples, size_t axis) {
+  std::ostringstream out;
+  out << R"({"version":"1.0","inverted":false,"range":100,"actions":[)";
+  const auto position = [&](size_t i) {
+    const double share = std::isfinite(samples[i][axis]) ? samples[i][axis] : 0;
+    return std::lround(50 + 50 * std::clamp(share, -1.0, 1.0));
+  };
+  bool first = true;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const bool corner = i == 0 || i + 1 == samples.size() || position(i) != position(i - 1) ||
+                        position(i) != position(i + 1);
+    if (!corner) continue;
+    out << (first ? "" : ",") << R"({"at":)" << i << R"(,"pos":)" << position(i) << '}';
+    first = false;
+  }
+  out << "]}\n";
+  return out.str();
+}
+
+void write_sound(const std::string& path, const std::string& encoder,
+                 const std::vector<TrackSample>& samples) {
+  const std::string raw = path + ".raw";
+  const auto* bytes = reinterpret_cast<const char*>(samples.data());
+  write_text(raw, std::string(bytes, samples.size() * sizeof(TrackSample)));
+  try {
+    run_pipeline("filesrc location=" + quoted(raw) +
+                 " ! rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
+                 "capssetter caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
+                 encoder + " ! filesink location=" + quoted(path));
+  } catch (...) {
+    fs::remove(raw);
+    throw;
+  }
+  fs::remove(raw);
+}
+
+}  // namespace
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string quoted(const std::string& path) {
+  std::string text = "\"";
+  for (const char c : path) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+  }
+  return text + "\"";
+}
+
+std::string encoder_of(const std::string& path) {
+  if (ends_with(path, ".flac")) {
+    return "audioconvert dithering=none noise-shaping=none ! audio/x-raw,format=S24_32LE ! "
+           "flacenc blocksize=40";
+  }
+  if (ends_with(path, ".mka")) return "matroskamux";
+  if (ends_with(path, ".wav")) return "wavenc";
+  return {};
+}
+
+void run_pipeline(const std::string& line) {
+  GError* error = nullptr;
+  GstElement* pipeline = gst_parse_launch(line.c_str(), &error);
+  if (error) {
+    const std::string text = error->message;
+    g_error_free(error);
+    if (pipeline) gst_object_unref(pipeline);
+    throw std::runtime_error(text);
+  }
+  GstBus* bus = gst_element_get_bus(pipeline);
+  gst_element_set_state(pipeline, GST_STATE_PLAYING);
+  GstMessage* message = gst_bus_timed_pop_filtered(
+      bus, GST_CLOCK_TIME_NONE, static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR));
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  std::string problem;
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
+    gst_message_parse_error(message, &error, nullptr);
+    problem = error->message;
+    g_error_free(error);
+  }
+  gst_message_unref(message);
+  gst_object_unref(bus);
+  gst_object_unref(pipeline);
+  if (!problem.empty()) throw std::runtime_error(problem);
+}
+
+std::vector<TrackSample> load_track(const std::string& path, TrackFaults* faults) {
+  if (faults) *faults = {};
+  if (ends_with(path, ".hjif")) return read_hjif(read_text(path));
+  if (ends_with(path, ".csv")) return samples_of_trace(path);
+  const TrackFile track = read_track_file(path);
+  if (faults) *faults = track.faults;
+  return samples_of(track);
+}
+
+void save_track(const std::string& path, const std::vector<TrackSample>& samples,
+                const SaveOptions& options) {
+  // The end of the name stays, for it says what the file is.
+  const fs::path target(path);
+  const std::string part =
+      (target.parent_path() / (".part-" + target.filename().string())).string();
+  try {
+    const std::string encoder = encoder_of(path);
+    if (!encoder.empty()) {
+      write_sound(part, encoder, samples);
+    } else if (ends_with(path, ".hjif")) {
+      write_text(part, write_hjif(samples, options.hjif_tolerance));
+    } else if (ends_with(path, ".funscript")) {
+      write_text(part, funscript(samples, options.funscript_axis));
+    } else {
+      throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .funscript");
+    }
+    fs::rename(part, path);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw;
+  }
+}
+
+}  // namespace spidar

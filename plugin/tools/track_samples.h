@@ -1,0 +1,38 @@
+/// Whole tracks of 1000 samples a second, from and to files of every kind.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/track/track_format.h"
+#include "plugin/track/track_input.h"
+
+namespace spidar {
+
+/// By the end of its name: HJIF (`.hjif`), the trace of spidarmotion (`.csv`), else sound, of any
+/// rate that spidarsink takes; gaps are silence, and so are samples that are no numbers, which
+/// `faults` counts. Throws std::runtime_error.
+std::vector<TrackSample> load_track(const std::string& path, TrackFaults* faults = nullptr);
+
+struct SaveOptions {
+  double hjif_tolerance = 4e-4;  ///< of the full scale
+  size_t funscript_axis = 0;     ///< channel
+};
+
+/// By the end of its name: `.flac`, `.wav`, `.mka` (both F32), `.hjif` or `.funscript`. A file that
+/// is there is replaced when the new one is complete. Throws std::runtime_error.
+void save_track(const std::string& path, const std::vector<TrackSample>& samples,
+                const SaveOptions& options = {});
+
+/// What GStreamer makes such a file of samples with: "flacenc blocksize=40", …; empty when it
+/// cannot.
+std::string encoder_of(const std::string& path);
+
+/// Runs a pipeline to its end. Throws std::runtime_error with what it said.
+void run_pipeline(const std::string& line);
+
+bool ends_with(const std::string& text, const std::string& end);
+/// For a location in a launch line.
+std::string quoted(const std::string& path);
+
+}  // namespace spidar

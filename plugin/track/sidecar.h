@@ -1,0 +1,22 @@
+/// The haptic track beside a film.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+/// Path of the film that comes to `pad` (GST_QUERY_URI upstream); empty when it is not from a file.
+std::string film_of(GstPad* pad);
+
+/// FILM without its extension and with `.haptic.flac`, `.haptic.mka` or `.haptic.wav`: the first of
+/// them that is there; empty when none is.
+std::string find_sidecar(const std::string& film);
+
+/// Empty, or why a track that lasts `track_ns` is not that of the film that comes to `pad`: a film
+/// whose duration is known lasts as long, but for one of its frames.
+std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns);
+
+}  // namespace spidar

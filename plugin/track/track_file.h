@@ -1,0 +1,25 @@
+/// A haptic track in a file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/track/track_block.h"
+#include "plugin/track/track_input.h"
+
+namespace spidar {
+
+/// A whole track. The times of its blocks are those of the file, and rise.
+struct TrackFile {
+  std::vector<TrackBlock> blocks;
+  int64_t duration_ns = 0;
+  TrackFaults faults;
+};
+
+/// Reads the first sound of a file in any container that GStreamer has a decoder for, in memory: 90
+/// MB an hour. Throws std::runtime_error, which says what was wrong, when there is none, when it is
+/// no haptic track (TrackInput::set_caps()), or when the file is damaged.
+TrackFile read_track_file(const std::string& path);
+
+}  // namespace spidar

@@ -1,0 +1,210 @@
+// What a user sees of spidartrack: exit status, messages, files.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+#include "core/track/track_format.h"
+#include "plugin/tools/track_samples.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Result {
+  int status = -1;
+  std::string text;  ///< both outputs
+};
+
+Result run(const std::string& arguments) {
+  Result result;
+  FILE* pipe = popen((std::string(SPIDARTRACK) + " " + arguments + " 2>&1").c_str(), "r");
+  if (!pipe) return result;
+  char part[4096];
+  while (std::fgets(part, sizeof part, pipe)) result.text += part;
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
+  return result;
+}
+
+void expect_contains(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
+}
+
+double largest_difference(const std::vector<TrackSample>& a, const std::vector<TrackSample>& b) {
+  double largest = 0;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    for (size_t k = 0; k < kTrackChannels; ++k) {
+      largest = std::max(largest, std::fabs(static_cast<double>(a[i][k]) - b[i][k]));
+    }
+  }
+  return largest;
+}
+
+class Spidartrack : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { gst_init(nullptr, nullptr); }
+
+  std::string path(const std::string& name) const { return (folder.path / name).string(); }
+  void make_film(const std::string& name) const {
+    run_pipeline(
+        "videotestsrc num-buffers=50 pattern=ball ! "
+        "video/x-raw,width=320,height=240,framerate=25/1 "
+        "! jpegenc ! avimux ! filesink location=" +
+        quoted(path(name)));
+  }
+  /// Two seconds with six different channels.
+  std::vector<TrackSample> samples() const {
+    std::vector<TrackSample> track;
+    for (int i = 0; i < 2000; ++i) {
+      const auto x = static_cast<float>(0.05 * std::sin(0.01 * i));
+      track.push_back({x, 2 * x, -3 * x, x / 2, -x / 3, x / 4});
+    }
+    return track;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(Spidartrack, HelpSucceedsAndWrongUsageSaysWhatWouldBeRight) {
+  EXPECT_EQ(run("--help").status, 0);
+  for (const char* command : {"record", "info", "check", "convert", "plot"}) {
+    const Result help = run(std::string(command) + " --help");
+    EXPECT_EQ(help.status, 0);
+    expect_contains(help.text, std::string("usage: spidartrack ") + command);
+    EXPECT_EQ(run(command).status, 2) << command;
+  }
+  expect_contains(run("frobnicate").text, "commands are record, info");
+  expect_contains(run("record x.mp4 --format ogg").text, "none of flac, mka, wav");
+  expect_contains(run("record x.mp4 -- 'a=b ! fakesink'").text, "is no PROPERTY=VALUE");
+}
+
+TEST_F(Spidartrack, RecordsFilmsBesideThemAndGoesOnWhereItWas) {
+  make_film("a film.avi");
+  make_film("b.avi");
+  const std::string films = quoted(path("a film.avi")) + " " + path("b.avi");
+  const Result first = run("record -j2 " + films);
+  EXPECT_EQ(first.status, 0) << first.text;
+  ASSERT_TRUE(fs::exists(path("a film.haptic.flac")));
+  const std::vector<TrackSample> track = load_track(path("b.haptic.flac"));
+  EXPECT_EQ(track.size(), 2000u);
+  EXPECT_GT(largest_difference(track, std::vector<TrackSample>(2000)), 0.1);
+
+  const fs::file_time_type written = fs::last_write_time(path("b.haptic.flac"));
+  expect_contains(run("record " + films).text, "is there");
+  EXPECT_EQ(fs::last_write_time(path("b.haptic.flac")), written);
+
+  const Result missing = run("record " + path("none.avi"));
+  EXPECT_EQ(missing.status, 1);
+  expect_contains(missing.text, "there is no such file");
+  EXPECT_EQ(run("record --format wav " + path("b.avi") + " -- max-force=1").status, 0);
+  for (const TrackSample& sample : load_track(path("b.haptic.wav"))) {
+    ASSERT_LE(to_wrench(sample).force_N.norm(), 1 + 1e-6);
+  }
+  for (const auto& entry : fs::directory_iterator(folder.path)) {
+    EXPECT_NE(entry.path().filename().string().rfind(".part-", 0), 0u) << entry.path();
+  }
+}
+
+TEST_F(Spidartrack, ConvertsBetweenAllThatItKnows) {
+  const std::vector<TrackSample> original = samples();
+  save_track(path("a.wav"), original);
+  // Half a step of 24 bits, and what a float below 1 is rounded by; of HJIF the tolerance and half
+  // a step of 1e-5 as well.
+  const double half_step = std::ldexp(1.0, -24) + std::ldexp(1.0, -25);
+  const std::pair<std::string, double> steps[] = {{"a.mka", 0},
+                                                  {"b.flac", half_step},
+                                                  {"c.wav", half_step},
+                                                  {"d.hjif", 4.1e-4},
+                                                  {"e.mka", 4.1e-4}};
+  std::string from = path("a.wav");
+  for (const auto& [name, error] : steps) {
+    const Result result = run("convert " + from + " " + path(name));
+    EXPECT_EQ(result.status, 0) << result.text;
+    const std::vector<TrackSample> read = load_track(path(name));
+    EXPECT_EQ(read.size(), original.size()) << name;
+    EXPECT_LE(largest_difference(read, original), error) << name;
+    from = path(name);
+  }
+  EXPECT_EQ(run("convert " + path("a.wav") + " " + path("a.txt")).status, 1);
+}
+
+TEST_F(Spidartrack, ATraceBecomesTheTrackThatExtractGives) {
+  make_film("film.avi");
+  run_pipeline(
+      "filesrc location=" + quoted(path("film.avi")) +
+      " ! decodebin ! videoconvert ! spidarmotion device=none attach-meta=true trace=" +
+      quoted(path("film.csv")) +
+      " ! spidarextract name=x x.wrench ! wavenc ! filesink location=" + quoted(path("film.wav")));
+  const std::vector<TrackSample> traced = load_track(path("film.csv"));
+  const std::vector<TrackSample> extracted = load_track(path("film.wav"));
+  ASSERT_EQ(traced.size(), extracted.size());
+  EXPECT_LE(largest_difference(traced, extracted), 1e-6);
+}
+
+TEST_F(Spidartrack, AFunscriptHasMillisecondsAndPositions) {
+  save_track(path("a.wav"), samples());
+  ASSERT_EQ(run("convert --axis fz " + path("a.wav") + " " + path("a.funscript")).status, 0);
+  std::ifstream file(path("a.funscript"));
+  const nlohmann::json script = nlohmann::json::parse(file);
+  int last = -1;
+  for (const nlohmann::json& action : script["actions"]) {
+    const int at = action["at"];
+    EXPECT_GT(at, last);
+    last = at;
+    const double share = samples()[static_cast<size_t>(at)][2];
+    EXPECT_EQ(action["pos"], std::lround(50 + 50 * share));
+  }
+  EXPECT_EQ(last, 1999);
+}
+
+TEST_F(Spidartrack, CheckFindsWhatWouldNotBeFeltAsItIs) {
+  save_track(path("good.wav"), samples());
+  EXPECT_EQ(run("check " + path("good.wav")).status, 0);
+  std::vector<TrackSample> bad = samples();
+  bad[100][0] = std::numeric_limits<float>::quiet_NaN();
+  for (size_t i = 500; i < 600; ++i) bad[i][1] = 1.5F;
+  for (size_t i = 0; i < bad.size(); ++i) bad[i][3] = i % 4 < 2 ? 0.2F : -0.2F;
+  save_track(path("bad.wav"), bad);
+  const Result result = run("check " + path("bad.wav"));
+  EXPECT_EQ(result.status, 1);
+  for (const char* problem : {"1 samples are no numbers", "100 samples are beyond full scale",
+                              "largest force", "largest torque", "changes by", "energy of tx"}) {
+    expect_contains(result.text, problem);
+  }
+  const nlohmann::json info = nlohmann::json::parse(run("info --json " + path("good.wav")).text);
+  EXPECT_EQ(info["samples"], 2000);
+  EXPECT_NEAR(info["channels"]["fz"]["peak"], 0.15, 1e-4);
+}
+
+TEST_F(Spidartrack, WhatIsDamagedOrNoTrackIsNamed) {
+  save_track(path("a.flac"), samples());
+  std::ofstream(path("text.flac")) << "no music";
+  run_pipeline(
+      "audiotestsrc num-buffers=10 ! audio/x-raw,rate=8000,channels=2 ! wavenc ! filesink "
+      "location=" +
+      quoted(path("stereo.wav")));
+  EXPECT_EQ(run("info " + path("text.flac")).status, 1);
+  const Result stereo = run("info " + path("stereo.wav"));
+  EXPECT_EQ(stereo.status, 1);
+  expect_contains(stereo.text, "2 channels");
+  // Cut in the middle: what is left is a track.
+  fs::resize_file(path("a.flac"), fs::file_size(path("a.flac")) / 2);
+  const Result cut = run("info " + path("a.flac"));
+  EXPECT_TRUE(cut.status == 0 || cut.status == 1) << cut.text;
+  EXPECT_FALSE(cut.text.empty());
+}
+
+}  // namespace
+}  // namespace spidar::test
