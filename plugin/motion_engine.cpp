@@ -23,13 +23,18 @@ int64_t least_interval_ns(const GstVideoInfo& info, double rate) {
   return std::max(kLeastInterval_ns, static_cast<int64_t>(std::min(nominal_ns / 8, kMost_ns)));
 }
 
+/// As the caps say it; 0 where they do not.
+GstClockTime nominal_duration(const GstVideoInfo& info) {
+  return info.fps_n > 0 ? gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n) : 0;
+}
+
 /// Running time at which a sink shows the frame: when what is to be seen of it begins, which is its
 /// end when it is played backwards. GST_CLOCK_TIME_NONE when the sink drops it.
 GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment) {
   const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
   GstClockTime duration = GST_BUFFER_DURATION(frame.buffer);
   if (!GST_CLOCK_TIME_IS_VALID(duration) && frame.info.fps_n > 0) {
-    duration = gst_util_uint64_scale_int(GST_SECOND, frame.info.fps_d, frame.info.fps_n);
+    duration = nominal_duration(frame.info);
   }
   const bool has_end = GST_CLOCK_TIME_IS_VALID(duration) && duration < GST_CLOCK_TIME_NONE - pts;
   const GstClockTime end = has_end ? pts + duration : GST_CLOCK_TIME_NONE;
@@ -93,6 +98,7 @@ std::string MotionEngine::open(const MotionProperties& properties) {
       [this, &loop](const PlaybackClock& clock) {
         loop.set_playback_clock(clock);
         schedule_.hand_on();
+        player_.hand_on();
       },
       now_ ? now_ : monotonic_now, now_user_, settings.threaded);
   const std::lock_guard<std::mutex> lock(session_mutex_);
@@ -100,6 +106,7 @@ std::string MotionEngine::open(const MotionProperties& properties) {
   follower->set_latency(latency_);
   follower->set_offset(offset_ns_);
   schedule_.connect(&loop);
+  player_.connect(&loop);
   profile_ = profile;
   session_ = std::move(session);
   follower_ = std::move(follower);
@@ -116,6 +123,7 @@ void MotionEngine::close() {
   }
   follower.reset();  // before the loop that it publishes to
   schedule_.connect(nullptr);
+  player_.connect(nullptr);
 }
 
 std::string MotionEngine::start(const std::string& trace_path) {
@@ -160,10 +168,12 @@ void MotionEngine::set_max_force(double max_force_N) {
 void MotionEngine::set_muted(bool muted) {
   schedule_.set_muted(muted);
   limit_watch_.set_muted(muted);
+  player_.set_muted(muted);
 }
 
 void MotionEngine::flush() {
   schedule_.forget();
+  player_.forget();
 }
 
 void MotionEngine::expect_base_time() {
@@ -179,6 +189,7 @@ void MotionEngine::skip(GstClockTime duration) {
 
 void MotionEngine::begin_segment() {
   schedule_.begin_segment();
+  player_.restart();
   frames_in_segment_ = 0;
 }
 
@@ -191,6 +202,7 @@ GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
   describe_limit(force_limit(), structure);
+  gst_structure_set(structure, "track-frames", G_TYPE_UINT64, player_.frames(), nullptr);
   const std::lock_guard<std::mutex> lock(session_mutex_);
   if (session_) {
     describe_session(*session_, structure);
@@ -236,6 +248,7 @@ DeviceState MotionEngine::device_state() const {
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
   schedule_.change_rate(multiplier, running_time, upstream);
+  player_.forget();  // the next frame gives it again, at the new rate
 }
 
 int64_t MotionEngine::pace(int64_t running_ns) {
@@ -256,6 +269,7 @@ void MotionEngine::restart_timing() {
   {
     const std::lock_guard<std::mutex> lock(session_mutex_);
     schedule_.restart();
+    player_.restart();
     if (follower_) follower_->set_skipped(0);
   }
   limit_watch_.forget();
@@ -298,6 +312,10 @@ void MotionEngine::end_of_stream() {
   run_out(static_cast<GstClockTime>(last_running_ns_ + std::max<int64_t>(last_interval_ns_, 1)));
 }
 
+void MotionEngine::set_track(std::optional<TrackFile> track) {
+  player_.set_track(std::move(track).value_or(TrackFile{}));
+}
+
 FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& segment,
                                   const AnalyzerSettings& settings) {
   FrameReport report;
@@ -319,6 +337,12 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     return report;
   }
   const int64_t running_ns = static_cast<int64_t>(report.running_time);
+  if (player_.active()) {
+    const auto place = place_of(frame.buffer, nominal_duration(frame.info), segment,
+                                schedule_.at_sink_ns(running_ns), schedule_.rate_multiplier());
+    if (place) player_.play(*place);
+    return report;
+  }
   // Sources and decoders mark every buffer, or the first of every group, when they play backwards.
   if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) {
     restart();

@@ -19,6 +19,7 @@
 #include "plugin/reports/motion_stats.h"
 #include "plugin/timing/playback_follower.h"
 #include "plugin/timing/wrench_schedule.h"
+#include "plugin/track/track_player.h"
 #include "spidar/haptic_session.h"
 
 namespace spidar {
@@ -99,6 +100,8 @@ class MotionEngine {
 
   // --- streaming thread
 
+  /// Frames are not analysed: the samples of this track are felt. Nothing: they are again.
+  void set_track(std::optional<TrackFile> track);
   FrameReport process(const GstVideoFrame& frame, const GstSegment& segment,
                       const AnalyzerSettings& settings);
   /// The next frame has nothing to do with the one before.
@@ -128,7 +131,9 @@ class MotionEngine {
   PlaybackSync::Now now_ = nullptr;
   void* now_user_ = nullptr;
 
-  WrenchSchedule schedule_;           // outlives the thread of follower_, which hands on what waits
+  // These outlive the thread of follower_, which hands on what waits.
+  WrenchSchedule schedule_;
+  TrackPlayer player_;
   mutable std::mutex session_mutex_;  // state changes against any thread
   std::unique_ptr<HapticSession> session_;
   Profile profile_;  // of the session

@@ -67,7 +67,8 @@ struct _GstSpidarMotion {
   gboolean opened;               // object lock: READY or above
   MotionEngine* engine;
   MotionDisplay* display;
-  gint window_changes;  // atomic: how many the window has still to follow
+  gboolean track_chosen;  // streaming thread: for this stream
+  gint window_changes;    // atomic: how many the window has still to follow
   spidar::StepWatch* steps;
   spidar::Complaints* complaints;
 };
@@ -129,6 +130,20 @@ static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffe
   if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
 }
 
+/// Once a stream, with its first frame: before that neither the film's name nor its length is
+/// known.
+static void choose_track(GstSpidarMotion* self, const GstVideoInfo& info) {
+  if (self->track_chosen) return;
+  self->track_chosen = TRUE;
+  GST_OBJECT_LOCK(self);
+  const std::string wanted = self->properties->track;
+  GST_OBJECT_UNLOCK(self);
+  const GstClockTime frame =
+      info.fps_n > 0 ? gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n) : 0;
+  self->engine->set_track(
+      spidar::choose_track(GST_ELEMENT(self), wanted, static_cast<gint64>(frame)));
+}
+
 static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter,
                                                           GstVideoFrame* frame) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
@@ -150,6 +165,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
 
   FrameReport report;
   const bool processed = guarded(self, "analysing a frame", [&] {
+    choose_track(self, frame->info);
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings);
     self->display->show(report, display, settings, *frame);
   });
@@ -236,6 +252,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     }
     case GST_EVENT_STREAM_START:
       self->complaints->begin_stream();
+      self->track_chosen = FALSE;
       break;
     case GST_EVENT_SEGMENT: {
       const GstSegment* segment;
@@ -291,6 +308,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   const std::string trace = self->properties->trace;
   GST_OBJECT_UNLOCK(self);
   GST_DEBUG_OBJECT(self, "start; trace: %s", trace.empty() ? "none" : trace.c_str());
+  self->track_chosen = FALSE;
   self->complaints->start();
   self->complaints->look_at_place();
   const std::string reason = self->engine->start(trace);

@@ -140,6 +140,12 @@ void install_motion_properties(GObjectClass* c) {
                                "While true, no force: it ramps to zero at once, and returns with "
                                "the next frame after the property is set to false",
                                defaults.mute, kControllable));
+  install(kPropTrack,
+          g_param_spec_string("track", "Track",
+                              "Play this haptic track by stream time instead of analysing frames: "
+                              "a file, or 'auto' for the one beside the film (FILM.haptic.flac, "
+                              ".mka or .wav). Read with the first frame of a stream",
+                              nullptr, kReady));
   install_display_properties(c);
   install(kPropStats, g_param_spec_boxed(
                           "stats", "Statistics",
@@ -193,6 +199,9 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
     case kPropMute:
       p.mute = g_value_get_boolean(value);
       return true;
+    case kPropTrack:
+      p.track = string_of(value);
+      return true;
     default:
       return set_feel_property(p, id, value) || set_display_property(p.display, id, value);
   }
@@ -239,6 +248,9 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       return true;
     case kPropMute:
       g_value_set_boolean(value, p.mute);
+      return true;
+    case kPropTrack:
+      g_value_set_string(value, or_null(p.track));
       return true;
     default:
       return get_feel_property(p, id, value) || get_display_property(p.display, id, value);

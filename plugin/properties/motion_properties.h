@@ -24,6 +24,7 @@ struct MotionProperties {
   bool post_messages = true;
   std::string trace;
   std::string haptic_trace;
+  std::string track;  ///< path, "auto", or empty
   bool mute = false;
   DisplayProperties display;
 
@@ -57,6 +58,7 @@ enum PropertyId : guint {
   kPropHapticTrace,
   kPropStats,
   kPropMute,
+  kPropTrack,
 };
 
 /// Of the property `on-device-error`.

@@ -153,6 +153,38 @@ TEST_F(Spidartrack, ATraceBecomesTheTrackThatExtractGives) {
   EXPECT_LE(largest_difference(traced, extracted), 1e-6);
 }
 
+TEST_F(Spidartrack, ARecordedTrackIsFoundBesideItsFilmAndFelt) {
+  make_film("film.avi");
+  ASSERT_EQ(run("record " + path("film.avi")).status, 0);
+  GError* error = nullptr;
+  GstElement* pipeline = gst_parse_launch(("filesrc location=" + path("film.avi") +
+                                           " ! decodebin ! videoconvert ! spidarmotion name=motion "
+                                           "track=auto ! fakesink")
+                                              .c_str(),
+                                          &error);
+  ASSERT_EQ(error, nullptr) << error->message;
+  GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
+  gst_element_set_state(pipeline, GST_STATE_PLAYING);
+  GstBus* bus = gst_element_get_bus(pipeline);
+  GstMessage* message = gst_bus_timed_pop_filtered(
+      bus, GST_CLOCK_TIME_NONE,
+      static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR | GST_MESSAGE_WARNING));
+  EXPECT_EQ(GST_MESSAGE_TYPE(message), GST_MESSAGE_EOS);
+  gst_message_unref(message);
+  GstStructure* stats = nullptr;
+  g_object_get(motion, "stats", &stats, nullptr);
+  guint64 analysed = 0, replayed = 0;
+  EXPECT_TRUE(gst_structure_get(stats, "frames", G_TYPE_UINT64, &analysed, "track-frames",
+                                G_TYPE_UINT64, &replayed, nullptr));
+  EXPECT_EQ(analysed, 0u);
+  EXPECT_EQ(replayed, 50u);
+  gst_structure_free(stats);
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(bus);
+  gst_object_unref(motion);
+  gst_object_unref(pipeline);
+}
+
 TEST_F(Spidartrack, AFunscriptHasMillisecondsAndPositions) {
   save_track(path("a.wav"), samples());
   ASSERT_EQ(run("convert --axis fz " + path("a.wav") + " " + path("a.funscript")).status, 0);

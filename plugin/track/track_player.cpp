@@ -1,0 +1,64 @@
+#include "plugin/track/track_player.h"
+
+#include <stdexcept>
+
+#include "plugin/track/sidecar.h"
+
+namespace spidar {
+
+void TrackPlayer::set_track(TrackFile track) {
+  schedule_.forget();
+  replay_.set_track(std::move(track));
+  active_ = replay_.has_track();
+  frames_ = 0;
+}
+
+void TrackPlayer::play(const FramePlace& frame) {
+  ++frames_;
+  replay_.play(frame, [this](const TrackBlock& block) { schedule_.add(block); });
+}
+
+std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_duration,
+                                   const GstSegment& segment, int64_t running_ns,
+                                   double rate_multiplier) {
+  const GstClockTime pts = GST_BUFFER_PTS(frame);
+  GstClockTime duration = GST_BUFFER_DURATION(frame);
+  if (!GST_CLOCK_TIME_IS_VALID(duration)) duration = default_duration;
+  guint64 from = 0, to = 0;
+  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, pts + duration, &from, &to)) {
+    return std::nullopt;
+  }
+  const bool backwards = segment.rate < 0;
+  FramePlace place;
+  place.stream_ns = static_cast<int64_t>(
+      gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, backwards ? to : from));
+  place.running_ns = running_ns;
+  place.length_ns = static_cast<int64_t>(to - from);
+  place.rate = segment.rate * rate_multiplier;
+  return place;
+}
+
+std::optional<TrackFile> choose_track(GstElement* element, const std::string& wanted,
+                                      int64_t frame_ns) {
+  if (wanted.empty()) return std::nullopt;
+  GstPad* pad = gst_element_get_static_pad(element, "sink");
+  const std::string path = wanted == "auto" ? find_sidecar(film_of(pad)) : wanted;
+  std::optional<TrackFile> track;
+  std::string problem;
+  if (!path.empty()) {
+    try {
+      track = read_track_file(path);
+      problem = other_film(pad, track->duration_ns, frame_ns);
+    } catch (const std::runtime_error& error) {
+      problem = error.what();
+    }
+  }
+  gst_object_unref(pad);
+  if (problem.empty()) return track;
+  GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
+                      ("The haptic track %s is not felt: %s.", path.c_str(), problem.c_str()),
+                      ("The video is analysed in its place."));
+  return std::nullopt;
+}
+
+}  // namespace spidar

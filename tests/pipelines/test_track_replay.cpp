@@ -1,0 +1,164 @@
+// spidarmotion with a track in place of its analysis. On a test clock, every tick under watch.
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/track/track_format.h"
+#include "tests/pipelines/stepped_pipeline.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr int kFrames = 100;  // 4 s
+constexpr int kFrame_ms = 40;
+
+TrackSample sample_at(double ms) {
+  const auto share = static_cast<float>(0.15 * std::sin(0.01 * ms));
+  return {share, -share / 2, share / 3, share / 100, 0, -share / 50};
+}
+
+/// A WAV file (IEEE float) of so many samples.
+void write_track(const std::string& path, int count) {
+  std::string wav = "RIFF....WAVEfmt ";
+  const auto put = [&wav](uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) wav += static_cast<char>(value >> (8 * i) & 0xff);
+  };
+  put(16, 4);
+  put(3, 2);     // floats
+  put(6, 2);     // channels
+  put(1000, 4);  // samples a second
+  put(24000, 4);
+  put(24, 2);
+  put(32, 2);
+  wav += "data";
+  put(static_cast<uint32_t>(count) * sizeof(TrackSample), 4);
+  for (int i = 0; i < count; ++i) {
+    const TrackSample sample = sample_at(i);
+    wav.append(reinterpret_cast<const char*>(sample.data()), sizeof sample);
+  }
+  std::ofstream(path, std::ios::binary) << wav;
+}
+
+class TrackReplay : public testing::Test {
+ protected:
+  /// A ball moves about, which is not to be felt.
+  void open(const std::string& track) {
+    pipeline = std::make_unique<SteppedPipeline>(
+        "videotestsrc pattern=ball num-buffers=" + std::to_string(kFrames) +
+        " ! video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! spidarmotion "
+        "name=motion "
+        "track=" +
+        track + " ! queue ! fakesink name=sink sync=true");
+  }
+  std::string track_of(int samples) {
+    const std::string path = (folder.path / "film.wav").string();
+    write_track(path, samples);
+    return path;
+  }
+  uint64_t stat(const char* name) const {
+    GstStructure* stats = nullptr;
+    guint64 value = 0;
+    g_object_get(pipeline->element(), "stats", &stats, nullptr);
+    EXPECT_TRUE(gst_structure_get_uint64(stats, name, &value)) << name;
+    gst_structure_free(stats);
+    return value;
+  }
+  /// Plays frames, and feels in each of their milliseconds what the track has there; stream time is
+  /// `stream_ms` at running time 0.
+  void expect_track(int frames, double stream_ms = 0, double rate = 1) {
+    // Of what is interpolated between two samples a millisecond apart, h²/8 · |f''|, and of floats.
+    const double tolerance = 0.15 * 1e-4 * 10 * 1.2 / 8 + 2e-6;
+    for (int i = 0; i < frames; ++i) {
+      expect_sample(pipeline->step(), stream_ms, rate, tolerance);
+      for (int ms = 1; ms < static_cast<int>(kFrame_ms / std::fabs(rate)); ++ms) {
+        expect_sample(pipeline->idle(GST_MSECOND), stream_ms, rate, tolerance);
+      }
+    }
+  }
+  void expect_sample(const TickRecord& tick, double stream_ms, double rate, double tolerance) {
+    const double ms = 1e-6 * static_cast<double>(tick.running_ns);
+    const Wrench expected = to_wrench(sample_at(stream_ms + rate * ms));
+    EXPECT_TRUE(tick.found == Found::kExact || tick.found == Found::kInterpolated) << ms;
+    EXPECT_LE((tick.wanted.stacked() - expected.stacked()).norm(), tolerance) << ms;
+  }
+
+  TemporaryFolder folder;
+  std::unique_ptr<SteppedPipeline> pipeline;
+};
+
+TEST_F(TrackReplay, FeelsTheTrackAndAnalysesNothing) {
+  open(track_of(kFrames * kFrame_ms));
+  pipeline->set_state(GST_STATE_PLAYING);
+  expect_track(20);
+  EXPECT_EQ(stat("frames"), 0u) << "nothing was analysed";
+  EXPECT_GE(stat("track-frames"), 20u);
+}
+
+TEST_F(TrackReplay, ASeekLeadsToTheSampleOfThatTime) {
+  open(track_of(kFrames * kFrame_ms));
+  pipeline->set_state(GST_STATE_PLAYING);
+  expect_track(10);
+  pipeline->set_state(GST_STATE_PAUSED);
+  pipeline->idle(GST_MSECOND);
+  pipeline->seek(2 * GST_SECOND);
+  pipeline->set_state(GST_STATE_PLAYING);
+  expect_track(10, 2000);
+}
+
+TEST_F(TrackReplay, AtAnotherRateTheAmplitudeStays) {
+  for (const double rate : {0.5, 2.0}) {
+    SCOPED_TRACE(rate);
+    open(track_of(kFrames * kFrame_ms));
+    pipeline->set_state(GST_STATE_PAUSED);
+    pipeline->seek(rate, GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE, 0, GST_CLOCK_TIME_NONE);
+    pipeline->set_state(GST_STATE_PLAYING);
+    expect_track(10, 0, rate);
+  }
+}
+
+TEST_F(TrackReplay, PausedNothingIsFelt) {
+  open(track_of(kFrames * kFrame_ms));
+  pipeline->set_state(GST_STATE_PLAYING);
+  expect_track(10);
+  pipeline->set_state(GST_STATE_PAUSED);
+  EXPECT_EQ(pipeline->idle(50 * GST_MSECOND).commanded.stacked().norm(), 0);
+  pipeline->set_state(GST_STATE_PLAYING);
+  expect_track(10);
+}
+
+TEST_F(TrackReplay, TheTrackOfAnotherFilmIsNamedAndTheFilmAnalysed) {
+  open(track_of(kFrames * kFrame_ms - 200));
+  pipeline->set_state(GST_STATE_PLAYING);
+  for (int i = 0; i < 5; ++i) pipeline->step();
+  EXPECT_GE(stat("frames"), 5u);
+  EXPECT_EQ(stat("track-frames"), 0u);
+  pipeline->await_message(GST_MESSAGE_WARNING);
+}
+
+TEST_F(TrackReplay, WhatIsMissingOrNoTrackIsNamedAndTheFilmAnalysed) {
+  const std::string no_track = (folder.path / "text.wav").string();
+  std::ofstream(no_track) << "no music";
+  for (const std::string& path : {(folder.path / "none.flac").string(), no_track}) {
+    open(path);
+    pipeline->set_state(GST_STATE_PLAYING);
+    for (int i = 0; i < 5; ++i) pipeline->step();
+    EXPECT_GE(stat("frames"), 5u);
+    pipeline->await_message(GST_MESSAGE_WARNING);
+  }
+}
+
+TEST_F(TrackReplay, WithoutASidecarAutoIsAnalysis) {
+  open("auto");
+  pipeline->set_state(GST_STATE_PLAYING);
+  for (int i = 0; i < 5; ++i) pipeline->step();
+  EXPECT_GE(stat("frames"), 5u);
+}
+
+}  // namespace
+}  // namespace spidar::test
