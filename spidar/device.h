@@ -25,6 +25,9 @@ struct MotorVolts {
 struct DeviceReading {
   std::array<int32_t, kMaxStrings> count{};  ///< encoder counts, signed as the board gives them
   uint32_t inputs = 0;                       ///< digital inputs, bit 0 first
+  /// False when the counts are where the board takes the grip to be: that they stand still while
+  /// the force changes is then no sign of dead encoders.
+  bool encoders = true;
 };
 
 enum class ExchangeStatus {

@@ -185,6 +185,7 @@ LinkFault ForceFeedbackBoard::cycle(const MotorVolts& volts, DeviceReading& read
                                                                 drive.metres_per_count));
   }
   reading.inputs = 0;
+  reading.encoders = false;
   return LinkFault::kNone;
 }
 

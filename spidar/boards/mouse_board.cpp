@@ -69,6 +69,7 @@ LinkFault MouseBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
   }
   reading.count = home_count_;
   reading.inputs = 0;
+  reading.encoders = false;
   return LinkFault::kNone;
 }
 

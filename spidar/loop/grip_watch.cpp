@@ -87,6 +87,7 @@ PoseTrouble GripWatch::judge(const PoseResult& result, int64_t now_ns) const noe
 
 bool GripWatch::is_frozen(const DeviceReading& reading, const Wrench& applied,
                           int64_t now_ns) noexcept {
+  if (!reading.encoders) return false;
   const bool moved = !counted_ || reading.count != last_count_;
   if (moved) {
     counted_ = true;

@@ -33,7 +33,8 @@ bool mount_at(const char* type, const char* path) {
 
 /// In the order in which they need each other.
 bool load_modules() {
-  for (const std::string name : {"usb-common", "usbcore", "usbip-core", "vhci-hcd"}) {
+  for (const std::string name :
+       {"usb-common", "usbcore", "usbip-core", "vhci-hcd", "evdev", "uinput"}) {
     const std::string path = "/modules/" + name + ".ko";
     const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
     const bool loaded =
@@ -57,18 +58,30 @@ bool make_linux() {
   _exit(result);
 }
 
+spidar::MotorVolts all_strings() {
+  spidar::MotorVolts volts;
+  volts.volt.fill(1);
+  return volts;
+}
+
+/// A joystick, which takes the sum of all strings, feels one alone.
+spidar::MotorVolts one_string() {
+  spidar::MotorVolts volts;
+  volts.volt[0] = 1;
+  return volts;
+}
+
 /// Pulls until the board is lost; ends by a signal only. `forks`: a child that does nothing has
 /// copies of all files for the longer time.
-[[noreturn]] void pull(const char* profile, bool forks) {
+[[noreturn]] void pull(const char* spec, const char* profile, const spidar::MotorVolts& volts,
+                       bool forks) {
   constexpr unsigned kLonger_s = 3;
-  const auto device = spidar::make_device("usb", spidar::load_profile(profile));
+  const auto device = spidar::make_device(spec, spidar::load_profile(profile));
   device->open();
   if (forks && fork() == 0) {
     sleep(kLonger_s);
     _exit(0);
   }
-  spidar::MotorVolts volts;
-  volts.volt.fill(1);
   spidar::DeviceReading reading;
   while (device->exchange(volts, reading) != spidar::ExchangeStatus::kLost) {
   }
@@ -78,8 +91,10 @@ bool make_linux() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::strcmp(argv[1], "--pull") == 0) pull(argv[2], false);
-  if (argc == 3 && std::strcmp(argv[1], "--pull-and-fork") == 0) pull(argv[2], true);
+  if (argc == 3 && std::strcmp(argv[1], "--pull") == 0) pull("usb", argv[2], all_strings(), false);
+  if (argc == 3 && std::strcmp(argv[1], "--pull-and-fork") == 0)
+    pull("usb", argv[2], all_strings(), true);
+  if (argc == 3 && std::strcmp(argv[1], "--push") == 0) pull("ff", argv[2], one_string(), false);
   if (getpid() != 1) {
     std::fputs("this is the first program of a virtual machine; see tests/kernel/run_guest.py\n",
                stderr);

@@ -21,7 +21,7 @@ import time
 from pathlib import Path
 
 QEMU = "qemu-system-x86_64"
-MODULES = ("usb-common", "usbcore", "usbip-core", "vhci-hcd")
+MODULES = ("usb-common", "usbcore", "usbip-core", "vhci-hcd", "evdev", "uinput")
 EXIT_PORT = "iobase=0xf4,iosize=0x04"  # guest.cpp: kExitPort; QEMU's status is 2 · result + 1
 PASSED = 1
 SKIPPED = 77
@@ -35,7 +35,7 @@ def find_kernel(root):
         found = {}
         for name in MODULES:
             for ending in (".ko", ".ko.xz"):
-                for file in folder.glob(f"kernel/drivers/usb/**/{name}{ending}"):
+                for file in folder.glob(f"kernel/drivers/**/{name}{ending}"):
                     found[name] = file
         if len(found) == len(MODULES) and os.access(image, os.R_OK):
             return image, found

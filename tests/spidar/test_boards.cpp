@@ -10,6 +10,7 @@
 #include "spidar/device_factory.h"
 #include "spidar/emulation/wire_simulation.h"
 #include "spidar/haptic_session.h"
+#include "spidar/loop/grip_watch.h"
 #include "tests/spidar/board_bench.h"
 
 namespace spidar::test {
@@ -270,6 +271,29 @@ TEST_P(Boards, TheHapticLoopDrivesIt) {
   if (counts()) {
     EXPECT_FALSE(motors.all_zero());
   }
+}
+
+/// Encoders that stand still although the force has changed are dead; a device without says nothing
+/// by it.
+TEST_P(Boards, ForceLastsWhereNothingIsCounted) {
+  if (counts()) return;
+  SessionSettings by_hand;
+  by_hand.threaded = false;
+  HapticSession session(profile, this->device(), by_hand);
+  tick_until_running(session);
+  int64_t now_ns = session.loop().snapshot().last.monotonic_ns;
+  session.loop().set_playback_clock({now_ns, 0, 1.0, true});
+  TimedWrench push;
+  push.hold_ns = 3600 * kSecond_ns;
+  push.wrench.force_N.x() = 1;
+  ASSERT_TRUE(session.loop().schedule(push));
+  const int64_t end_ns = now_ns + 4 * GripWatch::kFrozenAfter_ns;
+  while (now_ns < end_ns) {
+    now_ns += kTick_ns;
+    session.loop().tick(now_ns, now_ns);
+  }
+  EXPECT_EQ(session.loop().snapshot().last.commanded.force_N.x(), 1);
+  EXPECT_EQ(session.loop().snapshot().pose_trouble, PoseTrouble::kNone);
 }
 
 TEST(Mouse, PullsAsTheStringsWouldWithinItsLimit) {

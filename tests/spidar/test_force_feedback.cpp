@@ -14,62 +14,13 @@
 #include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/board_bench.h"
+#include "tests/support/felt_player.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
 namespace {
 
 constexpr int64_t kMs = 1'000'000;
-
-/// Waits for as long as it takes; the test's own time limit is the only one.
-template <typename Condition>
-void wait_for(const Condition& condition) {
-  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
-
-/// A force for longer than any test lasts.
-TimedWrench lasting(const Eigen::Vector3d& force_N, int64_t time_ns = 0) {
-  TimedWrench entry;
-  entry.time_ns = time_ns;
-  entry.hold_ns = 3600 * kSecond_ns;
-  entry.wrench.force_N = force_N;
-  return entry;
-}
-
-/// A loop that runs, and a film that plays.
-struct Player {
-  explicit Player(const std::string& spec = "ff", bool guardian = false) {
-    BoardSettings settings;
-    settings.guardian = guardian;
-    SessionSettings of_session;
-    of_session.real_time = false;
-    session =
-        std::make_unique<HapticSession>(profile, make_device(spec, profile, settings), of_session);
-    loop().set_playback_clock({HapticSession::monotonic_now_ns(), kSecond_ns, 1.0, true});
-  }
-
-  HapticLoop& loop() const { return session->loop(); }
-  LoopSnapshot now() const { return loop().snapshot(); }
-
-  /// Returns when the loop gives all of it.
-  void push(double x_N, double y_N) const {
-    loop().cancel_scheduled();
-    ASSERT_TRUE(loop().schedule(lasting({x_N, y_N, 0})));
-    wait_for([&] {
-      const Eigen::Vector3d& given_N = now().last.commanded.force_N;
-      return given_N.x() == x_N && given_N.y() == y_N;
-    });
-  }
-
-  const Profile profile = load_profile(kDefaultProfile);
-  std::unique_ptr<HapticSession> session;
-};
-
-/// A level, in newtons, is right to 1 % of the force and half a step of 3 N / 32767.
-bool is(int level, double force_N, double of_N) {
-  const double got_N = ff::kFullForce_N * level / ff::kFullLevel;
-  return std::abs(got_N - force_N) <= 0.01 * of_N + 0.5 * ff::kFullForce_N / ff::kFullLevel;
-}
 
 /// What open() says; empty when it works.
 std::string opening(const std::string& spec) {
@@ -114,7 +65,7 @@ TEST_F(ForceFeedback, IsListedWithoutBeingOpened) {
 
 TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
   plug_evdev(0, EvdevKind::kStick);
-  const Player player;
+  const FeltPlayer player;
   EXPECT_EQ(player.session->device().description(), "Emulated Stick, force feedback on two axes");
   for (const auto& [x_N, y_N] :
        {std::pair{1.5, 0.0}, {-0.7, 0.0}, {0.0, 2.0}, {0.0, -0.2}, {1.0, -1.2}, {0.0, 0.0}}) {
@@ -122,7 +73,7 @@ TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
     const double size_N = std::hypot(x_N, y_N);
     wait_for([&, x = x_N, y = y_N] {
       const EvdevLevels levels = evdev_levels(0);
-      return is(levels.right, x, size_N) && is(levels.up, y, size_N);
+      return is_level(levels.right, x, size_N) && is_level(levels.up, y, size_N);
     });
     const Eigen::Vector3d delivered_N = player.now().last.delivered.force_N;
     // Where nothing is wanted, the rounding of a sum of eight.
@@ -133,11 +84,11 @@ TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
 
 TEST_F(ForceFeedback, WheelsAreGivenWhatGoesToTheSide) {
   plug_evdev(0, EvdevKind::kWheel).axis[1] = 1000;  // a pedal
-  const Player player;
+  const FeltPlayer player;
   EXPECT_EQ(player.session->device().description(),
             "Emulated Racing Wheel, force feedback on one axis: forces up and down are not felt");
   player.push(-1, 1);
-  wait_for([] { return is(evdev_levels(0).right, -1, 1); });
+  wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
   EXPECT_EQ(evdev_levels(0).up, 0);
   EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
   EXPECT_EQ(bus().evdev[0].plays, 1u);
@@ -145,7 +96,7 @@ TEST_F(ForceFeedback, WheelsAreGivenWhatGoesToTheSide) {
 
 TEST_F(ForceFeedback, PadsAreGivenTheStrength) {
   plug_evdev(0, EvdevKind::kPad);
-  const Player player;
+  const FeltPlayer player;
   EXPECT_EQ(player.session->device().description(),
             "Emulated Pad, rumble only: the strength of the force is felt, not its direction");
   player.push(-0.9, 1.2);
@@ -158,7 +109,7 @@ TEST_F(ForceFeedback, PadsAreGivenTheStrength) {
 
 TEST_F(ForceFeedback, TheStickIsTheGripAndRestsAnywhere) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  const Player player;
+  const FeltPlayer player;
   port.axis[0] = 1000;
   port.axis[1] = 500;
   // Half of the way to the exits, which are at 59 and 64 mm; a count is 15 µm of string.
@@ -172,8 +123,8 @@ TEST_F(ForceFeedback, TheStickIsTheGripAndRestsAnywhere) {
   wait_for([&] {
     const Eigen::Vector3d given_N = player.now().last.delivered.force_N;
     const EvdevLevels levels = evdev_levels(0);
-    return given_N.norm() > 0.1 && is(levels.right, given_N.x(), given_N.norm()) &&
-           is(levels.up, given_N.y(), given_N.norm());
+    return given_N.norm() > 0.1 && is_level(levels.right, given_N.x(), given_N.norm()) &&
+           is_level(levels.up, given_N.y(), given_N.norm());
   });
   player.push(0, 0);
   wait_for([] { return evdev_levels(0).at_rest(); });
@@ -182,7 +133,7 @@ TEST_F(ForceFeedback, TheStickIsTheGripAndRestsAnywhere) {
 TEST_F(ForceFeedback, UpdatesAreFewAndNoneIsForNothing) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
   {
-    const Player player;
+    const FeltPlayer player;
     port.shortest_ns = 0;  // without those of opening it
     // Another force every millisecond.
     const int64_t begin_ns = HapticSession::monotonic_now_ns();
@@ -206,7 +157,7 @@ TEST_F(ForceFeedback, GainAndAutocentreAreSetAndRestored) {
   port.gain = 100;
   port.autocentre = 0x4000;
   {
-    const Player player;
+    const FeltPlayer player;
     EXPECT_EQ(port.gain, 0xFFFF);
     EXPECT_EQ(port.autocentre, 0);
     player.push(1, 0);
@@ -233,8 +184,8 @@ TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
   while (now_ns < static_cast<int64_t>(HapticLoop::kEnergise_s * 1e9)) tick();
   while (session.loop().snapshot().last.commanded.force_N.x() != 2) tick();
   for (int i = 0; i < 2 * ForceFeedbackBoard::kUpdate_ms; ++i) tick();
-  EXPECT_TRUE(is(bench.motors.digit[0], 2, 2));
-  EXPECT_TRUE(is(bench.motors.digit[1], -2, 2));
+  EXPECT_TRUE(is_level(bench.motors.digit[0], 2, 2));
+  EXPECT_TRUE(is_level(bench.motors.digit[1], -2, 2));
   session.loop().set_playback_clock({now_ns, 0, 1.0, false});
   for (int ms = 0; ms < 60; ++ms) tick();
   EXPECT_TRUE(bench.motors.all_zero());
@@ -242,35 +193,36 @@ TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
 
 TEST_F(ForceFeedback, ASlowDriverHoldsUpNobody) {
   plug_evdev(0, EvdevKind::kStick);
-  const Player player;
+  const FeltPlayer player;
   bus().evdev[0].upload_ms = 50;
   player.push(1, -1);
-  wait_for([] { return is(evdev_levels(0).right, 1, 1) && is(evdev_levels(0).up, -1, 1); });
+  wait_for(
+      [] { return is_level(evdev_levels(0).right, 1, 1) && is_level(evdev_levels(0).up, -1, 1); });
   EXPECT_EQ(player.session->device().health().errors(), 0u);
   EXPECT_EQ(player.now().counters.times_lost, 0u);
 }
 
 TEST_F(ForceFeedback, IsTakenBackWhereverItIsPluggedIn) {
   plug_evdev(0, EvdevKind::kStick);
-  const Player player;
+  const FeltPlayer player;
   player.push(1, 0);
-  wait_for([] { return is(evdev_levels(0).right, 1, 1); });
+  wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
   unplug_evdev(0);
   wait_for([&] { return player.now().last.device == DeviceState::kLost; });
   EXPECT_EQ(player.session->device().health().last_fault, LinkFault::kGone);
   plug_evdev(3, EvdevKind::kStick);
-  wait_for([] { return is(evdev_levels(3).right, 1, 1); });
+  wait_for([] { return is_level(evdev_levels(3).right, 1, 1); });
 }
 
 TEST_F(ForceFeedback, ADriverThatFailsIsNamed) {
   plug_evdev(0, EvdevKind::kStick);
-  const Player player;
+  const FeltPlayer player;
   bus().evdev[0].upload_error = EIO;
   ASSERT_TRUE(player.loop().schedule(lasting({1, 0, 0})));
   wait_for([&] { return player.now().last.device == DeviceState::kLost; });
   EXPECT_EQ(player.session->device().health().last_fault, LinkFault::kBusError);
   bus().evdev[0].upload_error = 0;
-  wait_for([] { return is(evdev_levels(0).right, 1, 1); });
+  wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
 }
 
 TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
@@ -292,7 +244,7 @@ TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
   says("ff", "\"Emulated Stick\" does not take an effect: stall; close other programs");
   port.upload_error = 0;
   EXPECT_EQ(opening("ff"), "");
-  const Player first;
+  const FeltPlayer first;
   says("ff:/dev/input/event1", "another program uses it");
 }
 

@@ -1,0 +1,60 @@
+/// A force-feedback device that the kernel believes to be one: the other end of /dev/uinput.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <thread>
+
+namespace spidar::test {
+
+enum class UinputKind { kStick, kWheel, kPad };
+
+class UinputDevice {
+ public:
+  struct Effect {
+    std::atomic<bool> used{false};
+    std::atomic<bool> plays{false};
+    std::atomic<int> right{0};
+    std::atomic<int> up{0};
+    std::atomic<int> rumble{0};
+  };
+
+  /// Plugged in when it returns. Throws std::runtime_error.
+  explicit UinputDevice(UinputKind kind, const std::string& name = "uinput device");
+  /// Pulled out.
+  ~UinputDevice();
+  UinputDevice(const UinputDevice&) = delete;
+  UinputDevice& operator=(const UinputDevice&) = delete;
+
+  /// −1000 … 1000: to the right, and to the user.
+  void move(int x, int y);
+
+  /// What the effects that play add up to.
+  int right() const;
+  int up() const;
+  int rumble() const;
+  bool at_rest() const { return right() == 0 && up() == 0 && rumble() == 0; }
+  bool has_effects() const;
+
+  std::atomic<int> gain{-1};        ///< −1: not set
+  std::atomic<int> autocentre{-1};  ///< the same
+  std::atomic<int> uploads{0};
+  std::atomic<int> unchanged{0};
+  std::atomic<int> upload_ms{0};  ///< that it takes for an upload
+
+ private:
+  void run();
+  void take_upload(uint32_t request);
+  void take_erase(uint32_t request);
+  int sum(std::atomic<int> Effect::*part) const;
+
+  int file_ = -1;
+  std::array<Effect, 16> effect_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace spidar::test
