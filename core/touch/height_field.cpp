@@ -1,0 +1,82 @@
+#include "core/touch/height_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace spidar {
+namespace {
+
+constexpr int kTaps = 4;
+
+/// The four basis functions that are not zero at `t` (0 … 1) of an interval, and their derivatives.
+struct Basis {
+  std::array<double, kTaps> value;
+  std::array<double, kTaps> derivative;
+
+  explicit Basis(double t) noexcept {
+    const double s = 1 - t;
+    value = {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6,
+             (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6};
+    derivative = {-s * s / 2, (-4 * t + 3 * t * t) / 2, (4 * s - 3 * s * s) / 2, t * t / 2};
+  }
+};
+
+/// A place along an axis: the samples around it, and how far it is from the second of them.
+struct Place {
+  std::array<int, kTaps> sample;
+  double t;
+
+  /// `u`: in samples, 0 is the first of `count`. The border's sample stands for those outside.
+  Place(double u, int count) noexcept {
+    // Two samples outside all four are the border's. Written so that NaN is bounded too.
+    if (!(u > -2)) u = -2;
+    if (!(u < count + 1)) u = count + 1;
+    const double below = std::floor(u);
+    t = u - below;
+    for (int k = 0; k < kTaps; ++k) {
+      sample[static_cast<size_t>(k)] = std::clamp(static_cast<int>(below) - 1 + k, 0, count - 1);
+    }
+  }
+};
+
+double require_extent(double extent_m, const char* name) {
+  if (std::isfinite(extent_m) && extent_m > 0) return extent_m;
+  throw std::invalid_argument("HeightField: " + std::string(name) +
+                              " must be finite and above 0, but is " + std::to_string(extent_m));
+}
+
+}  // namespace
+
+HeightField::HeightField(double width_m, double height_m)
+    : cell_x_m_(require_extent(width_m, "width_m") / kColumns),
+      cell_y_m_(require_extent(height_m, "height_m") / kRows),
+      z_m_(kCells, 0.0F) {}
+
+SurfacePoint HeightField::at(double x_m, double y_m) const noexcept {
+  const Place column(x_m / cell_x_m_ + 0.5 * kColumns - 0.5, kColumns);
+  const Place line(0.5 * kRows - 0.5 - y_m / cell_y_m_, kRows);
+  const Basis across(column.t);
+  const Basis down(line.t);
+  double z_m = 0;
+  double along_row_m = 0;     // for each sample
+  double along_column_m = 0;  // for each sample, downwards
+  for (size_t j = 0; j < kTaps; ++j) {
+    const float* const samples = row(line.sample[j]);
+    double height_m = 0;
+    double step_m = 0;
+    for (size_t i = 0; i < kTaps; ++i) {
+      const double sample_m = static_cast<double>(samples[column.sample[i]]);
+      height_m += across.value[i] * sample_m;
+      step_m += across.derivative[i] * sample_m;
+    }
+    z_m += down.value[j] * height_m;
+    along_row_m += down.value[j] * step_m;
+    along_column_m += down.derivative[j] * height_m;
+  }
+  return {z_m, {along_row_m / cell_x_m_, -along_column_m / cell_y_m_}};
+}
+
+}  // namespace spidar

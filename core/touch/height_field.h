@@ -1,0 +1,65 @@
+/// A relief over the picture, smooth enough to be touched.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+
+namespace spidar {
+
+/// Height and slope of a surface at one place.
+struct SurfacePoint {
+  double z_m = 0;
+  /// dz/dx and dz/dy, without a unit.
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+
+  /// Towards the viewer, of length 1.
+  Eigen::Vector3d normal() const noexcept {
+    return Eigen::Vector3d(-slope.x(), -slope.y(), 1) / std::sqrt(1 + slope.squaredNorm());
+  }
+};
+
+/// Heights z in the device frame, over a picture whose centre is the device's origin: columns from
+/// left (−x) to right, rows from the top (+y) down. A sample lies at the centre of its cell.
+///
+/// Between the samples runs the uniform cubic B-spline that has them as its coefficients (C. de
+/// Boor, A Practical Guide to Splines). Its height, slope and curvature are continuous. It does not
+/// pass through the samples but smooths them, so that it is never above the highest or below the
+/// lowest of them, and dz/dx is never steeper than the steepest step between two neighbours of a
+/// row (dz/dy: of a column). A plane is reproduced exactly; elsewhere the surface differs from the
+/// samples by cell²/6 · d²z/dx², and likewise in y. Outside the picture the heights of the border
+/// go on, without a slope across it.
+class SPIDAR_API HeightField {
+ public:
+  static constexpr int kColumns = 256;
+  static constexpr int kRows = 144;
+  static constexpr int kCells = kColumns * kRows;
+
+  /// Level at 0. The picture is `width_m` × `height_m` in the hand's space. Throws
+  /// std::invalid_argument unless both are finite and above 0. Allocates; nothing else does.
+  HeightField(double width_m, double height_m);
+
+  float* row(int y) noexcept { return z_m_.data() + y * kColumns; }
+  const float* row(int y) const noexcept { return z_m_.data() + y * kColumns; }
+
+  double width_m() const noexcept { return kColumns * cell_x_m_; }
+  double height_m() const noexcept { return kRows * cell_y_m_; }
+  double cell_x_m() const noexcept { return cell_x_m_; }
+  double cell_y_m() const noexcept { return cell_y_m_; }
+  /// Where the sample of column `x` and row `y` lies.
+  double x_m(int x) const noexcept { return (x + 0.5 - 0.5 * kColumns) * cell_x_m_; }
+  double y_m(int y) const noexcept { return (0.5 * kRows - 0.5 - y) * cell_y_m_; }
+
+  /// At a place in the device frame. Not a number counts as the left or upper border.
+  SurfacePoint at(double x_m, double y_m) const noexcept;
+
+ private:
+  double cell_x_m_;
+  double cell_y_m_;
+  std::vector<float> z_m_;  // rows of kColumns
+};
+
+}  // namespace spidar

@@ -1,0 +1,230 @@
+#include "core/touch/relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "core/tracking/luma_row.h"
+
+namespace spidar {
+namespace {
+
+constexpr int kColumns = HeightField::kColumns;
+constexpr int kRows = HeightField::kRows;
+
+void require(bool right, const char* name, const char* rule, double value) {
+  if (right) return;
+  throw std::invalid_argument("Relief: " + std::string(name) + " must be " + rule + ", but is " +
+                              std::to_string(value));
+}
+
+bool finite_and_not_negative(double value) {
+  return std::isfinite(value) && value >= 0;
+}
+
+/// The Gaussian up to three standard deviations, its sum 1.
+class Kernel {
+ public:
+  static constexpr int kMostRadius = 3 * ReliefBuilder::kMostSmoothing_cells;
+
+  explicit Kernel(double sigma_cells) noexcept {
+    const double sigma =
+        std::min(sigma_cells, static_cast<double>(ReliefBuilder::kMostSmoothing_cells));
+    radius = static_cast<int>(std::ceil(3 * sigma));
+    double sum = 0;
+    for (int k = -radius; k <= radius; ++k) sum += gaussian(k, sigma);
+    for (int k = -radius; k <= radius; ++k) {
+      weight[static_cast<size_t>(k + radius)] = static_cast<float>(gaussian(k, sigma) / sum);
+    }
+  }
+
+  int radius;
+  std::array<float, 2 * kMostRadius + 1> weight;
+
+ private:
+  static double gaussian(int k, double sigma) noexcept {
+    return sigma > 0 ? std::exp(-0.5 * k * k / (sigma * sigma)) : 1;
+  }
+};
+
+/// Of two neighbours or edges, the lower one; a NaN is none.
+float farther(float a, float b) noexcept {
+  return std::fmin(a, b);
+}
+
+/// Fills what is NaN in `count` samples `step` apart from the nearest valid ones before and after.
+void fill_line(float* line, int count, int step) noexcept {
+  float before = std::numeric_limits<float>::quiet_NaN();
+  for (int i = 0; i < count;) {
+    if (!std::isnan(line[i * step])) {
+      before = line[i * step];
+      ++i;
+      continue;
+    }
+    int end = i;
+    while (end < count && std::isnan(line[end * step])) ++end;
+    const float fill = farther(before, end < count ? line[end * step] : before);
+    for (; i < end; ++i) line[i * step] = fill;
+  }
+}
+
+/// One of the two passes: raises row `y` to what the neighbour row `from` and the cells before it
+/// in the direction `step` ask for.
+struct Envelope {
+  float across_m, down_m, diagonal_m;
+
+  void pass(HeightField& field, int y, int from, int step) const noexcept {
+    float* const row = field.row(y);
+    if (from >= 0 && from < kRows) {
+      const float* const other = field.row(from);
+      for (int x = 0; x < kColumns; ++x) row[x] = std::max(row[x], other[x] - down_m);
+      for (int x = 1; x < kColumns; ++x) row[x] = std::max(row[x], other[x - 1] - diagonal_m);
+      for (int x = 0; x + 1 < kColumns; ++x) row[x] = std::max(row[x], other[x + 1] - diagonal_m);
+    }
+    const int first = step > 0 ? 0 : kColumns - 1;
+    float last = row[first];
+    for (int k = 1; k < kColumns; ++k) {
+      float& z = row[first + k * step];
+      last = std::max(z, last - across_m);
+      z = last;
+    }
+  }
+};
+
+void limit_slope(HeightField& field) noexcept {
+  // Eight neighbours make an octagon of a circle. Its flanks are steeper than the step along an
+  // axis by 1 / cos(22.5°) where a cell is square; along an axis they are then a little flatter
+  // than allowed.
+  const double slope = ReliefBuilder::kMaxSlope * std::cos(std::acos(-1.0) / 8);
+  const double across_m = slope * field.cell_x_m();
+  const double down_m = slope * field.cell_y_m();
+  const Envelope envelope{static_cast<float>(across_m), static_cast<float>(down_m),
+                          static_cast<float>(std::hypot(across_m, down_m))};
+  for (int y = 0; y < kRows; ++y) envelope.pass(field, y, y - 1, 1);
+  for (int y = kRows - 1; y >= 0; --y) envelope.pass(field, y, y + 1, -1);
+}
+
+void read_depth_row(const DepthView& depth, int y, float* values) noexcept {
+  const uint8_t* const row = depth.data + y * depth.stride_bytes;
+  const int high = depth.big_endian ? 0 : 1;
+  for (int x = 0; x < depth.width; ++x) {
+    const int value = depth.bytes == 1 ? row[x] : row[2 * x + high] * 256 + row[2 * x + (1 - high)];
+    values[x] = value == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
+  }
+}
+
+}  // namespace
+
+void validate(const ReliefSettings& settings) {
+  require(std::isfinite(settings.floor_z_m), "floor_z_m", "finite", settings.floor_z_m);
+  require(finite_and_not_negative(settings.relief_m), "relief_m", "finite and ≥ 0",
+          settings.relief_m);
+  require(finite_and_not_negative(settings.smoothing_m), "smoothing_m", "finite and ≥ 0",
+          settings.smoothing_m);
+}
+
+void validate(const DepthRange& range) {
+  require(std::isfinite(range.near), "near", "finite", range.near);
+  require(std::isfinite(range.far), "far", "finite", range.far);
+  require(range.near != range.far, "near", "other than far", range.near);
+}
+
+ReliefBuilder::ReliefBuilder()
+    : level_(HeightField::kCells, 0.0F),
+      smoothed_(HeightField::kCells, 0.0F),
+      passed_(HeightField::kCells, 0.0F) {}
+
+bool ReliefBuilder::from_brightness(const ImageView& picture, const ReliefSettings& settings,
+                                    HeightField& field) {
+  if (picture.data == nullptr || picture.width <= 0 || picture.height <= 0) return false;
+  row_.resize(static_cast<size_t>(picture.width));
+  average_.read(
+      picture.width, picture.height,
+      [&](int y, float* values) {
+        copy_row(picture, 0, y, picture.width, row_.data());
+        for (int x = 0; x < picture.width; ++x) {
+          values[x] = static_cast<float>(row_[static_cast<size_t>(x)]) / 255.0F;
+        }
+      },
+      level_.data());
+  finish(settings, field);
+  return true;
+}
+
+bool ReliefBuilder::from_depth(const DepthView& depth, const DepthRange& range,
+                               const ReliefSettings& settings, HeightField& field) {
+  if (depth.data == nullptr || depth.width <= 0 || depth.height <= 0) return false;
+  const auto far = static_cast<float>(range.far);
+  const auto scale = static_cast<float>(1 / (range.near - range.far));
+  average_.read(
+      depth.width, depth.height,
+      [&](int y, float* values) {
+        read_depth_row(depth, y, values);
+        // The order matters: a NaN stays one.
+        for (int x = 0; x < depth.width; ++x) {
+          const float level = (values[x] - far) * scale;
+          values[x] = level < 0 ? 0 : level > 1 ? 1 : level;
+        }
+      },
+      level_.data());
+  if (!fill_holes()) return false;
+  finish(settings, field);
+  return true;
+}
+
+bool ReliefBuilder::fill_holes() noexcept {
+  for (int y = 0; y < kRows; ++y) fill_line(level_.data() + y * kColumns, kColumns, 1);
+  // What is still open are whole rows.
+  for (int x = 0; x < kColumns; ++x) fill_line(level_.data() + x, kRows, kColumns);
+  return !std::isnan(level_[0]);
+}
+
+void ReliefBuilder::smooth(double across_cells, double down_cells) noexcept {
+  const Kernel across(across_cells);
+  std::array<float, kColumns + 2 * Kernel::kMostRadius> padded;
+  for (int y = 0; y < kRows; ++y) {
+    const float* const from = level_.data() + y * kColumns;
+    float* const to = passed_.data() + y * kColumns;
+    std::fill_n(padded.begin(), across.radius, from[0]);
+    std::copy_n(from, kColumns, padded.begin() + across.radius);
+    std::fill_n(padded.begin() + across.radius + kColumns, across.radius, from[kColumns - 1]);
+    std::fill_n(to, kColumns, 0.0F);
+    for (int k = 0; k <= 2 * across.radius; ++k) {
+      const float weight = across.weight[static_cast<size_t>(k)];
+      const float* const shifted = padded.data() + k;
+      for (int x = 0; x < kColumns; ++x) to[x] += weight * shifted[x];
+    }
+  }
+  const Kernel down(down_cells);
+  for (int y = 0; y < kRows; ++y) {
+    float* const to = smoothed_.data() + y * kColumns;
+    std::fill_n(to, kColumns, 0.0F);
+    for (int k = -down.radius; k <= down.radius; ++k) {
+      const float weight = down.weight[static_cast<size_t>(k + down.radius)];
+      const float* const from = passed_.data() + std::clamp(y + k, 0, kRows - 1) * kColumns;
+      for (int x = 0; x < kColumns; ++x) to[x] += weight * from[x];
+    }
+  }
+}
+
+void ReliefBuilder::finish(const ReliefSettings& settings, HeightField& field) noexcept {
+  smooth(settings.smoothing_m / field.cell_x_m(), settings.smoothing_m / field.cell_y_m());
+  const auto floor_m = static_cast<float>(settings.floor_z_m);
+  const auto relief_m = static_cast<float>(settings.relief_m);
+  for (int i = 0; i < HeightField::kCells; ++i) {
+    field.row(0)[i] = floor_m + relief_m * smoothed_[static_cast<size_t>(i)];
+  }
+  limit_slope(field);
+}
+
+void ReliefBuilder::fine_detail(const ReliefSettings& settings, HeightField& field) const noexcept {
+  const auto relief_m = static_cast<float>(settings.relief_m);
+  for (size_t i = 0; i < static_cast<size_t>(HeightField::kCells); ++i) {
+    field.row(0)[i] = relief_m * (level_[i] - smoothed_[i]);
+  }
+}
+
+}  // namespace spidar

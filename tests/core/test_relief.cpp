@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/touch/relief.h"
+#include "count_allocations.h"
+#include "tests/support/picture.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr int kColumns = HeightField::kColumns;
+constexpr int kRows = HeightField::kRows;
+constexpr double kPi = 3.14159265358979323846;
+
+HeightField empty_field() {
+  return HeightField(0.06, 0.03375);  // square cells of 0.23 mm
+}
+
+/// Depth of 16 bits.
+struct DepthImage {
+  DepthImage(int w, int h) : width(w), height(h), bytes(static_cast<size_t>(2 * w * h)) {}
+
+  template <typename Depth>
+  void fill(Depth&& depth) {
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const int value = depth(x, y);
+        const auto at = static_cast<size_t>(2 * (y * width + x));
+        bytes[at] = static_cast<uint8_t>(value & 255);
+        bytes[at + 1] = static_cast<uint8_t>(value >> 8);
+      }
+    }
+  }
+  DepthView view() const { return {bytes.data(), width, height, 2 * width, 2, false}; }
+
+  int width;
+  int height;
+  std::vector<uint8_t> bytes;
+};
+
+float lowest(const HeightField& field) {
+  return *std::min_element(field.row(0), field.row(0) + HeightField::kCells);
+}
+float highest(const HeightField& field) {
+  return *std::max_element(field.row(0), field.row(0) + HeightField::kCells);
+}
+
+/// The steepest place, looked for twice as densely as the samples lie.
+double steepest(const HeightField& field) {
+  double most = 0;
+  for (int y = 0; y < 2 * kRows; ++y) {
+    for (int x = 0; x < 2 * kColumns; ++x) {
+      const double x_m = (x / 2.0 / kColumns - 0.5) * field.width_m();
+      const double y_m = (y / 2.0 / kRows - 0.5) * field.height_m();
+      most = std::max(most, field.at(x_m, y_m).slope.norm());
+    }
+  }
+  return most;
+}
+
+TEST(Relief, OfBrightnessIsAsHighAsThePictureIsBright) {
+  // From 16×16, which is enlarged, to more pixels than cells; portrait too.
+  for (const auto& [width, height] :
+       {std::pair{16, 16}, {256, 144}, {640, 361}, {99, 700}, {1, 1}, {1920, 1080}}) {
+    Picture picture(width, height, 3);
+    picture.fill([](double, double) { return 51; });
+    HeightField field = empty_field();
+    ReliefBuilder builder;
+    ASSERT_TRUE(builder.from_brightness(picture.view(), {0.001, 0.01, 5e-4}, field));
+    // 51/255 of 10 mm; sums of less than 10⁴ weights, each rounded by 2^-24 of it.
+    EXPECT_NEAR(lowest(field), 0.003, 0.003 * 1e4 / (1 << 24)) << width << "×" << height;
+    EXPECT_NEAR(highest(field), 0.003, 0.003 * 1e4 / (1 << 24)) << width << "×" << height;
+  }
+}
+
+TEST(Relief, LiesAsThePictureDoes) {
+  // Brighter to the right and to the bottom, at different rates.
+  Picture picture(640, 360);
+  picture.fill([](double x, double y) { return 0.2 * x + 0.1 * y; });
+  HeightField field = empty_field();
+  ReliefBuilder builder;
+  ASSERT_TRUE(builder.from_brightness(picture.view(), {0, 0.008, 5e-4}, field));
+  // A pixel is 0.06 m / 640; levels are rounded to 1/255, which the mean of 2.5² pixels and the
+  // Gaussian of 2 cells bring below 0.1/255, over two cells.
+  const double pixel_m = 0.06 / 640;
+  const double error = 0.008 * 0.1 / 255 / (2 * field.cell_x_m());
+  const SurfacePoint p = field.at(0.005, -0.004);
+  EXPECT_NEAR(p.slope.x(), 0.008 * 0.2 / 255 / pixel_m, error);
+  EXPECT_NEAR(p.slope.y(), -0.008 * 0.1 / 255 / pixel_m, error);
+  const double level = (0.2 * (320 + 0.005 / pixel_m) + 0.1 * (180 + 0.004 / pixel_m)) / 255;
+  EXPECT_NEAR(p.z_m, 0.008 * level, 0.008 * 0.5 / 255);
+}
+
+TEST(Relief, IsNowhereSteeperThanTheLimit) {
+  // An edge in each direction, from black to white. Unlimited, its slope would be 8 mm over the
+  // Gaussian of 0.5 mm: 8 / (0.5 √(2π)) = 6.4.
+  for (int degrees = 0; degrees < 360; degrees += 15) {
+    const double a = degrees * kPi / 180;
+    Picture picture(512, 288);
+    picture.fill([&](double x, double y) {
+      return std::cos(a) * (x - 256) + std::sin(a) * (y - 144) > 0 ? 255 : 0;
+    });
+    HeightField field = empty_field();
+    ReliefBuilder builder;
+    ASSERT_TRUE(builder.from_brightness(picture.view(), {}, field));
+    // Where the edge goes from one row of pixels to the next, the slopes across and down are those
+    // of places up to two cells apart, on flanks whose directions differ: 1/1000 at most.
+    const double slope = steepest(field);
+    EXPECT_LE(slope, 1.001 * ReliefBuilder::kMaxSlope) << degrees;
+    EXPECT_GE(slope, 0.9 * ReliefBuilder::kMaxSlope) << "the limit has something to do";
+    EXPECT_NEAR(highest(field), 0.008, 1e-6) << "the top stays";
+  }
+}
+
+TEST(Relief, OfNoiseIsNotSteeperAlongAnAxis) {
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> level(0, 255);
+  Picture picture(256, 144);
+  picture.fill([&](double, double) { return level(random); });
+  HeightField field = empty_field();
+  ReliefBuilder builder;
+  ASSERT_TRUE(builder.from_brightness(picture.view(), {0, 0.008, 0}, field));
+  for (double x_m = -0.03; x_m < 0.03; x_m += 0.00011) {
+    for (double y_m = -0.017; y_m < 0.017; y_m += 0.00013) {
+      const SurfacePoint p = field.at(x_m, y_m);
+      ASSERT_LE(p.slope.cwiseAbs().maxCoeff(), ReliefBuilder::kMaxSlope);
+    }
+  }
+}
+
+TEST(Relief, OfDepthIsHighWhereItIsNear) {
+  DepthImage depth(320, 180);
+  depth.fill([](int x, int) { return x < 160 ? 2000 : 1000; });
+  HeightField field = empty_field();
+  ReliefBuilder builder;
+  const ReliefSettings settings;
+  ASSERT_TRUE(builder.from_depth(depth.view(), {1000, 2000}, settings, field));
+  EXPECT_NEAR(field.at(-0.02, 0).z_m, 0, 1e-7);
+  EXPECT_NEAR(field.at(0.02, 0).z_m, 0.008, 1e-7);
+  // The same numbers as a disparity: near is the larger.
+  ASSERT_TRUE(builder.from_depth(depth.view(), {2000, 1000}, settings, field));
+  EXPECT_NEAR(field.at(-0.02, 0).z_m, 0.008, 1e-7);
+  EXPECT_NEAR(field.at(0.02, 0).z_m, 0, 1e-7);
+  // Out of the range: not higher and not lower than its ends.
+  ASSERT_TRUE(builder.from_depth(depth.view(), {1400, 1600}, settings, field));
+  EXPECT_NEAR(lowest(field), 0, 1e-7);
+  EXPECT_NEAR(highest(field), 0.008, 1e-7);
+}
+
+TEST(Relief, ReadsWordsInBothOrders) {
+  DepthImage depth(64, 36);
+  depth.fill([](int x, int y) { return 300 + 7 * x + 3 * y; });
+  HeightField little = empty_field();
+  HeightField big = empty_field();
+  ReliefBuilder builder;
+  ASSERT_TRUE(builder.from_depth(depth.view(), {300, 1000}, {}, little));
+  for (size_t i = 0; i < depth.bytes.size(); i += 2) std::swap(depth.bytes[i], depth.bytes[i + 1]);
+  DepthView swapped = depth.view();
+  swapped.big_endian = true;
+  ASSERT_TRUE(builder.from_depth(swapped, {300, 1000}, {}, big));
+  for (int i = 0; i < HeightField::kCells; ++i) ASSERT_EQ(little.row(0)[i], big.row(0)[i]);
+}
+
+TEST(Relief, FillsAHoleWithTheFartherNeighbour) {
+  DepthImage depth(256, 144);
+  // Far on the left, near on the right, between them nothing; the top third is missing altogether.
+  depth.fill([](int x, int y) {
+    return y < 48 || (x > 100 && x < 150) ? 0 : x < 125 ? 2000 : 1000;
+  });
+  HeightField field = empty_field();
+  ReliefBuilder builder;
+  const ReliefSettings unsmoothed{0, 0.008, 0};
+  ASSERT_TRUE(builder.from_depth(depth.view(), {1000, 2000}, unsmoothed, field));
+  EXPECT_NEAR(field.row(100)[110], 0, 1e-7);
+  EXPECT_NEAR(field.row(100)[150], 0.008, 1e-7);
+  EXPECT_NEAR(field.row(0)[50], 0, 1e-7) << "the rows above are as the first one that is there";
+  EXPECT_NEAR(field.row(0)[200], 0.008, 1e-7);
+}
+
+TEST(Relief, LeavesTheFieldWhereThereIsNothing) {
+  HeightField field = empty_field();
+  field.row(3)[4] = 0.5F;
+  ReliefBuilder builder;
+  DepthImage holes(32, 18);
+  EXPECT_FALSE(builder.from_depth(holes.view(), {1, 2}, {}, field));
+  EXPECT_FALSE(builder.from_depth({}, {1, 2}, {}, field));
+  EXPECT_FALSE(builder.from_brightness({}, {}, field));
+  EXPECT_EQ(field.row(3)[4], 0.5F);
+}
+
+TEST(Relief, FineDetailIsWhatSmoothingTookOut) {
+  Picture picture(1024, 576);
+  // 10 waves across, 25.6 cells each, and 85 of 3 cells. The Gaussian of 2 cells leaves
+  // exp(−2 (π σ / λ)²) of them: 0.886 and 2e-4.
+  picture.fill([](double x, double) {
+    return 127.5 + 50 * std::sin(2 * kPi * 10 * x / 1024) + 50 * std::sin(2 * kPi * 85 * x / 1024);
+  });
+  HeightField field = empty_field();
+  HeightField fine = empty_field();
+  ReliefBuilder builder;
+  const ReliefSettings settings{0, 0.008, 2 * field.cell_x_m()};
+  ASSERT_TRUE(builder.from_brightness(picture.view(), settings, field));
+  builder.fine_detail(settings, fine);
+  double coarse = 0;
+  double detail = 0;
+  for (int x = 0; x < kColumns; ++x) {
+    coarse += fine.row(70)[x] * std::sin(2 * kPi * 10 * (x + 0.5) / kColumns) * 2 / kColumns;
+    detail += fine.row(70)[x] * std::sin(2 * kPi * 85 * (x + 0.5) / kColumns) * 2 / kColumns;
+  }
+  const double amplitude_m = 0.008 * 50 / 255;
+  EXPECT_NEAR(coarse, (1 - 0.886) * amplitude_m, 0.03 * amplitude_m);
+  // The mean over a cell of a third of the wave leaves sinc(1/3) = 0.83 of it; the picture is
+  // rounded by half a level of 50, the Gaussian ends at three standard deviations (0.3 %).
+  EXPECT_NEAR(detail, 0.83 * amplitude_m, 0.03 * amplitude_m);
+}
+
+TEST(Relief, TakesNothingFromTheHeapAfterTheFirst) {
+  if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
+  Picture picture(427, 240);
+  picture.fill([](double x, double) { return x / 2; });
+  DepthImage depth(320, 240);
+  depth.fill([](int x, int y) { return x % 7 ? x + y : 0; });
+  HeightField field = empty_field();
+  ReliefBuilder from_picture;
+  ReliefBuilder from_depth;
+  from_picture.from_brightness(picture.view(), {}, field);
+  from_depth.from_depth(depth.view(), {500, 1}, {}, field);
+  const size_t before = allocations;
+  from_picture.from_brightness(picture.view(), {}, field);
+  from_picture.fine_detail({}, field);
+  from_depth.from_depth(depth.view(), {500, 1}, {}, field);
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(Relief, SaysWhichSettingIsWrong) {
+  const double nan = std::nan("");
+  EXPECT_NO_THROW(validate(ReliefSettings()));
+  EXPECT_THROW(validate(ReliefSettings{nan, 0.01, 0}), std::invalid_argument);
+  EXPECT_THROW(validate(ReliefSettings{0, -0.01, 0}), std::invalid_argument);
+  EXPECT_THROW(validate(ReliefSettings{0, 0.01, nan}), std::invalid_argument);
+  EXPECT_NO_THROW(validate(DepthRange{2, 1}));
+  EXPECT_THROW(validate(DepthRange{1, 1}), std::invalid_argument);
+  EXPECT_THROW(validate(DepthRange{nan, 1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace spidar::test
