@@ -1,12 +1,17 @@
-// What touching a picture costs: the relief of a frame, a look-up.
+// Touching a picture: what a frame and a tick cost, and what energy a surface gives out. An
+// argument sets the number of ticks for each scene and hand.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <random>
 #include <vector>
 
+#include "core/touch/contact_force.h"
 #include "core/touch/relief.h"
 #include "tests/bench/call_timer.h"
+#include "tests/support/touch_surfaces.h"
+#include "tests/support/touched_grip.h"
 
 namespace {
 
@@ -48,9 +53,139 @@ void time_reliefs() {
   }
 }
 
+void time_ticks(const std::vector<test::TouchScene>& scenes) {
+  std::puts("\nA tick, microseconds:");
+  constexpr size_t kTicks = 20000;
+  constexpr int kPasses = 5;
+  const test::RandomHand hand(7);
+  ContactSettings settings;
+  settings.friction = {0.3, 0.24};
+  const HeightField& relief = scenes[4].relief;
+  const HeightField& texture = scenes[4].texture;
+  const MovingRelief still{&relief};
+  const MovingRelief moving{&relief, &scenes[5].relief, 0.4, {0.001, 0}};
+  ContactForce force;
+  Eigen::Vector3d sum_N = Eigen::Vector3d::Zero();
+  const auto time = [&](const char* name, const MovingRelief& surface, const HeightField* detail) {
+    print_times(name,
+                bench::time_calls(
+                    kTicks, kPasses, [&] { force.reset(); },
+                    [&](size_t n) {
+                      const Eigen::Vector3d grip_m = hand.at_m(1e-3 * static_cast<double>(n));
+                      sum_N += force.tick(surface, detail, settings, grip_m, 1e-3);
+                    }),
+                1e3);
+  };
+  time("one frame", still, nullptr);
+  time("between two frames", moving, nullptr);
+  time("between two frames, texture", moving, &texture);
+  std::printf("(both with 18 sines of the hand; mean force %.3f N)\n",
+              sum_N.norm() / (3 * kPasses * static_cast<double>(kTicks)));
+}
+
+struct Case {
+  const char* name;
+  double stiffness_N_m;
+  double damping;
+  double friction;
+  bool texture;
+};
+
+void explore_scenes(const std::vector<test::TouchScene>& scenes, long ticks) {
+  std::printf("\nEnergy that contacts gave out, %ld ticks for each scene and hand:\n", ticks);
+  for (const Case& c : {Case{"500 N/m", 500, 1.2, 0, false},
+                        {"500 N/m, friction", 500, 1.2, 0.3, false},
+                        {"500 N/m, friction, texture", 500, 1.2, 0.3, true},
+                        {"800 N/m, friction", 800, 1.2, 0.3, false},
+                        {"800 N/m, friction, texture", 800, 1.2, 0.3, true},
+                        {"700 N/m, no damping", 700, 0, 0, false}}) {
+    ContactSettings settings;
+    settings.stiffness_N_m = c.stiffness_N_m;
+    settings.damping = c.damping;
+    settings.friction = {c.friction, 0.8 * c.friction};
+    std::printf("%s\n", c.name);
+    for (const test::TouchScene& scene : scenes) {
+      std::printf("  %-20s", scene.name.c_str());
+      for (const test::Hand& hand : {test::kFirmHand, test::kLightHand}) {
+        const test::ContactEnergy e = test::explore(
+            {&scene.relief}, c.texture ? &scene.texture : nullptr, settings, hand, ticks, 7);
+        std::printf("  %s: %d of %d, worst %.4f mJ", hand.name, e.generating, e.contacts,
+                    1e3 * e.worst_J);
+      }
+      std::puts("");
+    }
+  }
+}
+
+/// The hand goes into a plane, 6 mm below it, and out again, at the same speed.
+double tap_J(const ContactSettings& settings, const test::Hand& hand, double speed_m_s) {
+  const HeightField plane = test::plane_field(0);
+  test::TouchedGrip grip(hand, {0, 0, 0.03});
+  ContactForce force;
+  const int down = static_cast<int>(0.036 / speed_m_s * 1e3);
+  for (int n = 0; n < 2 * down + 400; ++n) {
+    const double z_m = -0.006 + speed_m_s * 1e-3 * std::abs(n - down);
+    const Eigen::Vector3d wanted_N =
+        force.tick({&plane}, nullptr, settings, grip.measured_m(), test::TouchedGrip::kTick_s);
+    grip.exchange(wanted_N, {0, 0, std::min(z_m, 0.03)});
+  }
+  return -grip.given_J();
+}
+
+void tap() {
+  std::puts("\nEnergy that a tap gives out (below 0: takes), mJ, by the speed of the hand in m/s:");
+  for (const double stiffness_N_m : {500.0, 800.0}) {
+    ContactSettings settings;
+    settings.stiffness_N_m = stiffness_N_m;
+    for (const test::Hand& hand : {test::kFirmHand, test::kLightHand}) {
+      std::printf("  %.0f N/m, %-6s", stiffness_N_m, hand.name);
+      for (const double speed_m_s : {0.05, 0.1, 0.2, 0.3, 0.5}) {
+        std::printf("  %.2f: %8.4f", speed_m_s, 1e3 * tap_J(settings, hand, speed_m_s));
+      }
+      std::puts("");
+    }
+  }
+}
+
+/// Of the real part of the impedance (K / jω + B / (1 + jω / ω60)) exp(−jω t_d), in units of
+/// K t_d.
+double resistance(double frequency_Hz, double damping) {
+  constexpr double kDelay_s = 0.0035;
+  const double w = 2 * std::acos(-1.0) * frequency_Hz;
+  const double lag = frequency_Hz / ContactForce::kVelocityCutoff_Hz;
+  const double angle = w * kDelay_s;
+  return -std::sin(angle) / angle +
+         damping * (std::cos(angle) - lag * std::sin(angle)) / (1 + lag * lag);
+}
+
+void print_passive_band() {
+  std::puts(
+      "\nBy damping / (K t_d): passive alone up to; damping that it needs of the hand above:");
+  for (const double damping : {1.0, 1.1, 1.2, 1.5, 2.0}) {
+    double passive_Hz = 0;
+    double least = 0;
+    double least_Hz = 0;
+    for (double f_Hz = 0.1; f_Hz < 500; f_Hz += 0.1) {
+      const double r = resistance(f_Hz, damping);
+      if (least == 0 && r >= 0) passive_Hz = f_Hz;
+      if (r < least) {
+        least = r;
+        least_Hz = f_Hz;
+      }
+    }
+    std::printf("  %.1f: %4.1f Hz; %.2f K t_d at %.0f Hz\n", damping, passive_Hz, -least, least_Hz);
+  }
+}
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const long ticks = argc > 1 ? std::atol(argv[1]) : 1'000'000;
   bench::pin_to_one_core();
+  const std::vector<test::TouchScene> scenes = test::touch_scenes();
   time_reliefs();
+  time_ticks(scenes);
+  print_passive_band();
+  tap();
+  explore_scenes(scenes, ticks);
 }

@@ -1,0 +1,80 @@
+#include "core/touch/contact_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace spidar {
+namespace {
+
+void require(bool right, const char* name, const char* rule, double value) {
+  if (right) return;
+  throw std::invalid_argument("Contact: " + std::string(name) + " must be " + rule + ", but is " +
+                              std::to_string(value));
+}
+
+/// Of the texture at the place of the grip, where it is not moved by what holds the proxy.
+Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
+                              const Eigen::Vector3d& grip_m) noexcept {
+  const Eigen::Vector2d slope = gain * texture.at(grip_m.x(), grip_m.y()).slope;
+  const double steepness = slope.norm();
+  if (steepness <= ContactForce::kMostTextureSlope) return slope;
+  return slope * (ContactForce::kMostTextureSlope / steepness);
+}
+
+}  // namespace
+
+void validate(const ContactSettings& s) {
+  require(s.stiffness_N_m > 0 && s.stiffness_N_m <= ContactSettings::kMostStiffness_N_m,
+          "stiffness_N_m", "above 0 and at most 800", s.stiffness_N_m);
+  require(std::isfinite(s.delay_s) && s.delay_s >= 0, "delay_s", "finite and ≥ 0", s.delay_s);
+  require(std::isfinite(s.damping) && s.damping >= 1, "damping", "finite and ≥ 1", s.damping);
+  require(std::isfinite(s.lateral_damping) && s.lateral_damping >= 0.5, "lateral_damping",
+          "finite and ≥ 0.5", s.lateral_damping);
+  require(std::isfinite(s.friction.fixed) && s.friction.fixed >= 0, "friction.fixed",
+          "finite and ≥ 0", s.friction.fixed);
+  require(s.friction.dynamic >= 0 && s.friction.dynamic <= s.friction.fixed, "friction.dynamic",
+          "≥ 0 and at most friction.fixed", s.friction.dynamic);
+  require(std::isfinite(s.texture) && s.texture >= 0, "texture", "finite and ≥ 0", s.texture);
+}
+
+void ContactForce::follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept {
+  if (started_ && dt_s > 0) {
+    const double turns = 2 * std::acos(-1.0) * kVelocityCutoff_Hz * dt_s;
+    velocity_m_s_ += (1 - std::exp(-turns)) * ((grip_m - last_m_) / dt_s - velocity_m_s_);
+  }
+  last_m_ = grip_m;
+  started_ = true;
+}
+
+Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightField* texture,
+                                   const ContactSettings& settings, const Eigen::Vector3d& grip_m,
+                                   double dt_s) noexcept {
+  if (!grip_m.allFinite()) {
+    reset();
+    return Eigen::Vector3d::Zero();
+  }
+  follow(grip_m, dt_s);
+  proxy_.move(surface, settings.friction, grip_m, dt_s);
+  if (!proxy_.touching()) return Eigen::Vector3d::Zero();
+
+  const Eigen::Vector3d& normal = proxy_.normal();
+  const Eigen::Vector3d spring_N = settings.stiffness_N_m * (proxy_.position_m() - grip_m);
+  const double across_m_s = velocity_m_s_.dot(normal);
+  const Eigen::Vector3d along_m_s = velocity_m_s_ - across_m_s * normal;
+  const double damping_N_s_m = settings.damping_N_s_m();
+  const double spring_across_N = spring_N.dot(normal);
+  const double across_N = spring_across_N - damping_N_s_m * across_m_s;
+  if (spring_across_N <= 0 || across_N <= 0) return Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d force_N = spring_N - damping_N_s_m * across_m_s * normal -
+                            settings.lateral_damping * damping_N_s_m * along_m_s;
+  if (texture != nullptr) {
+    force_N.head<2>() -= std::min(spring_across_N, kMostTexture_N) *
+                         texture_slope(*texture, settings.texture, grip_m);
+  }
+  return force_N;
+}
+
+}  // namespace spidar

@@ -1,0 +1,128 @@
+#include "core/touch/proxy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/touch/relief.h"
+
+namespace spidar {
+namespace {
+
+/// No relief is steeper than this in any direction: kMaxSlope along both axes.
+const double kSteepest = ReliefBuilder::kMaxSlope * std::sqrt(2.0);
+/// What slides sticks again when it has come back so far: the hand has turned.
+constexpr double kSticksAgain = 0.6;
+/// Shorter ways are not worth a step: 1 nm is 0.5 µN.
+constexpr double kLeastStep_m = 1e-9;
+constexpr int kMostHalvings = 3;
+
+/// A shifted surface a little nearer to its place. It falls faster than it rises: falling gives
+/// nothing to the hand.
+double settled(double shift_m, double dt_s) noexcept {
+  if (shift_m < 0) return std::min(0.0, shift_m + TouchProxy::kRise_m_s * dt_s);
+  return std::max(0.0, shift_m - TouchProxy::kFastest_m_s * dt_s);
+}
+
+}  // namespace
+
+void TouchProxy::move(const MovingRelief& surface, const Friction& friction,
+                      const Eigen::Vector3d& grip_m, double dt_s) noexcept {
+  if (!grip_m.allFinite()) {
+    reset();
+    return;
+  }
+  const double shift_m = settled(shift_m_, dt_s);
+  if (touching_) {
+    carry(surface, shift_m, dt_s);
+  } else {
+    // Where nobody touches it the surface may fall at once.
+    enter(surface, std::min(shift_m, 0.0), grip_m, dt_s);
+  }
+  if (touching_) walk(surface, friction, grip_m);
+  last_grip_m_ = grip_m;
+  started_ = true;
+}
+
+/// Moves with the surface, not faster than kFastest_m_s.
+void TouchProxy::carry(const MovingRelief& surface, double shift_m, double dt_s) noexcept {
+  const SurfacePoint at = surface.at(position_m_.head<2>());
+  const double rise_m = at.z_m + shift_m - position_m_.z();
+  const double most_m = kFastest_m_s * dt_s;
+  position_m_.z() += std::clamp(rise_m, -most_m, most_m);
+  shift_m_ = position_m_.z() - at.z_m;
+  normal_ = at.normal();
+}
+
+/// Begins to touch where the grip is below the surface. What its own way since the last tick does
+/// not explain is a surface that has jumped.
+void TouchProxy::enter(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
+                       double dt_s) noexcept {
+  const SurfacePoint at = surface.at(grip_m.head<2>());
+  const double depth_m = at.z_m + shift_m - grip_m.z();
+  shift_m_ = shift_m;
+  position_m_ = grip_m;
+  if (!(depth_m > 0)) return;
+  double explained_m = kFastest_m_s * dt_s;
+  if (started_) {
+    const Eigen::Vector3d way_m = grip_m - last_grip_m_;
+    explained_m += std::max(0.0, -way_m.z()) + kSteepest * way_m.head<2>().norm();
+  }
+  if (depth_m > explained_m) shift_m_ -= depth_m - explained_m;
+  touching_ = true;
+  sliding_ = false;
+  position_m_.z() = at.z_m + shift_m_;
+  normal_ = at.normal();
+}
+
+void TouchProxy::walk(const MovingRelief& surface, const Friction& friction,
+                      const Eigen::Vector3d& grip_m) noexcept {
+  const double longest_m = 0.5 * surface.cell_m();
+  for (int n = 0; n < kMostSteps; ++n) {
+    const Eigen::Vector3d to_grip_m = grip_m - position_m_;
+    const double depth_m = -normal_.dot(to_grip_m);
+    // Above the tangent plane it may still be below a surface that is hollow.
+    if (depth_m <= 0 && grip_m.z() >= surface.at(grip_m.head<2>()).z_m + shift_m_) {
+      leave(grip_m);
+      return;
+    }
+    const Eigen::Vector3d along_m = to_grip_m + depth_m * normal_;
+    const double distance_m = along_m.norm();
+    double held_m = 0;  // by friction
+    if (depth_m > 0 && friction.fixed > 0) {
+      held_m = friction.dynamic * depth_m;
+      if (sliding_ && distance_m < kSticksAgain * held_m) sliding_ = false;
+      if (!sliding_ && distance_m <= friction.fixed * depth_m) return;
+    }
+    const double way_m = std::min(distance_m - held_m, longest_m);
+    if (!(way_m > kLeastStep_m)) return;
+    sliding_ = true;
+    if (!step(surface, along_m * (way_m / distance_m), grip_m)) return;
+  }
+}
+
+/// Goes `way_m` along the tangent plane and then back to the surface, or less of it. False: no way
+/// leads nearer to the grip.
+bool TouchProxy::step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
+                      const Eigen::Vector3d& grip_m) noexcept {
+  const double now_m2 = (position_m_ - grip_m).squaredNorm();
+  double share = 1;
+  for (int n = 0; n <= kMostHalvings; ++n, share *= 0.5) {
+    Eigen::Vector3d there_m = position_m_ + share * way_m;
+    const SurfacePoint at = surface.at(there_m.head<2>());
+    there_m.z() = at.z_m + shift_m_;
+    if ((there_m - grip_m).squaredNorm() < now_m2) {
+      position_m_ = there_m;
+      normal_ = at.normal();
+      return true;
+    }
+  }
+  return false;
+}
+
+void TouchProxy::leave(const Eigen::Vector3d& grip_m) noexcept {
+  touching_ = false;
+  sliding_ = false;
+  position_m_ = grip_m;
+}
+
+}  // namespace spidar

@@ -1,0 +1,264 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/touch/contact_force.h"
+#include "count_allocations.h"
+#include "tests/support/touch_surfaces.h"
+#include "tests/support/touched_grip.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr double kTick_s = 1e-3;
+constexpr double kPi = 3.14159265358979323846;
+
+ContactSettings settings_of(double stiffness_N_m, double friction = 0) {
+  ContactSettings settings;
+  settings.stiffness_N_m = stiffness_N_m;
+  settings.friction = {friction, 0.8 * friction};
+  return settings;
+}
+
+/// Moves straight to `to_m`; the last force.
+Eigen::Vector3d go(ContactForce& force, const MovingRelief& surface,
+                   const ContactSettings& settings, const Eigen::Vector3d& from_m,
+                   const Eigen::Vector3d& to_m, int ticks) {
+  Eigen::Vector3d last_N = Eigen::Vector3d::Zero();
+  for (int n = 1; n <= ticks; ++n) {
+    last_N = force.tick(surface, nullptr, settings, from_m + (to_m - from_m) * n / ticks, kTick_s);
+  }
+  return last_N;
+}
+
+TEST(ContactForce, OfAPlaneIsStiffnessTimesDepth) {
+  const HeightField plane = plane_field(0);
+  for (double stiffness_N_m = 300; stiffness_N_m <= 800; stiffness_N_m += 50) {
+    ContactForce force;
+    const ContactSettings settings = settings_of(stiffness_N_m);
+    const Eigen::Vector3d inside_m(0.001, -0.002, -0.003);
+    go(force, {&plane}, settings, {0.001, -0.002, 0.001}, inside_m, 100);
+    // At rest: the velocity has faded by exp(−2π 60 Hz · 100 ms).
+    const Eigen::Vector3d at_rest_N = go(force, {&plane}, settings, inside_m, inside_m, 100);
+    EXPECT_NEAR(at_rest_N.z() / (stiffness_N_m * 0.003), 1, 1e-6);
+    EXPECT_NEAR(at_rest_N.head<2>().norm(), 0, 1e-6);
+  }
+}
+
+TEST(ContactForce, OfAPlaneInTheHandIsStiffnessTimesDepth) {
+  // With the steps of encoder and D/A converter, at the place where the grip comes to rest.
+  const HeightField plane = plane_field(0);
+  for (const double stiffness_N_m : {300.0, 500.0, 800.0}) {
+    ContactForce force;
+    TouchedGrip grip(kFirmHand, {0, 0, 0.001});
+    const ContactSettings settings = settings_of(stiffness_N_m);
+    double depth_m = 0;
+    double mean_N = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const Eigen::Vector3d wanted_N =
+          force.tick({&plane}, nullptr, settings, grip.measured_m(), kTick_s);
+      grip.exchange(wanted_N, {0, 0, -0.010});
+      if (n >= 1000) {
+        depth_m -= grip.position_m().z() / 1000;
+        mean_N += grip.force_N().z() / 1000;
+      }
+    }
+    // Half a step of the encoder of what is then a depth of 2.7 mm and more, half a step of the
+    // force of 2.4 N and less.
+    EXPECT_NEAR(
+        mean_N / (stiffness_N_m * depth_m), 1,
+        0.5 * TouchedGrip::kEncoderStep_m / depth_m + 0.5 * TouchedGrip::kForceStep_N / mean_N);
+    EXPECT_NEAR(mean_N / (stiffness_N_m * depth_m), 1, 0.005);
+  }
+}
+
+TEST(ContactForce, NeverPullsIn) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const std::vector<TouchScene> scenes = touch_scenes();
+  ContactForce force;
+  const ContactSettings settings = settings_of(800, 0.4);
+  Eigen::Vector3d grip_m(0, 0, 0.003);
+  Eigen::Vector3d velocity_m_s(0, 0, 0);
+  const HeightField* relief = &scenes[0].relief;
+  int pushed = 0;
+  for (int n = 0; n < 100000; ++n) {
+    if (n % 33 == 0) relief = &scenes[random() % scenes.size()].relief;
+    if (n % 50 == 0) velocity_m_s = {uniform(random), uniform(random), uniform(random)};
+    grip_m += kTick_s * velocity_m_s;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(grip_m[axis]) > 0.012) velocity_m_s[axis] = -std::copysign(1, grip_m[axis]);
+    }
+    const Eigen::Vector3d wanted_N = force.tick({relief}, nullptr, settings, grip_m, kTick_s);
+    ASSERT_TRUE(wanted_N.allFinite());
+    if (!force.proxy().touching()) {
+      ASSERT_EQ(wanted_N.norm(), 0) << n;
+    }
+    // Rounding of forces of some newtons.
+    ASSERT_GE(wanted_N.dot(force.proxy().normal()), -1e-12) << n;
+    pushed += wanted_N.norm() > 0.1;
+  }
+  EXPECT_GT(pushed, 10000);
+}
+
+TEST(ContactForce, ACutOfACentimetreMovesTheGripSlowly) {
+  const HeightField low = plane_field(0);
+  const HeightField high = plane_field(0.010);
+  for (const Hand& hand : {kFirmHand, kLightHand}) {
+    ContactForce force;
+    TouchedGrip grip(hand, {0, 0, 0.0005});
+    double fastest_m_s = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const Eigen::Vector3d wanted_N = force.tick({n < 1000 ? &low : &high}, nullptr,
+                                                  settings_of(500), grip.measured_m(), kTick_s);
+      grip.exchange(wanted_N, {0, 0, -0.001});
+      if (n >= 1000) fastest_m_s = std::max(fastest_m_s, grip.velocity_m_s().norm());
+    }
+    EXPECT_LE(fastest_m_s, 0.05) << hand.name;
+    EXPECT_GT(fastest_m_s, 0.01) << "the surface does lift it";
+  }
+}
+
+TEST(ContactForce, OfAMovingPlaneChangesAsFastAsItMoves) {
+  // ±4 mm at 0.5 Hz, 30 frames a second, the grip still at −5 mm.
+  constexpr int kFrame_ticks = 33;
+  std::vector<HeightField> frames;
+  for (int f = 0; f < 62; ++f) {
+    frames.push_back(plane_field(0.004 * std::sin(kPi * f * kFrame_ticks * kTick_s)));
+  }
+  ContactForce force;
+  const ContactSettings settings = settings_of(500);
+  double last_N = 0;
+  double fastest_N_s = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const auto f = static_cast<size_t>(n / kFrame_ticks);
+    const MovingRelief moving{&frames[f], &frames[f + 1],
+                              static_cast<double>(n % kFrame_ticks) / kFrame_ticks};
+    const double now_N = force.tick(moving, nullptr, settings, {0, 0, -0.005}, kTick_s).z();
+    // Half a second to come up from the grip, where it starts.
+    if (n > 500) fastest_N_s = std::max(fastest_N_s, std::abs(now_N - last_N) / kTick_s);
+    last_N = now_N;
+  }
+  const double expected_N_s = 500 * 0.004 * kPi;  // K v
+  EXPECT_LE(fastest_N_s, 2 * expected_N_s);
+  EXPECT_GT(fastest_N_s, 0.9 * expected_N_s) << "it is felt at all";
+}
+
+TEST(ContactForce, OfTextureHasItsFrequencyAndMostOfItsAmplitude) {
+  // Stripes of 4 mm, the grip led across them by the hand of the test at the speed that makes the
+  // frequency; 1 mm deep, so that 0.5 N press.
+  constexpr double kWave_m = 0.004;
+  constexpr double kSlope = 0.1;
+  const HeightField plane = plane_field(0);
+  const HeightField stripes = sampled_field([](double x_m, double) {
+    return kSlope * kWave_m / (2 * kPi) * std::sin(2 * kPi * x_m / kWave_m);
+  });
+  const ContactSettings settings = settings_of(500);
+  const double lag = 1 - std::exp(-kTick_s / TouchedGrip::kDriveLag_s);
+  for (const double frequency_Hz : {7.0, 15.0, 30.0, 60.0, 120.0}) {
+    ContactForce force;
+    const double speed_m_s = frequency_Hz * kWave_m;
+    // 5 whole waves, after 4 mm for the drive and the velocity to settle.
+    const int first = static_cast<int>(std::ceil(0.004 / speed_m_s / kTick_s)) + 30;
+    const int last = first + static_cast<int>(std::lround(5 / frequency_Hz / kTick_s));
+    std::vector<double> felt_N;
+    double x_N = 0;
+    for (int n = -100; n < last; ++n) {
+      const double x_m = -0.02 + speed_m_s * kTick_s * std::max(n, 0);
+      const double z_m = -0.001 + 2e-5 * std::max(-50 - n, 0);  // from above
+      const double wanted_N = force.tick({&plane}, &stripes, settings, {x_m, 0, z_m}, kTick_s).x();
+      x_N += lag * (wanted_N - x_N);
+      if (n >= first) felt_N.push_back(x_N);
+    }
+    // Amplitude at a frequency, the mean (the drag) left out.
+    double mean_N = 0;
+    for (const double f : felt_N) mean_N += f / static_cast<double>(felt_N.size());
+    const auto amplitude_N = [&](double f_Hz) {
+      double c = 0;
+      double s = 0;
+      for (size_t i = 0; i < felt_N.size(); ++i) {
+        const double a = 2 * kPi * f_Hz * kTick_s * static_cast<double>(i);
+        c += (felt_N[i] - mean_N) * std::cos(a);
+        s += (felt_N[i] - mean_N) * std::sin(a);
+      }
+      return 2 * std::hypot(c, s) / static_cast<double>(felt_N.size());
+    };
+    double best_Hz = 0;
+    for (double f = 0.8; f < 1.2; f += 0.001) {
+      if (amplitude_N(f * frequency_Hz) > amplitude_N(best_Hz)) best_Hz = f * frequency_Hz;
+    }
+    EXPECT_NEAR(best_Hz / frequency_Hz, 1, 0.01) << frequency_Hz;
+    const double share = amplitude_N(frequency_Hz) / (0.5 * kSlope);
+    // The drive alone leaves 1 / √(1 + (2π f 2 ms)²): 0.80 at 60 Hz, 0.55 at 120 Hz.
+    if (frequency_Hz <= 60) {
+      EXPECT_GE(share, 0.7) << frequency_Hz;
+    }
+    EXPECT_LE(share, 1.02) << frequency_Hz;
+    RecordProperty("share_" + std::to_string(static_cast<int>(frequency_Hz)),
+                   std::to_string(share));
+  }
+}
+
+TEST(ContactForce, OfTextureIsBounded) {
+  const HeightField plane = plane_field(0);
+  const HeightField steep = sampled_field([](double x_m, double) { return 3 * x_m; });
+  ContactForce force;
+  const ContactSettings settings = settings_of(500);
+  Eigen::Vector3d last_N;
+  for (int n = 0; n < 300; ++n) {
+    last_N =
+        force.tick({&plane}, &steep, settings, {0, 0, std::max(-0.004, 0.001 - 1e-4 * n)}, kTick_s);
+  }
+  EXPECT_NEAR(last_N.x(), -ContactForce::kMostTextureSlope * ContactForce::kMostTexture_N, 1e-6);
+  EXPECT_NEAR(last_N.z(), 2, 1e-6) << "what presses stays";
+}
+
+TEST(ContactForce, TakesNothingFromTheHeap) {
+  if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
+  const std::vector<TouchScene> scenes = touch_scenes();
+  ContactForce force;
+  const ContactSettings settings = settings_of(500, 0.3);
+  const RandomHand hand(3);
+  for (int n = 0; n < 2000; ++n) {
+    const MovingRelief moving{&scenes[4].relief, &scenes[5].relief, n % 33 / 33.0, {0.001, 0}};
+    const Eigen::Vector3d grip_m = hand.at_m(n * kTick_s);
+    const size_t before = allocations;
+    force.tick(moving, &scenes[4].texture, settings, grip_m, kTick_s);
+    ASSERT_EQ(allocations, before);
+  }
+}
+
+TEST(ContactForce, SaysWhichSettingIsWrong) {
+  EXPECT_NO_THROW(validate(ContactSettings()));
+  const auto message = [](auto&& change) {
+    ContactSettings settings;
+    change(settings);
+    try {
+      validate(settings);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message([](auto& s) { s.stiffness_N_m = 900; }).find("stiffness_N_m"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.stiffness_N_m = std::nan(""); }).find("stiffness_N_m"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.delay_s = -1; }).find("delay_s"), std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.damping = 0.9; }).find("damping"), std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.lateral_damping = 0.4; }).find("lateral_damping"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& s) {
+              s.friction = {0.2, 0.3};
+            }).find("friction.dynamic"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.texture = -1; }).find("texture"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/touch/proxy.h"
+#include "tests/support/touch_surfaces.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr double kTick_s = 1e-3;
+constexpr double kPi = 3.14159265358979323846;
+
+/// Moves straight to `to_m` in so many ticks.
+void go(TouchProxy& proxy, const MovingRelief& surface, const Friction& friction,
+        Eigen::Vector3d from_m, const Eigen::Vector3d& to_m, int ticks) {
+  for (int n = 1; n <= ticks; ++n) {
+    proxy.move(surface, friction, from_m + (to_m - from_m) * n / ticks, kTick_s);
+  }
+}
+
+TEST(TouchProxy, IsTheGripWhereItDoesNotTouch) {
+  const HeightField plane = plane_field(0);
+  TouchProxy proxy;
+  go(proxy, {&plane}, {}, {0, 0, 0.01}, {0.003, 0.002, 0.001}, 20);
+  EXPECT_FALSE(proxy.touching());
+  // Rounding of a centimetre.
+  EXPECT_LT((proxy.position_m() - Eigen::Vector3d(0.003, 0.002, 0.001)).norm(), 1e-15);
+}
+
+TEST(TouchProxy, IsTheNearestPointOfASphere) {
+  constexpr double kRadius_m = 0.02;
+  const HeightField sphere = sphere_field(0, 0, kRadius_m, 0);
+  const Eigen::Vector3d centre_m(0, 0, -kRadius_m);
+  for (double degrees = 0; degrees < 360; degrees += 17) {
+    const double a = degrees * kPi / 180;
+    const Eigen::Vector3d out =
+        Eigen::Vector3d(0.5 * std::cos(a), 0.5 * std::sin(a), std::sqrt(0.75));
+    TouchProxy proxy;
+    // From above, 2 mm deep, where it then stays.
+    const Eigen::Vector3d end_m = centre_m + (kRadius_m - 0.002) * out;
+    go(proxy, {&sphere}, {}, end_m + Eigen::Vector3d(0, 0, 0.006), end_m, 100);
+    go(proxy, {&sphere}, {}, end_m, end_m, 50);
+    ASSERT_TRUE(proxy.touching());
+    const Eigen::Vector3d force = (proxy.position_m() - end_m).normalized();
+    EXPECT_LT(std::acos(std::min(1.0, force.dot(out))) * 180 / kPi, 0.1) << degrees;
+  }
+}
+
+TEST(TouchProxy, SticksAndSlides) {
+  const HeightField plane = plane_field(0);
+  const Friction friction{0.5, 0.3};
+  constexpr double kDepth_m = 0.002;
+  TouchProxy proxy;
+  go(proxy, {&plane}, friction, {0, 0, 0.001}, {0, 0, -kDepth_m}, 100);
+  // Still held at 0.49 of the depth, not any more at 0.51; then it stays 0.3 behind.
+  go(proxy, {&plane}, friction, {0, 0, -kDepth_m}, {0.49 * kDepth_m, 0, -kDepth_m}, 50);
+  EXPECT_NEAR(proxy.position_m().x(), 0, 1e-12);
+  EXPECT_FALSE(proxy.sliding());
+  go(proxy, {&plane}, friction, {0.49 * kDepth_m, 0, -kDepth_m}, {0.51 * kDepth_m, 0, -kDepth_m},
+     2);
+  EXPECT_TRUE(proxy.sliding());
+  go(proxy, {&plane}, friction, {0.51 * kDepth_m, 0, -kDepth_m}, {0.01, 0, -kDepth_m}, 200);
+  // The plane's heights are exact; steps shorter than 1 nm are not taken.
+  EXPECT_NEAR(0.01 - proxy.position_m().x(), 0.3 * kDepth_m, 1e-9);
+  // Turned round: it sticks until the force is the other way.
+  const double held_at_m = proxy.position_m().x();
+  go(proxy, {&plane}, friction, {0.01, 0, -kDepth_m}, {held_at_m - 0.49 * kDepth_m, 0, -kDepth_m},
+     100);
+  EXPECT_NEAR(proxy.position_m().x(), held_at_m, 1e-9);
+}
+
+TEST(TouchProxy, ItsOwnMoveNeverMakesTheSpringLonger) {
+  // On creases: a picture with noise whose slopes are at the limit, and a hand that goes anywhere.
+  for (const TouchScene& scene : touch_scenes()) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    TouchProxy proxy;
+    Eigen::Vector3d grip_m(0, 0, 0.003);
+    int touched = 0;
+    for (int n = 0; n < 20000; ++n) {
+      Eigen::Vector3d way_m(uniform(random), uniform(random), uniform(random));
+      grip_m += 5e-4 * way_m - 0.02 * (grip_m - Eigen::Vector3d(0, 0, -0.004));
+      const bool was_touching = proxy.touching();
+      const double before_m = (proxy.position_m() - grip_m).norm();
+      proxy.move({&scene.relief}, {0.3, 0.2}, grip_m, kTick_s);
+      // The surface stands still and is not shifted: all that moves the proxy is its walk.
+      if (was_touching && proxy.touching() && proxy.shift_m() == 0) {
+        ++touched;
+        // 1e-12: rounding of the height at the same place, carried from the tick before.
+        ASSERT_LE((proxy.position_m() - grip_m).norm(), before_m + 1e-12) << scene.name;
+      }
+    }
+    EXPECT_GT(touched, 1000) << scene.name;
+  }
+}
+
+TEST(TouchProxy, StartingInsideTheSurfaceComesUpSlowly) {
+  const HeightField plane = plane_field(0);
+  TouchProxy proxy;
+  const Eigen::Vector3d inside_m(0, 0, -0.005);
+  proxy.move({&plane}, {}, inside_m, kTick_s);
+  ASSERT_TRUE(proxy.touching());
+  EXPECT_LE(proxy.position_m().z() - inside_m.z(), TouchProxy::kFastest_m_s * kTick_s + 1e-12);
+  double last_m = proxy.position_m().z();
+  int ticks = 0;
+  for (; ticks < 1000 && proxy.position_m().z() < -1e-9; ++ticks) {
+    proxy.move({&plane}, {}, inside_m, kTick_s);
+    ASSERT_LE(proxy.position_m().z() - last_m, TouchProxy::kRise_m_s * kTick_s + 1e-12);
+    last_m = proxy.position_m().z();
+  }
+  // What is left of 5 mm after the first tick.
+  const double left_m = 0.005 - TouchProxy::kFastest_m_s * kTick_s;
+  EXPECT_NEAR(ticks, left_m / TouchProxy::kRise_m_s / kTick_s, 1);
+}
+
+TEST(TouchProxy, ACutNeitherJumpsUpNorDown) {
+  const HeightField low = plane_field(0);
+  const HeightField high = plane_field(0.010);
+  const Eigen::Vector3d grip_m(0, 0, -0.001);
+  TouchProxy proxy;
+  go(proxy, {&low}, {}, {0, 0, 0.001}, grip_m, 100);
+  double last_m = proxy.position_m().z();
+  for (const HeightField* field : {&high, &low, &high, &low}) {
+    for (int n = 0; n < 400; ++n) {
+      proxy.move({field}, {}, grip_m, kTick_s);
+      ASSERT_TRUE(proxy.touching());
+      ASSERT_LE(std::abs(proxy.position_m().z() - last_m),
+                TouchProxy::kFastest_m_s * kTick_s + 1e-12);
+      last_m = proxy.position_m().z();
+    }
+    EXPECT_NEAR(last_m, field == &high ? 0.010 : 0, 1e-9) << "it arrives";
+  }
+}
+
+TEST(TouchProxy, AGripThatIsPushedInFastIsNotTakenForACut) {
+  // 1 m/s onto the steepest flank, sideways too: all of the depth is its own way.
+  const HeightField slope = sampled_field([](double x_m, double) { return 1.4 * x_m; });
+  TouchProxy proxy;
+  go(proxy, {&slope}, {}, {-0.006, 0, 0.004}, {0.004, 0, -0.004}, 12);
+  EXPECT_TRUE(proxy.touching());
+  EXPECT_EQ(proxy.shift_m(), 0);
+}
+
+TEST(TouchProxy, NeverGoesThrough) {
+  // Pushes of 1 m/s, a new random surface every 33 ticks, now and then the pose is lost.
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<TouchScene> scenes = touch_scenes();
+  TouchProxy proxy;
+  Eigen::Vector3d grip_m(0, 0, 0.003);
+  Eigen::Vector3d velocity_m_s(0, 0, 0);
+  MovingRelief surface{&scenes[0].relief};
+  int touched = 0;
+  for (int n = 0; n < 100000; ++n) {
+    if (n % 33 == 0) {
+      surface.before = surface.after != nullptr ? surface.after : surface.before;
+      surface.after = &scenes[random() % scenes.size()].relief;
+      surface.displacement_m = 0.002 * Eigen::Vector2d(uniform(random), uniform(random));
+    }
+    surface.share = n % 33 / 33.0;
+    if (n % 50 == 0)
+      velocity_m_s = Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
+    grip_m += kTick_s * velocity_m_s;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(grip_m[axis]) > 0.012) velocity_m_s[axis] = -std::copysign(1, grip_m[axis]);
+    }
+    if (n % 977 == 0) proxy.reset();
+    proxy.move(surface, {0.4, 0.3}, grip_m, kTick_s);
+    const double surface_m = surface.at(grip_m.head<2>()).z_m + proxy.shift_m();
+    ASSERT_TRUE(proxy.touching() || grip_m.z() >= surface_m) << n;
+    touched += proxy.touching();
+    ASSERT_TRUE(proxy.position_m().allFinite());
+  }
+  EXPECT_GT(touched, 10000);
+}
+
+TEST(TouchProxy, AGripThatIsNotANumberTouchesNothing) {
+  const HeightField plane = plane_field(0);
+  TouchProxy proxy;
+  go(proxy, {&plane}, {}, {0, 0, 0.001}, {0, 0, -0.001}, 20);
+  ASSERT_TRUE(proxy.touching());
+  proxy.move({&plane}, {}, {0, std::numeric_limits<double>::quiet_NaN(), 0}, kTick_s);
+  EXPECT_FALSE(proxy.touching());
+}
+
+/// Largest difference from the moving sphere itself, half-way between two frames.
+double error_half_way_m(const Eigen::Vector2d& displacement_m) {
+  constexpr double kMoved_m = 0.004;
+  const HeightField before = sphere_field(-kMoved_m / 2, 0, 0.008, 0);
+  const HeightField after = sphere_field(kMoved_m / 2, 0, 0.008, 0);
+  const HeightField truth = sphere_field(0, 0, 0.008, 0);
+  const MovingRelief moving{&before, &after, 0.5, displacement_m};
+  double worst_m = 0;
+  for (double x_m = -0.015; x_m <= 0.015; x_m += 0.0003) {
+    for (double y_m = -0.012; y_m <= 0.012; y_m += 0.0003) {
+      worst_m = std::max(worst_m, std::abs(moving.at({x_m, y_m}).z_m - truth.at(x_m, y_m).z_m));
+    }
+  }
+  return worst_m;
+}
+
+TEST(MovingRelief, WithItsDisplacementLeavesNoGhost) {
+  // 2 mm are 8.53 cells: the two spheres are sampled at other places than the one between them. A
+  // spline takes cell²/6 · d²z/dx² off a surface; the kink at the foot of the sphere, a change of
+  // slope of 1.36, is off by at most 1.36 · cell / 4 wherever it lies between samples.
+  const double cell_m = kPictureWidth_m / HeightField::kColumns;
+  EXPECT_LT(error_half_way_m({0.004, 0}), 1.36 * cell_m / 4);
+  EXPECT_GT(error_half_way_m({0, 0}), 5e-4) << "cross-fading does";
+}
+
+}  // namespace
+}  // namespace spidar::test
