@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""Is the right motion felt in real films? real_films.py BUILD FOLDER: runs spidarmotion of a meson
-build folder over the films of FOLDER and prints a table with a row for each of its settings.
+"""Is the right motion felt in real films? real_films.py BUILD FOLDER [CSV]: runs spidarmotion of a
+meson build folder over the films of FOLDER and prints a table with a row for each of its settings,
+and then one of methods with the processor time that each takes: see bench_real_film.cpp. The latter
+is also written to CSV, for real_films.gp.
 
 FOLDER holds films that GStreamer can decode. Beside a film, NAME.csv gives the true motion of its
 object against the background: lines `frame,x,y`, the first frame being 0, in pixels of the film
@@ -17,6 +19,7 @@ import csv
 import json
 import math
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -26,6 +29,7 @@ from pathlib import Path
 REFERENCE_LINES = 480
 FELT_PX_S = 2.1
 LEAST_TRUE_PX = 1.0
+FRAMES_A_SECOND = 24  # what FELT_PX_S is a speed of where times are not known
 SETTINGS = [
     [],
     ["quality=fast"],
@@ -34,6 +38,16 @@ SETTINGS = [
     ["motion=mean"],
     ["tracker=opencv", "motion=mean", "filter-min-cutoff=0"],
 ]
+# Of bench_real_film, and their names in the table.
+METHODS = {
+    "default": "`motion=object`",
+    "fast": "`quality=fast`",
+    "fine": "`quality=fine`",
+    "opencv": "`tracker=opencv`",
+    "paper": "the paper",
+    "dis": "DIS at half size, largest region",
+    "vectors": "H.264 vectors, largest region",
+}
 
 
 def read_truth(file):
@@ -122,9 +136,50 @@ class Tally:
                 f"| {middle(self.jitters)} ({middle(self.true_jitters)}) |")
 
 
+def measure(program, method, film):
+    """As play() does, and the milliseconds of each frame; without the times between frames, which
+    count for nothing but whether a motion is felt."""
+    with tempfile.TemporaryDirectory() as folder:
+        if method == "vectors":
+            coded = Path(folder) / "coded.mp4"
+            subprocess.run(
+                ["ffmpeg", "-loglevel", "error", "-i", film, "-an", "-c:v", "libx264", "-bf", "0", "-refs", "1",
+                 "-crf", "20", coded], check=True)
+            film = coded
+        lines = subprocess.run([program, method, film], check=True, stdout=subprocess.PIPE,
+                               text=True).stdout.splitlines()
+    rows = [[float(v) for v in line.split(",")] for line in lines]
+    motion = [(row[1], row[2]) for row in rows]
+    return motion, [1 / FRAMES_A_SECOND] * len(rows), rows[0][4], [row[3] for row in rows]
+
+
+def compare_methods(build, films, file):
+    program = build / "tests" / "bench" / "bench_real_film"
+    if not program.exists() or not shutil.which("ffmpeg"):
+        sys.exit("real_films.py: no table of methods: it needs libavformat-dev and ffmpeg")
+    print("\n| method | ms a frame | right % | wrong % | felt % | false % | jitter (true) |")
+    print("|---|---|---|---|---|---|---|")
+    rows = []
+    for method, name in METHODS.items():
+        tally, times_ms = Tally(), []
+        for film in films:
+            *found, ms = measure(program, method, film)
+            times_ms += ms[2:]
+            truth = film.with_suffix(".csv")
+            tally.add(*found, read_truth(truth) if truth.exists() else None)
+        time_ms = statistics.median(times_ms)
+        print(tally.row(f"{name} | {time_ms:.2f}"), flush=True)
+        rows.append([name.strip("`").split(",")[0], time_ms, 100 * tally.right / tally.counted,
+                     100 * tally.wrong / tally.counted,
+                     100 * tally.false / max(tally.without_object, 1)])
+    if file:
+        with open(file, "w", newline="") as lines:
+            csv.writer(lines).writerows(rows)
+
+
 def main():
-    if len(sys.argv) != 3:
-        sys.exit("usage: real_films.py BUILD FOLDER")
+    if len(sys.argv) not in (3, 4):
+        sys.exit("usage: real_films.py BUILD FOLDER [CSV]")
     build, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     films = sorted(f for f in folder.iterdir() if f.suffix not in (".csv", ".md", ".txt", ".py"))
     films = [f for f in films if f.is_file()]
@@ -139,6 +194,7 @@ def main():
             tally.add(*play(build, film, properties),
                       read_truth(truth) if truth.exists() else None)
         print(tally.row(" ".join(properties) or "default"), flush=True)
+    compare_methods(build, films, sys.argv[3] if len(sys.argv) > 3 else None)
 
 
 main()
