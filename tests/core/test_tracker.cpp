@@ -11,61 +11,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tracking/opencv_tracker.h"
-#include "core/tracking/patch_tracker.h"
-#include "tests/support/ball_scene.h"
-#include "tests/support/picture.h"
-#include "tests/support/texture.h"
+#include "tests/core/every_tracker.h"
 
-namespace spidar {
+namespace spidar::test {
 namespace {
-
-using test::BallScene;
-using test::BallSettings;
-using test::Picture;
-using test::Texture;
-
-/// Pixels of the frame to one of the picture that points are followed in: the longer side becomes
-/// about 480 px.
-double reduction(int width, int height) {
-  return std::max(1.0, std::round(std::max(width, height) / 480.0));
-}
-
-/// A single displacement, px of the reduced picture. The iteration stops at steps of 0.01 px;
-/// rounding to grey levels is σ = 0.29 √2 over the gradient of about 10 levels / px and the square
-/// root of the window's 225 px: 0.003 px; the rest is the bilinear interpolation of a texture with
-/// structures of some 8 px, whose error between the pixels is up to h²/8 · f'' ≈ 1/8 · 10 · 2π/16 ≈
-/// 0.5 levels, that is 0.05 px if all of the window erred the same way.
-constexpr double kTrackTolerance_px = 0.1;
-/// The mean over a hundred of them, whose interpolation errors differ in sign.
-constexpr double kMeanTolerance_px = 0.03;
-
-class MovingTexture {
- public:
-  MovingTexture(int width, int height, double dx_px, double dy_px, uint32_t seed = 5)
-      : picture_(width, height, 3),
-        texture_(seed, 8 * reduction(width, height)),
-        dx_px_(dx_px),
-        dy_px_(dy_px) {}
-
-  ImageView frame(int n) {
-    picture_.fill([&](double x, double y) { return texture_.at(x - n * dx_px_, y - n * dy_px_); });
-    return picture_.view();
-  }
-
- private:
-  Picture picture_;
-  Texture texture_;
-  double dx_px_;
-  double dy_px_;
-};
-
-double dx(const Track& t) {
-  return static_cast<double>(t.to.x_px) - static_cast<double>(t.from.x_px);
-}
-double dy(const Track& t) {
-  return static_cast<double>(t.to.y_px) - static_cast<double>(t.from.y_px);
-}
 
 struct Translation {
   int width, height;
@@ -77,11 +26,6 @@ const Translation kTranslations[] = {
     {640, 360, -17.6, 9.2}, {641, 359, 2.5, -2.5},  {322, 241, -1.3, 0.6},
     {1280, 720, 5.7, -3.1}, {1920, 1080, 0.9, 0.7}, {1080, 1920, -8.2, 6.6}};
 
-/// What holds for whatever follows points.
-template <typename T>
-class EveryTracker : public testing::Test {};
-
-using Trackers = testing::Types<OpenCvTracker, PatchTracker>;
 TYPED_TEST_SUITE(EveryTracker, Trackers);
 
 TYPED_TEST(EveryTracker, FindsAKnownTranslationToAPartOfAPixel) {
@@ -265,83 +209,6 @@ TYPED_TEST(EveryTracker, RestartForgetsTheFrameBefore) {
   EXPECT_FALSE(tracker.track(scene.frame(2)).tracks.empty());
 }
 
-/// Tracks that begin on the ball and follow it.
-int on_ball(const TrackedFrame& frame, const BallScene& scene, double t0_s, double t1_s) {
-  const Eigen::Vector2d centre = scene.position_px(t0_s);
-  const Eigen::Vector2d moved = scene.position_px(t1_s) - centre;
-  return static_cast<int>(
-      std::count_if(frame.tracks.begin(), frame.tracks.end(), [&](const Track& t) {
-        const Eigen::Vector2d from(static_cast<double>(t.from.x_px),
-                                   static_cast<double>(t.from.y_px));
-        return (from - centre).norm() < scene.settings().radius_px &&
-               (Eigen::Vector2d(dx(t), dy(t)) - moved).norm() < 2 * kTrackTolerance_px;
-      }));
-}
-
-/// The most tracks on a ball that has just come in from the left.
-template <typename AnyTracker>
-int found_on_entering_ball(uint32_t seed, bool textured_background) {
-  BallSettings settings;
-  settings.seed = seed;
-  settings.textured_background = textured_background;
-  settings.radius_px = 70;
-  settings.start_px = {-160, 180};
-  settings.horizontal_px_s = 240;
-  settings.floor_px = 251;
-  const BallScene scene(settings);
-  Picture picture(settings.width, settings.height);
-  AnyTracker tracker;
-  constexpr double kFrame_s = 1.0 / 30;
-  int most = 0;
-  // The ball is wholly inside after 230 px, 29 frames. Points are selected every 5 frames at the
-  // latest, and followed from the next on.
-  for (int n = 0; n <= 29 + 6; ++n) {
-    scene.render(n * kFrame_s, picture.pixels.data(), picture.stride);
-    const TrackedFrame& frame = tracker.track(picture.view());
-    if (n > 0) most = std::max(most, on_ball(frame, scene, (n - 1) * kFrame_s, n * kFrame_s));
-  }
-  return most;
-}
-
-TYPED_TEST(EveryTracker, AnObjectThatEntersAnEmptyPictureIsFound) {
-  // A disc of 70 px has room for some hundred points 7.5 px apart, or 27 in quarters of cells of
-  // 48 px, 100 of which cover the picture: half of them at least.
-  const bool has_cells = std::is_same_v<TypeParam, PatchTracker>;
-  EXPECT_GE(found_on_entering_ball<TypeParam>(1, false), has_cells ? 13 : 50);
-}
-
-TYPED_TEST(EveryTracker, AnObjectThatEntersAFullPictureGetsItsShareOfThePoints) {
-  // All 200 points are taken when it comes. Away from its edge it covers 60² π of 626 × 346 px, 5.2
-  // % or 10 points if all textures were equally strong: half of that on average over six textures,
-  // and at least one on the weakest.
-  int sum = 0;
-  for (uint32_t seed = 1; seed <= 6; ++seed) {
-    const int found = found_on_entering_ball<TypeParam>(seed, true);
-    EXPECT_GE(found, 1) << "seed " << seed;
-    sum += found;
-  }
-  EXPECT_GE(sum, 6 * 5);
-}
-
-TYPED_TEST(EveryTracker, IndependentNoiseIsNotMotion) {
-  std::mt19937 random(17);
-  for (const double sigma : {2.0, 8.0, 30.0}) {
-    std::normal_distribution<double> noise(128, sigma);
-    Picture picture(640, 360);
-    TypeParam tracker;
-    int looked_for = 0;
-    for (int n = 0; n < 12; ++n) {
-      picture.fill([&](double, double) { return std::min(255.0, std::max(0.0, noise(random))); });
-      const TrackedFrame& frame = tracker.track(picture.view());
-      // What is found again by chance is less than what makes a cut.
-      EXPECT_TRUE(frame.tracks.size() * 10 <= static_cast<size_t>(looked_for))
-          << "seed 17, sigma " << sigma << ", frame " << n << ": " << frame.tracks.size() << " of "
-          << looked_for;
-      looked_for = frame.features;
-    }
-  }
-}
-
 TYPED_TEST(EveryTracker, SettingsTakeEffectWithTheNextFrame) {
   MovingTexture scene(640, 360, 1, 0);
   TrackerSettings settings;
@@ -411,4 +278,4 @@ TYPED_TEST(EveryTracker, WorksFromTheSmallestFrameToTheLargest) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test

@@ -16,6 +16,7 @@
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
+#include "spidar/haptic_session.h"
 #include "tests/support/recorded_motors.h"
 
 namespace spidar::test {
@@ -87,6 +88,15 @@ inline MotorVolts all_volts(double volt) {
   MotorVolts volts;
   volts.volt.fill(volt);
   return volts;
+}
+
+/// Until the strings are energised; of a session without a thread.
+inline void tick_until_running(HapticSession& session) {
+  int64_t now_ns = 0;
+  while (session.loop().snapshot().last.device != DeviceState::kRunning) {
+    now_ns += kTick_ns;
+    session.loop().tick(now_ns, now_ns);
+  }
 }
 
 }  // namespace spidar::test

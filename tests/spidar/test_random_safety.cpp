@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
-#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
+#include "tests/support/random_motion.h"
 #include "tests/support/seam_watch.h"
 #include "tests/support/tampered_device.h"
 
@@ -38,14 +38,14 @@ class Round {
   Round(const std::string& profile, uint64_t seed)
       : random_(seed),
         believed_(load_profile(profile)),
-        zero_(chance(0.5) ? Pose{} : pose(0.005, 3 * M_PI / 180)),
+        zero_(random_.chance(0.5) ? Pose{} : random_.pose(0.005, 3 * M_PI / 180)),
         real_(zeroed_at(believed_, zero_)),
         where_(profile + ", round with seed " + std::to_string(seed)),
         watch_(real_),
         simulated_(real_, SimulatedDevice::Time::kFixedStep),
         device_(simulated_) {
-    limits_.max_force_N = uniform(0.2, 6);
-    limits_.max_torque_Nm = uniform(0.01, 0.2);
+    limits_.max_force_N = random_.uniform(0.2, 6);
+    limits_.max_torque_Nm = random_.uniform(0.01, 0.2);
     loop_ = std::make_unique<HapticLoop>(believed_, device_, limits_);
     size_N_ =
         std::hypot(limits_.max_force_N, limits_.max_torque_Nm / believed_.geometry.grip_radius_m());
@@ -56,7 +56,7 @@ class Round {
   bool run(int ticks) {
     for (int i = 0; i < ticks && !watch_.failed(); ++i) {
       act();
-      tick(chance(0.01) ? 1 + static_cast<int>(uniform(0, 60)) : 1);
+      tick(random_.chance(0.01) ? 1 + static_cast<int>(random_.uniform(0, 60)) : 1);
     }
     close();
     return !watch_.failed();
@@ -65,26 +65,12 @@ class Round {
   const SeamWatch::Largest& largest() const { return watch_.largest(); }
 
  private:
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  bool chance(double p) { return uniform(0, 1) < p; }
-  int some(int below) { return std::uniform_int_distribution<int>(0, below - 1)(random_); }
-  Eigen::Vector3d direction() {
-    std::normal_distribution<double> normal;
-    return Eigen::Vector3d(normal(random_), normal(random_), normal(random_)).normalized();
-  }
-  Pose pose(double reach_m, double turn_rad) {
-    Pose pose;
-    pose.position_m = uniform(0, reach_m) * direction();
-    pose.orientation = Eigen::AngleAxisd(uniform(0, turn_rad), direction());
-    return pose;
-  }
   Wrench wrench() {
-    const double size = std::pow(10, uniform(-3, 3));
-    Wrench w{size * direction(), 0.03 * size * direction()};
-    if (chance(0.02)) w.force_N[some(3)] = std::numeric_limits<double>::quiet_NaN();
-    if (chance(0.02)) w.torque_Nm[some(3)] = std::numeric_limits<double>::infinity();
+    const double size = std::pow(10, random_.uniform(-3, 3));
+    Wrench w{size * random_.direction(), 0.03 * size * random_.direction()};
+    if (random_.chance(0.02)) w.force_N[random_.some(3)] = std::numeric_limits<double>::quiet_NaN();
+    if (random_.chance(0.02))
+      w.torque_Nm[random_.some(3)] = std::numeric_limits<double>::infinity();
     return w;
   }
 
@@ -111,22 +97,25 @@ class Round {
       loop_->schedule({next_frame_ns_, kFrame_ns, wrench()});
       next_frame_ns_ += kFrame_ns;
     }
-    if (!playing_ && rest_in_ns_ < -100 * kMs && chance(0.01)) play();
-    if (playing_ && chance(0.002)) stop_somehow();
-    if (chance(0.005)) simulated_.set_hand(chance(0.8) ? pose(0.02, M_PI / 3) : pose(0.06, 1.4));
-    if (chance(0.001)) device_.stop_encoders(chance(0.5) ? 0 : static_cast<unsigned>(some(256)));
-    if (chance(0.001)) {
-      const int string = some(real_.geometry.count);
-      simulated_.set_count_error(string, chance(0.5) ? 0 : some(2000) - 1000);
+    if (!playing_ && rest_in_ns_ < -100 * kMs && random_.chance(0.01)) play();
+    if (playing_ && random_.chance(0.002)) stop_somehow();
+    if (random_.chance(0.005))
+      simulated_.set_hand(random_.chance(0.8) ? random_.pose(0.02, M_PI / 3)
+                                              : random_.pose(0.06, 1.4));
+    if (random_.chance(0.001))
+      device_.stop_encoders(random_.chance(0.5) ? 0 : static_cast<unsigned>(random_.some(256)));
+    if (random_.chance(0.001)) {
+      const int string = random_.some(real_.geometry.count);
+      simulated_.set_count_error(string, random_.chance(0.5) ? 0 : random_.some(2000) - 1000);
     }
     if (fault_ticks_ > 0 && --fault_ticks_ == 0) simulated_.set_fault(ExchangeStatus::kOk);
-    if (fault_ticks_ == 0 && chance(0.002)) {
-      fault_ticks_ = 1 + some(25);
-      simulated_.set_fault(chance(0.05)  ? ExchangeStatus::kLost
-                           : chance(0.5) ? ExchangeStatus::kTimeout
-                                         : ExchangeStatus::kBadReply);
+    if (fault_ticks_ == 0 && random_.chance(0.002)) {
+      fault_ticks_ = 1 + random_.some(25);
+      simulated_.set_fault(random_.chance(0.05)  ? ExchangeStatus::kLost
+                           : random_.chance(0.5) ? ExchangeStatus::kTimeout
+                                                 : ExchangeStatus::kBadReply);
     }
-    if (loop_->lost() && fault_ticks_ == 0 && chance(0.05)) {
+    if (loop_->lost() && fault_ticks_ == 0 && random_.chance(0.05)) {
       watch_.restart();
       loop_->reopen();
     }
@@ -134,7 +123,7 @@ class Round {
 
   /// Every way in which a player ends a force.
   void stop_somehow() {
-    switch (some(4)) {
+    switch (random_.some(4)) {
       case 0:  // pause
         loop_->set_playback_clock({now_ns_, running_ns(), 1, false});
         return stop(kRest_ns);
@@ -182,7 +171,7 @@ class Round {
     watch_.see(off, where_ + ", closed");
   }
 
-  std::mt19937_64 random_;
+  RandomMotion random_;
   const Profile believed_;
   const Pose zero_;
   const Profile real_;

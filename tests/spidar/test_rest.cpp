@@ -1,37 +1,19 @@
-/// What the strings do when there is nothing to be felt, or nothing that can be relied on: rest,
-/// mute, pause, a pose that is lost, a string that is broken, motors off.
+/// What the strings do when there is nothing to be felt.
+#include <algorithm>
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
 #include "spidar/loop/tension_command.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/random_motion.h"
 #include "tests/support/tampered_device.h"
 
 namespace spidar::test {
 namespace {
 
 constexpr int kSeed = 14;
-
-struct Dice {
-  std::mt19937_64 random{kSeed};
-
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  }
-  Eigen::Vector3d direction() {
-    std::normal_distribution<double> normal;
-    return Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
-  }
-  Pose pose(double reach_m, double turn_rad) {
-    Pose pose;
-    pose.position_m = uniform(0, reach_m) * direction();
-    pose.orientation = Eigen::AngleAxisd(uniform(0, turn_rad), direction());
-    return pose;
-  }
-};
 
 /// Goes from the centre to `pose` in 50 ms and stays for as long again.
 void take_grip(LoopDriver& driver, const Pose& pose) {
@@ -48,13 +30,13 @@ double force_N(const Profile& profile, const Pose& pose, const StringVector& ten
 }
 
 TEST(Rest, IsLeastTensionWhereverTheGripIs) {
-  Dice dice;
+  RandomMotion random(kSeed);
   for (const std::string& name : list_profiles()) {
     LoopDriver driver({}, load_profile(name));
     driver.open();
     const StringVector least_N = driver.profile.min_tension_N();
     for (int n = 0; n < 10; ++n) {
-      const Pose pose = dice.pose(0.02, M_PI / 3);
+      const Pose pose = random.pose(0.02, M_PI / 3);
       take_grip(driver, pose);
       const StringVector tension_N = tensions_N(driver.log().last_volts, driver.profile);
       for (int i = 0; i < driver.profile.geometry.count; ++i)
@@ -70,18 +52,18 @@ TEST(Rest, IsLeastTensionWhereverTheGripIs) {
 // The tensions at rest do not depend on the pose, so a zero that is wrong by 5 mm and 3° changes
 // nothing about them: the net force on the grip is that of the least tensions where it really is.
 TEST(Rest, IsNoStrongerWhenTheZeroIsWrong) {
-  Dice dice;
+  RandomMotion random(kSeed);
   for (const std::string& name : list_profiles()) {
     const Profile believed = load_profile(name);
     const Profile real = zeroed_at(
-        believed, {0.005 * dice.direction(),
-                   Eigen::Quaterniond(Eigen::AngleAxisd(3 * M_PI / 180, dice.direction()))});
+        believed, {0.005 * random.direction(),
+                   Eigen::Quaterniond(Eigen::AngleAxisd(3 * M_PI / 180, random.direction()))});
     SimulatedDevice device(real, SimulatedDevice::Time::kFixedStep);
     const auto loop = std::make_unique<HapticLoop>(believed, device);
     loop->open();
     int64_t now_ns = 0;
     for (int n = 0; n < 5; ++n) {
-      device.set_hand(dice.pose(0.02, M_PI / 3));
+      device.set_hand(random.pose(0.02, M_PI / 3));
       for (int i = 0; i < 400; ++i) {
         now_ns += kTick_ns;
         loop->tick(now_ns, now_ns);
@@ -101,15 +83,15 @@ TEST(Rest, IsNoStrongerWhenTheZeroIsWrong) {
 // The tensions of a wrench differ from those of rest by no more than four times its size, so that
 // none of them jumps when it comes or goes; nor do they anywhere between.
 TEST(Rest, NothingJumpsBetweenItAndAWrench) {
-  Dice dice;
+  RandomMotion random(kSeed);
   constexpr int kSteps = 300;
   for (const std::string& name : list_profiles()) {
     const Profile profile = load_profile(name);
     TensionCommand command(profile);
     const double radius_m = profile.geometry.grip_radius_m();
     for (int n = 0; n < 20; ++n) {
-      const StructureMatrix W = structure_matrix(profile.geometry, dice.pose(0.02, M_PI / 3));
-      const Wrench full{3 * dice.direction(), 0.05 * dice.direction()};
+      const StructureMatrix W = structure_matrix(profile.geometry, random.pose(0.02, M_PI / 3));
+      const Wrench full{3 * random.direction(), 0.05 * random.direction()};
       const double size = std::hypot(3, 0.05 / radius_m);
       StringVector last_N = profile.min_tension_N();
       ASSERT_EQ(command.solve(W, {}, profile.max_tension_N()), last_N);
@@ -125,275 +107,6 @@ TEST(Rest, NothingJumpsBetweenItAndAWrench) {
       ASSERT_TRUE(last_N.allFinite());
     }
   }
-}
-
-/// A simulated device whose encoders can be stopped, a loop that plays 1 N to the right on it, or
-/// nothing, and time.
-struct Bench {
-  explicit Bench(const std::string& name = kDefaultProfile, bool play = true)
-      : profile(load_profile(name)) {
-    loop->open();
-    if (play) loop->schedule({0, INT64_MAX / 2, push_right(1)});
-    if (play) loop->set_playback_clock({0, 0, 1, true});
-    run(600);
-  }
-
-  void run(int ticks) {
-    for (int i = 0; i < ticks; ++i) {
-      now_ns += kTick_ns;
-      loop->tick(now_ns, now_ns);
-    }
-  }
-  LoopSnapshot snapshot() const { return loop->snapshot(); }
-  StringVector tension_N() const { return tensions_N(device.volts(), profile); }
-
-  const Profile profile;
-  SimulatedDevice simulated{profile, SimulatedDevice::Time::kFixedStep};
-  TamperedDevice device{simulated};
-  std::unique_ptr<HapticLoop> loop = std::make_unique<HapticLoop>(profile, device);
-  int64_t now_ns = 0;
-};
-
-Pose far_hand() {
-  Pose pose;
-  pose.position_m = {0.02, -0.02, 0.01};  // 3 cm
-  pose.orientation = Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, 2) / 3);
-  return pose;
-}
-
-/// Three encoders stop and the hand moves by 3 cm and 29°.
-void lose_pose(Bench& bench) {
-  bench.device.stop_encoders(0b101001);
-  bench.simulated.set_hand(far_hand());
-}
-
-TEST(LostPose, RestsWithoutIt) {
-  for (const std::string name : {"spidar-gcc", "spidar-g6c", "spidar-g6x", "spidar-g6x3-v2-r"}) {
-    for (const bool play : {false, true}) {
-      Bench bench(name, play);
-      lose_pose(bench);
-      // The hand is under way for some 100 ms, in which the pose is lost.
-      bench.run(200);
-      for (int i = 0; i < 300; ++i) {
-        bench.run(1);
-        ASSERT_EQ(bench.tension_N(), bench.profile.min_tension_N()) << name;
-      }
-      EXPECT_EQ(bench.snapshot().pose_trouble, PoseTrouble::kNoFit) << name;
-      EXPECT_GE(bench.snapshot().untrusted_ns, 300 * kMs) << name;
-    }
-  }
-}
-
-TEST(LostPose, RampsToRestWithin50ms) {
-  LoopDriver driver;
-  driver.open();
-  driver.loop->schedule({0, INT64_MAX / 2, push_right(1)});
-  driver.play(0);
-  StringVector last_N = driver.run(100 * kMs).tension_N;
-  const StringVector least_N = driver.profile.min_tension_N();
-  ASSERT_GT((last_N - least_N).maxCoeff(), 0.1);
-  driver.log().count = {100'000, -100'000, 100'000, 100'000, -100'000, 100'000, 0, 0};
-  // No string changes faster than TensionSlew allows.
-  const StringVector step_N =
-      (driver.profile.max_tension_N() - least_N) * (1e-3 / TensionSlew::kRange_s);
-  for (int tick = 0; tick < 50; ++tick) {
-    const StringVector now_N = driver.tick().tension_N;
-    for (int i = 0; i < driver.profile.geometry.count; ++i)
-      ASSERT_LE(std::abs(now_N[i] - last_N[i]), step_N[i] + 1e-12);
-    last_N = now_N;
-  }
-  EXPECT_EQ(last_N, least_N);
-}
-
-// A pose that becomes too old while the force is on its way to rest does not begin a way of its
-// own.
-TEST(LostPose, WhileStoppingTakesNoLonger) {
-  LoopDriver driver;
-  driver.open();
-  driver.loop->schedule({0, INT64_MAX / 2, push_right(3)});
-  driver.play(0);
-  driver.run(100 * kMs);
-  driver.pause();
-  driver.run(18 * kMs);
-  driver.tick(GripWatch::kPoseTimeout_ns + kMs);  // a stall, of which two milliseconds count
-  EXPECT_EQ(driver.loop->snapshot().pose_trouble, PoseTrouble::kNoReading);
-  EXPECT_EQ(driver.run(30 * kMs).tension_N, driver.profile.min_tension_N());
-}
-
-TEST(LostPose, NeedsSeveralGoodOnesInARow) {
-  LoopDriver driver;
-  driver.open();
-  driver.loop->schedule({0, INT64_MAX / 2, push_right(1)});
-  driver.play(0);
-  driver.run(100 * kMs);
-  const std::array<int32_t, kMaxStrings> good{};
-  const std::array<int32_t, kMaxStrings> bad{100'000, -100'000, 100'000};
-  driver.log().count = bad;
-  driver.run(100 * kMs);
-  // Now and then a good one is not enough.
-  for (int i = 0; i < 20; ++i) {
-    driver.log().count = good;
-    ASSERT_EQ(driver.run((GripWatch::kGoodPoses - 1) * kMs).commanded.stacked().norm(), 0);
-    driver.log().count = bad;
-    ASSERT_EQ(driver.tick().commanded.stacked().norm(), 0);
-  }
-  driver.log().count = good;
-  EXPECT_EQ(driver.run((GripWatch::kGoodPoses + 42) * kMs).commanded.force_N.x(), 1);
-  EXPECT_EQ(driver.loop->snapshot().pose_trouble, PoseTrouble::kNone);
-}
-
-TEST(LostPose, AJumpIsNotFollowed) {
-  LoopDriver driver;
-  driver.open();
-  driver.loop->schedule({0, INT64_MAX / 2, push_right(1)});
-  driver.play(0);
-  driver.run(100 * kMs);
-  Pose there;  // 5 cm in a millisecond
-  there.position_m = {0.03, 0, 0.04};
-  put_grip(driver, there);
-  driver.tick();
-  driver.tick();
-  EXPECT_EQ(driver.loop->snapshot().pose_trouble, PoseTrouble::kJump);
-  int rested = 0;
-  for (int i = 0; i < 48; ++i) rested += driver.tick().tension_N == driver.profile.min_tension_N();
-  EXPECT_GT(rested, 0);
-  // It stays there, and is believed.
-  EXPECT_EQ(driver.run(100 * kMs).commanded.force_N.x(), 1);
-}
-
-TEST(LostPose, CountersThatAllStandStillAreNoticed) {
-  Bench bench;
-  bench.device.stop_encoders(0xff);
-  bench.loop->cancel_scheduled();
-  bench.loop->schedule({0, INT64_MAX / 2, push_right(-1)});
-  bench.run(600);
-  EXPECT_EQ(bench.snapshot().pose_trouble, PoseTrouble::kFrozen);
-  for (int i = 0; i < 2000; ++i) {
-    bench.run(1);
-    ASSERT_EQ(bench.tension_N(), bench.profile.min_tension_N()) << "tick " << i;
-  }
-  bench.device.stop_encoders(0);
-  // The hand trembles.
-  Pose hand;
-  hand.position_m.x() = 1e-4;
-  bench.simulated.set_hand(hand);
-  bench.run(200);
-  EXPECT_EQ(bench.snapshot().pose_trouble, PoseTrouble::kNone);
-  EXPECT_EQ(bench.snapshot().last.commanded.force_N.x(), -1);
-}
-
-TEST(LostPose, AGripAtRestIsNotFrozen) {
-  Bench bench;  // 1 N all the time: nothing changes, so nothing need move
-  bench.run(5000);
-  EXPECT_EQ(bench.snapshot().pose_trouble, PoseTrouble::kNone);
-}
-
-TEST(BrokenString, IsLeftOut) {
-  for (int string = 0; string < 8; ++string) {
-    Bench bench;
-    Pose hand;
-    hand.position_m = {3e-3, -2e-3, 2e-3};
-    bench.simulated.set_hand(hand);
-    bench.run(300);
-    bench.simulated.set_count_error(string, 300);  // slack by 4.6 mm
-    StringVector last_N = bench.tension_N();
-    const StringVector range_N = bench.profile.max_tension_N() - bench.profile.min_tension_N();
-    // Within the time in which a string goes through its whole range, and never faster.
-    for (int i = 0; i < 25; ++i) {
-      bench.run(1);
-      const StringVector now_N = bench.tension_N();
-      for (int k = 0; k < 8; ++k)
-        ASSERT_LE(std::abs(now_N[k] - last_N[k]), range_N[k] / 20 + 1e-12);
-      last_N = now_N;
-    }
-    EXPECT_EQ(bench.snapshot().last.faulty_string, string);
-    EXPECT_EQ(last_N[string], 0) << "a free motor is not to be driven";
-    bench.loop->set_playback_clock({});
-    bench.run(100);
-    EXPECT_EQ(bench.tension_N(), bench.profile.min_tension_N());
-  }
-}
-
-// The others cannot give every wrench: what they give is no further from what was asked of them
-// than what was asked of them is short of the wanted one, and the least tensions pull.
-TEST(BrokenString, TheOthersAreAskedOnlyForWhatIsSure) {
-  Dice dice;
-  for (const std::string name : {"spidar-gcc", "spidar-g6c", "spidar-g6x3-v2-r"}) {
-    const Profile profile = load_profile(name);
-    TensionCommand command(profile);
-    for (int n = 0; n < 500; ++n) {
-      const int string = n % profile.geometry.count;
-      command.leave_out(string);
-      const StructureMatrix W = structure_matrix(profile.geometry, dice.pose(0.02, 0.3));
-      const Wrench wanted{3 * dice.direction(), Eigen::Vector3d::Zero()};
-      const StringVector tension_N = command.solve(W, wanted, profile.max_tension_N());
-      const double asked_N = 3 * command.share();
-      ASSERT_LE(tension_N[string], std::max(0.0, profile.min_tension_N()[string] -
-                                                     TensionCommand::kTensionPerForce * asked_N) +
-                                       1e-12);
-      // At the optimum the residual is no larger than that of any other tensions: of the least ones
-      // it is the wrench asked for and their own pull.
-      StringVector least_N = profile.min_tension_N();
-      least_N[string] = tension_N[string];
-      const Eigen::Matrix<double, 6, 1> pull = W * least_N;
-      const double pull_N = std::hypot(pull.head<3>().norm(),
-                                       pull.tail<3>().norm() / profile.geometry.grip_radius_m());
-      const Eigen::Vector3d force = (W * tension_N).head<3>();
-      ASSERT_LE((force - command.share() * wanted.force_N).norm(), asked_N + pull_N + 1e-9);
-    }
-  }
-}
-
-TEST(Slew, GoesOnFromWhatTheBoardAcknowledged) {
-  for (const ExchangeStatus error : {ExchangeStatus::kTimeout, ExchangeStatus::kBadReply}) {
-    LoopDriver driver;
-    driver.open();
-    driver.loop->schedule({0, INT64_MAX / 2, push_right(3)});
-    driver.play(0);
-    driver.run(2 * kMs);
-    StringVector last_N = tensions_N(driver.log().last_volts, driver.profile);
-    const StringVector range_N = driver.profile.max_tension_N() - driver.profile.min_tension_N();
-    const double step = 1e-3 / TensionSlew::kRange_s;
-    double last_force_N = driver.loop->snapshot().last.commanded.force_N.x();
-    for (int round = 0; round < 20; ++round) {
-      driver.log().answer = error;
-      driver.run((HapticLoop::kMaxErrors - 1) * kMs);
-      driver.log().answer = ExchangeStatus::kOk;
-      const TickRecord record = driver.tick();
-      const StringVector now_N = tensions_N(driver.log().last_volts, driver.profile);
-      for (int i = 0; i < driver.profile.geometry.count; ++i)
-        ASSERT_LE(std::abs(now_N[i] - last_N[i]), step * range_N[i] + 1e-12) << "round " << round;
-      ASSERT_LE(std::abs(record.commanded.force_N.x() - last_force_N),
-                SafetyLimits{}.max_slew_N_s * 1e-3 + 1e-12);
-      last_N = now_N;
-      last_force_N = record.commanded.force_N.x();
-    }
-  }
-}
-
-TEST(Idle, SwitchesTheMotorsOffAndOnAgain) {
-  Bench bench(kDefaultProfile, false);
-  const int idle_ms = static_cast<int>(1e3 * IdleWatch::kAfter_s);
-  bench.run(idle_ms - 700);
-  EXPECT_EQ(bench.tension_N(), bench.profile.min_tension_N());
-  bench.run(200);
-  EXPECT_EQ(bench.snapshot().last.device, DeviceState::kIdle);
-  EXPECT_EQ(bench.tension_N().norm(), 0);
-  // A force to be felt switches them on.
-  bench.loop->schedule({0, INT64_MAX / 2, push_right(1)});
-  bench.loop->set_playback_clock({bench.now_ns, 0, 1, true});
-  bench.run(300);
-  EXPECT_EQ(bench.snapshot().last.device, DeviceState::kRunning);
-  EXPECT_EQ(bench.snapshot().last.commanded.force_N.x(), 1);
-  // So does a hand.
-  bench.loop->set_playback_clock({});
-  bench.run(idle_ms + 100);
-  EXPECT_EQ(bench.snapshot().last.device, DeviceState::kIdle);
-  Pose hand;
-  hand.position_m.x() = 0.02;
-  bench.simulated.set_hand(hand);
-  bench.run(400);
-  EXPECT_EQ(bench.snapshot().last.device, DeviceState::kRunning);
 }
 
 }  // namespace

@@ -1,0 +1,212 @@
+// What one board alone does, and what stands around them: the device that waits for the link, the
+// factory, the simulated device behind a board's packets.
+#include <cmath>
+#include <condition_variable>
+#include <limits>
+#include <mutex>
+
+#include <gtest/gtest.h>
+
+#include "examples/example_board.h"
+#include "spidar/device_factory.h"
+#include "spidar/emulation/wire_simulation.h"
+#include "spidar/haptic_session.h"
+#include "tests/spidar/board_bench.h"
+
+namespace spidar::test {
+namespace {
+
+TEST(Mouse, PullsAsTheStringsWouldWithinItsLimit) {
+  BoardBench bench(Kind::kMouse);
+  const auto device = bench.device();
+  device->open();
+  const StructureMatrix W = structure_matrix(bench.profile.geometry, {});
+  for (const double volt : {0.1, 5.0}) {
+    MotorVolts volts;
+    volts.volt[2] = volt;
+    DeviceReading reading;
+    for (int i = 0; i < 4; ++i) ASSERT_EQ(device->exchange(volts, reading), ExchangeStatus::kOk);
+    Eigen::Vector2d force_N = W.col(2).head<2>() * volt * bench.profile.drives[2].newtons_per_volt;
+    if (force_N.norm() > 1.5) force_N *= 1.5 / force_N.norm();
+    // Rounded to millinewtons.
+    EXPECT_NEAR(bench.motors.digit[0], 1000 * force_N.x(), 0.51);
+    EXPECT_NEAR(bench.motors.digit[1], 1000 * force_N.y(), 0.51);
+  }
+}
+
+TEST(Uart, TooFewMotorsAreSaid) {
+  BoardBench bench(Kind::kUart);
+  std::vector<std::unique_ptr<Transport>> lines;
+  lines.push_back(bench.transport_to(std::make_unique<EmulatedUart>(
+      bench.recorded, std::vector<EmulatedUart::Station>{{2, {5, 1, 4, 4, 0, 0}}})));
+  UartBoard board("uart:/dev/x", bench.profile, std::move(lines));
+  try {
+    board.open();
+    FAIL();
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("1 motor boards answer, with 4 motors; the profile has "
+                        "8 strings"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(EncoderCounts, AllowWhatAHandCanSinceTheLastReading) {
+  constexpr int64_t kMs = 1'000'000;
+  int64_t now_ns = 5 * kMs;
+  EncoderCounts counts(16);
+  counts.open({5000}, 1);
+  EXPECT_TRUE(counts.follow({5000}, now_ns));
+  EXPECT_TRUE(counts.follow({5000 + 4096}, now_ns += kMs));
+  EXPECT_FALSE(counts.follow({5000}, now_ns += kMs - 1));  // 2048 for less than a millisecond
+  // The counters began anew: that does not pass by waiting for it.
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(counts.follow({0}, now_ns += kMs));
+  EXPECT_EQ(counts.counts()[0], 9096);
+  // After a break of many milliseconds a quarter of the range, after a longer one no more.
+  EXPECT_FALSE(counts.follow({9096 + 16385}, now_ns += 100 * kMs));
+  EXPECT_TRUE(counts.follow({9096 + 16384}, now_ns += 7 * kMs));
+}
+
+/// The other end of the example in docs/adding-a-board.md.
+class EmulatedExample final : public EmulatedBoard {
+ public:
+  explicit EmulatedExample(EmulatedMotors& motors) : motors_(motors) {}
+  void receive(ByteView bytes) noexcept override {
+    std::array<int, kMaxStrings> digits{};
+    for (size_t i = 0; i < digits.size(); ++i) digits[i] = bytes.u16(2 * i);
+    motors_.put_out(digits);
+    due_ = true;
+  }
+  size_t reply(MutableBytes bytes) noexcept override {
+    if (!due_ || bytes.size < 16) return 0;
+    due_ = false;
+    for (size_t i = 0; i < kMaxStrings; ++i)
+      bytes.put_u16(2 * i, static_cast<uint16_t>(motors_.counts()[i]));
+    return 16;
+  }
+
+ private:
+  EmulatedMotors& motors_;
+  bool due_ = false;
+};
+
+TEST(ExampleBoard, IsABoard) {
+  BoardBench bench(Kind::kSh4);
+  BoardDevice device(std::make_unique<ExampleBoard>(
+                         "example", bench.profile,
+                         bench.transport_to(std::make_unique<EmulatedExample>(bench.recorded))),
+                     {CountZero::kFirstOpen, false, false});
+  device.open();
+  bench.motors.count[6] = -9;
+  DeviceReading reading;
+  ASSERT_EQ(device.exchange(all_volts(1), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(bench.motors.digit[7], 415);
+  EXPECT_EQ(reading.count[6], -9);
+  device.close();
+  EXPECT_TRUE(bench.motors.all_zero());
+}
+
+/// A wire that does not answer before it is told to.
+class HeldTransport final : public Transport {
+ public:
+  explicit HeldTransport(std::unique_ptr<Transport> real) : real_(std::move(real)) {}
+  void open() override { real_->open(); }
+  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override {
+    std::unique_lock<std::mutex> lock(mutex_);
+    free_.wait(lock, [this] { return !held_; });
+    return real_->exchange(packets, reply, deadline_ns);
+  }
+  void recover() noexcept override { real_->recover(); }
+  std::optional<LastWill> last_will() const override { return std::nullopt; }
+  void close() noexcept override { real_->close(); }
+  void hold(bool held) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    held_ = held;
+    free_.notify_all();
+  }
+
+ private:
+  const std::unique_ptr<Transport> real_;
+  std::mutex mutex_;
+  std::condition_variable free_;
+  bool held_ = false;
+};
+
+TEST(BoardDevice, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
+  BoardBench bench(Kind::kSh4);
+  auto transport = std::make_unique<HeldTransport>(
+      bench.transport_to(std::make_unique<EmulatedSh4>(bench.recorded)));
+  HeldTransport& wire = *transport;
+  BoardDevice device(std::make_unique<Sh4Board>("sh4", bench.profile, std::move(transport)), {});
+  device.open();
+  DeviceReading reading;
+  wire.hold(true);
+  EXPECT_EQ(device.exchange(all_volts(1), reading), ExchangeStatus::kTimeout);
+  EXPECT_EQ(device.exchange(all_volts(1), reading), ExchangeStatus::kTimeout);
+  // Three requests are one under way and two that wait; a fourth has no room.
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(device.exchange(all_volts(1), reading), ExchangeStatus::kTimeout);
+  bench.motors.count[0] = 7;
+  wire.hold(false);
+  while (device.exchange(all_volts(1), reading) != ExchangeStatus::kOk) {
+  }
+  EXPECT_EQ(reading.count[0], 7);
+  EXPECT_GE(device.health().late_replies, 1u);
+}
+
+TEST(DeviceFactory, ListsWhatItKnowsForOtherNames) {
+  const Profile profile = load_profile("spidar-g6x3-v2-r");
+  for (const std::string spec : {"foo", "", "usb:", "sim:", "uart", "uart:", "mouse:", "ff:"}) {
+    try {
+      make_device(spec, profile);
+      FAIL() << spec;
+    } catch (const DeviceError& error) {
+      EXPECT_EQ(error.what(), "unknown device \"" + spec +
+                                  "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, "
+                                  "mouse, ff, ff:PATH");
+    }
+  }
+  for (const std::string spec :
+       {"usb", "usb:3", "usb:1-2.3", "uart:/dev/ttyUSB0,/dev/ttyUSB1", "mouse", "sim:sh4",
+        "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "ff", "ff:/dev/input/event3"}) {
+    EXPECT_EQ(make_device(spec, profile)->name(), spec);
+  }
+  EXPECT_THROW(make_device("sim:x", profile), DeviceError);
+  EXPECT_THROW(make_device("uart:/dev/a,", profile), DeviceError);
+}
+
+TEST(DeviceFactory, RefusesNegativeVoltsForBoardsWithoutThem) {
+  const Profile profile = load_profile("spidar-g6x4");
+  EXPECT_NO_THROW(make_device("sim:uart", profile));
+  for (const char* spec : {"usb", "sim:sh4", "sim:simple"}) {
+    try {
+      make_device(spec, profile);
+      FAIL() << spec;
+    } catch (const DeviceError& error) {
+      EXPECT_NE(std::string(error.what()).find("negative volts for string 2"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+/// The simulated grip feels the same whether volts are handed over or go through packets.
+TEST(WireSimulation, HoldsTheGripWhereTheSimulationDoes) {
+  for (const char* spec : {"sim", "sim:sh4", "sim:simple", "sim:uart"}) {
+    const Profile profile = load_profile("spidar-g6x3-v2-r");
+    SessionSettings by_hand;
+    by_hand.threaded = false;
+    HapticSession session(profile, make_device(spec, profile), by_hand);
+    tick_until_running(session);
+    const LoopSnapshot snapshot = session.loop().snapshot();
+    EXPECT_EQ(snapshot.counters.exchange_errors, 0u) << spec;
+    EXPECT_EQ(snapshot.counters.pose_errors, 0u) << spec;
+    // All strings at rest pull alike, and the hand's spring of 300 N/m holds: within a newton's
+    // way.
+    EXPECT_LT(snapshot.last.pose.position_m.norm(), 1.0 / 300) << spec;
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test
