@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "core/tracking/luma_row.h"
 #include "core/tracking/packed_luma.h"
@@ -30,6 +31,23 @@ bool is_packed(GstVideoFormat format, PackedOrder& order) {
   }
 }
 
+/// Luma of a pixel as it is unpacked: alpha, then Y, U, V or R, G, B, of which the highest eight
+/// bits count. Of R, G and B as luma_of_packed() has it.
+template <typename Sample>
+uint8_t luma_of(const Sample* pixel, bool is_rgb) {
+  constexpr int kShift = 8 * (static_cast<int>(sizeof(Sample)) - 1);
+  const auto byte = [&](int component) { return pixel[component] >> kShift; };
+  if (!is_rgb) return static_cast<uint8_t>(byte(1));
+  constexpr int kBits = 14;
+  return static_cast<uint8_t>(
+      (4899 * byte(1) + 9617 * byte(2) + 1868 * byte(3) + (1 << (kBits - 1))) >> kBits);
+}
+
+template <typename Sample>
+void write_luma(const Sample* pixels, int count, bool is_rgb, uint8_t* to) {
+  for (int x = 0; x < count; ++x) to[x] = luma_of(pixels + 4 * x, is_rgb);
+}
+
 /// Of the luma of a planar or semi-planar format, whose first component it is.
 LumaSample sample_of(const GstVideoFormatInfo& format) {
   const int depth = static_cast<int>(GST_VIDEO_FORMAT_INFO_DEPTH(&format, 0));
@@ -39,6 +57,14 @@ LumaSample sample_of(const GstVideoFormatInfo& format) {
 }
 
 }  // namespace
+
+bool is_unpacked(const GstVideoFormatInfo& format) {
+  PackedOrder order;
+  if (is_packed(GST_VIDEO_FORMAT_INFO_FORMAT(&format), order)) return false;
+  const int bytes = GST_VIDEO_FORMAT_INFO_DEPTH(&format, 0) > 8 ? 2 : 1;
+  return GST_VIDEO_FORMAT_INFO_IS_RGB(&format) || GST_VIDEO_FORMAT_INFO_IS_COMPLEX(&format) ||
+         GST_VIDEO_FORMAT_INFO_PSTRIDE(&format, 0) != bytes;
+}
 
 VisiblePart visible_part(const GstVideoFrame& frame) {
   const int width = GST_VIDEO_FRAME_WIDTH(&frame);
@@ -52,11 +78,17 @@ VisiblePart visible_part(const GstVideoFrame& frame) {
 }
 
 bool holds_picture(const GstVideoFrame& frame) {
+  GstVideoInfo tight;
+  gst_video_info_set_format(&tight, GST_VIDEO_FRAME_FORMAT(&frame),
+                            static_cast<guint>(GST_VIDEO_FRAME_WIDTH(&frame)),
+                            static_cast<guint>(GST_VIDEO_FRAME_HEIGHT(&frame)));
   for (guint c = 0; c < GST_VIDEO_FRAME_N_COMPONENTS(&frame); ++c) {
     const auto plane = static_cast<guint>(GST_VIDEO_FRAME_COMP_PLANE(&frame, c));
     const gint64 stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, plane);
-    const gint64 line = static_cast<gint64>(GST_VIDEO_FRAME_COMP_WIDTH(&frame, c)) *
-                        GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, c);
+    const gint64 pixel = GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, c);
+    // Pixels that share words, as in v210, have no size of their own.
+    const gint64 line = pixel > 0 ? pixel * GST_VIDEO_FRAME_COMP_WIDTH(&frame, c)
+                                  : GST_VIDEO_INFO_PLANE_STRIDE(&tight, plane);
     const gint64 bytes = stride * (GST_VIDEO_FRAME_COMP_HEIGHT(&frame, c) - 1) + line;
     // With a meta each plane is mapped by itself; else they all are in the first.
     const GstMapInfo& map = frame.map[frame.meta ? plane : 0];
@@ -64,6 +96,33 @@ bool holds_picture(const GstVideoFrame& frame) {
     if (stride < line || first - map.data + bytes > static_cast<gint64>(map.size)) return false;
   }
   return true;
+}
+
+ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const VisiblePart& shown) {
+  const GstVideoFormatInfo* const format = frame.info.finfo;
+  const GstVideoFormatInfo* const wide = gst_video_format_get_info(format->unpack_format);
+  const bool is_rgb = GST_VIDEO_FORMAT_INFO_IS_RGB(wide);
+  const bool is_deep = GST_VIDEO_FORMAT_INFO_DEPTH(wide, 0) > 8;
+  const int width = GST_VIDEO_FRAME_WIDTH(&frame);
+  const auto shown_width = static_cast<size_t>(shown.width);
+  unpacked_row_.resize(4 * static_cast<size_t>(width));
+  converted_.resize(shown_width * static_cast<size_t>(shown.height));
+  gpointer planes[GST_VIDEO_MAX_PLANES];
+  std::copy(std::begin(frame.data), std::end(frame.data), planes);
+  for (int y = 0; y < shown.height; ++y) {
+    // Whole rows: not every format can be unpacked from its middle on.
+    format->unpack_func(format, GST_VIDEO_PACK_FLAG_NONE, unpacked_row_.data(), planes,
+                        frame.info.stride, 0, shown.y + y, width);
+    uint8_t* const to = converted_.data() + static_cast<size_t>(y) * shown_width;
+    const size_t first = 4 * static_cast<size_t>(shown.x);
+    if (is_deep) {
+      write_luma(unpacked_row_.data() + first, shown.width, is_rgb, to);
+    } else {
+      const auto* bytes = reinterpret_cast<const uint8_t*>(unpacked_row_.data());
+      write_luma(bytes + first, shown.width, is_rgb, to);
+    }
+  }
+  return {converted_.data(), shown.width, shown.height, shown.width};
 }
 
 ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
@@ -95,6 +154,8 @@ ImageView FrameLuma::view(const GstVideoFrame& frame) {
   PackedOrder order;
   if (is_packed(GST_VIDEO_FRAME_FORMAT(&frame), order)) {
     luma = luma_of_packed(data, shown.width, shown.height, stride, order, converted_);
+  } else if (is_unpacked(*frame.info.finfo)) {
+    luma = unpacked(frame, shown);
   }
   if (GST_VIDEO_FRAME_IS_INTERLACED(&frame) && luma.height >= 2) {
     // A crop that begins on an odd line begins with the other field.

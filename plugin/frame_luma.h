@@ -20,6 +20,15 @@ namespace spidar {
   "Y444_10BE, Y444_12BE, Y444_16BE, A420_10BE, A422_10BE, A444_10BE, GRAY16_BE, " \
   "BGR, RGB, BGRx, RGBx, BGRA, RGBA }"
 
+/// Further ones that FrameLuma understands, by way of GStreamer's own unpacking: a conversion.
+#define SPIDAR_UNPACKED_FORMATS                                          \
+  "{ YUY2, UYVY, YVYU, VYUY, AYUV, VUYA, v308, ARGB, xRGB, ABGR, xBGR, " \
+  "GBR, GBR_10LE, GBR_12LE, GBR_10BE, GBR_12BE, Y210, Y212_LE, Y410, "   \
+  "v210, v216, BGR10A2_LE, RGB10A2_LE, r210 }"
+
+/// Whether a format is one of SPIDAR_UNPACKED_FORMATS and not of SPIDAR_VIDEO_FORMATS.
+bool is_unpacked(const GstVideoFormatInfo& format);
+
 /// The part of a frame that is shown, and therefore analysed: its crop meta, else all of it.
 struct VisiblePart {
   int x = 0, y = 0, width = 0, height = 0;
@@ -31,9 +40,10 @@ VisiblePart visible_part(const GstVideoFrame& frame);
 bool holds_picture(const GstVideoFrame& frame);
 
 /// Reads plane 0 of planar and semi-planar formats in place, with its stride and of as many bits
-/// as it has; makes luma of packed RGB; honours a crop meta; of interlaced frames it takes the
-/// first field, because the two fields are two moments, and so it does of those that are interlaced
-/// and not flagged.
+/// as it has; makes luma of packed RGB and of what has to be unpacked; honours a crop meta; of
+/// interlaced frames it takes the first field, because the two fields are two moments, and so it
+/// does of those that are interlaced and not flagged. With interlace-mode=mixed each frame says by
+/// its flags whether it is interlaced.
 class FrameLuma {
  public:
   /// In pixels; the caps allow no less, a crop may leave less.
@@ -44,11 +54,13 @@ class FrameLuma {
   ImageView view(const GstVideoFrame& frame);
 
  private:
+  ImageView unpacked(const GstVideoFrame& frame, const VisiblePart& shown);
   ImageView first_field(const ImageView& frame, bool top_first);
 
   Combing combing_;
   std::vector<uint8_t> converted_;
   std::vector<uint8_t> field_;
+  std::vector<uint16_t> unpacked_row_;
 };
 
 }  // namespace spidar

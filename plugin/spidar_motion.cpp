@@ -73,10 +73,11 @@ struct _GstSpidarMotion {
   spidar::Complaints* complaints;
 };
 
-#define CAPS                                                  \
-  "video/x-raw, format = (string) " SPIDAR_VIDEO_FORMATS      \
+#define CAPS_OF(formats)                                      \
+  "video/x-raw, format = (string) " formats                   \
   ", width = (int) [ 16, 8192 ], height = (int) [ 16, 8192 ]" \
   ", framerate = (fraction) [ 0, max ]"
+#define CAPS CAPS_OF(SPIDAR_VIDEO_FORMATS) "; " CAPS_OF(SPIDAR_UNPACKED_FORMATS)
 
 static GstStaticPadTemplate sink_template =
     GST_STATIC_PAD_TEMPLATE("sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
@@ -185,6 +186,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
                      GST_TIME_ARGS(GST_BUFFER_PTS(frame->buffer)), to_string(report.problem));
   }
   self->complaints->look_at_frame(report);
+  if (display.overlay) self->complaints->look_at_overlay(frame->info);
   if (report.analyzed && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, report);
   }

@@ -34,7 +34,9 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
     attach_motion_meta(frame.buffer, report, scene, GST_VIDEO_FRAME_WIDTH(&frame),
                        GST_VIDEO_FRAME_HEIGHT(&frame));
   }
-  if (properties.overlay && (frame.map[0].flags & GST_MAP_WRITE) != 0) {
+  const bool can_draw =
+      (frame.map[0].flags & GST_MAP_WRITE) != 0 && !is_unpacked(*frame.info.finfo);
+  if (properties.overlay && can_draw) {
     draw_overlay(scene, visible, properties.arrow_scale, settings.controller.max_force_N, frame);
   }
 }

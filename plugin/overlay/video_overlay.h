@@ -8,8 +8,8 @@
 namespace spidar {
 
 /// Draws one arrow a track, a cross where a point was lost, and the felt force as a white arrow
-/// with a black border from the middle of `visible` on. `frame` is mapped for writing and of a
-/// format that FrameLuma understands.
+/// with a black border from the middle of `visible` on. `frame` is mapped for writing and of one
+/// of SPIDAR_VIDEO_FORMATS.
 void draw_overlay(const SceneView& scene, const VisiblePart& visible, double scale,
                   double max_force_N, GstVideoFrame& frame);
 

@@ -3,7 +3,7 @@
 namespace spidar {
 
 void Complaints::start() {
-  frame_problems_ = 0;
+  begin_stream();
   device_.start();
 }
 
@@ -64,6 +64,16 @@ void Complaints::look_at_frame(const FrameReport& report) {
     case FrameProblem::kNotShown:
       break;
   }
+}
+
+void Complaints::look_at_overlay(const GstVideoInfo& info) {
+  if (overlay_ || !is_unpacked(*info.finfo)) return;
+  overlay_ = true;
+  GST_ELEMENT_WARNING(
+      element_, STREAM, FORMAT,
+      ("The overlay cannot be drawn into frames of the format %s.", GST_VIDEO_INFO_NAME(&info)),
+      ("The force is felt all the same. A videoconvert in front of the element and "
+       "caps with format=I420, for example, make frames that can be drawn into."));
 }
 
 }  // namespace spidar

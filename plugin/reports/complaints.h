@@ -17,11 +17,16 @@ class Complaints {
   /// The element begins: everything may be said again.
   void start();
   /// Another stream: what is wrong with its frames may be.
-  void begin_stream() { frame_problems_ = 0; }
+  void begin_stream() {
+    frame_problems_ = 0;
+    overlay_ = false;
+  }
 
   /// Looks at the bins around the element, which may have a running time of their own.
   void look_at_place();
   void look_at_frame(const FrameReport& report);
+  /// The overlay is on: can it be drawn into such frames?
+  void look_at_overlay(const GstVideoInfo& info);
   /// See DeviceComplaints.
   void look_at_haptic_trace(const MotionEngine& engine) {
     device_.look_at_haptic_trace(engine.session());
@@ -33,6 +38,7 @@ class Complaints {
  private:
   GstElement* const element_;
   guint frame_problems_ = 0;  // bit i: FrameProblem i was said
+  bool overlay_ = false;      // said
   DeviceComplaints device_;
 };
 

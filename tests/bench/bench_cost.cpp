@@ -1,5 +1,5 @@
 // What the element costs in a pipeline: beside identity, of the time of a frame, and beside the
-// decoder it works for; with moving frames, still ones and gaps.
+// decoder it works for; with moving frames, ones that repeat them, still ones and gaps.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -52,8 +52,10 @@ void print_pushed(const Size& size, const std::vector<Picture>& film) {
       "| frames | source ! … ! fakesink | thread, µs | over identity, µs | %% of 1/%d s | wall, µs "
       "| 99 %% | other threads, %% of a core |\n|---|---|---|---|---|---|---|---|\n",
       size.width, size.height, kRate_Hz);
-  const std::vector<std::pair<Content, const char*>> contents = {
-      {Content::kMoving, "moving"}, {Content::kStill, "still"}, {Content::kGap, "GAP"}};
+  const std::vector<std::pair<Content, const char*>> contents = {{Content::kMoving, "moving"},
+                                                                 {Content::kRepeated, "repeated"},
+                                                                 {Content::kStill, "still"},
+                                                                 {Content::kGap, "GAP"}};
   for (const auto& [content, name] : contents) {
     std::map<std::string, PushCost> costs;
     // In turns: what disturbs meets all of them.

@@ -222,5 +222,34 @@ TEST(Frames, FieldsThatAreNotFlaggedAreReadAsThoseThatAre) {
   }
 }
 
+TEST(Frames, OfMixedStreamsThoseThatAreFlaggedAreMeasuredByOneField) {
+  // Telecined films have both. The second field of a flagged frame shows another moment.
+  ElementHarness h;
+  GstCaps* caps = make_caps("GRAY8", 640, 480);
+  gst_caps_set_simple(caps, "interlace-mode", G_TYPE_STRING, "mixed", nullptr);
+  h.set_caps(caps);
+  const std::array<bool, 6> interlaced{false, false, true, true, false, false};
+  for (size_t n = 0; n < interlaced.size(); ++n) {
+    GstBuffer* frame = make_frame(h.info(), 4.0 * static_cast<double>(n), 0);
+    if (interlaced[n]) {
+      GstMapInfo map;
+      gst_buffer_map(frame, &map, GST_MAP_WRITE);
+      for (int y = 1; y < 480; y += 2) {
+        for (int x = 0; x < 640; ++x) {
+          map.data[y * 640 + x] = grey(x - 4.0 * static_cast<double>(n) - 2.0, y);
+        }
+      }
+      gst_buffer_unmap(frame, &map);
+      GST_BUFFER_FLAG_SET(frame, GST_VIDEO_BUFFER_FLAG_INTERLACED | GST_VIDEO_BUFFER_FLAG_TFF);
+    }
+    ASSERT_EQ(h.push(frame, n * kFrame), GST_FLOW_OK);
+  }
+  ASSERT_EQ(h.motions().size(), interlaced.size());
+  for (size_t n = 1; n < interlaced.size(); ++n) {
+    EXPECT_NEAR(h.motions()[n].velocity_x, 100, kTolerance_px_s) << n;
+    EXPECT_NEAR(h.motions()[n].velocity_y, 0, kTolerance_px_s) << n;
+  }
+}
+
 }  // namespace
 }  // namespace spidar::test

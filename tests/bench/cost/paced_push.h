@@ -9,9 +9,10 @@
 namespace spidar::bench {
 
 enum class Content {
-  kMoving,  ///< one frame after the other, to and fro
-  kStill,   ///< the first one again and again
-  kGap,     ///< the same, marked as without content
+  kMoving,    ///< one frame after the other, to and fro
+  kRepeated,  ///< each of these twice; only the second ones are measured
+  kStill,     ///< the first one again and again
+  kGap,       ///< the same, marked as without content
 };
 
 struct PushCost {
