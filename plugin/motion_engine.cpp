@@ -247,8 +247,10 @@ DeviceState MotionEngine::device_state() const {
 
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
+  // Of a track everything, which the next frame gives again at the new rate. First, for what the
+  // schedule hands on again stays.
+  player_.forget();
   schedule_.change_rate(multiplier, running_time, upstream);
-  player_.forget();  // the next frame gives it again, at the new rate
 }
 
 int64_t MotionEngine::pace(int64_t running_ns) {
