@@ -25,7 +25,8 @@ std::string UsbBoardKind::id() const {
 }
 
 const std::vector<UsbBoardKind>& usb_kinds() {
-  static const std::vector<UsbBoardKind> kinds = {
+  // Never destroyed: a player that just exits may be opening its board again in another thread.
+  static const auto& kinds = *new std::vector<UsbBoardKind>{
       {UsbFamily::kCyverse,
        sh4::kVendor,
        sh4::kProduct,
