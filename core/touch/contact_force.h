@@ -16,8 +16,8 @@ struct ContactSettings {
   /// the pose is that of the last exchange, and the lag of the drive (2 ms where it is not known).
   double delay_s = 0.0035;  ///< finite and ≥ 0
   /// The damping B, in units of stiffness · delay. Finite and ≥ 1: below, the delay puts out more
-  /// energy than the damping takes.
-  double damping = 1.2;
+  /// energy than the damping takes, at every frequency.
+  double damping = 1.5;
   double lateral_damping = 0.5;  ///< along the surface, in units of B; finite and ≥ 0.5
   Friction friction;
   double texture = 1;  ///< of the slope of the texture that is felt; finite and ≥ 0
