@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Is the right motion felt in real films? real_films.py BUILD FOLDER [CSV]: runs spidarmotion of a
-meson build folder over the films of FOLDER and prints a table with a row for each of its settings,
-and then one of methods with the processor time that each takes: see bench_real_film.cpp. The latter
+meson build folder over the films of FOLDER and prints a table with a row for each of its settings, one
+for films of which a corner is cut off, and one of methods with the processor time that each takes: see bench_real_film.cpp. The latter
 is also written to CSV, for real_films.gp.
 
 FOLDER holds films that GStreamer can decode. Beside a film, NAME.csv gives the true motion of its
@@ -19,6 +19,7 @@ import csv
 import json
 import math
 import os
+import re
 import shutil
 import statistics
 import subprocess
@@ -56,8 +57,9 @@ def read_truth(file):
         return {int(n): (float(x), float(y)) for n, x, y in csv.reader(lines)}
 
 
-def play(build, film, properties):
-    """Motion of each frame in px since the frame before, the seconds since then, the height."""
+def play(build, film, properties, crop=()):
+    """Motion of each frame in px since the frame before, the seconds since then, the height; `crop`
+    are elements before spidarmotion."""
     with tempfile.TemporaryDirectory() as folder:
         trace = Path(folder) / "trace.jsonl"
         environment = dict(
@@ -68,7 +70,7 @@ def play(build, film, properties):
         environment.setdefault("SPIDAR_PROFILE_PATH", "spidar/profiles/shipped")
         subprocess.run(
             ["gst-launch-1.0", "-q", "filesrc", f"location={film}", "!", "decodebin", "!",
-             "spidarmotion", "device=none", "post-messages=false", f"trace={trace}", *properties,
+             *crop, "spidarmotion", "device=none", "post-messages=false", f"trace={trace}", *properties,
              "!", "fakesink", "sync=false"],
             env=environment, check=True, stdout=subprocess.DEVNULL)
         rows = [json.loads(line) for line in trace.read_text().splitlines()]
@@ -77,6 +79,37 @@ def play(build, film, properties):
         seconds = row["interval_ns"] * 1e-9
         motion.append(tuple(v * seconds for v in row["motion"]["velocity_px_s"]))
     return motion, [row["interval_ns"] * 1e-9 for row in rows], rows[0]["height_px"]
+
+
+def corners():
+    """Where an eighth of each side is cut off, which moves the object out of the middle."""
+    for x in ("left", "right"):
+        for y in ("top", "bottom"):
+            yield f"{y} {x}", x, y
+
+
+def size_px(film):
+    """Width and height of a film."""
+    lines = subprocess.run(["gst-discoverer-1.0", "-v", film], check=True, stdout=subprocess.PIPE,
+                           text=True).stdout
+    return tuple(int(re.search(rf"{side}: (\d+)", lines)[1]) for side in ("Width", "Height"))
+
+
+def compare_corners(build, films):
+    print("\n| cut off | right % | wrong % | felt % | false % | jitter (true) |")
+    print("|---|---|---|---|---|---|")
+    together = Tally()
+    for name, x, y in corners():
+        tally = Tally()
+        for film in films:
+            width, height = size_px(film)
+            crop = ["videocrop", f"{x}={width // 16 * 2}", f"{y}={height // 16 * 2}", "!"]
+            found = play(build, film, [], crop)
+            truth = film.with_suffix(".csv")
+            for each in (tally, together):
+                each.add(*found, read_truth(truth) if truth.exists() else None)
+        print(tally.row(name), flush=True)
+    print(together.row("all four"), flush=True)
 
 
 def jitter(motion, frames):
@@ -194,6 +227,7 @@ def main():
             tally.add(*play(build, film, properties),
                       read_truth(truth) if truth.exists() else None)
         print(tally.row(" ".join(properties) or "default"), flush=True)
+    compare_corners(build, films)
     compare_methods(build, films, sys.argv[3] if len(sys.argv) > 3 else None)
 
 

@@ -4,7 +4,7 @@
 #
 # The table of methods and the picture need the packages libavformat-dev (if it is installed after
 # `meson setup`: `meson configure --clearcache BUILD`), ffmpeg and gnuplot; without them it ends with a
-# message after the first table.
+# message after the others.
 set -eu
 cd "$(dirname "$0")/../.."
 build=${1:?usage: tests/bench/real_films.sh BUILD FOLDER}
