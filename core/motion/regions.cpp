@@ -7,6 +7,26 @@
 #include "core/quantile.h"
 
 namespace spidar {
+namespace {
+
+/// Neighbours move alike when their motions differ by less than this share of the faster one's and
+/// this much, px of the field's picture.
+constexpr float kAlikeShare = 0.5f;
+constexpr float kAlike_px = 0.3f;
+
+/// Blocks without texture move as their neighbours do.
+bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
+  if (!a.has_texture || !b.has_texture) return true;
+  const float fastest_px2 =
+      std::max(a.x_px * a.x_px + a.y_px * a.y_px, b.x_px * b.x_px + b.y_px * b.y_px);
+  const float x = a.x_px - b.x_px;
+  const float y = a.y_px - b.y_px;
+  const float most_px = kAlike_px + kAlikeShare * std::sqrt(fastest_px2);
+  return x * x + y * y < most_px * most_px;
+}
+
+}  // namespace
+
 int RegionFinder::root_of(int block) {
   auto i = static_cast<size_t>(block);
   while (parent_[i] != static_cast<int>(i)) {
@@ -79,14 +99,7 @@ const std::vector<Region>& RegionFinder::find(const BlockField& field,
       if (!moves(column, row)) continue;
       const int i = row * grid.columns + column;
       const auto alike = [&](int j) {
-        const RelativeBlock& a = relative[static_cast<size_t>(i)];
-        const RelativeBlock& b = relative[static_cast<size_t>(j)];
-        if (!a.has_texture || !b.has_texture) return true;
-        const float ma = a.x_px * a.x_px + a.y_px * a.y_px, mb = b.x_px * b.x_px + b.y_px * b.y_px;
-        static const float R = 0.5f, A = 0.3f;
-        const float dx = a.x_px - b.x_px, dy = a.y_px - b.y_px,
-                    tol = A + R * std::sqrt(std::max(ma, mb));
-        return dx * dx + dy * dy < tol * tol;
+        return move_alike(relative[static_cast<size_t>(i)], relative[static_cast<size_t>(j)]);
       };
       if (moves(column - 1, row) && alike(i - 1)) join(i, i - 1);
       for (int k = -1; k <= 1; ++k) {
