@@ -71,7 +71,7 @@ TEST_F(Launch, EveryFormatIsTakenWithoutConversion) {
 }
 
 TEST_F(Launch, OtherFormatsNeedAConverter) {
-  const std::string source = "videotestsrc num-buffers=3 ! video/x-raw,format=v308 ! ";
+  const std::string source = "videotestsrc num-buffers=3 ! video/x-raw,format=RGB16 ! ";
   GError* error = nullptr;
   GstElement* pipeline = gst_parse_launch((source + "spidarmotion ! fakesink").c_str(), &error);
   EXPECT_NE(error, nullptr);
