@@ -10,52 +10,33 @@
 #include <gst/video/video.h>
 
 #include "core/motion_analyzer.h"
-#include "plugin/device_view.h"
 #include "plugin/frame_luma.h"
 #include "plugin/grip_pointer.h"
 #include "plugin/properties/motion_properties.h"
+#include "plugin/reports/frame_report.h"
 #include "plugin/reports/frame_trace.h"
 #include "plugin/reports/limit_watch.h"
 #include "plugin/reports/motion_stats.h"
-#include "plugin/timing/playback_follower.h"
+#include "plugin/timing/frame_pacer.h"
+#include "plugin/timing/haptic_output.h"
 #include "plugin/timing/wrench_schedule.h"
 #include "plugin/track/track_player.h"
-#include "spidar/haptic_session.h"
 
 namespace spidar {
-
-enum class FrameProblem {
-  kNone,
-  kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be felt in time
-  kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
-  kFallingTimestamp,  ///< before the frame before
-  kTooSmall,          ///< less memory than the picture needs
-  kNotShown,          ///< outside the segment, or cropped to nothing
-};
-
-/// In words, for the log.
-const char* to_string(FrameProblem problem);
-
-/// What became of one frame.
-struct FrameReport {
-  FrameProblem problem = FrameProblem::kNone;
-  bool analyzed = false;
-  GstClockTime running_time = GST_CLOCK_TIME_NONE;
-  GstClockTime stream_time = GST_CLOCK_TIME_NONE;
-  FrameAnalysis analysis;
-  int64_t took_ns = 0;                   ///< the analysis
-  ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame
-  bool trace_failed = false;             ///< the trace could not be written and was closed
-};
 
 /// Analysis, trace and haptic session of one element. Methods are grouped by the thread they belong
 /// to; what they share is locked here.
 class MotionEngine {
  public:
-  explicit MotionEngine(GstElement* element) : element_(element) {}
+  explicit MotionEngine(GstElement* element)
+      : output_(element, [this] {
+          schedule_.hand_on();
+          player_.hand_on();
+        }) {}
 
-  /// Tests only, before open(): `now` stands for CLOCK_MONOTONIC and the loop waits to be ticked.
-  void set_manual(PlaybackSync::Now now, void* user);
+  /// The device and where playback is.
+  HapticOutput& output() { return output_; }
+  const HapticOutput& output() const { return output_; }
 
   // --- state changes
 
@@ -68,16 +49,9 @@ class MotionEngine {
   std::string start(const std::string& trace_path);
   /// Ends it. False when the last rows of the trace could not be written.
   bool stop();
-  void set_playing(bool playing);
 
   // --- any thread
 
-  void set_latency(GstClockTime latency);
-  /// Something behind the element was linked anew.
-  void look_for_sink();
-  void set_offset(GstClockTimeDiff offset_ns);
-  /// Holds with the next tick of the haptic loop, whether frames come or not.
-  void set_max_force(double max_force_N);
   /// The force ramps to rest at once and stays there until frames come after set_muted(false).
   void set_muted(bool muted);
   /// What was scheduled is forgotten at once.
@@ -86,17 +60,9 @@ class MotionEngine {
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
   /// The sink has stepped over so much of running time: it shows what follows as much earlier.
   void skip(GstClockTime duration);
-  /// The pipeline will distribute a new base time: nothing is on the screen until then.
-  void expect_base_time();
-  /// Looks at the pipeline's clock now; a thread does that by itself.
-  void refresh_clock();
   GstStructure* stats() const;
   /// What has kept the force from being felt in the last second of what is on the screen.
   ForceLimit force_limit() const;
-  /// False with device=none or while closed.
-  bool look_at_device(DeviceView& view) const;
-  /// Null with device=none or while closed.
-  HapticSession* session() const { return session_.get(); }
 
   // --- streaming thread
 
@@ -118,38 +84,19 @@ class MotionEngine {
   void end_of_stream();
   /// Where the grip points at the picture; nothing while no device runs.
   std::optional<Eigen::Vector2d> grip_place() const;
-  /// kClosed with device=none.
-  DeviceState device_state() const;
 
  private:
-  /// Nothing while no device is open.
-  std::optional<LoopSnapshot> open_loop() const;
-  /// Time of a frame on a scale on which the distance to the last frame is that of showing them.
-  int64_t pace(int64_t running_ns);
-
-  GstElement* const element_;
-  PlaybackSync::Now now_ = nullptr;
-  void* now_user_ = nullptr;
-
-  // These outlive the thread of follower_, which hands on what waits.
+  // These outlive the output's thread, which hands on what waits.
   WrenchSchedule schedule_;
   TrackPlayer player_;
-  mutable std::mutex session_mutex_;  // state changes against any thread
-  std::unique_ptr<HapticSession> session_;
-  Profile profile_;  // of the session
-  std::unique_ptr<PlaybackFollower> follower_;
-  GstClockTime latency_ = 0;
-  GstClockTimeDiff offset_ns_ = 0;
-  SafetyLimits limits_;
+  std::mutex skip_mutex_;  // what is skipped reaches schedule and output in the same order
+  HapticOutput output_;
   // Streaming thread.
   GripPointer grip_pointer_;
   MotionAnalyzer analyzer_;
   FrameLuma luma_;
   FrameTrace trace_;
-  int64_t last_running_ns_ = -1;
-  uint64_t frames_in_segment_ = 0;
-  int64_t last_paced_ns_ = 0;
-  int64_t last_interval_ns_ = 0;
+  FramePacer pacer_;
 
   MotionStats stats_;
   LimitWatch limit_watch_;

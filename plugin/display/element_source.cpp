@@ -95,7 +95,7 @@ class ElementSource final : public WindowSource {
     DeviceView device;
     const MotionEngine& engine = gst_spidar_motion_engine(GST_SPIDAR_MOTION(held.get()));
     state.limit = engine.force_limit();
-    if (engine.look_at_device(device)) {
+    if (engine.output().look_at_device(device)) {
       state.device = std::move(device);
     } else {
       state.device.reset();

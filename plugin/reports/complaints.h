@@ -29,10 +29,10 @@ class Complaints {
   void look_at_overlay(const GstVideoInfo& info);
   /// See DeviceComplaints.
   void look_at_haptic_trace(const MotionEngine& engine) {
-    device_.look_at_haptic_trace(engine.session());
+    device_.look_at_haptic_trace(engine.output().session());
   }
   bool look_at_device(const MotionEngine& engine, OnDeviceError policy) {
-    return device_.look_at(engine.session(), policy);
+    return device_.look_at(engine.output().session(), policy);
   }
 
  private:

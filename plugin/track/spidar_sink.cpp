@@ -27,9 +27,9 @@
 #include <string>
 
 #include "plugin/reports/device_complaints.h"
+#include "plugin/timing/haptic_output.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/track/block_schedule.h"
-#include "plugin/track/haptic_output.h"
 #include "plugin/track/sink_properties.h"
 #include "plugin/track/track_input.h"
 

@@ -28,9 +28,9 @@ class DeviceTest : public testing::Test {
     h->set_caps(make_caps("GRAY8", 320, 240));
   }
 
-  HapticLoop& loop() { return h->engine().session()->loop(); }
+  HapticLoop& loop() { return h->engine().output().session()->loop(); }
   SimulatedDevice& device() {
-    return dynamic_cast<SimulatedDevice&>(h->engine().session()->device());
+    return dynamic_cast<SimulatedDevice&>(h->engine().output().session()->device());
   }
 
   void tick(int count = 1) {
@@ -99,7 +99,7 @@ TEST_F(DeviceTest, ThatIsLostIsAWarningAndTheVideoGoesOn) {
   EXPECT_TRUE(loop().reopen());
   tick(300);
   EXPECT_EQ(push_next(), GST_FLOW_OK);
-  EXPECT_EQ(h->engine().device_state(), DeviceState::kRunning);
+  EXPECT_EQ(h->engine().output().device_state(), DeviceState::kRunning);
 
   device().set_fault(ExchangeStatus::kLost);
   tick(2);
@@ -266,7 +266,7 @@ TEST_F(DeviceTest, IsAtRestWhenTheElementIsClosed) {
   tick(300);
   EXPECT_GT(device().felt().tension_N.minCoeff(), 0) << "strings are taut while it is open";
   gst_element_set_state(h->element(), GST_STATE_NULL);
-  EXPECT_EQ(h->engine().session(), nullptr);
+  EXPECT_EQ(h->engine().output().session(), nullptr);
 }
 
 TEST_F(DeviceTest, StateMayGoUpAndDownAsOftenAsOneLikes) {
@@ -274,7 +274,7 @@ TEST_F(DeviceTest, StateMayGoUpAndDownAsOftenAsOneLikes) {
   for (int n = 0; n < 5; ++n) {
     EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_NULL), GST_STATE_CHANGE_SUCCESS);
     EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_PLAYING), GST_STATE_CHANGE_SUCCESS);
-    EXPECT_NE(h->engine().session(), nullptr);
+    EXPECT_NE(h->engine().output().session(), nullptr);
   }
 }
 

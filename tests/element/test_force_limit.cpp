@@ -33,9 +33,9 @@ class ForceLimitTest : public testing::Test {
     h->set_caps(make_caps("GRAY8", kWidth, kHeight));
   }
 
-  HapticLoop& loop() { return h->engine().session()->loop(); }
+  HapticLoop& loop() { return h->engine().output().session()->loop(); }
   SimulatedDevice& device() {
-    return dynamic_cast<SimulatedDevice&>(h->engine().session()->device());
+    return dynamic_cast<SimulatedDevice&>(h->engine().output().session()->device());
   }
 
   void tick(int count) {
@@ -59,7 +59,7 @@ class ForceLimitTest : public testing::Test {
   void show(int count, const std::function<GstBuffer*(int)>& frame, int interval_ms = kFrame_ms) {
     for (int i = 0; i < count; ++i, ++frames) {
       h->push(frame(frames), static_cast<GstClockTime>(frames * interval_ms) * GST_MSECOND);
-      if (frames >= 2 && h->engine().session()) tick(interval_ms);
+      if (frames >= 2 && h->engine().output().session()) tick(interval_ms);
     }
   }
   void show_moved(int count, double px_a_frame) {

@@ -259,7 +259,7 @@ TEST(HapticTrace, ThatCannotBeWrittenIsAWarningAndTheForceGoesOn) {
   ASSERT_EQ(h.warnings().size(), 1u);
   EXPECT_NE(h.warnings()[0].find("/nowhere/haptic.csv"), std::string::npos);
   EXPECT_TRUE(h.errors().empty());
-  EXPECT_NE(h.engine().session(), nullptr);
+  EXPECT_NE(h.engine().output().session(), nullptr);
 }
 
 TEST(HapticTrace, FullDiskIsAWarningAndTheForceGoesOn) {
@@ -268,7 +268,7 @@ TEST(HapticTrace, FullDiskIsAWarningAndTheForceGoesOn) {
   push_until_warned(h);
   ASSERT_EQ(h.warnings().size(), 1u);
   EXPECT_NE(h.warnings()[0].find(g_strerror(ENOSPC)), std::string::npos);
-  EXPECT_NE(h.engine().device_state(), DeviceState::kLost);
+  EXPECT_NE(h.engine().output().device_state(), DeviceState::kLost);
 }
 
 TEST(Stats, NameTheModelOfTheBackground) {

@@ -26,7 +26,7 @@ SteppedPipeline::SteppedPipeline(const std::string& launch) {
   sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
   bus_ = gst_element_get_bus(pipeline_);
   engine_ = &gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_));
-  engine_->set_manual(monotonic_ns, this);
+  engine_->output().set_manual(monotonic_ns, this);
   GstPad* pad = gst_element_get_static_pad(sink_, "sink");
   const auto take = [](GstPad* sink_pad, GstPadProbeInfo* info, gpointer user) {
     GstEvent* event = gst_pad_get_sticky_event(sink_pad, GST_EVENT_SEGMENT, 0);
@@ -67,7 +67,7 @@ void SteppedPipeline::wait_for_state() {
     if (message) gst_message_parse_error(message, &error, nullptr);
     g_error("the pipeline does not change state: %s", error ? error->message : "no message");
   }
-  engine_->refresh_clock();
+  engine_->output().refresh_clock();
 }
 
 void SteppedPipeline::set_state(GstState state) {
@@ -129,7 +129,7 @@ void SteppedPipeline::retime(std::function<GstClockTime(int, GstClockTime)> pts)
 }
 
 TickRecord SteppedPipeline::tick() {
-  HapticLoop& loop = engine_->session()->loop();
+  HapticLoop& loop = engine_->output().session()->loop();
   return watch_.tick(loop, monotonic_ns(this));
 }
 
@@ -145,7 +145,7 @@ GstClockTime SteppedPipeline::await(guint waiters) {
 TickRecord SteppedPipeline::step(guint waiters) {
   const GstClockTime next = await(waiters);
   if (next > now()) gst_test_clock_set_time(clock_, next);
-  engine_->refresh_clock();
+  engine_->output().refresh_clock();
   shown_ = taken_;
   const TickRecord record = tick();
   gst_clock_id_unref(gst_test_clock_process_next_clock_id(clock_));
@@ -156,7 +156,7 @@ TickRecord SteppedPipeline::idle(GstClockTime duration) {
   TickRecord record;
   for (const GstClockTime end = now() + duration; now() + GST_MSECOND <= end;) {
     gst_test_clock_advance_time(clock_, GST_MSECOND);
-    engine_->refresh_clock();
+    engine_->output().refresh_clock();
     record = tick();
   }
   return record;
@@ -166,7 +166,7 @@ TickRecord SteppedPipeline::stand_still(GstClockTime duration) {
   TickRecord record;
   for (GstClockTime since = 0; since < duration; since += GST_MSECOND) {
     monotonic_less_clock_ns_ += GST_MSECOND;
-    if (since % (10 * GST_MSECOND) == 0) engine_->refresh_clock();  // as its thread does
+    if (since % (10 * GST_MSECOND) == 0) engine_->output().refresh_clock();  // as its thread does
     record = tick();
   }
   return record;

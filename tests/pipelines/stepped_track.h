@@ -10,7 +10,7 @@
 #include <gst/gst.h>
 
 #include "core/track/track_format.h"
-#include "plugin/track/haptic_output.h"
+#include "plugin/timing/haptic_output.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test {

@@ -20,17 +20,17 @@ class OtherElement {
     const auto now = [](void* user) {
       return static_cast<int64_t>(static_cast<SteppedPipeline*>(user)->now());
     };
-    engine().set_manual(now, &pipeline);
+    engine().output().set_manual(now, &pipeline);
   }
   ~OtherElement() { gst_object_unref(element_); }
   OtherElement(const OtherElement&) = delete;
   OtherElement& operator=(const OtherElement&) = delete;
 
   TickRecord tick() {
-    engine().refresh_clock();
-    return watch_.tick(engine().session()->loop(), static_cast<int64_t>(pipeline_.now()));
+    engine().output().refresh_clock();
+    return watch_.tick(engine().output().session()->loop(), static_cast<int64_t>(pipeline_.now()));
   }
-  const std::string& device() { return engine().session()->device().name(); }
+  const std::string& device() { return engine().output().session()->device().name(); }
 
  private:
   MotionEngine& engine() { return gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_)); }

@@ -63,7 +63,7 @@ MotionEngine& TormentedPlayer::engine() const {
 }
 
 SimulatedDevice* TormentedPlayer::device() const {
-  HapticSession* session = engine().session();
+  HapticSession* session = engine().output().session();
   return session ? dynamic_cast<SimulatedDevice*>(&session->device()) : nullptr;
 }
 
@@ -152,7 +152,7 @@ void TormentedPlayer::drain_bus() {
 
 void TormentedPlayer::stop() {
   set_state(GST_STATE_NULL);
-  EXPECT_EQ(engine().session(), nullptr);
+  EXPECT_EQ(engine().output().session(), nullptr);
   const std::filesystem::path trace = folder_.path / "haptic.csv";
   if (!std::filesystem::exists(trace)) return;
   watch_.see_trace(trace);

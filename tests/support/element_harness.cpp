@@ -52,7 +52,7 @@ ElementHarness::ElementHarness(const std::string& properties, PlaybackSync::Now 
   GError* error = nullptr;
   GstElement* element = gst_parse_launch((kPaper + properties).c_str(), &error);
   if (!element || error) g_error("%s", error ? error->message : "no element");
-  gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)).set_manual(now, user);
+  gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)).output().set_manual(now, user);
   bus_ = gst_bus_new();
   gst_element_set_bus(element, bus_);
   harness_ = gst_harness_new_with_element(element, "sink", "src");

@@ -52,7 +52,9 @@ class ElementHarness {
   const GstVideoInfo& info() const { return info_; }
   MotionEngine& engine();
   /// Ticks the haptic loop of an element that waits for it, under watch.
-  TickRecord tick(int64_t now_ns) { return watch_.tick(engine().session()->loop(), now_ns); }
+  TickRecord tick(int64_t now_ns) {
+    return watch_.tick(engine().output().session()->loop(), now_ns);
+  }
 
  private:
   void drain();

@@ -1,4 +1,4 @@
-#include "plugin/track/haptic_output.h"
+#include "plugin/timing/haptic_output.h"
 
 #include <utility>
 
@@ -49,6 +49,7 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
   loop.set_limits(limits_);
   follower->set_latency(latency_);
   follower->set_offset(offset_ns_);
+  profile_ = profile;
   session_ = std::move(session);
   follower_ = std::move(follower);
   return trace_problem;
@@ -57,6 +58,7 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
 void HapticOutput::close() {
   std::unique_ptr<HapticSession> session;
   std::unique_ptr<PlaybackFollower> follower;  // ends before the loop that it publishes to
+  // Both end after the lock is given back: the ramp to rest takes 60 ms.
   const std::lock_guard<std::mutex> lock(mutex_);
   session = std::move(session_);
   follower = std::move(follower_);
@@ -85,6 +87,16 @@ void HapticOutput::set_max_force(double max_force_N) {
   if (session_) session_->loop().set_limits(limits_);
 }
 
+void HapticOutput::set_skipped(int64_t skipped_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->set_skipped(skipped_ns);
+}
+
+void HapticOutput::look_for_sink() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->look_for_sink();
+}
+
 void HapticOutput::expect_base_time() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (follower_) follower_->expect_base_time();
@@ -93,6 +105,28 @@ void HapticOutput::expect_base_time() {
 void HapticOutput::refresh_clock() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (follower_) follower_->refresh();
+}
+
+std::optional<LoopSnapshot> HapticOutput::snapshot() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!session_) return std::nullopt;
+  return session_->loop().snapshot();
+}
+
+DeviceState HapticOutput::device_state() const {
+  const std::optional<LoopSnapshot> loop = snapshot();
+  return loop ? loop->last.device : DeviceState::kClosed;
+}
+
+bool HapticOutput::look_at_device(DeviceView& view) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!session_) return false;
+  view.name = session_->device().name();
+  view.loop = session_->loop().snapshot();
+  view.geometry = profile_.geometry;
+  view.min_tension_N = profile_.min_tension_N();
+  view.max_tension_N = profile_.max_tension_N();
+  return true;
 }
 
 void HapticOutput::describe(GstStructure* structure) const {

@@ -4,16 +4,19 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <gst/gst.h>
 
+#include "plugin/device_view.h"
 #include "plugin/timing/playback_follower.h"
 #include "spidar/haptic_session.h"
 
 namespace spidar {
 
-/// Haptic session and playback clock of one element. Thread-safe.
+/// Haptic session and playback clock of one element. Thread-safe, but for session(), which is for
+/// state changes and the streaming thread.
 class HapticOutput {
  public:
   /// `refreshed` is called each time after the haptic loop was told where playback is: a hundred
@@ -35,7 +38,12 @@ class HapticOutput {
   void set_playing(bool playing);
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
+  /// Holds with the next tick of the haptic loop.
   void set_max_force(double max_force_N);
+  /// By the sink, of running time: what follows is shown as much earlier.
+  void set_skipped(int64_t skipped_ns);
+  /// Something behind the element was linked anew.
+  void look_for_sink();
   /// See PlaybackSync::expect_base_time().
   void expect_base_time();
   /// Looks at the pipeline's clock now; a thread does that by itself.
@@ -43,6 +51,14 @@ class HapticOutput {
 
   /// Null while closed. Opened and closed by state changes only.
   HapticSession* session() const { return session_.get(); }
+  /// Of the device that is open, or was last.
+  const Profile& profile() const { return profile_; }
+  /// Nothing while closed.
+  std::optional<LoopSnapshot> snapshot() const;
+  /// kClosed while closed.
+  DeviceState device_state() const;
+  /// False while closed.
+  bool look_at_device(DeviceView& view) const;
   /// Adds what describe_session() says, while a device is open.
   void describe(GstStructure* structure) const;
 
@@ -53,6 +69,7 @@ class HapticOutput {
   void* now_user_ = nullptr;
   mutable std::mutex mutex_;  // state changes against any thread
   std::unique_ptr<HapticSession> session_;
+  Profile profile_;
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;

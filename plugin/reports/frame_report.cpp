@@ -1,0 +1,23 @@
+#include "plugin/reports/frame_report.h"
+
+namespace spidar {
+
+const char* to_string(FrameProblem problem) {
+  switch (problem) {
+    case FrameProblem::kNone:
+      return "no problem";
+    case FrameProblem::kNoTimestamp:
+      return "it has no timestamp";
+    case FrameProblem::kSameTimestamp:
+      return "its timestamp is that of the frame before, or nearly so";
+    case FrameProblem::kFallingTimestamp:
+      return "its timestamp is before that of the frame before";
+    case FrameProblem::kTooSmall:
+      return "it has less memory than its picture needs";
+    case FrameProblem::kNotShown:
+      return "it is outside the segment or cropped to nothing";
+  }
+  return "unknown problem";
+}
+
+}  // namespace spidar

@@ -1,0 +1,37 @@
+/// What became of one frame of video.
+#pragma once
+
+#include <cstdint>
+
+#include <gst/gst.h>
+
+#include "core/force/force_limit.h"
+#include "core/motion_analyzer.h"
+
+namespace spidar {
+
+enum class FrameProblem {
+  kNone,
+  kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be felt in time
+  kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
+  kFallingTimestamp,  ///< before the frame before
+  kTooSmall,          ///< less memory than the picture needs
+  kNotShown,          ///< outside the segment, or cropped to nothing
+};
+
+/// In words, for the log.
+const char* to_string(FrameProblem problem);
+
+/// What became of one frame.
+struct FrameReport {
+  FrameProblem problem = FrameProblem::kNone;
+  bool analyzed = false;
+  GstClockTime running_time = GST_CLOCK_TIME_NONE;
+  GstClockTime stream_time = GST_CLOCK_TIME_NONE;
+  FrameAnalysis analysis;
+  int64_t took_ns = 0;                   ///< the analysis
+  ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame
+  bool trace_failed = false;             ///< the trace could not be written and was closed
+};
+
+}  // namespace spidar

@@ -1,0 +1,247 @@
+// Frames and events on their way through the element.
+#include <string>
+
+#include "plugin/reports/motion_message.h"
+#include "plugin/reports/motion_meta.h"
+#include "plugin/spidar_motion_private.h"
+
+#define GST_CAT_DEFAULT gst_spidar_motion_debug
+
+using spidar::FrameReport;
+using spidar::MotionEngine;
+using spidar::OnDeviceError;
+using spidar::PointerKind;
+
+static GstBaseTransformClass* parent_class() {
+  return GST_BASE_TRANSFORM_CLASS(g_type_class_peek(GST_TYPE_VIDEO_FILTER));
+}
+
+/// GST_CLOCK_TIME_NONE where the segment is not in time, as from a file source without a parser.
+static GstClockTime running_time_of(const GstSegment& segment, GstClockTime time) {
+  return segment.format == GST_FORMAT_TIME
+             ? gst_segment_to_running_time(&segment, GST_FORMAT_TIME, time)
+             : GST_CLOCK_TIME_NONE;
+}
+
+static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffer* buffer) {
+  if (trans->segment.format != GST_FORMAT_TIME) return;
+  const GstClockTime time =
+      gst_segment_to_stream_time(&trans->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer));
+  if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
+}
+
+/// Once a stream, with its first frame: before that neither the film's name nor its length is
+/// known.
+static void choose_track(GstSpidarMotion* self, const GstVideoInfo& info) {
+  if (self->track_chosen) return;
+  self->track_chosen = TRUE;
+  GST_OBJECT_LOCK(self);
+  const std::string wanted = self->properties->track;
+  GST_OBJECT_UNLOCK(self);
+  const GstClockTime frame =
+      info.fps_n > 0 ? gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n) : 0;
+  self->engine->set_track(
+      spidar::choose_track(GST_ELEMENT(self), wanted, static_cast<gint64>(frame)));
+}
+
+static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter,
+                                                          GstVideoFrame* frame) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
+  spidar::AnalyzerSettings settings;
+  PointerKind pointer;
+  spidar::DisplayProperties display;
+  bool post_messages;
+  OnDeviceError on_device_error;
+  GST_OBJECT_LOCK(self);
+  settings = self->properties->analyzer;
+  pointer = self->properties->pointer;
+  display = self->properties->display;
+  post_messages = self->properties->post_messages;
+  on_device_error = self->properties->on_device_error;
+  GST_OBJECT_UNLOCK(self);
+  if (pointer == PointerKind::kGrip) {
+    settings.pointer = self->engine->grip_place().value_or(settings.pointer);
+  }
+
+  FrameReport report;
+  const bool processed = guarded(self, "analysing a frame", [&] {
+    choose_track(self, frame->info);
+    report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings);
+    self->display->show(report, display, settings, *frame);
+  });
+  if (!processed) return GST_FLOW_ERROR;
+  if (report.analyzed) {
+    const spidar::FrameAnalysis& found = report.analysis;
+    GST_LOG_OBJECT(self,
+                   "frame of %" GST_TIME_FORMAT
+                   ": %.1f, %.1f px/s, %d objects, %.3f, %.3f N in "
+                   "%" G_GINT64_FORMAT " us%s%s",
+                   GST_TIME_ARGS(report.running_time), found.motion.velocity_px_s.x(),
+                   found.motion.velocity_px_s.y(), found.objects, found.wrench.force_N.x(),
+                   found.wrench.force_N.y(), static_cast<gint64>(report.took_ns / 1000),
+                   found.restarted ? ", restarted" : "", found.repeated ? ", repeated" : "");
+  } else {
+    GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
+                     GST_TIME_ARGS(GST_BUFFER_PTS(frame->buffer)), to_string(report.problem));
+  }
+  self->complaints->look_at_frame(report);
+  if (display.overlay) self->complaints->look_at_overlay(frame->info);
+  if (report.analyzed && post_messages) {
+    post_motion_message(GST_ELEMENT(self), frame->buffer, report);
+  }
+  return self->complaints->look_at_device(*self->engine, on_device_error) ? GST_FLOW_OK
+                                                                          : GST_FLOW_ERROR;
+}
+
+/// A frame without a picture is not even mapped: that may have to wait for its memory.
+static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, GstBuffer* buffer) {
+  if (!GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP)) {
+    return parent_class()->transform_ip(trans, buffer);
+  }
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_OBJECT_LOCK(self);
+  const OnDeviceError on_device_error = self->properties->on_device_error;
+  GST_OBJECT_UNLOCK(self);
+  const bool passed = guarded(self, "passing a gap", [&] {
+    self->engine->pass_gap(running_time_of(trans->segment, GST_BUFFER_PTS(buffer)));
+  });
+  self->display->skip();
+  return passed && self->complaints->look_at_device(*self->engine, on_device_error)
+             ? GST_FLOW_OK
+             : GST_FLOW_ERROR;
+}
+
+/// In passthrough nothing is writable. A meta is added to the buffer and not to its memory, so a
+/// copy of the buffer that shares the memory will do.
+static GstFlowReturn gst_spidar_motion_prepare_output_buffer(GstBaseTransform* trans,
+                                                             GstBuffer* input, GstBuffer** output) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_OBJECT_LOCK(self);
+  const bool attach_meta = self->properties->display.attach_meta;
+  GST_OBJECT_UNLOCK(self);
+  if (!attach_meta || !gst_base_transform_is_passthrough(trans) || gst_buffer_is_writable(input)) {
+    return parent_class()->prepare_output_buffer(trans, input, output);
+  }
+  *output = gst_buffer_copy(input);
+  return *output ? GST_FLOW_OK : GST_FLOW_ERROR;
+}
+
+/// Whether the same moments are shown at the same pace after `b` as after `a`.
+static bool same_playback(const GstSegment& a, const GstSegment& b) {
+  return a.format == b.format && a.rate == b.rate && a.start == b.start && a.base == b.base &&
+         a.time == b.time && a.offset == b.offset;
+}
+
+static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* event) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  MotionEngine& engine = *self->engine;
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_FLUSH_START:
+      GST_DEBUG_OBJECT(self, "flush: what was scheduled is cancelled");
+      engine.flush();
+      break;
+    case GST_EVENT_FLUSH_STOP: {
+      gboolean reset_time;
+      gst_event_parse_flush_stop(event, &reset_time);
+      GST_DEBUG_OBJECT(self, "end of flush%s", reset_time ? ", running time starts at zero" : "");
+      // Again: a frame may have been on its way through when the flush began.
+      engine.flush();
+      engine.restart_timing();
+      if (reset_time) engine.output().expect_base_time();
+      break;
+    }
+    case GST_EVENT_STREAM_START:
+      self->complaints->begin_stream();
+      self->track_chosen = FALSE;
+      break;
+    case GST_EVENT_SEGMENT: {
+      const GstSegment* segment;
+      gst_event_parse_segment(event, &segment);
+      GST_DEBUG_OBJECT(self, "segment: %" GST_SEGMENT_FORMAT, segment);
+      if (!same_playback(trans->segment, *segment)) engine.restart();
+      engine.begin_segment();
+      break;
+    }
+    case GST_EVENT_GAP: {
+      GstClockTime time, duration;
+      gst_event_parse_gap(event, &time, &duration);
+      // Played backwards it begins at its end.
+      if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
+      GST_DEBUG_OBJECT(self, "gap from %" GST_TIME_FORMAT ", force ends there",
+                       GST_TIME_ARGS(time));
+      engine.run_out(running_time_of(trans->segment, time));
+      break;
+    }
+    case GST_EVENT_EOS:
+      GST_DEBUG_OBJECT(self, "end of stream");
+      engine.end_of_stream();
+      break;
+    default:
+      break;
+  }
+  return parent_class()->sink_event(trans, event);
+}
+
+static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* event) {
+  if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) {
+    GstClockTime latency;
+    gst_event_parse_latency(event, &latency);
+    GST_DEBUG_OBJECT(trans, "latency: %" GST_TIME_FORMAT, GST_TIME_ARGS(latency));
+    GST_SPIDAR_MOTION(trans)->engine->output().set_latency(latency);
+  } else if (GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
+    GST_DEBUG_OBJECT(trans, "reconfigured: looking for the sink again");
+    GST_SPIDAR_MOTION(trans)->engine->output().look_for_sink();
+  } else if (GST_EVENT_TYPE(event) == GST_EVENT_INSTANT_RATE_SYNC_TIME) {
+    gdouble multiplier;
+    GstClockTime running_time, upstream;
+    gst_event_parse_instant_rate_sync_time(event, &multiplier, &running_time, &upstream);
+    GST_DEBUG_OBJECT(trans, "rate is multiplied by %g from %" GST_TIME_FORMAT " on", multiplier,
+                     GST_TIME_ARGS(running_time));
+    GST_SPIDAR_MOTION(trans)->engine->change_rate(multiplier, running_time, upstream);
+  }
+  return parent_class()->src_event(trans, event);
+}
+
+static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_OBJECT_LOCK(self);
+  const std::string trace = self->properties->trace;
+  GST_OBJECT_UNLOCK(self);
+  GST_DEBUG_OBJECT(self, "start; trace: %s", trace.empty() ? "none" : trace.c_str());
+  self->track_chosen = FALSE;
+  self->complaints->start();
+  self->complaints->look_at_place();
+  const std::string reason = self->engine->start(trace);
+  if (!reason.empty()) {
+    GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
+                        ("Cannot write the trace '%s': %s.", trace.c_str(), reason.c_str()),
+                        ("The video goes on without it."));
+  }
+  return TRUE;
+}
+
+static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GST_DEBUG_OBJECT(self, "stop");
+  if (!self->engine->stop()) {
+    GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("The end of the trace could not be written."),
+                        ("Disk full?"));
+  }
+  // Here, because what is said on the way to NULL reaches nobody.
+  if (self->engine->output().session()) self->engine->output().session()->drain_trace();
+  self->complaints->look_at_haptic_trace(*self->engine);
+  return TRUE;
+}
+
+void gst_spidar_motion_install_stream(GstSpidarMotionClass* klass) {
+  GstBaseTransformClass* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  GstVideoFilterClass* filter_class = GST_VIDEO_FILTER_CLASS(klass);
+  transform_class->start = gst_spidar_motion_start;
+  transform_class->stop = gst_spidar_motion_stop;
+  transform_class->sink_event = gst_spidar_motion_sink_event;
+  transform_class->src_event = gst_spidar_motion_src_event;
+  transform_class->prepare_output_buffer = gst_spidar_motion_prepare_output_buffer;
+  transform_class->transform_ip = gst_spidar_motion_transform_ip;
+  transform_class->before_transform = gst_spidar_motion_before_transform;
+  filter_class->transform_frame_ip = gst_spidar_motion_transform_frame_ip;
+}

@@ -1,0 +1,91 @@
+#include "plugin/timing/frame_pacer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/force/motion_bounds.h"
+#include "plugin/timing/instant_rate.h"
+
+namespace spidar {
+namespace {
+
+/// Of frames that are closer together one timestamp is wrong: their distance is no time to divide a
+/// motion by. An eighth of what the caps promise, as far as they can be believed.
+int64_t least_interval_ns(const GstVideoInfo& info, double rate) {
+  constexpr double kMost_ns = 5e6;
+  if (info.fps_n <= 0) return kLeastInterval_ns;
+  const double nominal_ns = 1e9 * info.fps_d / info.fps_n / std::fabs(rate);
+  return std::max(kLeastInterval_ns, static_cast<int64_t>(std::min(nominal_ns / 8, kMost_ns)));
+}
+
+}  // namespace
+
+GstClockTime nominal_duration(const GstVideoInfo& info) {
+  return info.fps_n > 0 ? gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n) : 0;
+}
+
+GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment) {
+  const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
+  GstClockTime duration = GST_BUFFER_DURATION(frame.buffer);
+  if (!GST_CLOCK_TIME_IS_VALID(duration) && frame.info.fps_n > 0) {
+    duration = nominal_duration(frame.info);
+  }
+  const bool has_end = GST_CLOCK_TIME_IS_VALID(duration) && duration < GST_CLOCK_TIME_NONE - pts;
+  const GstClockTime end = has_end ? pts + duration : GST_CLOCK_TIME_NONE;
+  guint64 from = 0, to = 0;
+  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, end, &from, &to)) {
+    return GST_CLOCK_TIME_NONE;
+  }
+  const bool backwards = segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(to);
+  return gst_segment_to_running_time(&segment, GST_FORMAT_TIME, backwards ? to : from);
+}
+
+FramePacer::Order FramePacer::order(int64_t running_ns, const GstVideoFrame& frame,
+                                    const GstSegment& segment) const {
+  // Sources and decoders mark every buffer, or the first of every group, when they play backwards.
+  if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) return Order::kFirst;
+  if (last_running_ns_ >= 0 && running_ns >= last_running_ns_ &&
+      running_ns - last_running_ns_ < least_interval_ns(frame.info, segment.rate)) {
+    // After an accurate seek what is left of the first frame may be next to nothing, and of the
+    // segment before it nothing is left.
+    return frames_in_segment_ > 1 ? Order::kTooSoon : Order::kFirst;
+  }
+  return running_ns < last_running_ns_ ? Order::kFalling : Order::kNext;
+}
+
+FrameTime FramePacer::at(int64_t running_ns, double rate_multiplier) const {
+  FrameTime time;
+  time.running_ns = time.paced_ns = running_ns;
+  time.in_place = running_ns == last_running_ns_;
+  if (last_running_ns_ < 0) return time;
+  const double since_ns = static_cast<double>(running_ns - last_running_ns_) / rate_multiplier;
+  const double paced_ns = static_cast<double>(last_paced_ns_) + since_ns;
+  if (std::fabs(paced_ns) <= static_cast<double>(kLatest_ns)) {  // else anew
+    time.paced_ns = last_paced_ns_ + std::llround(since_ns);
+  }
+  time.since_ns = time.paced_ns - last_paced_ns_;
+  return time;
+}
+
+void FramePacer::take(const FrameTime& time, bool moved) {
+  pass(time);
+  ++frames_in_segment_;
+  if (moved && time.since_ns > 0) last_interval_ns_ = time.since_ns;
+}
+
+void FramePacer::pass(const FrameTime& time) {
+  last_running_ns_ = time.running_ns;
+  last_paced_ns_ = time.paced_ns;
+}
+
+void FramePacer::restart() {
+  last_running_ns_ = -1;
+  frames_in_segment_ = 0;
+  last_interval_ns_ = 0;
+}
+
+int64_t FramePacer::next_ns() const {
+  return last_running_ns_ + std::max<int64_t>(last_interval_ns_, 1);
+}
+
+}  // namespace spidar

@@ -1,0 +1,58 @@
+/// When each frame is shown, and whether that can be.
+#pragma once
+
+#include <cstdint>
+
+#include <gst/video/video.h>
+
+namespace spidar {
+
+/// As the caps say it; 0 where they do not.
+GstClockTime nominal_duration(const GstVideoInfo& info);
+
+/// Running time at which a sink shows the frame: when what is to be seen of it begins, which is its
+/// end when it is played backwards. GST_CLOCK_TIME_NONE when the sink drops it.
+GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment);
+
+/// Where a frame lies on two scales of time, in ns.
+struct FrameTime {
+  int64_t running_ns = 0;  ///< of the element
+  int64_t paced_ns = 0;    ///< the distance to the frame before is that of showing them
+  int64_t since_ns = 0;    ///< paced, since the frame before; 0 when there is none
+  bool in_place = false;   ///< of the frame before, which has the same time
+};
+
+/// Follows the timestamps of one stream. Streaming thread.
+class FramePacer {
+ public:
+  enum class Order {
+    kNext,   ///< after the frame before
+    kFirst,  ///< the frame before does not count: a discontinuity, or next to nothing is left of it
+    kTooSoon,  ///< the same time as the frame before, or nearly so: no Δt to divide a motion by
+    kFalling,  ///< before the frame before
+  };
+
+  Order order(int64_t running_ns, const GstVideoFrame& frame, const GstSegment& segment) const;
+  /// `rate_multiplier` as InstantRate has it.
+  FrameTime at(int64_t running_ns, double rate_multiplier) const;
+
+  /// A frame was analysed; `moved` when something was measured since the frame before.
+  void take(const FrameTime& time, bool moved);
+  /// A frame was passed that has no picture.
+  void pass(const FrameTime& time);
+  void begin_segment() { frames_in_segment_ = 0; }
+  /// Running time begins anew.
+  void restart();
+
+  bool has_frame() const { return last_running_ns_ >= 0; }
+  /// When the next frame would be due, one like the last ones.
+  int64_t next_ns() const;
+
+ private:
+  int64_t last_running_ns_ = -1;
+  uint64_t frames_in_segment_ = 0;
+  int64_t last_paced_ns_ = 0;
+  int64_t last_interval_ns_ = 0;
+};
+
+}  // namespace spidar
