@@ -1,7 +1,7 @@
-// fill-registry ELEMENT: looks at all installed plugins and writes GStreamer's registry, so that the
-// tests that share it find it written. What other projects' plugins leak while they are looked at would
-// else be counted as a leak of the test that comes first.
-// The exit status is 0 when the registry has the element.
+// fill-registry ELEMENT: looks at all installed plugins and writes GStreamer's registry, so that
+// the tests that share it find it written. What other projects' plugins leak while they are looked
+// at would else be counted as a leak of the test that comes first. The exit status is 0 when the
+// registry has the element.
 #include <cstdio>
 
 #include <gst/gst.h>
