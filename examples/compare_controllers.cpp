@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// How the gain controllers would feel: compare_controllers [VIDEO ...]
 ///
 /// Measures the motion of a rendered bouncing ball and of each video once, as the element does by

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Draws the strings of a profile with their numbers, as the person who holds the grip sees them.
 
     examples/draw_strings.py spidar/profiles/shipped/spidar-gcc.toml > docs/figures/strings-spidar-gcc.svg

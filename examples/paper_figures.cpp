@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Draws Fig. 6 to 10 of the paper: paper_figures FOLDER
 ///
 /// A bouncing ball is rendered frame by frame, its motion is measured from the pictures as the

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # Fig. 6 to 10 of the paper, drawn from a rendered bouncing ball into `folder`.
 # paper_figures.cpp writes `measured` (a row a frame) and `analytic` (a row a millisecond) with the
 # columns: time, position, velocity, acceleration, k, linear force, nonlinear force; up is positive.

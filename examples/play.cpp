@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Plays a video and lets it be felt, then says how that went. examples/play.sh builds it and finds
 /// a video.
 

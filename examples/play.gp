@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # What a playback was like: draws `frames` and `ticks` into `png`, headed by `title`. play.cpp writes
 # the two files; without a device `ticks` is an empty string. Panels as in Fig. 6 to 10 of the paper:
 # position, velocity, force; then the strings.

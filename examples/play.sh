@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # Plays a video whose motion is felt on a SPIDAR-G, simulated unless told otherwise, and ends with a
 # table and a picture of what was felt. Installs what is missing (Debian) and builds first.
 #   examples/play.sh                             people walking across a square

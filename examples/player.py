@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Plays a film with its motion in the hand: player.py [--headless] FILE-OR-URI
 
 Type and return: space pause, + - speed, < > 5 s, . next frame, l loop, f force on and off,

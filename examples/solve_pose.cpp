@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The grip's pose from string lengths on standard input, eight a line, in metres:
 //   solve_pose PROFILE [--track]
 // PROFILE is a name (spidar-gcc, …) or the path of a profile file. Writes a line for each:

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Tensions for problems on standard input, one a line:
 //   48 numbers of W by rows, 6 of the wrench, 8 t_min, 8 t_max, 8 t_ref, epsilon, l
 // where S = diag(1, 1, 1, 1/l, 1/l, 1/l). Writes a line for each:

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What moves in a video, as one line of JSON a frame on standard output:
 //   track_video FILE [--points] [--motion=mean|object|objects|camera]
 // FILE may be a URI. Each line has the time, the background's model, the objects (identity, place,

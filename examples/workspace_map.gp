@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # What a device gives of a wanted force of 3 N: draws `position` and `rotation` of the device
 # `profile` into `png`. workspace/pose_map.cpp writes the two files. Top row: the grip moved in the
 # plane of the screen; bottom row: turned at the centre.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What the files of the element share: its fields, its log, and how errors reach the bus.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The seam between the haptic loop and a board: volts out, counts in.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A device at work: loop, thread, and the file that records it. What a player needs of this
 /// library.
 #pragma once

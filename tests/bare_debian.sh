@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # Runs README's two commands on a Debian 12 that has nothing but what every Debian has, in a folder, as
 # root: a package that the tests or examples/play.sh need and tests/debian-packages.txt does not name
 # fails here. Nothing of this machine is seen from there: this folder is copied, and no more than proc,

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # Sourced by tests/runtimes.sh and tests/bare_debian.sh: a Debian of another release or with fewer
 # packages, in a folder. Expects tests/install.sh to be sourced.
 # shellcheck shell=bash

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # Sourced by tests/run.sh, tests/runtimes.sh and examples/play.sh: installs Debian packages without
 # asking.
 # shellcheck shell=bash

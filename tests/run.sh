@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # Installs what is missing (Debian), builds, runs every test. The last line is
 # `N passed, N failed, N skipped`; the exit status is 0 when nothing failed.
 #   tests/run.sh        as a user builds it, in build/

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # Runs the tests with newer releases than this machine's, on Debian, as root, without asking. The last
 # line is `N passed, N failed, N skipped`; the exit status is 0 when nothing failed.
 #   tests/runtimes.sh debian-13       builds and tests everything with the packages of Debian 13

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Counts the test cases of meson builds: summary.py BUILD... prints what failed and what was skipped
 and why, and as its last line `N passed, N failed, N skipped`. Fails when a test did.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Where each block of a picture was in the picture before, to whole pixels.
 #pragma once
 

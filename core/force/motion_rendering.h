@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// How a motion of the picture is felt, in six degrees of freedom.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// String lengths at a pose, and the normal equations of fitting them.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Eight doubles, one for each string, worked on in pairs: the vector registers that every x86-64
 /// and ARM64 has.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A symmetric positive definite system of a few unknowns, picked out of a larger matrix.
 #pragma once
 

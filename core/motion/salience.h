@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// How much a region looks like an object, and not like a layer of the scene.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Haptic tracks in MPEG's format for haptics, ISO/IEC 23090-31.
 #pragma once
 

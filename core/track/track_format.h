@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What a haptic track is: the wanted wrench as six channels of samples, like sound.
 #pragma once
 

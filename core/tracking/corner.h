@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The place of a piece of picture that is best to follow (Shi–Tomasi, eq. 1).
 #pragma once
 

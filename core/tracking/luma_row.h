@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Rows of a frame in 8 bits, whatever it is stored in.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The tracker of the paper: Shi–Tomasi points, pyramidal Lucas–Kanade.
 #pragma once
 

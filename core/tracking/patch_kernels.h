@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The arithmetic of following a small window: all that is done once a pixel.
 #pragma once
 

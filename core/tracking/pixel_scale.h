@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Coordinates in a frame and in a picture that is smaller by a whole number. Both count from the
 /// centre of the first pixel, which is why the scale alone is not enough.
 #pragma once

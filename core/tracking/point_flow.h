@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Where points of one picture are in the next (pyramidal Lucas–Kanade, eq. 2–8).
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// One point of a picture, looked for in the next one from coarse to fine.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A small window of one picture, found in another (Lucas–Kanade, eq. 2–8).
 #pragma once
 

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Draws docs/figures/architecture.svg: threads, the queues between them, and a frame's way to a motor.
 
     docs/figures/architecture.py > docs/figures/architecture.svg

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The motion of a film as it was measured, so that it can be felt with one controller after the
 /// other.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Everything that is known of one playback, in memory that does not grow with its length.
 #pragma once
 

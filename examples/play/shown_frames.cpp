@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 #define GST_USE_UNSTABLE_API  // tracer hooks: the only place behind a sink's drawing
 
 #include "examples/play/shown_frames.h"

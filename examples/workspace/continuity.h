@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// How far the tensions move from tick to tick of a smooth path.
 #pragma once
 

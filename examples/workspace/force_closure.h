@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Whether strings, which can only pull, can balance a wrench at a pose.
 #pragma once
 

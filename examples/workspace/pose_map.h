@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Maps of what a device gives: over the plane of the screen, and over rotations.
 #pragma once
 

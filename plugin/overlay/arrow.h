@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The arrows that motion is drawn with, in the video as in the window: shape and colour.
 #pragma once
 

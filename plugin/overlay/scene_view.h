@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What is seen moving in one frame, as data: for the overlay, the window and the meta.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What the element says on the bus when something is wrong that the video goes on without.
 #pragma once
 

@@ -1,3 +1,5 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Copyright 2026 the gst-spidar authors */
 /* What spidarmotion with attach-meta=true says of a frame: how to read it in C. The plugin need not
  * be linked. docs/meta.md has the fields, and how other languages read them. */
 #ifndef GST_SPIDAR_MOTION_META_H

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Why nothing is felt: reasons of the video, the playback and the device together.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What spidartrack can do. Each takes its own command line, argv[0] being its name, and returns
 /// the exit status. They throw UsageError, std::runtime_error.
 #pragma once

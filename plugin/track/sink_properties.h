@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What an application can set on spidarsink. The words are those of spidarmotion.
 #pragma once
 

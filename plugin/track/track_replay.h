@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Plays a track that is in memory, frame by frame of the video that it belongs to.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Frames from the streaming thread to a window, of which neither waits for the other.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The parts of a debug window, each drawn into its rectangle with Dear ImGui.
 #pragma once
 

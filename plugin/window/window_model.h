@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// All that a debug window shows, as plain data: no GL, no GObject.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What the two CyVerse boards have in common: eight D/A converters from zero volts, eight
 /// counters, a rotary switch.
 #pragma once

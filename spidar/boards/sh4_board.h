@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The CyVerse USB 2.0 SH4 board: one packet out, one in.
 #pragma once
 

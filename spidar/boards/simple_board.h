@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The CyVerse USB 2.0 Simple board: D/A and latch out, counters in.
 #pragma once
 

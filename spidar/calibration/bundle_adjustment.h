@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Poses of all samples and shared parameters that fit measured lengths best, with Ceres.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Where the strings' lengths stand when the counters are zero: encoders are incremental and boards
 /// have no homing.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// How string lengths follow from the grip's pose and from what calibration estimates.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Poses and parameters near enough to the right ones for a refinement, from nothing but counts.
 #pragma once
 

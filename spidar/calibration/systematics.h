@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What calibration owes to numbers of the profile that it takes as they are.
 #pragma once
 

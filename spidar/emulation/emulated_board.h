@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The other end of the wire: boards as programs that answer as the real ones are described.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What a guardian sends to a board when its host cannot, and how the two speak.
 #pragma once
 

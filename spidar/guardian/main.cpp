@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Waits until its host dies or falls silent, then takes the motors of one board to zero. Started by
 // Guardian with a socket as standard input.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What happens once a millisecond: time → wrench → safety → tensions → device → pose.
 #pragma once
 

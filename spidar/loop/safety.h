@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The steps between a wanted wrench and the motors. Order: finite → limit → slew → stale →
 /// (tension command) → tension slew → D/A range. Each is a small object that can be tested alone;
 /// none of them allocates, locks or throws.

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Writes the shipped profiles into the library: embed_profiles.py OUTPUT.cpp PROFILE.toml..."""
 
 import sys

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What a SPIDAR is made of: geometry, electrical numbers, and where each number comes from.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// From a profile file's text to a Profile; looking files up is in profile.h.
 ///
 /// A profile is TOML. All keys but `source` and `note` must be there, others must not:

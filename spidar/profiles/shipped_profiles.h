@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The profiles of spidar/profiles/shipped/, which are part of the library.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A value of a TOML file that knows where it stands, so that whatever is wrong with it can be said
 /// with file, line and name.
 #pragma once

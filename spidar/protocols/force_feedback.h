@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Requests to a force-feedback device of Linux, and its answers.
 ///
 /// Source: linux/input.h and Documentation/input/ff.rst of the kernel. Evdev is called, not written

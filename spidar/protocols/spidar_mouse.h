@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Reports of the SPIDAR-mouse: a HID with two force axes.
 ///
 /// Source: micuat/SPIDAR-mouse-UNIX src/spidarMouse.cpp. The id is that of Microchip's

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Packets of the UART motor boards: 2 Mbaud, 8N1, up to eight boards on a half-duplex bus.
 ///
 /// Sources: Springhead/Springhead core/src/HumanInterface/DRUartMotorDriver* and its

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Packets of the CyVerse USB 2.0 Simple board.
 ///
 /// Source: haselab-net/SpringheadOne src/Device/DRUsb20Simple.cpp; the product id is from

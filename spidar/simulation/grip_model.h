@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The physics of a simulated SPIDAR: a rigid grip that strings and a hand pull at.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Looks after SPIDARs: what there is, what it does, and where its encoders are zero.
 
 #include <exception>

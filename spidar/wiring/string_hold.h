@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Strings that are pulled one millisecond after the other, without a wrench.
 #pragma once
 

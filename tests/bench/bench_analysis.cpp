@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Milliseconds that the analysis of a frame takes, beside what the same OpenCV functions take when
 // they are wired up the plain way. Both on one thread, on the same frames: a camera that pans over
 // a texture. And beside a frame of 8 bits the same one in 10, in words of two bytes.

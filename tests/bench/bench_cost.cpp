@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What the element costs in a pipeline: beside identity, of the time of a frame, and beside the
 // decoder it works for; with moving frames, ones that repeat them, still ones and gaps.
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What the 1 € filter costs and gives: delay of moving things against jitter of slow ones. Motion
 // is measured from rendered, noisy pictures as the element does, and then filtered with several
 // settings.

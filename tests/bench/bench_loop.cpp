@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // How punctual the haptic loop is: a session with its thread on the simulated device, playing a
 // force that goes round, with and without real-time priority. The optional argument is seconds
 // each.

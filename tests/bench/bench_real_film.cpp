@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// How one way of finding motion does on one film: a line `frame,x,y,ms,height` for each frame: its
 /// motion in px since the frame before, the processor time that it took, decoding left out, and the
 /// lines of the picture.

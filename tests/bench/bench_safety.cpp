@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The numbers of docs/safety.md: how long each kind of stop takes at the device, what the grip
 // feels and what work the strings do until then; and what rest is on every profile. On the
 // simulated device in its own time: the same on every machine.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // How long after its picture the force of a frame is at the device: real pipelines in real time,
 // the plugin as GStreamer loads it, the simulated device.
 #include <charconv>

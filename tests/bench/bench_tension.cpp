@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The tension solver beside others: nanoseconds against error, on what a device meets and on hard
 // cases.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The tension solver on a million problems that break solvers, those of every profile shipped among
 // them: how often it fails, how far off it is, how long it takes. The optional argument is the
 // number of problems of each family (default 30000).

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Touching a picture: what a frame and a tick cost, and what energy a surface gives out. An
 // argument sets the number of ticks for each scene and hand.
 #include <cmath>

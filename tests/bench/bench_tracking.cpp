@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Speed against error of trackers on films whose motion is known: docs/tracking.md says what the
 // columns are.
 #include <algorithm>

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Are films as they come felt as the plain film? pathologies.py BUILD [CLIP...]: makes variants of a film with ffmpeg,
 plays them through the spidarmotion of a meson build folder, and prints a table with a row for each.
 

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # docs/figures/real_films.png from the CSV file of real_films.py: name, ms, right, wrong, false.
 #   gnuplot -e "csv='build/real_films.csv'; picture='docs/figures/real_films.png'" tests/bench/real_films.gp
 set terminal pngcairo size 1000,480 font "Sans,11"

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Is the right motion felt in real films? real_films.py BUILD FOLDER [CSV]: runs spidarmotion of a
 meson build folder over the films of FOLDER and prints a table with a row for each of its settings, one
 for films of which a corner is cut off, and one of methods with the processor time that each takes: see bench_real_film.cpp. The latter

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # The tables and the picture of real films in docs/tracking.md: real_films.sh BUILD FOLDER. What
 # FOLDER holds is said in real_films.py. No film is part of this repository.
 #

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # docs/figures/solvers.png from what bench_tension and bench_pose print:
 #   gnuplot -e "folder='.'; picture='docs/figures/solvers.png'" tests/bench/solvers.gp
 # with tension.txt and pose.txt in `folder`.

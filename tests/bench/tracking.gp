@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # docs/figures/tracking.png from the CSV file of bench_tracking:
 #   gnuplot -e "csv='build/tracking.csv'; picture='docs/figures/tracking.png'" tests/bench/tracking.gp
 set terminal pngcairo size 1500,480 font "Sans,11"

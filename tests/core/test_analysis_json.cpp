@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // A frame's analysis as JSON, read back by somebody else's parser.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The paper's Fig. 6–10 on a ball whose physics is exact: position, velocity, acceleration and both
 // controllers' forces, measured in the pictures, beside the analytic curves.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What is burned into a film does not move with a camera that pans: logos, subtitles, clocks, bars,
 // a still picture in the picture. It belongs to the screen and is felt by nobody.
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // In what rhythm a film shows new pictures, and which frames show the one before.
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Interlaced films that say they are not: the combs of what moves between two fields give them
 // away.
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // A disc on a plain ground after JPEG. Its rim rings in the codec's blocks: corners for small
 // windows, but they stay with the blocks when the disc goes on.
 #include <algorithm>

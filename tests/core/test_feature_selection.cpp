@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Which points the tracker chooses. A picture shown twice gives each of them as a track that starts
 // at the point.
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Frames in which nothing can be told to move: what comes out is exactly nothing, of every tracker.
 #include <functional>
 #include <memory>

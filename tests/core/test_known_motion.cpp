@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The films that trackers are measured with: what they say of their motion is so.
 #include <cmath>
 #include <cstring>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Films of 10, 12 and 16 bits are felt as the same film in 8 bits, bit for bit.
 #include <stdexcept>
 #include <string>

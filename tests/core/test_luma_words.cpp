@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Frames of more than 8 bits: the vector code gives the bits of the plain one, and both those of
 // the same picture in bytes.
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What is felt of rendered scenes whose motion is known: a camera, and discs in front of it.
 #include <cmath>
 #include <string>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The steps of the patch tracker, each against its definition: the vector code gives the bits of
 // the plain one.
 #include <cmath>

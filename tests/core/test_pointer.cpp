@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What is felt of several objects where the pointer is, and what is kept when another motion is
 // asked for.
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // One string that lies, in motion and counted by encoders: noticed, named, survived.
 #include <algorithm>
 #include <cmath>

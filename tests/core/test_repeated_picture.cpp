@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Which frames show the picture before again: the same pixels, or what coding makes of them.
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Along a smooth path the tensions do not jump: no tick moves a string further than the
 // conditioning of the problem allows.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // A surface that stands still gives a hand no more energy than it got from it.
 #include <algorithm>
 

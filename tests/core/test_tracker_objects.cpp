@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Objects that come into the picture, and noise, before the trackers.
 #include <algorithm>
 #include <random>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The curve through frames at random times: exact, smooth, and never outside of what it joins.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Runs the command lines of README.md, CONTRIBUTING.md and docs/.
 
 check_commands.py SOURCE BUILD: every block of code in these pages is taken for lines of a shell and run, line

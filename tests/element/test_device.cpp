@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The device while the video plays: it may fail, it may come back, and it is always put to rest.
 #include <cmath>
 #include <memory>

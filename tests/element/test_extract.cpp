@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // spidarextract: frames with the meta of spidarmotion in, a track out.
 #include <cmath>
 #include <cstring>

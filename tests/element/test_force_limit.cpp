@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Why nothing is felt: each reason in the message, in the stats and in the trace.
 #include <functional>
 #include <memory>

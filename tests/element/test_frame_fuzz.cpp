@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Frames of every format, size, stride, crop and field order, in as many memories as they like:
 // what is measured in them is, bit for bit, what is measured in the same picture as plain GRAY8 (of
 // more than 8 bits: in the 8 highest), and no byte outside of the picture is touched

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The meta that travels with the frame, read as a program in C reads it.
 #include <array>
 #include <memory>

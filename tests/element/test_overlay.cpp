@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What is drawn into the video: pixels are read back.
 #include <array>
 #include <cmath>

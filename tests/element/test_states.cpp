@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Every way through the states, as GStreamer's generic tests of elements have it.
 #include <string>
 #include <vector>

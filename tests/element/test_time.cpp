@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Timestamps, segments, discontinuities: motion is over running time, and only ever between two
 // frames that are shown one after the other.
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Files of the emulated input devices. They are real files in a folder of the emulated bus, so
 /// that they can be listed, locked and passed on to another process; calls are answered here.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The functions by which libusb and force feedback reach the system, for files of an emulated bus;
 // everything else goes to the kernel as ever. Symbols of this library come before libc's and
 // libudev's, when a program is linked with it or by LD_PRELOAD.

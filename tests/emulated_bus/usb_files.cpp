@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // usbfs for libusb 1.0: what its Linux backend asks of a device file, no more.
 //
 // Readiness: the file is one end of a socket pair whose send buffer is kept full while there is

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Drives a player through its standard input: check_players.py cpp|python PROGRAM..."""
 import os
 import pty

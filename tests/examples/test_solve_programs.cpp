@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The programs that read problems from standard input, run as a user runs them.
 #include <array>
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The study program: order of trials, the file of answers, statistics.
 #include <cmath>
 #include <cstdlib>

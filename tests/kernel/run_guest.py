@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """Runs the tests of GUEST as the only program of a virtual machine with Debian's kernel.
 
 run_guest.py GUEST --profiles FOLDER --programs FILE... --plugins FILE...: programs lie beside GUEST in the

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The driver with a real kernel's USB between it and the board. Waits for things to happen, never
 /// for a time.
 #include <algorithm>

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """As an effect of a GES timeline the element says that it is in the wrong place; behind it, it is felt."""
 import csv
 import os

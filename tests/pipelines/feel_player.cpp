@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // A player of the plainest kind, which knows nothing of haptics: playbin does as the arguments say.
 //
 // feel-player PLAYBIN FILM STEP...: PLAYBIN is playbin or playbin3. Steps are

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 # run_valgrind.sh PROGRAM SUPPRESSIONS: fails on an access that is invalid, a value that was never
 # set, and memory that is definitely lost. Skipped (77) where there is no Valgrind.
 if ! command -v valgrind >/dev/null; then

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A moving ball in a SteppedPipeline, and whether what is felt is what is shown.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A whole pipeline on a GstTestClock, and the haptic loop of its spidarmotion ticked by hand: time
 /// passes only when the test says so.
 #pragma once

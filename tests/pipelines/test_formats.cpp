@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Films as decoders give them: of 8, 10 and 12 bits, with as much colour as they like, grey of 16
 // bits, video range and full; and as videorate repeats them. What is felt is what the plain 8-bit
 // film gives.

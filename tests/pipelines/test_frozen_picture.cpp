@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // A picture that stands on the screen for long is not felt, and what is felt is never of another
 // frame than the one that is shown. On a test clock; TickWatch looks at every tick besides.
 #include <string>

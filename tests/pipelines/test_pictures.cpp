@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What films show: cuts, fades, stills, any frame rate, turned pictures. On a test clock.
 #include <algorithm>
 #include <cmath>

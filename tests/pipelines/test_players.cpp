@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The players and sources that people have, in real time on this machine. How fast it is decides
 // nothing here: that frames come through, that something is felt, and what the watch of every tick
 // says.

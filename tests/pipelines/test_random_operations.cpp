@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Anything at any moment, in real time and with all threads: nothing crashes or hangs, the force
 // keeps its promises in every tick, and afterwards the player plays as at first.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Long runs: every frame is felt, at its time to the nanosecond, and nothing piles up.
 //
 // SPIDAR_HOURS of video on a clock that is stepped (0.03), SPIDAR_MINUTES of it in real time

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What spidarsink makes of tracks, good and bad. On a test clock, every tick under watch.
 #include <cmath>
 #include <cstring>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // spidarmotion with a track in place of its analysis. On a test clock, every tick under watch.
 #include <cmath>
 #include <cstring>

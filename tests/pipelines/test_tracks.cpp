@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Haptic tracks through files, with the plugin as GStreamer loads it.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Pipelines with boards on an emulated USB that are pulled out and put back while a film plays.
 #include <cerrno>
 #include <chrono>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A pipeline in real time, on the simulated device and with all of its threads, to which anything
 /// may be done.
 #pragma once

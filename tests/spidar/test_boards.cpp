@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Every kind of board against its emulation, without a wire.
 #include <cmath>
 #include <condition_variable>

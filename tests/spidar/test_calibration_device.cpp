@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // From a device through calibration and a profile file to the loop.
 
 #include <cmath>

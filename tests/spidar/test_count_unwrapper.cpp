@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Counters of a board that wrap, jump and begin anew.
 #include <array>
 #include <cstdint>

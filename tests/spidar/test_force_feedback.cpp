@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Joysticks, wheels and gamepads on emulated input devices, by the calls that real ones get.
 #include <cerrno>
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The simulated grip against closed solutions, and its stability on every profile.
 
 #include <algorithm>

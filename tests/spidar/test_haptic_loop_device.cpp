@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The loop and its device: opening, closing, losing it, and where the grip is.
 #include <cmath>
 #include <random>

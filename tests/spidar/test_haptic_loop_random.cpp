@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What holds in every tick, whatever happens; and that a tick takes nothing from the heap.
 #include <cmath>
 #include <limits>

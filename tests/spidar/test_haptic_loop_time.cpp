@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Which frame is felt when its times are out of the ordinary.
 #include <gtest/gtest.h>
 

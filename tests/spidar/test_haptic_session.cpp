@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Loop, thread and trace together. Waits for things to happen, never for a time.
 #include <chrono>
 #include <filesystem>

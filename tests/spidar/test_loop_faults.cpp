@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The loop when something fails: a pose that is lost, a string that is broken, exchanges that
 /// fail, a device that nobody uses.
 #include <cmath>

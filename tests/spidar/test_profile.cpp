@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // What load_profile() finds, and what it says about files that cannot be used.
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // save_profile() and load_profile() are each other's inverse.
 
 #include <cstdlib>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What the strings do when there is nothing to be felt.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // The simulated device when the host goes silent, faults are asked for, it is closed, and several
 // threads look at it.
 

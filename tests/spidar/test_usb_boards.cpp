@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// USB boards through unmodified libusb, on an emulated bus.
 #include <algorithm>
 #include <cerrno>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Counts what the program takes from the heap. Replaces the global operator new: include it in one
 /// source of a test program.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A spidarmotion in a GstHarness, and what came out of it.
 #pragma once
 

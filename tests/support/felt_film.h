@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A film as it is felt a thousand times a second, and how two such curves differ.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A camera that pans, zooms and rolls over a texture, and discs that move in front of it.
 #pragma once
 

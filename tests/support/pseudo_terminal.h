@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// UART boards behind a pseudo-terminal: a serial line that needs no hardware.
 #pragma once
 

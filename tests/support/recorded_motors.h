@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Motors and encoders of an emulated board that a test looks at and turns.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Films given by the grey level of each place, and what the analysis finds in them.
 #pragma once
 

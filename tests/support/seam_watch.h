@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What holds at the seam between loop and device, whatever is played and whatever breaks.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // GLib's locks and references, as the thread sanitizer has to see them.
 //
 // GLib and GStreamer are not built with the sanitizer, and their mutexes are futexes of their own:

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Frames with a texture that is moved by known amounts, in every format.
 #pragma once
 

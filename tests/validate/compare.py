@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
 """GStreamer's own judge: scenarios of gst-validate with spidarmotion in playbin, beside identity.
 
 What gst-validate has to say must be the same with both, and spidarmotion must not warn. Exits with 77

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 // Debug windows on an X server of the test's own: the frame buffer is read back.
 #include <chrono>
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Frames that are there already, pushed through an element at the times of a film.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// A pipeline with a spidarmotion in it that plays as a scenario says.
 #pragma once
 

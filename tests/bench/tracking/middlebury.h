@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// Frame pairs with the true displacement of every pixel (Baker et al.: A database and evaluation
 /// methodology for optical flow, Int. J. Computer Vision 92, 2011).
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// What one would use instead of the project's trackers, as Trackers. Bare OpenCV, the library's
 /// own defaults where it has some. None knows a cut; each first frame restarts.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
 /// The trackers that are compared. A new one is a line in pipelines.cpp.
 #pragma once
 
