@@ -42,6 +42,7 @@
 
 #include <string>
 
+#include "plugin/reports/exceptions.h"
 #include "plugin/reports/motion_meta.h"
 #include "plugin/spidar_motion_private.h"
 
@@ -122,8 +123,8 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     const MotionProperties properties = *self->properties;
     GST_OBJECT_UNLOCK(self);
     std::string trace_problem;
-    const bool opened =
-        guarded(self, "opening the device", [&] { trace_problem = engine.open(properties); });
+    const bool opened = spidar::guarded(GST_ELEMENT(self), "opening the device",
+                                        [&] { trace_problem = engine.open(properties); });
     if (!opened) return GST_STATE_CHANGE_FAILURE;
     GST_INFO_OBJECT(self, "opened device '%s' with profile '%s'", properties.device.c_str(),
                     properties.used_profile().c_str());

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the files of the element share: its fields, its log, and how errors reach the bus.
+/// What the files of the element share: its fields and its debug category.
 #pragma once
-
-#include <exception>
 
 #include <gst/gst.h>
 
@@ -31,19 +29,3 @@ struct _GstSpidarMotion {
 
 /// Class initialisation: frames and events on their way.
 void gst_spidar_motion_install_stream(GstSpidarMotionClass* klass);
-
-/// C++ ends here: whatever is thrown becomes an error on the bus.
-template <typename Function>
-bool guarded(GstSpidarMotion* self, const char* doing, Function&& function) {
-  try {
-    function();
-    return true;
-  } catch (const spidar::ProfileError& e) {
-    GST_ELEMENT_ERROR(self, RESOURCE, SETTINGS, ("%s", e.what()), ("while %s", doing));
-  } catch (const spidar::DeviceError& e) {
-    GST_ELEMENT_ERROR(self, RESOURCE, OPEN_READ_WRITE, ("%s", e.what()), ("while %s", doing));
-  } catch (const std::exception& e) {
-    GST_ELEMENT_ERROR(self, LIBRARY, FAILED, ("%s", e.what()), ("while %s", doing));
-  }
-  return false;
-}

@@ -3,6 +3,7 @@
 // Frames and events on their way through the element.
 #include <string>
 
+#include "plugin/reports/exceptions.h"
 #include "plugin/reports/motion_message.h"
 #include "plugin/reports/motion_meta.h"
 #include "plugin/spidar_motion_private.h"
@@ -66,7 +67,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   }
 
   FrameReport report;
-  const bool processed = guarded(self, "analysing a frame", [&] {
+  const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
     choose_track(self, frame->info);
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings);
     self->display->show(report, display, settings, *frame);
@@ -104,7 +105,7 @@ static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, Gst
   GST_OBJECT_LOCK(self);
   const OnDeviceError on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
-  const bool passed = guarded(self, "passing a gap", [&] {
+  const bool passed = spidar::guarded(GST_ELEMENT(self), "passing a gap", [&] {
     self->engine->pass_gap(running_time_of(trans->segment, GST_BUFFER_PTS(buffer)));
   });
   self->display->skip();

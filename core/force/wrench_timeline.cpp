@@ -49,14 +49,14 @@ Wrench slope_between(const Wrench& a, const Wrench& b, const Wrench& c, double b
           slope_between(Chord{before.torque_Nm, before_s}, Chord{after.torque_Nm, after_s})};
 }
 
-/// Whether nothing of the last frame is to be felt any more.
+/// Whether the hold of the last frame has ended.
 bool has_expired(const TimedWrench& frame, int64_t time_ns) {
   const int64_t hold_ns = std::max<int64_t>(frame.hold_ns, 0);
   return time_ns > frame.time_ns &&
          elapsed_ns(frame.time_ns, time_ns) > static_cast<uint64_t>(hold_ns);
 }
 
-/// `frame` holds on while `repeated` does.
+/// Prolongs the hold of `frame` to the end of the hold of `repeated`.
 void hold_until(TimedWrench& frame, const TimedWrench& repeated) {
   const int64_t since_ns = static_cast<int64_t>(
       std::min<uint64_t>(elapsed_ns(frame.time_ns, repeated.time_ns), INT64_MAX / 2));
@@ -75,12 +75,18 @@ bool is_gap(const TimedWrench& frame, int64_t next_ns) {
 
 size_t WrenchTimeline::size_after(int64_t time_ns) const noexcept {
   size_t after = 0;
-  while (after < count_ && way(count_ - 1 - after).frame.time_ns > time_ns) ++after;
+  while (after < count_ && segment(count_ - 1 - after).frame.time_ns > time_ns) ++after;
   return after;
 }
 
-Wrench WrenchTimeline::value(size_t i, int64_t time_ns) noexcept {
-  const Way& here = way(i);
+// A cubic Hermite curve from p0 with slope m0 to p1 with slope m1, in a time T, with s from 0 to 1:
+//   p = (2s³ − 3s² + 1) p0 + (−2s³ + 3s²) p1 + (s³ − 2s² + s) T m0 + (s³ − s²) T m1
+//     = p0 + s²(3 − 2s) (p1 − p0) + s(1 − s) T [(1 − s) m0 − s m1].
+// p0 is the value of the segment before at the same time. It is constant when that segment has
+// ended; otherwise m0 = 0, and the curve leaves that segment with its slope, because the weight of
+// p1 and its derivative are zero at s = 0.
+Wrench WrenchTimeline::value(size_t i, int64_t time_ns) const noexcept {
+  const Segment& here = segment(i);
   if (time_ns >= here.to_ns || i == 0) return here.frame.wrench;
   const Wrench before = here.from_rest ? Wrench() : value(i - 1, time_ns);
   const double duration_s = elapsed_s(here.from_ns, here.to_ns);
@@ -89,12 +95,13 @@ Wrench WrenchTimeline::value(size_t i, int64_t time_ns) noexcept {
          s * (1 - s) * duration_s * ((1 - s) * here.from_slope - s * here.to_slope);
 }
 
-void WrenchTimeline::join_smoothly(Way& next) noexcept {
-  Way& last = way(count_ - 1);
-  const bool untouched = count_ > 1 && present_ns_ <= last.from_ns &&
-                         last.to_ns == last.frame.time_ns && last.from_ns >= way(count_ - 2).to_ns;
-  if (!untouched) return;
-  const Wrench before = last.from_rest ? Wrench() : way(count_ - 2).frame.wrench;
+void WrenchTimeline::join_smoothly(Segment& next) noexcept {
+  Segment& last = segment(count_ - 1);
+  const bool has_begun = present_ns_ > last.from_ns;
+  const bool is_plain =  // neither late nor bending away from the segment before
+      count_ > 1 && last.to_ns == last.frame.time_ns && last.from_ns >= segment(count_ - 2).to_ns;
+  if (has_begun || !is_plain) return;
+  const Wrench before = last.from_rest ? Wrench() : segment(count_ - 2).frame.wrench;
   last.to_slope = next.from_slope =
       slope_between(before, last.frame.wrench, next.frame.wrench,
                     elapsed_s(last.from_ns, last.to_ns), elapsed_s(last.to_ns, next.to_ns));
@@ -105,7 +112,8 @@ int64_t WrenchTimeline::approach_after(int64_t interval_ns) noexcept {
   return std::max(std::min(kApproach_ns, interval_ns), static_cast<int64_t>(share_ns));
 }
 
-/// When `added`, which follows `before`, can be met if it became known just now.
+/// The earliest time at which the curve can reach `added`, which follows `before` and has become
+/// known just now.
 int64_t WrenchTimeline::soonest(const TimedWrench& before,
                                 const TimedWrench& added) const noexcept {
   if (present_ns_ == INT64_MIN) return INT64_MIN;
@@ -119,38 +127,51 @@ int64_t WrenchTimeline::soonest(const TimedWrench& before,
   return std::max(least_ns, std::min(now_ns + approach_after(interval_ns), latest_ns));
 }
 
-bool WrenchTimeline::push(const TimedWrench& added) noexcept {
-  Way next;
+WrenchTimeline::Segment WrenchTimeline::segment_to(const TimedWrench& added) noexcept {
+  Segment next;
   next.frame = added;
   next.from_ns = next.to_ns = added.time_ns;
-  if (count_ > 0) {
-    Way& last = way(count_ - 1);
-    if (added.time_ns <= last.frame.time_ns) return false;
-    if (added.repeated) {
-      if (!has_expired(last.frame, present_ns_)) hold_until(last.frame, added);
-      return true;
-    }
-    const int64_t soonest_ns = soonest(last.frame, added);
-    const bool late = std::max(soonest_ns, last.to_ns) > added.time_ns;
-    // On its way to rest the grip feels nothing any more that a late frame could fade in over.
+  if (count_ == 0) return next;
+
+  const Segment& last = segment(count_ - 1);
+  const int64_t soonest_ns = soonest(last.frame, added);
+  const bool is_late = std::max(soonest_ns, last.to_ns) > added.time_ns;
+  if (is_late) {
+    // When the last frame has expired, the force is on its way to rest already, and there is no
+    // curve over which to fade in.
     const bool at_rest = present_ns_ >= last.to_ns && has_expired(last.frame, present_ns_);
-    if (late && !at_rest) {
-      next.from_ns = std::max(present_ns_, last.from_ns);
-      next.to_ns = std::max(soonest_ns, added.time_ns);
-    } else if (!late && is_gap(last.frame, added.time_ns)) {
-      next.from_rest = true;
-      next.from_ns = std::max(present_ns_, added.time_ns - kRamp_ns);
-    } else if (!late) {
-      next.from_ns = std::max(present_ns_, last.to_ns);
-      join_smoothly(next);
-    }
+    if (at_rest) return next;
+    next.from_ns = std::max(present_ns_, last.from_ns);
+    next.to_ns = std::max(soonest_ns, added.time_ns);
+  } else if (is_gap(last.frame, added.time_ns)) {
+    next.from_rest = true;
+    next.from_ns = std::max(present_ns_, added.time_ns - kRamp_ns);
+  } else {
+    next.from_ns = std::max(present_ns_, last.to_ns);
+    join_smoothly(next);
   }
+  return next;
+}
+
+void WrenchTimeline::append(const Segment& next) noexcept {
   if (count_ == kCapacity) {
     first_ = (first_ + 1) % kCapacity;
     --count_;
   }
-  way(count_) = next;
+  segment(count_) = next;
   ++count_;
+}
+
+bool WrenchTimeline::push(const TimedWrench& added) noexcept {
+  if (count_ > 0) {
+    TimedWrench& last = segment(count_ - 1).frame;
+    if (added.time_ns <= last.time_ns) return false;
+    if (added.repeated) {
+      if (!has_expired(last, present_ns_)) hold_until(last, added);
+      return true;
+    }
+  }
+  append(segment_to(added));
   return true;
 }
 
@@ -159,23 +180,23 @@ TimelineResult WrenchTimeline::at(int64_t time_ns) noexcept {
   if (count_ == 0) return result;
   present_ns_ = time_ns;
   size_t later = count_;
-  while (later > 0 && way(later - 1).frame.time_ns > time_ns) --later;
+  while (later > 0 && segment(later - 1).frame.time_ns > time_ns) --later;
   if (later == 0) return result;
 
-  const Way& reached = way(later - 1);
+  const Segment& reached = segment(later - 1);
   const uint64_t since_ns = elapsed_ns(reached.frame.time_ns, time_ns);
   result.frame_time_ns = reached.frame.time_ns;
   // From the newest back: the time asked for is near the end.
   size_t begun = count_ - 1;
-  while (begun > 0 && way(begun).from_ns > time_ns) --begun;
+  while (begun > 0 && segment(begun).from_ns > time_ns) --begun;
   if (since_ns == 0 && reached.to_ns == time_ns) {
     result.wrench = reached.frame.wrench;
     result.found = Found::kExact;
-  } else if (time_ns < way(begun).to_ns) {
+  } else if (time_ns < segment(begun).to_ns) {
     result.wrench = value(begun, time_ns);
     result.found = Found::kInterpolated;
   } else {
-    result.wrench = way(begun).frame.wrench;
+    result.wrench = segment(begun).frame.wrench;
     result.found = has_expired(reached.frame, time_ns) ? Found::kExpired : Found::kHeld;
   }
   return result;

@@ -81,13 +81,14 @@ class SPIDAR_API WrenchTimeline {
   /// SafetyLimits::ramp_s is the same.
   static constexpr int64_t kRamp_ns = 40'000'000;
 
-  /// Times must rise; one that does not is refused (false). A repeated frame is no frame of its
-  /// own: the curve runs from the one before it to the next one that is not. It revives nothing
-  /// that has expired. When full, the oldest is forgotten.
+  /// Returns false, and ignores the entry, when its time is not later than that of the last one. A
+  /// repeated frame does not shape the curve, which runs from the frame before it to the next
+  /// different one; it only prolongs the hold of the frame before, unless that has expired. When
+  /// the timeline is full, it drops the oldest entry.
   ///
-  /// What has been felt does not change any more, neither the wrench nor its slope: what comes late
-  /// fades in, from the time asked for last, over whatever would have been felt without it. Only
-  /// what comes after everything has expired is there at once.
+  /// The curve never changes before the time that at() was asked for last, neither in value nor in
+  /// slope. A late frame therefore fades in from that time, over what the curve would have been
+  /// without it; when everything has expired by then, it applies at once.
   bool push(const TimedWrench& entry) noexcept;
 
   /// Times may be asked in any order; the last one asked for is the present.
@@ -102,9 +103,10 @@ class SPIDAR_API WrenchTimeline {
   size_t size_after(int64_t time_ns) const noexcept;
 
  private:
-  /// The way to a frame, from what the way before it gives, which is the frame before or, when this
-  /// one begins early, not yet; or, after a gap, from rest.
-  struct Way {
+  /// The part of the curve that ends in a frame. It starts from the segment before, which has
+  /// usually reached its own frame by then; a late frame's segment starts while the one before is
+  /// still under way, and bends away from it. After a gap it starts from zero.
+  struct Segment {
     TimedWrench frame;
     int64_t from_ns = 0;
     int64_t to_ns = 0;  ///< frame.time_ns, or later
@@ -113,15 +115,19 @@ class SPIDAR_API WrenchTimeline {
     bool from_rest = false;
   };
 
-  Way& way(size_t i) noexcept { return ways_[(first_ + i) % kCapacity]; }
-  const Way& way(size_t i) const noexcept { return ways_[(first_ + i) % kCapacity]; }
+  Segment& segment(size_t i) noexcept { return segments_[(first_ + i) % kCapacity]; }
+  const Segment& segment(size_t i) const noexcept { return segments_[(first_ + i) % kCapacity]; }
   int64_t soonest(const TimedWrench& before, const TimedWrench& added) const noexcept;
-  /// Only now the slope at the last frame can be told, if its way is still to come.
-  void join_smoothly(Way& next) noexcept;
-  /// On the way `i` or, after it, at its frame.
-  Wrench value(size_t i, int64_t time_ns) noexcept;
+  /// When the segment to a frame that has just become known begins and ends.
+  Segment segment_to(const TimedWrench& added) noexcept;
+  /// The slope at the last frame depends on the next one. It is set now, when that one has become
+  /// known, unless the segment to the last frame has begun.
+  void join_smoothly(Segment& next) noexcept;
+  void append(const Segment& next) noexcept;
+  /// In segment `i` or, after it, at its frame.
+  Wrench value(size_t i, int64_t time_ns) const noexcept;
 
-  std::array<Way, kCapacity> ways_{};
+  std::array<Segment, kCapacity> segments_{};
   size_t first_ = 0;
   size_t count_ = 0;
   int64_t present_ns_ = INT64_MIN;  // nothing was felt yet

@@ -88,8 +88,10 @@ double PoseSolver::misfit_m(const StringVector& lengths_m, const Pose& pose,
   return std::abs(string_lengths_m(geometry_, pose)[string] - lengths_m[string]);
 }
 
-// One of seven strings always fits a little: which one is at fault is told by how far the pose of
-// the others is from where the grip must be, and by a count that stands still.
+// Seven strings have one redundant length, so whichever string is left out, the others fit more or
+// less. The string at fault is the one without which the pose is nearest to the expected one, in
+// metres; the residual of the seven counts too, and a count that stands still while the others move
+// makes its string the likelier one.
 double PoseSolver::implausibility_m(const StringVector& lengths_m, const Pose& expected,
                                     const PoseFit& fit, int left_out) const noexcept {
   const double distance_m = fitter_.model().twist(expected, fit.pose).norm();
@@ -174,7 +176,8 @@ PoseResult PoseSolver::accepted(const PoseResult& result) noexcept {
   return result;
 }
 
-// A count that stands still fits by chance for as long as the grip does not move.
+// A string that was left out is used again when its length has fitted the pose for some time and
+// has moved meanwhile: a dead encoder's count fits for as long as the grip happens to stand still.
 int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& result) noexcept {
   const int i = result.faulty_string;
   const bool fitting = i >= 0 && i == faulty_string_ &&
@@ -186,10 +189,10 @@ int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& re
   return fitting_ticks_ > kTicksToTrust && moved ? -1 : i;
 }
 
-// Two dead encoders may drag the pose along: seven strings of which one is dead still fit closely
-// in many places. A string that has stood still while the others have moved, and which the others
-// would have elsewhere, is dead; together with one that is out there are too few strings left to
-// tell.
+// Two dead encoders may drag the pose along, because seven strings of which one is dead still fit
+// closely in many places. A string is taken for dead when it has stood still while the others have
+// moved, and the pose of the others gives it another length. With a second string left out, six
+// strings remain, which fit any lengths: no pose can be trusted.
 bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
                                     bool tracked) const noexcept {
   int out = result.faulty_string >= 0, one = -1, other = result.faulty_string;
@@ -204,8 +207,8 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
   PoseFit fit{result.pose, 0, 0, false};
   for (int round = 0; round < kRounds && !fit.converged; ++round)
     fit = fitter_.gauss_newton(lengths_m, fit.pose, one, other);
-  // Six strings that lead nowhere say nothing of a pose that was tracked; one that was searched for
-  // was a wrong one.
+  // When the six do not converge, a pose that was tracked stands; one that was searched for is
+  // taken for wrong.
   if (!fit.converged) return !tracked;
   const double apart_m = fitter_.model().twist(fit.pose, result.pose).norm();
   const auto elsewhere = [&](int i) {
@@ -215,32 +218,41 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
   return apart_m > kImplausible_m && (elsewhere(one) || elsewhere(other));
 }
 
+// The pose next to the expected one, without the string that is known to be at fault.
+PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expected) const noexcept {
+  const PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
+  const PoseStatus status = is_good(fit) ? PoseStatus::kSolved : PoseStatus::kNotConverged;
+  return {status == PoseStatus::kSolved ? fit.pose : last_, fit.residual_m, fit.iterations,
+          status == PoseStatus::kSolved ? faulty_string_ : -1, status};
+}
+
+// A pose that was not found, or is further from the expected one than a hand can have moved the
+// grip, gives way to one without a string, if that is there and much nearer.
+PoseResult PoseSolver::unless_implausible(const StringVector& lengths_m, const Pose& expected,
+                                          const PoseResult& found) const noexcept {
+  const bool solved = found.status == PoseStatus::kSolved;
+  const double distance_m = fitter_.model().twist(expected, found.pose).norm();
+  if (solved && distance_m <= kImplausible_m) return found;
+  PoseResult seven = track_without_one(lengths_m, expected);
+  const double limit_m = solved ? kMuchNearer * distance_m : kInfinity;
+  const bool nearer = seven.status == PoseStatus::kSolved &&
+                      fitter_.model().twist(expected, seven.pose).norm() <= limit_m;
+  PoseResult result = nearer ? seven : found;
+  result.iterations = found.iterations + seven.iterations;
+  return result;
+}
+
 PoseResult PoseSolver::track(const StringVector& lengths_m) noexcept {
   if (!are_lengths(lengths_m)) return rejected(PoseStatus::kBadInput);
   counts_.update(lengths_m, geometry_.count);
-  const LengthModel& model = fitter_.model();
-  const Pose expected = tracking_ ? model.moved(last_, motion_) : last_;
-  const PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
-  PoseResult result = rejected(PoseStatus::kNotConverged);
-  if (is_good(fit)) result = {fit.pose, fit.residual_m, 0, faulty_string_, PoseStatus::kSolved};
-
-  const double distance_m = model.twist(expected, fit.pose).norm();
-  if (tracking_ && (!is_good(fit) || distance_m > kImplausible_m)) {
-    const PoseResult seven = track_without_one(lengths_m, expected);
-    result.iterations = seven.iterations;
-    const double limit_m = is_good(fit) ? kMuchNearer * distance_m : kInfinity;
-    if (seven.status == PoseStatus::kSolved && model.twist(expected, seven.pose).norm() <= limit_m)
-      result = seven;
-  }
-  result.iterations += fit.iterations;
-  if (result.status == PoseStatus::kNotConverged) {
-    result.residual_m = fit.residual_m;
+  const Pose expected = tracking_ ? fitter_.model().moved(last_, motion_) : last_;
+  PoseResult result = follow(lengths_m, expected);
+  if (tracking_) result = unless_implausible(lengths_m, expected, result);
+  if (result.status == PoseStatus::kSolved && hides_dead_encoder(lengths_m, result, true))
+    result = rejected(PoseStatus::kAmbiguous, result);
+  if (result.status != PoseStatus::kSolved) {
     tracking_ = false;
     return result;
-  }
-  if (hides_dead_encoder(lengths_m, result, true)) {
-    tracking_ = false;
-    return rejected(PoseStatus::kAmbiguous, result);
   }
   result.faulty_string = still_faulty(lengths_m, result);
   return accepted(result);

@@ -79,6 +79,9 @@ class SPIDAR_API PoseSolver {
   bool hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
                           bool tracked) const noexcept;
   double misfit_m(const StringVector& lengths_m, const Pose& pose, int string) const noexcept;
+  PoseResult follow(const StringVector& lengths_m, const Pose& expected) const noexcept;
+  PoseResult unless_implausible(const StringVector& lengths_m, const Pose& expected,
+                                const PoseResult& found) const noexcept;
   PoseResult track_without_one(const StringVector& lengths_m, const Pose& expected) const noexcept;
   PoseResult locate_without_one(const StringVector& lengths_m, const Pose& start) const noexcept;
   PoseResult unless_ambiguous(const StringVector& lengths_m, const PoseFit& fit,

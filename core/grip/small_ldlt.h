@@ -7,20 +7,24 @@
 
 namespace spidar {
 
-/// Solves M y = b, M the rows and columns `index[0 … N-1]` (ascending) of the 8×8 matrix Q of which
-/// only the upper triangle is read, b = rhs[index]. LDLᵀ without pivoting, unrolled for N. The
-/// diagonal of M counts 1 + damping times. False when rounding has eaten a pivot: y is then
+/// Solves M y = b, where M consists of the rows and columns `index[0 … N-1]` (ascending) of the 8×8
+/// matrix Q, of which only the upper triangle is read, and b = rhs[index]. The diagonal of M is
+/// multiplied by 1 + damping. Returns false when rounding has left nothing of a pivot: y is then
 /// useless.
 ///
-/// The time goes into the chain of divisions by the pivots. Pivots are therefore taken in twos:
-/// with p = u₀₀ the next one is u₁₁ − u₀₁²/p, so its inverse p / (p u₁₁ − u₀₁²) can be divided out
-/// beside 1/p instead of after it.
+/// M = LDLᵀ without pivoting, unrolled for N. Eliminating unknown d leaves the Schur complement
+///   U(e,a) − U(d,e) U(d,a) / U(d,d),  e, a > d,
+/// and row d of Lᵀ is U(d,e) / U(d,d). Forward substitution of b goes along in z.
+///
+/// Most of the time would go into waiting for one division by a pivot after the other. Two pivots
+/// are therefore divided at once: with p = u₀₀, the pivot after it is u₁₁ − u₀₁²/p, whose inverse
+/// p / (p u₁₁ − u₀₁²) does not depend on the result of 1/p.
 template <int N>
 inline bool solve_ldlt(const Row* Q, double damping, const int* index, const double* rhs,
                        double* y) {
   constexpr double kRounding = 0x1p-50;
-  double U[N][N];  // row d: Schur complement of the first d unknowns, later the factor
-  double z[N];
+  double U[N][N];  // row d: of the Schur complement of the first d unknowns, then of D Lᵀ and Lᵀ
+  double z[N];     // b, then D⁻¹ L⁻¹ b, then y
 #pragma GCC unroll 8
   for (int d = 0; d < N; ++d) {
 #pragma GCC unroll 8
@@ -65,7 +69,7 @@ inline bool solve_ldlt(const Row* Q, double damping, const int* index, const dou
   return sound;
 }
 
-/// The same for a count known at run time, 0 … 8. Writes y[0 … count-1].
+/// As above, for a count that is known only at run time, 0 … 8. Writes y[0 … count-1].
 inline bool solve_ldlt(int count, const Row* Q, double damping, const int* index, const double* rhs,
                        double* y) {
   switch (count) {

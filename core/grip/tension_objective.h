@@ -26,7 +26,8 @@ struct TensionObjective {
       b[k + 3] = p.wrench.torque_Nm[k] * to_force;
     }
     scale_rows(p.W.data(), to_force);
-    multiply();
+    multiply_right_side();
+    multiply_matrix();
   }
 
   /// False when W, f, t_ref, ε or ℓ were not finite, or so large that their squares are not: all of
@@ -94,7 +95,8 @@ struct TensionObjective {
     }
   }
 
-  void multiply() noexcept {
+  // c = Aᵀb + ε t_ref, two strings at a time.
+  void multiply_right_side() noexcept {
 #pragma GCC unroll 4
     for (int p = 0; p < kPairs; ++p) {
       Pair sum = epsilon * pair(reference, p);
@@ -102,22 +104,28 @@ struct TensionObjective {
       for (int k = 0; k < 6; ++k) sum += pair(A[k], p) * b[k];
       pair(c, p) = sum;
     }
+  }
+
+  // Q = AᵀA + εI as a sum of six outer products, Q(i,·) = Σ_k A(k,i) A(k,·) + ε e_i. Rows 2j and
+  // 2j + 1 are made together, from the pair of columns on the diagonal to the right end; this fills
+  // one place below the diagonal, Q(2j+1, 2j), which nobody reads.
+  void multiply_matrix() noexcept {
 #pragma GCC unroll 4
-    for (int j = 0; j < kPairs; ++j) {  // rows 2j and 2j + 1 of Q, from the diagonal on
-      Pair upper[kPairs] = {}, lower[kPairs] = {};
+    for (int j = 0; j < kPairs; ++j) {
+      Pair even[kPairs] = {}, odd[kPairs] = {};
 #pragma GCC unroll 6
       for (int k = 0; k < 6; ++k)
 #pragma GCC unroll 4
         for (int p = j; p < kPairs; ++p) {
-          upper[p] += pair(A[k], p) * A[k][2 * j];
-          lower[p] += pair(A[k], p) * A[k][2 * j + 1];
+          even[p] += pair(A[k], p) * A[k][2 * j];
+          odd[p] += pair(A[k], p) * A[k][2 * j + 1];
         }
-      upper[j] += Pair{epsilon, 0};
-      lower[j] += Pair{0, epsilon};
+      even[j] += Pair{epsilon, 0};
+      odd[j] += Pair{0, epsilon};
 #pragma GCC unroll 4
       for (int p = j; p < kPairs; ++p) {
-        pair(Q[2 * j], p) = upper[p];
-        pair(Q[2 * j + 1], p) = lower[p];
+        pair(Q[2 * j], p) = even[p];
+        pair(Q[2 * j + 1], p) = odd[p];
       }
     }
   }

@@ -179,84 +179,118 @@ unsigned strings_to_release(const Iterate& x, const double* violation, double sh
   return released & ~x.free;
 }
 
-}  // namespace
-
-// A projected Newton method: each round goes to the minimum over the strings that may move, clipped
-// to the bounds, holds those that were clipped, and lets go those whose gradient points inwards
+// A projected Newton method: each round goes to the minimum over the free strings, clipped to the
+// bounds, holds the strings that were clipped, and releases those whose gradient points inwards
 // (Bertsekas, Projected Newton methods, SIAM J. Control Optim. 20, 1982). When clipping raises the
 // objective, the round goes to the first bound only, as a primal active-set method does.
-TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
-  if (problem.count > 0 && problem.count < n) return solve(with_eight_strings(problem));
-  TensionResult result;
-  const TensionObjective objective(problem);
-  const Bounds bounds{problem.t_min_N.data(), problem.t_max_N.data()};
-  if (problem.count != n || !(problem.epsilon > 0) || !(problem.torque_length_m > 0) ||
-      !objective.is_finite() || !bounds.are_valid()) {
-    result.tension_N = tension_at_rest(problem);
-    warm_ = false;
-    return result;
+class Search {
+ public:
+  int iterations = 0;
+  double violation = 0;  // of the optimality conditions, the largest
+  double scale = 0;      // of the terms that cancel in the gradient
+
+  Search(const TensionObjective& objective, const Bounds& bounds, const double* tension)
+      : objective_(objective), bounds_(bounds) {
+    start(bounds, tension, *x_);
   }
 
-  Iterate iterates[2];
-  Iterate* x = &iterates[0];
-  Iterate* next = &iterates[1];
-  // Where nothing pulls the solution may be zero, which has no scale to compare leftovers of the
-  // last tensions with.
-  const bool warm = warm_ && objective.has_pull();
-  start(bounds, warm ? last_N_.data() : problem.t_ref_N.data(), *x);
-  // The strings that were at a bound stay there at first; without such knowledge all may move.
-  if (!warm) x->free = bounds.apart();
-  objective.evaluate(x->t, x->residual, x->gradient);
+  // Without knowledge of which strings will be at a bound, all that have room are free at first.
+  void free_all() { x_->free = bounds_.apart(); }
 
-  bool cautious = false;
-  double scale = 0;
-  while (result.iterations < kMaxIterations) {
-    ++result.iterations;
-    const Step step = newton_step(objective, *x);
-    const unsigned clipped = go_clipped(bounds, *x, step, *next);
-    objective.evaluate(next->t, next->residual, next->gradient);
-    // Where the search starts is not worth holding on to; after that the objective only falls.
-    if (clipped && result.iterations > 1 && !(change(*x, *next) < 0)) {
-      go_to_first_bound(bounds, step, *x);
-      objective.evaluate(x->t, x->residual, x->gradient);
-      cautious = true;
-      continue;
+  const Iterate& result() const { return *x_; }
+
+  void run() {
+    objective_.evaluate(x_->t, x_->residual, x_->gradient);
+    bool cautious = false;
+    while (iterations < kMaxIterations) {
+      ++iterations;
+      const Step step = newton_step(objective_, *x_);
+      const unsigned clipped = go_clipped(bounds_, *x_, step, *next_);
+      objective_.evaluate(next_->t, next_->residual, next_->gradient);
+      // The first round may raise the objective: the start is only a guess. Afterwards it falls.
+      if (clipped && iterations > 1 && !(change(*x_, *next_) < 0)) {
+        go_to_first_bound(bounds_, step, *x_);
+        objective_.evaluate(x_->t, x_->residual, x_->gradient);
+        cautious = true;
+        continue;
+      }
+      std::swap(x_, next_);
+      alignas(16) Row violation_of;
+      violation = violations(bounds_, *x_, violation_of);
+      scale = objective_.gradient_scale(x_->t);
+      if (violation <= kTolerance * scale) return;
+      // After a rejected step, strings are released only at the minimum over the free ones, and
+      // one at a time. Such a string does move inwards, so that every release lowers the objective
+      // and no set of free strings comes twice: the search ends.
+      if (cautious && clipped && x_->free) continue;
+      x_->free |= strings_to_release(*x_, violation_of, cautious ? 1.0 : kReleaseShare);
+      cautious = false;
     }
-    std::swap(x, next);
-    alignas(16) Row violation;
-    result.kkt_residual = violations(bounds, *x, violation);
-    scale = objective.gradient_scale(x->t);
-    if (result.kkt_residual <= kTolerance * scale) break;
-    // After a step that did not come off, no string is let go before the minimum over the free ones
-    // is reached, and then only one: it does move inwards, so the objective falls with every such
-    // release, which cannot go on for ever.
-    if (cautious && clipped && x->free) continue;
-    x->free |= strings_to_release(*x, violation, cautious ? 1.0 : kReleaseShare);
-    cautious = false;
   }
+
+ private:
+  const TensionObjective& objective_;
+  const Bounds& bounds_;
+  Iterate iterates_[2];
+  Iterate* x_ = &iterates_[0];
+  Iterate* next_ = &iterates_[1];
+};
+
+bool is_valid(const TensionProblem& problem, const TensionObjective& objective,
+              const Bounds& bounds) {
+  return problem.count == n && problem.epsilon > 0 && problem.torque_length_m > 0 &&
+         objective.is_finite() && bounds.are_valid();
+}
+
+// Of a problem that is not valid, or whose numbers overflow on the way.
+TensionResult no_solution(const TensionProblem& problem) {
+  TensionResult result;
+  result.tension_N = tension_at_rest(problem);
+  return result;
+}
+
+TensionResult describe(const TensionProblem& problem, const TensionObjective& objective,
+                       const Search& search) {
+  const Iterate& x = search.result();
   double sum = 0;
-  for (int k = 0; k < 6; ++k) sum += x->residual[k] * x->residual[k];
-  // Bounds or a start so large that W t overflows: comparisons with what is not a number say
-  // nothing.
-  if (!std::isfinite(sum)) {
-    result = {};
-    result.tension_N = tension_at_rest(problem);
-    warm_ = false;
-    return result;
-  }
-  if (scale > 0) result.kkt_residual /= scale;
+  for (int k = 0; k < 6; ++k) sum += x.residual[k] * x.residual[k];
+  // The bounds or the start were so large that W t overflowed; the search compared NaN.
+  if (!std::isfinite(sum)) return no_solution(problem);
+  TensionResult result;
+  result.iterations = search.iterations;
+  result.kkt_residual = search.scale > 0 ? search.violation / search.scale : search.violation;
   result.status =
       result.kkt_residual <= kAccepted ? TensionStatus::kSolved : TensionStatus::kIterationLimit;
-
-  for (int p = 0; p < kPairs; ++p) pair(result.tension_N.data(), p) = pair(x->t, p);
-  last_N_ = result.tension_N;
   result.residual_N = std::sqrt(sum);
+  for (int p = 0; p < kPairs; ++p) pair(result.tension_N.data(), p) = pair(x.t, p);
   for (int k = 0; k < 3; ++k) {
-    result.delivered.force_N[k] = x->residual[k] + objective.b[k];
+    result.delivered.force_N[k] = x.residual[k] + objective.b[k];
     result.delivered.torque_Nm[k] =
-        (x->residual[k + 3] + objective.b[k + 3]) * problem.torque_length_m;
+        (x.residual[k + 3] + objective.b[k + 3]) * problem.torque_length_m;
+  }
+  return result;
+}
+
+}  // namespace
+
+TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
+  if (problem.count > 0 && problem.count < n) return solve(with_eight_strings(problem));
+  const TensionObjective objective(problem);
+  const Bounds bounds{problem.t_min_N.data(), problem.t_max_N.data()};
+  TensionResult result;
+  if (is_valid(problem, objective, bounds)) {
+    // When nothing pulls, the solution may be zero, and what is left of the last tensions has
+    // nothing to be compared with.
+    const bool warm = warm_ && objective.has_pull();
+    Search search(objective, bounds, warm ? last_N_.data() : problem.t_ref_N.data());
+    if (!warm) search.free_all();
+    search.run();
+    result = describe(problem, objective, search);
+  } else {
+    result = no_solution(problem);
   }
   warm_ = result.status == TensionStatus::kSolved;
+  if (warm_) last_N_ = result.tension_N;
   return result;
 }
 

@@ -6,7 +6,7 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
 #include "spidar/tools/command_line.h"
-#include "spidar/tools/commands.h"
+#include "spidar/tools/exit_status.h"
 
 namespace spidar {
 namespace {

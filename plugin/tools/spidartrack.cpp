@@ -2,26 +2,18 @@
 // Copyright 2026 the gst-spidar authors
 // Haptic tracks: records, looks at, checks, converts and draws them.
 
-#include <exception>
-#include <iostream>
-#include <string>
+#include <vector>
 
 #include <gst/gst.h>
 
 #include "plugin/tools/spidartrack_commands.h"
 #include "spidar/tools/command_line.h"
-#include "spidar/tools/commands.h"
 
 namespace {
 
 using namespace spidar;
 
-struct Command {
-  const char* name;
-  int (*run)(int argc, char** argv);
-};
-
-constexpr Command kCommands[] = {
+const std::vector<Command> kCommands = {
     {"record", record_track_command}, {"info", track_info_command},
     {"check", check_track_command},   {"convert", convert_track_command},
     {"plot", plot_track_command},
@@ -40,36 +32,9 @@ constexpr const char* kHelp = R"(usage: spidartrack COMMAND
 spidartrack COMMAND --help says more.
 )";
 
-int run(int argc, char** argv) {
-  const std::string name = argc > 1 ? argv[1] : "";
-  std::string known;
-  for (const Command& command : kCommands) {
-    if (name == command.name) return command.run(argc - 1, argv + 1);
-    known += (known.empty() ? "" : ", ") + std::string(command.name);
-  }
-  if (name == "--version") {
-    std::cout << "spidartrack " SPIDAR_VERSION "\n";
-    return kDone;
-  }
-  if (name == "--help") {
-    std::cout << kHelp;
-    return kDone;
-  }
-  throw UsageError((name.empty() ? "no command" : name + " is not a command") + "; commands are " +
-                   known);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   gst_init(nullptr, nullptr);
-  try {
-    return run(argc, argv);
-  } catch (const UsageError& error) {
-    std::cerr << "spidartrack: " << error.what() << "; see spidartrack --help\n";
-    return kWrongUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "spidartrack: " << error.what() << '\n';
-    return kFailed;
-  }
+  return run_program("spidartrack", kCommands, kHelp, argc, argv);
 }

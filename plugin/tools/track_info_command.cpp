@@ -7,7 +7,7 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
 #include "spidar/tools/command_line.h"
-#include "spidar/tools/commands.h"
+#include "spidar/tools/exit_status.h"
 
 namespace spidar {
 namespace {
@@ -112,7 +112,7 @@ int check_track_command(int argc, char** argv) {
     ++problems;
     return std::cout << path << ": ";
   };
-  if (faults.not_finite > 0) complain() << faults.not_finite << " samples are no numbers\n";
+  if (faults.not_finite > 0) complain() << faults.not_finite << " samples are not numbers\n";
   if (faults.beyond_full > 0)
     complain() << faults.beyond_full << " samples are beyond full scale\n";
   if (summary.largest_force_N > max_force_N) {

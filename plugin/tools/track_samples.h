@@ -12,7 +12,7 @@
 namespace spidar {
 
 /// By the end of its name: HJIF (`.hjif`), the trace of spidarmotion (`.csv`), else sound, of any
-/// rate that spidarsink takes; gaps are silence, and so are samples that are no numbers, which
+/// rate that spidarsink takes; gaps are silence, and so are samples that are not numbers, which
 /// `faults` counts. Throws std::runtime_error.
 std::vector<TrackSample> load_track(const std::string& path, TrackFaults* faults = nullptr);
 

@@ -25,14 +25,15 @@
  */
 #include "plugin/track/spidar_sink.h"
 
-#include <exception>
 #include <string>
 
 #include "plugin/reports/device_complaints.h"
+#include "plugin/reports/exceptions.h"
 #include "plugin/timing/haptic_output.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/track/block_schedule.h"
 #include "plugin/track/sink_properties.h"
+#include "plugin/track/track_complaints.h"
 #include "plugin/track/track_input.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
@@ -59,7 +60,7 @@ struct _GstSpidarSink {
   // Streaming thread.
   spidar::TrackInput* input;
   spidar::DeviceComplaints* complaints;
-  gboolean said_not_finite, said_beyond_full, said_no_time;
+  spidar::TrackComplaints* track_complaints;
 };
 
 // The second kind of caps is refused with a sentence, which is more than a link that fails says.
@@ -115,31 +116,6 @@ static GstFlowReturn wait_until(GstSpidarSink* self, GstMiniObject* object, gint
   return GST_FLOW_OK;
 }
 
-/// Says each thing once a stream.
-static void complain(GstSpidarSink* self, const TrackFaults& faults, bool has_time) {
-  if (faults.not_finite > 0 && !self->said_not_finite) {
-    self->said_not_finite = TRUE;
-    GST_ELEMENT_WARNING(self, STREAM, DECODE,
-                        ("The haptic track has samples that are no numbers: they are rest."),
-                        ("NaN or infinite."));
-  }
-  if (faults.beyond_full > 0 && !self->said_beyond_full) {
-    self->said_beyond_full = TRUE;
-    GST_ELEMENT_WARNING(
-        self, STREAM, DECODE,
-        ("The haptic track has samples beyond full scale, 10 N and 1 N m; max-force "
-         "holds all the same."),
-        ("Is it sound for ears?"));
-  }
-  if (!has_time && !self->said_no_time) {
-    self->said_no_time = TRUE;
-    GST_ELEMENT_WARNING(self, STREAM, FORMAT,
-                        ("Samples without a timestamp cannot be felt in time; they are left out."),
-                        ("No PTS, or decades ahead, or a segment that is not in time. A parser "
-                         "before the decoder, or rawaudioparse, adds them."));
-  }
-}
-
 static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   GST_OBJECT_LOCK(self);
@@ -161,7 +137,7 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
   self->faults = self->input->faults();
   self->samples = self->input->samples();
   GST_OBJECT_UNLOCK(self);
-  complain(self, self->input->faults(), has_time);
+  self->track_complaints->look_at(self->input->faults(), has_time);
   if (!self->complaints->look_at(self->output->session(), policy)) return GST_FLOW_ERROR;
   return flow;
 }
@@ -191,7 +167,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
       break;
     }
     case GST_EVENT_STREAM_START:
-      self->said_not_finite = self->said_beyond_full = self->said_no_time = FALSE;
+      self->track_complaints->start();
       break;
     case GST_EVENT_SEGMENT:
       self->input->restart();
@@ -232,11 +208,11 @@ static gboolean gst_spidar_sink_send_event(GstElement* element, GstEvent* event)
   return GST_ELEMENT_CLASS(gst_spidar_sink_parent_class)->send_event(element, event);
 }
 
-static gboolean open_device(GstSpidarSink* self) {
+static bool open_device(GstSpidarSink* self) {
   GST_OBJECT_LOCK(self);
   const SinkProperties properties = *self->properties;
   GST_OBJECT_UNLOCK(self);
-  try {
+  return spidar::guarded(GST_ELEMENT(self), "opening the device", [self, &properties] {
     const std::string trace_problem =
         self->output->open(properties.device, properties.used_profile(), properties.haptic_trace);
     if (!trace_problem.empty()) {
@@ -244,15 +220,7 @@ static gboolean open_device(GstSpidarSink* self) {
                           ("The force goes on without it."));
     }
     self->schedule->connect(&self->output->session()->loop());
-    return TRUE;
-  } catch (const spidar::ProfileError& e) {
-    GST_ELEMENT_ERROR(self, RESOURCE, SETTINGS, ("%s", e.what()), ("while opening the device"));
-  } catch (const spidar::DeviceError& e) {
-    GST_ELEMENT_ERROR(self, RESOURCE, OPEN_WRITE, ("%s", e.what()), ("while opening the device"));
-  } catch (const std::exception& e) {
-    GST_ELEMENT_ERROR(self, LIBRARY, FAILED, ("%s", e.what()), ("while opening the device"));
-  }
-  return FALSE;
+  });
 }
 
 static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
@@ -325,6 +293,7 @@ static void follow_ts_offset(GObject* object, GParamSpec*, gpointer) {
 
 static void gst_spidar_sink_finalize(GObject* object) {
   GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  delete self->track_complaints;
   delete self->complaints;
   delete self->input;
   delete self->output;
@@ -341,6 +310,7 @@ static void gst_spidar_sink_init(GstSpidarSink* self) {
   self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->schedule->hand_on(); });
   self->input = new spidar::TrackInput;
   self->complaints = new spidar::DeviceComplaints(GST_ELEMENT(self), "The haptic track");
+  self->track_complaints = new spidar::TrackComplaints(GST_ELEMENT(self));
   g_signal_connect(self, "notify::ts-offset", G_CALLBACK(follow_ts_offset), nullptr);
 }
 

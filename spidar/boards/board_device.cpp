@@ -174,30 +174,29 @@ void BoardDevice::count(LinkFault fault) noexcept {
 ExchangeStatus BoardDevice::exchange(const MotorVolts& volts, DeviceReading& reading) noexcept {
   if (!open_) return ExchangeStatus::kLost;
   last_ = volts;
-  Request request{++number_, volts};
-  Reply reply;
-  if (!settings_.threaded) {
-    reply = answer(request);
-    if (reply.fault == LinkFault::kNone) reading = reply.reading;
-    return status_of(reply.fault);
-  }
-  // A queue that is full holds older volts for a board that does not answer.
+  const Request request{++number_, volts};
+  const std::optional<Reply> reply = settings_.threaded ? ask(request) : answer(request);
+  if (!reply) return ExchangeStatus::kTimeout;
+  if (reply->fault == LinkFault::kNone) reading = reply->reading;
+  return status_of(reply->fault);
+}
+
+/// Hands the request to the thread that exchanges, and waits for its reply, up to kReplyWait_ns.
+/// Replies to earlier requests may come first. Returns the newest reply with a reading; when there
+/// is none, the newest with a fault, or nothing.
+std::optional<BoardDevice::Reply> BoardDevice::ask(const Request& request) noexcept {
+  // When the queue is full, the board has not answered for some time, and these volts are dropped.
   if (requests_.push(request)) sem_post(&requested_);
   const int64_t until_ns = monotonic_now_ns() + kReplyWait_ns;
-  bool answered = false;
-  Reply newest;
+  std::optional<Reply> best;
   do {
-    while (replies_.pop(reply)) {
-      if (reply.number != number_) late_.fetch_add(1, std::memory_order_relaxed);
-      if (!answered || reply.fault == LinkFault::kNone || newest.fault != LinkFault::kNone)
-        newest = reply;
-      answered = true;
+    for (Reply reply; replies_.pop(reply);) {
+      if (!best || reply.fault == LinkFault::kNone || best->fault != LinkFault::kNone) best = reply;
+      if (reply.number == request.number) return best;
+      late_.fetch_add(1, std::memory_order_relaxed);
     }
-    if (answered && reply.number == number_) break;
   } while (wait_until(replied_, until_ns));
-  if (!answered) return ExchangeStatus::kTimeout;
-  if (newest.fault == LinkFault::kNone) reading = newest.reading;
-  return status_of(newest.fault);
+  return best;
 }
 
 bool BoardDevice::bring_to_zero() noexcept {

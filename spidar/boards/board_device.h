@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <semaphore.h>
 #include <thread>
 #include <vector>
@@ -61,6 +62,7 @@ class SPIDAR_API BoardDevice final : public Device {
   void start();
   void stop() noexcept;
   void run() noexcept;
+  std::optional<Reply> ask(const Request& request) noexcept;
   Reply answer(const Request& request) noexcept;
   void exchange_now(const Request& request, Reply& reply) noexcept;
   bool guarded(bool pulling) noexcept;

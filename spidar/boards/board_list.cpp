@@ -18,49 +18,91 @@ namespace {
 constexpr const char* kPositiveProfile = "spidar-g6x3-v2-r";
 constexpr const char* kUartProfile = "spidar-g6x4";
 
-constexpr const char* kSimulated[][3] = {
-    {"sim", "simulated SPIDAR", kDefaultProfile},
-    {"sim:sh4", "simulated SPIDAR behind the SH4 board's packets", kPositiveProfile},
-    {"sim:simple", "simulated SPIDAR behind the Simple board's packets", kPositiveProfile},
-    {"sim:uart", "simulated SPIDAR behind the UART boards' packets", kUartProfile},
-    {"sim:mouse", "simulated SPIDAR-mouse", kDefaultProfile},
-    {"sim:ff", "simulated force-feedback joystick", kDefaultProfile},
+/// What is known of a device by the part of its name before the colon.
+struct DeviceKind {
+  const char* kind;
+  const char* name;
+  const char* profile;
+  bool has_strings;  ///< otherwise it takes a force instead of tensions
+  Trial trial;
+};
+
+constexpr DeviceKind kKinds[] = {
+    {"usb", "CyVerse USB 2.0", kPositiveProfile, true, Trial::kEmulated},
+    {"mouse", "SPIDAR-mouse", kDefaultProfile, false, Trial::kInferred},
+    {"uart", "UART motor boards", kUartProfile, true, Trial::kEmulated},
+    {"ff", "force-feedback device", kDefaultProfile, false, Trial::kEmulated},
+};
+
+/// The names of simulated devices have no variable part.
+constexpr DeviceKind kSimulated[] = {
+    {"sim", "simulated SPIDAR", kDefaultProfile, true, Trial::kEmulated},
+    {"sim:sh4", "simulated SPIDAR behind the SH4 board's packets", kPositiveProfile, true,
+     Trial::kEmulated},
+    {"sim:simple", "simulated SPIDAR behind the Simple board's packets", kPositiveProfile, true,
+     Trial::kEmulated},
+    {"sim:uart", "simulated SPIDAR behind the UART boards' packets", kUartProfile, true,
+     Trial::kEmulated},
+    {"sim:mouse", "simulated SPIDAR-mouse", kDefaultProfile, false, Trial::kEmulated},
+    {"sim:ff", "simulated force-feedback joystick", kDefaultProfile, false, Trial::kEmulated},
 };
 
 bool begins(const std::string& text, const std::string& with) {
   return text.compare(0, with.size(), with) == 0;
 }
 
-/// It takes a force instead of tensions.
-bool takes_force(const std::string& device) {
-  const std::string board = begins(device, "sim:") ? device.substr(4) : device;
-  const std::string kind = board.substr(0, board.find(':'));
-  return kind == "mouse" || kind == "ff";
+/// Null when no device is called so.
+const DeviceKind* kind_of(const std::string& device) {
+  for (const DeviceKind& simulated : kSimulated)
+    if (device == simulated.kind) return &simulated;
+  const std::string kind = device.substr(0, device.find(':'));
+  for (const DeviceKind& known : kKinds)
+    if (kind == known.kind) return &known;
+  return nullptr;
+}
+
+/// What the name alone says.
+BoardInfo of_name(const std::string& device) {
+  BoardInfo board;
+  board.device = device;
+  board.profile = default_profile(device);
+  if (const DeviceKind* kind = kind_of(device)) {
+    board.name = kind->name;
+    board.trial = kind->trial;
+    board.has_strings = kind->has_strings;
+  }
+  return board;
 }
 
 BoardInfo force_feedback(const EvdevInfo& device) {
-  BoardInfo board;
-  board.device = "ff:" + device.path;
-  board.name = device.name.empty() ? "force-feedback device" : device.name;
+  BoardInfo board = of_name("ff:" + device.path);
+  if (!device.name.empty()) board.name = device.name;
   board.path = device.path;
   board.serial = device.serial;
   board.usb_id = device.id;
   if (!device.constant) board.note = "rumble only: strength without direction";
   if (!device.accessible) board.note = "no permission: udev rule 70-spidar.rules";
   board.accessible = device.accessible;
-  board.profile = default_profile(board.device);
-  board.has_strings = false;
   return board;
 }
 
 BoardInfo uart_board(const std::string& device, const std::string& path) {
-  BoardInfo board;
-  board.device = device;
-  board.name = "UART motor boards";
+  BoardInfo board = of_name(device);
   board.path = path;
   board.accessible = access(path.c_str(), R_OK | W_OK) == 0;
   if (!board.accessible) board.note = "no permission: join the group dialout";
-  board.profile = default_profile(device);
+  return board;
+}
+
+BoardInfo usb_board(const UsbBoardKind& kind, const UsbDeviceInfo& device) {
+  BoardInfo board = of_name(std::string(device_of(kind.family)) + ":" + device.path);
+  board.name = kind.name;
+  board.path = device.path;
+  board.serial = device.serial;
+  board.usb_id = kind.id();
+  board.trial = kind.trial;
+  board.note = device.accessible ? kind.note : "no permission: udev rule 70-spidar.rules";
+  board.accessible = device.accessible;
   return board;
 }
 
@@ -87,28 +129,18 @@ std::vector<BoardInfo> list_boards() {
     } catch (const DeviceError&) {
       break;  // no USB
     }
-    for (const UsbDeviceInfo& device : devices) {
-      const std::string spec = std::string(device_of(kind.family)) + ":" + device.path;
-      boards.push_back({spec, kind.name, device.path, device.serial, kind.id(), kind.trial,
-                        device.accessible ? kind.note : "no permission: udev rule 70-spidar.rules",
-                        device.accessible, default_profile(spec), !takes_force(spec)});
-    }
+    for (const UsbDeviceInfo& device : devices) boards.push_back(usb_board(kind, device));
   }
   for (const TtyLine& line : list_tty_lines())
     if (line.named) boards.push_back(uart_board("uart:" + line.path, line.path));
   for (const EvdevInfo& device : list_force_feedback()) boards.push_back(force_feedback(device));
-  for (const auto& simulated : kSimulated)
-    boards.push_back({simulated[0], simulated[1], "", "", "", Trial::kEmulated, "", true,
-                      simulated[2], !takes_force(simulated[0])});
+  for (const DeviceKind& simulated : kSimulated) boards.push_back(of_name(simulated.kind));
   return boards;
 }
 
 std::string default_profile(const std::string& device) {
-  for (const auto& simulated : kSimulated)
-    if (device == simulated[0]) return simulated[2];
-  const std::string kind = device.substr(0, device.find(':'));
-  if (kind == "usb") return kPositiveProfile;
-  return kind == "uart" ? kUartProfile : kDefaultProfile;
+  const DeviceKind* kind = kind_of(device);
+  return kind ? kind->profile : kDefaultProfile;
 }
 
 BoardInfo board_info(const std::string& device) {
@@ -126,23 +158,11 @@ BoardInfo board_info(const std::string& device) {
     ++of_kind;
   }
   if (id.empty() && of_kind == 1) return *only;
-  BoardInfo unknown;
-  unknown.device = device;
-  unknown.profile = default_profile(device);
-  if (kind == "usb") {
-    unknown.name = "CyVerse USB 2.0";
-  } else if (kind == "mouse") {
-    unknown.name = "SPIDAR-mouse";
-    unknown.trial = Trial::kInferred;
-    unknown.has_strings = false;
-  } else if (kind == "ff") {
-    unknown.name = "force-feedback device";
-    unknown.path = id;
-    unknown.has_strings = false;
-  } else if (kind == "uart" && !id.empty()) {
-    return uart_board(device, id.substr(0, id.find(',')));
-  }
-  return unknown;
+  if (kind == "uart" && !id.empty()) return uart_board(device, id.substr(0, id.find(',')));
+  BoardInfo absent = of_name(device);
+  if (kind == "uart") absent.name.clear();  // make_device() needs a line
+  if (kind == "ff") absent.path = id;
+  return absent;
 }
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Boards that there are, without opening any.
+/// Lists devices without opening any.
 #pragma once
 
 #include <string>
@@ -30,19 +30,19 @@ struct BoardInfo {
   Trial trial = Trial::kEmulated;
   std::string note;        ///< what is inferred, or why it cannot be used; may be empty
   bool accessible = true;  ///< this process may open it
-  /// To begin with, when nobody says which device hangs on the board: one that it can drive.
+  /// The default profile: of a device that this board can drive.
   std::string profile;
   bool has_strings = true;  ///< else it takes a force, and has no encoders
 };
 
-/// What is plugged in, then the simulated ones. Nothing is opened, sent or energised. Serial lines
+/// The devices that are plugged in, then the simulated ones. Opens and sends nothing. Serial lines
 /// do not say what is behind them: listed are those that a udev rule calls /dev/spidar…. Input
 /// devices are listed when they have force feedback. A machine
 /// without USB has none.
 SPIDAR_API std::vector<BoardInfo> list_boards();
 
-/// The profile to begin with for what make_device() takes: one that the board can drive. The
-/// default profile for a device that nobody knows. Looks at no bus.
+/// The default profile for a device name: of a device that the board can drive; the general
+/// default profile for an unknown name. Looks at no bus.
 SPIDAR_API std::string default_profile(const std::string& device);
 
 /// What is known of a device by what it is called, which need not be plugged in; nothing is opened.

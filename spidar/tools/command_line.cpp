@@ -4,8 +4,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <getopt.h>
+#include <iostream>
 #include <sstream>
+
+#include "spidar/tools/exit_status.h"
 
 namespace spidar {
 namespace {
@@ -16,7 +20,40 @@ std::string shown(double value) {
   return out.str();
 }
 
+int run_command(const std::string& program, const std::vector<Command>& commands, const char* help,
+                int argc, char** argv) {
+  const std::string name = argc > 1 ? argv[1] : "";
+  std::string known;
+  for (const Command& command : commands) {
+    if (name == command.name) return command.run(argc - 1, argv + 1);
+    known += (known.empty() ? "" : ", ") + std::string(command.name);
+  }
+  if (name == "--version") {
+    std::cout << program << " " SPIDAR_VERSION "\n";
+    return kDone;
+  }
+  if (name == "--help") {
+    std::cout << help;
+    return kDone;
+  }
+  throw UsageError((name.empty() ? "no command" : name + " is not a command") + "; commands are " +
+                   known);
+}
+
 }  // namespace
+
+int run_program(const std::string& program, const std::vector<Command>& commands, const char* help,
+                int argc, char** argv) {
+  try {
+    return run_command(program, commands, help, argc, argv);
+  } catch (const UsageError& error) {
+    std::cerr << program << ": " << error.what() << "; see " << program << " --help\n";
+    return kWrongUsage;
+  } catch (const std::exception& error) {
+    std::cerr << program << ": " << error.what() << '\n';
+    return kFailed;
+  }
+}
 
 std::vector<std::string> parse_options(int argc, char** argv,
                                        const std::vector<CommandOption>& options) {

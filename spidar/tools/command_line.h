@@ -53,6 +53,19 @@ struct DeviceOptions {
 DeviceOptions parse_device_options(int argc, char** argv, std::vector<CommandOption> own = {},
                                    const std::vector<std::string>& operands = {});
 
+/// One thing that a program can do. run() takes the command line from the command's name on and
+/// returns the exit status; it may throw.
+struct Command {
+  const char* name;
+  int (*run)(int argc, char** argv);
+};
+
+/// The main() of a program that is called as PROGRAM COMMAND ARGUMENTS…: runs the command, answers
+/// --help with `help` and --version, and prints what a command throws to standard error. Returns
+/// the exit status (see exit_status.h).
+int run_program(const std::string& program, const std::vector<Command>& commands, const char* help,
+                int argc, char** argv);
+
 /// --json for `options` of commands that give data. Outlived by `json`.
 CommandOption json_option(bool& json);
 

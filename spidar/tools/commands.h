@@ -4,9 +4,9 @@
 /// exit status. They throw UsageError, DeviceError, ProfileError.
 #pragma once
 
-namespace spidar {
+#include "spidar/tools/exit_status.h"
 
-constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
+namespace spidar {
 
 int calibrate_command(int argc, char** argv);
 int conformance_command(int argc, char** argv);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Looks after SPIDARs: what there is, what it does, and where its encoders are zero.
+// Lists, inspects, tests and calibrates SPIDARs.
 
-#include <exception>
-#include <iostream>
-#include <string>
+#include <vector>
 
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/commands.h"
@@ -13,12 +11,7 @@ namespace {
 
 using namespace spidar;
 
-struct Command {
-  const char* name;
-  int (*run)(int argc, char** argv);
-};
-
-constexpr Command kCommands[] = {
+const std::vector<Command> kCommands = {
     {"list", list_command},           {"info", info_command},
     {"monitor", monitor_command},     {"rest", rest_command},
     {"zero", zero_command},           {"pull", pull_command},
@@ -43,35 +36,8 @@ constexpr const char* kHelp = R"(usage: spidarctl COMMAND
 spidarctl COMMAND --help says more.
 )";
 
-int run(int argc, char** argv) {
-  const std::string name = argc > 1 ? argv[1] : "";
-  std::string known;
-  for (const Command& command : kCommands) {
-    if (name == command.name) return command.run(argc - 1, argv + 1);
-    known += (known.empty() ? "" : ", ") + std::string(command.name);
-  }
-  if (name == "--version") {
-    std::cout << "spidarctl " SPIDAR_VERSION "\n";
-    return kDone;
-  }
-  if (name == "--help") {
-    std::cout << kHelp;
-    return kDone;
-  }
-  throw UsageError((name.empty() ? "no command" : name + " is not a command") + "; commands are " +
-                   known);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const UsageError& error) {
-    std::cerr << "spidarctl: " << error.what() << "; see spidarctl --help\n";
-    return kWrongUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "spidarctl: " << error.what() << '\n';
-    return kFailed;
-  }
+  return run_program("spidarctl", kCommands, kHelp, argc, argv);
 }

@@ -9,20 +9,17 @@
 #include <cstring>
 #include <fcntl.h>
 #include <linux/input.h>
-#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
 
 #include "spidar/device.h"
-#include "spidar/realtime/monotonic.h"
+#include "spidar/transports/device_lock.h"
 #include "spidar/transports/evdev_list.h"
 
 namespace spidar {
 namespace {
-
-constexpr int64_t kBusyCheck_ns = 10'000'000;
 
 template <size_t Bits>
 using BitSet = std::array<uint8_t, Bits / 8 + 1>;
@@ -55,16 +52,6 @@ LinkFault fault_of(int error) noexcept {
     default:
       return LinkFault::kBusError;
   }
-}
-
-/// False, and errno, when another process has locked it, or its guardian has.
-bool lock(int file) noexcept {
-  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
-  while (flock(file, LOCK_EX | LOCK_NB) != 0) {
-    if (errno != EWOULDBLOCK || monotonic_now_ns() > until_ns) return false;
-    sleep_until_ns(monotonic_now_ns() + kBusyCheck_ns);
-  }
-  return true;
 }
 
 /// The place on an axis, −kFull … kFull; false when the device is gone.
@@ -122,7 +109,7 @@ void EvdevTransport::open() {
   if (file_ < 0) fail(path, "cannot be opened");
   int version = 0;
   if (ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
-  if (!lock(file_)) fail(path, "cannot be locked");
+  if (!lock_device(file_)) fail(path, "cannot be locked");
   find_axes();
 }
 

@@ -23,8 +23,9 @@ struct Transfer {
 /// One connection. One thread at a time.
 class SPIDAR_API Transport {
  public:
-  /// For so long open() waits for a connection that something else has.
+  /// How long open() waits for a connection that is in use, and how often it tries meanwhile.
   static constexpr int64_t kBusyPatience_ns = 300'000'000;
+  static constexpr int64_t kBusyCheck_ns = 10'000'000;
 
   virtual ~Transport() = default;
 

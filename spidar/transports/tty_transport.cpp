@@ -8,18 +8,16 @@
 #include <fcntl.h>
 #include <linux/serial.h>
 #include <poll.h>
-#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 #include <utility>
 
 #include "spidar/device.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/transports/device_lock.h"
 
 namespace spidar {
 namespace {
-
-constexpr int64_t kBusyCheck_ns = 10'000'000;
 
 LinkFault fault_of(int error) noexcept {
   // EIO and ENXIO are what a USB adapter that was pulled out gives.
@@ -51,17 +49,6 @@ void ask_for_low_latency(int file) noexcept {
   ioctl(file, TIOCSSERIAL, &serial);
 }
 
-/// False, and errno, when another process has the line. One that was killed a moment ago may still
-/// have it, or its guardian.
-bool lock(int file) noexcept {
-  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
-  while (flock(file, LOCK_EX | LOCK_NB) != 0) {
-    if (errno != EWOULDBLOCK || monotonic_now_ns() > until_ns) return false;
-    sleep_until_ns(monotonic_now_ns() + kBusyCheck_ns);
-  }
-  return true;
-}
-
 }  // namespace
 
 TtyTransport::TtyTransport(std::string path, int baud) : path_(std::move(path)), baud_(baud) {}
@@ -88,7 +75,7 @@ void TtyTransport::open() {
   close();
   file_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (file_ < 0) fail("cannot be opened");
-  if (!lock(file_)) fail("cannot be locked");
+  if (!lock_device(file_)) fail("cannot be locked");
   if (!set_raw(file_, baud_)) fail("cannot be set to " + std::to_string(baud_) + " baud");
   ask_for_low_latency(file_);
   // DTR and RTS low, as published; not every line has them.

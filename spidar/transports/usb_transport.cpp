@@ -17,7 +17,6 @@ namespace {
 constexpr int kInterface = 0;
 constexpr int64_t kDrain_ns = 2'000'000;
 constexpr int64_t kCancelCheck_ns = 1'000'000;
-constexpr int64_t kBusyCheck_ns = 10'000'000;
 
 LinkFault fault_of_submit(int error) noexcept {
   switch (error) {
@@ -84,7 +83,7 @@ int claim(libusb_device_handle* handle) {
   const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
   int error = libusb_claim_interface(handle, kInterface);
   while (error == LIBUSB_ERROR_BUSY && monotonic_now_ns() < until_ns) {
-    sleep_until_ns(monotonic_now_ns() + kBusyCheck_ns);
+    sleep_until_ns(monotonic_now_ns() + Transport::kBusyCheck_ns);
     error = libusb_claim_interface(handle, kInterface);
   }
   return error;

@@ -14,9 +14,9 @@
 namespace spidar {
 namespace {
 
-/// A fault has to explain this much of the answers to be one.
+/// What an explanation loses for each fault that it assumes, as a share of a perfect correlation.
 constexpr double kFaultCost = 2e-3;
-/// Of the strongest answers' median; less is none.
+/// An answer below this share of the median of the strongest answers is none.
 constexpr double kSilent = 0.1;
 /// A motor's answer beside the others', as a multiple of the expected one: hands are not equally
 /// stiff in all directions, and motors are not equally strong.
@@ -101,41 +101,51 @@ class Judge {
     expected_ = structure_.transpose() * compliance.asDiagonal() * structure_;
   }
 
+  /// How well an assignment of motors and encoders to strings explains the answers: the correlation
+  ///   Σⱼ |Σᵢ answer(j, i) expected(encoder j, motor i)| / (‖answer‖ ‖expected‖)
+  /// over all encoders j and motors i that are not silent. Each encoder is taken with the sign that
+  /// suits it. Every fault costs a little, so that of two explanations that are equally good the
+  /// simpler one is chosen.
   Explanation explain(const Assignment& motor, const Assignment& encoder) const {
     Explanation e;
     e.motor = motor;
     e.encoder = encoder;
-    double product = 0, norm2 = 0;
-    int faults = 0;
-    const double answer_norm = answer_.norm();
-    for (int j = 0; j < count_; ++j) {
-      const auto k = static_cast<size_t>(j);
-      if (silent_encoder_[k]) continue;
-      double row = 0;
-      for (int i = 0; i < count_; ++i) {
-        const auto m = static_cast<size_t>(i);
-        if (silent_motor_[m]) continue;
-        const double expected = expected_(encoder[k], motor[m]);
-        row += answer_(j, i) * expected;
-        norm2 += expected * expected;
-      }
-      e.encoder_reversed[k] = row < 0;
+    double product = 0, expected_norm2 = 0;
+    for (size_t j = 0; j < static_cast<size_t>(count_); ++j) {
+      if (silent_encoder_[j]) continue;
+      const StringVector expected = expected_answers(e, j);
+      const double row = answer_.row(static_cast<Eigen::Index>(j)).dot(expected);
+      e.encoder_reversed[j] = row < 0;
       product += std::fabs(row);
-      faults += (row < 0) + (encoder[k] != j);
+      expected_norm2 += expected.squaredNorm();
     }
-    for (int i = 0; i < count_; ++i) {
-      const auto m = static_cast<size_t>(i);
-      faults += motor[m] != i;
-      // Exchanged together is one thing, not two.
-      if (motor[m] != i && motor[m] == encoder[m]) --faults;
-    }
-    const double norm = answer_norm * std::sqrt(norm2);
+    const double norm = answer_.norm() * std::sqrt(expected_norm2);
     e.correlation = norm > 0 ? product / norm : 0;
-    e.worth = e.correlation - kFaultCost * faults;
+    e.worth = e.correlation - kFaultCost * count_faults(e);
     return e;
   }
 
-  /// Motors whose own answers are not those expected of them.
+  /// Of encoder j for a pull of each motor, not reversed; zero for silent motors.
+  StringVector expected_answers(const Explanation& e, size_t j) const {
+    StringVector expected = StringVector::Zero();
+    for (size_t i = 0; i < static_cast<size_t>(count_); ++i)
+      if (!silent_motor_[i]) expected[static_cast<int>(i)] = expected_(e.encoder[j], e.motor[i]);
+    return expected;
+  }
+
+  /// A motor and an encoder that were exchanged together with another pair count once.
+  int count_faults(const Explanation& e) const {
+    int faults = 0;
+    for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
+      const bool motor = e.motor[i] != static_cast<int>(i);
+      const bool encoder = e.encoder[i] != static_cast<int>(i) && !silent_encoder_[i];
+      const bool together = motor && e.motor[i] == e.encoder[i];
+      faults += e.encoder_reversed[i] + motor + encoder - together;
+    }
+    return faults;
+  }
+
+  /// The motors whose answers do not match their strings, in direction or in size.
   std::array<bool, kMaxStrings> find_unclear(const Explanation& e) const {
     std::array<bool, kMaxStrings> unclear{};
     std::array<double, kMaxStrings> size{};

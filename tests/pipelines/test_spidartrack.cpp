@@ -213,7 +213,7 @@ TEST_F(Spidartrack, CheckFindsWhatWouldNotBeFeltAsItIs) {
   save_track(path("bad.wav"), bad);
   const Result result = run("check " + path("bad.wav"));
   EXPECT_EQ(result.status, 1);
-  for (const char* problem : {"1 samples are no numbers", "100 samples are beyond full scale",
+  for (const char* problem : {"1 samples are not numbers", "100 samples are beyond full scale",
                               "largest force", "largest torque", "changes by", "energy of tx"}) {
     expect_contains(result.text, problem);
   }

@@ -214,7 +214,7 @@ TEST(TrackPlayback, BadSamplesAreRestAndAreNamedOnce) {
   EXPECT_EQ(track.stat("samples-beyond-full-scale"), 100u);
   const std::vector<std::string> complaints = track.complaints();
   ASSERT_EQ(complaints.size(), 2u);
-  EXPECT_NE(complaints[0].find("no numbers"), std::string::npos) << complaints[0];
+  EXPECT_NE(complaints[0].find("not numbers"), std::string::npos) << complaints[0];
   EXPECT_NE(complaints[1].find("full scale"), std::string::npos) << complaints[1];
 }
 
