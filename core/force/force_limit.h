@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Why there is no force to be felt.
+/// Explains why no force is felt.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ struct FrameAnalysis;
 /// 2013, PubMed 24808327.
 constexpr double kFeltForce_N = 0.04;
 
-/// What keeps the force below kFeltForce_N. The first ones are reasons of the device and of the
-/// playback, which hold whatever the video shows; the others are reasons of the video.
+/// What keeps the force below kFeltForce_N. The reasons up to kNoFrames concern the device and the
+/// playback and hold for any video; the others concern the video.
 enum class ForceLimit {
-  kNone,  ///< nothing does: there is a force
+  kNone,  ///< the force is not limited
   kDeviceLost,
   kDeviceStarting,
   kGripUnknown,
@@ -46,23 +46,24 @@ SPIDAR_API const char* nick(ForceLimit limit) noexcept;
 /// For people: a whole sentence. Empty for kNone.
 SPIDAR_API const char* sentence(ForceLimit limit) noexcept;
 
-/// Size of a wrench as one force: torque counts by the arm kTorqueArm_m, as render_motion() makes
-/// it.
+/// Size of a wrench as one force, with torque divided by the arm kTorqueArm_m (see
+/// render_motion()).
 SPIDAR_API double size_N(const Wrench& wrench) noexcept;
 
-/// Reasons of the video, of one frame that was analysed for `motion`.
+/// The reason in the video, for one frame that was analysed for `motion`.
 SPIDAR_API ForceLimit limit_of(const FrameAnalysis& frame, MotionKind motion);
 
-/// The latest frames, and what limited the force of the last second of them. Not thread-safe. Takes
-/// no memory.
+/// Keeps the latest frames and finds what limited the force in the last second. Not thread-safe.
+/// Allocates nothing.
 class SPIDAR_API ForceLimitHistory {
  public:
   static constexpr int64_t kWindow_ns = 1'000'000'000;
-  /// More are forgotten: a second at 60 frames/s and 16 s of frames that wait to be shown.
+  /// Older frames are dropped. Room for a second at 60 frames/s and 16 s of frames that wait to be
+  /// shown.
   static constexpr size_t kFrames = 1024;
 
-  /// A frame that is shown at `shown_ns`, with the size of its force. A time that does not rise
-  /// forgets those before.
+  /// Adds a frame that is shown at `shown_ns`, with the size of its force. Frames that were added
+  /// before and are not earlier are dropped.
   void add(int64_t shown_ns, double force_N, ForceLimit limit) noexcept;
 
   /// Of the frames shown in the second up to `now_ns`: kNone when one of them has a force that is

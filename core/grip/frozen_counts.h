@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Strings whose encoder has stopped counting while the others go on.
+/// Finds strings whose encoder has stopped counting while the others go on.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-/// Remembers all lengths as they were when each string's length changed last.
+/// For each string, remembers the lengths of all strings at the time when its own changed last.
 class FrozenCounts {
  public:
   void update(const StringVector& lengths_m, int count) noexcept {
@@ -29,8 +29,8 @@ class FrozenCounts {
   /// Whether string `i` did not change with the last update.
   bool is_still(int i) const noexcept { return still_ >> i & 1; }
 
-  /// How far the second fastest of the other strings has moved since string `i` changed last: one
-  /// alone may have jumped.
+  /// How far the other strings have moved since string `i` changed last, in metres: the second
+  /// largest distance, because a single count may have jumped.
   double missed_m(const StringVector& lengths_m, int count, int i) const noexcept {
     const StringVector& then = at_change_m_[static_cast<size_t>(i)];
     double most = 0, second = 0;

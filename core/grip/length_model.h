@@ -10,8 +10,8 @@
 
 namespace spidar {
 
-/// A small motion of the grip in D: metres, and a rotation vector times the grip radius (metres
-/// too).
+/// A small motion of the grip in D: a translation in metres, and a rotation vector times the grip
+/// radius, also in metres.
 using Twist = Eigen::Matrix<double, 6, 1>;
 
 /// H s = g for the step s that brings the lengths of the linearised model closest to the measured
@@ -23,7 +23,7 @@ struct NormalEquations {
   double cost_m2;  ///< Σ wᵢ rᵢ²
 };
 
-/// A geometry laid out for one vector operation on two strings.
+/// The geometry of the strings, stored so that one vector operation handles two strings.
 struct LengthModel {
   alignas(16) Row exit_m[3];
   alignas(16) Row grip_m[3];
@@ -34,7 +34,7 @@ struct LengthModel {
       : exit_m{}, grip_m{}, count(geometry.count), radius_m(geometry.grip_radius_m()) {
     for (int i = 0; i < kMaxStrings; ++i)
       for (int k = 0; k < 3; ++k) {
-        // Strings that are not there get a length so that nothing is divided by zero.
+        // Unused strings get a length, so that nothing is divided by zero.
         exit_m[k][i] = i < count ? geometry.exit_m[static_cast<size_t>(i)][k] : 1.0;
         grip_m[k][i] = i < count ? geometry.grip_m[static_cast<size_t>(i)][k] : 0.0;
       }
@@ -105,7 +105,8 @@ struct LengthModel {
   }
 
  private:
-  // Products of the rows of eight with their own first six; the column of the residuals is g.
+  // Row i of `string` is [Jᵢ, rᵢ, 0]. The sum of the outer products of Jᵢ with the row has H in its
+  // first six columns and −g in the seventh. Rows 2j and 2j + 1 are made together.
   static void multiply(const Row* string, NormalEquations& equations) noexcept {
 #pragma GCC unroll 3
     for (int j = 0; j < 3; ++j) {

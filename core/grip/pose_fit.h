@@ -9,7 +9,7 @@
 
 namespace spidar {
 
-/// Where a search ended.
+/// The result of a search.
 struct PoseFit {
   Pose pose;
   double residual_m = 0;  ///< root mean square length error of the strings that were used
@@ -17,26 +17,28 @@ struct PoseFit {
   bool converged = false;
 };
 
-/// Least squares over the lengths of all strings, or of all but `left_out` (−1: of all) and `also`.
+/// Least squares over the string lengths. `left_out` and `also` name strings whose lengths are not
+/// used, −1 for none.
 class PoseFitter {
  public:
   explicit PoseFitter(const StringGeometry& geometry) : model_(geometry) {}
 
-  /// Up to four Gauss–Newton steps from a start some millimetres off.
+  /// Up to four Gauss–Newton steps; for a start within some millimetres.
   PoseFit gauss_newton(const StringVector& lengths_m, const Pose& start, int left_out,
                        int also = -1) const noexcept;
 
-  /// From a start some centimetres off, to the bottom of the minimum it leads to.
+  /// Converges to a local minimum; for a start within some centimetres.
   PoseFit levenberg_marquardt(const StringVector& lengths_m, const Pose& start,
                               int left_out) const noexcept;
 
-  /// levenberg_marquardt() from `start`, and where that does not fit from 14 turned poses at the
+  /// levenberg_marquardt() from `start` and, if that does not fit, from 14 turned poses at the
   /// centre.
   PoseFit search(const StringVector& lengths_m, const Pose& start) const noexcept;
 
-  /// Where J is nearly singular two poses on either side of the singular one have nearly the same
-  /// lengths; they differ by a turn in the direction of the smallest singular value. Returns the
-  /// better fitting minimum beside `fit` in this direction, not converged when there is none.
+  /// Near a singular J, the poses on both sides of the singular one have nearly the same lengths;
+  /// they differ by a turn in the direction of the smallest singular value. Returns the better
+  /// fitting minimum that lies beside `fit` in this direction; `converged` is false if there is
+  /// none.
   PoseFit beside(const StringVector& lengths_m, const PoseFit& fit, int left_out) const noexcept;
 
   const LengthModel& model() const noexcept { return model_; }

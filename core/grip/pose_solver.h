@@ -23,27 +23,28 @@ struct PoseResult {
   Pose pose;
   double residual_m = 0;  ///< root mean square length error of the strings that were used
   int iterations = 0;     ///< linearised problems solved
-  /// A slack string, a count that jumped or an encoder that is dead: this string's length fits no
-  /// pose that the seven others agree on, and the pose is theirs. −1 when all fit.
+  /// The string whose length does not fit the pose of the seven others, which is the pose returned:
+  /// it is slack, its count has jumped, or its encoder is dead. −1 when all strings fit.
   int faulty_string = -1;
   PoseStatus status = PoseStatus::kBadInput;
 };
 
 /// Least squares over the string lengths. No allocation, no exceptions after construction.
 ///
-/// What cannot be known: a pose and another one whose lengths differ by less than the measurement
-/// errs. Such pairs exist where the structure matrix is nearly singular, near the walls of the
-/// frame. locate() looks for the other pose and reports kAmbiguous; track() stays with the one that
-/// the motion leads to. And with eight strings two lengths are redundant, so that one fault is
-/// noticed by what it does in two numbers: not at all where the other seven strings can follow it,
-/// which shows as soon as the grip moves on, and two strings whose faults have the same effect on
-/// both numbers are told apart by the motion and by counts that stand still only. Two dead encoders
-/// leave too few strings: where counts that stand still say so, there is no pose.
+/// Limits of what the lengths determine:
+/// - Near the walls of the frame, where the structure matrix is nearly singular, two poses can have
+///   lengths that differ by less than the measurement error. locate() looks for the second pose and
+///   reports kAmbiguous; track() stays with the pose that continues the motion.
+/// - Eight strings have two redundant lengths, so that a fault shows in two numbers only. A fault
+///   that the other seven strings can follow shows when the grip moves on. Two strings whose faults
+///   have the same effect are distinguished by the motion and by counts that stand still.
+/// - Two dead encoders leave too few strings. When counts that stand still reveal them, there is no
+///   pose.
 class SPIDAR_API PoseSolver {
  public:
-  /// A residual above this means that the solution is wrong: a local minimum or a bad length. A
-  /// count errs by half an encoder step at most, and so does the residual of the right pose: 17.4
-  /// µm for the coarsest encoder of the known devices.
+  /// A larger residual means that the solution is wrong: a local minimum or a bad length. The error
+  /// of a count is at most half an encoder step, and so is the residual of the right pose: 17.4 µm
+  /// for the coarsest encoder of the known devices.
   static constexpr double kMaxResidual_m = 20e-6;
 
   /// Throws std::invalid_argument when the geometry has fewer than six strings, all of them end in
@@ -52,23 +53,23 @@ class SPIDAR_API PoseSolver {
   /// about six times as much.
   explicit PoseSolver(const StringGeometry& geometry, double max_residual_m = kMaxResidual_m);
 
-  /// track(), and locate() when that is lost or leads away from a start that is a guess: for every
-  /// tick. The worst case is lengths that fit no pose, every time it is called; bench_pose times
-  /// it.
+  /// For every tick: track(), and locate() when tracking fails, or when it starts from a guess and
+  /// leads away from it. The slowest case is lengths that fit no pose; bench_pose measures it.
   PoseResult solve(const StringVector& lengths_m) noexcept;
 
-  /// The pose next to the last one: Gauss–Newton from where the last motion leads to. With eight
-  /// strings, one that does not fit is left out and named; it is used again when it has fitted for
-  /// 100 calls and moved.
+  /// The pose near the last one, by Gauss–Newton from the last pose moved on by the last motion.
+  /// With eight strings, one that does not fit is left out and reported; it is used again when its
+  /// length has fitted for 100 calls and has moved meanwhile.
   PoseResult track(const StringVector& lengths_m) noexcept;
 
-  /// The pose anywhere: Levenberg–Marquardt from the last pose and from turned ones at the centre.
+  /// The pose anywhere in the frame, by Levenberg–Marquardt from the last pose and from turned
+  /// poses at the centre.
   PoseResult locate(const StringVector& lengths_m) noexcept;
 
-  /// Where the next search starts. Forgets the motion, but not which counts have stood still.
+  /// Sets where the next search starts. Drops the motion, but not which counts have stood still.
   void search_from(const Pose& pose) noexcept;
 
-  /// The same for another device, or one that was switched on again: forgets all.
+  /// For another device, or one that was switched on again: drops everything.
   void reset(const Pose& pose = {}) noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where the strings run.
+/// Geometry of the strings: lengths and structure matrix.
 #pragma once
 
 #include <array>

@@ -33,7 +33,7 @@ enum class TensionStatus {
 };
 
 struct TensionResult {
-  /// Within bounds always; on bad input the lower bounds where they are finite, else zero.
+  /// Always within bounds. On bad input: the lower bounds where they are finite, else zero.
   StringVector tension_N = StringVector::Zero();
   Wrench delivered;       ///< W t
   double residual_N = 0;  ///< ‖S(W t − f)‖
@@ -41,18 +41,18 @@ struct TensionResult {
   /// sign for those at a bound, relative to the largest Qᵢᵢ|tᵢ| + |cᵢ|; Q and c as in
   /// tension_objective.h. Solved means 1e-12 or less.
   double kkt_residual = 0;
-  int iterations = 0;  ///< rounds, at most 24
+  int iterations = 0;  ///< at most 24
   TensionStatus status = TensionStatus::kBadInput;
 };
 
-/// Exact to rounding, at any scale of wrench, tensions and units, and down to an ε that is lost
-/// beside WᵀS²W. Starts from the tensions of the last call, which makes steady motion one round;
-/// the result does not depend on them beyond rounding. No allocation, no exceptions.
+/// Solves to rounding accuracy at any scale of wrench, tensions and units, even when ε vanishes
+/// beside WᵀS²W. Starts from the last solution, so that one iteration is enough in steady motion;
+/// the result depends on it only by rounding. No allocation, no exceptions.
 class SPIDAR_API TensionSolver {
  public:
   TensionResult solve(const TensionProblem& problem) noexcept;
 
-  /// Forgets the last solution.
+  /// Drops the last solution.
   void reset() noexcept { warm_ = false; }
 
  private:

@@ -34,7 +34,7 @@ ForceFeedbackBoard::ForceFeedbackBoard(std::string name, const Profile& profile,
     : name_(std::move(name)),
       profile_(profile),
       rest_N_(profile.min_tension_N()),
-      zero_length_m_(profile.zero_count_length_m()),
+      encoders_(profile),
       transport_(std::move(transport)),
       updates_(updates) {
   for (int i = 0; i < profile.geometry.count; ++i)
@@ -177,15 +177,7 @@ LinkFault ForceFeedbackBoard::cycle(const MotorVolts& volts, DeviceReading& read
   if (updates_ == Updates::kInCycle)
     fault = cycle_++ % kUpdate_ms == 0 ? update() : LinkFault::kNone;
   if (fault != LinkFault::kNone) return fault;
-  const StringVector length_m = string_lengths_m(profile_.geometry, stick_pose());
-  for (int i = 0; i < profile_.geometry.count; ++i) {
-    const auto k = static_cast<size_t>(i);
-    const StringDrive& drive = profile_.drives[k];
-    if (drive.metres_per_count > 0)
-      reading.count[k] =
-          drive.encoder_sign * static_cast<int32_t>(std::lround((length_m[i] - zero_length_m_[i]) /
-                                                                drive.metres_per_count));
-  }
+  encoders_.to_counts(string_lengths_m(profile_.geometry, stick_pose()), reading.count);
   reading.inputs = 0;
   reading.encoders = false;
   return LinkFault::kNone;

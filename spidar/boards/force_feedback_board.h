@@ -12,7 +12,7 @@
 
 #include "core/api.h"
 #include "spidar/boards/board.h"
-#include "spidar/profiles/profile.h"
+#include "spidar/profiles/encoder_scale.h"
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/transports/transport.h"
 
@@ -73,7 +73,7 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   const std::string name_;
   const Profile profile_;
   const StringVector rest_N_;
-  const StringVector zero_length_m_;
+  const EncoderScale encoders_;
   Eigen::Vector2d reach_m_ = Eigen::Vector2d::Zero();  ///< of the stick, x and y
   const std::unique_ptr<Transport> transport_;
   const Updates updates_;

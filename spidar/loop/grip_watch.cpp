@@ -26,7 +26,7 @@ double reach_m(const StringGeometry& geometry) {
 
 GripWatch::GripWatch(const Profile& profile)
     : profile_(profile),
-      zero_length_m_(profile.zero_count_length_m()),
+      encoders_(profile),
       radius_m_(profile.geometry.grip_radius_m()),
       reach_m_(spidar::reach_m(profile.geometry)),
       solver_(profile.geometry, profile.max_pose_residual_m()) {}
@@ -61,17 +61,6 @@ void GripWatch::check_age(int64_t now_ns) noexcept {
   trusted_ = false;
   good_poses_ = 0;
   trouble_ = PoseTrouble::kNoReading;
-}
-
-StringVector GripWatch::lengths_m(const DeviceReading& reading) const noexcept {
-  StringVector lengths_m = StringVector::Zero();
-  for (int i = 0; i < profile_.geometry.count; ++i) {
-    const auto k = static_cast<size_t>(i);
-    const StringDrive& drive = profile_.drives[k];
-    lengths_m[i] = zero_length_m_[i] + drive.encoder_sign * drive.metres_per_count *
-                                           static_cast<double>(reading.count[k]);
-  }
-  return lengths_m;
 }
 
 PoseTrouble GripWatch::judge(const PoseResult& result, int64_t now_ns) const noexcept {
@@ -109,7 +98,7 @@ bool GripWatch::is_frozen(const DeviceReading& reading, const Wrench& applied,
 void GripWatch::see(const DeviceReading& reading, const Wrench& applied, bool may_trust,
                     int64_t now_ns) noexcept {
   const bool frozen = is_frozen(reading, applied, now_ns);
-  const PoseResult result = solver_.solve(lengths_m(reading));
+  const PoseResult result = solver_.solve(encoders_.lengths_m(reading.count));
   residual_m_ = result.residual_m;
   PoseTrouble trouble = judge(result, now_ns);
   if (trouble == PoseTrouble::kNone || trouble == PoseTrouble::kJump) {

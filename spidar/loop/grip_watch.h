@@ -13,6 +13,7 @@
 #include "core/wrench.h"
 #include "spidar/device.h"
 #include "spidar/loop/pose_trouble.h"
+#include "spidar/profiles/encoder_scale.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
@@ -65,17 +66,16 @@ class SPIDAR_API GripWatch {
   uint64_t pose_errors() const noexcept { return pose_errors_; }
   /// Times that a string became faulty, or another one did.
   uint64_t string_faults() const noexcept { return string_faults_; }
-  /// Both counters begin at zero.
+  /// Resets both counters to zero.
   void clear_counters() noexcept { pose_errors_ = string_faults_ = 0; }
 
  private:
-  StringVector lengths_m(const DeviceReading& reading) const noexcept;
   PoseTrouble judge(const PoseResult& result, int64_t now_ns) const noexcept;
   bool is_frozen(const DeviceReading& reading, const Wrench& applied, int64_t now_ns) noexcept;
   void fail(PoseTrouble trouble) noexcept;
 
   const Profile profile_;
-  const StringVector zero_length_m_;
+  const EncoderScale encoders_;
   const double radius_m_;
   double reach_m_ = 0;  ///< no coordinate of the grip's origin can be larger
   PoseSolver solver_;
