@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What was found in a frame, for other programs.
+/// Writes the result of a frame's analysis as JSON.
 #pragma once
 
 #include <cstdint>

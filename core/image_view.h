@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grey picture that belongs to somebody else.
+/// A view of a grey picture in memory that the caller owns.
 #pragma once
 
 #include <cstddef>

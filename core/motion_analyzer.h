@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// One frame of video in, one wrench out: the streaming thread's work.
+/// The analysis of a frame, from picture to wrench.
 #pragma once
 
 #include <cstdint>
@@ -31,11 +31,11 @@ struct AnalyzerSettings {
   ControllerSettings controller;
 };
 
-/// The paper to the letter: OpenCV's tracker, mean velocity of all points, unfiltered, nonlinear
+/// Exactly as in the paper: OpenCV's tracker, mean velocity of all points, unfiltered, nonlinear
 /// controller.
 SPIDAR_API AnalyzerSettings paper_settings();
 
-/// What was found in one frame.
+/// The result of one frame.
 struct FrameAnalysis {
   int width = 0;  ///< of the frame, px
   int height = 0;
@@ -43,11 +43,11 @@ struct FrameAnalysis {
   ImageMotion motion;  ///< the one that is felt, unfiltered, in unscaled px/s of the frame given
   /// Model of the background; nothing when `motion` needs none, and after a restart.
   std::optional<ModelKind> model;
-  int objects = 0;         ///< known beside the background; 0 when `motion` looks for none
-  Wrench wrench;           ///< what the controller wants, before any safety step
+  int objects = 0;         ///< how many are known; 0 when `motion` needs none
+  Wrench wrench;           ///< wanted by the controller, before any safety limit
   bool restarted = false;  ///< nothing to compare with: motion and wrench are zero
-  /// The picture before is shown again, and may yet belong to something that moves: motion and
-  /// wrench are those of the frame before.
+  /// The frame shows the previous picture again, and the motion may go on: motion and wrench are
+  /// those of the previous frame.
   bool repeated = false;
   /// The frame shows the picture before again, whether that waits (`repeated`) or rests: the same
   /// pixels, or what the noise of coding has made of them.
@@ -65,8 +65,9 @@ struct FrameAnalysis {
 /// image → features → tracks → motion model → motion → filter → gain controller → wrench. One
 /// thread at a time.
 ///
-/// A frame that shows the picture before again says nothing of motion. It waits (`repeated`) for up
-/// to Cadence::kRest_ns, or as long as the film has let wait before; after that it is rest.
+/// A frame that shows the previous picture again does not tell whether anything moves. It is
+/// reported as `repeated` for up to Cadence::kRest_ns, or for as long as the film has repeated
+/// pictures before; after that it counts as rest.
 class SPIDAR_API MotionAnalyzer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
@@ -90,7 +91,8 @@ class SPIDAR_API MotionAnalyzer {
   /// has nothing to do with the one before.
   std::optional<FrameAnalysis> repeat(int64_t running_time_ns);
 
-  /// A flush, a seek, a discontinuity: the next frame shows no motion, the controller starts anew.
+  /// After a flush, a seek or a discontinuity: the next frame has no motion, and the controller
+  /// starts again.
   void restart();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The seam between the haptic loop and a board: volts out, counts in.
+/// The interface between the haptic loop and a board: volts out, counts in.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ struct MotorVolts {
 struct DeviceReading {
   std::array<int32_t, kMaxStrings> count{};  ///< encoder counts, signed as the board gives them
   uint32_t inputs = 0;                       ///< digital inputs, bit 0 first
-  /// False when the counts are where the board takes the grip to be: that they stand still while
-  /// the force changes is then no sign of dead encoders.
+  /// False when the counts are computed from where the board assumes the grip to be. Counts that
+  /// stand still while the force changes are then no sign of dead encoders.
   bool encoders = true;
 };
 
@@ -55,11 +55,11 @@ class SPIDAR_API Device {
   /// Motors to zero, then releases the board. Safe to call twice, and after kLost.
   virtual void close() noexcept = 0;
 
-  /// What open() found, for people: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3". Empty while
-  /// closed, and for devices that are no more than their name.
+  /// A description for people of what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".
+  /// Empty while closed, and for devices whose name says everything.
   virtual std::string description() const { return {}; }
 
-  /// How the link to the board has been; all zero for a device without one. Any thread.
+  /// Statistics of the link to the board; all zero for a device without one. Any thread.
   virtual LinkHealth health() const noexcept { return {}; }
 
   /// For messages: "sim", "usb:3", …

@@ -20,10 +20,10 @@ namespace spidar {
 ///   usb, usb:ID             CyVerse board; ID: rotary switch, serial number or bus path
 ///   uart:PATH[,PATH]        UART motor boards on serial lines
 ///   mouse, mouse:ID         SPIDAR-mouse; ID: serial number or bus path
-///   ff, ff:PATH             joystick, wheel or gamepad with force feedback: the first, or that
-///   file
-/// Nothing is opened. Throws DeviceError that lists what can be named, or says why the board cannot
-/// drive the profile. ("none" is not a device: who asks for it needs no loop.)
+///   ff, ff:PATH             joystick, wheel or gamepad with force feedback: the first one, or
+///                           this file
+/// Opens nothing. Throws DeviceError, which lists the valid names or explains why the board cannot
+/// drive the profile. "none" is not a device, because it needs no loop.
 SPIDAR_API std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
                                                const BoardSettings& settings = {});
 

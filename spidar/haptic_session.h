@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device at work: loop, thread, and the file that records it. What a player needs of this
-/// library.
+/// Runs a device: the loop, its thread, and the trace file. This is the class that a player uses.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +32,8 @@ class SPIDAR_API HapticSession {
   /// profile has fewer than six strings, or TraceError when the trace cannot be written.
   HapticSession(const Profile& profile, std::unique_ptr<Device> device,
                 const SessionSettings& settings = {});
-  /// Ramps to rest, then to zero, and closes the device: some 60 ms. Without a thread the ramp's
-  /// ticks follow each other at once, a millisecond apart in the loop's time.
+  /// Ramps to rest, then to zero, and closes the device, within some 60 ms. Without a thread, the
+  /// ticks of the ramp run immediately, a millisecond apart in the loop's time.
   ~HapticSession();
 
   HapticLoop& loop() noexcept;
@@ -46,8 +45,8 @@ class SPIDAR_API HapticSession {
   /// Lateness and duration of the thread's ticks; empty without a thread.
   const LoopTiming& timing() const noexcept;
 
-  /// Writes the trace up to the last tick; a thread does that by itself. The trace takes the loop's
-  /// records: pop_record() is for sessions without one.
+  /// Writes the trace up to the last tick; with a thread this happens by itself. The trace consumes
+  /// the loop's records: pop_record() is for sessions without a trace.
   void drain_trace() noexcept;
   /// All zero without a trace.
   TraceStatus trace_status() const noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a SPIDAR is made of: geometry, electrical numbers, and where each number comes from.
+/// The description of a device: geometry, motors, encoders, and the source of each number.
 #pragma once
 
 #include <array>
@@ -33,10 +33,10 @@ struct StringDrive {
   /// Length at zero count minus length with the grip at the centre: 0 when the grip was at the
   /// centre when the board's counters were cleared. Holds until they are cleared again.
   double home_offset_m = 0;
-  /// What the motor can give for ever without getting too hot, N; 0: not stated, half of the
-  /// largest.
+  /// Tension that the motor can give continuously without overheating, N. 0: not stated, half of
+  /// max_tension_N is used.
   double continuous_tension_N = 0;
-  /// Time constant of its winding's temperature, s.
+  /// Time constant of the winding's temperature, s.
   double heating_time_s = kHeatingTime_s;
 
   static constexpr double kHeatingTime_s = 20;
@@ -46,12 +46,12 @@ struct StringDrive {
   }
 };
 
-/// How sure a number is.
+/// How reliable a number is.
 enum class Evidence {
   kPublished,     ///< read in the source
   kInferred,      ///< derived or plausible; check on the unit
   kContradicted,  ///< read in the source, and another source says something else
-  kMeasured,      ///< on this very unit, by calibration
+  kMeasured,      ///< on this unit, by calibration
 };
 
 /// Where a group of numbers comes from.
@@ -62,7 +62,7 @@ struct Provenance {
   std::string note;  ///< how it was derived, or what contradicts it; may be empty
 };
 
-/// How well calibrated numbers are known: standard deviations. What was not calibrated is empty.
+/// Standard deviations of calibrated numbers; empty for what was not calibrated.
 struct CalibrationRecord {
   int samples = 0;
   double residual_m = 0;                   ///< root mean square length error of all samples
@@ -86,8 +86,9 @@ struct Profile {
   SPIDAR_API StringVector zero_count_length_m() const;
   SPIDAR_API StringVector min_tension_N() const;
   SPIDAR_API StringVector max_tension_N() const;
-  /// What a PoseSolver may leave of a right pose (root mean square): one encoder step, the coarsest
-  /// of the strings. Counts err by half of it; the rest is for what the geometry does not say.
+  /// The largest residual (root mean square) of a right pose, for PoseSolver: one step of the
+  /// coarsest encoder. Counts are off by at most half a step; the other half allows for errors of
+  /// the geometry.
   SPIDAR_API double max_pose_residual_m() const;
 };
 

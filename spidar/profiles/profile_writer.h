@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From a Profile to a profile file.
+/// Writes profile files.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace spidar {
 
-/// TOML that load_profile() reads back as the same profile, to the last digit, but for its name,
-/// which is that of the file. Geometry is in D and metres.
+/// TOML from which load_profile() reads exactly the same profile, except for its name, which is
+/// that of the file. Geometry is in D and metres.
 SPIDAR_API std::string profile_text(const Profile& profile);
 
-/// Writes profile_text() to `path`, whole or not at all: an existing file is replaced when the new
-/// one is complete. Throws ProfileError.
+/// Writes profile_text() to `path` atomically: an existing file is replaced when the new one is
+/// complete. Throws ProfileError.
 SPIDAR_API void save_profile(const Profile& profile, const std::string& path);
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How late, or how long, over many ticks.
+/// A histogram of durations, such as the lateness of ticks.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace spidar {
 
-/// Durations in `Bins` bins of `BinWidth_ns`, and one for all above. One thread adds, any may read
-/// at the same time; adding neither locks nor allocates.
+/// Durations in `Bins` bins of `BinWidth_ns`, and one for all above. One thread adds while any
+/// thread may read. Adding neither locks nor allocates.
 template <size_t Bins, int64_t BinWidth_ns>
 class DurationHistogram {
  public:
@@ -30,7 +30,7 @@ class DurationHistogram {
     }
   }
 
-  /// While nobody adds.
+  /// Must not be called while another thread adds.
   void reset() noexcept {
     for (auto& counter : counters_) counter.store(0, std::memory_order_relaxed);
     max_ns_.store(0, std::memory_order_relaxed);
@@ -45,8 +45,8 @@ class DurationHistogram {
   /// Largest duration, exact.
   int64_t max_ns() const noexcept { return max_ns_.load(std::memory_order_relaxed); }
 
-  /// Duration that a share `q` (0 … 1) of all is not above: the upper end of its bin, so at most 1
-  /// µs too large; max_ns() when it is above 2 ms; 0 when there is none.
+  /// The quantile `q` (0 … 1): the upper end of its bin, at most 1 µs too large. max_ns() when it
+  /// is above 2 ms; 0 when the histogram is empty.
   int64_t quantile_ns(double q) const noexcept {
     const double rank = std::ceil(q * static_cast<double>(count()));
     uint64_t sum = 0;
@@ -65,7 +65,7 @@ class DurationHistogram {
   std::atomic<int64_t> max_ns_{0};
 };
 
-/// What a loop of 1 kHz needs: 1 µs bins up to 2 ms.
+/// For a loop at 1 kHz: 1 µs bins up to 2 ms.
 using LatencyHistogram = DurationHistogram<2000, 1000>;
 
 }  // namespace spidar

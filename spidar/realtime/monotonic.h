@@ -18,7 +18,7 @@ inline int64_t monotonic_now_ns() noexcept {
   return static_cast<int64_t>(now.tv_sec) * kSecond_ns + now.tv_nsec;
 }
 
-/// Sleeps until then, whatever signals come; returns at once when that is past.
+/// Sleeps until this time, also when signals arrive. Returns at once when it is past.
 inline void sleep_until_ns(int64_t monotonic_ns) noexcept {
   const timespec until{static_cast<time_t>(monotonic_ns / kSecond_ns),
                        static_cast<long>(monotonic_ns % kSecond_ns)};

@@ -12,9 +12,9 @@
 
 namespace spidar {
 
-/// The writer never waits; several writers need a lock of their own. Words are atomics, so there is
-/// no data race for the sanitizer to overlook (Boehm, "Can seqlocks get along with programming
-/// language memory models?", 2012).
+/// The writer never waits; several writers need a lock of their own. The words are atomics, so that
+/// there is no data race in the sense of the language (Boehm, "Can seqlocks get along with
+/// programming language memory models?", 2012).
 template <typename T>
 class Seqlock {
   // Eigen's fixed-size types are plain memory but not formally trivially copyable.
@@ -35,8 +35,9 @@ class Seqlock {
     sequence_.store(sequence + 2, std::memory_order_release);
   }
 
-  /// False when a write was under way: `value` is left as it was. For readers of higher priority
-  /// than the writer, which on one processor would wait for ever for a writer that they hold up.
+  /// Returns false and leaves `value` unchanged when a write is under way. For readers of higher
+  /// priority than the writer: on a single processor they would wait forever for a writer that
+  /// cannot run.
   bool try_load(T& value) const noexcept {
     std::array<uint64_t, kWords> words;
     const uint64_t before = sequence_.load(std::memory_order_acquire);

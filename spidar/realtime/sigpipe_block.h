@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Writing to a pipe whose reader has left.
+/// Lets a thread write to a pipe whose reader may be gone.
 #pragma once
 
 #include <csignal>
@@ -8,9 +8,9 @@
 
 namespace spidar {
 
-/// While it lives, the calling thread is not ended by SIGPIPE: the write fails with EPIPE instead.
-/// A library must not change what the application does with the signal, so it is blocked for this
-/// thread, and what came of it is taken away again.
+/// During its lifetime, SIGPIPE does not end the process when the calling thread writes to a closed
+/// pipe; the write fails with EPIPE. A library must not change the application's signal handlers,
+/// so the signal is blocked for this thread only, and a pending one is consumed at the end.
 class SigpipeBlock {
  public:
   SigpipeBlock() noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a thread asks of the operating system.
+/// Priority, timers and signals of a thread.
 #pragma once
 
 #include <csignal>
@@ -24,10 +24,10 @@ SPIDAR_API Scheduling request_real_time();
 /// so that processors sleep longer. A real-time thread has no slack anyway.
 void request_exact_timers() noexcept;
 
-/// The calling thread yields to most others.
+/// Gives the calling thread a low priority.
 void request_background() noexcept;
 
-/// While it lives, threads that this one starts have all signals blocked.
+/// During its lifetime, threads that the calling thread starts have all signals blocked.
 class SPIDAR_API SignalsBlocked {
  public:
   SignalsBlocked() noexcept;
@@ -39,9 +39,9 @@ class SPIDAR_API SignalsBlocked {
   sigset_t previous_;
 };
 
-/// Every thread of this library is started by this: it has a name of up to 15 characters, for
-/// debuggers and top, and all signals blocked, because an application's signals are for the
-/// application's threads. Throws std::system_error when there can be no thread.
+/// Starts a thread. All threads of this library are started here, with a name of up to 15
+/// characters for debuggers and top, and with all signals blocked, so that signals reach the
+/// application's own threads. Throws std::system_error.
 template <typename Function>
 std::thread start_thread(const char* name, Function run) {
   const SignalsBlocked blocked;

@@ -44,8 +44,8 @@ class SPIDAR_API GripDynamics {
   static constexpr int kMaxSubsteps = 1000;
 
   /// Moves `state` on by `dt_s` ≥ 0. Tensions follow `target_N` with the motors' lag. The hand's
-  /// springs pull towards `hand`; its dampers act against the grip's own velocity, because a hand
-  /// that is told a place has no speed of its own. The grip's origin stays within limit_m() of the
+  /// springs pull towards `hand`; its dampers act against the grip's own velocity, because only
+  /// the position of the hand is given. The grip's origin stays within limit_m() of the
   /// centre: at the limit it stops, losing its outward velocity.
   void advance(const StringVector& target_N, const Pose& hand, double dt_s,
                GripState& state) const noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A SPIDAR-G that exists only as equations; the default device.
+/// The simulated SPIDAR-G, which is the default device.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace spidar {
 
-/// What the hand and the motors really got.
+/// The true state, without quantisation.
 struct FeltState {
   int64_t time_ns = 0;  ///< simulated time since open()
   StringVector tension_N = StringVector::Zero();
@@ -30,14 +30,14 @@ struct FeltState {
 
 /// Encoders are quantised, the D/A has its resolution, motors lag and saturate, strings only pull.
 ///
-/// An exchange is an instant: its volts act until the next one. Like the real boards it keeps them
-/// when the host goes silent: with kClock the strings pull on for the time that passed, with
-/// kFixedStep time stands still between exchanges.
+/// An exchange takes no time; its volts act until the next one. Like a real board, the device keeps
+/// the volts when the host stops sending: with kClock the strings go on pulling while time passes,
+/// with kFixedStep time stands still between exchanges.
 class SPIDAR_API SimulatedDevice final : public Device {
  public:
   enum class Time {
     kFixedStep,  ///< each exchange is 1 ms after the last: deterministic
-    kClock,      ///< the time that has really passed, at most 50 ms
+    kClock,      ///< real time, at most 50 ms per exchange
   };
 
   /// Throws std::invalid_argument when `model` is not physical or too stiff, see GripDynamics.
@@ -45,37 +45,37 @@ class SPIDAR_API SimulatedDevice final : public Device {
   ~SimulatedDevice() override;
 
   /// Puts the grip at rest at the centre, as the user of a real device does. The counters are zero
-  /// there, or where the profile's home_offset_m says. Throws DeviceError for as long as a fault
-  /// stands.
+  /// there, or where the profile's home_offset_m puts them. Throws DeviceError while a fault is
+  /// set.
   void open() override;
 
   /// kLost when not open. Volts that are not finite or point the wrong way count as zero.
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
 
-  /// Simulates on with zero volts until the motors' lag has run out, 50 ms at most; then the power
-  /// is off and the tensions are zero.
+  /// Continues the simulation with zero volts until the motors' lag has passed, at most 50 ms; then
+  /// the power is off and the tensions are zero.
   void close() noexcept override;
 
   const std::string& name() const noexcept override;
 
-  /// Where the hand wants to be; the grip is pulled there by the hand's spring. A pose that is not
-  /// finite is ignored. Any thread.
+  /// Sets where the hand is; its spring pulls the grip there. A pose that is not finite is ignored.
+  /// Any thread.
   void set_hand(const Pose& pose) noexcept;
 
-  /// Makes every exchange answer like this until it is called with kOk. Time passes all the same:
-  /// with kTimeout the volts do not reach the motors, with kBadReply they do. kLost closes the
+  /// Makes every exchange return this status until it is called with kOk. Time goes on meanwhile.
+  /// With kTimeout the volts do not reach the motors, with kBadReply they do; kLost closes the
   /// device. Any thread.
   void set_fault(ExchangeStatus fault) noexcept;
 
-  /// From now on the encoder of `string` (0 … count − 1) says this many counts more: pulses that
-  /// were lost, or string that is slack. Any thread. Throws std::out_of_range.
+  /// Adds an offset to the encoder of `string` (0 … count − 1), as lost pulses or a slack string
+  /// do. Any thread. Throws std::out_of_range.
   void set_count_error(int string, int32_t counts);
 
   /// Newest state; any thread.
   FeltState felt() const noexcept;
 
-  /// Every state in order, one an exchange, for one reader. False when there is none. 4096 are
-  /// kept; newer ones are dropped when nobody reads.
+  /// The next state, one per exchange, for one reader. Returns false when there is none. Up to 4096
+  /// are kept; newer ones are dropped while the queue is full.
   bool pop_felt(FeltState& felt) noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Strings that are pulled one millisecond after the other, without a wrench.
+/// Sets string tensions directly, millisecond by millisecond.
 #pragma once
 
 #include <functional>
@@ -12,32 +12,32 @@
 
 namespace spidar {
 
-/// Waits for the next millisecond; false: end early.
+/// Waits for the next millisecond. Returns false to end early.
 using Pace = std::function<bool()>;
 
-/// A device that is open for as long as this lives. Tensions change along straight lines. Every
-/// function throws DeviceError when the device is lost.
+/// Keeps a device open during its lifetime. Tensions change linearly. Every function throws
+/// DeviceError when the device is lost.
 class SPIDAR_API StringHold {
  public:
-  /// Opens the device, whose tensions are zero then. Throws DeviceError.
+  /// Opens the device with zero tensions. Throws DeviceError.
   StringHold(Device& device, const Profile& profile, Pace pace);
-  /// Closes it, which takes what is left of the tensions to zero.
+  /// Closes the device, which takes the tensions to zero.
   ~StringHold();
   StringHold(const StringHold&) = delete;
   StringHold& operator=(const StringHold&) = delete;
 
-  /// To these tensions within that time. Newtons, within zero and each string's largest. False when
-  /// ended early.
+  /// Ramps to these tensions, in newtons from zero to each string's largest, within the given time.
+  /// Returns false when ended early.
   bool go(const StringVector& tension_N, double seconds);
 
-  /// As they are for so long, which may be for ever. `seen` gets every reading; when it returns
-  /// false, that is all. False when ended early by the pace.
+  /// Holds the tensions for the given time, which may be infinite. Calls `seen` with every reading
+  /// and ends when it returns false. Returns false when the pace ended it early.
   bool stay(double seconds, const std::function<bool(const DeviceReading&)>& seen = {});
 
-  /// To zero, whatever the pace says.
+  /// Ramps to zero; does not end early.
   void release();
 
-  /// This string's volts have the other sign from now on. Its tension must be zero.
+  /// Reverses the sign of this string's volts. Its tension must be zero.
   void reverse_motor(int string);
 
   const StringVector& tension_N() const noexcept { return tension_N_; }

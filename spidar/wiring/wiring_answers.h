@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the encoders say when one motor after the other pulls.
+/// Measures how the encoders answer when one motor after the other pulls.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@ namespace spidar {
 
 struct WiringTestSettings {
   double pull_N = 0.5;   ///< above the smallest tension, as far as the string's largest allows
-  double ramp_s = 0.05;  ///< up and down
+  double ramp_s = 0.05;  ///< time to build up the pull, and to release it
   double settle_s = 0.1;
   double average_s = 0.1;
-  /// A motor that does nothing is tried with the other sign: for boards that have negative volts.
+  /// Tries a motor that does nothing with the other sign; for boards that can give negative volts.
   bool try_reversed = false;
 };
 
@@ -30,7 +30,7 @@ struct WiringAnswers {
   CountChanges counts = CountChanges::Zero();
   StringVector pulled_N = StringVector::Zero();  ///< by how much more each motor pulled
   std::array<bool, kMaxStrings> reversed{};  ///< it did so with the other sign than the profile's
-  /// Its pulls had different answers, however often they were repeated: the hand moved.
+  /// The answers to its pulls differed at every attempt, because the hand moved.
   std::array<bool, kMaxStrings> unsteady{};
   bool complete = false;  ///< false: ended early by the pace
 };
@@ -45,7 +45,8 @@ struct WiringAnswers {
 SPIDAR_API WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pace,
                                     const WiringTestSettings& settings = {});
 
-/// Smallest answer to a pull that is one, metres: some counts, which a hand's tremor makes, too.
+/// Smallest change of length that counts as an answer, metres: some counts, above the tremor of a
+/// hand.
 SPIDAR_API double smallest_answer_m(const Profile& profile);
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which motor pulls, and which encoder reads, which string.
+/// Finds which motor pulls and which encoder reads which string.
 #pragma once
 
 #include <array>
@@ -12,31 +12,31 @@
 
 namespace spidar {
 
-/// Of a channel of the board.
+/// One channel of the board.
 struct WiringChannel {
   int motor_string = -1;  ///< which string of the profile the motor pulls; −1: it does nothing
   bool motor_reversed = false;
   int encoder_string = -1;  ///< which string the encoder reads; −1: it stands still
   bool encoder_reversed = false;
-  /// What the encoders said when the motor pulled was not it alone: the hand moved, or they said
-  /// something else each time, or nothing that a motor of this device can do.
+  /// The answers to this motor's pulls are not those of one motor alone: the hand moved, they
+  /// differed from pull to pull, or no motor of this device can cause them.
   bool unclear = false;
 };
 
 struct WiringReport {
   int count = 0;
   std::array<WiringChannel, kMaxStrings> channel{};
-  /// Of the answers with those of the profile's geometry wired like that, 0 … 1.
+  /// Correlation of the answers with those expected for this wiring, 0 … 1.
   double correlation = 0;
 
   /// Below kMinCorrelation the answers do not look like this device's, however it is wired.
   static constexpr double kMinCorrelation = 0.8;
-  /// And every motor's own answers do, in their directions and in their size.
+  /// The correlation is sufficient, and so is that of each motor's answers, in direction and size.
   SPIDAR_API bool understood() const noexcept;
-  /// All is as the profile says.
+  /// The wiring is that of the profile.
   SPIDAR_API bool as_profile() const noexcept;
-  /// A profile can say what is wrong: signs, and strings that are at other channels, motor and
-  /// encoder together.
+  /// A profile can describe the wiring: it differs in signs, and in strings that are at other
+  /// channels, motor and encoder together.
   SPIDAR_API bool fixable() const noexcept;
 };
 
