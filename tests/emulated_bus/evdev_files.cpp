@@ -25,6 +25,7 @@
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/evdev_kinds.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/usb_files.h"
 
@@ -85,62 +86,6 @@ void put_file(const std::string& path, const std::string& text) {
   const int file = real_open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0 || syscall(SYS_write, file, text.data(), text.size()) < 0) std::abort();
   syscall(SYS_close, file);
-}
-
-bool is_constant(EvdevKind kind) {
-  return kind == EvdevKind::kStick || kind == EvdevKind::kWheel;
-}
-
-std::vector<unsigned> ff_bits(EvdevKind kind) {
-  switch (kind) {
-    case EvdevKind::kStick:
-      return {FF_CONSTANT, FF_RUMBLE, FF_GAIN, FF_AUTOCENTER};
-    case EvdevKind::kWheel:
-      return {FF_CONSTANT, FF_AUTOCENTER};
-    case EvdevKind::kPad:
-      return {FF_RUMBLE};
-    default:
-      return {};
-  }
-}
-
-std::vector<unsigned> abs_bits(EvdevKind kind) {
-  if (kind == EvdevKind::kWheel) return {ABS_X, ABS_Y};  // the second is a pedal
-  if (kind == EvdevKind::kKeyboard) return {};
-  return {ABS_X, ABS_Y};
-}
-
-const char* name_of(EvdevKind kind) {
-  switch (kind) {
-    case EvdevKind::kStick:
-      return "Emulated Stick";
-    case EvdevKind::kWheel:
-      return "Emulated Racing Wheel";
-    case EvdevKind::kPad:
-      return "Emulated Pad";
-    default:
-      return "Emulated Keyboard";
-  }
-}
-
-/// As the kernel prints it: words, the highest first.
-std::string sysfs_bits(const std::vector<unsigned>& bits) {
-  unsigned long words[2] = {};
-  for (const unsigned bit : bits) words[bit / 64] |= 1UL << bit % 64;
-  std::array<char, 40> text{};
-  if (words[1] != 0)
-    std::snprintf(text.data(), text.size(), "%lx %lx\n", words[1], words[0]);
-  else
-    std::snprintf(text.data(), text.size(), "%lx\n", words[0]);
-  return text.data();
-}
-
-int put_bits(const std::vector<unsigned>& bits, void* argument, size_t size) {
-  auto* bytes = static_cast<uint8_t*>(argument);
-  std::fill_n(bytes, size, uint8_t{0});
-  for (const unsigned bit : bits)
-    if (bit / 8 < size) bytes[bit / 8] = static_cast<uint8_t>(bytes[bit / 8] | 1 << bit % 8);
-  return static_cast<int>(size);
 }
 
 void erase(EvdevPort::Effect& effect) {

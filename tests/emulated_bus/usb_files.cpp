@@ -25,38 +25,13 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/emulation/emulated_usb.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/port_board.h"
 
 namespace spidar::test {
 namespace {
 
 constexpr uint8_t kIn = 0x80;
-
-/// Motors and encoders of a port.
-class PortMotors final : public EmulatedMotors {
- public:
-  explicit PortMotors(UsbPort& port) : port_(port) {}
-  void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
-    for (size_t i = 0; i < digits.size(); ++i) port_.digit[i] = digits[i];
-    ++port_.updates;
-  }
-  std::array<int32_t, kMaxStrings> counts() noexcept override {
-    std::array<int32_t, kMaxStrings> counts{};
-    for (size_t i = 0; i < counts.size(); ++i) counts[i] = port_.count[i];
-    return counts;
-  }
-  uint16_t inputs() noexcept override { return port_.inputs; }
-
- private:
-  UsbPort& port_;
-};
-
-std::unique_ptr<EmulatedBoard> make_board(UsbKind kind, EmulatedMotors& motors) {
-  if (kind == UsbKind::kSimple) return std::make_unique<EmulatedSimple>(motors);
-  if (kind == UsbKind::kMouse) return std::make_unique<EmulatedMouse>(motors);
-  return std::make_unique<EmulatedSh4>(motors);
-}
 
 struct UsbFile {
   explicit UsbFile(SharedFile& with)
@@ -167,18 +142,8 @@ bool still_there(UsbFile& f) {
   return f.connected;
 }
 
-int status_of(LinkFault fault) {
-  switch (fault) {
-    case LinkFault::kStall:
-      return -EPIPE;
-    case LinkFault::kBusError:
-      return -EPROTO;
-    default:
-      return 0;
-  }
-}
-
-/// What the board says, spoilt as the port's fault wants it, into the first reply that waits.
+/// Puts the board's replies into the URBs that wait for them, with the fault that the port is set
+/// to.
 void answer(UsbFile& f) {
   while (!f.waiting.empty()) {
     const LinkFault fault = f.port.fault;
@@ -187,14 +152,9 @@ void answer(UsbFile& f) {
     auto* bytes = static_cast<uint8_t*>(urb->buffer);
     size_t length = f.board->reply({bytes, static_cast<size_t>(urb->buffer_length)});
     if (length == 0) return;
-    int status = 0;
-    if (fault == LinkFault::kShort) length /= 2;
-    if (fault == LinkFault::kBabble) status = -EOVERFLOW;
-    if (fault == LinkFault::kWrongReply)
-      for (size_t i = 0; i < length; ++i) bytes[i] ^= 0xA5;
-    if (fault == LinkFault::kWrongEcho) bytes[0] ^= 0x10;
+    length = spoil_reply(fault, {bytes, length});
     f.waiting.pop_front();
-    finish(f, urb, status, length);
+    finish(f, urb, fault == LinkFault::kBabble ? -EOVERFLOW : 0, length);
   }
 }
 
