@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a SPIDAR gives of a wanted force over its workspace; docs/workspace.md explains the
+/// Which part of a wanted force a SPIDAR delivers over its workspace; docs/workspace.md explains the
 /// numbers.
 
 #include <cstdio>
