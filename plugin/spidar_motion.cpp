@@ -130,7 +130,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
                     properties.used_profile().c_str());
     if (!trace_problem.empty()) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
-                          ("The video and the force go on without it."));
+                          ("The video and the force continue without it."));
     }
     set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {

@@ -218,7 +218,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   if (!reason.empty()) {
     GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
                         ("Cannot write the trace '%s': %s.", trace.c_str(), reason.c_str()),
-                        ("The video goes on without it."));
+                        ("The video continues without it."));
   }
   return TRUE;
 }

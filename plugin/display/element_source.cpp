@@ -132,7 +132,7 @@ class ElementSource final : public WindowSource {
     const Held held(element_);
     if (!held.get()) return;
     GST_ELEMENT_WARNING(held.get(), RESOURCE, NOT_FOUND, ("%s", what.c_str()),
-                        ("%s The video goes on without it.", advice.c_str()));
+                        ("%s The video continues without it.", advice.c_str()));
   }
 
   void closed() override {

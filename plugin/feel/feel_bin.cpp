@@ -173,7 +173,7 @@ static void gst_spidar_feel_bin_class_init(GstSpidarFeelBinClass* klass) {
   GST_ELEMENT_CLASS(klass)->change_state = gst_spidar_feel_bin_change_state;
   gst_element_class_set_static_metadata(
       GST_ELEMENT_CLASS(klass), "Felt video", "Filter/Effect/Video",
-      "spidarmotion for players that have no place for it", "gst-spidar");
+      "spidarmotion for players that offer no way to add a filter", "gst-spidar");
 }
 
 static void add_ghost_pad(GstSpidarFeelBin* self, GstElement* element, const char* name) {

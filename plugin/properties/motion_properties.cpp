@@ -92,7 +92,7 @@ void install_motion_properties(GObjectClass* c) {
           defaults.used_profile().c_str(), kReady));
   install_feel_properties(c);
   install(kPropTracker,
-          g_param_spec_enum("tracker", "Tracker", "How points are followed", tracker_type(),
+          g_param_spec_enum("tracker", "Tracker", "How points are tracked", tracker_type(),
                             static_cast<int>(tracker.kind), kControllable));
   install(kPropQuality,
           g_param_spec_enum("quality", "Quality",
@@ -110,8 +110,8 @@ void install_motion_properties(GObjectClass* c) {
   install(kPropMinDistance,
           g_param_spec_double(
               "min-distance", "Minimum distance",
-              "Least distance between two tracked points, in pixels of a frame 480 lines high", 0.0,
-              480.0, tracker.min_distance_px, kControllable));
+              "Smallest distance between two tracked points, in pixels of a frame 480 lines high",
+              0.0, 480.0, tracker.min_distance_px, kControllable));
   install(kPropTsOffset, g_param_spec_int64("ts-offset", "Timestamp offset",
                                             "Render the force later (positive) or earlier "
                                             "(negative) than the frame is shown, in nanoseconds",

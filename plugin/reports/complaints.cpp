@@ -19,20 +19,18 @@ void Complaints::look_at_place() {
     place = outer;
   }
   if (!in_timeline) return;
-  GST_ELEMENT_WARNING(
-      element_, STREAM, FORMAT,
-      ("As an effect of an editing timeline most of the video is not felt, or at another time."),
-      ("Each clip of GES has a running time of its own, and seeks that the sink does not hear of. "
-       "Put "
-       "spidarmotion behind the timeline instead, as with ges-launch-1.0 "
-       "--videosink=\"spidarmotion ! "
-       "autovideosink\"."));
+  GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
+                      ("As an effect of an editing timeline, most of the video is not felt, or is "
+                       "felt at the wrong time."),
+                      ("Each clip of GES has its own running time, and seeks that the sink is not "
+                       "notified of. Put spidarmotion behind the timeline instead, for example "
+                       "with ges-launch-1.0 --videosink=\"spidarmotion ! autovideosink\"."));
 }
 
 void Complaints::look_at_frame(const FrameReport& report) {
   if (report.trace_failed) {
-    GST_ELEMENT_WARNING(element_, RESOURCE, WRITE, ("The trace cannot be written any more."),
-                        ("Disk full? The video goes on without it."));
+    GST_ELEMENT_WARNING(element_, RESOURCE, WRITE, ("The trace can no longer be written."),
+                        ("The disk may be full. The video continues without the trace."));
   }
   const guint bit = 1u << static_cast<guint>(report.problem);
   if (frame_problems_ & bit) return;
@@ -41,26 +39,30 @@ void Complaints::look_at_frame(const FrameReport& report) {
     case FrameProblem::kNoTimestamp:
       GST_ELEMENT_WARNING(
           element_, STREAM, FORMAT,
-          ("Frames without a timestamp cannot be felt in time; they are shown only."),
-          ("Buffer without PTS, or decades ahead, or a segment that is not in time (a filesrc of "
-           "raw frames). A videorate, rawvideoparse or a parser before the decoder adds them."));
+          ("Frames without a timestamp cannot be felt in time; they are only shown."),
+          ("The buffer has no PTS, or its PTS is decades ahead, or the segment is not in time "
+           "format (for example raw frames from a filesrc). A videorate, a rawvideoparse or a "
+           "parser before the decoder adds timestamps."));
       break;
     case FrameProblem::kSameTimestamp:
-      GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
-                          ("Two frames have the same timestamp, or nearly so; the second one is "
-                           "shown but not felt."),
-                          ("Less than an eighth of the time between two frames, or than half a "
-                           "millisecond, is no time to divide a motion by."));
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("Two frames have the same timestamp, or nearly so; the second one is shown but not "
+           "felt."),
+          ("No velocity is computed from two frames that are less than half a millisecond, or an "
+           "eighth of the usual time between two frames, apart."));
       break;
     case FrameProblem::kFallingTimestamp:
-      GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
-                          ("Timestamps go back without a discontinuity; motion is measured anew."),
-                          ("Running time must rise within a segment."));
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("Timestamps go back without a discontinuity; the measurement of motion restarts."),
+          ("Running time must increase within a segment."));
       break;
     case FrameProblem::kTooSmall:
-      GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
-                          ("A frame has less memory than its picture needs; it is passed on only."),
-                          ("The strides and offsets of its GstVideoMeta do not fit it."));
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("A frame has less memory than its picture needs; it is passed on but not felt."),
+          ("The strides and offsets of its GstVideoMeta do not fit it."));
       break;
     case FrameProblem::kNone:
     case FrameProblem::kNotShown:
@@ -74,8 +76,8 @@ void Complaints::look_at_overlay(const GstVideoInfo& info) {
   GST_ELEMENT_WARNING(
       element_, STREAM, FORMAT,
       ("The overlay cannot be drawn into frames of the format %s.", GST_VIDEO_INFO_NAME(&info)),
-      ("The force is felt all the same. A videoconvert in front of the element and "
-       "caps with format=I420, for example, make frames that can be drawn into."));
+      ("The force is felt nevertheless. To convert to a format that supports the overlay, put a "
+       "videoconvert in front of the element, with caps such as format=I420."));
 }
 
 }  // namespace spidar

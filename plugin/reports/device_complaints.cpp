@@ -33,8 +33,8 @@ void DeviceComplaints::look_at_haptic_trace(const HapticSession* session) {
   if (error == 0 || haptic_trace_) return;
   haptic_trace_ = true;
   GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
-                      ("The haptic trace cannot be written any more: %s.", g_strerror(error)),
-                      ("%s and the force go on without it.", what_.c_str()));
+                      ("The haptic trace can no longer be written: %s.", g_strerror(error)),
+                      ("%s and the force continue without it.", what_.c_str()));
 }
 
 void DeviceComplaints::look_at_strings(const HapticSession& session) {
@@ -43,11 +43,10 @@ void DeviceComplaints::look_at_strings(const HapticSession& session) {
   strings_ |= 1u << string;
   GST_ELEMENT_WARNING(
       element_, RESOURCE, READ,
-      ("String %d of the haptic device is slack or its encoder is at fault.", string),
-      ("Its length fits no pose of the others: it is left out, and the force is reduced to what "
-       "the "
-       "others can do. If all strings are taut, the counters were not zeroed with the grip at the "
-       "centre (spidarctl zero, spidarctl calibrate)."));
+      ("String %d of the haptic device is slack, or its encoder is faulty.", string),
+      ("Its length fits no pose that the other strings allow. The string is not used, and the "
+       "force is limited to what the others can deliver. If all strings are taut, the counters "
+       "were not zeroed with the grip at the centre (spidarctl zero, spidarctl calibrate)."));
 }
 
 void DeviceComplaints::look_at_pose(const HapticSession& session) {
@@ -60,18 +59,18 @@ void DeviceComplaints::look_at_pose(const HapticSession& session) {
     pose_lost_ = true;
     GST_ELEMENT_WARNING(
         element_, RESOURCE, READ,
-        ("Where the grip is cannot be told: %s. There is no force until it can.",
+        ("The pose of the grip is unknown: %s. There is no force until it is known again.",
          to_string(loop.pose_trouble)),
-        ("The strings have their least tension. Slack strings, dead encoders, or counters that "
-         "were "
-         "not zeroed with the grip at the centre (spidarctl zero, spidarctl calibrate)."));
+        ("The strings have their minimum tension. Possible causes: slack strings, dead encoders, "
+         "or counters that were not zeroed with the grip at the centre (spidarctl zero, spidarctl "
+         "calibrate)."));
   }
   if (loop.held_back && loop.motor_heat > MotorHeat::kLimitFrom && !held_back_) {
     held_back_ = true;
     GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
                         ("A motor of the haptic device is warm: the force is reduced."),
-                        ("Heat %.2f of what it may have for ever, see continuous_tension_N of the "
-                         "profile. It goes on in full when it has cooled.",
+                        ("The motor is at %.2f of its continuous rating (continuous_tension_N of "
+                         "the profile). The full force returns when the motor has cooled.",
                          loop.motor_heat));
   }
 }
@@ -97,8 +96,8 @@ bool DeviceComplaints::look_at(const HapticSession* session, OnDeviceError polic
     return false;
   }
   GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
-                      ("%s %s goes on without it.", text.c_str(), what_.c_str()),
-                      ("It is taken back when it returns."));
+                      ("%s %s continues without it.", text.c_str(), what_.c_str()),
+                      ("The device is reopened when it returns."));
   return true;
 }
 

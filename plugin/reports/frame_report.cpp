@@ -11,9 +11,9 @@ const char* to_string(FrameProblem problem) {
     case FrameProblem::kNoTimestamp:
       return "it has no timestamp";
     case FrameProblem::kSameTimestamp:
-      return "its timestamp is that of the frame before, or nearly so";
+      return "its timestamp is equal or nearly equal to that of the previous frame";
     case FrameProblem::kFallingTimestamp:
-      return "its timestamp is before that of the frame before";
+      return "its timestamp is earlier than that of the previous frame";
     case FrameProblem::kTooSmall:
       return "it has less memory than its picture needs";
     case FrameProblem::kNotShown:

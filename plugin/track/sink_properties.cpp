@@ -29,47 +29,49 @@ void install_sink_properties(GObjectClass* c) {
   const auto install = [c](SinkPropertyId id, GParamSpec* spec) {
     g_object_class_install_property(c, id, spec);
   };
-  install(kSinkDevice,
-          g_param_spec_string("device", "Device",
-                              "Haptic device: 'sim' (simulated SPIDAR) or a board as of spidarctl "
-                              "list ('usb', 'usb:ID', 'uart:PATH', 'mouse'); opened from NULL to "
-                              "READY",
-                              defaults.device.c_str(), kReady));
-  install(kSinkProfile, g_param_spec_string(
-                            "profile", "Profile",
-                            "Geometry and drives of the device: a name of the shipped profiles or "
-                            "the path of a .toml file; unset: one that the device's board can "
-                            "drive; read from NULL to READY",
-                            defaults.used_profile().c_str(), kReady));
+  install(
+      kSinkDevice,
+      g_param_spec_string(
+          "device", "Device",
+          "Haptic device: 'sim' (simulated SPIDAR) or a board that 'spidarctl list' prints ('usb', "
+          "'usb:ID', 'uart:PATH', 'mouse', 'ff'). Opened in the change from NULL to READY",
+          defaults.device.c_str(), kReady));
+  install(
+      kSinkProfile,
+      g_param_spec_string(
+          "profile", "Profile",
+          "Geometry and motors of the device: the name of a shipped profile or the path of a .toml "
+          "file. If unset, a profile that fits the board. Read in the change from NULL to READY",
+          defaults.used_profile().c_str(), kReady));
   install(kSinkMaxForce,
-          g_param_spec_double("max-force", "Maximum force", "Largest force on the grip, N", 0.0,
-                              20.0, defaults.max_force_N, kControllable));
-  install(kSinkGain, g_param_spec_double(
-                         "gain", "Gain",
-                         "What force and torque of the track are multiplied with; what is read "
-                         "ahead, 0.2 s, keeps the gain of before",
-                         0.0, 100.0, defaults.gain, kControllable));
-  install(kSinkMute, g_param_spec_boolean(
-                         "mute", "Mute",
-                         "Hold the force at rest: it ramps there at once, and comes back 0.2 s "
-                         "after this is turned off",
-                         defaults.mute, kControllable));
+          g_param_spec_double("max-force", "Maximum force", "Largest force on the grip, in newtons",
+                              0.0, 20.0, defaults.max_force_N, kControllable));
+  install(kSinkGain,
+          g_param_spec_double("gain", "Gain",
+                              "Factor on force and torque of the track. A change takes effect "
+                              "after the 0.2 s of samples that are already queued",
+                              0.0, 100.0, defaults.gain, kControllable));
+  install(kSinkMute, g_param_spec_boolean("mute", "Mute",
+                                          "While true, no force: it ramps to zero at once, and "
+                                          "returns 0.2 s after the property is set to false",
+                                          defaults.mute, kControllable));
   install(
       kSinkOnDeviceError,
       g_param_spec_enum("on-device-error", "On device error",
-                        "What to do when the device fails while playing", on_device_error_type(),
+                        "What happens when the device fails while playing", on_device_error_type(),
                         static_cast<int>(defaults.on_device_error), kPlaying));
-  install(kSinkHapticTrace,
-          g_param_spec_string("haptic-trace", "Haptic trace",
-                              "Write forces, string tensions and pose to this file, CSV with a row "
-                              "a millisecond; opened from NULL to READY",
-                              nullptr, kReady));
-  install(kSinkStats,
-          g_param_spec_boxed("stats", "Statistics",
-                             "Samples, what was wrong with them, state and timing of the haptic "
-                             "loop",
-                             GST_TYPE_STRUCTURE,
-                             static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
+  install(
+      kSinkHapticTrace,
+      g_param_spec_string("haptic-trace", "Haptic trace",
+                          "Write one CSV line for each millisecond with forces, string tensions "
+                          "and pose to this file. Opened in the change from NULL to READY",
+                          nullptr, kReady));
+  install(
+      kSinkStats,
+      g_param_spec_boxed(
+          "stats", "Statistics",
+          "Statistics: samples and their faults, state and timing of the haptic loop",
+          GST_TYPE_STRUCTURE, static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
 }
 
 bool set_sink_property(SinkProperties& p, guint id, const GValue* value) {

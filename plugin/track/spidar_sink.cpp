@@ -217,7 +217,7 @@ static bool open_device(GstSpidarSink* self) {
         self->output->open(properties.device, properties.used_profile(), properties.haptic_trace);
     if (!trace_problem.empty()) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
-                          ("The force goes on without it."));
+                          ("The force continues without it."));
     }
     self->schedule->connect(&self->output->session()->loop());
   });

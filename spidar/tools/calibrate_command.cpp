@@ -84,7 +84,7 @@ class Progress {
 
 CountSamples record(const CalibrateOptions& options, const Profile& profile) {
   Bench bench(options, profile);
-  std::cerr << (options.centre ? "Hold the grip still at the centre, not turned.\n"
+  std::cerr << (options.centre ? "Hold the grip still at the centre, without turning it.\n"
                                : "Move and turn the grip in every direction, as far as it goes.\n");
   const RecordingSettings settings{options.centre ? kHoldSeconds : options.seconds,
                                    kSamplePeriod_s};

@@ -12,23 +12,23 @@ namespace spidar {
 const char* const kCalibrateHelp =
     R"(usage: spidarctl calibrate DEVICE [OPTION]...
 
-Finds the string lengths at which the encoders of DEVICE are zero.
+Determines the string lengths at which the encoders of DEVICE are zero.
 
   --profile NAME        profile of the device, a name or a file (default spidar-gcc)
-  --move SECONDS        from a grip that you move and turn in every direction (default, 20)
-  --centre              from a grip that you hold still at the centre, not turned
-  --free exits,scale    with --move, also find where the strings leave the frame, and a factor
-                        on every metres_per_count
+  --move SECONDS        you move and turn the grip in every direction (default, 20)
+  --centre              you hold the grip still at the centre, without turning it
+  --free exits,scale    with --move, also determine where the strings leave the frame, and a
+                        factor on every metres_per_count
   --output FILE.toml    write the calibrated profile
-  --json                report as JSON
+  --json                print the report as JSON
   --sim-start X,Y,Z,RX,RY,RZ
-                        simulated device: its counters were cleared there, off the centre by
-                        X,Y,Z millimetres and turned by RX,RY,RZ degrees (a rotation vector)
+                        simulated device: clear its counters X,Y,Z millimetres from the
+                        centre, turned by RX,RY,RZ degrees (a rotation vector)
   --help
 
-The strings are held taut, nothing else pushes the hand. Exit status: 0 calibrated, 1 no device,
-profile or file, 2 wrong usage, 3 the samples do not determine what was asked for or contradict
-the profile (nothing is written), 130 interrupted.
+The strings are held taut; no other force acts on the hand. Exit status: 0 calibrated, 1 device,
+profile or file not found or not usable, 2 wrong usage, 3 the samples do not determine everything
+that was asked for or contradict the profile (nothing is written), 130 interrupted.
 )";
 
 namespace {
@@ -37,7 +37,7 @@ CalibrationSettings free_parameters(const std::string& text) {
   CalibrationSettings settings;
   for (const std::string& part : split_at_commas(text)) {
     if (part != "exits" && part != "scale")
-      throw UsageError("--free: \"" + part + "\" is unknown; known are exits, scale");
+      throw UsageError("--free: \"" + part + "\" is unknown; known names are exits, scale");
     (part == "exits" ? settings.free_exits : settings.free_scale) = true;
   }
   return settings;
@@ -59,11 +59,12 @@ Pose start_pose(const std::string& text) {
 }
 
 void check_together(const CalibrateOptions& options, bool moving) {
-  if (options.centre && moving) throw UsageError("--centre and --move: one of them");
+  if (options.centre && moving)
+    throw UsageError("--centre and --move exclude each other; give one of them");
   if (options.centre && (options.settings.free_exits || options.settings.free_scale))
-    throw UsageError("--free needs --move: a grip that is held still tells nothing but offsets");
+    throw UsageError("--free needs --move: a grip that is held still determines only the offsets");
   if (options.sim_start && options.device != "sim")
-    throw UsageError("--sim-start is for the device sim, not " + options.device);
+    throw UsageError("--sim-start is for the device sim only, not for " + options.device);
 }
 
 }  // namespace

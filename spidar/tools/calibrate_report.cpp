@@ -58,12 +58,12 @@ const char* advice(CalibrationStatus status) {
     case CalibrationStatus::kSolved:
       return "";
     case CalibrationStatus::kUndetermined:
-      return "This motion does not determine what was asked for. Move further, turn the grip about "
-             "every axis as well, take longer, or ask for less with --free.\n";
+      return "This motion does not determine everything that was asked for. Move further, turn the "
+             "grip about every axis as well, take longer, or ask for less with --free.\n";
     case CalibrationStatus::kContradiction:
       return "The lengths contradict each other or the profile. Check that no string slips or is "
-             "off its pulley and that the profile is right, try --free exits,scale, or begin "
-             "nearer to the centre.\n";
+             "off its pulley and that the profile is correct, try --free exits,scale, or start "
+             "closer to the centre.\n";
   }
   return "";
 }
@@ -75,9 +75,10 @@ void print_strings(std::ostream& out, int strings, const CalibrationResult& resu
                   micrometres(result.home_offset_sd_m[i]).c_str(),
                   1e6 * result.string_residual_m[i],
                   micrometres(result.home_offset_uncertainty_m[i]).c_str());
-  out << "  sd: of noise alone, the profile's other numbers being exact; uncertainty: if exits "
-         "and\n"
-         "  points on the grip may be wrong by 1 mm, and each string's scale or stretch by 0.5 %\n";
+  out << "  sd: from noise alone, if all other numbers of the profile are exact; uncertainty: if "
+         "exits\n"
+         "  and points on the grip may be wrong by 1 mm, and each string's scale or stretch by 0.5 "
+         "%\n";
 }
 
 void print_exits(std::ostream& out, int strings, const CalibrationResult& result) {

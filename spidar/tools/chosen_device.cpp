@@ -33,7 +33,7 @@ ChosenDevice choose_device(const DeviceOptions& options, CountZero count_zero) {
 void require_strings(const BoardInfo& board, const std::string& command) {
   if (!board.has_strings)
     throw DeviceError(board.device + ": " + command +
-                      " is for devices with strings and encoders; this one has neither");
+                      " is for devices with strings and encoders; this device has neither");
 }
 
 bool can_reverse(const std::string& device, Profile profile) {

@@ -117,7 +117,7 @@ DeviceOptions parse_device_options(int argc, char** argv, std::vector<CommandOpt
   own.push_back({"help", false, [&](const std::string&) { options.help = true; }});
   std::vector<std::string> given = parse_options(argc, argv, own);
   if (options.help) return options;
-  if (given.empty()) throw UsageError("no DEVICE given; see spidarctl list");
+  if (given.empty()) throw UsageError("no DEVICE given; 'spidarctl list' prints the devices");
   if (given.size() <= operands.size())
     throw UsageError("no " + operands[given.size() - 1] + " given");
   if (given.size() > operands.size() + 1)

@@ -17,22 +17,22 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl conformance DEVICE [OPTION]...
 
-Tries a board as far as this program knows how, and writes a report to send in: what it says it is, a
-thousand exchanges a second while you move the grip and press what can be pressed, and, as selftest
-does, how its encoders answer small pulls of each motor. The report has the board's serial number and
-this system's kernel version, and nothing else of you.
+Tests a board and writes a report that you can send in. The report contains the identification of
+the board, the results of a thousand exchanges a second while you move the grip and press all
+buttons, and, like selftest, the responses of the encoders to small pulls of each motor. It contains
+the board's serial number and the kernel version of this system, but nothing else about you.
 
-  --report FILE         write the report there; without, to standard output
-  --seconds S           move the grip for so long, 0.1 to 600 (default 10)
-  --newton N            pull by so much above the smallest tension, 0.1 to 2 (default 0.5)
+  --report FILE         write the report to FILE instead of standard output
+  --seconds S           duration for which you move the grip, 0.1 to 600 (default 10)
+  --newton N            tension of a pull above the minimum tension, 0.1 to 2 (default 0.5)
   --no-pull             leave the motors at zero all the time
-  --yes                 do not ask
+  --yes                 do not ask for confirmation
   --profile NAME        profile of the device, a name or a file
   --sim-wiring FAULTS   simulated device: see selftest
   --help
 
-Exit status: 0 conforms, as far as it was tried, 1 does not, or no device, 2 wrong usage, 130
-interrupted.
+Exit status: 0 the board conforms in everything that was tested, 1 it does not, or there is no
+device, 2 wrong usage, 130 interrupted.
 )";
 
 struct ConformanceOptions {
@@ -69,14 +69,14 @@ bool may_pull(const ConformanceOptions& options, const ChosenDevice& chosen) {
   return options.yes || is_simulated(options.common.device) ||
          confirm("Hold the strings of " + chosen.board.device +
                  " taut while you move the grip, and then pull one after the other? The grip will "
-                 "move; without, the motors stay at zero.");
+                 "move. If you answer no, the motors stay at zero.");
 }
 
 /// False when interrupted.
 bool watch(Device& device, const Profile& profile, double seconds, bool taut) {
   StringHold hold(device, profile, every_millisecond());
-  std::cerr << "Move and turn the grip in every direction, and press what can be pressed, for "
-            << seconds << " s.\n";
+  std::cerr << "Move and turn the grip in every direction, and press all buttons, for " << seconds
+            << " s.\n";
   const bool complete =
       (!taut || hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s)) && hold.stay(seconds);
   hold.release();
@@ -85,7 +85,7 @@ bool watch(Device& device, const Profile& profile, double seconds, bool taut) {
 
 /// False when interrupted.
 bool pull(Device& device, const ConformanceOptions& options, Conformance& found) {
-  std::cerr << "Hold the grip at the centre, loosely: string after string is pulled.\n";
+  std::cerr << "Hold the grip loosely at the centre. The strings are pulled one after the other.\n";
   WiringTestSettings settings;
   settings.pull_N = options.newton;
   settings.try_reversed = can_reverse(options.common.device, found.profile);
@@ -124,7 +124,7 @@ int conformance_command(int argc, char** argv) {
   try {
     if (!watch(device, chosen.profile, options.seconds, pulls) ||
         (pulls && !pull(device, options, found))) {
-      std::cerr << "interrupted; the strings are released, no report is written\n";
+      std::cerr << "interrupted; the strings are released, and no report is written\n";
       return kInterrupted;
     }
   } catch (const DeviceError& error) {

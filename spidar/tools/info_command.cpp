@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl info DEVICE [--profile NAME] [--json]
 
-Opens DEVICE, reads it for a tenth of a second with the motors at zero, and tells what it is.
+Opens DEVICE, reads it for a tenth of a second with the motors at zero, and prints what it found.
 )";
 
 struct Found {
@@ -36,7 +36,7 @@ Found read(ChosenDevice& chosen) {
     found.description = chosen.device->description();
   }
   if (!read && !interrupted())
-    throw DeviceError(chosen.device->name() + ": gave no reading; check cable and power");
+    throw DeviceError(chosen.device->name() + ": no reading was received; check cable and power");
   return found;
 }
 
@@ -49,7 +49,8 @@ void print(const ChosenDevice& chosen, const Found& found) {
   if (!chosen.board.path.empty()) std::cout << "\npath      " << chosen.board.path;
   if (!chosen.board.serial.empty()) std::cout << "\nserial    " << chosen.board.serial;
   std::cout << "\nprofile   " << profile.name << ": " << profile.description << "\ncounts    "
-            << (profile.calibration ? "calibrated" : "not calibrated: zero where the grip was")
+            << (profile.calibration ? "calibrated"
+                                    : "not calibrated: zero at the first position of the grip")
             << "\ninputs    0x" << std::hex << std::setw(4) << std::setfill('0')
             << found.reading.inputs << std::dec << std::setfill(' ');
   if (found.health.round_trip_median_ns > 0)

@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl list [--json]
 
-Devices that there are, how far the driver of each has been tried, serial lines that motor boards
-may hang on, and profiles. No device is opened.
+Lists the devices, how far the driver of each has been tested, the serial lines to which motor
+boards may be connected, and the profiles. No device is opened.
 )";
 
 struct NamedProfile {
@@ -46,7 +46,7 @@ void print() {
     if (!board.note.empty()) std::cout << "; " << board.note;
     std::cout << '\n';
   }
-  std::cout << "\nserial lines, motor boards may be there\n";
+  std::cout << "\nserial lines (motor boards may be connected to them)\n";
   int lines = 0;
   for (const TtyLine& line : list_tty_lines()) {
     if (line.named) continue;

@@ -14,8 +14,8 @@ constexpr const char* kKnown =
     "cut-motor:I, cut-encoder:I";
 
 [[noreturn]] void refuse(const std::string& fault, int strings) {
-  throw std::invalid_argument("\"" + fault + "\" is not a wiring fault; known are " + kKnown +
-                              ", channels are 0 to " + std::to_string(strings - 1));
+  throw std::invalid_argument("\"" + fault + "\" is not a wiring fault; known faults are " +
+                              kKnown + ", channels are 0 to " + std::to_string(strings - 1));
 }
 
 /// Channels after the colon, one or two.

@@ -18,13 +18,13 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl monitor DEVICE [OPTION]...
 
-Shows ten times a second where the grip is: position (millimetres), rotation vector (degrees),
-inputs, string lengths (millimetres). The motors stay at zero, so that strings may hang.
+Prints the pose of the grip ten times a second: position (millimetres), rotation vector (degrees),
+inputs, string lengths (millimetres). The motors stay at zero, so strings may be slack.
 
-  --taut          strings at their smallest tension
-  --seconds S     ends after that time, not when it is interrupted
+  --taut          keep the strings at their minimum tension
+  --seconds S     end after S seconds; by default, run until interrupted
   --profile NAME  profile of the device, a name or a file
-  --json          one JSON object a line
+  --json          print one JSON object per line
 )";
 
 constexpr int kReadingsPerLine = 100;

@@ -17,15 +17,16 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl pull DEVICE STRING NEWTON SECONDS [OPTION]...
 
-Pulls one string (numbered from 0) with NEWTON for SECONDS, the others at their smallest tension.
-NEWTON is within the profile's limits for that string and at most 5, what a hand holds with ease;
-NEWTON times SECONDS is at most 5 (or SECONDS 10 s at the smallest tension), so that no motor gets hot.
+Pulls one string (numbered from 0) with NEWTON for SECONDS; the other strings keep their minimum
+tension. NEWTON must be within the limits of the profile for that string and at most 5, which a hand
+can hold easily. NEWTON times SECONDS must be at most 5 (at the minimum tension, SECONDS at most 10),
+so that no motor gets hot.
 
-  --yes           do not ask
+  --yes           do not ask for confirmation
   --profile NAME  profile of the device, a name or a file
-  --json          how the lengths changed, as JSON
+  --json          print the changes of the lengths as JSON
 
-Exit status: 0 pulled, 1 no device, no answer, or not wanted, 2 wrong usage,
+Exit status: 0 the string was pulled, 1 no device, no answer, or not confirmed, 2 wrong usage,
 130 interrupted.
 )";
 
@@ -57,10 +58,11 @@ Pull parse(const DeviceOptions& options, const Profile& profile) {
   pull.seconds = parse_number("SECONDS", options.operands[2], 0.01, kMaxPull_s, "s");
   if (pull.tension_N > drive.min_tension_N && pull.tension_N * pull.seconds > kMaxPull_Ns) {
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "SECONDS: %g N for %g s may hurt a hand or a motor: NEWTON times SECONDS is at "
-                  "most %g; pull for %.2f s at most",
-                  pull.tension_N, pull.seconds, kMaxPull_Ns, kMaxPull_Ns / pull.tension_N);
+    std::snprintf(
+        text, sizeof text,
+        "SECONDS: %g N for %g s may hurt a hand or damage a motor: NEWTON times SECONDS must be "
+        "at most %g; pull for %.2f s at most",
+        pull.tension_N, pull.seconds, kMaxPull_Ns, kMaxPull_Ns / pull.tension_N);
     throw UsageError(text);
   }
   return pull;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl rest DEVICE [--seconds S] [--profile NAME]
 
-Holds the strings at their smallest tension until it is interrupted, or for S seconds, and releases
-them by a ramp.
+Holds the strings at their minimum tension for S seconds, or until it is interrupted, and then
+releases them by a ramp.
 )";
 
 }  // namespace

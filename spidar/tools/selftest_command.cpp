@@ -17,23 +17,24 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl selftest DEVICE [OPTION]...
 
-Pulls one string after the other, a second each, longer when the hand moves, and tells from the encoders which motor and which
-encoder is at which string, and which is reversed. Hold the grip at the centre, loosely.
+Pulls one string after the other, for a second each, or longer if the hand moves. From the responses
+of the encoders, it determines which motor and which encoder are connected to which string, and which
+of them are reversed. Hold the grip loosely at the centre.
 
-  --newton N             pull by so much above the smallest tension, 0.1 to 2 (default 0.5)
+  --newton N             tension of a pull above the minimum tension, 0.1 to 2 (default 0.5)
   --write-profile FILE.toml
-                         write the profile as the device is wired, when a profile can say it:
-                         signs, and strings that are at other channels with motor and encoder
-  --yes                  do not ask
+                         write a profile that matches the wiring, if a profile can express it:
+                         signs, and strings whose motor and encoder are at another channel
+  --yes                  do not ask for confirmation
   --profile NAME         profile of the device, a name or a file
-  --json                 report as JSON
-  --sim-wiring FAULTS    simulated device: wired like that, e.g.
+  --json                 print the report as JSON
+  --sim-wiring FAULTS    simulated device: apply these wiring faults, for example
                          "swap-motors:1,2;reverse-encoder:4"; also swap-encoders, swap-strings,
                          reverse-motor, cut-motor, cut-encoder
   --help
 
-Exit status: 0 wired as the profile says, 1 not so, not wanted, or no device, 2 wrong usage, 130
-interrupted.
+Exit status: 0 the wiring is as in the profile, 1 it is not, or not confirmed, or no device, 2 wrong
+usage, 130 interrupted.
 )";
 
 struct SelftestOptions {
@@ -65,14 +66,14 @@ SelftestOptions parse(int argc, char** argv) {
 
 void write(const SelftestOptions& options, const Profile& profile, const WiringReport& report) {
   if (!report.fixable()) {
-    std::cerr << options.output << " is not written: a profile cannot say what was found\n";
+    std::cerr << options.output << " is not written: a profile cannot express this wiring\n";
     return;
   }
   const Profile rewired = rewired_profile(profile, report, "spidarctl selftest");
   save_profile(rewired, options.output);
   std::cerr << "written: " << options.output << '\n';
   if (profile.calibration && !rewired.calibration)
-    std::cerr << "its counts are to be calibrated again: spidarctl calibrate\n";
+    std::cerr << "the counts must be calibrated again: spidarctl calibrate\n";
 }
 
 }  // namespace
@@ -89,7 +90,7 @@ int selftest_command(int argc, char** argv) {
   if (!options.output.empty()) check_folder_of(options.output);
   if (!options.yes && !is_simulated(options.common.device) &&
       !confirm("Pull the strings of " + chosen.device->name() +
-               " one after the other? The grip will move; hold it at the centre, loosely.")) {
+               " one after the other? The grip will move; hold it loosely at the centre.")) {
     std::cerr << "nothing was pulled\n";
     return kFailed;
   }

@@ -81,8 +81,11 @@ std::vector<std::string> faults_of(const Profile& profile, const WiringReport& r
     if (encoder_reversed(profile, report, i)) faults.push_back("encoder " + name + " is reversed");
     if (motor(i) < 0)
       faults.push_back("motor " + name +
-                       " does nothing: cut, without supply, reversed, or its string is slack");
-    if (encoder(i) < 0) faults.push_back("encoder " + name + " stands still: cut or slack");
+                       " has no effect: it is disconnected, has no supply or is reversed, or its "
+                       "string is slack");
+    if (encoder(i) < 0)
+      faults.push_back("encoder " + name +
+                       " stands still: it is disconnected, or its string is slack");
   }
   return faults;
 }
@@ -135,16 +138,15 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
   if (report.understood())
     for (const std::string& fault : faults_of(profile, report)) out << fault << '\n';
   else if (silent(report))
-    out << "No encoder moves, whichever motor pulls. Switch the motors' supply on, and hold the "
-           "grip so that the strings are taut.\n";
+    out << "No encoder moves, whichever motor pulls. Switch on the supply of the motors, and hold "
+           "the grip so that the strings are taut.\n";
   else if (const std::string motors = unclear_motors(report); !motors.empty())
-    out << "What the encoders say when these motors pull is not understood:" << motors
-        << ". Hold the grip at the centre, loosely and still, and test again; if it stays so, "
-           "check "
-           "these motors and their strings.\n";
+    out << "The responses of the encoders to pulls of these motors are unclear:" << motors
+        << ". Hold the grip still and loosely at the centre, and test again. If the result is the "
+           "same, check these motors and their strings.\n";
   else
-    out << "The answers do not look like those of this profile, however it is wired. Hold the grip "
-           "at the centre, loosely and still, and check the profile.\n";
+    out << "No wiring of this profile explains the responses. Hold the grip still and loosely at "
+           "the centre, and check the profile.\n";
   out << "wiring: " << verdict(report) << '\n';
 }
 

@@ -20,7 +20,7 @@ CommandOption sim_wiring_option(std::string& faults) {
 void miswire(const std::string& faults, const std::string& device, ChosenDevice& chosen) {
   if (faults.empty()) return;
   if (!is_simulated(device))
-    throw UsageError("--sim-wiring is for simulated devices, not " + device);
+    throw UsageError("--sim-wiring is for simulated devices only, not for " + device);
   try {
     const Miswiring wiring = parse_miswiring(faults, chosen.profile.geometry.count);
     chosen.device = make_miswired(std::move(chosen.device), wiring);

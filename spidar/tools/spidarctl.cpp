@@ -21,19 +21,19 @@ const std::vector<Command> kCommands = {
 
 constexpr const char* kHelp = R"(usage: spidarctl COMMAND
 
-  list         devices and profiles that there are
-  info         what a device is and what it reads
-  monitor      where the grip is, live
-  rest         hold the strings at their smallest tension
-  zero         take the motors to zero
+  list         list devices and profiles
+  info         identify a device and read it once
+  monitor      print the pose of the grip continuously
+  rest         hold the strings at their minimum tension
+  zero         set the motors to zero
   pull         pull one string
   selftest     find motors and encoders that are swapped or reversed
-  conformance  try a board and write a report to send in
-  calibrate    find the string lengths at which the encoders are zero
+  conformance  test a board and write a report to send in
+  calibrate    determine the string lengths at which the encoders are zero
   --help
   --version
 
-spidarctl COMMAND --help says more.
+spidarctl COMMAND --help describes the options of a command.
 )";
 
 }  // namespace

@@ -42,7 +42,8 @@ Pace every_millisecond() {
 
 bool confirm(const std::string& question) {
   if (isatty(STDIN_FILENO) == 0)
-    throw UsageError("there is no terminal to ask on whether to go on; --yes goes on");
+    throw UsageError(
+        "there is no terminal to ask for confirmation; use --yes to continue without it");
   std::cerr << question << " [y/N] " << std::flush;
   std::string answer;
   return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");

@@ -11,8 +11,8 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: spidarctl zero DEVICE [--profile NAME]
 
-Puts out zero volts on every motor at once, whatever they had: a board keeps its last value when the
-program that drove it is gone.
+Sets every motor to zero volts at once. This is useful because a board keeps its last value when the
+program that drove it has ended.
 )";
 
 }  // namespace
@@ -30,7 +30,7 @@ int zero_command(int argc, char** argv) {
     hold.stay(0.02, [&](const DeviceReading&) { return answered = true; });
   }
   if (!answered)
-    throw DeviceError(chosen.device->name() + ": did not answer; switch its supply off");
+    throw DeviceError(chosen.device->name() + ": the device did not answer; switch off its supply");
   std::cout << chosen.device->name() << ": the motors are at zero\n";
   return kDone;
 }

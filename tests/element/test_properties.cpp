@@ -252,7 +252,7 @@ TEST(Trace, APipeWhoseReaderHasLeftIsAWarningAndTheVideoGoesOn) {
     close(reader);
     push_until_warned(h);
     ASSERT_EQ(h.warnings().size(), 1u);
-    EXPECT_NE(h.warnings()[0].find("cannot be written any more"), std::string::npos);
+    EXPECT_NE(h.warnings()[0].find("can no longer be written"), std::string::npos);
   }
 }
 

@@ -73,7 +73,7 @@ TEST_P(UsbPipeline, PlaysOnWhenTheBoardIsPulledOutAndTakesItBack) {
 
   unplug(0, EPROTO);
   EXPECT_EQ(next_warning(bus),
-            "The haptic device does not answer: unplugged. The video goes on without it.");
+            "The haptic device does not answer: unplugged. The video continues without it.");
   wait_for_frames(bus, 5);
   plug(0, GetParam());
   wait_for([&] { return !port.at_rest(); });
@@ -131,7 +131,7 @@ TEST(ForceFeedbackPipeline, PlaysOnWhenTheStickIsPulledOutAndTakesItBack) {
 
   unplug_evdev(0);
   EXPECT_EQ(next_warning(bus),
-            "The haptic device does not answer: unplugged. The video goes on without it.");
+            "The haptic device does not answer: unplugged. The video continues without it.");
   wait_for_frames(bus, 5);
   plug_evdev(1, EvdevKind::kStick).upload_ms = 50;
   wait_for([&] { return !evdev_levels(1).at_rest(); });

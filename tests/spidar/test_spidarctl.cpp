@@ -91,13 +91,13 @@ TEST(Spidarctl, WrongUsageIsNamed) {
       {"pull sim 1 4 2 --yes", "pull for 1.25 s at most"},
       // Its motors could do 20 N.
       {"pull sim 1 6 0.1 --yes --profile spidar-g6x", "NEWTON: 6 N, must be from 1 to 5 N"},
-      {"pull sim 1 1 1 </dev/null", "no terminal to ask on"},
+      {"pull sim 1 1 1 </dev/null", "no terminal to ask for confirmation"},
       {"selftest sim --newton 5", "must be from 0.1 to 2 N"},
       {"selftest sim --write-profile mine", "must end in .toml"},
       {"selftest sim --sim-wiring swap:1", "is not a wiring fault"},
       {"selftest usb --sim-wiring cut-motor:1", "is for simulated devices"},
       {"conformance sim:sh4 --seconds 0", "must be from 0.1 to 600 s"},
-      {"conformance usb </dev/null", "no terminal to ask on"},
+      {"conformance usb </dev/null", "no terminal to ask for confirmation"},
       {"conformance usb --sim-wiring cut-motor:1", "is for simulated devices"},
       {"calibrate", "no DEVICE given"},
       {"calibrate sim sim", "one DEVICE only"},
@@ -105,8 +105,8 @@ TEST(Spidarctl, WrongUsageIsNamed) {
       {"calibrate sim --move 0.1", "must be from 1 to 600 s"},
       {"calibrate sim --move", "--move needs a value"},
       {"calibrate sim --sway 3", "--sway is not an option"},
-      {"calibrate sim --free grip", "known are exits, scale"},
-      {"calibrate sim --centre --move 3", "one of them"},
+      {"calibrate sim --free grip", "known names are exits, scale"},
+      {"calibrate sim --centre --move 3", "give one of them"},
       {"calibrate sim --centre --free scale", "--free needs --move"},
       {"calibrate sim --output mine", "must end in .toml"},
       {"calibrate sim --sim-start 1,2,3", "must be six numbers"},
@@ -172,7 +172,7 @@ TEST(Spidarctl, SelftestSaysWhenTheMotorsHaveNoSupply) {
   for (int i = 1; i < 8; ++i) cut += ";cut-motor:" + std::to_string(i);
   const Outcome outcome = run("selftest sim:simple --sim-wiring '" + cut + "'");
   EXPECT_EQ(outcome.status, 1);
-  expect_contains(outcome.text, "Switch the motors' supply on");
+  expect_contains(outcome.text, "Switch on the supply of the motors");
 }
 
 TEST(Spidarctl, JsonIsOneObject) {
