@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A kind of board: its protocol over a transport, without threads.
+/// Interface of a type of board: its protocol over a transport, without threads.
 #pragma once
 
 #include <cstdint>
@@ -14,44 +14,45 @@
 
 namespace spidar {
 
-/// One thread at a time.
+/// To be used by one thread at a time.
 class SPIDAR_API Board {
  public:
   virtual ~Board() = default;
 
-  /// Claims, identifies and resets the board and reads it once, its motors at zero. Throws
+  /// Claims, identifies and resets the board and reads it once with the motors at zero. Throws
   /// DeviceError.
   virtual void open() = 0;
 
-  /// Puts out volts, reads counts; gives up at the deadline (CLOCK_MONOTONIC). `reading` is only
-  /// written with kNone.
+  /// Outputs volts and reads counts; gives up at the deadline (CLOCK_MONOTONIC). `reading` is
+  /// written only if the result is kNone.
   virtual LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
                           int64_t deadline_ns) noexcept = 0;
 
-  /// After a fault, before the next cycle. May block for some milliseconds.
+  /// To be called after a fault, before the next cycle. May block for some milliseconds.
   virtual void recover() noexcept = 0;
 
-  /// From now on counts are zero where the grip is. After open().
+  /// Sets the counts to zero at the present position of the grip. To be called after open().
   virtual void zero_counts() noexcept = 0;
 
-  /// The board's counters have begun anew since it was open before, as they do without power: they
-  /// do not say where the grip is. Until zero_counts().
+  /// True if the board's counters have been reset since it was last open, for example because it
+  /// had no power, so that they do not determine the position of the grip. Remains true until
+  /// zero_counts().
   virtual bool counts_restarted() const noexcept { return false; }
 
-  /// Releases the board; its motors keep what they have.
+  /// Releases the board; its motors keep their last value.
   virtual void close() noexcept = 0;
 
-  /// What takes the motors to zero when this process cannot any more: one for each connection.
-  /// After open().
+  /// Packets that set the motors to zero when this process can no longer do it, one set for each
+  /// connection. To be called after open().
   virtual std::vector<LastWill> last_wills() const = 0;
 
-  /// What open() found, for people.
+  /// Describes for people what open() found.
   virtual std::string description() const = 0;
 
-  /// Rotary ID switch; −1 when the board has none. After open().
+  /// Position of the rotary ID switch; −1 if the board has none. To be called after open().
   virtual int rotary() const noexcept { return -1; }
 
-  /// For messages: "usb:1-2", …
+  /// Name for messages: "usb:1-2", …
   virtual const std::string& name() const noexcept = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A board as the haptic loop sees it.
+/// Adapter from a board to the device interface of the haptic loop.
 #pragma once
 
 #include <atomic>
@@ -20,29 +20,31 @@
 
 namespace spidar {
 
-/// Exchanges are made by a thread of their own, for they go through libusb and the kernel, which
-/// take locks, memory and time as they like; the haptic thread only waits for them, up to
-/// kReplyWait_ns. A reply that comes later serves the next tick. Volts that are given while an
-/// exchange is under way are queued, so that the link never idles.
+/// A separate thread makes the exchanges, because libusb and the kernel may take locks, allocate
+/// memory and need any amount of time. The haptic thread only waits for them, up to kReplyWait_ns.
+/// A later reply is used in the next tick. Volts that arrive during an exchange are queued, so that
+/// the link never idles.
 ///
-/// Motors pull only as long as every connection has its guardian: without one they are taken to
-/// zero at once, and the device is lost until it is opened again, with a new guardian.
+/// Motors pull only as long as every connection has its guardian. Without it, they are set to zero
+/// at once, and the device is lost until it is opened again with a new guardian.
 class SPIDAR_API BoardDevice final : public Device {
  public:
-  /// Of a tick of 1 ms; the rest is for the loop.
+  /// Share of a tick of 1 ms; the loop uses the rest.
   static constexpr int64_t kReplyWait_ns = 700'000;
-  /// A board that takes longer has failed.
+  /// Time after which an exchange counts as failed.
   static constexpr int64_t kTransfer_ns = 5'000'000;
-  /// close() takes the volts down in so many milliseconds, when that was not done before.
+  /// Duration of the ramp to zero volts in close(), in milliseconds, if the volts are not at zero
+  /// before.
   static constexpr int kRamp_ms = 20;
 
-  /// CountZero::kByProfile is for make_device(), here it means kFirstOpen.
+  /// CountZero::kByProfile is for make_device(); here it means kFirstOpen.
   BoardDevice(std::unique_ptr<Board> board, const BoardSettings& settings);
   ~BoardDevice() override;
 
   void open() override;
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
-  /// Ramps to zero, then releases. Takes kRamp_ms, and longer when the board does not answer.
+  /// Ramps to zero, then releases the board. Takes kRamp_ms, or longer if the board does not
+  /// answer.
   void close() noexcept override;
   std::string description() const override { return open_ ? board_->description() : ""; }
   const std::string& name() const noexcept override { return board_->name(); }
@@ -66,7 +68,7 @@ class SPIDAR_API BoardDevice final : public Device {
   Reply answer(const Request& request) noexcept;
   void exchange_now(const Request& request, Reply& reply) noexcept;
   bool guarded(bool pulling) noexcept;
-  /// True when the motors have got their zero; bring_to_zero() by a ramp.
+  /// Both return true if the motors have received their zeros; bring_to_zero() uses a ramp.
   bool put_out_zero() noexcept;
   bool bring_to_zero() noexcept;
   void count(LinkFault fault) noexcept;
@@ -75,12 +77,12 @@ class SPIDAR_API BoardDevice final : public Device {
   const BoardSettings settings_;
   std::vector<std::unique_ptr<Guardian>> guardians_;
   bool open_ = false;
-  bool zeroed_ = false;  // counts, once
+  bool zeroed_ = false;  // the counts have been zeroed once
   MotorVolts last_;
   uint32_t number_ = 0;
-  // Of the thread that exchanges.
+  // Used by the thread that exchanges.
   int errors_in_a_row_ = 0;
-  bool pulling_ = false;    // the board may have other volts than zero
+  bool pulling_ = false;    // the volts of the board may differ from zero
   bool unguarded_ = false;  // its motors are at zero until it is opened again
 
   std::thread thread_;

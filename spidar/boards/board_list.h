@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Lists devices without opening any.
+/// Lists devices without opening them.
 #pragma once
 
 #include <string>
@@ -10,43 +10,44 @@
 
 namespace spidar {
 
-/// How far a driver has been tried.
+/// How far a driver has been tested.
 enum class Trial {
   kHardware,  ///< on the real board
-  kEmulated,  ///< on an emulated one that follows the published description
-  kInferred,  ///< parts of it are guesses that an emulation cannot confirm
+  kEmulated,  ///< on an emulated board that follows the published description
+  kInferred,  ///< parts of it are inferred, which an emulation cannot confirm
 };
 
 /// "tried on hardware", "emulated", "inferred".
 SPIDAR_API const char* to_string(Trial trial) noexcept;
 
-/// One that make_device() takes.
+/// A device that make_device() can open.
 struct BoardInfo {
   std::string device;  ///< for make_device(): "usb:1-2", "sim"
   std::string name;    ///< "CyVerse USB 2.0 SH4"
-  std::string path;    ///< on the bus: "1-2"; empty for the simulated ones
+  std::string path;    ///< on the bus: "1-2"; empty for simulated devices
   std::string serial;  ///< empty when it has none
   std::string usb_id;  ///< "0cec:0205"; empty when not on USB
   Trial trial = Trial::kEmulated;
-  std::string note;        ///< what is inferred, or why it cannot be used; may be empty
+  std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
   bool accessible = true;  ///< this process may open it
-  /// The default profile: of a device that this board can drive.
+  /// The default profile, which this board can drive.
   std::string profile;
-  bool has_strings = true;  ///< else it takes a force, and has no encoders
+  bool has_strings = true;  ///< otherwise it takes a force, and has no encoders
 };
 
-/// The devices that are plugged in, then the simulated ones. Opens and sends nothing. Serial lines
-/// do not say what is behind them: listed are those that a udev rule calls /dev/spidar…. Input
-/// devices are listed when they have force feedback. A machine
-/// without USB has none.
+/// Returns the devices that are plugged in, then the simulated ones. Opens and sends nothing. A
+/// serial line does not identify the board behind it, so only lines that a udev rule names
+/// /dev/spidar… are listed. Input devices are listed if they have force feedback. A machine without
+/// USB has no USB devices.
 SPIDAR_API std::vector<BoardInfo> list_boards();
 
-/// The default profile for a device name: of a device that the board can drive; the general
-/// default profile for an unknown name. Looks at no bus.
+/// Returns the default profile for a device name, which the board can drive, or the general default
+/// profile for an unknown name. Does not access a bus.
 SPIDAR_API std::string default_profile(const std::string& device);
 
-/// What is known of a device by what it is called, which need not be plugged in; nothing is opened.
-/// Empty name: make_device() does not know it either.
+/// Returns what is known about a device from its name. The device need not be plugged in, and
+/// nothing is opened. If make_device() does not know the device either, the name in the result is
+/// empty.
 SPIDAR_API BoardInfo board_info(const std::string& device);
 
 }  // namespace spidar

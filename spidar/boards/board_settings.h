@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How a board is run.
+/// Settings with which a board is operated.
 #pragma once
 
 namespace spidar {
 
-/// When counts become zero where the grip is.
+/// When the counts are set to zero at the present position of the grip.
 enum class CountZero {
-  kByProfile,  ///< kNever for a profile with home offsets, else kFirstOpen
-  kFirstOpen,  ///< not when the board is taken back after it was lost
+  kByProfile,  ///< kNever for a profile with home offsets, otherwise kFirstOpen
+  kFirstOpen,  ///< not when the board is reopened after it was lost
   kEveryOpen,
-  kNever,  ///< as the board counts, which is what calibrated home offsets refer to
+  kNever,  ///< the counts of the board, to which calibrated home offsets refer
 };
 
 struct BoardSettings {
   CountZero count_zero = CountZero::kByProfile;
-  /// A process of its own zeroes the motors when this one is killed.
+  /// A separate process zeroes the motors when this one is killed.
   bool guardian = true;
-  /// Exchanges on a thread of their own. Without, exchange() blocks until the board has answered.
+  /// A separate thread makes the exchanges. Without it, exchange() blocks until the board has
+  /// answered.
   bool threaded = true;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the two CyVerse boards have in common: eight D/A converters from zero volts, eight
-/// counters, a rotary switch.
+/// Common base of the two CyVerse boards: eight D/A converters from zero volts, eight counters, a
+/// rotary switch.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ class SPIDAR_API CyverseBoard : public Board {
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
                   int64_t deadline_ns) noexcept final;
   void recover() noexcept final { transport_->recover(); }
-  /// On the host: the board's own counters are left as they are.
+  /// Zeroes the counts on the host; the board's own counters are not changed.
   void zero_counts() noexcept final { counts_.zero(); }
   bool counts_restarted() const noexcept final { return counts_.restarted(); }
   void close() noexcept final { transport_->close(); }
@@ -44,11 +44,11 @@ class SPIDAR_API CyverseBoard : public Board {
     int rotary = -1;
   };
 
-  /// Before the first exchange after opening.
+  /// Called before the first exchange after opening.
   virtual LinkFault reset(int64_t deadline_ns) noexcept = 0;
   virtual LinkFault exchange(const DacDigits& digits, Readout& readout,
                              int64_t deadline_ns) noexcept = 0;
-  /// The packet that takes all motors to zero.
+  /// The packet that sets all motors to zero.
   virtual std::vector<uint8_t> zero_packet() const = 0;
 
   Transport& transport() noexcept { return *transport_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From volts to digits of a D/A.
+/// Conversion from volts to digits of a D/A converter.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace spidar {
 
-/// A D/A whose digit zero is zero volts.
+/// A D/A converter whose digit zero is zero volts.
 struct DacScale {
   double digits_per_V = 1;
   int min_digit = 0;
@@ -29,8 +29,8 @@ struct DacScale {
   double volt(int digits) const noexcept { return digits / digits_per_V; }
 };
 
-/// The profile's D/A, from zero to its largest voltage: that of the CyVerse boards, whose range is
-/// not published (inferred: digits have only been seen positive).
+/// Scale of the profile's D/A converter, from zero to its largest voltage, for the CyVerse boards.
+/// Their range is not published (inferred, because all published digits are positive).
 inline DacScale unipolar_dac(const Profile& profile) noexcept {
   const int max_digit = (1 << profile.dac_bits) - 1;
   return {max_digit / profile.dac_max_V, 0, max_digit};

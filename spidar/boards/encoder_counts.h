@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counts of a board over the times that it is opened.
+/// Counts of a board that continue when it is closed and opened again.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class EncoderCounts {
  public:
   using Raw = std::array<uint32_t, kMaxStrings>;
 
-  /// 35 m/s at 17 µm a count, 16 m/s at the finest of the profiles.
+  /// 35 m/s at 17 µm per count, 16 m/s at the finest resolution of the profiles.
   static constexpr int32_t kMaxStepPer_ms = 2048;
   static_assert(8 * kMaxStepPer_ms <= CountUnwrapper::kMaxStep);
 
@@ -31,20 +31,20 @@ class EncoderCounts {
     restarted_ = !unwrapper_.resume(raw, channels);
   }
 
-  /// The counters began anew since the board was open before: what they say means nothing, until
+  /// The counters were reset since the board was last open: their values are meaningless until
   /// zero().
   bool restarted() const noexcept { return restarted_; }
 
-  /// Zero is where the first reading was.
+  /// Sets zero to the position of the first reading.
   void zero() noexcept {
     unwrapper_.begin(first_, channels_);
     unwrapper_.zero();
     restarted_ = false;
   }
 
-  /// Reading at `now_ns` (CLOCK_MONOTONIC). False, and nothing taken over, when a counter went
-  /// further than a hand can since the last reading, be that a good one or not: a board that loses
-  /// its power for a moment jumps, and does not come back.
+  /// Takes a reading at `now_ns` (CLOCK_MONOTONIC). Returns false and ignores it if a counter
+  /// changed by more than a hand can cause since the last reading, whether that one was good or
+  /// not: the counters of a board that loses its power for a moment jump, and do not jump back.
   bool follow(const Raw& raw, int64_t now_ns) noexcept {
     const int64_t passed_ms = std::clamp<int64_t>((now_ns - last_ns_) / 1'000'000, 0, 7);
     last_ns_ = now_ns;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Force-feedback joysticks, wheels and gamepads of Linux: up to two force axes, and a position.
+/// Force-feedback joysticks, wheels and gamepads of Linux, with up to two force axes and a
+/// position.
 #pragma once
 
 #include <array>
@@ -18,15 +19,15 @@
 
 namespace spidar {
 
-/// Stands in for the strings of any profile: their pull on the grip, where the stick says that it
-/// is, is the force; only x and y of it are felt. A stick that is pushed all the way is half way
-/// from the middle to where the strings leave the frame, which is the edge of the picture for
-/// pointer=grip. What strings at their least tension pull away from the middle is not given to the
-/// stick: it rests anywhere.
+/// Replaces the strings of any profile. The force is the pull of the strings on a grip at the
+/// position of the stick; only its x and y are felt. A stick that is pushed all the way corresponds
+/// to a grip half way from the middle to the points where the strings leave the frame, which is the
+/// edge of the picture for pointer=grip. The pull of strings at their minimum tension, away from
+/// the middle, is subtracted, so that the stick is at rest anywhere.
 ///
-/// Drivers may take long for an update, or lose some when they come too fast. So one effect for
-/// each axis plays all the time, and its level is set at most every kUpdate_ms, one effect at a
-/// time, and only to another value.
+/// Drivers may need a long time for an update, or lose updates that come too fast. One effect for
+/// each axis therefore plays all the time. Its level is set at most every kUpdate_ms, for one
+/// effect at a time, and only if it has changed.
 class SPIDAR_API ForceFeedbackBoard final : public Board {
  public:
   static constexpr int kUpdate_ms = 5;
@@ -43,21 +44,21 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   void open() override;
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
                   int64_t deadline_ns) noexcept override;
-  /// Done by whoever makes the updates.
+  /// Done by the thread that makes the updates.
   void recover() noexcept override {}
-  /// The position has its own zero.
+  /// Does nothing: the position has its own zero.
   void zero_counts() noexcept override {}
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
-  /// With one sentence on what it lacks.
+  /// Includes one sentence on what the device lacks.
   std::string description() const override;
   const std::string& name() const noexcept override { return name_; }
 
  private:
   struct Effect {
     int16_t number = ff::kNewEffect;
-    int level = 0;       ///< that it has; of a rumble its strength
-    bool known = false;  ///< whether it has that level
+    int level = 0;       ///< that is set; for a rumble effect its strength
+    bool known = false;  ///< the level is known to be set
   };
 
   void begin_effects();
@@ -79,9 +80,9 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   const Updates updates_;
 
   ff::Description description_;
-  std::array<Effect, 2> effects_{};  ///< right and up; of a rumble the first
+  std::array<Effect, 2> effects_{};  ///< right and up; a rumble effect uses the first
   size_t effect_count_ = 0;
-  size_t turn_ = 0;  ///< the effect that is looked at first
+  size_t turn_ = 0;  ///< the effect that is checked first
   int cycle_ = 0;
   std::thread thread_;
   std::atomic<bool> stop_{false};

@@ -16,8 +16,8 @@
 
 namespace spidar {
 
-/// Stands in for the strings of any profile: their pull at the centre, where it says that the grip
-/// is, is the force; only x and y of it are felt.
+/// Replaces the strings of any profile. The force is the pull of the strings on a grip at the
+/// centre, the position that this board always reports; only its x and y are felt.
 class SPIDAR_API MouseBoard final : public Board {
  public:
   MouseBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
@@ -26,7 +26,7 @@ class SPIDAR_API MouseBoard final : public Board {
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
                   int64_t deadline_ns) noexcept override;
   void recover() noexcept override { transport_->recover(); }
-  /// Nothing is counted.
+  /// Does nothing: the board has no counters.
   void zero_counts() noexcept override {}
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
@@ -34,7 +34,7 @@ class SPIDAR_API MouseBoard final : public Board {
   const std::string& name() const noexcept override { return name_; }
 
  private:
-  /// The published program sends a force every 4 ms.
+  /// Period at which the published program sends a force, 4 ms.
   static constexpr int kCyclesPerReport = 4;
 
   const std::string name_;

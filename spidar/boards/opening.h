@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What boards have in common when they are opened.
+/// Functions that boards share for opening.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace spidar {
 
-/// The transport's will with these packets; none when nobody else reaches the board.
+/// Returns the transport's will with these packets; empty if no other process can reach the board.
 inline std::vector<LastWill> wills(const Transport& transport,
                                    std::initializer_list<ByteView> packets) {
   std::optional<LastWill> will = transport.last_will();
@@ -35,7 +35,8 @@ inline std::string no_answer(const std::string& board, LinkFault fault) {
          "; switch it off and on, and check cable and supply";
 }
 
-/// Tries a first exchange three times: what an earlier program left unread comes out first.
+/// Tries the first exchange up to three times, because it may first receive data that an earlier
+/// program left unread.
 template <typename Exchange>
 LinkFault open_exchange(const Exchange& exchange, Transport& transport) {
   constexpr int64_t kPatience_ns = 100'000'000;

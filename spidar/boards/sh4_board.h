@@ -22,7 +22,7 @@ class SPIDAR_API Sh4Board final : public CyverseBoard {
   std::string description() const override;
 
  private:
-  /// The echo may be of a packet before: how far back is not published.
+  /// The echo may belong to an earlier packet; how far back is not published.
   static constexpr size_t kEchoes = 4;
 
   LinkFault reset(int64_t deadline_ns) noexcept override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// UART motor boards, on one line or on several, that make one SPIDAR.
+/// UART motor boards on one or several lines that form one SPIDAR.
 #pragma once
 
 #include <array>
@@ -39,10 +39,10 @@ class SPIDAR_API UartBoard final : public Board {
     Transport* line = nullptr;
     int id = 0;
     uart_motor::BoardInfo info;
-    size_t first = 0;  ///< string of its first motor
+    size_t first = 0;  ///< number of the string of its first motor
   };
 
-  /// Waits for each board up to `patience_ns`.
+  /// Waits for each board for up to `patience_ns`.
   void find_stations(Transport& line, int64_t patience_ns);
   void find_all(int64_t patience_ns);
   LinkFault exchange(const Station& station, const MotorVolts& volts, uart_motor::Reading& reading,

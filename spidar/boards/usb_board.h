@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Boards on USB: whichever is plugged in.
+/// Finds and operates the USB board that is plugged in.
 #pragma once
 
 #include <memory>
@@ -15,11 +15,11 @@
 
 namespace spidar {
 
-/// Finds its board on every open(), for an address changes when a board is plugged in again.
+/// Finds its board in every open(), because the address changes when a board is plugged in again.
 class SPIDAR_API UsbBoard final : public Board {
  public:
-  /// `id`: bus path, serial number, or the rotary switch's 0 … 15; empty: the only one there is.
-  /// Throws DeviceError when the boards cannot drive the profile.
+  /// `id`: bus path, serial number, or position of the rotary switch, 0 … 15. If empty, there must
+  /// be only one board. Throws DeviceError when the boards cannot drive the profile.
   UsbBoard(UsbFamily family, std::string name, std::string id, const Profile& profile);
 
   void open() override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The boards on USB that there are drivers for: one row for each.
+/// The USB boards that have a driver, one row for each.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace spidar {
 
 enum class UsbFamily {
   kCyverse,  ///< "usb": SH4 or Simple
-  kMouse,    ///< "mouse": SPIDAR-mouse, whose USB id other things have too
+  kMouse,    ///< "mouse": SPIDAR-mouse, whose USB id other devices also use
 };
 
 struct UsbBoardKind {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Poses of all samples and shared parameters that fit measured lengths best, with Ceres.
+/// Fits the poses of all samples and the shared parameters to measured lengths, with Ceres.
 #pragma once
 
 #include <vector>
@@ -19,18 +19,18 @@ struct Bundle {
 
 enum class Adjust { kPoses, kAll };
 
-/// Minimises Σ ρ(‖length errors of a sample‖² / σ²), from `bundle` on. ρ is Huber's with its corner
-/// at kHuber: all strings of a sample count less when they contradict each other, because six
-/// unknowns and eight lengths do not tell which one is at fault. `sigma_m` infinite: plain least
-/// squares. `paid_out_m`: one for each sample.
+/// Minimises Σ ρ(‖length errors of a sample‖² / σ²), starting from `bundle`. ρ is Huber's loss with
+/// its corner at kHuber. All strings of a sample have less weight if they contradict each other,
+/// because six unknowns and eight lengths do not determine which string is at fault. With an
+/// infinite `sigma_m`, this is plain least squares. `paid_out_m` has one entry for each sample.
 void adjust(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m,
             double sigma_m, Adjust what, int max_iterations, Bundle& bundle);
 
-/// How far the parameters of `bundle`, which fits `paid_out_m` best, are off on average because the
-/// poses are as noisy as the lengths: least squares with a pose for each sample is biased by the
-/// noise squared, however many samples there are. By a parametric bootstrap (Efron and Tibshirani
-/// 1993, ch. 10) with noise of `sigma_m` and its opposite, whose first-order effects cancel;
-/// seeded, so that a result can be had again.
+/// Bias of the parameters of `bundle`, which fits `paid_out_m` best. Poses are as noisy as the
+/// lengths, and least squares with a pose for each sample has a bias of the order of the squared
+/// noise, however many samples there are. Computed by a parametric bootstrap (Efron and Tibshirani
+/// 1993, ch. 10) with noise of `sigma_m` and its negative, whose first-order effects cancel. The
+/// noise is seeded, so that results are reproducible.
 Eigen::VectorXd noise_bias(const CalibrationModel& model,
                            const std::vector<StringVector>& paid_out_m, double sigma_m,
                            int max_iterations, const Bundle& bundle);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counts of a grip that is moved or held, for calibration.
+/// Records the counts of a grip that is moved or held, for calibration.
 #pragma once
 
 #include <functional>
@@ -17,17 +17,17 @@ struct RecordingSettings {
   double sample_period_s = 0.002;  ///< at least one tick, which is a millisecond
 };
 
-/// Called before every exchange with the time since recording began, below zero while the strings
-/// are being energised: waits until that time has come. False ends the recording.
+/// Called before every exchange with the time since recording began, which is negative while the
+/// strings are being energised. Waits until that time. Returning false ends the recording.
 using NextTick = std::function<bool(double time_s)>;
 
-/// Opens the device, brings the strings to their smallest tension, which keeps them taut and pushes
-/// the hand nowhere on purpose, reads counts once a millisecond, and keeps one row each sample
-/// period. However it ends, the strings are released by a ramp and the device is closed. Samples of
-/// exchanges that failed are left out.
+/// Opens the device and sets the strings to their minimum tension, which keeps them taut without a
+/// deliberate force on the hand. Then reads counts once a millisecond and stores one row in each
+/// sample period. In every case, a ramp releases the strings at the end, and the device is closed.
+/// Failed exchanges give no sample.
 ///
 /// Throws DeviceError when the device cannot be opened or is lost, std::invalid_argument when the
-/// settings are not in their range, and whatever `next_tick` throws.
+/// settings are out of range, and whatever `next_tick` throws.
 SPIDAR_API CountSamples record_counts(Device& device, const Profile& profile,
                                       const RecordingSettings& settings, const NextTick& next_tick);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How string lengths follow from the grip's pose and from what calibration estimates.
+/// String lengths as a function of the grip's pose and of the parameters that calibration
+/// estimates.
 #pragma once
 
 #include <string>
@@ -16,8 +17,9 @@ namespace spidar {
 
 /// The parameters that all samples share, all in metres: an offset for each string; the scale minus
 /// one, times the mean length at the centre; the exits along the directions that neither shift nor
-/// turn the frame as a whole. (Where the frame stands is not observable: moving all exits and all
-/// poses alike changes no length. This is the choice of "inner constraints" of geodesy.)
+/// turn the frame as a whole. (The position of the frame is not observable, because moving all
+/// exits and all poses together changes no length. This is the choice of "inner constraints" in
+/// geodesy.)
 class CalibrationModel {
  public:
   CalibrationModel(const Profile& profile, const CalibrationSettings& settings);
@@ -33,10 +35,10 @@ class CalibrationModel {
   /// StringDrive::home_offset_m.
   StringVector home_offset_m(const Eigen::VectorXd& parameters) const;
 
-  /// Change of the lengths since the counters were zero, by the profile's scale.
+  /// Change of the lengths since the counters were zero, with the scale of the profile.
   StringVector paid_out_m(const Eigen::VectorXd& counts) const;
 
-  /// Parameters of the profile's geometry and scale with the counters cleared at `pose`.
+  /// Parameters for the geometry and scale of the profile if the counters are cleared at `pose`.
   Eigen::VectorXd cleared_at(const Pose& pose) const;
 
   struct Derivatives {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What samples tell about parameters that they share, and what they do not.
+/// Determines which shared parameters the samples determine, and which they do not.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace spidar {
 
-/// Collects linearised samples: errors that depend on a pose of the sample's own and on shared
+/// Collects linearised samples: errors that depend on the pose of the sample and on shared
 /// parameters. The pose is eliminated by an orthogonal projection, which is the Schur complement of
 /// bundle adjustment as a square root: it stays accurate, and exact zeros stay zeros, where the
 /// information matrix is singular and its inverse does not exist.
@@ -32,8 +32,8 @@ class Observability {
   Eigen::MatrixXd root_;  ///< upper triangle R: RᵀR is the information
 };
 
-/// Standard deviations of the rows of `quantities`, linear in the parameters. Infinite when a
-/// direction without information takes part.
+/// Standard deviations of the rows of `quantities`, linear in the parameters. Infinite if a
+/// direction without information contributes.
 Eigen::VectorXd standard_deviations(const Observability::Directions& directions,
                                     const Eigen::MatrixXd& quantities);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A process that takes the motors to zero when this one cannot.
+/// A separate process that sets the motors to zero when this one cannot.
 #pragma once
 
 #include <cstdint>
@@ -12,33 +12,37 @@
 
 namespace spidar {
 
-/// Boards keep their last value when the host goes silent, and nothing in a process runs when it is
-/// killed or stopped. A guardian is a small program of its own (spidar-guardian), with the device's
-/// open file and packets of zeros at hand. It sends them when this process ends, whoever else has
-/// inherited its files, and when motors pull and watch() was not called for kSilence_ms.
+/// Boards keep their last value when the host stops sending, and no code of a process runs after it
+/// is killed or while it is stopped. A guardian is a small separate program (spidar-guardian) that
+/// has the device's open file and packets of zeros. It sends these packets when this process ends,
+/// even if another process has inherited its files, and when motors pull and watch() was not called
+/// for kSilence_ms.
 ///
-/// One thread at a time. In a forked child of the process that made it, it does nothing.
+/// To be used by one thread at a time. In a forked child of the process that created it, it does
+/// nothing.
 class SPIDAR_API Guardian {
  public:
-  /// Starts one for the connection. Throws DeviceError when the program is not found or does not
-  /// answer. The program is $SPIDAR_GUARDIAN, or the installed one.
+  /// Starts a guardian for the connection. Throws DeviceError when the program is not found or does
+  /// not answer. The program is $SPIDAR_GUARDIAN, or the installed one.
   Guardian(const std::string& device, const LastWill& will);
-  /// Sends it away; its will is not carried out.
+  /// Dismisses the guardian; it does not send the packets of `will`.
   ~Guardian();
   Guardian(const Guardian&) = delete;
   Guardian& operator=(const Guardian&) = delete;
 
-  /// To be called in every exchange: `pulling` as long as the motors are not at zero, from before
-  /// the first volt to after the last. False when it guards no more: it was killed, has been
-  /// stopped for kAnswer_ns, or has carried out its will because this process was silent. Then the
-  /// motors are to be taken to zero, and another guardian is needed.
+  /// To be called in every exchange. `pulling` must be true as long as the motors are not at zero,
+  /// from before the first voltage to after the last. Returns false if the guardian no longer
+  /// works: it was killed, has been stopped for kAnswer_ns, or has zeroed the motors because this
+  /// process did not call watch() in time. The caller must then set the motors to zero and create
+  /// another guardian.
   bool watch(bool pulling) noexcept;
 
-  /// Its will is carried out now: when the board is released but the motors could not be zeroed.
+  /// Makes the guardian zero the motors now, for the case that the board is released but the motors
+  /// could not be zeroed.
   void carry_out() noexcept;
 
-  /// A busy machine may let a process wait for long; a guardian that is stopped is only missed when
-  /// its host fails, too.
+  /// This time is long because a process may have to wait on a busy machine, and a stopped guardian
+  /// is only a problem if its host fails, too.
   static constexpr int64_t kAnswer_ns = 500'000'000;
 
  private:

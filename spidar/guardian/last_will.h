@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a guardian sends to a board when its host cannot, and how the two speak.
+/// The packets that a guardian sends to a board when the host cannot, and the protocol between host
+/// and guardian.
 #pragma once
 
 #include <array>
@@ -9,12 +10,12 @@
 
 namespace spidar {
 
-/// Packets of one connection that take its motors to zero. Plain bytes: it goes through a socket to
-/// another program, together with the device's file.
+/// Packets for one connection that set its motors to zero. A plain structure, because it is sent
+/// through a socket to another program, together with the device's file.
 struct LastWill {
   enum class Wire : uint32_t {
     kUsb,       ///< usbfs: bulk or interrupt packets to one endpoint
-    kTerminal,  ///< a file that packets are written to: a tty, or an input device
+    kTerminal,  ///< a file to which packets are written: a tty, or an input device
   };
   static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
   static constexpr size_t kMaxLength = 512;
@@ -27,31 +28,32 @@ struct LastWill {
   uint32_t packets = 0;
   std::array<uint32_t, kMaxPackets> length{};
   std::array<std::array<uint8_t, kMaxLength>, kMaxPackets> packet{};
-  /// The device's file, open, and claimed or locked: the guardian gets a descriptor of the same
-  /// open file, so that what the host has claimed is the guardian's, too. A number is of one
-  /// process only: each has its own.
+  /// The device's file, open, and claimed or locked. The guardian receives a descriptor of the same
+  /// open file, so that the host's claim is also valid for the guardian. The number of the
+  /// descriptor is different in each process.
   int file = -1;
 };
 
-/// A host whose motors pull sends a word at least every kBeat_ms. When none has come for
-/// kSilence_ms it is taken for stopped, by a signal, a debugger, or a fault of its own: motors that
-/// pull then get their zeros.
+/// A host whose motors pull sends a message at least every kBeat_ms. If none arrives for
+/// kSilence_ms, the guardian assumes that the host is stopped, by a signal, a debugger, or a fault
+/// of its own, and sets its motors to zero.
 constexpr int kBeat_ms = 10;
 constexpr int kSilence_ms = 50;
 
-/// What a host says to its guardian, one byte a message. Every word but the last has an answer, by
-/// which the host knows that its guardian is awake.
+/// Messages from a host to its guardian, one byte each. The guardian answers every message except
+/// the last, which shows the host that its guardian is running.
 enum class HostWord : char {
-  kPulling = 'p',    ///< the motors pull: the next word comes soon
-  kResting = 'r',    ///< they are at zero: silence is harmless
-  kDismissed = 'q',  ///< the will is not to be carried out
+  kPulling = 'p',    ///< the motors pull: the next message follows soon
+  kResting = 'r',    ///< they are at zero: no further message is needed
+  kDismissed = 'q',  ///< the guardian is to end without sending the packets
 };
 
-/// What it answers; first of all that it is ready.
+/// Answers of the guardian; the first one is that it is ready.
 enum class GuardianWord : char {
   kWatching = 'w',
-  /// The host was silent, and the zeros are sent. They are sent again every kSilence_ms until the
-  /// guardian is dismissed: a host that goes on may have old volts to send before it hears of this.
+  /// The host sent no message in time, and the guardian has sent the zeros. It sends them again
+  /// every kSilence_ms until it is dismissed, because a host that continues may send old volts
+  /// before it reads this answer.
   kZeroed = 'z',
 };
 

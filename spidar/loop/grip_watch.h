@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where the grip is, and whether that can be relied on.
+/// The pose of the grip, and whether it can be trusted.
 #pragma once
 
 #include <array>
@@ -18,40 +18,43 @@
 
 namespace spidar {
 
-/// Follows the pose by the encoder counts. The structure matrix may only be used while trusted():
-/// the tensions for a wrench at one pose are any other wrench at another pose. Trust is lost by
-/// kMaxMisses readings without a good pose and comes back by kGoodPoses good ones in a row. Neither
-/// allocates nor throws after construction.
+/// Tracks the pose from the encoder counts. The structure matrix may only be used while trusted():
+/// tensions that give a wrench at one pose give a different wrench at another. Trust is lost after
+/// kMaxMisses readings without a good pose and returns after kGoodPoses good poses in a row.
+/// Neither allocates nor throws after construction.
 class SPIDAR_API GripWatch {
  public:
-  /// So many ticks in a row may pass without a good pose; the pose of before is used in them.
+  /// Number of ticks in a row that may pass without a good pose; they use the previous pose.
   static constexpr int kMaxMisses = 5;
-  /// And so much time, when the ticks themselves are late.
+  /// Limit of the same in time, in case the ticks themselves are late.
   static constexpr int64_t kPoseTimeout_ns = 50'000'000;
   /// Good poses in a row before the pose is trusted again.
   static constexpr int kGoodPoses = 20;
-  /// No hand is faster; a turn counts by the way of the points where the strings are tied.
+  /// No hand is faster. A rotation counts as the speed of the points at which the strings are tied.
   static constexpr double kMaxSpeed_m_s = 10;
-  /// Strings that come from all sides have tangled long before.
+  /// At this rotation, strings from all sides have tangled long before.
   static constexpr double kMaxTurn_rad = 2.1;
-  /// A hand gives way by some millimetres when the force changes by so much, and a count is some
-  /// hundredths of a millimetre: counters of which none has moved after so long do not count.
+  /// A hand yields by some millimetres when the force changes by kFrozenForce_N, and a count is
+  /// some hundredths of a millimetre. If no counter has moved kFrozenAfter_ns after that change,
+  /// the counters do not work.
   static constexpr double kFrozenForce_N = 0.5;
   static constexpr int64_t kFrozenAfter_ns = 500'000'000;
 
   /// Throws std::invalid_argument when the profile has fewer than six strings.
   explicit GripWatch(const Profile& profile);
 
-  /// Nothing is known but that the grip is at the centre, where it is when a device is opened.
+  /// Forgets everything. The grip is assumed to be at the centre, as when a device is opened.
   void reset() noexcept;
 
-  /// A tick in which the device answered. `applied`: the wrench of the strings on the grip, as far
-  /// as it is known. `may_trust`: trust may begin with this tick; that of before is kept anyway.
+  /// Takes the reading of a tick in which the device answered. `applied`: the wrench of the strings
+  /// on the grip, as far as it is known. `may_trust`: trust may begin with this tick; existing
+  /// trust is kept in any case.
   void see(const DeviceReading& reading, const Wrench& applied, bool may_trust,
            int64_t now_ns) noexcept;
-  /// A tick in which it did not.
+  /// For a tick in which the device did not answer.
   void miss(int64_t now_ns) noexcept;
-  /// Before the tensions of a tick are computed: is the newest pose recent enough?
+  /// To be called before the tensions of a tick are computed: withdraws trust if the newest pose is
+  /// too old.
   void check_age(int64_t now_ns) noexcept;
 
   bool trusted() const noexcept { return trusted_; }
@@ -62,9 +65,9 @@ class SPIDAR_API GripWatch {
   double residual_m() const noexcept { return residual_m_; }
   /// See PoseResult.
   int faulty_string() const noexcept { return faulty_string_; }
-  /// Ticks in which the device answered, but not with a pose.
+  /// Ticks in which the device answered, but the answer gave no pose.
   uint64_t pose_errors() const noexcept { return pose_errors_; }
-  /// Times that a string became faulty, or another one did.
+  /// How often a string became faulty, or a different one did.
   uint64_t string_faults() const noexcept { return string_faults_; }
   /// Resets both counters to zero.
   void clear_counters() noexcept { pose_errors_ = string_faults_ = 0; }

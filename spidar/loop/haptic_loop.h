@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What happens once a millisecond: time → wrench → safety → tensions → device → pose.
+/// The cycle of each millisecond: time → wrench → safety → tensions → device → pose.
 #pragma once
 
 #include <atomic>
@@ -28,83 +28,84 @@ namespace spidar {
 
 constexpr int64_t kTick_ns = 1'000'000;  ///< 1 kHz
 
-/// The loop without its thread: whoever owns it calls tick(). Large (about 2 MB): not for the
-/// stack.
+/// The loop without its thread: the owner calls tick(). The object is large (about 2 MB), so do not
+/// put it on the stack.
 class SPIDAR_API HapticLoop {
  public:
-  /// Tensions rise from zero to rest in this time after the device is opened.
+  /// Time in which tensions rise from zero to rest after the device is opened.
   static constexpr double kEnergise_s = 0.2;
-  /// And fall to zero in this before it is closed.
+  /// Time in which they fall to zero before it is closed.
   static constexpr double kRelease_s = 0.05;
-  /// A device that fails in this many exchanges in a row is lost.
+  /// Number of failed exchanges in a row after which a device is lost.
   static constexpr int kMaxErrors = 20;
-  /// Time counted for one tick at most, however late it is, so that a stall does not end in a step.
+  /// Upper bound of the time that one tick counts for, however late it is, so that a stall does not
+  /// end in a step.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
-  /// A wrench enters the timeline this long before the one in front of it is due, so that the slope
-  /// there is known at any frame rate; later ones wait in the ring, so that a long queue of frames
-  /// before the screen does not push out the wrench that is due.
+  /// A wrench enters the timeline this long before the previous one is due, so that the slope there
+  /// is known at any frame rate. Later wrenches wait in the ring, so that a long queue of frames
+  /// before the screen does not displace the wrench that is due.
   static constexpr int64_t kHorizon_ns = 100'000'000;
 
   /// `device` outlives the loop and is opened by open(). Throws std::invalid_argument when the
   /// profile has fewer than six strings.
   HapticLoop(const Profile& profile, Device& device, const SafetyLimits& limits = {});
-  /// Closes the device when that has not been done.
+  /// Closes the device if that has not been done.
   ~HapticLoop();
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
 
   // --- streaming thread
 
-  /// For the running time `entry.time_ns` on the screen. False when the ring is full: the loop does
-  /// not run, does not play, or is far behind.
+  /// Schedules a wrench for the running time `entry.time_ns` on the screen. Returns false when the
+  /// ring is full because the loop does not run, does not play, or is far behind.
   bool schedule(const TimedWrench& entry) noexcept;
-  /// The same with samples of a track, in the order of their times. Where there are any they are
-  /// felt, and no frames.
+  /// The same for samples of a track, in the order of their times. Where there are samples, they
+  /// are rendered instead of frames.
   bool schedule(const TrackBlock& block) noexcept;
 
   // --- any thread
 
-  /// Everything scheduled before this call is forgotten (flush).
+  /// Discards everything that was scheduled before this call (flush).
   void cancel_scheduled() noexcept { generation_.fetch_add(1, std::memory_order_acq_rel); }
 
   /// One caller at a time.
   void set_playback_clock(const PlaybackClock& clock) noexcept { shared_clock_.store(clock); }
-  /// One caller at a time. A lower total limit holds with the next tick, a higher one is reached
-  /// through the slew limit.
+  /// One caller at a time. A lower total limit takes effect in the next tick; a higher one is
+  /// reached through the slew limit.
   void set_limits(const SafetyLimits& limits) noexcept { shared_limits_.store(limits); }
 
   LoopSnapshot snapshot() const noexcept { return snapshot_.load(); }
 
-  /// For each frame: how long after it was due on the screen its wrench was reached.
+  /// Time from when each frame was due on the screen until its wrench was reached.
   const LatencyHistogram& skew() const noexcept { return skew_; }
 
-  /// Every tick in order, for one reader; ticks are dropped when nobody reads.
+  /// Returns every tick in order, for one reader. Ticks are dropped if they are not read.
   bool pop_record(TickRecord& record) noexcept { return records_.pop(record); }
 
-  /// From the next tick on wrench and tensions ramp to zero, see released().
+  /// From the next tick on, wrench and tensions ramp to zero; see released().
   void begin_close() noexcept { closing_.store(true, std::memory_order_release); }
 
   // --- loop thread
 
-  /// Opens the device; its strings are energised by the ticks that follow. Throws DeviceError.
+  /// Opens the device. The following ticks energise its strings. Throws DeviceError.
   void open();
 
-  /// One cycle at `now_ns` for the deadline given (both CLOCK_MONOTONIC). Neither allocates, locks,
-  /// logs nor throws. After kLost it only counts; call reopen().
+  /// Runs one cycle at `now_ns` for the given deadline (both CLOCK_MONOTONIC). Neither allocates,
+  /// locks, logs nor throws. In kLost it only counts ticks; call reopen().
   void tick(int64_t deadline_ns, int64_t now_ns) noexcept;
 
   bool lost() const noexcept { return state_ == DeviceState::kLost; }
 
-  /// Tries to get a lost device back; false when that fails. May block and allocate: nothing is
-  /// energised at that time. How long it takes does not count as missed deadlines.
+  /// Tries to reopen a lost device; returns false if that fails. May block and allocate, because
+  /// nothing is energised at that time. Its duration does not count as missed deadlines.
   bool reopen() noexcept;
 
-  /// After begin_close(): true once the ticks have brought the motors to zero, or the device is not
-  /// there to be brought to zero.
+  /// After begin_close(): true once the ticks have ramped the motors to zero, or if the device is
+  /// lost or closed.
   bool released() const noexcept;
 
-  /// Closes the device at once, which takes the motors to zero without a ramp if they are not
-  /// there.
+  /// Closes the device at once, which sets the motors to zero without a ramp if they are not at
+  /// zero.
   void close() noexcept;
 
  private:
@@ -155,13 +156,13 @@ class SPIDAR_API HapticLoop {
   MotorHeat heat_;
   IdleWatch idle_;
   DeviceState state_ = DeviceState::kClosed;
-  double energised_ = 0;  // share of the tensions that is put out
-  // That the device has acknowledged: what comes next continues from there.
+  double energised_ = 0;  // share of the tensions that is output
+  // What the device has acknowledged; the next tick continues from there.
   StringVector acknowledged_N_ = StringVector::Zero();
   double acknowledged_energised_ = 0;
   int errors_in_a_row_ = 0;
   int64_t untrusted_ns_ = 0;  // for how long the pose has not been trusted
-  int64_t unfelt_ns_ = 0;     // for how long no force was to be felt
+  int64_t unfelt_ns_ = 0;     // how long no force has been wanted
   bool ticked_ = false;
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;

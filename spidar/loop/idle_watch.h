@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Nobody plays and nobody holds the grip: the motors need not hold it either.
+/// Detects that nobody plays and nobody holds the grip, so that the motors can be switched off.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,13 +9,14 @@ namespace spidar {
 
 class IdleWatch {
  public:
-  /// So long without anything to do.
+  /// Time without a force or a movement after which the device is idle.
   static constexpr double kAfter_s = 300;
-  /// A grip that has moved further is held by somebody.
+  /// If the grip has moved further than this, somebody holds it.
   static constexpr double kMove_m = 5e-3;
 
-  /// A tick after `dt_s`. `wanted`: there is a force to be felt. True once there has been none for
-  /// kAfter_s in which the grip has not moved; false again at once when either comes.
+  /// To be called in each tick, `dt_s` after the last one. `wanted`: a force is wanted. Returns
+  /// true once there has been neither a force nor a movement for kAfter_s, and false again as soon
+  /// as there is either.
   bool idle(bool wanted, const Eigen::Vector3d& position_m, double dt_s) noexcept {
     if (wanted || (position_m - from_m_).norm() > kMove_m) {
       from_m_ = position_m;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The thread that gives the haptic loop its millisecond.
+/// The thread that runs the haptic loop once a millisecond.
 #pragma once
 
 #include <atomic>
@@ -12,26 +12,28 @@
 
 namespace spidar {
 
-/// Next deadline after a tick for `deadline_ns` that ended at `now_ns`: a period later, or on the
-/// same grid the first one ahead. What was missed is left out: exchanges in a burst move nothing,
-/// and a thread that never sleeps would take a processor for itself.
+/// Next deadline after a tick for `deadline_ns` that ended at `now_ns`: one period later, or the
+/// first deadline of the same grid that is still ahead. Missed ticks are skipped: a burst of
+/// exchanges would have no effect on the motors, and a thread that never sleeps would occupy a
+/// processor.
 constexpr int64_t next_deadline_ns(int64_t deadline_ns, int64_t now_ns) noexcept {
   const int64_t next = deadline_ns + kTick_ns;
   if (now_ns < next) return next;
   return next + ((now_ns - next) / kTick_ns + 1) * kTick_ns;
 }
 
-/// Runs a loop whose device is open, "spidar-haptic" by name. Absolute deadlines, so that lateness
-/// does not add up. A lost device is tried again every kRetry_ns.
+/// Runs a loop whose device is open, in a thread named "spidar-haptic". Deadlines are absolute, so
+/// that delays do not accumulate. A lost device is reopened every kRetry_ns until that succeeds.
 ///
-/// Memory is not locked: mlockall() would be for the whole process, which belongs to the player.
-/// All that a tick touches is in the loop object and is touched a thousand times a second.
+/// Memory is not locked, because mlockall() would affect the whole process, which belongs to the
+/// player. All data that a tick uses is in the loop object and is accessed a thousand times a
+/// second.
 class LoopThread {
  public:
   static constexpr int64_t kRetry_ns = 250'000'000;
 
-  /// Returns when the thread runs and its scheduling is known. Throws std::system_error when there
-  /// can be no thread. `loop` outlives it.
+  /// Returns when the thread runs and its scheduling is known. Throws std::system_error if the
+  /// thread cannot be created. `loop` must outlive this object.
   LoopThread(HapticLoop& loop, bool ask_for_real_time);
   /// stop()
   ~LoopThread();

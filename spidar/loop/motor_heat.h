@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How warm the motors are, by what they have been given.
+/// Estimates how warm the motors are from the tensions that they have produced.
 #pragma once
 
 #include <algorithm>
@@ -10,22 +10,23 @@
 
 namespace spidar {
 
-/// I²t: a motor's tension goes with its current, and the heat with its square. Each motor is a body
-/// of one time constant; heat 1 is what it has in the end when it gives its continuous tension for
-/// ever. Nothing is measured: the motors are taken to be cold when this object is made.
+/// I²t: the tension of a motor is proportional to its current, and the heat to the square of the
+/// current. Each motor is modelled as a body with one time constant. Heat 1 is the final value when
+/// the motor produces its continuous tension indefinitely. Nothing is measured; the motors are
+/// assumed to be cold when this object is created.
 class MotorHeat {
  public:
-  /// From this heat on a motor may give less than its largest tension, at heat 1 no more than its
-  /// continuous one: no sequence of tensions within limit_N() brings the heat above 1.
+  /// From this heat on, a motor is limited to less than its largest tension, and at heat 1 to its
+  /// continuous tension. No sequence of tensions within limit_N() raises the heat above 1.
   static constexpr double kLimitFrom = 0.8;
 
   explicit MotorHeat(const Profile& profile) : profile_(profile) {
-    // A profile that was not read from a file may leave it out.
+    // A profile that was not read from a file may lack it.
     for (StringDrive& drive : profile_.drives)
       if (!(drive.continuous_tension_N > 0)) drive.continuous_tension_N = drive.max_tension_N / 2;
   }
 
-  /// `tension_N` was there for `dt_s`.
+  /// The motors have produced `tension_N` for `dt_s`.
   void pass(const StringVector& tension_N, double dt_s) noexcept {
     for (int i = 0; i < profile_.geometry.count; ++i) {
       const StringDrive& drive = profile_.drives[static_cast<size_t>(i)];
@@ -34,7 +35,7 @@ class MotorHeat {
     }
   }
 
-  /// Largest tension of each string at its heat, N.
+  /// Largest permitted tension of each string at its present heat, N.
   StringVector limit_N() const noexcept {
     StringVector limit_N = StringVector::Zero();
     for (int i = 0; i < profile_.geometry.count; ++i) {
@@ -46,7 +47,7 @@ class MotorHeat {
     return limit_N;
   }
 
-  /// Of the warmest motor.
+  /// Heat of the warmest motor.
   double hottest() const noexcept { return heat_.head(profile_.geometry.count).maxCoeff(); }
 
  private:

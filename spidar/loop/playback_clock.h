@@ -13,9 +13,9 @@ struct PlaybackClock {
   int64_t monotonic_ns = 0;
   int64_t running_ns = 0;
   double rate = 1.0;     ///< pipeline clock seconds per monotonic second, near 1
-  bool playing = false;  ///< false: preroll, paused, no clock: nothing is to be felt
-  /// CLOCK_MONOTONIC from which on the line is not to be trusted any more unless it is refreshed: a
-  /// clock that stands still keeps a picture on the screen that must not be felt for ever.
+  bool playing = false;  ///< false: preroll, paused or no clock, so no force is wanted
+  /// CLOCK_MONOTONIC until which the line is valid unless it is refreshed. A clock that stands
+  /// still leaves a picture on the screen, and its force must not act indefinitely.
   int64_t valid_until_ns = INT64_MAX;
 
   /// Whether frames are shown at `t_ns` of CLOCK_MONOTONIC, as far as is known.

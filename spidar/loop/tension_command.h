@@ -11,47 +11,47 @@
 
 namespace spidar {
 
-/// At rest every string has its least tension, whatever the pose: a zero wrench that is bought with
-/// tension is only a zero wrench where the grip is believed to be. A wanted wrench lets the
-/// tensions rise with its size, so that nothing jumps between the two. None of it allocates or
-/// throws.
+/// At rest, every string has its minimum tension, whatever the pose, because strings that pull
+/// against each other give a zero wrench only if the assumed pose is right. With a wanted wrench,
+/// the tensions may rise in proportion to its magnitude, so that they do not jump between rest and
+/// a wrench. No function allocates or throws.
 class SPIDAR_API TensionCommand {
  public:
-  /// No string is more than this above its least tension for each newton of the wrench (its torque
-  /// counts by the grip radius). More does not deliver noticeably more of the wrench within 2 cm
-  /// and 20°, and makes the force on a grip that is not quite where it is believed to be wrong by
-  /// more (docs/safety.md).
+  /// Limit of each string's tension above its minimum, for each newton of the wrench (torque is
+  /// divided by the grip radius). A higher limit does not deliver noticeably more of the wrench
+  /// within 2 cm and 20°, and increases the error of the force if the assumed pose is wrong
+  /// (docs/safety.md).
   static constexpr double kTensionPerForce = 4;
 
   explicit TensionCommand(const Profile& profile);
 
-  /// Tensions that give `wrench` as well as they can, with the structure matrix `W` of a pose that
-  /// is trusted. A wrench of zero is rest. No string is above `limit_N`.
+  /// Returns the tensions that approximate `wrench` best, with the structure matrix `W` of a
+  /// trusted pose. A wrench of zero is rest. No tension exceeds `limit_N`.
   StringVector solve(const StructureMatrix& W, const Wrench& wrench,
                      const StringVector& limit_N) noexcept;
 
-  /// The pose is not known: `wrench`, on its way to zero, is taken for a share of that of the last
-  /// solve(), and the tensions go back to rest by as much, without W.
+  /// For an unknown pose: takes `wrench`, which is ramping to zero, as a share of the wrench of the
+  /// last solve(), and returns the tensions to rest by the same share, without W.
   StringVector fade(const Wrench& wrench) noexcept;
 
-  /// The string that is broken, slack, or whose encoder is dead is not reckoned with from now on:
-  /// as the wrench grows it goes from its least tension to none. At rest it has its least tension
-  /// as the others have theirs: whether it is really broken is not known, and if it is not, seven
-  /// strings would pull the grip aside. −1: none.
+  /// From now on, does not use a string that is broken or slack or whose encoder is dead. As the
+  /// wrench grows, its tension decreases from the minimum to zero. At rest it keeps its minimum
+  /// tension like the others, because it may not really be broken, and then seven strings would
+  /// pull the grip aside. −1: none.
   void leave_out(int string) noexcept { left_out_ = string; }
 
-  /// Of the last solve(): the share of the wrench that was asked of the strings. Below 1 where a
-  /// string is out or held back, and the others alone would give another wrench.
+  /// Share of the wrench that the last solve() used. It is below 1 if a string is left out or
+  /// limited, because the other strings alone would give a different wrench.
   double share() const noexcept { return share_; }
   bool held_back() const noexcept { return share_ < 1; }
 
-  /// At rest, with all strings.
+  /// Sets the state to rest, with all strings in use.
   void reset() noexcept;
 
  private:
   double size_N(const Wrench& wrench) const noexcept;
-  /// Sets the problem's wrench and the bounds that go with it; returns how much of their range
-  /// strings are denied, 0 … 1.
+  /// Sets the wrench of the problem and the corresponding bounds. Returns the share of their range
+  /// that strings may not use, 0 … 1.
   double pose_problem(const Wrench& wrench, const StringVector& limit_N) noexcept;
 
   const StringVector min_N_;

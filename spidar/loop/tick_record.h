@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What one cycle of the haptic loop saw and did.
+/// Inputs and results of one cycle of the haptic loop.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ enum class DeviceState {
   kOpening,  ///< tensions ramp up to rest
   kRunning,
   kClosing,  ///< wrench and tensions ramp down to zero
-  kIdle,     ///< nothing to be felt for a long time: the motors are off
-  kLost,     ///< does not answer; tried again
+  kIdle,     ///< no force has been wanted for a long time: the motors are off
+  kLost,     ///< does not answer; reopening is tried repeatedly
 };
 
 /// "closed", "opening", "running", "closing", "idle", "lost".
@@ -59,7 +59,7 @@ constexpr const char* to_string(Found found) noexcept {
   return "unknown";
 }
 
-/// One tick, as it was. Also the row of the haptic trace.
+/// One tick. Also the row of the haptic trace.
 struct TickRecord {
   uint64_t tick = 0;             ///< 1 for the first after open()
   int64_t monotonic_ns = 0;      ///< CLOCK_MONOTONIC at which it began
@@ -68,46 +68,46 @@ struct TickRecord {
   int64_t frame_ns = INT64_MIN;  ///< running time of the frame whose wrench was reached last
   Found found = Found::kNothing;
   Wrench wanted;  ///< from the timeline; zero while not playing
-  /// After finite, limit, slew and stale. Not acknowledged: that of the last tick that was,
-  /// limited.
+  /// After finite, limit, slew and stale. If not acknowledged, the one of the last acknowledged
+  /// tick, limited.
   Wrench commanded;
-  /// W · tension, what the strings can do of it; W is that of `pose`, also where it is not trusted.
+  /// W · tension, the part of it that the strings deliver. W is that of `pose`, even if the pose is
+  /// not trusted.
   Wrench delivered;
   StringVector tension_N = StringVector::Zero();  ///< as `commanded`
   bool acknowledged = true;                       ///< the device has answered
   Pose pose;                                      ///< from the newest good reading
   double pose_residual_m = 0;
-  int faulty_string = -1;  ///< whose length fits no pose that the others agree on; −1 when all fit
+  int faulty_string = -1;  ///< whose length fits no pose that the others allow; −1 if all fit
   DeviceState device = DeviceState::kClosed;
   bool playing = false;
-  double max_force_N = 0;  ///< limits that held
+  double max_force_N = 0;  ///< limits in effect
   double max_torque_Nm = 0;
 };
 
-/// Numbers since the loop was opened.
+/// Counts since the loop was opened.
 struct LoopCounters {
   uint64_t ticks = 0;
   uint64_t overruns = 0;          ///< ticks that began more than one period late
-  uint64_t missed_deadlines = 0;  ///< deadlines left out because of that
+  uint64_t missed_deadlines = 0;  ///< deadlines skipped because of that
   uint64_t exchange_errors = 0;
   uint64_t pose_errors = 0;
-  uint64_t string_faults = 0;      ///< times that a string became faulty, or another one did
+  uint64_t string_faults = 0;      ///< how often a string became faulty, or a different one did
   uint64_t rejected_wrenches = 0;  ///< not finite
-  uint64_t refused_wrenches = 0;   ///< time not after that of the one before
+  uint64_t refused_wrenches = 0;   ///< their time is not later than that of the previous one
   uint64_t times_lost = 0;
-  uint64_t held_back_ticks =
-      0;  ///< in which less than wanted was asked of the strings, see held_back
+  uint64_t held_back_ticks = 0;  ///< in which the strings got less than was wanted, see held_back
 };
 
 struct LoopSnapshot {
   TickRecord last;
   LoopCounters counters;
-  SafetyLimits limits;  ///< that held in the last tick
+  SafetyLimits limits;  ///< in effect in the last tick
   PoseTrouble pose_trouble = PoseTrouble::kNotYet;
   int64_t untrusted_ns = 0;  ///< for how long the pose has not been trusted; 0 while it is
   int64_t unfelt_ns = 0;  ///< for how long the command has been too weak to feel; 0 while it is not
   double motor_heat = 0;  ///< of the warmest motor, see MotorHeat
-  /// Less force than wanted: a string is out, or a motor is warm.
+  /// There is less force than wanted, because a string is left out or a motor is warm.
   bool held_back = false;
 };
 

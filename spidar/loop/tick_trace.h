@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The haptic trace: a CSV file with one row a tick.
+/// The haptic trace: a CSV file with one row for each tick.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,25 @@
 
 namespace spidar {
 
-/// A trace that cannot be begun; names path and reason.
+/// The trace file cannot be created; the message names path and reason.
 struct TraceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How far a trace has come.
+/// Progress of a trace.
 struct TraceStatus {
   uint64_t rows = 0;       ///< handed to the operating system
   uint64_t lost_rows = 0;  ///< ticks that are missing
-  /// errno of the write that failed and ended the trace; 0 while all is well.
+  /// errno of the write that failed and ended the trace; 0 if there was no error.
   int error = 0;
 };
 
-/// Names of the columns, SI units at their ends, joined by commas; no line end.
+/// Names of the columns, ending in their SI units, separated by commas, without a line end.
 SPIDAR_API std::string trace_header();
 
-/// `record` as a row with line end, in the order of trace_header(). Numbers in the "C" locale, as
-/// short as they can be read back exactly. A frame_ns of INT64_MIN, which is none, becomes −1.
+/// Appends `record` as a row with a line end, in the order of trace_header(). Numbers are in the
+/// "C" locale and as short as possible to be read back exactly. A frame_ns of INT64_MIN, which
+/// means no frame, becomes −1.
 SPIDAR_API void append_row(const TickRecord& record, std::string& csv);
 
 /// The file. Rows are collected and written by flush(). One thread at a time.
@@ -44,7 +45,7 @@ class SPIDAR_API TickTrace {
 
   void add(const TickRecord& record) noexcept;
 
-  /// A failure ends the trace: what comes later is counted as lost.
+  /// A failure ends the trace; later rows are counted as lost.
   void flush() noexcept;
 
   const TraceStatus& status() const noexcept { return status_; }

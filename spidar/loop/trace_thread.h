@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The thread that writes the haptic trace, so that the haptic thread touches no file.
+/// The thread that writes the haptic trace, so that the haptic thread does not access files.
 #pragma once
 
 #include <atomic>
@@ -14,20 +14,20 @@
 
 namespace spidar {
 
-/// Takes the records of a loop every 50 ms, of which the loop can keep more than four seconds.
+/// Reads the records of a loop every 50 ms. The loop can store more than four seconds of them.
 class TraceThread {
  public:
-  /// Throws TraceError when the file cannot be written. `loop` outlives it. Without
-  /// `threaded`, records are only taken by drain() and at the end.
+  /// Throws TraceError when the file cannot be written. `loop` must outlive this object. Without
+  /// `threaded`, records are only read by drain() and at the end.
   TraceThread(const std::string& path, HapticLoop& loop, bool threaded);
-  /// Writes what is left.
+  /// Writes the remaining records.
   ~TraceThread();
 
-  /// Writes all ticks so far.
+  /// Writes all records so far.
   void drain() noexcept;
 
   TraceStatus status() const noexcept;
-  /// TraceStatus::error, without waiting for a file.
+  /// TraceStatus::error, without waiting for the file.
   int error() const noexcept { return error_.load(std::memory_order_relaxed); }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Force-feedback devices of Linux, by the calls of evdev.
+/// Access to force-feedback devices of Linux through evdev.
 #pragma once
 
 #include <string>
@@ -11,20 +11,20 @@
 
 namespace spidar {
 
-/// Takes the requests of protocols/force_feedback.h. A call lasts as long as the driver takes, and
-/// no deadline ends it. The kernel ends and erases all effects when the last process that has the
-/// file closes it or dies.
+/// Accepts the requests of protocols/force_feedback.h. A call takes as long as the driver needs;
+/// deadlines have no effect. The kernel stops and erases all effects when the last process that has
+/// the file open closes it or ends.
 class SPIDAR_API EvdevTransport final : public Transport {
  public:
-  /// `name` is for messages. An empty `path` is the first of list_force_feedback() every time it is
-  /// opened.
+  /// `name` is for messages. An empty `path` means the first device of list_force_feedback(),
+  /// determined in every open().
   EvdevTransport(std::string name, std::string path);
   ~EvdevTransport() override;
 
   void open() override;
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept override;
-  /// Every call is complete in itself.
+  /// Does nothing, because calls are independent of each other.
   void recover() noexcept override {}
   std::optional<LastWill> last_will() const override;
   void close() noexcept override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What can go wrong between host and board, by name.
+/// Faults of the link between host and board, by name.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ namespace spidar {
 enum class LinkFault : uint8_t {
   kNone,
   kTimeout,      ///< no answer in time
-  kStall,        ///< the endpoint says that it does not understand
-  kShort,        ///< fewer bytes than the packet has
-  kBabble,       ///< more bytes than there is room for
-  kBusError,     ///< broken packets on the wire; what an unplugged board often gives first
+  kStall,        ///< the endpoint rejects the packet
+  kShort,        ///< fewer bytes than expected
+  kBabble,       ///< more bytes than expected
+  kBusError,     ///< broken packets on the wire; often the first fault when a board is unplugged
   kGone,         ///< unplugged
-  kWrongReply,   ///< of the right length, but not the answer
-  kWrongEcho,    ///< the D/A values that the board repeats were not sent
-  kCounterJump,  ///< a counter moved further than a hand can
+  kWrongReply,   ///< of the right length, but not the expected answer
+  kWrongEcho,    ///< the board echoes D/A values that were not sent
+  kCounterJump,  ///< a counter changed by more than a hand can cause
   kUnguarded,    ///< the guardian has ended: killed, or this process was stopped for too long
 };
 constexpr size_t kLinkFaults = 11;
@@ -53,17 +53,17 @@ constexpr const char* to_string(LinkFault fault) noexcept {
   return "unknown";
 }
 
-/// What a link has been through since the device was made.
+/// Statistics of a link since the device was created.
 struct LinkHealth {
-  std::array<uint64_t, kLinkFaults> faults{};  ///< by LinkFault; kNone: exchanges that went well
+  std::array<uint64_t, kLinkFaults> faults{};  ///< by LinkFault; kNone: successful exchanges
   LinkFault last_fault = LinkFault::kNone;
-  uint64_t late_replies = 0;  ///< came too late for their tick, and served the next one
-  /// From giving a packet to the link to its answer; 0 when nothing is measured.
+  uint64_t late_replies = 0;  ///< came too late for their tick and were used in the next one
+  /// Time from passing a packet to the link until its answer; 0 if nothing is measured.
   int64_t round_trip_median_ns = 0;
   int64_t round_trip_p99_ns = 0;
   int64_t round_trip_max_ns = 0;
 
-  /// All faults but time-outs.
+  /// All faults except time-outs.
   uint64_t errors() const noexcept {
     uint64_t sum = 0;
     for (size_t i = 2; i < kLinkFaults; ++i) sum += faults[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Serial lines that there are.
+/// Lists serial lines.
 #pragma once
 
 #include <string>
@@ -11,11 +11,13 @@
 namespace spidar {
 
 struct TtyLine {
-  std::string path;    ///< "/dev/ttyUSB0"
-  bool named = false;  ///< "/dev/spidar…": somebody's udev rule says that motor boards hang on it
+  std::string path;  ///< "/dev/ttyUSB0"
+  bool named =
+      false;  ///< "/dev/spidar…": a udev rule declares that motor boards are connected to it
 };
 
-/// Those of USB adapters (ttyUSB…, ttyACM…) and the named ones in `folder`, sorted. None is opened.
+/// Returns the lines of USB adapters (ttyUSB…, ttyACM…) and the named ones in `folder`, sorted.
+/// Opens none.
 SPIDAR_API std::vector<TtyLine> list_tty_lines(const std::string& folder = "/dev");
 
 }  // namespace spidar

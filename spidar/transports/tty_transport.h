@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Bytes over a serial line, by termios.
+/// Transport over a serial line, with termios.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace spidar {
 
-/// Raw, 8N1, no flow control, low latency where the driver knows it.
+/// Raw mode, 8N1, no flow control, and low latency if the driver supports it.
 class SPIDAR_API TtyTransport final : public Transport {
  public:
-  /// `baud` as in a terminal's settings, any number that the driver takes.
+  /// `baud` is any rate that the driver accepts.
   TtyTransport(std::string path, int baud);
   ~TtyTransport() override;
 
   void open() override;
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept override;
-  /// Drops what was received and what is not sent yet.
+  /// Discards received data and data that is not yet sent.
   void recover() noexcept override;
   std::optional<LastWill> last_will() const override;
   void close() noexcept override;

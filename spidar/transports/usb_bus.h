@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is on the USB, by libusb, and a context of its own.
+/// Lists USB devices, with libusb and a separate context.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ struct libusb_context;
 
 namespace spidar {
 
-/// A device as the bus lists it; nothing is opened.
+/// A device in the list of the bus; it is not opened.
 struct UsbDeviceInfo {
   uint16_t vendor = 0;
   uint16_t product = 0;
   int bus = 0;
-  int address = 0;          ///< of this time it was plugged in
-  std::string path;         ///< where it is plugged in: "1-2.3"
-  std::string serial;       ///< empty when it has none
+  int address = 0;          ///< changes each time the device is plugged in
+  std::string path;         ///< the port: "1-2.3"
+  std::string serial;       ///< empty if it has none
   bool accessible = false;  ///< this process may write to it
 
   /// "/dev/bus/usb/001/004"
@@ -33,12 +33,12 @@ struct UsbContextCloser {
 };
 using UsbContext = std::unique_ptr<libusb_context, UsbContextCloser>;
 
-/// A fresh one scans the bus anew, so that devices are found again where no udev tells of them.
-/// Throws DeviceError.
+/// A new context scans the bus again, so that devices are found even if udev does not announce
+/// them. Throws DeviceError.
 UsbContext make_usb_context();
 
-/// Devices whose vendor and product are `vendor`, `product`. Reads descriptors that the system
-/// keeps; nothing is sent to a device. Throws DeviceError when there is no access to the bus.
+/// Returns the devices with `vendor` and `product`. Reads descriptors that the system has stored;
+/// nothing is sent to a device. Throws DeviceError when there is no access to the bus.
 SPIDAR_API std::vector<UsbDeviceInfo> list_usb_devices(uint16_t vendor, uint16_t product);
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Packets over USB, by libusb.
+/// Transport over USB, with libusb.
 #pragma once
 
 #include <array>
@@ -16,24 +16,24 @@ struct libusb_transfer;
 
 namespace spidar {
 
-/// Endpoints that a board is spoken to by, all on interface 0.
+/// Endpoints of a board, all on interface 0.
 struct UsbPipes {
   uint8_t out = 0;
   uint8_t in = 0;
-  bool interrupt = false;  ///< else bulk
+  bool interrupt = false;  ///< otherwise bulk
 };
 
-/// All transfers of an exchange are given to the kernel at once, the reply's first, so that an
-/// exchange costs one round of the bus. Events are handled by the thread that exchanges, which
-/// cancels at the deadline and waits for what was cancelled: libusb and the kernel decide how long
-/// that takes. Not for a thread that must not wait; see BoardDevice.
+/// All transfers of an exchange are submitted to the kernel at once, the reply's first, so that an
+/// exchange takes one round trip on the bus. The thread that exchanges also handles the events. At
+/// the deadline it cancels transfers and waits for their end, which may take any time in libusb and
+/// the kernel. Do not use this class in a thread that must not wait; see BoardDevice.
 class SPIDAR_API UsbTransport final : public Transport {
  public:
   /// `name` is for messages.
   UsbTransport(std::string name, const UsbPipes& pipes);
   ~UsbTransport() override;
 
-  /// Which device open() opens.
+  /// Selects the device that open() opens.
   void select(const UsbDeviceInfo& device) { device_ = device; }
 
   void open() override;
@@ -51,7 +51,7 @@ class SPIDAR_API UsbTransport final : public Transport {
   struct Slot {
     libusb_transfer* transfer = nullptr;
     std::array<uint8_t, kMaxLength> bytes{};
-    int done = 1;  // as libusb wants it: not in flight
+    int done = 1;  // type required by libusb; 1: not in flight
   };
 
   LinkFault submit(Slot& slot, uint8_t endpoint, size_t length) noexcept;
