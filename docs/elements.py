@@ -83,7 +83,10 @@ def describe(name):
     lines = [f"## {name}", "", f"{factory.get_metadata('description')}.", "",
              f"Class: `{factory.get_metadata('klass')}`. Parent: `{GObject.type_name(GObject.type_parent(element.__gtype__))}`.",
              "", "### Pads", "", "| pad | direction | presence | caps |", "|---|---|---|---|"]
-    for template in factory.get_static_pad_templates():
+    # The factory lists them in another order when the registry has just been written.
+    templates = sorted(factory.get_static_pad_templates(),
+                       key=lambda template: (template.direction != Gst.PadDirection.SINK, template.name_template))
+    for template in templates:
         caps = template.get_caps()
         kinds = sorted({caps.get_structure(i).get_name() for i in range(caps.get_size())})
         if caps.is_any():
