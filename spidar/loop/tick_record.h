@@ -11,6 +11,7 @@
 #include "core/wrench.h"
 #include "spidar/loop/pose_trouble.h"
 #include "spidar/loop/safety.h"
+#include "spidar/touch/touch_rendering.h"
 
 namespace spidar {
 
@@ -67,7 +68,8 @@ struct TickRecord {
   int64_t running_ns = 0;        ///< running time on the screen; 0 while not playing
   int64_t frame_ns = INT64_MIN;  ///< running time of the frame whose wrench was reached last
   Found found = Found::kNothing;
-  Wrench wanted;  ///< from the timeline; zero while not playing
+  /// From the timeline, and from what is touched; zero while not playing.
+  Wrench wanted;
   /// After finite, limit, slew and stale. Not acknowledged: that of the last tick that was,
   /// limited.
   Wrench commanded;
@@ -82,6 +84,7 @@ struct TickRecord {
   bool playing = false;
   double max_force_N = 0;  ///< limits that held
   double max_torque_Nm = 0;
+  Contact contact;  ///< with what can be touched; its force is part of `wanted`
 };
 
 /// Numbers since the loop was opened.
