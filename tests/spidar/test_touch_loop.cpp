@@ -214,7 +214,8 @@ TEST(TouchLoop, NothingIsTouchedWithoutAPose) {
   hand.device.set_fault(ExchangeStatus::kOk);
   bool rested = false;
   for (int n = 0; n < 1000; ++n) {
-    rested = rested || hand.tick().commanded.stacked().norm() == 0;
+    const bool at_rest = hand.tick().commanded.stacked().norm() == 0;
+    rested = rested || at_rest;
   }
   EXPECT_TRUE(rested);
   EXPECT_GT(hand.tick().commanded.force_N.z(), 0.5) << "and again with a pose";
