@@ -40,7 +40,12 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
     surface.after = &next->relief;
     surface.displacement_m = next->displacement_m;
     surface.share = share_of_next(running_ns);
-    if (surface.share >= 0.5) nearest = next;
+    jumped_ = jumped_ || jumps(surface, grip_m.head<2>());
+    if (jumped_) {
+      surface = {&now->relief};
+    } else if (surface.share >= 0.5) {
+      nearest = next;
+    }
   }
   ContactSettings settings = nearest->contact;
   if (stiffness_N_m_ <= 0) stiffness_N_m_ = settings.stiffness_N_m;
@@ -99,6 +104,7 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
   for (const TouchFrame* next = frame(mailbox, 1); next != nullptr; next = frame(mailbox, 1)) {
     if (!leads_on_) {
       leads_on_ = true;
+      jumped_ = false;
       // Known already: from where the last way ended, so that the surface never waits for a tick.
       from_ns_ = just_reached ? reached_ns_ : running_ns;
       const int64_t interval_ns = next->time_ns - now->time_ns;
@@ -115,6 +121,16 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
     just_reached = true;
     reached_ns_ = std::min(to_ns_, running_ns);
   }
+}
+
+/// Whether what is at this place rises faster than a surface may that is there all at once.
+bool TouchRendering::jumps(const MovingRelief& surface,
+                           const Eigen::Vector2d& place_m) const noexcept {
+  const Eigen::Vector2d before_m = place_m - surface.share * surface.displacement_m;
+  const Eigen::Vector2d after_m = before_m + surface.displacement_m;
+  const double rise_m = surface.after->at(after_m.x(), after_m.y()).z_m -
+                        surface.before->at(before_m.x(), before_m.y()).z_m;
+  return rise_m > TouchProxy::kRise_m_s * 1e-9 * static_cast<double>(to_ns_ - from_ns_);
 }
 
 double TouchRendering::share_of_next(int64_t running_ns) const noexcept {

@@ -28,7 +28,9 @@ struct Contact {
 /// is there when that frame is due; a frame that is known late or too late is met kShortest_ns
 /// later (or after the interval between the two, where that is shorter). The last frame holds for
 /// as long as nothing follows. What does not follow the frame before it appears when it is due;
-/// TouchProxy raises it slowly from where the grip is.
+/// TouchProxy raises it slowly from where the grip is. The same is done with a frame that rises
+/// under the grip faster than that, its displacement allowed for: a flash, a cut that nobody has
+/// noticed, or a motion that was not found.
 class SPIDAR_API TouchRendering {
  public:
   static constexpr int64_t kShortest_ns = 15'000'000;
@@ -49,10 +51,12 @@ class SPIDAR_API TouchRendering {
   const TouchFrame* frame(const TouchMailbox& mailbox, size_t nth) const noexcept;
   void advance(TouchMailbox& mailbox, int64_t running_ns) noexcept;
   double share_of_next(int64_t running_ns) const noexcept;
+  bool jumps(const MovingRelief& surface, const Eigen::Vector2d& place_m) const noexcept;
 
   uint32_t generation_ = 0;
   bool reached_ = false;   ///< the oldest frame of the mailbox was due
   bool leads_on_ = false;  ///< the way to the frame after it has begun, by the two times below
+  bool jumped_ = false;    ///< but does not lead the surface: the next frame has to be waited for
   int64_t from_ns_ = 0;
   int64_t to_ns_ = 0;
   int64_t reached_ns_ = 0;
