@@ -16,13 +16,12 @@ constexpr double kLoopDelay_s = 1.5e-9 * static_cast<double>(kTick_ns);
 /// Of what is held while the grip slides.
 constexpr double kSliding = 0.8;
 
-/// Of a high picture only as many rows as make two or more for each row of the relief.
-ImageView fewer_rows(const ImageView& luma) {
-  const int step = std::max(1, luma.height / (2 * HeightField::kRows));
-  ImageView fewer = luma;
-  fewer.height = (luma.height + step - 1) / step;
-  fewer.stride_bytes = step * luma.stride_bytes;
-  return fewer;
+/// So many of the picture's samples, or more, are read for each sample of the relief, along both
+/// sides: two let nothing slip through that the relief can show, and cost does not grow with size.
+constexpr int kReadPerCell = 2;
+
+int step_of(int samples, int cells) {
+  return std::max(1, samples / (kReadPerCell * cells));
 }
 
 }  // namespace
@@ -80,6 +79,29 @@ void ReliefStream::start() {
   mailbox_ = std::move(mailbox);
 }
 
+/// Every so many rows and pixels of what is larger than the relief needs.
+ImageView ReliefStream::thinned(const ImageView& luma) {
+  const int down = step_of(luma.height, HeightField::kRows);
+  const int across = step_of(luma.width, HeightField::kColumns);
+  ImageView thin = luma;
+  thin.height = (luma.height + down - 1) / down;
+  thin.stride_bytes = down * luma.stride_bytes;
+  if (across == 1) return thin;  // read in place
+  const int bytes = luma.sample.bytes;
+  thin.width = (luma.width + across - 1) / across;
+  thinned_.resize(static_cast<size_t>(thin.width) * static_cast<size_t>(thin.height * bytes));
+  uint8_t* to = thinned_.data();
+  for (int y = 0; y < thin.height; ++y) {
+    for (int x = 0; x < thin.width; ++x) {
+      const uint8_t* const from = luma.at(across * x, down * y);
+      for (int byte = 0; byte < bytes; ++byte) *to++ = from[byte];
+    }
+  }
+  thin.data = thinned_.data();
+  thin.stride_bytes = thin.width * bytes;
+  return thin;
+}
+
 void ReliefStream::add(const ImageView& luma, const FrameAnalysis& analysis, int64_t shown_ns,
                        const TouchProperties& properties, const Eigen::Vector2d& finger) {
   if (!loop_) return;
@@ -101,7 +123,7 @@ void ReliefStream::add(const ImageView& luma, const FrameAnalysis& analysis, int
   ReliefSettings settings;
   settings.relief_m = 1e-3 * properties.relief_mm;
   settings.floor_z_m = -0.5 * settings.relief_m;
-  if (!builder_.from_brightness(fewer_rows(luma), settings, frame->relief)) return;
+  if (!builder_.from_brightness(thinned(luma), settings, frame->relief)) return;
   frame->has_texture = properties.texture > 0;
   if (frame->has_texture) builder_.fine_detail(settings, frame->texture);
   frame->time_ns = shown_ns;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include <Eigen/Core>
 #include <gst/gst.h>
@@ -65,6 +66,7 @@ class ReliefStream {
 
  private:
   void start();
+  ImageView thinned(const ImageView& luma);
 
   HapticLoop* loop_ = nullptr;
   Profile profile_;
@@ -74,6 +76,7 @@ class ReliefStream {
   std::atomic<bool> muted_{false};
   // Streaming thread.
   ReliefBuilder builder_;
+  std::vector<uint8_t> thinned_;
   bool touched_ = false;   ///< the newest frame has a surface
   bool left_out_ = false;  ///< the newest frame did not get into the mailbox
   uint32_t generation_ = 0;
