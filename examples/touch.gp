@@ -19,16 +19,16 @@ set cblabel "relief, mm"
 set palette gray
 set autoscale fix
 set key off
-plot relief using 1:2:3 every ::1 with image pixels, \
-     ticks using 2:3 every ::1 with lines linewidth 2 linecolor rgb "#d9541e"
+plot relief using 1:2:3 skip 1 with image, \
+     ticks using 2:3 skip 1 with lines linewidth 2 linecolor rgb "#d9541e"
 
 set key at graph 1.02, graph 0.95 left top Left reverse noenhanced samplen 2 spacing 1.2
 set xlabel "time, s"
 set ylabel "height, mm"
-plot ticks using 1:5 every ::1 with lines linewidth 2 linecolor rgb "#a0a0a0" title "surface", \
-     ticks using 1:4 every ::1 with lines linewidth 1.5 linecolor rgb "#d9541e" title "grip"
+plot ticks using 1:5 skip 1 with lines linewidth 2 linecolor rgb "#a0a0a0" title "surface", \
+     ticks using 1:4 skip 1 with lines linewidth 1.5 linecolor rgb "#d9541e" title "grip"
 
 set ylabel "force on the hand, N"
-plot ticks using 1:6 every ::1 with lines linewidth 1.5 linecolor rgb "#0b5fa5" title "x, right", \
-     ticks using 1:7 every ::1 with lines linewidth 1.5 linecolor rgb "#009e73" title "y, up", \
-     ticks using 1:8 every ::1 with lines linewidth 1.5 linecolor rgb "#d9541e" title "z, to the viewer"
+plot ticks using 1:6 skip 1 with lines linewidth 1.5 linecolor rgb "#0b5fa5" title "x, right", \
+     ticks using 1:7 skip 1 with lines linewidth 1.5 linecolor rgb "#009e73" title "y, up", \
+     ticks using 1:8 skip 1 with lines linewidth 1.5 linecolor rgb "#d9541e" title "z, to viewer"
