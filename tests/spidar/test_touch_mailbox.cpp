@@ -90,7 +90,7 @@ TEST(TouchMailbox, RefusesWhatCannotWork) {
 /// The reader looks at the two oldest frames for as long as it likes, and at every cell of them,
 /// while the writer fills the third slot.
 TEST(TouchMailbox, NothingIsTornOrLostBetweenThreads) {
-  constexpr int64_t kFrames = 3000;
+  constexpr int64_t kFrames = 1000;
   TouchMailbox mailbox(kWidth_m, kHeight_m, TouchMailbox::kLeastSlots);
   std::thread writer([&] {
     for (int64_t n = 1; n <= kFrames; ++n) {
