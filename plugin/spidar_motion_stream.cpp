@@ -73,7 +73,11 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch);
     self->display->show(report, display, settings, *frame);
   });
-  if (!processed) return GST_FLOW_ERROR;
+  if (!processed) {
+    // The pipeline may go on playing for as long as the application likes.
+    self->engine->stop_touching();
+    return GST_FLOW_ERROR;
+  }
   if (report.analyzed) {
     const spidar::FrameAnalysis& found = report.analysis;
     GST_LOG_OBJECT(self,

@@ -123,6 +123,7 @@ void ReliefStream::add(const ImageView& luma, const FrameAnalysis& analysis, int
   ReliefSettings settings;
   settings.relief_m = 1e-3 * properties.relief_mm;
   settings.floor_z_m = -0.5 * settings.relief_m;
+  validate(settings);
   if (!builder_.from_brightness(thinned(luma), settings, frame->relief)) return;
   frame->has_texture = properties.texture > 0;
   if (frame->has_texture) builder_.fine_detail(settings, frame->texture);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Properties of touching, what is said of bad ones, and how what is touched moves.
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "plugin/touch/relief_stream.h"
 #include "plugin/touch/touched_motion.h"
 #include "spidar/simulation/simulated_device.h"
+#include "tests/core/count_allocations.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
@@ -168,6 +170,86 @@ TEST(ReliefStream, WhatTheLoopHasNoRoomForIsLeftOutAndCounted) {
   }
   EXPECT_EQ(number_of(reliefs.stream, "reliefs"), ReliefStream::kSlots);
   EXPECT_EQ(number_of(reliefs.stream, "reliefs-left-out"), 5u);
+}
+
+TEST(ReliefStream, TakesNothingFromTheHeapAfterTheFirstFrame) {
+  if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
+  init_gstreamer();
+  Reliefs reliefs;
+  reliefs.loop->open();
+  const std::vector<uint8_t> grey(1920 * 1080, 128);
+  TouchProperties touch;
+  touch.kind = TouchKind::kLuma;
+  touch.texture = 1;
+  int64_t now_ns = 0;
+  size_t before = 0;
+  for (int n = 0; n < 100; ++n) {
+    if (n == 1) before = allocations;
+    reliefs.stream.add({grey.data(), 1920, 1080, 1920}, some_analysis(), n, touch, {0.5, 0.5});
+    reliefs.stream.forget();
+    now_ns += kTick_ns;
+    reliefs.loop->tick(now_ns, now_ns);  // which makes room
+  }
+  EXPECT_EQ(allocations, before);
+}
+
+/// A bump moves 12 pixels to the right and 9 down from frame to frame. Half-way between two frames
+/// it is where half of that leads, and as high as in them; cross-faded it would be 0.3 mm lower,
+/// and moved the other way much more.
+TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
+  init_gstreamer();
+  constexpr int kWidth = 320, kHeight = 240;
+  constexpr double kSigma_px = 25;
+  constexpr double kRelief_m = 0.008;
+  const Eigen::Vector2d step_px(12, 9);
+  const Eigen::Vector2d pixel_m(0.06 / kWidth, 0.06 / kHeight);
+  Reliefs reliefs;
+  TouchProperties touch;
+  touch.kind = TouchKind::kLuma;
+  touch.friction = 0;
+  Background background;
+  background.model.kind = ModelKind::kTranslation;
+  background.model.shift_px = step_px;
+  FrameAnalysis analysis = some_analysis();
+  analysis.background = &background;
+  // In frame n the bump is so far from the middle.
+  const auto bump_px = [&](double n) { return Eigen::Vector2d((n - 8.5) * step_px); };
+  std::vector<uint8_t> luma(kWidth * kHeight);
+  for (int n = 0; n < 18; ++n) {
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const Eigen::Vector2d at_px(x + 0.5 - kWidth / 2, y + 0.5 - kHeight / 2);
+        const double distance = (at_px - bump_px(n)).norm() / kSigma_px;
+        luma[static_cast<size_t>(y * kWidth + x)] =
+            static_cast<uint8_t>(std::lround(255 * std::exp(-distance * distance / 2)));
+      }
+    }
+    const auto shown_ns = static_cast<int64_t>(kFrame) * (n + 10);
+    reliefs.stream.add({luma.data(), kWidth, kHeight, kWidth}, analysis, shown_ns, touch,
+                       {0.5, 0.5});
+  }
+  // Half-way from frame 8 to 9 its top is in the middle, where the grip is held.
+  reliefs.loop->open();
+  int64_t now_ns = 0;
+  reliefs.loop->set_playback_clock({0, 0, 1.0, true});
+  const auto half_way_ns = static_cast<int64_t>(kFrame) * 37 / 2;
+  while (now_ns < half_way_ns) {
+    now_ns += kTick_ns;
+    reliefs.loop->tick(now_ns, now_ns);
+  }
+  const TickRecord last = reliefs.loop->snapshot().last;
+  ASSERT_TRUE(last.contact.touching);
+  // The pose of the exchange before; the contact is of that.
+  const Eigen::Vector3d grip_m = last.pose.position_m;
+  const Eigen::Vector2d away_px(grip_m.x() / pixel_m.x(), -grip_m.y() / pixel_m.y());
+  const double distance = away_px.norm() / kSigma_px;
+  ASSERT_LT(distance, 0.5) << "it is the top that is touched";
+  const double surface_m = kRelief_m * (std::exp(-distance * distance / 2) - 0.5);
+  const double cosine = last.contact.force_N.normalized().z();
+  // A step of brightness, what the smoothing takes from the top (σ² of 0.5 mm over that of the
+  // bump), and what the grip moves in a tick.
+  const double tolerance_m = kRelief_m / 255 + kRelief_m * 2.5e-7 / 2.2e-5 + 2e-5;
+  EXPECT_NEAR(grip_m.z() + last.contact.depth_m / cosine, surface_m, tolerance_m);
 }
 
 TEST(ReliefStream, ADeviceWithoutAWorkspaceIsAnErrorThatSaysSo) {
