@@ -5,6 +5,14 @@
 #include <utility>
 
 namespace spidar {
+namespace {
+
+/// Bit for bit the same with a share of 1.
+Wrench scaled(const Wrench& wrench, double share) {
+  return {share * wrench.force_N, share * wrench.torque_Nm};
+}
+
+}  // namespace
 
 std::string MotionEngine::open(const MotionProperties& properties) {
   analyzer_.configure(properties.analyzer);
@@ -14,6 +22,7 @@ std::string MotionEngine::open(const MotionProperties& properties) {
   grip_pointer_ = GripPointer(output_.profile().geometry);
   schedule_.connect(&output_.session()->loop());
   player_.connect(&output_.session()->loop());
+  reliefs_.connect(&output_.session()->loop(), output_.profile(), grip_pointer_.half_size_m());
   return trace_problem;
 }
 
@@ -21,6 +30,7 @@ void MotionEngine::close() {
   schedule_.connect(nullptr);
   player_.connect(nullptr);
   output_.close();
+  reliefs_.disconnect();  // what the loop has looked at
 }
 
 std::string MotionEngine::start(const std::string& trace_path) {
@@ -38,11 +48,13 @@ void MotionEngine::set_muted(bool muted) {
   schedule_.set_muted(muted);
   limit_watch_.set_muted(muted);
   player_.set_muted(muted);
+  reliefs_.set_muted(muted);
 }
 
 void MotionEngine::flush() {
   schedule_.forget();
   player_.forget();
+  reliefs_.forget();
 }
 
 void MotionEngine::skip(GstClockTime duration) {
@@ -62,6 +74,7 @@ GstStructure* MotionEngine::stats() const {
   stats_.describe(structure);
   describe_limit(force_limit(), structure);
   gst_structure_set(structure, "track-frames", G_TYPE_UINT64, player_.frames(), nullptr);
+  reliefs_.describe(structure);
   output_.describe(structure);
   if (const std::optional<LoopSnapshot> loop = output_.snapshot()) {
     gst_structure_set(structure, "refused-wrenches", G_TYPE_UINT64,
@@ -121,8 +134,8 @@ void MotionEngine::pass_gap(GstClockTime running_time) {
   const std::optional<FrameAnalysis> analysis =
       time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : std::nullopt;
   if (analysis) {
-    schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns), analysis->wrench,
-                   analysis->repeated});
+    schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
+                   scaled(analysis->wrench, motion_share_), analysis->repeated});
     limit_watch_.repeat(schedule_.at_sink_ns(running_ns), analysis->wrench);
   } else {
     run_out(running_time);
@@ -132,15 +145,31 @@ void MotionEngine::pass_gap(GstClockTime running_time) {
 }
 
 void MotionEngine::end_of_stream() {
-  if (pacer_.has_frame()) run_out(static_cast<GstClockTime>(pacer_.next_ns()));
+  if (!pacer_.has_frame()) return;
+  run_out(static_cast<GstClockTime>(pacer_.next_ns()));
+  reliefs_.end(schedule_.at_sink_ns(pacer_.next_ns()));
 }
 
 void MotionEngine::set_track(std::optional<TrackFile> track) {
   player_.set_track(std::move(track).value_or(TrackFile{}));
 }
 
+void MotionEngine::touch_frame(const ImageView& luma, const TouchProperties& touch,
+                               int64_t running_ns, FrameReport& report) {
+  const Eigen::Vector2d middle(0.5, 0.5);
+  reliefs_.add(luma, report.analysis, schedule_.at_sink_ns(running_ns), touch,
+               grip_place().value_or(middle));
+  if (touch.kind == TouchKind::kOff) return;
+  if (output_.session() == nullptr) {
+    report.touch_problem = TouchProblem::kNoDevice;
+    return;
+  }
+  report.stiffness_N_m = most_stiffness_N_m(output_.profile());
+  if (touch.stiffness_N_m > report.stiffness_N_m) report.touch_problem = TouchProblem::kTooStiff;
+}
+
 FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& segment,
-                                  const AnalyzerSettings& settings) {
+                                  const AnalyzerSettings& settings, const TouchProperties& touch) {
   FrameReport report;
   const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
   if (segment.format != GST_FORMAT_TIME || !GST_CLOCK_TIME_IS_VALID(pts)) {
@@ -164,6 +193,8 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     const auto place = place_of(frame.buffer, nominal_duration(frame.info), segment,
                                 schedule_.at_sink_ns(running_ns), schedule_.rate_multiplier());
     if (place) player_.play(*place);
+    if (touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
+    reliefs_.end(schedule_.at_sink_ns(running_ns));
     return report;
   }
   const FramePacer::Order order = pacer_.order(running_ns, frame, segment);
@@ -194,11 +225,15 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
 
   const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;
   pacer_.take(time, moved);
+  limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis, settings.motion);
+  // Only so much of the film's motion is felt, told and shown beside what is touched.
+  motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
+  report.analysis.wrench = scaled(report.analysis.wrench, motion_share_);
   if (!time.in_place) {
+    touch_frame(luma, touch, running_ns, report);
     schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
                    report.analysis.wrench, report.analysis.repeated});
   }
-  limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis, settings.motion);
   report.limit = limit_watch_.limit(output_.snapshot(), false);
   if (trace_.is_open()) {
     report.trace_failed = !trace_.write(running_ns, static_cast<int64_t>(report.stream_time),

@@ -22,6 +22,7 @@
 #include "plugin/timing/frame_pacer.h"
 #include "plugin/timing/haptic_output.h"
 #include "plugin/timing/wrench_schedule.h"
+#include "plugin/touch/relief_stream.h"
 #include "plugin/track/track_player.h"
 
 namespace spidar {
@@ -56,8 +57,10 @@ class MotionEngine {
 
   /// The force ramps to rest at once and stays there until frames come after set_muted(false).
   void set_muted(bool muted);
-  /// What was scheduled is forgotten at once.
+  /// What was scheduled is forgotten at once, and so is what can be touched.
   void flush();
+  /// There is nothing to touch any more: the force of the contact ends at once.
+  void stop_touching() { reliefs_.forget(); }
   /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
   /// The sink has stepped over so much of running time: it shows what follows as much earlier.
@@ -71,7 +74,7 @@ class MotionEngine {
   /// Frames are not analysed: the samples of this track are felt. Nothing: they are again.
   void set_track(std::optional<TrackFile> track);
   FrameReport process(const GstVideoFrame& frame, const GstSegment& segment,
-                      const AnalyzerSettings& settings);
+                      const AnalyzerSettings& settings, const TouchProperties& touch);
   /// The next frame has nothing to do with the one before.
   void restart();
   /// Running time begins anew: after a flush.
@@ -88,9 +91,13 @@ class MotionEngine {
   std::optional<Eigen::Vector2d> grip_place() const;
 
  private:
+  void touch_frame(const ImageView& luma, const TouchProperties& touch, int64_t running_ns,
+                   FrameReport& report);
+
   // These outlive the output's thread, which hands on what waits.
   WrenchSchedule schedule_;
   TrackPlayer player_;
+  ReliefStream reliefs_;
   std::mutex skip_mutex_;  // what is skipped reaches schedule and output in the same order
   HapticOutput output_;
   // Streaming thread.
@@ -99,6 +106,7 @@ class MotionEngine {
   FrameLuma luma_;
   FrameTrace trace_;
   FramePacer pacer_;
+  double motion_share_ = 1;  // of the newest frame's wrench
 
   MotionStats stats_;
   LimitWatch limit_watch_;

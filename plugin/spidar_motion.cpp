@@ -177,6 +177,10 @@ static void gst_spidar_motion_set_property(GObject* object, guint id, const GVal
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
   if (id == spidar::kPropTsOffset) self->engine->output().set_offset(g_value_get_int64(value));
   if (id == spidar::kPropMute) self->engine->set_muted(g_value_get_boolean(value));
+  if (id == spidar::kPropTouch &&
+      g_value_get_enum(value) == static_cast<int>(spidar::TouchKind::kOff)) {
+    self->engine->stop_touching();
+  }
   if (id == spidar::kPropMaxForce) self->engine->output().set_max_force(g_value_get_double(value));
   if (id == spidar::kPropOverlay) {
     gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !g_value_get_boolean(value));

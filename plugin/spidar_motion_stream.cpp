@@ -53,12 +53,14 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   spidar::AnalyzerSettings settings;
   PointerKind pointer;
   spidar::DisplayProperties display;
+  spidar::TouchProperties touch;
   bool post_messages;
   OnDeviceError on_device_error;
   GST_OBJECT_LOCK(self);
   settings = self->properties->analyzer;
   pointer = self->properties->pointer;
   display = self->properties->display;
+  touch = self->properties->touch;
   post_messages = self->properties->post_messages;
   on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
@@ -69,10 +71,14 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   FrameReport report;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
     choose_track(self, frame->info);
-    report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings);
+    report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch);
     self->display->show(report, display, settings, *frame);
   });
-  if (!processed) return GST_FLOW_ERROR;
+  if (!processed) {
+    // The pipeline may go on playing for as long as the application likes.
+    self->engine->stop_touching();
+    return GST_FLOW_ERROR;
+  }
   if (report.analyzed) {
     const spidar::FrameAnalysis& found = report.analysis;
     GST_LOG_OBJECT(self,
@@ -88,6 +94,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
                      GST_TIME_ARGS(GST_BUFFER_PTS(frame->buffer)), to_string(report.problem));
   }
   self->complaints->look_at_frame(report);
+  self->complaints->look_at_touch(report, touch);
   if (display.overlay) self->complaints->look_at_overlay(frame->info);
   if (report.analyzed && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, report);

@@ -104,7 +104,7 @@ case ${1-} in
         "what they do between themselves it does not see"
     echo "left out of all three: suite kernel, a virtual machine that needs QEMU and a kernel image; suite" \
         "soak, which takes an hour; suite valgrind. Each by meson test -C build --suite NAME"
-    threaded=(haptic_session shared_memory simulated_faults tick_trace boards usb_boards force_feedback
+    threaded=(haptic_session shared_memory simulated_faults tick_trace touch_mailbox boards usb_boards force_feedback
         uart_line guardian)
     targets=("${threaded[@]/#/tests/spidar/test_}" tests/examples/test_play_{numbers,traces}
         tests/pipelines/test_pipelines_random_operations)

@@ -148,6 +148,7 @@ void install_motion_properties(GObjectClass* c) {
                               "a file, or 'auto' for the one beside the film (FILM.haptic.flac, "
                               ".mka or .wav). Read with the first frame of a stream",
                               nullptr, kReady));
+  install_touch_properties(c);
   install_display_properties(c);
   install(kPropStats, g_param_spec_boxed(
                           "stats", "Statistics",
@@ -205,7 +206,8 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
       p.track = string_of(value);
       return true;
     default:
-      return set_feel_property(p, id, value) || set_display_property(p.display, id, value);
+      return set_feel_property(p, id, value) || set_display_property(p.display, id, value) ||
+             set_touch_property(p.touch, id, value);
   }
 }
 
@@ -255,7 +257,8 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       g_value_set_string(value, or_null(p.track));
       return true;
     default:
-      return get_feel_property(p, id, value) || get_display_property(p.display, id, value);
+      return get_feel_property(p, id, value) || get_display_property(p.display, id, value) ||
+             get_touch_property(p.touch, id, value);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/motion_analyzer.h"
 #include "plugin/properties/display_properties.h"
+#include "plugin/properties/touch_properties.h"
 
 namespace spidar {
 
@@ -29,6 +30,7 @@ struct MotionProperties {
   std::string track;  ///< path, "auto", or empty
   bool mute = false;
   DisplayProperties display;
+  TouchProperties touch;
 
   /// A name or a path for load_profile().
   std::string used_profile() const;

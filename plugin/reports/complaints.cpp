@@ -70,6 +70,34 @@ void Complaints::look_at_frame(const FrameReport& report) {
   }
 }
 
+void Complaints::look_at_touch(const FrameReport& report, const TouchProperties& wanted) {
+  const guint bit = 1u << static_cast<guint>(report.touch_problem);
+  if (touch_problems_ & bit) return;
+  touch_problems_ |= bit;
+  switch (report.touch_problem) {
+    case TouchProblem::kNoDevice:
+      GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                          ("There is no device to touch the picture with."),
+                          ("device=none; the simulated one is device=sim."));
+      break;
+    case TouchProblem::kTrack:
+      GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                          ("The picture cannot be touched while a haptic track is played."),
+                          ("Leave out track, or set touch=off."));
+      break;
+    case TouchProblem::kTooStiff:
+      GST_ELEMENT_WARNING(
+          element_, RESOURCE, SETTINGS,
+          ("touch-stiffness is %g N/m, which this device cannot render without shaking; it is "
+           "touched with %.0f N/m.",
+           wanted.stiffness_N_m, report.stiffness_N_m),
+          ("The profile's drive_lag_s sets how stiff a surface may be (docs/touch.md)."));
+      break;
+    case TouchProblem::kNone:
+      break;
+  }
+}
+
 void Complaints::look_at_overlay(const GstVideoInfo& info) {
   if (overlay_ || !is_unpacked(*info.finfo)) return;
   overlay_ = true;

@@ -22,11 +22,13 @@ class Complaints {
   void begin_stream() {
     frame_problems_ = 0;
     overlay_ = false;
+    touch_problems_ = 0;
   }
 
   /// Looks at the bins around the element, which may have a running time of their own.
   void look_at_place();
   void look_at_frame(const FrameReport& report);
+  void look_at_touch(const FrameReport& report, const TouchProperties& wanted);
   /// The overlay is on: can it be drawn into such frames?
   void look_at_overlay(const GstVideoInfo& info);
   /// See DeviceComplaints.
@@ -41,6 +43,7 @@ class Complaints {
   GstElement* const element_;
   guint frame_problems_ = 0;  // bit i: FrameProblem i was said
   bool overlay_ = false;      // said
+  guint touch_problems_ = 0;  // bit i: TouchProblem i was said
   DeviceComplaints device_;
 };
 

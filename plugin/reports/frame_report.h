@@ -24,6 +24,14 @@ enum class FrameProblem {
 /// In words, for the log.
 const char* to_string(FrameProblem problem);
 
+/// Why a frame cannot be touched as the properties say.
+enum class TouchProblem {
+  kNone,
+  kNoDevice,  ///< device=none
+  kTrack,     ///< a haptic track is played, and no frame is looked at
+  kTooStiff,  ///< for the drives of this device: it is touched with less
+};
+
 /// What became of one frame.
 struct FrameReport {
   FrameProblem problem = FrameProblem::kNone;
@@ -33,7 +41,9 @@ struct FrameReport {
   FrameAnalysis analysis;
   int64_t took_ns = 0;                   ///< the analysis
   ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame
-  bool trace_failed = false;             ///< the trace could not be written and was closed
+  TouchProblem touch_problem = TouchProblem::kNone;
+  double stiffness_N_m = 0;   ///< that is rendered, with TouchProblem::kTooStiff
+  bool trace_failed = false;  ///< the trace could not be written and was closed
 };
 
 }  // namespace spidar

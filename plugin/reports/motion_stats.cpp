@@ -68,6 +68,10 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       us(session.timing().lateness.quantile_ns(0.999)), "skew-ms-median", G_TYPE_DOUBLE,
       ms(loop.skew().quantile_ns(0.5)), "skew-ms-p99", G_TYPE_DOUBLE,
       ms(loop.skew().quantile_ns(0.99)), nullptr);
+  const Contact& contact = snapshot.last.contact;
+  gst_structure_set(structure, "touching", G_TYPE_BOOLEAN, contact.touching ? TRUE : FALSE,
+                    "touch-depth-mm", G_TYPE_DOUBLE, 1e3 * contact.depth_m, "touch-force",
+                    G_TYPE_DOUBLE, contact.force_N.norm(), nullptr);
   const LinkHealth link = session.device().health();
   gst_structure_set(structure, "link-fault", G_TYPE_STRING, to_string(link.last_fault),
                     "link-timeouts", G_TYPE_UINT64, link.count(LinkFault::kTimeout), "link-errors",

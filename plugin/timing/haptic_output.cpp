@@ -6,6 +6,7 @@
 
 #include "plugin/reports/motion_stats.h"
 #include "spidar/device_factory.h"
+#include "spidar/simulation/simulated_device.h"
 
 namespace spidar {
 namespace {
@@ -27,8 +28,13 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
   SessionSettings settings;
   settings.trace_path = haptic_trace;
   settings.threaded = now_ == nullptr;
+  const auto make = [&]() -> std::unique_ptr<Device> {
+    if (settings.threaded || device != "sim") return make_device(device, profile);
+    // The loop is ticked by hand, and so is the time of the simulation.
+    return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
+  };
   const auto make_session = [&] {
-    return std::make_unique<HapticSession>(profile, make_device(device, profile), settings);
+    return std::make_unique<HapticSession>(profile, make(), settings);
   };
   std::string trace_problem;
   std::unique_ptr<HapticSession> session;

@@ -11,10 +11,15 @@ namespace {
 
 constexpr double kMaxRate = 10;
 
-/// There is a wrench to be felt now.
-bool has_wanted(const TickRecord& record) noexcept {
+/// There is a wrench of the film to be felt now.
+bool has_frame(const TickRecord& record) noexcept {
   return record.playing && (record.found == Found::kExact || record.found == Found::kInterpolated ||
                             record.found == Found::kHeld);
+}
+
+/// There is a wrench to be felt now, of the film or of a surface.
+bool has_wanted(const TickRecord& record) noexcept {
+  return has_frame(record) || record.contact.has_surface;
 }
 
 }  // namespace
@@ -126,6 +131,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   if (state_ != DeviceState::kLost && state_ != DeviceState::kClosed) {
     const double dt_s = 1e-9 * static_cast<double>(std::min(passed_ns, kMaxStep_ns));
     grip_.check_age(now_ns);
+    touch(record, passed_ns);
     command(record, dt_s);
     pull(record, dt_s);
     exchange(record);
@@ -208,6 +214,21 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   if (result.found == Found::kNothing || result.frame_time_ns == reached_ns_) return;
   reached_ns_ = result.frame_time_ns;
   skew_.add(record.running_ns - reached_ns_);
+}
+
+void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
+  TouchMailbox* const mailbox = touch_mailbox_.load(std::memory_order_acquire);
+  if (mailbox == nullptr) return;
+  if (!record.playing || !grip_.trusted() || closing_.load(std::memory_order_acquire)) {
+    touch_.rest(*mailbox);
+    return;
+  }
+  record.contact = touch_.tick(*mailbox, record.running_ns, grip_.pose().position_m,
+                               1e-9 * static_cast<double>(passed_ns));
+  if (!record.contact.has_surface) return;
+  // What has expired is there to be ramped down, not to be felt.
+  if (!has_frame(record)) record.wanted = {};
+  record.wanted.force_N += record.contact.force_N;
 }
 
 void HapticLoop::command(TickRecord& record, double dt_s) noexcept {

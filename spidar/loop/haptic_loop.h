@@ -23,6 +23,8 @@
 #include "spidar/realtime/latency_histogram.h"
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
+#include "spidar/touch/touch_mailbox.h"
+#include "spidar/touch/touch_rendering.h"
 
 namespace spidar {
 
@@ -64,6 +66,13 @@ class SPIDAR_API HapticLoop {
   bool schedule(const TrackBlock& block) noexcept;
 
   // --- any thread
+
+  /// Lets the grip touch the surfaces that are published in `touch`, which must outlive the loop.
+  /// The contact force is added to the wanted wrench, before every safety step. Null, the default:
+  /// there is nothing to touch.
+  void connect_touch(TouchMailbox* touch) noexcept {
+    touch_mailbox_.store(touch, std::memory_order_release);
+  }
 
   /// Discards everything that was scheduled before this call (flush).
   void cancel_scheduled() noexcept { generation_.fetch_add(1, std::memory_order_acq_rel); }
@@ -122,6 +131,7 @@ class SPIDAR_API HapticLoop {
   void take_scheduled(bool playing, int64_t running_ns) noexcept;
   TimelineResult read_track(bool playing, int64_t running_ns) noexcept;
   void find_wanted(TickRecord& record) noexcept;
+  void touch(TickRecord& record, int64_t passed_ns) noexcept;
   void command(TickRecord& record, double dt_s) noexcept;
   void pull(TickRecord& record, double dt_s) noexcept;
   void exchange(TickRecord& record) noexcept;
@@ -136,6 +146,7 @@ class SPIDAR_API HapticLoop {
   SpscRing<TickRecord, 4096> records_;
   std::atomic<uint32_t> generation_{0};
   std::atomic<bool> closing_{false};
+  std::atomic<TouchMailbox*> touch_mailbox_{nullptr};
   Seqlock<PlaybackClock> shared_clock_;
   Seqlock<SafetyLimits> shared_limits_;
   Seqlock<LoopSnapshot> snapshot_;
@@ -149,6 +160,7 @@ class SPIDAR_API HapticLoop {
   int64_t newest_ns_ = INT64_MIN;  // running time of the newest wrench in the timeline
   int64_t before_newest_ns_ = INT64_MIN;
   int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last
+  TouchRendering touch_;
   WrenchSafety safety_;
   GripWatch grip_;
   TensionCommand tension_command_;

@@ -11,6 +11,7 @@
 #include "core/wrench.h"
 #include "spidar/loop/pose_trouble.h"
 #include "spidar/loop/safety.h"
+#include "spidar/touch/touch_rendering.h"
 
 namespace spidar {
 
@@ -67,7 +68,8 @@ struct TickRecord {
   int64_t running_ns = 0;        ///< running time on the screen; 0 while not playing
   int64_t frame_ns = INT64_MIN;  ///< running time of the frame whose wrench was reached last
   Found found = Found::kNothing;
-  Wrench wanted;  ///< from the timeline; zero while not playing
+  /// From the timeline, plus the contact force; zero while not playing.
+  Wrench wanted;
   /// After finite, limit, slew and stale. If not acknowledged, the one of the last acknowledged
   /// tick, limited.
   Wrench commanded;
@@ -83,6 +85,7 @@ struct TickRecord {
   bool playing = false;
   double max_force_N = 0;  ///< limits in effect
   double max_torque_Nm = 0;
+  Contact contact;  ///< with the touched surface; its force is part of `wanted`
 };
 
 /// Counts since the loop was opened.

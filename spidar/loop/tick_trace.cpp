@@ -17,7 +17,7 @@ namespace spidar {
 namespace {
 
 constexpr size_t kFlush_bytes = 1 << 16;
-constexpr size_t kMaxRow_bytes = 2048;  // 45 fields of at most 32 characters
+constexpr size_t kMaxRow_bytes = 2048;  // 49 fields of at most 32 characters
 
 /// Appends fields and the commas between them.
 class Row {
@@ -61,7 +61,8 @@ std::string trace_header() {
   for (int i = 0; i < kMaxStrings; ++i) row.field("tension_" + std::to_string(i) + "_N");
   for (const char* name : {"position_x_m", "position_y_m", "position_z_m", "orientation_w",
                            "orientation_x", "orientation_y", "orientation_z", "pose_residual_m",
-                           "faulty_string", "max_force_N", "max_torque_Nm"}) {
+                           "faulty_string", "max_force_N", "max_torque_Nm", "contact_depth_m",
+                           "contact_force_x_N", "contact_force_y_N", "contact_force_z_N"}) {
     row.field(name);
   }
   return header;
@@ -79,7 +80,9 @@ void append_row(const TickRecord& record, std::string& csv) {
   row.number(record.pose_residual_m)
       .number(record.faulty_string)
       .number(record.max_force_N)
-      .number(record.max_torque_Nm);
+      .number(record.max_torque_Nm)
+      .number(record.contact.depth_m)
+      .vector(record.contact.force_N);
   csv += '\n';
 }
 

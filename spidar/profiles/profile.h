@@ -72,6 +72,9 @@ struct CalibrationRecord {
 };
 
 struct Profile {
+  /// Where nothing is known, as everywhere: no public source states a drive's lag.
+  static constexpr double kDriveLag_s = 0.002;
+
   std::string name;         ///< file name without ending
   std::string description;  ///< one line
   std::string board;  ///< controller it was used with: usb-sh4, usb-simple, uart, ahs, unknown
@@ -79,6 +82,8 @@ struct Profile {
   std::array<StringDrive, kMaxStrings> drives{};  ///< geometry.count are used
   int dac_bits = 12;                              ///< resolution of the D/A over dac_max_V
   double dac_max_V = 10.0;                        ///< D/A range is 0 … this, times motor_sign
+  /// From a command to the tension that follows, s: amplifier, motor and what the board holds back.
+  double drive_lag_s = kDriveLag_s;
   std::optional<CalibrationRecord> calibration;
   std::vector<Provenance> provenance;
 

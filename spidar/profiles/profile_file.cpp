@@ -20,6 +20,7 @@ constexpr double kMaxCoordinate_m = 5.0;
 constexpr double kMinLength_m = 1e-3;
 constexpr double kMin_m_per_count = 1e-8;
 constexpr double kMax_m_per_count = 1e-3;
+constexpr double kMaxDriveLag_s = 0.1;
 
 void check_length(const TomlField& field, int count) {
   if (field.size() != static_cast<size_t>(count))
@@ -192,6 +193,14 @@ double not_negative(const TomlField& field) {
   return value;
 }
 
+double drive_lag_s(const TomlField& field) {
+  const double lag_s = not_negative(field);
+  if (!(lag_s <= kMaxDriveLag_s))
+    field.fail("is " + shown(lag_s) + ", must be at most " + shown(kMaxDriveLag_s) +
+               "; the unit is seconds");
+  return lag_s;
+}
+
 CalibrationRecord read_calibration(const TomlField& in, int count) {
   in.allow_only({"samples", "residual_m", "home_offset_sd_m", "scale_sd", "exit_sd_m"});
   CalibrationRecord record;
@@ -223,14 +232,15 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
                     "not TOML: " + std::string(error.description()));
   }
   const TomlField root(path, document);
-  root.allow_only({"description", "board", "dac_bits", "dac_max_V", "geometry", "strings",
-                   "calibration", "source"});
+  root.allow_only({"description", "board", "dac_bits", "dac_max_V", "drive_lag_s", "geometry",
+                   "strings", "calibration", "source"});
   Profile profile;
   profile.name = name;
   profile.description = root["description"].string();
   profile.board = root["board"].one_of({"usb-sh4", "usb-simple", "uart", "ahs", "unknown"});
   profile.dac_bits = root["dac_bits"].integer(8, 24);
   profile.dac_max_V = root["dac_max_V"].positive();
+  if (root.has("drive_lag_s")) profile.drive_lag_s = drive_lag_s(root["drive_lag_s"]);
   profile.geometry = read_geometry(root["geometry"]);
   read_strings(root["strings"], profile);
   if (root.has("calibration"))

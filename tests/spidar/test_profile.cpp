@@ -102,6 +102,7 @@ TEST(Profile, FileIsReadIntoTheDeviceFrame) {
   EXPECT_EQ(profile.board, "uart");
   EXPECT_EQ(profile.dac_bits, 12);
   EXPECT_EQ(profile.dac_max_V, 3.3);
+  EXPECT_EQ(profile.drive_lag_s, Profile::kDriveLag_s);
   ASSERT_EQ(profile.geometry.count, 6);
   // Left-handed to right-handed: z turns round in both tables. mm · 1e-3 is exact to rounding.
   EXPECT_TRUE(profile.geometry.exit_m[1].isApprox(Eigen::Vector3d(-0.060, -0.061, -0.062), 1e-15));
@@ -225,6 +226,14 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"dac_bits = 12", "dac_bits = 12.5", {"dac_bits", "floating-point", "8 to 24"}},
         Broken{"dac_bits = 12", "dac_bits = 64", {"dac_bits", "64", "8 to 24"}},
         Broken{"dac_max_V = 3.3", "dac_max_V = 0", {"dac_max_V", "is 0", "above zero"}},
+        Broken{"dac_max_V = 3.3",
+               "dac_max_V = 3.3\ndrive_lag_s = 2",
+               {"drive_lag_s", "is 2", "at most 0.1", "seconds"},
+               "drive_lag_s"},
+        Broken{"dac_max_V = 3.3",
+               "dac_max_V = 3.3\ndrive_lag_s = -0.001",
+               {"drive_lag_s", "must not be negative"},
+               "drive_lag_s"},
         Broken{"dac_max_V = 3.3", "dac_max_V = nan", {"dac_max_V", "nan", "finite"}},
         Broken{"frame = \"left-handed\"",
                "frame = \"left\"",

@@ -34,6 +34,7 @@ void expect_same(const Profile& a, const Profile& b) {
   EXPECT_EQ(a.board, b.board);
   EXPECT_EQ(a.dac_bits, b.dac_bits);
   EXPECT_EQ(a.dac_max_V, b.dac_max_V);
+  EXPECT_EQ(a.drive_lag_s, b.drive_lag_s);
   ASSERT_EQ(a.geometry.count, b.geometry.count);
   for (size_t i = 0; i < static_cast<size_t>(a.geometry.count); ++i) {
     EXPECT_EQ(a.geometry.exit_m[i], b.geometry.exit_m[i]);

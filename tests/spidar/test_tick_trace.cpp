@@ -52,6 +52,8 @@ TickRecord some_record() {
   r.faulty_string = 3;
   r.max_force_N = 2.5;
   r.max_torque_Nm = 0.1;
+  r.contact.depth_m = 0.004;
+  r.contact.force_N = {-0.5, 0.25, 2};
   return r;
 }
 
@@ -68,13 +70,15 @@ TEST(TickTrace, HeaderAndRow) {
             "tension_4_N,tension_5_N,tension_6_N,tension_7_N,"
             "position_x_m,position_y_m,position_z_m,"
             "orientation_w,orientation_x,orientation_y,orientation_z,pose_residual_m,faulty_string,"
-            "max_force_N,max_torque_Nm");
+            "max_force_N,max_torque_Nm,contact_depth_m,"
+            "contact_force_x_N,contact_force_y_N,contact_force_z_N");
   std::string row;
   append_row(some_record(), row);
   EXPECT_EQ(row,
             "12,9000000000000001,-3,40000000,33366666,interpolated,1,running,"
             "0.1,0.2,0.3,1e-07,0,-0.5,1,2,3,4,5,6,7,8,9,10,11,12,"
-            "0.5,1.5,2.5,3.5,4.5,5.5,6.5,7.5,0.01,0.02,0.03,0.5,-0.5,0.5,-0.5,5.9e-06,3,2.5,0.1\n");
+            "0.5,1.5,2.5,3.5,4.5,5.5,6.5,7.5,0.01,0.02,0.03,0.5,-0.5,0.5,-0.5,5.9e-06,3,2.5,0.1,"
+            "0.004,-0.5,0.25,2\n");
   EXPECT_EQ(fields(row).size(), fields(trace_header()).size());
 }
 

@@ -29,6 +29,11 @@ bool to_be_felt(const TickRecord& record) {
                             record.found == Found::kHeld);
 }
 
+/// A surface pushes: that is felt for as long as the grip is in it, however old its frame is.
+bool is_pushed(const TickRecord& record) {
+  return record.playing && record.contact.force_N.norm() > 0;
+}
+
 /// One row of a trace by the names of its columns.
 class Row {
  public:
@@ -66,6 +71,7 @@ TickRecord record_of(const Row& row) {
     const std::string axis(1, "xyz"[i]);
     record.commanded.force_N[i] = row.number("commanded_force_" + axis + "_N");
     record.commanded.torque_Nm[i] = row.number("commanded_torque_" + axis + "_Nm");
+    record.contact.force_N[i] = row.number("contact_force_" + axis + "_N");
   }
   for (int i = 0; i < kMaxStrings; ++i) {
     record.tension_N[i] = row.number("tension_" + std::to_string(i) + "_N");
@@ -118,7 +124,7 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   }
 
   // A device that does not answer keeps what it was told last.
-  if (to_be_felt(record)) {
+  if (to_be_felt(record) || is_pushed(record)) {
     stopped_s_ = 0;
   } else if (record.acknowledged) {
     stopped_s_ += dt_s;
@@ -142,6 +148,11 @@ void TickWatch::look_at_age(const TickRecord& record, double dt_s) {
     newest_since_ns_ = record.monotonic_ns;
     old_s_ = 0;
     fading_in_ = false;
+  }
+  if (is_pushed(record)) {
+    old_s_ = 0;
+    fading_in_ = false;
+    return;
   }
   const bool old = record.monotonic_ns - newest_since_ns_ > kOldest_ns ||
                    record.running_ns - record.frame_ns > kOldest_ns;

@@ -13,7 +13,8 @@ namespace spidar::test {
 /// torque never above their limits; their changes never faster than the slew limit allows; rest,
 /// exactly, 50 ms after the last wrench that was to be felt (of time in which the device answered);
 /// and the same 50 ms after the newest frame has become 100 ms old, by CLOCK_MONOTONIC or by
-/// running time, but for the 40 ms in which the force fades in before the next frame.
+/// running time, but for the 40 ms in which the force fades in before the next frame, and for a
+/// surface that the grip is in.
 class TickWatch {
  public:
   /// Ticks the loop in time, and looks at what came of it.

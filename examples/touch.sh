@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+# Lets a simulated hand stroke across a picture, as with touch=luma, and ends with some numbers and
+# a picture of relief, path and force. Installs what is missing (Debian) and builds first.
+#   examples/touch.sh IMAGE
+#   examples/touch.sh IMAGE --output FOLDER
+set -euo pipefail
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source-path=SCRIPTDIR source=../tests/install.sh
+. "$top/tests/install.sh"
+
+install_packages build play
+if [[ ! -f $top/build/build.ninja ]]; then
+    meson setup "$top/build" "$top" >/dev/null
+fi
+if [[ $(ninja -C "$top/build" -n examples/touch) != *"no work to do"* ]]; then
+    echo "building; the first time that takes some minutes"
+    ninja -C "$top/build" examples/touch >/dev/null
+fi
+exec "$top/build/examples/touch" "$@"

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/properties/touch_properties.h"
+
+#include "core/touch/contact_force.h"
+
+namespace spidar {
+namespace {
+
+/// Changeable while playing, and by a GstController.
+constexpr auto kControllable =
+    static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_CONTROLLABLE |
+                             GST_PARAM_MUTABLE_PLAYING);
+constexpr double kMostRelief_mm = 30;
+constexpr double kLeastStiffness_N_m = 10;
+constexpr double kMostTexture = 10;
+
+GType touch_type() {
+  static const GType type = [] {
+    static const GEnumValue values[] = {
+        {static_cast<int>(TouchKind::kOff), "Nothing: the film's motion is felt", "off"},
+        {static_cast<int>(TouchKind::kLuma), "A relief of the frame's brightness: bright is near",
+         "luma"},
+        {0, nullptr, nullptr}};
+    return g_enum_register_static("GstSpidarMotionTouch", values);
+  }();
+  return type;
+}
+
+}  // namespace
+
+void install_touch_properties(GObjectClass* c) {
+  const TouchProperties defaults;
+  const auto install = [c](TouchPropertyId id, GParamSpec* spec) {
+    g_object_class_install_property(c, id, spec);
+  };
+  install(kPropTouch,
+          g_param_spec_enum("touch", "Touch", "What the grip touches in the picture", touch_type(),
+                            static_cast<int>(defaults.kind), kControllable));
+  install(kPropTouchRelief,
+          g_param_spec_double("touch-relief", "Touch relief",
+                              "Height of the relief from black to white, in millimetres. Medium "
+                              "grey is in the middle of the workspace",
+                              0, kMostRelief_mm, defaults.relief_mm, kControllable));
+  install(kPropTouchStiffness,
+          g_param_spec_double("touch-stiffness", "Touch stiffness",
+                              "Stiffness of what is touched, in newtons per metre. A device whose "
+                              "drives are slow gets less, with a warning",
+                              kLeastStiffness_N_m, ContactSettings::kMostStiffness_N_m,
+                              defaults.stiffness_N_m, kControllable));
+  install(kPropTouchFriction,
+          g_param_spec_double("touch-friction", "Touch friction",
+                              "Friction of what is touched, as a share of the force across it: so "
+                              "much before the grip slides, four fifths of that while it does",
+                              0, 1, defaults.friction, kControllable));
+  install(kPropTouchTexture,
+          g_param_spec_double("touch-texture", "Touch texture",
+                              "How much of the picture's fine detail is felt as a force along the "
+                              "surface; 1: as steep as it is in the relief, 0: nothing",
+                              0, kMostTexture, defaults.texture, kControllable));
+  install(kPropMotionShare,
+          g_param_spec_double("motion-share", "Motion share",
+                              "Share of the force of the film's motion that is added to what is "
+                              "touched. Without touch all of it is felt",
+                              0, 1, defaults.motion_share, kControllable));
+  gst_type_mark_as_plugin_api(touch_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
+}
+
+bool set_touch_property(TouchProperties& p, guint id, const GValue* value) {
+  switch (id) {
+    case kPropTouch:
+      p.kind = static_cast<TouchKind>(g_value_get_enum(value));
+      return true;
+    case kPropTouchRelief:
+      p.relief_mm = g_value_get_double(value);
+      return true;
+    case kPropTouchStiffness:
+      p.stiffness_N_m = g_value_get_double(value);
+      return true;
+    case kPropTouchFriction:
+      p.friction = g_value_get_double(value);
+      return true;
+    case kPropTouchTexture:
+      p.texture = g_value_get_double(value);
+      return true;
+    case kPropMotionShare:
+      p.motion_share = g_value_get_double(value);
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool get_touch_property(const TouchProperties& p, guint id, GValue* value) {
+  switch (id) {
+    case kPropTouch:
+      g_value_set_enum(value, static_cast<int>(p.kind));
+      return true;
+    case kPropTouchRelief:
+      g_value_set_double(value, p.relief_mm);
+      return true;
+    case kPropTouchStiffness:
+      g_value_set_double(value, p.stiffness_N_m);
+      return true;
+    case kPropTouchFriction:
+      g_value_set_double(value, p.friction);
+      return true;
+    case kPropTouchTexture:
+      g_value_set_double(value, p.texture);
+      return true;
+    case kPropMotionShare:
+      g_value_set_double(value, p.motion_share);
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace spidar

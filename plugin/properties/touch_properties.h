@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What an application can set of what is touched in the picture.
+#pragma once
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+/// Where the relief comes from.
+enum class TouchKind { kOff, kLuma };
+
+struct TouchProperties {
+  TouchKind kind = TouchKind::kOff;
+  double relief_mm = 8;  ///< from black to white
+  double stiffness_N_m = 500;
+  double friction = 0.3;    ///< μs; μd is 0.8 of it
+  double texture = 0;       ///< gain of the fine detail's slope
+  double motion_share = 0;  ///< of the film's motion, which is felt besides
+};
+
+enum TouchPropertyId : guint {
+  kPropTouch = 200,  ///< after those of DisplayProperties
+  kPropTouchRelief,
+  kPropTouchStiffness,
+  kPropTouchFriction,
+  kPropTouchTexture,
+  kPropMotionShare,
+};
+
+void install_touch_properties(GObjectClass* object_class);
+
+/// False for an id that is none of these.
+bool set_touch_property(TouchProperties& properties, guint id, const GValue* value);
+bool get_touch_property(const TouchProperties& properties, guint id, GValue* value);
+
+}  // namespace spidar

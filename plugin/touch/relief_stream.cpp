@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/touch/relief_stream.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "plugin/touch/touched_motion.h"
+#include "spidar/realtime/monotonic.h"
+
+namespace spidar {
+namespace {
+
+/// Half a tick for which a force is held, and a tick because the pose is that of the last exchange.
+constexpr double kLoopDelay_s = 1.5e-9 * static_cast<double>(kTick_ns);
+/// Of what is held while the grip slides.
+constexpr double kSliding = 0.8;
+
+/// So many of the picture's samples, or more, are read for each sample of the relief, along both
+/// sides: two let nothing slip through that the relief can show, and cost does not grow with size.
+constexpr int kReadPerCell = 2;
+
+int step_of(int samples, int cells) {
+  return std::max(1, samples / (kReadPerCell * cells));
+}
+
+}  // namespace
+
+double most_stiffness_N_m(const Profile& profile) {
+  const ContactSettings measured;
+  const double delay_s = kLoopDelay_s + profile.drive_lag_s;
+  return ContactSettings::kMostStiffness_N_m * std::min(1.0, measured.delay_s / delay_s);
+}
+
+ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile) {
+  ContactSettings contact;
+  contact.stiffness_N_m = std::min(properties.stiffness_N_m, most_stiffness_N_m(profile));
+  contact.delay_s = kLoopDelay_s + profile.drive_lag_s;
+  contact.friction = {properties.friction, kSliding * properties.friction};
+  contact.texture = properties.texture;
+  validate(contact);
+  return contact;
+}
+
+void ReliefStream::connect(HapticLoop* loop, const Profile& profile,
+                           const Eigen::Vector2d& half_size_m) {
+  loop_ = loop;
+  profile_ = profile;
+  half_size_m_ = half_size_m;
+  reliefs_ = reliefs_left_out_ = 0;
+}
+
+void ReliefStream::disconnect() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  loop_ = nullptr;
+  mailbox_.reset();
+  touched_ = false;
+}
+
+void ReliefStream::forget() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (mailbox_) mailbox_->forget();
+}
+
+void ReliefStream::set_muted(bool muted) {
+  muted_ = muted;
+  if (muted) forget();
+}
+
+void ReliefStream::start() {
+  if (!(half_size_m_.minCoeff() > 0)) {
+    throw std::invalid_argument(
+        "touch: the profile's string exits span no width or no height, so "
+        "that the picture has no size; another profile, or touch=off");
+  }
+  auto mailbox = std::make_unique<TouchMailbox>(2 * half_size_m_.x(), 2 * half_size_m_.y(), kSlots);
+  loop_->connect_touch(mailbox.get());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  mailbox_ = std::move(mailbox);
+}
+
+/// Every so many rows and pixels of what is larger than the relief needs.
+ImageView ReliefStream::thinned(const ImageView& luma) {
+  const int down = step_of(luma.height, HeightField::kRows);
+  const int across = step_of(luma.width, HeightField::kColumns);
+  ImageView thin = luma;
+  thin.height = (luma.height + down - 1) / down;
+  thin.stride_bytes = down * luma.stride_bytes;
+  if (across == 1) return thin;  // read in place
+  const int bytes = luma.sample.bytes;
+  thin.width = (luma.width + across - 1) / across;
+  thinned_.resize(static_cast<size_t>(thin.width) * static_cast<size_t>(thin.height * bytes));
+  uint8_t* to = thinned_.data();
+  for (int y = 0; y < thin.height; ++y) {
+    for (int x = 0; x < thin.width; ++x) {
+      const uint8_t* const from = luma.at(across * x, down * y);
+      for (int byte = 0; byte < bytes; ++byte) *to++ = from[byte];
+    }
+  }
+  thin.data = thinned_.data();
+  thin.stride_bytes = thin.width * bytes;
+  return thin;
+}
+
+void ReliefStream::add(const ImageView& luma, const FrameAnalysis& analysis, int64_t shown_ns,
+                       const TouchProperties& properties, const Eigen::Vector2d& finger) {
+  if (!loop_) return;
+  if (properties.kind == TouchKind::kOff) {
+    end(shown_ns);
+    return;
+  }
+  if (!mailbox_) start();
+  // In this order: what is muted or flushed after this line forgets this frame.
+  const uint32_t generation = mailbox_->generation();
+  if (muted_) return;
+  const int64_t begin_ns = monotonic_now_ns();
+  TouchFrame* const frame = mailbox_->begin(generation);
+  if (!frame) {
+    ++reliefs_left_out_;
+    left_out_ = true;
+    return;
+  }
+  ReliefSettings settings;
+  settings.relief_m = 1e-3 * properties.relief_mm;
+  settings.floor_z_m = -0.5 * settings.relief_m;
+  validate(settings);
+  if (!builder_.from_brightness(thinned(luma), settings, frame->relief)) return;
+  frame->has_texture = properties.texture > 0;
+  if (frame->has_texture) builder_.fine_detail(settings, frame->texture);
+  frame->time_ns = shown_ns;
+  frame->has_surface = true;
+  frame->contact = contact_settings(properties, profile_);
+  const Eigen::Vector2d moved_px = touched_displacement_px(analysis, finger);
+  frame->displacement_m = {moved_px.x() / analysis.width * frame->relief.width_m(),
+                           -moved_px.y() / analysis.height * frame->relief.height_m()};
+  frame->follows = touched_ && !left_out_ && generation == generation_ && !analysis.restarted;
+  mailbox_->publish();
+  touched_ = true;
+  left_out_ = false;
+  generation_ = generation;
+  ++reliefs_;
+  took_.add(monotonic_now_ns() - begin_ns);
+}
+
+void ReliefStream::end(int64_t shown_ns) {
+  if (!mailbox_ || !touched_) return;
+  touched_ = false;
+  TouchFrame* const frame = mailbox_->begin(mailbox_->generation());
+  if (!frame) {
+    mailbox_->forget();
+    return;
+  }
+  frame->time_ns = shown_ns;
+  frame->has_surface = false;
+  frame->follows = false;
+  mailbox_->publish();
+}
+
+void ReliefStream::describe(GstStructure* structure) const {
+  gst_structure_set(structure, "reliefs", G_TYPE_UINT64, reliefs_.load(), "reliefs-left-out",
+                    G_TYPE_UINT64, reliefs_left_out_.load(), "relief-ms-median", G_TYPE_DOUBLE,
+                    1e-6 * static_cast<double>(took_.quantile_ns(0.5)), nullptr);
+}
+
+}  // namespace spidar

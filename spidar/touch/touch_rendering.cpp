@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/touch/touch_rendering.h"
+
+#include <algorithm>
+
+namespace spidar {
+namespace {
+
+/// Whether the surface can go from one frame to the other.
+bool leads_to(const TouchFrame& before, const TouchFrame& after) noexcept {
+  return after.follows && before.has_surface && after.has_surface &&
+         after.time_ns > before.time_ns && after.displacement_m.allFinite();
+}
+
+/// The number of a generation wraps round.
+bool is_older(uint32_t generation, uint32_t than) noexcept {
+  return static_cast<int32_t>(than - generation) > 0;
+}
+
+}  // namespace
+
+Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
+                             const Eigen::Vector3d& grip_m, double dt_s) noexcept {
+  drop_forgotten(mailbox);
+  advance(mailbox, running_ns);
+  Contact result;
+  const TouchFrame* const now = frame(mailbox, 0);
+  if (!reached_ || now == nullptr || !now->has_surface) {
+    contact_.reset();
+    stiffness_N_m_ = 0;
+    return result;
+  }
+  if (!(dt_s <= kLongestTick_s)) contact_.reset();
+
+  const TouchFrame* const next = leads_on_ ? frame(mailbox, 1) : nullptr;
+  MovingRelief surface{&now->relief};
+  const TouchFrame* nearest = now;
+  if (next != nullptr && leads_to(*now, *next)) {
+    surface.after = &next->relief;
+    surface.displacement_m = next->displacement_m;
+    surface.share = share_of_next(running_ns);
+    jumped_ = jumped_ || jumps(surface, grip_m.head<2>());
+    if (jumped_) {
+      surface = {&now->relief};
+    } else if (surface.share >= 0.5) {
+      nearest = next;
+    }
+  }
+  ContactSettings settings = nearest->contact;
+  if (stiffness_N_m_ <= 0) stiffness_N_m_ = settings.stiffness_N_m;
+  const double most_N_m = kStiffening_N_m_s * std::clamp(dt_s, 0.0, kLongestTick_s);
+  stiffness_N_m_ += std::clamp(settings.stiffness_N_m - stiffness_N_m_, -most_N_m, most_N_m);
+  settings.stiffness_N_m = stiffness_N_m_;
+
+  result.has_surface = true;
+  result.force_N = contact_.tick(surface, nearest->has_texture ? &nearest->texture : nullptr,
+                                 settings, grip_m, dt_s);
+  const TouchProxy& proxy = contact_.proxy();
+  result.touching = proxy.touching();
+  if (result.touching) {
+    result.depth_m = std::max(0.0, proxy.normal().dot(proxy.position_m() - grip_m));
+  }
+  return result;
+}
+
+void TouchRendering::rest(TouchMailbox& mailbox) noexcept {
+  drop_forgotten(mailbox);
+  contact_.reset();
+}
+
+void TouchRendering::drop_forgotten(TouchMailbox& mailbox) noexcept {
+  const uint32_t generation = mailbox.generation();
+  if (generation != generation_) {
+    generation_ = generation;
+    reached_ = leads_on_ = false;
+    contact_.reset();
+  }
+  for (const TouchFrame* oldest = mailbox.front();
+       oldest != nullptr && is_older(oldest->generation, generation_); oldest = mailbox.front()) {
+    mailbox.drop();
+  }
+}
+
+/// Null also where it is of a generation that began after this tick did.
+const TouchFrame* TouchRendering::frame(const TouchMailbox& mailbox, size_t nth) const noexcept {
+  const TouchFrame* const found = mailbox.front(nth);
+  return found != nullptr && found->generation == generation_ ? found : nullptr;
+}
+
+void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept {
+  const TouchFrame* now = frame(mailbox, 0);
+  if (now == nullptr) {
+    reached_ = leads_on_ = false;
+    return;
+  }
+  bool just_reached = false;
+  if (!reached_) {
+    if (now->time_ns > running_ns) return;
+    reached_ = just_reached = true;
+    leads_on_ = false;
+    reached_ns_ = now->time_ns;
+  }
+  for (const TouchFrame* next = frame(mailbox, 1); next != nullptr; next = frame(mailbox, 1)) {
+    if (!leads_on_) {
+      leads_on_ = true;
+      jumped_ = false;
+      // Known already: from where the last way ended, so that the surface never waits for a tick.
+      from_ns_ = just_reached ? reached_ns_ : running_ns;
+      const int64_t interval_ns = next->time_ns - now->time_ns;
+      to_ns_ = leads_to(*now, *next)
+                   ? std::max(next->time_ns, from_ns_ + std::min(kShortest_ns, interval_ns))
+                   : next->time_ns;
+    }
+    const TouchFrame* const after_next = frame(mailbox, 2);
+    const bool late = after_next != nullptr && after_next->time_ns <= running_ns;
+    if (running_ns < to_ns_ && !late) return;
+    mailbox.drop();
+    now = next;
+    leads_on_ = false;
+    just_reached = true;
+    reached_ns_ = std::min(to_ns_, running_ns);
+  }
+}
+
+/// Whether what is at this place rises faster than a surface may that is there all at once.
+bool TouchRendering::jumps(const MovingRelief& surface,
+                           const Eigen::Vector2d& place_m) const noexcept {
+  const Eigen::Vector2d before_m = place_m - surface.share * surface.displacement_m;
+  const Eigen::Vector2d after_m = before_m + surface.displacement_m;
+  const double rise_m = surface.after->at(after_m.x(), after_m.y()).z_m -
+                        surface.before->at(before_m.x(), before_m.y()).z_m;
+  return rise_m > TouchProxy::kRise_m_s * 1e-9 * static_cast<double>(to_ns_ - from_ns_);
+}
+
+double TouchRendering::share_of_next(int64_t running_ns) const noexcept {
+  if (to_ns_ <= from_ns_) return 1;
+  const double share =
+      static_cast<double>(running_ns - from_ns_) / static_cast<double>(to_ns_ - from_ns_);
+  return std::clamp(share, 0.0, 1.0);
+}
+
+}  // namespace spidar

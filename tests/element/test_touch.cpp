@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Properties of touching, what is said of bad ones, and how what is touched moves.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugin/touch/relief_stream.h"
+#include "plugin/touch/touched_motion.h"
+#include "spidar/simulation/simulated_device.h"
+#include "tests/core/count_allocations.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+
+std::vector<std::string> warnings_of(const std::string& properties) {
+  ElementHarness h(properties);
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  for (int n = 0; n < 3; ++n) h.push_moved(n, 0, static_cast<GstClockTime>(n) * kFrame);
+  EXPECT_TRUE(h.errors().empty());
+  return h.warnings();
+}
+
+TEST(TouchProperties, DefaultsAreTheDocumentedOnes) {
+  ElementHarness h("device=none");
+  gint touch;
+  gdouble relief, stiffness, friction, texture, share;
+  g_object_get(h.element(), "touch", &touch, "touch-relief", &relief, "touch-stiffness", &stiffness,
+               "touch-friction", &friction, "touch-texture", &texture, "motion-share", &share,
+               nullptr);
+  EXPECT_EQ(touch, static_cast<gint>(TouchKind::kOff));
+  EXPECT_EQ(relief, 8);
+  EXPECT_EQ(stiffness, 500);
+  EXPECT_EQ(friction, 0.3);
+  EXPECT_EQ(texture, 0);
+  EXPECT_EQ(share, 0);
+}
+
+TEST(TouchProperties, ReadBackWhatWasWritten) {
+  ElementHarness h(
+      "device=none touch=luma touch-relief=12 touch-stiffness=300 touch-friction=0.1 "
+      "touch-texture=2 motion-share=0.4");
+  gint touch;
+  gdouble relief, stiffness, friction, texture, share;
+  g_object_get(h.element(), "touch", &touch, "touch-relief", &relief, "touch-stiffness", &stiffness,
+               "touch-friction", &friction, "touch-texture", &texture, "motion-share", &share,
+               nullptr);
+  EXPECT_EQ(touch, static_cast<gint>(TouchKind::kLuma));
+  EXPECT_EQ(relief, 12);
+  EXPECT_EQ(stiffness, 300);
+  EXPECT_EQ(friction, 0.1);
+  EXPECT_EQ(texture, 2);
+  EXPECT_EQ(share, 0.4);
+}
+
+TEST(TouchProperties, WithoutADeviceThereIsAWarningOnce) {
+  const std::vector<std::string> warnings = warnings_of("device=none touch=luma");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("no device"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(warnings_of("device=none touch=off").empty());
+  EXPECT_TRUE(warnings_of("device=sim touch=luma touch-stiffness=800").empty());
+}
+
+TEST(TouchProperties, ASlowDriveGetsLessStiffnessAndAWarning) {
+  Profile profile = load_profile(kDefaultProfile);
+  EXPECT_EQ(most_stiffness_N_m(profile), ContactSettings::kMostStiffness_N_m);
+  profile.drive_lag_s = 0.0055;  // twice the delay of 3.5 ms
+  EXPECT_NEAR(most_stiffness_N_m(profile), ContactSettings::kMostStiffness_N_m / 2, 1e-9);
+  TouchProperties touch;
+  touch.stiffness_N_m = 700;
+  const ContactSettings contact = contact_settings(touch, profile);
+  EXPECT_NEAR(contact.stiffness_N_m, 400, 1e-9);
+  EXPECT_NEAR(contact.delay_s, 0.007, 1e-12);
+  EXPECT_NEAR(contact.damping_N_s_m(), 1.5 * 400 * 0.007, 1e-9);
+}
+
+/// Of a frame of 320 × 240 that is 40 ms after the one before.
+FrameAnalysis some_analysis() {
+  FrameAnalysis analysis;
+  analysis.width = 320;
+  analysis.height = 240;
+  analysis.interval_ns = static_cast<int64_t>(kFrame);
+  analysis.model = ModelKind::kTranslation;
+  return analysis;
+}
+
+TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
+  FrameAnalysis analysis = some_analysis();
+  Background background;
+  background.model.kind = ModelKind::kSimilarity;
+  background.model.shift_px = {3, 0};
+  background.model.linear = 0.01 * Eigen::Matrix2d::Identity();
+  MovingObject large;
+  large.position_px = {40, 0};
+  large.size_px = {80, 80};
+  large.area_px2 = 6400;
+  large.tracks = 9;
+  large.on_screen_px_s = {-50, 25};
+  MovingObject small = large;
+  small.size_px = {20, 20};
+  small.area_px2 = 400;
+  small.on_screen_px_s = {0, 100};
+  MovingObject hidden = large;
+  hidden.position_px = {-100, 0};
+  hidden.tracks = 0;
+  const std::vector<MovingObject> objects{large, small, hidden};
+  analysis.background = &background;
+  analysis.object_list = &objects;
+  const auto at = [&](double x_px, double y_px) {
+    return touched_displacement_px(analysis, {0.5 + x_px / 320, 0.5 + y_px / 240});
+  };
+  constexpr double kRounding = 1e-12;
+  EXPECT_NEAR((at(45, 5) - Eigen::Vector2d(0, 4)).norm(), 0, kRounding) << "the smaller one";
+  EXPECT_NEAR((at(70, 30) - Eigen::Vector2d(-2, 1)).norm(), 0, kRounding);
+  EXPECT_NEAR((at(0, 100) - Eigen::Vector2d(3, 1)).norm(), 0, kRounding) << "beside them";
+  EXPECT_NEAR((at(-100, 0) - Eigen::Vector2d(2, 0)).norm(), 0, kRounding) << "out of sight";
+  for (bool FrameAnalysis::*says_nothing :
+       {&FrameAnalysis::restarted, &FrameAnalysis::repeated, &FrameAnalysis::same_picture}) {
+    FrameAnalysis still = analysis;
+    still.*says_nothing = true;
+    EXPECT_EQ(touched_displacement_px(still, {0.5, 0.5}).norm(), 0);
+  }
+}
+
+TEST(TouchedMotion, WithoutModelsItIsThatOfTheWholePicture) {
+  FrameAnalysis analysis = some_analysis();
+  analysis.model.reset();
+  analysis.motion.velocity_px_s = {100, -50};
+  EXPECT_NEAR((touched_displacement_px(analysis, {0.1, 0.9}) - Eigen::Vector2d(4, -2)).norm(), 0,
+              1e-12);
+}
+
+/// A loop that is not ticked: what was published is there to be looked at.
+struct Reliefs {
+  Reliefs() : loop(std::make_unique<HapticLoop>(profile, device)) {
+    stream.connect(loop.get(), profile, {0.03, 0.03});
+  }
+  const Profile profile = load_profile(kDefaultProfile);
+  SimulatedDevice device{profile, SimulatedDevice::Time::kFixedStep};
+  std::unique_ptr<HapticLoop> loop;
+  ReliefStream stream;
+};
+
+uint64_t number_of(const ReliefStream& stream, const char* field) {
+  GstStructure* stats = gst_structure_new_empty("stats");
+  stream.describe(stats);
+  guint64 value = 0;
+  gst_structure_get_uint64(stats, field, &value);
+  gst_structure_free(stats);
+  return value;
+}
+
+TEST(ReliefStream, WhatTheLoopHasNoRoomForIsLeftOutAndCounted) {
+  init_gstreamer();
+  Reliefs reliefs;
+  const std::vector<uint8_t> grey(320 * 240, 128);
+  const ImageView luma{grey.data(), 320, 240, 320};
+  TouchProperties touch;
+  reliefs.stream.add(luma, some_analysis(), 0, touch, {0.5, 0.5});
+  EXPECT_EQ(number_of(reliefs.stream, "reliefs"), 0u) << "off";
+  touch.kind = TouchKind::kLuma;
+  for (size_t n = 0; n < ReliefStream::kSlots + 5; ++n) {
+    reliefs.stream.add(luma, some_analysis(), static_cast<int64_t>(n * kFrame), touch, {0.5, 0.5});
+  }
+  EXPECT_EQ(number_of(reliefs.stream, "reliefs"), ReliefStream::kSlots);
+  EXPECT_EQ(number_of(reliefs.stream, "reliefs-left-out"), 5u);
+}
+
+TEST(ReliefStream, TakesNothingFromTheHeapAfterTheFirstFrame) {
+  if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
+  init_gstreamer();
+  Reliefs reliefs;
+  reliefs.loop->open();
+  const std::vector<uint8_t> grey(1920 * 1080, 128);
+  TouchProperties touch;
+  touch.kind = TouchKind::kLuma;
+  touch.texture = 1;
+  int64_t now_ns = 0;
+  size_t before = 0;
+  for (int n = 0; n < 100; ++n) {
+    if (n == 1) before = allocations;
+    reliefs.stream.add({grey.data(), 1920, 1080, 1920}, some_analysis(), n, touch, {0.5, 0.5});
+    reliefs.stream.forget();
+    now_ns += kTick_ns;
+    reliefs.loop->tick(now_ns, now_ns);  // which makes room
+  }
+  EXPECT_EQ(allocations, before);
+}
+
+/// A bump moves 12 pixels to the right and 9 down from frame to frame. Half-way between two frames
+/// it is where half of that leads, and as high as in them; cross-faded it would be 0.3 mm lower,
+/// and moved the other way much more.
+TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
+  init_gstreamer();
+  constexpr int kWidth = 320, kHeight = 240;
+  constexpr double kSigma_px = 25;
+  constexpr double kRelief_m = 0.008;
+  const Eigen::Vector2d step_px(12, 9);
+  const Eigen::Vector2d pixel_m(0.06 / kWidth, 0.06 / kHeight);
+  Reliefs reliefs;
+  TouchProperties touch;
+  touch.kind = TouchKind::kLuma;
+  touch.friction = 0;
+  Background background;
+  background.model.kind = ModelKind::kTranslation;
+  background.model.shift_px = step_px;
+  FrameAnalysis analysis = some_analysis();
+  analysis.background = &background;
+  // In frame n the bump is so far from the middle.
+  const auto bump_px = [&](double n) { return Eigen::Vector2d((n - 8.5) * step_px); };
+  std::vector<uint8_t> luma(kWidth * kHeight);
+  for (int n = 0; n < 18; ++n) {
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const Eigen::Vector2d at_px(x + 0.5 - kWidth / 2, y + 0.5 - kHeight / 2);
+        const double distance = (at_px - bump_px(n)).norm() / kSigma_px;
+        luma[static_cast<size_t>(y * kWidth + x)] =
+            static_cast<uint8_t>(std::lround(255 * std::exp(-distance * distance / 2)));
+      }
+    }
+    const auto shown_ns = static_cast<int64_t>(kFrame) * (n + 10);
+    reliefs.stream.add({luma.data(), kWidth, kHeight, kWidth}, analysis, shown_ns, touch,
+                       {0.5, 0.5});
+  }
+  // Half-way from frame 8 to 9 its top is in the middle, where the grip is held.
+  reliefs.loop->open();
+  int64_t now_ns = 0;
+  reliefs.loop->set_playback_clock({0, 0, 1.0, true});
+  const auto half_way_ns = static_cast<int64_t>(kFrame) * 37 / 2;
+  while (now_ns < half_way_ns) {
+    now_ns += kTick_ns;
+    reliefs.loop->tick(now_ns, now_ns);
+  }
+  const TickRecord last = reliefs.loop->snapshot().last;
+  ASSERT_TRUE(last.contact.touching);
+  // The pose of the exchange before; the contact is of that.
+  const Eigen::Vector3d grip_m = last.pose.position_m;
+  const Eigen::Vector2d away_px(grip_m.x() / pixel_m.x(), -grip_m.y() / pixel_m.y());
+  const double distance = away_px.norm() / kSigma_px;
+  ASSERT_LT(distance, 0.5) << "it is the top that is touched";
+  const double surface_m = kRelief_m * (std::exp(-distance * distance / 2) - 0.5);
+  const double cosine = last.contact.force_N.normalized().z();
+  // A step of brightness, what the smoothing takes from the top (σ² of 0.5 mm over that of the
+  // bump), and what the grip moves in a tick.
+  const double tolerance_m = kRelief_m / 255 + kRelief_m * 2.5e-7 / 2.2e-5 + 2e-5;
+  EXPECT_NEAR(grip_m.z() + last.contact.depth_m / cosine, surface_m, tolerance_m);
+}
+
+TEST(ReliefStream, ADeviceWithoutAWorkspaceIsAnErrorThatSaysSo) {
+  init_gstreamer();
+  Reliefs reliefs;
+  reliefs.stream.connect(reliefs.loop.get(), reliefs.profile, {0.03, 0});
+  const std::vector<uint8_t> grey(320 * 240, 128);
+  TouchProperties touch;
+  touch.kind = TouchKind::kLuma;
+  EXPECT_THROW(
+      reliefs.stream.add({grey.data(), 320, 240, 320}, some_analysis(), 0, touch, {0.5, 0.5}),
+      std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace spidar::test

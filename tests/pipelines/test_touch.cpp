@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// The picture is touched: whole pipelines on a test clock, and the simulated device, whose hand the
+// test leads. TickWatch looks at every tick besides.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gst/video/video.h>
+#include <gtest/gtest.h>
+
+#include "plugin/grip_pointer.h"
+#include "plugin/spidar_motion.h"
+#include "spidar/loop/tick_trace.h"
+#include "spidar/simulation/simulated_device.h"
+#include "tests/pipelines/stepped_pipeline.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+constexpr double kRelief_m = 0.008;
+/// The hand is never moved by more than this when a surface comes up under it.
+constexpr double kGentle_m_s = 0.05;
+
+std::string film(const std::string& source, const std::string& properties, int width = 320,
+                 int height = 240) {
+  return "videotestsrc name=source " + source +
+         " ! video/x-raw,format=GRAY8,width=" + std::to_string(width) +
+         ",height=" + std::to_string(height) + ",framerate=25/1 ! spidarmotion name=motion " +
+         properties + " ! fakesink name=sink sync=true enable-last-sample=true";
+}
+
+/// A pipeline that plays, ticked every millisecond.
+class Touched {
+ public:
+  explicit Touched(const std::string& launch) : pipeline(launch) {
+    pipeline.set_state(GST_STATE_PLAYING);
+    device_ = dynamic_cast<SimulatedDevice*>(
+        &gst_spidar_motion_engine(GST_SPIDAR_MOTION(pipeline.element()))
+             .output()
+             .session()
+             ->device());
+  }
+
+  void hold(double x_m, double y_m, double z_m) {
+    Pose pose;
+    pose.position_m = {x_m, y_m, z_m};
+    device_->set_hand(pose);
+  }
+  FeltState felt() const { return device_->felt(); }
+
+  /// Shows so many frames.
+  void play(int frames) {
+    for (int n = 0; n < frames; ++n) {
+      const GstClockTime next = pipeline.await();
+      while (pipeline.now() + GST_MSECOND < next) see(pipeline.idle(GST_MSECOND));
+      see(pipeline.step());
+    }
+    pipeline.await();
+  }
+  /// So many milliseconds in which no frame is shown.
+  void wait(int ticks) {
+    for (int n = 0; n < ticks; ++n) see(pipeline.idle(GST_MSECOND));
+  }
+
+  const TickRecord& last() const { return rows_; }
+  /// Of the grip since the last call.
+  double fastest_m_s() { return std::exchange(fastest_m_s_, 0.0); }
+  const std::string& trace() const { return trace_; }
+
+  /// Of the frame that is on the screen: a pixel at a share of width and height.
+  double luma(double x, double y) const {
+    GstSample* sample = nullptr;
+    g_object_get(pipeline.sink(), "last-sample", &sample, nullptr);
+    GstVideoInfo info;
+    gst_video_info_from_caps(&info, gst_sample_get_caps(sample));
+    GstMapInfo map;
+    gst_buffer_map(gst_sample_get_buffer(sample), &map, GST_MAP_READ);
+    const int column = std::min(static_cast<int>(x * info.width), info.width - 1);
+    const int row = std::min(static_cast<int>(y * info.height), info.height - 1);
+    const double value = map.data[row * info.stride[0] + column];
+    gst_buffer_unmap(gst_sample_get_buffer(sample), &map);
+    gst_sample_unref(sample);
+    return value;
+  }
+
+  SteppedPipeline pipeline;
+
+ private:
+  void see(const TickRecord& record) {
+    rows_ = record;
+    append_row(record, trace_);
+    fastest_m_s_ = std::max(fastest_m_s_, device_->felt().velocity_m_s.norm());
+  }
+
+  SimulatedDevice* device_;
+  TickRecord rows_;
+  double fastest_m_s_ = 0;
+  std::string trace_;
+};
+
+/// Black is half of the relief behind the middle of the workspace, white as far before it.
+double height_m(double luma) {
+  return kRelief_m * (luma / 255 - 0.5);
+}
+
+TEST(Touch, APlaneAtMidPictureIsStiffnessTimesDepth) {
+  for (const int stiffness_N_m : {300, 500, 800}) {
+    Touched touched(film("pattern=solid-color foreground-color=0xff808080",
+                         "touch=luma touch-stiffness=" + std::to_string(stiffness_N_m)));
+    touched.hold(0, 0, -0.009);
+    touched.play(50);
+    const double z_m = height_m(touched.luma(0.5, 0.5));
+    double force_N = 0;
+    double depth_m = 0;
+    constexpr int kTicks = 300;
+    for (int n = 0; n < kTicks; ++n) {
+      touched.wait(1);
+      const FeltState felt = touched.felt();
+      force_N += felt.wrench.force_N.z() / kTicks;
+      depth_m += (z_m - felt.pose.position_m.z()) / kTicks;
+    }
+    EXPECT_GT(depth_m, 0.002);
+    EXPECT_NEAR(force_N / (stiffness_N_m * depth_m), 1, 0.005) << stiffness_N_m;
+  }
+}
+
+/// What is not switched on changes nothing, to the last bit: wanted, commanded and delivered
+/// wrench, tensions and pose of every tick.
+TEST(Touch, OffIsAsIfThereWereNoSuchProperties) {
+  const std::string ball = "pattern=ball";
+  Touched plain(film(ball, ""));
+  Touched off(film(ball,
+                   "touch=off touch-relief=20 touch-stiffness=800 touch-friction=1 "
+                   "touch-texture=3 motion-share=0.3"));
+  // Switched on, and off again before anything is shown.
+  Touched was_on(film(ball, "touch=luma touch=off"));
+  for (Touched* touched : {&plain, &off, &was_on}) {
+    touched->hold(0.002, 0.001, -0.006);
+    touched->play(50);
+    touched->pipeline.set_state(GST_STATE_PAUSED);
+    touched->wait(5);
+    touched->pipeline.seek(GST_SECOND);
+    touched->pipeline.set_state(GST_STATE_PLAYING);
+    touched->play(25);
+  }
+  EXPECT_GT(plain.last().commanded.force_N.norm(), 0.1) << "it is forces that are compared";
+  EXPECT_EQ(off.trace(), plain.trace());
+  EXPECT_EQ(was_on.trace(), plain.trace());
+}
+
+TEST(Touch, TheFilmIsAddedByItsShare) {
+  for (const double share : {0.0, 0.5, 1.0}) {
+    Touched plain(film("pattern=ball", ""));
+    Touched touched(film("pattern=ball", "touch=luma motion-share=" + std::to_string(share)));
+    for (Touched* pipeline : {&plain, &touched}) {
+      pipeline->hold(0, 0, 0.004 + 0.01);  // above all that there is
+      pipeline->play(50);
+    }
+    EXPECT_GT(plain.last().wanted.force_N.norm(), 0.1);
+    EXPECT_NEAR((touched.last().wanted.force_N - share * plain.last().wanted.force_N).norm(), 0,
+                1e-12);
+    EXPECT_TRUE(touched.last().contact.has_surface);
+  }
+}
+
+TEST(Touch, ACutIsNoKick) {
+  // With something in the pictures, and with nothing that could be compared. None of the second
+  // ones is lower where the grip is: there the hand would sink in at its own speed.
+  for (const char* before : {"black", "gradient"}) {
+    SCOPED_TRACE(before);
+    Touched touched(film(std::string("pattern=") + before, "touch=luma touch-relief=10"));
+    touched.hold(0, 0.020, -0.006);
+    touched.play(50);
+    touched.fastest_m_s();
+    GstElement* source = gst_bin_get_by_name(GST_BIN(touched.pipeline.pipeline()), "source");
+    for (const char* after : {"smpte75", "white"}) {
+      SCOPED_TRACE(after);
+      gst_util_set_object_arg(G_OBJECT(source), "pattern", after);
+      touched.play(50);
+      EXPECT_LE(touched.fastest_m_s(), kGentle_m_s);
+    }
+    gst_object_unref(source);
+    // White is 5 mm before the middle: 300 N/m of the hand against 500.
+    EXPECT_GT(touched.last().commanded.force_N.z(), 1.5);
+  }
+}
+
+/// What ends the contact lets the hand sink in at its own speed. After that the surface rises.
+TEST(Touch, PauseSeekMuteAndOffEndIt) {
+  Touched touched(film("pattern=white", "touch=luma"));
+  touched.hold(0, 0, -0.004);
+  const auto expect_contact = [&](const char* after) {
+    touched.play(50);
+    EXPECT_LE(touched.fastest_m_s(), kGentle_m_s) << after;
+    EXPECT_GT(touched.last().commanded.force_N.z(), 1) << after;
+  };
+  const auto expect_rest = [&](const char* what) {
+    touched.wait(50);
+    EXPECT_EQ(touched.last().commanded.stacked().norm(), 0) << what;
+    touched.wait(500);
+    touched.fastest_m_s();
+  };
+  touched.play(20);
+  touched.fastest_m_s();
+  expect_contact("start");
+
+  touched.pipeline.set_state(GST_STATE_PAUSED);
+  expect_rest("pause");
+  touched.pipeline.set_state(GST_STATE_PLAYING);
+  expect_contact("pause");
+
+  g_object_set(touched.pipeline.element(), "mute", TRUE, nullptr);
+  expect_rest("mute");
+  touched.play(10);
+  EXPECT_EQ(touched.last().commanded.stacked().norm(), 0) << "frames while muted";
+  g_object_set(touched.pipeline.element(), "mute", FALSE, nullptr);
+  expect_contact("mute");
+
+  gst_util_set_object_arg(G_OBJECT(touched.pipeline.element()), "touch", "off");
+  expect_rest("off");
+  gst_util_set_object_arg(G_OBJECT(touched.pipeline.element()), "touch", "luma");
+  expect_contact("off");
+
+  // Paused, so that nothing is shown between the flush and the time it is looked at.
+  touched.pipeline.set_state(GST_STATE_PAUSED);
+  touched.pipeline.seek(5 * GST_SECOND);
+  expect_rest("seek");
+  touched.pipeline.set_state(GST_STATE_PLAYING);
+  expect_contact("seek");
+}
+
+TEST(Touch, ASeekWhilePlayingIsNoKick) {
+  // How fast the hand itself sinks in when the contact ends.
+  Touched paused(film("pattern=white", "touch=luma"));
+  Touched sought(film("pattern=white", "touch=luma"));
+  for (Touched* touched : {&paused, &sought}) {
+    touched->hold(0, 0, -0.004);
+    touched->play(50);
+    touched->fastest_m_s();
+  }
+  paused.pipeline.set_state(GST_STATE_PAUSED);
+  paused.wait(500);
+  const double sinking_m_s = paused.fastest_m_s();
+  sought.pipeline.seek(2 * GST_SECOND);
+  sought.play(50);
+  EXPECT_LE(sought.fastest_m_s(), std::max(sinking_m_s, kGentle_m_s));
+  EXPECT_GT(sought.last().commanded.force_N.z(), 1);
+}
+
+TEST(Touch, TheLastPictureHoldsUntilTheEnd) {
+  Touched touched(film("pattern=white num-buffers=50", "touch=luma"));
+  touched.hold(0, 0, -0.004);
+  touched.play(50);  // the sink waits for the end of the last one now
+  touched.wait(39);
+  EXPECT_GT(touched.last().commanded.force_N.z(), 1);
+  touched.pipeline.step();
+  touched.pipeline.await_message(GST_MESSAGE_EOS);
+  touched.wait(51);
+  EXPECT_FALSE(touched.last().contact.has_surface);
+  EXPECT_EQ(touched.last().commanded.stacked().norm(), 0);
+}
+
+/// A grey wedge, black at the top: where the grip is held is known by how high the surface is
+/// there.
+TEST(Touch, PlacesAreThoseOfThePointerInPicturesOfAllShapes) {
+  for (const auto& [width, height] : {std::pair{320, 240}, {90, 160}, {16, 16}, {1920, 1080}}) {
+    SCOPED_TRACE(testing::Message() << width << "x" << height);
+    Touched touched(film("pattern=gradient", "touch=luma touch-friction=0", width, height));
+    const GripPointer pointer(load_profile(kDefaultProfile).geometry);
+    for (const double y_m : {-0.016, 0.0, 0.012}) {
+      touched.hold(0.004, y_m, -0.008);
+      touched.play(40);
+      const Contact& contact = touched.last().contact;
+      ASSERT_TRUE(contact.touching);
+      const Eigen::Vector3d grip_m = touched.last().pose.position_m;
+      const Eigen::Vector2d place = pointer.place(grip_m);
+      // The proxy is the surface's nearest point: up the slope of the wedge by the depth.
+      const double slope = kRelief_m / (2 * pointer.half_size_m().y());
+      const double z_m =
+          grip_m.z() + contact.depth_m * std::sqrt(1 + slope * slope);  // straight above the grip
+      // Steps of brightness, half a row of so few, and of the encoder.
+      const double step_m = kRelief_m / 255 + 0.5 * kRelief_m / height + 2 * 1.6e-5;
+      EXPECT_NEAR(z_m, height_m(touched.luma(place.x(), place.y())), step_m) << y_m;
+    }
+  }
+}
+
+TEST(Touch, AStillPictureIsTouched) {
+  Touched touched(
+      "videotestsrc num-buffers=1 pattern=white ! video/x-raw,format=GRAY8,width=320,height=240,"
+      "framerate=25/1 ! imagefreeze ! spidarmotion name=motion touch=luma ! fakesink name=sink "
+      "sync=true");
+  touched.hold(0, 0, -0.004);
+  touched.play(200);
+  EXPECT_GT(touched.last().commanded.force_N.z(), 1);
+  const TickRecord before = touched.last();
+  touched.play(50);
+  // The hand holds still: so does the force, but for what steps of the encoder make of it, through
+  // stiffness and damping.
+  EXPECT_NEAR(touched.last().contact.depth_m, before.contact.depth_m, 2 * 1.6e-5);
+}
+
+}  // namespace
+}  // namespace spidar::test

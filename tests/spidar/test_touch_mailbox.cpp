@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Reliefs between two threads (which is for the thread sanitizer, too).
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "spidar/touch/touch_mailbox.h"
+
+namespace spidar {
+namespace {
+
+constexpr double kWidth_m = 0.06;
+constexpr double kHeight_m = 0.04;
+
+void fill(HeightField& field, float z_m) {
+  for (int y = 0; y < HeightField::kRows; ++y) {
+    for (int x = 0; x < HeightField::kColumns; ++x) field.row(y)[x] = z_m;
+  }
+}
+
+bool is_all(const HeightField& field, float z_m) {
+  for (int y = 0; y < HeightField::kRows; ++y) {
+    for (int x = 0; x < HeightField::kColumns; ++x) {
+      if (field.row(y)[x] != z_m) return false;
+    }
+  }
+  return true;
+}
+
+bool publish(TouchMailbox& mailbox, int64_t number) {
+  TouchFrame* const frame = mailbox.begin(mailbox.generation());
+  if (frame == nullptr) return false;
+  frame->time_ns = number;
+  fill(frame->relief, static_cast<float>(number));
+  fill(frame->texture, static_cast<float>(number));
+  mailbox.publish();
+  return true;
+}
+
+TEST(TouchMailbox, KeepsOrderAndSize) {
+  TouchMailbox mailbox(kWidth_m, kHeight_m, 3);
+  EXPECT_EQ(mailbox.front(), nullptr);
+  int64_t read = 0;
+  for (int64_t round = 0; round < 5; ++round) {
+    for (int64_t i = 0; i < 3; ++i) EXPECT_TRUE(publish(mailbox, 3 * round + i));
+    EXPECT_EQ(mailbox.begin(mailbox.generation()), nullptr) << "all three are in use";
+    for (size_t nth = 0; nth < 3; ++nth) {
+      ASSERT_NE(mailbox.front(nth), nullptr);
+      EXPECT_EQ(mailbox.front(nth)->time_ns, read + static_cast<int64_t>(nth));
+    }
+    EXPECT_EQ(mailbox.front(3), nullptr);
+    for (int i = 0; i < 3; ++i, ++read) {
+      EXPECT_EQ(mailbox.front()->time_ns, read);
+      mailbox.drop();
+    }
+    EXPECT_EQ(mailbox.front(), nullptr);
+  }
+}
+
+TEST(TouchMailbox, WhatIsBegunIsNotThereBeforeItIsPublished) {
+  TouchMailbox mailbox(kWidth_m, kHeight_m, 3);
+  ASSERT_NE(mailbox.begin(mailbox.generation()), nullptr);
+  EXPECT_EQ(mailbox.front(), nullptr);
+  mailbox.publish();
+  EXPECT_NE(mailbox.front(), nullptr);
+}
+
+TEST(TouchMailbox, AFrameIsOfTheGenerationItWasBegunIn) {
+  TouchMailbox mailbox(kWidth_m, kHeight_m, 3);
+  const uint32_t before = mailbox.generation();
+  mailbox.forget();
+  ASSERT_NE(mailbox.begin(before), nullptr);
+  mailbox.publish();
+  EXPECT_EQ(mailbox.front()->generation, before);
+  EXPECT_NE(mailbox.front()->generation, mailbox.generation());
+}
+
+TEST(TouchMailbox, RefusesWhatCannotWork) {
+  EXPECT_THROW(TouchMailbox(kWidth_m, kHeight_m, 2), std::invalid_argument);
+  EXPECT_THROW(TouchMailbox(0, kHeight_m, 3), std::invalid_argument);
+  EXPECT_THROW(TouchMailbox(kWidth_m, -1, 3), std::invalid_argument);
+  EXPECT_THROW(TouchMailbox(kWidth_m, std::numeric_limits<double>::quiet_NaN(), 3),
+               std::invalid_argument);
+}
+
+/// The reader looks at the two oldest frames for as long as it likes, and at every cell of them,
+/// while the writer fills the third slot.
+TEST(TouchMailbox, NothingIsTornOrLostBetweenThreads) {
+  constexpr int64_t kFrames = 1000;
+  TouchMailbox mailbox(kWidth_m, kHeight_m, TouchMailbox::kLeastSlots);
+  std::thread writer([&] {
+    for (int64_t n = 1; n <= kFrames; ++n) {
+      while (!publish(mailbox, n)) std::this_thread::yield();
+    }
+  });
+  int64_t torn = 0;
+  int64_t out_of_order = 0;
+  for (int64_t n = 1; n <= kFrames; ++n) {
+    const TouchFrame* oldest = nullptr;
+    while ((oldest = mailbox.front()) == nullptr) std::this_thread::yield();
+    const TouchFrame* const next = mailbox.front(1);
+    for (const TouchFrame* frame : {oldest, next}) {
+      if (frame == nullptr) continue;
+      const auto z_m = static_cast<float>(frame->time_ns);
+      if (!is_all(frame->relief, z_m) || !is_all(frame->texture, z_m)) ++torn;
+    }
+    if (oldest->time_ns != n || (next != nullptr && next->time_ns != n + 1)) ++out_of_order;
+    mailbox.drop();
+  }
+  writer.join();
+  EXPECT_EQ(torn, 0);
+  EXPECT_EQ(out_of_order, 0);
+  EXPECT_EQ(mailbox.front(), nullptr);
+}
+
+/// A third thread forgets what there is, as a flush does. What is begun after that is seen.
+TEST(TouchMailbox, ForgettingReachesTheReaderFromAnyThread) {
+  constexpr uint32_t kTimes = 1000;
+  TouchMailbox mailbox(kWidth_m, kHeight_m, TouchMailbox::kLeastSlots);
+  std::atomic<bool> done{false};
+  std::thread flusher([&] {
+    for (uint32_t n = 0; n < kTimes; ++n) {
+      mailbox.forget();
+      std::this_thread::yield();
+    }
+    done = true;
+  });
+  std::thread writer([&] {
+    for (int64_t n = 1; !done; ++n) {
+      if (TouchFrame* const frame = mailbox.begin(mailbox.generation())) {
+        frame->time_ns = n;
+        mailbox.publish();
+      } else {
+        std::this_thread::yield();
+      }
+    }
+  });
+  uint32_t last = 0;
+  bool rising = true;
+  while (!done) {
+    if (const TouchFrame* const frame = mailbox.front()) {
+      rising = rising && frame->generation >= last && frame->generation <= kTimes;
+      last = frame->generation;
+      mailbox.drop();
+    }
+  }
+  flusher.join();
+  writer.join();
+  EXPECT_TRUE(rising);
+  while (mailbox.front() != nullptr) mailbox.drop();
+  ASSERT_NE(mailbox.begin(mailbox.generation()), nullptr);
+  mailbox.publish();
+  EXPECT_EQ(mailbox.front()->generation, kTimes);
+}
+
+}  // namespace
+}  // namespace spidar

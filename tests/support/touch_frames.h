@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Frames for a TouchMailbox, as the streaming thread publishes them.
+#pragma once
+
+#include <utility>
+
+#include "spidar/touch/touch_mailbox.h"
+
+namespace spidar::test {
+
+/// Whether the frame follows the one that was published before.
+enum class After { kCut, kFrame };
+
+/// Publishes a frame with these heights, z_m(x_m, y_m). False when the mailbox is full.
+template <typename Surface>
+bool publish_surface(TouchMailbox& mailbox, int64_t time_ns, After after, Surface&& z_m,
+                     const ContactSettings& contact = {}) {
+  TouchFrame* const frame = mailbox.begin(mailbox.generation());
+  if (frame == nullptr) return false;
+  frame->time_ns = time_ns;
+  frame->has_surface = true;
+  frame->has_texture = false;
+  frame->follows = after == After::kFrame;
+  frame->displacement_m.setZero();
+  frame->contact = contact;
+  for (int y = 0; y < HeightField::kRows; ++y) {
+    for (int x = 0; x < HeightField::kColumns; ++x) {
+      frame->relief.row(y)[x] = static_cast<float>(z_m(frame->relief.x_m(x), frame->relief.y_m(y)));
+    }
+  }
+  mailbox.publish();
+  return true;
+}
+
+/// The same of a level surface.
+inline bool publish_plane(TouchMailbox& mailbox, int64_t time_ns, double z_m,
+                          After after = After::kCut, const ContactSettings& contact = {}) {
+  return publish_surface(
+      mailbox, time_ns, after, [z_m](double, double) { return z_m; }, contact);
+}
+
+/// From `time_ns` on there is nothing to touch.
+inline bool publish_nothing(TouchMailbox& mailbox, int64_t time_ns) {
+  TouchFrame* const frame = mailbox.begin(mailbox.generation());
+  if (frame == nullptr) return false;
+  frame->time_ns = time_ns;
+  frame->has_surface = false;
+  frame->follows = false;
+  mailbox.publish();
+  return true;
+}
+
+}  // namespace spidar::test
