@@ -51,6 +51,19 @@ void draw_arrow(const Brush& brush, const Arrow& arrow, unsigned opacity = 255) 
                                color);
 }
 
+/// A dark line around an arrow, which is drawn over it.
+void draw_border(const Brush& brush, const Arrow& arrow) {
+  const ArrowShape shape = shape_of(arrow);
+  const auto around = [&](const auto& corners_px) {
+    std::vector<ImVec2> corners;
+    for (const Eigen::Vector2d& corner_px : corners_px) corners.push_back(im(corner_px));
+    brush.list.AddPolyline(corners.data(), static_cast<int>(corners.size()), IM_COL32(0, 0, 0, 200),
+                           ImDrawFlags_Closed, brush.px(3.5));
+  };
+  around(shape.shaft_px);
+  if (shape.has_head) around(shape.head_px);
+}
+
 void draw_tracks(const Overlay& over, const ArrowStyle& style) {
   const std::vector<SceneTrack>& tracks = over.facts.scene.tracks;
   const std::vector<Arrow> arrows = track_arrows(over.facts.scene, style);  // one for each track
@@ -119,7 +132,7 @@ void draw_force(const Overlay& over, ArrowStyle style) {
   const Wrench& wrench = over.facts.scene.wrench;
   const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
   if (!felt) return;
-  draw_arrow(over.brush, felt->border);
+  draw_border(over.brush, felt->arrow);
   draw_arrow(over.brush, felt->arrow);
   if (wrench.force_N.norm() < kFeltForce_N) return;
   char text[32];

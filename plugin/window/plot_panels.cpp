@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/force/force_limit.h"
 #include "plugin/window/panels.h"
 #include "plugin/window/plot.h"
 
@@ -92,7 +93,8 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
   plot.line(curve, kSpeedColor);
   const Timeline::Part moments = timeline.plotted();
   if (moments.empty()) return;
-  plot.dot(moments.back().speed_px_s, moments.back().wanted.force_N.norm(), kFeltColor);
+  // The controller's force, a part of which may have become torque.
+  plot.dot(moments.back().speed_px_s, size_N(moments.back().wanted), kFeltColor);
 }
 
 }  // namespace spidar
