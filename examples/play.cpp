@@ -217,7 +217,8 @@ int play(const Options& options) {
     return progress_line(now);
   });
   GstStructure* stats = nullptr;
-  g_object_get(filter, "stats", &stats, nullptr);
+  double max_force_N = 0;
+  g_object_get(filter, "stats", &stats, "max-force", &max_force_N, nullptr);
   gst_element_set_state(pipeline, GST_STATE_NULL);
   gst_object_unref(pipeline);
   gst_object_unref(filter);
@@ -233,7 +234,7 @@ int play(const Options& options) {
   gst_structure_free(stats);
 
   const std::string png = options.output / "spidar-play.png";
-  draw_report(record.numbers(), title, folder.path(), png);
+  draw_report(record.numbers(), max_force_N, title, folder.path(), png);
   std::printf("picture: %s\n", png.c_str());
   return ending == Ending::kFailed ? 1 : 0;
 }

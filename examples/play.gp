@@ -2,8 +2,11 @@
 # Copyright 2026 the gst-spidar authors
 # What a playback was like: draws `frames` and `ticks` into `png`, headed by `title`. play.cpp writes
 # the two files; without a device `ticks` is an empty string. Panels as in Fig. 6 to 10 of the paper:
-# position, velocity, force; then the strings.
-set terminal pngcairo size 1400,1400 font "sans,12"
+# position, velocity, force; then, where a hand could feel them (`depth`, `roll` are not empty), force
+# towards the viewer and torque; then the strings. Forces are drawn on axes at ± `max_force`, the
+# torque at ± the torque that this force has at `arm`.
+panels = 4 + (strlen(depth) > 0) + (strlen(roll) > 0) + (strlen(ticks) > 0)
+set terminal pngcairo size 1400,280 * panels font "DejaVu Sans,12"
 set output png
 set encoding utf8
 
@@ -19,7 +22,8 @@ set key at graph 1.02, graph 0.95 left top Left reverse noenhanced samplen 2 spa
 set border 3 linecolor rgb "#606060"
 set tics nomirror
 
-set multiplot layout 5,1 title title . ": motion felt at the grip" noenhanced font ",15" margins 0.08,0.83,0.05,0.95 spacing 0.03
+set multiplot layout panels,1 title title . ": motion felt at the grip" noenhanced font ",15" \
+    margins 0.1,0.84,0.25 / panels,1 - 0.25 / panels spacing 0.15 / panels
 
 stats frames using 1 nooutput name "time"
 set xrange [time_min : time_max > time_min ? time_max : time_min + 1]
@@ -31,22 +35,39 @@ plot frames using 1:2 title "x, right", frames using 1:3 title "y, up"
 set ylabel "velocity, px/s"
 plot frames using 1:4 title "x, right", frames using 1:5 title "y, up"
 
-wanted(axis) = axis . " wanted"
-delivered(axis) = axis . " at the grip"
-# What a hand does not feel: kFeltForce_N of core/force/force_limit.h.
-set object 1 rectangle from graph 0, first -0.04 to graph 1, first 0.04 behind \
-    fillcolor rgb "#ececec" fillstyle solid noborder
-set ylabel "force, N"
-do for [axis = 1:2] {
-    name = axis == 1 ? "x" : "y"
-    if (strlen(ticks)) {
-        plot frames using 1:(column(5 + axis)) with points pointtype 7 pointsize 0.5 \
-                 linecolor rgb "#a0a0a0" title wanted(name), \
-             ticks using 1:(column(1 + axis)) linetype axis title delivered(name), \
-             NaN with boxes fillstyle solid linecolor rgb "#ececec" title "too weak to feel"
-    } else {
-        plot frames using 1:(column(5 + axis)) linetype axis title wanted(name)
+# Force and torque: `limit` at the ends of the axis, `felt` is what a hand feels, `in_unit` of them in
+# one of the unit. Column `wanted` of frames, `given` of ticks.
+limit = max_force > 0 ? real(max_force) : 0.1
+felt = 0.04  # kFeltForce_N of core/force/force_limit.h
+grey = "#a0a0a0"
+draw = 'plot frames using 1:(in_unit * column(wanted)) with points pointtype 7 pointsize 0.5 linecolor rgb grey \
+             title "wanted", \
+         ticks using 1:(in_unit * column(given)) linetype line title "at the grip", \
+         NaN with boxes fillstyle solid linecolor rgb "#ececec" title "too weak to feel"'
+draw_wanted = 'plot frames using 1:(in_unit * column(wanted)) linetype line title "wanted"'
+if (strlen(ticks) == 0) { draw = draw_wanted }
+
+set linetype 3 linecolor rgb "#009e73" linewidth 1.5  # z
+set linetype 4 linecolor rgb "#7b3294" linewidth 1.5  # about z
+lowest = strlen(roll) ? 4 : strlen(depth) ? 3 : 2
+array labels[4] = ["force x, N\n(right)", "force y, N\n(up)", "force z, N\n(towards you)", \
+                   "torque, mNm\n(about z)"]
+do for [line = 1:4] {
+    if ((line == 3 && strlen(depth) == 0) || (line == 4 && strlen(roll) == 0)) { continue }
+    in_unit = line == 4 ? 1000 : 1
+    end = limit * (line == 4 ? 1000 * arm : 1)
+    band = felt * (line == 4 ? 1000 * arm : 1)
+    wanted = 5 + line
+    given = 1 + line
+    set ylabel labels[line]
+    set yrange [-end : end]
+    set object 1 rectangle from graph 0, first -band to graph 1, first band behind \
+        fillcolor rgb "#ececec" fillstyle solid noborder
+    if (strlen(ticks) == 0 && line == lowest) {
+        set format x "%g"
+        set xlabel "running time, s"
     }
+    eval draw
 }
 unset object 1
 
@@ -55,6 +76,6 @@ if (strlen(ticks)) {
     set xlabel "running time, s"
     set ylabel "string tension, N"
     set yrange [0:*]
-    plot for [i=0:7] ticks using 1:(column(4 + i)) linewidth 1.2 linecolor rgb colours[i + 1] \
+    plot for [i=0:7] ticks using 1:(column(6 + i)) linewidth 1.2 linecolor rgb colours[i + 1] \
              title sprintf("string %d", i)
 }

@@ -4,8 +4,8 @@
 //
 //   player [--headless] FILE-OR-URI
 //
-// Without a film it says which keys there are. They may also come from a pipe: each is done when
-// the one before is.
+// On a terminal it shows which keys there are, what is played, and the force as a bar. Keys may
+// also come from a pipe: each is done when the one before is.
 #include "examples/player/player.h"
 
 #include <cstdio>
@@ -13,33 +13,43 @@
 #include <exception>
 #include <string>
 #include <unistd.h>
+#include <vector>
 
 #include <glib-unix.h>
 
 #include "examples/film/failure.h"
 #include "examples/film/film_uri.h"
+#include "examples/player/raw_terminal.h"
+#include "examples/player/status_lines.h"
 
 namespace {
 
-constexpr char kKeys[] =
-    "space pause, left and right 5 s, up and down a minute, + and - speed, . next frame, l loop,\n"
-    "f force on and off, d and a number and return: the force comes so many ms later, q quit\n";
+const std::vector<std::string> kKeys = {
+    "space pause   left, right 5 s   up, down 1 min   + - speed   . next frame   l loop",
+    "f force on, off   d NUMBER return: the force comes so many ms later   q quit"};
 
 struct Session {
   Player& player;
   std::string name;  ///< of the film
   std::string uri;
   GMainLoop* loop;
+  StatusLines lines;
   KeyReader keys;
-  bool terminal = isatty(STDOUT_FILENO) != 0;
   int result = 0;
 };
 
-void show(const Session& session) {
+void show(Session& session) {
+  const Player& player = session.player;
   const std::string& typed = session.keys.typed();
-  std::printf(session.terminal ? "\r\033[K%s %s" : "%s%s\n", session.player.status().c_str(),
-              typed.c_str());
-  std::fflush(stdout);
+  session.lines.show({player.status() + (session.lines.is_terminal() ? "  " + typed : typed),
+                      "force " + force_line(player.force_N(), player.max_force_N()), kKeys[0],
+                      kKeys[1]});
+}
+
+/// For people, below what stands on the terminal.
+void tell(Session& session, const std::string& text) {
+  session.lines.leave();
+  std::fprintf(stderr, "%s\n", text.c_str());
 }
 
 gboolean on_key(gint file, GIOCondition, gpointer user) {
@@ -49,13 +59,13 @@ gboolean on_key(gint file, GIOCondition, gpointer user) {
   const Action action = session.keys.take(byte);
   if (action.command == Command::kQuit) g_main_loop_quit(session.loop);
   session.player.act(action);
-  if (session.terminal || action.command != Command::kNone) show(session);
+  if (session.lines.is_terminal() || action.command != Command::kNone) show(session);
   return G_SOURCE_CONTINUE;
 }
 
 gboolean on_time(gpointer user) {
-  const auto& session = *static_cast<Session*>(user);
-  if (session.terminal) show(session);
+  auto& session = *static_cast<Session*>(user);
+  if (session.lines.is_terminal()) show(session);
   return G_SOURCE_CONTINUE;
 }
 
@@ -65,14 +75,14 @@ gboolean on_signal(gpointer user) {
 }
 
 void fail(Session& session, const std::string& reason) {
-  std::fprintf(stderr, "\n%s: %s\n", session.name.c_str(), reason.c_str());
+  tell(session, session.name + ": " + reason);
   session.result = 1;
   g_main_loop_quit(session.loop);
 }
 
 void end(Session& session) {
   const std::string early = early_end_text(session.player.pipeline());
-  if (!early.empty()) std::fprintf(stderr, "\n%s: %s\n", session.name.c_str(), early.c_str());
+  if (!early.empty()) tell(session, session.name + ": " + early);
   if (!session.player.again()) g_main_loop_quit(session.loop);
 }
 
@@ -83,12 +93,15 @@ gboolean on_message(GstBus*, GstMessage* message, gpointer user) {
     case GST_MESSAGE_ASYNC_DONE:
       if (has_no_video(session.player.pipeline())) fail(session, kNoVideo);
       break;
+    case GST_MESSAGE_ELEMENT:
+      session.player.note(gst_message_get_structure(message));
+      break;
     case GST_MESSAGE_EOS:
       end(session);
       break;
     case GST_MESSAGE_WARNING:
       gst_message_parse_warning(message, &warning, nullptr);
-      std::fprintf(stderr, "\n%s\n", warning->message);
+      tell(session, warning->message);
       g_error_free(warning);
       break;
     case GST_MESSAGE_ERROR:
@@ -107,17 +120,18 @@ int run(const std::string& name, bool headless) {
     std::fprintf(stderr, "played without a window: %s\n", player.why_no_screen().c_str());
   }
   const RawTerminal raw(STDIN_FILENO);
-  Session session{player, name, uri, g_main_loop_new(nullptr, FALSE), {}};
+  Session session{player, name, uri, g_main_loop_new(nullptr, FALSE), {}, {}};
   gst_bus_add_watch(player.bus(), on_message, &session);
   player.play();
   g_unix_fd_add(STDIN_FILENO, static_cast<GIOCondition>(G_IO_IN | G_IO_HUP), on_key, &session);
   g_unix_signal_add(SIGINT, on_signal, &session);
   g_unix_signal_add(SIGTERM, on_signal, &session);
+  g_unix_signal_add(SIGHUP, on_signal, &session);
   g_timeout_add(100, on_time, &session);
   show(session);
   g_main_loop_run(session.loop);
-  show(session);
-  if (session.terminal) std::printf("\n");
+  if (session.result == 0) show(session);
+  session.lines.leave();
   gst_bus_remove_watch(player.bus());
   g_main_loop_unref(session.loop);
   return session.result;
@@ -128,7 +142,8 @@ int run(const std::string& name, bool headless) {
 int main(int argc, char** argv) {
   const bool headless = argc > 2 && std::strcmp(argv[1], "--headless") == 0;
   if (argc != (headless ? 3 : 2) || argv[argc - 1][0] == '-') {
-    std::fprintf(stderr, "usage: %s [--headless] FILE-OR-URI\n\n%s", argv[0], kKeys);
+    std::fprintf(stderr, "usage: %s [--headless] FILE-OR-URI\n\n%s\n%s\n", argv[0],
+                 kKeys[0].c_str(), kKeys[1].c_str());
     return 2;
   }
   gst_init(nullptr, nullptr);

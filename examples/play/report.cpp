@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/force/force_limit.h"
+#include "core/force/motion_rendering.h"
 #include "examples/gnuplot.h"
 #include "examples/play/unfelt.h"
 
@@ -123,8 +124,9 @@ void print_report(const SessionRecord::Numbers& numbers, const GstStructure* sta
   std::printf("\n");
 }
 
-void draw_report(const SessionRecord::Numbers& numbers, const std::string& title,
-                 const std::string& folder, const std::string& png_path) {
+void draw_report(const SessionRecord::Numbers& numbers, double max_force_N,
+                 const std::string& title, const std::string& folder, const std::string& png_path) {
+  const auto if_felt = [](double size_N) { return size_N >= spidar::kFeltForce_N ? "1" : ""; };
   const std::string frames = folder + "/frames.dat";
   const std::string ticks = folder + "/ticks.dat";
   write_curve(numbers.frames_curve, frames);
@@ -132,5 +134,9 @@ void draw_report(const SessionRecord::Numbers& numbers, const std::string& title
   run_gnuplot("play.gp", {{"png", png_path},
                           {"title", title},
                           {"frames", frames},
+                          {"max_force", std::to_string(max_force_N)},
+                          {"arm", std::to_string(spidar::kTorqueArm_m)},
+                          {"depth", if_felt(numbers.largest_depth_N)},
+                          {"roll", if_felt(numbers.largest_roll_Nm / spidar::kTorqueArm_m)},
                           {"ticks", numbers.ticks == 0 ? "" : ticks}});
 }

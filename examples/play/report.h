@@ -12,7 +12,8 @@
 /// Prints the numbers of a playback and of the element's own `stats`.
 void print_report(const SessionRecord::Numbers& numbers, const GstStructure* stats);
 
-/// Draws position, velocity, force and string tensions over time into a PNG. `folder` is for the
-/// files that gnuplot reads. Throws std::runtime_error when it cannot.
-void draw_report(const SessionRecord::Numbers& numbers, const std::string& title,
-                 const std::string& folder, const std::string& png_path);
+/// Draws position, velocity, force and string tensions over time into a PNG; force towards the
+/// viewer and torque only where a hand could feel them. Forces are on axes at ± `max_force_N`.
+/// `folder` is for the files that gnuplot reads. Throws std::runtime_error when it cannot.
+void draw_report(const SessionRecord::Numbers& numbers, double max_force_N,
+                 const std::string& title, const std::string& folder, const std::string& png_path);

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "examples/play/session_record.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/force/force_limit.h"
@@ -12,7 +13,8 @@ enum MotionColumn : size_t {
   kRunningTime,
   kVelocity,
   kWanted = kVelocity + 2,
-  kLimit = kWanted + 3
+  kWantedRoll = kWanted + 3,
+  kLimit
 };
 
 enum HapticColumn : size_t {
@@ -23,7 +25,8 @@ enum HapticColumn : size_t {
   kPlaying,
   kDevice,
   kDelivered,
-  kTension = kDelivered + 3,
+  kDeliveredRoll = kDelivered + 3,
+  kTension,
 };
 
 double seconds(int64_t ns) {
@@ -33,19 +36,21 @@ double seconds(int64_t ns) {
 }  // namespace
 
 std::vector<std::string> SessionRecord::motion_columns() {
-  return {"running_time_ns",
-          "velocity_x_px_s",
-          "velocity_y_px_s",
-          "force_x_N",
-          "force_y_N",
-          "force_z_N",
-          "limit"};
+  return {"running_time_ns", "velocity_x_px_s", "velocity_y_px_s", "force_x_N",
+          "force_y_N",       "force_z_N",       "torque_z_Nm",     "limit"};
 }
 
 std::vector<std::string> SessionRecord::haptic_columns() {
-  std::vector<std::string> columns = {
-      "monotonic_ns", "lateness_ns",         "running_ns",          "frame_ns",           "playing",
-      "device",       "delivered_force_x_N", "delivered_force_y_N", "delivered_force_z_N"};
+  std::vector<std::string> columns = {"monotonic_ns",
+                                      "lateness_ns",
+                                      "running_ns",
+                                      "frame_ns",
+                                      "playing",
+                                      "device",
+                                      "delivered_force_x_N",
+                                      "delivered_force_y_N",
+                                      "delivered_force_z_N",
+                                      "delivered_torque_z_Nm"};
   for (size_t i = 0; i < kStrings; ++i) columns.push_back("tension_" + std::to_string(i) + "_N");
   return columns;
 }
@@ -68,8 +73,11 @@ void SessionRecord::add_motion(const TraceReader::Fields& row) {
   ++numbers_.limits[std::string(row[kLimit])];
   numbers_.speed_px_s.add(speed_px_s);
   numbers_.wanted_N.add(std::hypot(wanted_N[0], wanted_N[1], wanted_N[2]));
-  numbers_.frames_curve.add(seconds(frame_ns), {position_px_[0], position_px_[1], velocity_px_s[0],
-                                                velocity_px_s[1], wanted_N[0], wanted_N[1]});
+  const double roll_Nm = to_number(row[kWantedRoll]);
+  note_largest(wanted_N[2], roll_Nm);
+  numbers_.frames_curve.add(seconds(frame_ns),
+                            {position_px_[0], position_px_[1], velocity_px_s[0], velocity_px_s[1],
+                             wanted_N[0], wanted_N[1], wanted_N[2], roll_Nm});
   now_.speed_px_s = speed_px_s;
 }
 
@@ -86,10 +94,18 @@ void SessionRecord::add_haptic(const TraceReader::Fields& row) {
   ++numbers_.ticks;
   if (delivered_N >= spidar::kFeltForce_N) ++numbers_.felt_ticks;
   numbers_.delivered_N.add(delivered_N);
-  std::array<double, 2 + kStrings> curve = {now_.force_N[0], now_.force_N[1]};
-  for (size_t i = 0; i < kStrings; ++i) curve[2 + i] = to_number(row[kTension + i]);
+  const double roll_Nm = to_number(row[kDeliveredRoll]);
+  note_largest(now_.force_N[2], roll_Nm);
+  std::array<double, 4 + kStrings> curve = {now_.force_N[0], now_.force_N[1], now_.force_N[2],
+                                            roll_Nm};
+  for (size_t i = 0; i < kStrings; ++i) curve[4 + i] = to_number(row[kTension + i]);
   numbers_.ticks_curve.add(seconds(running_ns), curve);
   numbers_.skew.felt(to_integer(row[kFrame]), to_integer(row[kMonotonic]));
+}
+
+void SessionRecord::note_largest(double depth_N, double roll_Nm) {
+  numbers_.largest_depth_N = std::max(numbers_.largest_depth_N, std::abs(depth_N));
+  numbers_.largest_roll_Nm = std::max(numbers_.largest_roll_Nm, std::abs(roll_Nm));
 }
 
 void SessionRecord::add_shown(int64_t running_ns, int64_t monotonic_ns) {

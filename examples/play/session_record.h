@@ -50,8 +50,13 @@ class SessionRecord {
     uint64_t felt_ticks = 0;  ///< of these, with kFeltForce_N or more
     Histogram lateness_ms;    ///< of the loop's wake-up
     Skew skew;
-    Series<6> frames_curve;  ///< position [px], velocity [px/s], wanted force [N]; x, y of each
-    Series<2 + kStrings> ticks_curve;  ///< delivered force x, y [N], tensions [N]
+    /// Largest size of the force towards the viewer and of the torque about z, wanted or at the
+    /// grip.
+    double largest_depth_N = 0, largest_roll_Nm = 0;
+    /// Position [px] and velocity [px/s], x and y of each; wanted force x, y, z [N] and torque
+    /// about z [Nm].
+    Series<8> frames_curve;
+    Series<4 + kStrings> ticks_curve;  ///< the same force and torque at the grip; tensions [N]
   };
   const Numbers& numbers() const { return numbers_; }
 
@@ -59,6 +64,9 @@ class SessionRecord {
   mutable std::mutex mutex_;
   Numbers numbers_;
   Now now_;
+  /// Force and torque about z, wanted or delivered.
+  void note_largest(double depth_N, double roll_Nm);
+
   double position_px_[2] = {0, 0};
   int64_t first_frame_ns_ = -1;
   int64_t last_frame_ns_ = -1;

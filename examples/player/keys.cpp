@@ -4,19 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <unistd.h>
-
-RawTerminal::RawTerminal(int file)
-    : file_(file), changed_(isatty(file) && tcgetattr(file, &before_) == 0) {
-  if (!changed_) return;
-  termios raw = before_;
-  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  tcsetattr(file_, TCSANOW, &raw);
-}
-
-RawTerminal::~RawTerminal() {
-  if (changed_) tcsetattr(file_, TCSANOW, &before_);
-}
 
 Action KeyReader::take(char byte) {
   constexpr int kMaxDelay_ms = 10'000;  // of ts-offset

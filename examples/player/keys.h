@@ -4,21 +4,6 @@
 #pragma once
 
 #include <string>
-#include <termios.h>
-
-/// Each key at once and unseen while this lives, where `file` is a terminal.
-class RawTerminal {
- public:
-  explicit RawTerminal(int file);
-  ~RawTerminal();
-  RawTerminal(const RawTerminal&) = delete;
-  RawTerminal& operator=(const RawTerminal&) = delete;
-
- private:
-  int file_;
-  termios before_{};  // before changed_, with which it is filled in
-  bool changed_;
-};
 
 enum class Command { kNone, kPause, kSeek, kSpeed, kLoop, kStep, kForce, kDelay, kQuit };
 

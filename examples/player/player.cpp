@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::array<double, 7> kSpeeds{0.25, 0.5, 0.75, 1, 1.5, 2, 4};
 constexpr size_t kUsual = 3;
+/// More frames than a queue before the screen holds.
+constexpr size_t kMostForces = 256;
 
 std::string minutes(gint64 time) {
   char text[32];
@@ -99,6 +101,33 @@ void Player::act(const Action& action) {
 bool Player::again() {
   if (loop_) seek(0);
   return loop_;
+}
+
+void Player::note(const GstStructure* message) {
+  FrameForce frame;
+  if (!message || !gst_structure_has_name(message, "spidar-motion") ||
+      !gst_structure_get(message, "stream-time", G_TYPE_UINT64, &frame.stream_time, "force-x",
+                         G_TYPE_DOUBLE, &frame.force_N[0], "force-y", G_TYPE_DOUBLE,
+                         &frame.force_N[1], "force-z", G_TYPE_DOUBLE, &frame.force_N[2], nullptr)) {
+    return;
+  }
+  // Elsewhere in the film: what was there before is of no use.
+  if (!forces_.empty() && frame.stream_time < forces_.back().stream_time) forces_.clear();
+  forces_.push_back(frame);
+  if (forces_.size() > kMostForces) forces_.pop_front();
+}
+
+std::array<double, 3> Player::force_N() const {
+  const auto shown = static_cast<GstClockTime>(std::max<gint64>(position(), 0));
+  while (forces_.size() > 1 && forces_[1].stream_time <= shown) forces_.pop_front();
+  if (paused_ || !force_ || forces_.empty() || forces_.front().stream_time > shown) return {};
+  return forces_.front().force_N;
+}
+
+double Player::max_force_N() const {
+  double max_force_N = 0;
+  g_object_get(motion_, "max-force", &max_force_N, nullptr);
+  return max_force_N;
 }
 
 std::string Player::status() const {

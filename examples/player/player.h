@@ -3,6 +3,8 @@
 /// A film with its forces.
 #pragma once
 
+#include <array>
+#include <deque>
 #include <string>
 
 #include <gst/gst.h>
@@ -25,6 +27,13 @@ class Player {
   /// The end of the film was reached: from the beginning again, or false.
   bool again();
 
+  /// A message of the element about a frame that it has analysed; others are left alone.
+  void note(const GstStructure* message);
+  /// Of the frame on the screen, N: x right, y up, z towards the viewer; zero in a pause and while
+  /// the force is off.
+  std::array<double, 3> force_N() const;
+  double max_force_N() const;
+
   /// "0:12.48 / 3:45.00, 1x, playing, force on, delay 0 ms"
   std::string status() const;
   /// Empty when the film is seen.
@@ -37,6 +46,12 @@ class Player {
   void settle();
   gint64 position() const;
 
+  /// Of frames that were analysed and not yet followed by another one on the screen.
+  struct FrameForce {
+    GstClockTime stream_time = 0;
+    std::array<double, 3> force_N{};
+  };
+  mutable std::deque<FrameForce> forces_;
   GstElement* motion_;
   Screen screen_;
   GstElement* playbin_;

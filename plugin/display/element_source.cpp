@@ -33,6 +33,16 @@ std::vector<Setting::Choice> choices_of(const GParamSpecEnum* spec) {
   return choices;
 }
 
+double number_of(const GValue* value) {
+  if (G_VALUE_HOLDS_BOOLEAN(value)) return g_value_get_boolean(value) ? 1 : 0;
+  if (G_VALUE_HOLDS_ENUM(value)) return g_value_get_enum(value);
+  GValue number = G_VALUE_INIT;
+  g_value_init(&number, G_TYPE_DOUBLE);
+  const double result = g_value_transform(value, &number) ? g_value_get_double(&number) : 0;
+  g_value_unset(&number);
+  return result;
+}
+
 /// False for a property that is no setting: not to be changed while playing, or no number.
 bool describe(const GParamSpec* spec, Setting& setting) {
   if (spec->owner_type != GST_TYPE_SPIDAR_MOTION) return false;
@@ -61,23 +71,15 @@ bool describe(const GParamSpec* spec, Setting& setting) {
   } else {
     return false;
   }
+  setting.initial = number_of(g_param_spec_get_default_value(const_cast<GParamSpec*>(spec)));
   return true;
 }
 
 double get_value(GObject* object, const Setting& setting) {
-  GValue value = G_VALUE_INIT, number = G_VALUE_INIT;
-  g_value_init(&number, G_TYPE_DOUBLE);
+  GValue value = G_VALUE_INIT;
   g_object_get_property(object, setting.name.c_str(), &value);
-  double result = 0;
-  if (G_VALUE_HOLDS_BOOLEAN(&value)) {
-    result = g_value_get_boolean(&value) ? 1 : 0;
-  } else if (G_VALUE_HOLDS_ENUM(&value)) {
-    result = g_value_get_enum(&value);
-  } else if (g_value_transform(&value, &number)) {
-    result = g_value_get_double(&number);
-  }
+  const double result = number_of(&value);
   g_value_unset(&value);
-  g_value_unset(&number);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "plugin/window/panels.h"
+#include "plugin/window/setting_text.h"
 
 namespace spidar {
 namespace {
@@ -11,21 +12,27 @@ namespace {
 /// A range of more than this many powers of ten, or one from zero far up, is dragged on a
 /// logarithmic slider.
 constexpr double kWide = 100;
+constexpr double kLabelShare = 0.4, kResetWidth_px = 46, kTooltip_px = 340;
 
 /// True when it was moved.
-bool number_widget(const Setting& setting, double& value) {
+bool number_widget(const Setting& setting, const SettingText& text, double& value) {
   ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
   if (setting.low > 0 && setting.high / setting.low > kWide) flags |= ImGuiSliderFlags_Logarithmic;
   // ImGui takes no slider over more than half of a double's range.
-  const double low = std::max(setting.low, -1e300), high = std::min(setting.high, 1e300);
-  if (setting.kind == Setting::Kind::kNumber) {
-    return ImGui::SliderScalar(setting.name.c_str(), ImGuiDataType_Double, &value, &low, &high,
-                               "%.4g", flags);
+  const double low = std::max(setting.low, -1e300) / text.per_unit;
+  const double high = std::min(setting.high, 1e300) / text.per_unit;
+  const std::string unit = *text.unit ? std::string(" ") + text.unit : "";
+  if (setting.kind == Setting::Kind::kNumber || text.per_unit != 1) {
+    double shown = value / text.per_unit;
+    const bool moved = ImGui::SliderScalar("##value", ImGuiDataType_Double, &shown, &low, &high,
+                                           ("%.4g" + unit).c_str(), flags);
+    value = shown * text.per_unit;
+    return moved;
   }
   auto whole = static_cast<int64_t>(std::llround(value));
   const auto least = static_cast<int64_t>(low), most = static_cast<int64_t>(high);
-  const bool moved = ImGui::SliderScalar(setting.name.c_str(), ImGuiDataType_S64, &whole, &least,
-                                         &most, "%lld", flags);
+  const bool moved = ImGui::SliderScalar("##value", ImGuiDataType_S64, &whole, &least, &most,
+                                         ("%lld" + unit).c_str(), flags);
   value = static_cast<double>(whole);
   return moved;
 }
@@ -36,7 +43,7 @@ bool choice_widget(const Setting& setting, double& value) {
       std::find_if(setting.choices.begin(), setting.choices.end(),
                    [&](const Setting::Choice& choice) { return choice.value == chosen; });
   const char* shown = current == setting.choices.end() ? "" : current->name.c_str();
-  if (!ImGui::BeginCombo(setting.name.c_str(), shown)) return false;
+  if (!ImGui::BeginCombo("##value", shown)) return false;
   bool moved = false;
   for (const Setting::Choice& choice : setting.choices) {
     if (ImGui::Selectable(choice.name.c_str(), choice.value == chosen)) {
@@ -48,11 +55,11 @@ bool choice_widget(const Setting& setting, double& value) {
   return moved;
 }
 
-bool widget(const Setting& setting, double& value) {
+bool value_widget(const Setting& setting, const SettingText& text, double& value) {
   switch (setting.kind) {
     case Setting::Kind::kSwitch: {
       bool on = value != 0;
-      const bool moved = ImGui::Checkbox(setting.name.c_str(), &on);
+      const bool moved = ImGui::Checkbox("##value", &on);
       value = on ? 1 : 0;
       return moved;
     }
@@ -62,12 +69,73 @@ bool widget(const Setting& setting, double& value) {
     case Setting::Kind::kNumber:
       break;
   }
-  return number_widget(setting, value);
+  return number_widget(setting, text, value);
+}
+
+void explain(const Brush& brush, const Setting& setting) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(brush.px(kTooltip_px));
+  ImGui::PushFont(brush.fonts.bold);
+  ImGui::TextUnformatted(setting.name.c_str());
+  ImGui::PopFont();
+  ImGui::TextUnformatted(setting.help.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+/// One row of the table: name, widget, and a button that takes it back to its default.
+void draw_setting(const Brush& brush, const Setting& setting, const SettingText& text,
+                  const std::function<void(const std::string&, double)>& set) {
+  ImGui::PushID(setting.name.c_str());
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text.label);
+  explain(brush, setting);
+  ImGui::TableNextColumn();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  double value = setting.value;
+  if (value_widget(setting, text, value) && value != setting.value) set(setting.name, value);
+  explain(brush, setting);
+  ImGui::TableNextColumn();
+  if (is_changed(setting)) {
+    ImGui::PushFont(brush.fonts.small);
+    if (ImGui::Button("reset")) set(setting.name, setting.initial);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Back to the default");
+    ImGui::PopFont();
+  }
+  ImGui::PopID();
+}
+
+void draw_group(const Brush& brush, const Rect& panel, const ElementState& state,
+                const SettingGroup& group,
+                const std::function<void(const std::string&, double)>& set) {
+  const auto is_there = [&](const SettingText& text) {
+    return state.setting(text.property) != nullptr;
+  };
+  if (std::none_of(group.settings.begin(), group.settings.end(), is_there)) return;
+  ImGui::Dummy({0, brush.px(2)});
+  ImGui::PushFont(brush.fonts.bold);
+  ImGui::TextUnformatted(group.name);
+  ImGui::PopFont();
+  ImGui::Separator();
+  if (!ImGui::BeginTable(group.name, 3)) return;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed,
+                          static_cast<float>(kLabelShare * panel.width));
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, brush.px(kResetWidth_px));
+  for (const SettingText& text : group.settings) {
+    if (const Setting* setting = state.setting(text.property)) {
+      draw_setting(brush, *setting, text, set);
+    }
+  }
+  ImGui::EndTable();
 }
 
 }  // namespace
 
-void draw_controls(const Rect& panel, const ElementState& state,
+void draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
                    const std::function<void(const std::string&, double)>& set) {
   ImGui::SetNextWindowPos(upper_left(panel));
   ImGui::SetNextWindowSize(im(panel.width, panel.height));
@@ -76,42 +144,67 @@ void draw_controls(const Rect& panel, const ElementState& state,
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   const bool muted = state.value("mute", 0) != 0;
   ImGui::PushStyleColor(ImGuiCol_Button,
-                        muted ? IM_COL32(60, 110, 60, 255) : IM_COL32(170, 40, 40, 255));
-  if (ImGui::Button(
-          muted ? "force is at rest: let it come back (space)" : "force to rest at once (space)",
-          {-1, 0})) {
+                        muted ? IM_COL32(46, 110, 66, 255) : IM_COL32(176, 48, 48, 255));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered,
+                        muted ? IM_COL32(56, 132, 80, 255) : IM_COL32(204, 60, 60, 255));
+  ImGui::PushFont(brush.fonts.bold);
+  if (ImGui::Button(muted ? "Let the force return (space)" : "Take the force to rest (space)",
+                    {-1, brush.px(30)})) {
     set("mute", muted ? 0 : 1);
   }
-  ImGui::PopStyleColor();
-  ImGui::PushItemWidth(static_cast<float>(0.5 * panel.width));
-  for (const Setting& setting : state.settings) {
-    if (setting.name == "mute") continue;
-    double value = setting.value;
-    if (widget(setting, value) && value != setting.value) set(setting.name, value);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", setting.help.c_str());
-  }
-  ImGui::PopItemWidth();
+  ImGui::PopFont();
+  ImGui::PopStyleColor(2);
+  for (const SettingGroup& group : setting_groups()) draw_group(brush, panel, state, group, set);
   ImGui::End();
+}
+
+void draw_detail_switch(const Brush& brush, const Rect& picture, bool& detail) {
+  const float margin = brush.px(8);
+  ImGui::SetNextWindowPos(
+      {static_cast<float>(picture.right()) - margin, static_cast<float>(picture.y) + margin},
+      ImGuiCond_Always, {1, 0});
+  ImGui::SetNextWindowBgAlpha(0.8F);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {brush.px(8), brush.px(4)});
+  ImGui::Begin("detail", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::Checkbox("Detail", &detail);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("All tracks, new and lost points, all objects (D)");
+  ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 void draw_help(double scale) {
   ImGui::SetNextWindowPos(im(40 * scale, 40 * scale), ImGuiCond_Always);
-  ImGui::Begin("help", nullptr,
+  ImGui::Begin("Help", nullptr,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoInputs);
-  ImGui::TextUnformatted(
-      "space       force to rest, and back\n"
-      "left right  arrows shorter, longer\n"
-      "up down     more, less force (max-force)\n"
-      "s           save the window as PNG in the current folder\n"
-      "h           this help\n"
-      "q           close the window; the video goes on\n"
-      "\n"
-      "arrows      a track's way since the frame before, times arrow-scale;\n"
-      "            hue is direction, bold is an object, pale the background\n"
-      "circle      new point        red cross  lost point\n"
-      "white       the force as it pushes the hand\n"
-      "bars        tension of each string; the line is its smallest one");
+  constexpr const char* kRows[][2] = {
+      {"Space", "takes the force to rest, and lets it return"},
+      {"Left, right", "shorter or longer arrows"},
+      {"Up, down", "more or less force"},
+      {"D", "detail in the picture"},
+      {"P", "pauses the window; the video and the force continue"},
+      {", and .", "a tenth of a second back or forward, in a pause"},
+      {"S", "saves the window as a PNG file in the current folder"},
+      {"H", "this help"},
+      {"Q", "closes the window; the video continues"},
+      {"", ""},
+      {"Outline", "an object; the thick one is felt"},
+      {"White arrow", "the force as it pushes the hand"},
+      {"Small arrows", "where points went since the frame before; hue is direction"},
+      {"Circle, red cross", "a new point, a lost point (detail)"},
+      {"Bars", "tension of each string; the line is its smallest one"}};
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const auto& row : kRows) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(row[0]);
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", row[1]);
+    }
+    ImGui::EndTable();
+  }
   ImGui::End();
 }
 

@@ -16,8 +16,10 @@ namespace spidar {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;
-constexpr double kText_px = 13;
 constexpr double kNote_s = 4;
+/// Of the small pictures of the last minute: 240 of them take some 20 MB.
+constexpr int kStillWidth_px = 256;
+constexpr double kStep_s = 0.1;
 constexpr double kLongerArrows = 1.25, kForceStep_N = 0.1;
 
 DebugWindow& window_of(GLFWwindow* window) {
@@ -62,13 +64,12 @@ DebugWindow::DebugWindow(std::shared_ptr<WindowSource> source, std::shared_ptr<F
   scale_ = text_scale(window_);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
-  ImFontConfig font;
-  font.SizePixels = static_cast<float>(std::round(kText_px * scale_));
-  io.Fonts->AddFontDefault(&font);
-  ImGui::GetStyle().ScaleAllSizes(static_cast<float>(scale_));
+  fonts_ = load_fonts(scale_);
+  set_style(scale_);
   ImGui_ImplGlfw_InitForOpenGL(window_, false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
   texture_.emplace();
+  past_texture_.emplace();
   install_callbacks();
   feed_->want();
 }
@@ -76,6 +77,7 @@ DebugWindow::DebugWindow(std::shared_ptr<WindowSource> source, std::shared_ptr<F
 DebugWindow::~DebugWindow() {
   make_current();
   texture_.reset();
+  past_texture_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext(context_);
@@ -136,6 +138,18 @@ void DebugWindow::on_key(int key) {
     case GLFW_KEY_DOWN:
       change("max-force", state_.value("max-force", 0) - kForceStep_N);
       break;
+    case GLFW_KEY_D:
+      detail_ = !detail_;
+      break;
+    case GLFW_KEY_P:
+      timeline_.is_paused() ? timeline_.resume() : timeline_.pause();
+      break;
+    case GLFW_KEY_COMMA:
+      timeline_.look_at(timeline_.cursor_s() - kStep_s);
+      break;
+    case GLFW_KEY_PERIOD:
+      timeline_.look_at(timeline_.cursor_s() + kStep_s);
+      break;
     case GLFW_KEY_S:
       save_wanted_ = true;
       break;
@@ -170,46 +184,90 @@ void DebugWindow::read() {
   if (is_new) {
     texture_->load(picture_, std::max(shown_width_, 1));
     // Another stream, or the same from the beginning: what was learnt is not of it.
-    if (facts_.running_ns < before_ns) history_.forget();
+    if (facts_.running_ns < before_ns) timeline_.forget();
   }
   feed_->want();
-  if (picture_.empty()) return;
+  if (!picture_.empty()) record(is_new);
+  show_past();
+}
+
+void DebugWindow::record(bool is_new) {
   Moment now;
   now.time_s = glfwGetTime();
   now.interval_s = is_new ? facts_.interval_s : 0;
   now.speed_px_s =
       controller_speed_px_s(facts_.scene.motion, facts_.settings.axes, facts_.visible.height);
-  now.wanted_N = facts_.scene.wrench.force_N.norm();
-  if (state_.device) now.felt_N = state_.device->loop.last.commanded.force_N.norm();
-  history_.add(now);
+  now.wanted = facts_.scene.wrench;
+  if (state_.device) {
+    const TickRecord& last = state_.device->loop.last;
+    now.felt = last.commanded;
+    now.tension_N = last.tension_N;
+    now.pose = last.pose;
+  }
+  timeline_.add(now);
+  if (is_new && timeline_.wants_still(now.time_s)) keep_still(now.time_s);
+}
+
+void DebugWindow::keep_still(double time_s) {
+  auto still = std::make_shared<Still>();
+  if (!texture_->copy_to(*still, kStillWidth_px)) return;
+  still->time_s = time_s;
+  still->facts = facts_;
+  timeline_.add_still(std::move(still));
+}
+
+/// In a pause the window shows the grip and the picture of the moment that is looked at.
+void DebugWindow::show_past() {
+  const Timeline::Part moments = timeline_.plotted();
+  if (!timeline_.is_paused() || moments.empty()) {
+    past_.reset();
+    return;
+  }
+  if (state_.device) {
+    TickRecord& last = state_.device->loop.last;
+    last.commanded = moments.back().felt;
+    last.tension_N = moments.back().tension_N;
+    last.pose = moments.back().pose;
+  }
+  std::shared_ptr<const Still> still = timeline_.still();
+  if (still && still != past_) past_texture_->load(*still);
+  past_ = std::move(still);
+}
+
+ShownPicture DebugWindow::shown_picture() const {
+  ShownPicture picture;
+  picture.arrow_scale = state_.value("arrow-scale", 1);
+  picture.max_force_N = facts_.settings.controller.max_force_N;
+  picture.detail = detail_;
+  const PictureTexture& texture = past_ ? *past_texture_ : *texture_;
+  if (texture.empty()) return picture;
+  // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
+  // pointer or, since 1.91.4, a number: a cast as in C makes either.
+  picture.texture = (ImTextureID)uintptr_t{texture.id()};
+  picture.frame_width = texture.frame_width();
+  picture.frame_height = texture.frame_height();
+  picture.pixel_aspect = texture.pixel_aspect();
+  return picture;
 }
 
 void DebugWindow::draw_panels(int width, int height) {
   const WindowLayout layout = lay_out(width, height, scale_);
-  const Brush brush{*ImGui::GetBackgroundDrawList(), scale_};
-  const ControllerSettings& controller = facts_.settings.controller;
-  ShownPicture picture;
-  if (!texture_->empty()) {
-    // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
-    // pointer or, since 1.91.4, a number: a cast as in C makes either.
-    picture.texture = (ImTextureID)uintptr_t{texture_->id()};
-    const GstVideoInfo& info = picture_.info();
-    picture.frame_width = GST_VIDEO_INFO_WIDTH(&info);
-    picture.frame_height = GST_VIDEO_INFO_HEIGHT(&info);
-    picture.pixel_aspect =
-        static_cast<double>(GST_VIDEO_INFO_PAR_N(&info)) / GST_VIDEO_INFO_PAR_D(&info);
-  }
+  const Brush brush{*ImGui::GetBackgroundDrawList(), scale_, fonts_};
+  const FrameFacts& facts = past_ ? past_->facts : facts_;
+  const ControllerSettings& controller = facts.settings.controller;
   shown_width_ = static_cast<int>(layout.picture.width);
-  draw_picture(brush, layout.picture, picture, facts_, state_.value("arrow-scale", 1),
-               controller.max_force_N);
+  draw_picture(brush, layout.picture, shown_picture(), facts);
   draw_grip(brush, layout.grip, state_);
-  draw_force(brush, layout.force, history_, controller.max_force_N);
-  draw_speed(brush, layout.speed, history_);
-  draw_gain(brush, layout.gain, history_, controller);
+  draw_tensions(brush, layout.tensions, state_);
+  draw_timeline(brush, layout.timeline, timeline_, controller.max_force_N);
+  draw_force(brush, layout.force, timeline_, controller.max_force_N);
+  draw_speed(brush, layout.speed, timeline_);
+  draw_gain(brush, layout.gain, timeline_, controller);
   if (glfwGetTime() > note_until_s_) note_.clear();
-  draw_status(brush, layout.status, state_, facts_, note_);
-  draw_controls(layout.controls, state_,
+  draw_status(brush, layout.status, state_, facts, note_);
+  draw_controls(brush, layout.controls, state_,
                 [this](const std::string& setting, double value) { change(setting, value); });
+  draw_detail_switch(brush, layout.picture, detail_);
   if (help_) draw_help(scale_);
 }
 
@@ -226,7 +284,8 @@ void DebugWindow::draw() {
   draw_panels(window_width, window_height);
   ImGui::Render();
   glViewport(0, 0, width_, height_);
-  glClearColor(0.07F, 0.07F, 0.08F, 1);
+  const ImVec4 back = ImGui::ColorConvertU32ToFloat4(kBackColor);
+  glClearColor(back.x, back.y, back.z, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (save_wanted_) save();

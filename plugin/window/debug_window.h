@@ -40,6 +40,10 @@ class DebugWindow {
 
  private:
   void read();
+  void record(bool is_new);
+  void keep_still(double time_s);
+  void show_past();
+  ShownPicture shown_picture() const;
   void draw_panels(int width, int height);
   void save();
   void change(const std::string& setting, double value) { source_->set(setting, value); }
@@ -52,16 +56,19 @@ class DebugWindow {
   GLFWwindow* window_ = nullptr;
   ImGuiContext* context_ = nullptr;
   double scale_ = 1;
-  std::optional<PictureTexture> texture_;
+  Fonts fonts_;
+  std::optional<PictureTexture> texture_, past_texture_;
   int width_ = 0, height_ = 0;  // of the frame buffer drawn last
 
   ElementState state_;
   PictureCopy picture_;
   FrameFacts facts_;
-  MotionHistory history_;
-  int shown_width_ = 0;  // of the picture in the window
+  Timeline timeline_;
+  std::shared_ptr<const Still> past_;  // what past_texture_ shows
+  int shown_width_ = 0;                // of the picture in the window
   bool source_gone_ = false;
   bool help_ = false;
+  bool detail_ = false;
   bool save_wanted_ = false;
   std::string note_;
   double note_until_s_ = 0;

@@ -9,15 +9,19 @@ namespace spidar {
 namespace {
 
 // Shares of the window.
-constexpr double kLeft = 0.62, kPicture = 0.64, kPlots = 0.24, kGrip = 0.42, kGain = 0.2;
-constexpr double kGap_px = 6;
+constexpr double kLeft = 0.66, kGrip = 0.34, kTensions = 0.19;
+constexpr double kTimeline = 0.13, kPlots = 0.23;
+/// Of text, in pixels at a scale of 1; a share of the window at most.
+constexpr double kStatus_px = 34, kStatusMost = 0.1;
+constexpr double kGap_px = 8;
 
 // Of the view: turned about y, then tilted, radians.
 constexpr double kTurn = 0.4, kTilt = 0.3;
-/// Of the panel's smaller side, for the sphere around the exits; the rest is for the bars.
+/// Of the panel, for the exits of the strings; the rest is for their numbers.
 constexpr double kFilled = 0.8;
 
-constexpr double kBarWidth_px = 7, kBarHeight_px = 44;
+/// Of the room of a string's bar.
+constexpr double kBarFilled = 0.5;
 
 }  // namespace
 
@@ -35,17 +39,28 @@ Rect fit(const Rect& outer, double aspect) {
 
 WindowLayout lay_out(int width, int height, double scale) {
   const double w = std::max(width, 1), h = std::max(height, 1);
-  const double left = kLeft * w, right = w - left, gap = kGap_px * scale / 2;
-  const double plots_y = kPicture * h, status_y = plots_y + kPlots * h;
-  const double gain_y = kGrip * h, controls_y = gain_y + kGain * h;
+  const double left = kLeft * w, gap = kGap_px * scale / 2;
+  const double status_y = h - std::min(kStatus_px * scale, kStatusMost * h);
+  const double plots_y = status_y - kPlots * h, timeline_y = plots_y - kTimeline * h;
+  const double tensions_y = kGrip * h, controls_y = tensions_y + kTensions * h;
+  const Rect whole = Rect{0, 0, w, h}.inset(gap);
+  const auto place = [&](double x, double y, double right_x, double bottom_y) {
+    // Within the margin around all.
+    const double x0 = std::max(x, whole.x), y0 = std::max(y, whole.y);
+    return Rect{x0, y0, std::max(std::min(right_x, whole.right()) - x0, 0.0),
+                std::max(std::min(bottom_y, whole.bottom()) - y0, 0.0)}
+        .inset(gap);
+  };
   WindowLayout layout;
-  layout.picture = Rect{0, 0, left, plots_y}.inset(gap);
-  layout.force = Rect{0, plots_y, left / 2, status_y - plots_y}.inset(gap);
-  layout.speed = Rect{left / 2, plots_y, left / 2, status_y - plots_y}.inset(gap);
-  layout.status = Rect{0, status_y, left, h - status_y}.inset(gap);
-  layout.grip = Rect{left, 0, right, gain_y}.inset(gap);
-  layout.gain = Rect{left, gain_y, right, controls_y - gain_y}.inset(gap);
-  layout.controls = Rect{left, controls_y, right, h - controls_y}.inset(gap);
+  layout.picture = place(0, 0, left, timeline_y);
+  layout.timeline = place(0, timeline_y, left, plots_y);
+  layout.force = place(0, plots_y, 0.42 * left, status_y);
+  layout.speed = place(0.42 * left, plots_y, 0.71 * left, status_y);
+  layout.gain = place(0.71 * left, plots_y, left, status_y);
+  layout.status = place(0, status_y, left, h);
+  layout.grip = place(left, 0, w, tensions_y);
+  layout.tensions = place(left, tensions_y, w, controls_y);
+  layout.controls = place(left, controls_y, w, h);
   return layout;
 }
 
@@ -62,39 +77,48 @@ PictureMap map_picture(const Rect& panel, double frame_x, double frame_y, double
 
 GripProjection::GripProjection(const Rect& panel, const StringGeometry& geometry)
     : centre_px_(panel.x + panel.width / 2, panel.y + panel.height / 2) {
-  double reach_m = 1e-3;
+  constexpr double kLeast_m = 1e-3;
+  Eigen::Vector2d reach_m(kLeast_m, kLeast_m);
   for (int i = 0; i < geometry.count; ++i) {
-    reach_m = std::max(reach_m, geometry.exit_m[static_cast<size_t>(i)].norm());
+    reach_m = reach_m.cwiseMax(flat_m(geometry.exit_m[static_cast<size_t>(i)]).cwiseAbs());
   }
-  px_m_ = kFilled * std::min(panel.width, panel.height) / 2 / reach_m;
+  px_m_ = kFilled / 2 * std::min(panel.width / reach_m.x(), panel.height / reach_m.y());
 }
 
-Eigen::Vector2d GripProjection::operator()(const Eigen::Vector3d& at_m) const {
+Eigen::Vector2d GripProjection::flat_m(const Eigen::Vector3d& at_m) {
   // The viewer goes to the right and up: near things (z > 0) go to the left and down.
   const double x = std::cos(kTurn) * at_m.x() - std::sin(kTurn) * at_m.z();
   const double z = std::sin(kTurn) * at_m.x() + std::cos(kTurn) * at_m.z();
-  const double y = std::cos(kTilt) * at_m.y() - std::sin(kTilt) * z;
-  return centre_px_ + px_m_ * Eigen::Vector2d(x, -y);
+  return {x, -(std::cos(kTilt) * at_m.y() - std::sin(kTilt) * z)};
 }
 
-std::vector<TensionBar> tension_bars(const GripProjection& project, const DeviceView& device,
-                                     double scale) {
+Eigen::Vector2d GripProjection::operator()(const Eigen::Vector3d& at_m) const {
+  return centre_px_ + px_m_ * flat_m(at_m);
+}
+
+Rect tension_area(const Rect& panel, double scale) {
+  constexpr double kAbove_px = 46, kLeft_px = 34, kBelow_px = 38, kRight_px = 10;
+  const double left = std::min(kLeft_px * scale, panel.width / 4);
+  const double above = std::min(kAbove_px * scale, panel.height / 3);
+  const double right = std::min(kRight_px * scale, panel.width / 4);
+  const double below = std::min(kBelow_px * scale, panel.height / 3);
+  return {panel.x + left, panel.y + above, panel.width - left - right,
+          panel.height - above - below};
+}
+
+std::vector<TensionBar> tension_bars(const Rect& area, const DeviceView& device) {
   std::vector<TensionBar> bars;
-  const double width = kBarWidth_px * scale, height = kBarHeight_px * scale;
-  const Eigen::Vector2d centre_px = project(Eigen::Vector3d::Zero());
+  const double room = area.width / std::max(device.geometry.count, 1), width = kBarFilled * room;
   for (int i = 0; i < device.geometry.count; ++i) {
-    const Eigen::Vector2d exit_px = project(device.geometry.exit_m[static_cast<size_t>(i)]);
-    // Outside of the frame, level with the exit.
-    const double x = exit_px.x() < centre_px.x() ? exit_px.x() - 2 * width : exit_px.x() + width;
     TensionBar bar;
-    bar.range = {x, exit_px.y() - height / 2, width, height};
+    bar.range = {area.x + i * room + (room - width) / 2, area.y, width, area.height};
     const double most_N = device.max_tension_N[i];
     const auto share = [&](double tension_N) {
       return most_N > 0 ? std::clamp(tension_N / most_N, 0.0, 1.0) : 0.0;
     };
-    const double filled = share(device.loop.last.tension_N[i]) * height;
-    bar.filled = {x, bar.range.bottom() - filled, width, filled};
-    bar.least_y = bar.range.bottom() - share(device.min_tension_N[i]) * height;
+    const double filled = share(device.loop.last.tension_N[i]) * area.height;
+    bar.filled = {bar.range.x, bar.range.bottom() - filled, width, filled};
+    bar.least_y = bar.range.bottom() - share(device.min_tension_N[i]) * area.height;
     bars.push_back(bar);
   }
   return bars;

@@ -25,10 +25,10 @@ struct Rect {
 Rect fit(const Rect& outer, double aspect);
 
 struct WindowLayout {
-  Rect picture, force, speed, status;  ///< left
-  Rect grip, gain, controls;           ///< right
+  Rect picture, timeline, force, speed, gain, status;  ///< left
+  Rect grip, tensions, controls;                       ///< right
 };
-/// For a frame buffer of this size; `scale` is 1 where text of 13 pixels can be read.
+/// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read.
 WindowLayout lay_out(int width, int height, double scale);
 
 /// From pixels of the frame to pixels of the window.
@@ -54,17 +54,22 @@ class GripProjection {
   Eigen::Vector2d operator()(const Eigen::Vector3d& at_m) const;
 
  private:
+  static Eigen::Vector2d flat_m(const Eigen::Vector3d& at_m);
+
   Eigen::Vector2d centre_px_;
   double px_m_;
 };
 
-/// The tension of one string as a bar beside the place where it leaves the frame.
+/// The tension of one string.
 struct TensionBar {
   Rect range;          ///< from no tension, below, to the largest
   Rect filled;         ///< as much of it as there is
   double least_y = 0;  ///< of the smallest tension
 };
-std::vector<TensionBar> tension_bars(const GripProjection& project, const DeviceView& device,
-                                     double scale);
+/// What a panel of tensions leaves to its bars: above is its title, on the left are the numbers of
+/// the axis, below those of the strings.
+Rect tension_area(const Rect& panel, double scale);
+/// Beside each other over the width of `area`, in the order of the strings.
+std::vector<TensionBar> tension_bars(const Rect& area, const DeviceView& device);
 
 }  // namespace spidar

@@ -1,23 +1,47 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
+#include <cstdio>
 
+#include "core/force/force_limit.h"
 #include "plugin/overlay/arrow.h"
 #include "plugin/window/panels.h"
 
 namespace spidar {
 namespace {
 
-constexpr ImU32 kObjectColor = IM_COL32(255, 255, 255, 160);
+constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of tracks without detail
 constexpr ImU32 kNewColor = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
 
-ImU32 color_of(Rgb color) {
-  return IM_COL32(color.r, color.g, color.b, 255);
+/// What is drawn over the picture, in the coordinates of the window.
+struct Overlay {
+  const Brush& brush;
+  const PictureMap& map;
+  const FrameFacts& facts;
+  const ShownPicture& picture;
+  std::vector<uint32_t> felt;  ///< objects
+
+  bool is_felt(uint32_t object) const {
+    return std::find(felt.begin(), felt.end(), object) != felt.end();
+  }
+  /// Upper left and lower right corner of an object's box.
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> box(const MovingObject& object) const {
+    const VisiblePart& visible = facts.visible;
+    const Eigen::Vector2d centre_px(visible.x + 0.5 * (visible.width - 1),
+                                    visible.y + 0.5 * (visible.height - 1));
+    const Eigen::Vector2d at_px = centre_px + object.position_px;
+    return {map(at_px - object.size_px / 2), map(at_px + object.size_px / 2)};
+  }
+};
+
+ImU32 color_of(Rgb color, unsigned opacity) {
+  return IM_COL32(color.r, color.g, color.b, opacity);
 }
 
-void draw_arrow(const Brush& brush, const Arrow& arrow) {
+void draw_arrow(const Brush& brush, const Arrow& arrow, unsigned opacity = 255) {
   const ArrowShape shape = shape_of(arrow);
-  const ImU32 color = color_of(arrow.color);
+  const ImU32 color = color_of(arrow.color, opacity);
   std::array<ImVec2, 4> shaft;
   std::transform(shape.shaft_px.begin(), shape.shaft_px.end(), shaft.begin(),
                  [](const Eigen::Vector2d& p) { return im(p); });
@@ -27,15 +51,40 @@ void draw_arrow(const Brush& brush, const Arrow& arrow) {
                                color);
 }
 
-void draw_points(const Brush& brush, const PictureMap& map, const SceneView& scene) {
-  const auto radius = static_cast<float>(3 * brush.scale);
-  const auto width = static_cast<float>(brush.scale);
-  for (const SceneTrack& track : scene.tracks) {
-    if (!track.is_new) continue;
-    brush.list.AddCircle(im(map({track.to.x_px, track.to.y_px})), radius, kNewColor, 0, width);
+/// A dark line around an arrow, which is drawn over it.
+void draw_border(const Brush& brush, const Arrow& arrow) {
+  const ArrowShape shape = shape_of(arrow);
+  const auto around = [&](const auto& corners_px) {
+    std::vector<ImVec2> corners;
+    for (const Eigen::Vector2d& corner_px : corners_px) corners.push_back(im(corner_px));
+    brush.list.AddPolyline(corners.data(), static_cast<int>(corners.size()), IM_COL32(0, 0, 0, 200),
+                           ImDrawFlags_Closed, brush.px(3.5));
+  };
+  around(shape.shaft_px);
+  if (shape.has_head) around(shape.head_px);
+}
+
+void draw_tracks(const Overlay& over, const ArrowStyle& style) {
+  const std::vector<SceneTrack>& tracks = over.facts.scene.tracks;
+  const std::vector<Arrow> arrows = track_arrows(over.facts.scene, style);  // one for each track
+  for (size_t i = 0; i < arrows.size(); ++i) {
+    Arrow arrow = arrows[i];
+    arrow.tail_px = over.map(arrow.tail_px);
+    arrow.tip_px = over.map(arrow.tip_px);
+    const bool is_felt = tracks[i].owner == TrackOwner::kObject && over.is_felt(tracks[i].object);
+    draw_arrow(over.brush, arrow, over.picture.detail ? 255 : is_felt ? kFelt : kFaint);
   }
-  for (const ImagePoint& lost : scene.lost) {
-    const ImVec2 at = im(map({lost.x_px, lost.y_px}));
+}
+
+void draw_points(const Overlay& over) {
+  const Brush& brush = over.brush;
+  const float radius = brush.px(3), width = brush.px(1);
+  for (const SceneTrack& track : over.facts.scene.tracks) {
+    if (!track.is_new) continue;
+    brush.list.AddCircle(im(over.map({track.to.x_px, track.to.y_px})), radius, kNewColor, 0, width);
+  }
+  for (const ImagePoint& lost : over.facts.scene.lost) {
+    const ImVec2 at = im(over.map({lost.x_px, lost.y_px}));
     brush.list.AddLine({at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}, kWarnColor,
                        width);
     brush.list.AddLine({at.x - radius, at.y + radius}, {at.x + radius, at.y - radius}, kWarnColor,
@@ -43,30 +92,76 @@ void draw_points(const Brush& brush, const PictureMap& map, const SceneView& sce
   }
 }
 
-void draw_objects(const Brush& brush, const PictureMap& map, const FrameFacts& facts) {
-  const VisiblePart& visible = facts.visible;
-  const Eigen::Vector2d centre_px(visible.x + 0.5 * (visible.width - 1),
-                                  visible.y + 0.5 * (visible.height - 1));
-  for (const MovingObject& object : facts.scene.objects) {
+void draw_objects(const Overlay& over) {
+  const Brush& brush = over.brush;
+  for (const MovingObject& object : over.facts.scene.objects) {
     if (object.tracks == 0) continue;
-    const Eigen::Vector2d half_px = object.size_px / 2;
-    const ImVec2 low = im(map(centre_px + object.position_px - half_px));
-    const ImVec2 high = im(map(centre_px + object.position_px + half_px));
-    brush.list.AddRect(low, high, kObjectColor, 0, 0, static_cast<float>(brush.scale));
-    brush.list.AddText({low.x + 2, low.y}, kObjectColor,
-                       ("object " + std::to_string(object.id)).c_str());
+    const auto [low, high] = over.box(object);
+    const bool is_felt = over.is_felt(object.id);
+    const float rounding = brush.px(4);
+    if (is_felt) {
+      brush.list.AddRect(im(low), im(high), IM_COL32(0, 0, 0, 130), rounding, 0, brush.px(5));
+    }
+    brush.list.AddRect(im(low), im(high), is_felt ? kFeltColor : kOtherColor, rounding, 0,
+                       brush.px(is_felt ? 2.5 : 1));
+    if (!is_felt && !over.picture.detail) continue;
+    const std::string name = "object " + std::to_string(object.id);
+    const ImFont* font = brush.fonts.small;
+    // Above the box, or within it at the upper edge of the picture.
+    const double height = font->FontSize + brush.px(7);
+    const double y = low.y() - height >= over.map.shown.y ? low.y() - height : low.y() + 2;
+    draw_label(brush, font, im(low.x(), y), is_felt ? kFeltColor : kMutedColor, name);
   }
+}
+
+/// The middle of the one object that is felt, else of the picture.
+Eigen::Vector2d origin_of_force(const Overlay& over) {
+  if (over.felt.size() == 1) {
+    for (const MovingObject& object : over.facts.scene.objects) {
+      if (object.id != over.felt.front()) continue;
+      const auto [low, high] = over.box(object);
+      return (low + high) / 2;
+    }
+  }
+  const Rect& shown = over.map.shown;
+  return {shown.x + shown.width / 2, shown.y + shown.height / 2};
+}
+
+void draw_force(const Overlay& over, ArrowStyle style) {
+  style.centre_px = origin_of_force(over);
+  const Wrench& wrench = over.facts.scene.wrench;
+  const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
+  if (!felt) return;
+  draw_border(over.brush, felt->arrow);
+  draw_arrow(over.brush, felt->arrow);
+  if (wrench.force_N.norm() < kFeltForce_N) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f N", wrench.force_N.norm());
+  const ImFont* font = over.brush.fonts.bold;
+  // Beyond the tip, in the picture.
+  const Eigen::Vector2d size(text_size(font, text).x + over.brush.px(10),
+                             font->FontSize + over.brush.px(4));
+  const Eigen::Vector2d along = (felt->arrow.tip_px - felt->arrow.tail_px).normalized();
+  const Eigen::Vector2d middle =
+      felt->arrow.tip_px + along.cwiseProduct(size / 2 + Eigen::Vector2d(6, 6) * over.brush.scale);
+  const Rect& shown = over.map.shown;
+  const Eigen::Vector2d low(shown.x, shown.y);
+  const Eigen::Vector2d most =
+      (low + Eigen::Vector2d(shown.width, shown.height) - size).cwiseMax(low);
+  draw_label(over.brush, font, im((middle - size / 2).cwiseMax(low).cwiseMin(most)), kTextColor,
+             text);
 }
 
 }  // namespace
 
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
-                  const FrameFacts& facts, double arrow_scale, double max_force_N) {
-  brush.list.AddRectFilled(upper_left(panel), lower_right(panel), kPanelColor);
+                  const FrameFacts& facts) {
+  brush.list.AddRectFilled(upper_left(panel), lower_right(panel), IM_COL32(10, 11, 14, 255),
+                           brush.px(6));
   const VisiblePart& visible = facts.visible;
   if (!picture.texture || visible.width <= 0 || visible.height <= 0) {
-    brush.list.AddText(im(panel.x + 8 * brush.scale, panel.y + 8 * brush.scale), kTextColor,
-                       "no frame yet");
+    draw_text(brush, brush.fonts.body, im(panel.x + 12 * brush.scale, panel.y + 10 * brush.scale),
+              kMutedColor, "No frame yet");
     return;
   }
   const PictureMap map =
@@ -76,23 +171,15 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
                       im(visible.x / w, visible.y / h),
                       im((visible.x + visible.width) / w, (visible.y + visible.height) / h));
   brush.list.PushClipRect(upper_left(map.shown), lower_right(map.shown), true);
-
   ArrowStyle style;
-  style.scale = arrow_scale;
+  style.scale = picture.arrow_scale;
   style.height_px = map.shown.height;
-  style.max_force_N = max_force_N;
-  for (Arrow arrow : track_arrows(facts.scene, style)) {
-    arrow.tail_px = map(arrow.tail_px);
-    arrow.tip_px = map(arrow.tip_px);
-    draw_arrow(brush, arrow);
-  }
-  draw_points(brush, map, facts.scene);
-  draw_objects(brush, map, facts);
-  style.centre_px = {map.shown.x + map.shown.width / 2, map.shown.y + map.shown.height / 2};
-  if (const std::optional<FeltArrow> felt = felt_arrow(facts.scene.wrench, style)) {
-    draw_arrow(brush, felt->border);
-    draw_arrow(brush, felt->arrow);
-  }
+  style.max_force_N = picture.max_force_N;
+  const Overlay over{brush, map, facts, picture, felt_objects(facts)};
+  draw_tracks(over, style);
+  if (picture.detail) draw_points(over);
+  draw_objects(over);
+  draw_force(over, style);
   brush.list.PopClipRect();
 }
 

@@ -55,18 +55,43 @@ bool PictureTexture::load(const PictureCopy& picture, int most_width) {
     return false;
   }
   gst_video_converter_frame(converter_, &source, &target);
+  upload(GST_VIDEO_FRAME_PLANE_DATA(&target, 0), width, height);
+  frame_width_ = frame_width;
+  frame_height_ = frame_height;
+  pixel_aspect_ = static_cast<double>(GST_VIDEO_INFO_PAR_N(&info)) / GST_VIDEO_INFO_PAR_D(&info);
+  gst_video_frame_unmap(&target);
+  gst_video_frame_unmap(&source);
+  return true;
+}
+
+void PictureTexture::load(const Still& still) {
+  upload(still.rgba.data(), still.width, still.height);
+  frame_width_ = still.frame_width;
+  frame_height_ = still.frame_height;
+  pixel_aspect_ = still.pixel_aspect;
+}
+
+void PictureTexture::upload(const void* rgba, int width, int height) {
   glBindTexture(GL_TEXTURE_2D, id_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  const void* pixels = GST_VIDEO_FRAME_PLANE_DATA(&target, 0);
   if (width == width_ && height == height_) {
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
   } else {
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
   }
   width_ = width;
   height_ = height;
-  gst_video_frame_unmap(&target);
-  gst_video_frame_unmap(&source);
+}
+
+bool PictureTexture::copy_to(Still& still, int widest) const {
+  GstMapInfo map;
+  if (!converted_ || !gst_buffer_map(converted_, &map, GST_MAP_READ)) return false;
+  shrink_into(still, map.data, GST_VIDEO_INFO_WIDTH(&target_), GST_VIDEO_INFO_HEIGHT(&target_),
+              GST_VIDEO_INFO_PLANE_STRIDE(&target_, 0), widest);
+  gst_buffer_unmap(converted_, &map);
+  still.frame_width = frame_width_;
+  still.frame_height = frame_height_;
+  still.pixel_aspect = pixel_aspect_;
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include <gst/video/video.h>
 
 #include "plugin/window/frame_feed.h"
+#include "plugin/window/still.h"
 
 namespace spidar {
 
@@ -24,14 +25,28 @@ class PictureTexture {
   /// pixels wide, and uploads it. False when the frame cannot be converted: the texture stays.
   bool load(const PictureCopy& picture, int most_width);
 
+  /// Shows a picture of the past instead.
+  void load(const Still& still);
+  /// Fills in the size and pixels of what was loaded from a PictureCopy, no wider than `widest`.
+  /// False when there is none.
+  bool copy_to(Still& still, int widest) const;
+
+  /// Of the frame that it was made from.
+  int frame_width() const { return frame_width_; }
+  int frame_height() const { return frame_height_; }
+  double pixel_aspect() const { return pixel_aspect_; }
+
   bool empty() const { return width_ == 0; }
   unsigned id() const { return id_; }
 
  private:
+  void upload(const void* rgba, int width, int height);
   bool prepare(const GstVideoInfo& source, int width, int height);
 
   unsigned id_ = 0;
   int width_ = 0, height_ = 0;
+  int frame_width_ = 0, frame_height_ = 0;
+  double pixel_aspect_ = 1;
   GstVideoInfo source_{};
   GstVideoInfo target_{};
   GstVideoConverter* converter_ = nullptr;

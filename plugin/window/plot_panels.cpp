@@ -3,137 +3,98 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/force/force_limit.h"
 #include "plugin/window/panels.h"
+#include "plugin/window/plot.h"
 
 namespace spidar {
 namespace {
 
-constexpr double kLeastForce_N = 0.5, kLeastSpeed_px_s = 100;
+constexpr double kLeastForce_N = 0.1, kLeastSpeed_px_s = 100, kHeadroom = 1.1;
 constexpr int kCurvePoints = 64;
+constexpr const char* kAxisNames[] = {"right", "up", "near"};
 
-/// A panel with axes: x and y as shares of what is shown.
-class Plot {
- public:
-  Plot(const Brush& brush, const Rect& panel, const char* title) : brush_(brush) {
-    brush.list.AddRectFilled(upper_left(panel), lower_right(panel), kPanelColor);
-    brush.list.AddText(im(panel.x + 6 * brush.scale, panel.y + 4 * brush.scale), kTextColor, title);
-    area_ = panel.inset(8 * brush.scale);
-    const double text = std::min(16 * brush.scale, area_.height);
-    area_.y += text;
-    area_.height -= text;
-    brush.list.AddRect(upper_left(area_), lower_right(area_), kLineColor);
-  }
-
-  ImVec2 at(double x, double y) const {
-    return im(area_.x + std::clamp(x, 0.0, 1.0) * area_.width,
-              area_.bottom() - std::clamp(y, 0.0, 1.0) * area_.height);
-  }
-  void line(const ImVec2* points, int count, ImU32 color) const {
-    brush_.list.AddPolyline(points, count, color, 0, static_cast<float>(1.5 * brush_.scale));
-  }
-  void level(double y, ImU32 color) const { brush_.list.AddLine(at(0, y), at(1, y), color); }
-  void dot(double x, double y, ImU32 color) const {
-    brush_.list.AddCircleFilled(at(x, y), static_cast<float>(4 * brush_.scale), color);
-  }
-
- private:
-  const Brush& brush_;
-  Rect area_;
-};
-
-/// One quantity of the history over its time, `highest` at the top.
-void draw_series(const Plot& plot, const MotionHistory& history, double Moment::*value,
-                 double highest, ImU32 color) {
-  if (history.moments().empty()) return;
-  const double newest_s = history.moments().back().time_s;
-  std::vector<ImVec2> points;
-  points.reserve(history.moments().size());
-  for (const Moment& moment : history.moments()) {
-    points.push_back(plot.at(1 - (newest_s - moment.time_s) / MotionHistory::kMemory_s,
-                             moment.*value / highest));
-  }
-  plot.line(points.data(), static_cast<int>(points.size()), color);
+std::string number(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
 }
 
-double largest(const MotionHistory& history, double Moment::*value, double least) {
-  for (const Moment& moment : history.moments()) least = std::max(least, moment.*value);
-  return least;
+/// The last seconds before the cursor, as seconds before it.
+PlotAxis time_axis(const Brush& brush, const Rect& panel) {
+  return make_axis(-Timeline::kPlotted_s, 0, Plot::steps_across(brush, panel.width));
+}
+
+template <typename Value>
+std::vector<PlotPoint> series(const Timeline& timeline, const Value& value) {
+  std::vector<PlotPoint> points;
+  for (const Moment& moment : timeline.plotted()) {
+    points.push_back({moment.time_s - timeline.cursor_s(), value(moment)});
+  }
+  return points;
+}
+
+/// Upper end of an axis of speed: fits five seconds, whatever one frame says.
+double highest_speed_px_s(const Timeline& timeline) {
+  std::vector<double> speeds_px_s;
+  for (const Moment& moment : timeline.plotted()) speeds_px_s.push_back(moment.speed_px_s);
+  return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kLeastSpeed_px_s);
 }
 
 }  // namespace
 
-void draw_force(const Brush& brush, const Rect& panel, const MotionHistory& history,
+void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
                 double max_force_N) {
-  const double felt_N = history.moments().empty() ? 0 : history.moments().back().felt_N;
-  char title[64];
-  std::snprintf(title, sizeof title, "force %.2f N (grey: wanted), 5 s", felt_N);
-  const Plot plot(brush, panel, title);
-  const double highest_N = 1.1 * std::max(max_force_N, kLeastForce_N);
-  plot.level(max_force_N / highest_N, kLineColor);
-  draw_series(plot, history, &Moment::wanted_N, highest_N, kWantedColor);
-  draw_series(plot, history, &Moment::felt_N, highest_N, kFeltColor);
+  const Timeline::Part moments = timeline.plotted();
+  const Rect content =
+      draw_panel(brush, panel, "Force",
+                 moments.empty() ? "" : number("%.2f N", moments.back().felt.force_N.norm()));
+  const double most_N = std::max(max_force_N, kLeastForce_N);
+  const PlotAxis y = make_axis(-most_N, most_N, Plot::steps_up(brush, content.height));
+  const Plot plot(brush, content, time_axis(brush, content), y, "s", "N");
+  for (Eigen::Index axis = 2; axis >= 0; --axis) {
+    const ImU32 color = kAxisColors[axis];
+    plot.line(series(timeline, [&](const Moment& m) { return m.wanted.force_N[axis]; }),
+              faded(color, 95), 3.5);
+    plot.line(series(timeline, [&](const Moment& m) { return m.felt.force_N[axis]; }), color);
+  }
+  plot.legend({{kAxisNames[0], kAxisColors[0]},
+               {kAxisNames[1], kAxisColors[1]},
+               {kAxisNames[2], kAxisColors[2]},
+               {"wanted", faded(kTextColor, 95)}});
 }
 
-void draw_speed(const Brush& brush, const Rect& panel, const MotionHistory& history) {
-  const double speed_px_s = history.moments().empty() ? 0 : history.moments().back().speed_px_s;
-  char title[64];
-  std::snprintf(title, sizeof title, "speed %.0f px/s at 480 lines, 5 s", speed_px_s);
-  const Plot plot(brush, panel, title);
-  draw_series(plot, history, &Moment::speed_px_s,
-              1.1 * largest(history, &Moment::speed_px_s, kLeastSpeed_px_s), kSpeedColor);
+void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline) {
+  const Timeline::Part moments = timeline.plotted();
+  const Rect content = draw_panel(
+      brush, panel, "Speed", moments.empty() ? "" : number("%.0f px/s", moments.back().speed_px_s));
+  const PlotAxis y =
+      make_axis(0, highest_speed_px_s(timeline), Plot::steps_up(brush, content.height));
+  const Plot plot(brush, content, time_axis(brush, content), y, "s", "px/s at 480 lines");
+  const std::vector<PlotPoint> speed =
+      series(timeline, [](const Moment& m) { return m.speed_px_s; });
+  plot.area(speed, faded(kSpeedColor, 40));
+  plot.line(speed, kSpeedColor);
 }
 
-void draw_gain(const Brush& brush, const Rect& panel, const MotionHistory& history,
+void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
                const ControllerSettings& controller) {
-  const double highest_px_s = 1.1 * largest(history, &Moment::speed_px_s, kLeastSpeed_px_s);
-  const double highest_N = 1.1 * std::max(controller.max_force_N, kLeastForce_N);
-  char title[64];
-  std::snprintf(title, sizeof title, "gain: 0 to %.0f px/s, 0 to %.1f N", highest_px_s, highest_N);
-  const Plot plot(brush, panel, title);
-  const std::vector<double> curve_N = gain_curve(controller, history, highest_px_s, kCurvePoints);
-  std::vector<ImVec2> points;
+  const Rect content = draw_panel(brush, panel, "Speed to force");
+  const double highest_px_s = highest_speed_px_s(timeline);
+  const double most_N = std::max(controller.max_force_N, kLeastForce_N);
+  const PlotAxis x = make_axis(0, highest_px_s, Plot::steps_across(brush, content.width));
+  const PlotAxis y = make_axis(0, most_N, Plot::steps_up(brush, content.height));
+  const Plot plot(brush, content, x, y, "px/s", "N");
+  const std::vector<double> curve_N = gain_curve(controller, timeline, highest_px_s, kCurvePoints);
+  std::vector<PlotPoint> curve;
   for (size_t i = 0; i < curve_N.size(); ++i) {
-    points.push_back(plot.at(static_cast<double>(i) / (kCurvePoints - 1), curve_N[i] / highest_N));
+    curve.push_back({highest_px_s * static_cast<double>(i) / (kCurvePoints - 1), curve_N[i]});
   }
-  plot.line(points.data(), static_cast<int>(points.size()), kSpeedColor);
-  if (history.moments().empty()) return;
-  const Moment& now = history.moments().back();
-  plot.dot(now.speed_px_s / highest_px_s, now.wanted_N / highest_N, kFeltColor);
-}
-
-void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
-                 const FrameFacts& facts, const std::string& note) {
-  brush.list.AddRectFilled(upper_left(panel), lower_right(panel), kPanelColor);
-  char line[256];
-  const double line_px = 16 * brush.scale;
-  ImVec2 at = im(panel.x + 6 * brush.scale, panel.y + 4 * brush.scale);
-  const auto next = [&](ImU32 color, const char* text) {
-    brush.list.AddText(at, color, text);
-    at.y += static_cast<float>(line_px);
-  };
-  brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
-  const Eigen::Vector2d& velocity = facts.scene.motion.velocity_px_s;
-  std::snprintf(line, sizeof line,
-                "%.2f s  analysis %.2f ms a frame  %zu tracks  %zu objects  %.0f, %.0f px/s",
-                1e-9 * static_cast<double>(facts.running_ns), facts.analysis_ms,
-                facts.scene.tracks.size(), facts.scene.objects.size(), velocity.x(), velocity.y());
-  next(kTextColor, line);
-  if (state.device) {
-    const LoopSnapshot& loop = state.device->loop;
-    std::snprintf(line, sizeof line, "loop %.0f us late  %llu overruns of %llu  device %s%s",
-                  1e-3 * static_cast<double>(loop.last.lateness_ns),
-                  static_cast<unsigned long long>(loop.counters.overruns),
-                  static_cast<unsigned long long>(loop.counters.ticks), to_string(loop.last.device),
-                  loop.last.playing ? "" : "  not playing");
-    next(kTextColor, line);
-  }
-  if (note.empty()) {
-    next(state.limit == ForceLimit::kNone ? kTextColor : kFeltColor,
-         ("h: help    " + felt_line(state)).c_str());
-  } else {
-    next(kFeltColor, note.c_str());
-  }
-  brush.list.PopClipRect();
+  plot.line(curve, kSpeedColor);
+  const Timeline::Part moments = timeline.plotted();
+  if (moments.empty()) return;
+  // The controller's force, a part of which may have become torque.
+  plot.dot(moments.back().speed_px_s, size_N(moments.back().wanted), kFeltColor);
 }
 
 }  // namespace spidar

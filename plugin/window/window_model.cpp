@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "plugin/window/timeline.h"
+
 namespace spidar {
 
 const Setting* ElementState::setting(const std::string& setting_name) const {
@@ -19,15 +21,22 @@ double ElementState::value(const std::string& setting_name, double otherwise) co
   return found ? found->value : otherwise;
 }
 
-void MotionHistory::add(const Moment& moment) {
-  moments_.push_back(moment);
-  largest_speed_px_s_ = std::max(largest_speed_px_s_, moment.speed_px_s);
-  while (moments_.front().time_s < moment.time_s - kMemory_s) moments_.pop_front();
+std::string count_of(size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-void MotionHistory::forget() {
-  moments_.clear();
-  largest_speed_px_s_ = 0;
+std::vector<uint32_t> felt_objects(const FrameFacts& facts) {
+  std::vector<uint32_t> felt;
+  const MotionKind motion = facts.settings.motion;
+  for (const MovingObject& object : facts.scene.objects) {
+    if (object.tracks == 0) continue;
+    const bool is_felt =
+        motion == MotionKind::kObjects ||
+        // The felt velocity is a copy of the dominant object's: equal to the last bit.
+        (motion == MotionKind::kObject && object.relative_px_s == facts.scene.motion.velocity_px_s);
+    if (is_felt) felt.push_back(object.id);
+  }
+  return felt;
 }
 
 std::string felt_line(const ElementState& state) {
@@ -46,13 +55,13 @@ double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, 
       .norm();
 }
 
-std::vector<double> gain_curve(const ControllerSettings& settings, const MotionHistory& history,
+std::vector<double> gain_curve(const ControllerSettings& settings, const Timeline& timeline,
                                double highest_px_s, int points) {
   std::vector<double> curve;
   try {
     const std::unique_ptr<GainController> controller = make_controller(settings);
-    controller->force_N(history.largest_speed_px_s());
-    for (const Moment& moment : history.moments()) {
+    controller->force_N(timeline.largest_speed_px_s());
+    for (const Moment& moment : timeline.plotted()) {
       if (moment.interval_s > 0) controller->force_N({moment.speed_px_s, moment.interval_s});
     }
     for (int i = 0; i < points; ++i) {

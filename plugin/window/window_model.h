@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +14,8 @@
 #include "plugin/overlay/scene_view.h"
 
 namespace spidar {
+
+class Timeline;
 
 /// A property of the element that can be changed while it plays.
 struct Setting {
@@ -28,6 +29,7 @@ struct Setting {
   Kind kind = Kind::kNumber;
   double value = 0, low = 0, high = 0;
   std::vector<Choice> choices;
+  double initial = 0;  ///< the property's default
 };
 
 /// The element as it is now.
@@ -52,32 +54,12 @@ struct FrameFacts {
   AnalyzerSettings settings;
 };
 
-/// A moment of the plots.
-struct Moment {
-  double time_s = 0;
-  double interval_s = 0;  ///< of the frame before, when a new one has come; 0 otherwise
-  double speed_px_s = 0;  ///< of the reference frame, before the filter
-  double wanted_N = 0;    ///< by the controller, of the newest frame
-  double felt_N = 0;      ///< commanded by the loop, after safety
-};
+/// "1 object", "2 objects".
+std::string count_of(size_t count, const std::string& noun);
 
-/// The last kMemory_s seconds, and the gain curve through them.
-class MotionHistory {
- public:
-  static constexpr double kMemory_s = 5;
-
-  /// Moments in order of time; older ones than kMemory_s before it are forgotten.
-  void add(const Moment& moment);
-  const std::deque<Moment>& moments() const { return moments_; }
-
-  /// Largest speed since the controller began to learn, for the linear one (eq. 13).
-  double largest_speed_px_s() const { return largest_speed_px_s_; }
-  void forget();
-
- private:
-  std::deque<Moment> moments_;
-  double largest_speed_px_s_ = 0;
-};
+/// Ids of the objects whose motion is felt: with kObject the one whose velocity was taken, with
+/// kObjects all that are in sight, otherwise none.
+std::vector<uint32_t> felt_objects(const FrameFacts& facts);
 
 /// "felt", or "not felt: " and why, for the last line of the window.
 std::string felt_line(const ElementState& state);
@@ -86,9 +68,9 @@ std::string felt_line(const ElementState& state);
 double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height);
 
 /// Force in N at `points` speeds from 0 to `highest_px_s`, of a controller that has learnt from
-/// this history: the linear one all there is to know, the adaptive one what kMemory_s seconds tell.
+/// this timeline: the linear one all there is to know, the adaptive one what the plots show.
 /// Empty when the settings are out of range.
-std::vector<double> gain_curve(const ControllerSettings& settings, const MotionHistory& history,
+std::vector<double> gain_curve(const ControllerSettings& settings, const Timeline& timeline,
                                double highest_px_s, int points);
 
 }  // namespace spidar

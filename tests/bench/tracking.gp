@@ -1,39 +1,57 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# docs/figures/tracking.png from the CSV file of bench_tracking:
-#   gnuplot -e "csv='build/tracking.csv'; picture='docs/figures/tracking.png'" tests/bench/tracking.gp
-set terminal pngcairo size 1500,480 font "Sans,11"
+# docs/figures/tracking.png from the tables of docs/tracking.md, which bench_tracking has printed:
+#   gnuplot -e "page='docs/tracking.md'; picture='docs/figures/tracking.png'" tests/bench/tracking.gp
+set encoding utf8
+set terminal pngcairo size 1560,520 font "DejaVu Sans,11"
 set output picture
-set multiplot layout 1,3
-set datafile separator ","
+set multiplot
 set logscale xy
-set grid
+set grid linecolor rgb "#d8d8d8" linetype 1 linewidth 0.5
+set border 3 linecolor rgb "#606060"
+set tics nomirror
 set key off
-set offsets graph 0.1, graph 0.25, graph 0.1, graph 0.15
-set xlabel "median time of a frame, ms"
-set style data points
 
-# Columns of the cases that are averaged over, at 1280x720; 1: ms, 2: the error, 3: name.
-rows(column) = "< awk -F, '$1 == 1280 && $3 == \"usual\" {print $5 \",\" $" . column . " \",\" $4}' " . csv
-point = 'with points pt 7 ps 1.5 lc rgb "#0060ad"'
-name = 'with labels left offset 0.8,0.4'
+# Rows of the n-th pipeline in the tables by size: width, ms, mean end point error, 95 % of B.
+rows(n) = "< awk -F'|' -v n=" . n . " '/^### [0-9]+x/ {split($1, t, /[ x]/); width = t[2]; row = 0} " . \
+          "/^### [^0-9]/ {width = 0} width && NF > 10 && !/---/ && !/pipeline/ " . \
+          "{if (row++ == n) print width, $3, $6, $12}' " . page
+name(n) = system("awk -F'|' '/^### [0-9]/ {inside = 1} inside && NF > 10 && !/---/ && !/pipeline/ " . \
+                 "{if (row++ == " . n . ") {gsub(/^ +| +$/, \"\", $2); print $2; exit}}' " . page)
+last = 9
+
+# One colour and one shape a pipeline, the same in all three plots.
+array colours[10] = ["#7a7a7a", "#d55e00", "#56b4e9", "#0072b2", "#0b2e59", "#009e73", "#7fbf3f", \
+                     "#cc79a7", "#e69f00", "#000000"]
+array shapes[10] = [5, 7, 9, 9, 9, 11, 11, 13, 4, 6]
+
+at_720(n) = rows(n) . " | grep ^1280"
+set xlabel "median time of a frame, ms"
+set bmargin at screen 0.13
+set tmargin at screen 0.9
 
 set title "Tracks, 1280×720"
 set ylabel "mean end point error, px"
-plot rows(8) using 1:2 @point, "" using 1:2:3 @name
+set lmargin at screen 0.06
+set rmargin at screen 0.25
+plot for [n=0:last] at_720(n) using 2:3 with points pointtype shapes[n + 1] pointsize 1.8 \
+     linecolor rgb colours[n + 1]
 
 set title "Velocity of the object, 1280×720"
 set ylabel "95 % of errors are below, px a frame"
-plot rows(14) using 1:2 @point, "" using 1:2:3 @name
+set lmargin at screen 0.315
+set rmargin at screen 0.51
+plot for [n=0:last] at_720(n) using 2:4 with points pointtype shapes[n + 1] pointsize 1.8 \
+     linecolor rgb colours[n + 1]
 
 set title "Time by size of the frame"
 set xlabel "width, px"
 set ylabel "median time of a frame, ms"
-set offsets 0,0,0,0
-set xrange [500:5000]
-set xtics (640, 1280, 1920, 3840) rotate by -30
-set key top left
-names = system("awk -F, 'NR > 1 && !seen[$4]++ {printf \"%s \", $4}' " . csv)
-size(pipeline) = "< awk -F, '$4 == \"" . pipeline . "\" && $3 == \"usual\" {print $1 \",\" $5}' " . csv
-plot for [pipeline in names] size(pipeline) using 1:2 with linespoints pt 7 title pipeline noenhanced
+set lmargin at screen 0.57
+set rmargin at screen 0.765
+set xrange [560:4400]
+set xtics (640, 1280, 1920, 3840)
+set key at screen 0.785, screen 0.88 left top Left reverse noenhanced samplen 2 spacing 1.5
+plot for [n=0:last] rows(n) using 1:2 with linespoints pointtype shapes[n + 1] pointsize 1.3 \
+     linewidth 1.5 linecolor rgb colours[n + 1] title name(n)
 unset multiplot

@@ -10,11 +10,11 @@ build=${1:?usage: tests/bench/tracking.sh BUILD [option of bench_tracking...]}
 shift
 page=docs/tracking.md
 meson compile -C "$build" bench_tracking
-"$build/tests/bench/bench_tracking" --csv "$build/tracking.csv" "$@" >"$build/tracking.txt"
+"$build/tests/bench/bench_tracking" "$@" >"$build/tracking.txt"
 awk -v tables="$build/tracking.txt" '
     /^<!-- end of the tables -->/ { inside = 0 }
     !inside
     /^<!-- tables/ { inside = 1; while ((getline line < tables) > 0) print line; print "" }
 ' "$page" >"$build/tracking.md"
 cp "$build/tracking.md" "$page"
-gnuplot -e "csv='$build/tracking.csv'; picture='docs/figures/tracking.png'" tests/bench/tracking.gp
+gnuplot -e "page='$page'; picture='docs/figures/tracking.png'" tests/bench/tracking.gp

@@ -2,13 +2,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Drives a player through its standard input: check_players.py cpp|python PROGRAM..."""
+import fcntl
 import os
 import pty
 import re
+import resource
+import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import termios
+import time
 import wave
 
 # Keys, and what is to be seen of the status after each.
@@ -66,21 +71,96 @@ def make_sound(folder):
     return file
 
 
-def check_terminal(program, file):
-    """The terminal is left as it was, also when a signal ends the player."""
-    for quit_it in lambda main, player: os.write(main, b"q"), lambda main, player: player.terminate():
+# How a player may end, and its exit code.
+ENDINGS = [
+    (lambda main, player: os.write(main, b"q"), 0),
+    (lambda main, player: player.send_signal(signal.SIGINT), 0),
+    (lambda main, player: player.send_signal(signal.SIGTERM), 0),
+    (lambda main, player: player.send_signal(signal.SIGHUP), 0),
+    (lambda main, player: player.send_signal(signal.SIGQUIT), -signal.SIGQUIT),
+    (lambda main, player: player.send_signal(signal.SIGABRT), -signal.SIGABRT),
+    (lambda main, player: player.send_signal(signal.SIGSEGV), -signal.SIGSEGV),
+    (lambda main, player: None, 0),  # the film ends
+]
+
+
+def start_on_terminal(program, file, terminal, output):
+    # In a process group of its own: one that nobody waits for could not be stopped.
+    return subprocess.Popen([*program, "--headless", file], stdin=terminal, stdout=output,
+                            stderr=subprocess.STDOUT, preexec_fn=start_in_own_group)
+
+
+def start_in_own_group():
+    os.setpgrp()
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def check_terminal(program, film, no_film):
+    """The terminal is left as it was, however the player ends."""
+    for number, (end_it, code) in enumerate(ENDINGS):
         main, terminal = pty.openpty()
         before = termios.tcgetattr(terminal)
-        player = subprocess.Popen([*program, "--headless", file], stdin=terminal,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        player = start_on_terminal(program, film, terminal, subprocess.PIPE)
         player.stdout.readline()  # it plays
         assert termios.tcgetattr(terminal) != before, "keys need a return"
-        quit_it(main, player)
+        end_it(main, player)
         player.communicate(timeout=60)
-        assert player.returncode == 0, player.returncode
-        assert termios.tcgetattr(terminal) == before, "the terminal is not as before"
+        assert player.returncode == code, (number, player.returncode)
+        assert termios.tcgetattr(terminal) == before, f"ending {number}: the terminal is not as before"
         os.close(main)
         os.close(terminal)
+    main, terminal = pty.openpty()
+    before = termios.tcgetattr(terminal)
+    player = start_on_terminal(program, no_film, terminal, subprocess.PIPE)
+    player.communicate(timeout=60)
+    assert player.returncode == 1, player.returncode
+    assert termios.tcgetattr(terminal) == before, "after an error the terminal is not as before"
+    check_stop(program, film, main, terminal)
+
+
+def check_stop(program, film, main, terminal):
+    """Ctrl-Z gives the terminal back for as long as it lasts."""
+    before = termios.tcgetattr(terminal)
+    player = start_on_terminal(program, film, terminal, subprocess.PIPE)
+    player.stdout.readline()
+    player.send_signal(signal.SIGTSTP)
+    _, status = os.waitpid(player.pid, os.WUNTRACED)
+    assert os.WIFSTOPPED(status), status
+    assert termios.tcgetattr(terminal) == before, "stopped, the terminal is not as before"
+    player.send_signal(signal.SIGCONT)
+    while termios.tcgetattr(terminal) == before:  # the test has a limit of its own
+        time.sleep(0.01)
+    os.write(main, b"q")
+    player.communicate(timeout=60)
+    assert termios.tcgetattr(terminal) == before
+    os.close(main)
+    os.close(terminal)
+
+
+def check_screen(program, film):
+    """Keys, status and the force as a bar stand on the terminal, and no line is too long for it."""
+    for width in 100, 30:
+        main, terminal = pty.openpty()
+        fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
+        player = start_on_terminal(program, film, terminal, terminal)
+        os.close(terminal)
+        text = b""
+        try:
+            while part := os.read(main, 65536):
+                text += part
+        except OSError:  # the other end is closed
+            pass
+        player.wait(timeout=60)
+        os.close(main)
+        assert player.returncode == 0, text
+        text = text.decode()
+        lines = [re.sub("\033\\[[0-9]*[A-Z]", "", line) for line in re.split("[\r\n]+", text)]
+        assert any(line.startswith("space pause") for line in lines), text
+        forces = [line for line in lines if line.startswith("force [")]
+        assert forces and any("#" in line for line in forces), text
+        assert max(map(len, lines)) < width, max(lines, key=len)
+        if width == 100:
+            assert re.search(r"force \[#+\.*\]  \d\.\d N  right [+-]\d\.\d", text), text
 
 
 def run(program, file, keys):
@@ -102,7 +182,9 @@ def check(program, script, first):
         assert code == 0
         check_refused(program, folder)
         if sys.argv[1] == "cpp":
-            check_terminal(program, make_clip(folder, 100))
+            film = make_clip(folder, 50)
+            check_terminal(program, film, make_sound(folder))
+            check_screen(program, film)
 
 
 def check_refused(program, folder):

@@ -103,8 +103,8 @@ void add_haptic(SessionRecord& record, const std::string& line) {
 
 TEST(SessionRecord, MotionIsSummedUpwards) {
   SessionRecord record;
-  add_motion(record, "0,0,0,0,0,0,nothing-to-compare");
-  add_motion(record, "500000000,30,-40,0.3,0.4,0,none");
+  add_motion(record, "0,0,0,0,0,0,0,nothing-to-compare");
+  add_motion(record, "500000000,30,-40,0.3,0.4,0,-0.01,none");
   const SessionRecord::Numbers& numbers = record.numbers();
   EXPECT_EQ(numbers.frames, 2u);
   EXPECT_EQ(numbers.limits.at("nothing-to-compare"), 1u);
@@ -117,18 +117,21 @@ TEST(SessionRecord, MotionIsSummedUpwards) {
   std::vector<double> values;
   for (double value; curve >> value;) values.push_back(value);
   // Half a second of 30 px/s to the right and 40 px/s up, y of the image being down.
-  EXPECT_EQ(values, (std::vector<double>{0, 0, 0, 0, 0, 0, 0, 0.5, 15, 20, 30, 40, 0.3, 0.4}));
+  EXPECT_EQ(values, (std::vector<double>{0, 0, 0, 0, 0, 0, 0, 0, 0,  //
+                                         0.5, 15, 20, 30, 40, 0.3, 0.4, 0, -0.01}));
 }
 
 TEST(SessionRecord, OnlyWhatIsPlayedCounts) {
   SessionRecord record;
-  add_haptic(record, "900,1000,0,-1,0,opening,1,0,0");
-  add_haptic(record, "1000000,2000,50,40,1,running,0.03,0.04,0");
-  add_haptic(record, "2000000,2000,60,40,1,running,0,0,0.03");
+  add_haptic(record, "900,1000,0,-1,0,opening,1,0,9,9");
+  add_haptic(record, "1000000,2000,50,40,1,running,0.03,0.04,0,0.001");
+  add_haptic(record, "2000000,2000,60,40,1,running,0,0,-0.03,0");
   record.add_shown(40, 500'000);
   const SessionRecord::Numbers& numbers = record.numbers();
   EXPECT_EQ(numbers.ticks, 2u);
   EXPECT_EQ(numbers.felt_ticks, 1u);  // 0.05 N and 0.03 N
+  EXPECT_EQ(numbers.largest_depth_N, 0.03);
+  EXPECT_EQ(numbers.largest_roll_Nm, 0.001);
   EXPECT_EQ(numbers.lateness_ms.count(), 3u);
   EXPECT_DOUBLE_EQ(numbers.skew.signed_ms().max(), 0.5);
   EXPECT_EQ(record.now().device, "running");

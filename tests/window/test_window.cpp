@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Debug windows on an X server of the test's own: the frame buffer is read back.
-#include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -12,13 +10,9 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "plugin/window/layout.h"
-#include "plugin/window/window.h"
-#include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/video_frames.h"
-#include "tests/support/virtual_display.h"
 #include "tests/window/fake_source.h"
+#include "tests/window/window_fixture.h"
 
 /// Mesa's drivers are unloaded before the sanitizer looks for leaks, so theirs cannot be told from
 /// ours by their names; Mesa and LLVM keep some for good.
@@ -29,132 +23,6 @@ extern "C" int __lsan_is_turned_off() {
 
 namespace spidar::test {
 namespace {
-
-/// Long enough for any machine: it is only reached when a test fails.
-constexpr std::chrono::minutes kLong{2};
-
-struct Color {
-  int r = 0, g = 0, b = 0;
-};
-
-Color at(const Screenshot& shot, double x, double y) {
-  const size_t i = 3 * (static_cast<size_t>(std::floor(y)) * static_cast<size_t>(shot.width) +
-                        static_cast<size_t>(std::floor(x)));
-  return {shot.rgb.at(i), shot.rgb.at(i + 1), shot.rgb.at(i + 2)};
-}
-
-std::string shown(const Color& c) {
-  return std::to_string(c.r) + " " + std::to_string(c.g) + " " + std::to_string(c.b);
-}
-
-bool is_grey(const Color& c) {
-  // A conversion from limited to full range may be off by one level a channel.
-  return std::abs(c.r - c.g) <= 2 && std::abs(c.g - c.b) <= 2 && c.r < 200;
-}
-bool is_red(const Color& c) {
-  return c.r > 180 && c.g < 100 && c.b < 100;
-}
-bool is_white(const Color& c) {
-  return c.r > 240 && c.g > 240 && c.b > 240;
-}
-
-class WindowTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    init_gstreamer();
-    display = &VirtualDisplay::shared();
-  }
-  void SetUp() override {
-    if (!display->runs()) GTEST_SKIP() << VirtualDisplay::kWhyNot;
-  }
-
-  /// A grey frame of 320 × 240 with `facts`.
-  static void give(FrameFeed& feed, FrameFacts facts, int level = 128) {
-    GstVideoInfo info;
-    gst_video_info_set_format(&info, GST_VIDEO_FORMAT_RGB, 320, 240);
-    GstBuffer* buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
-    gst_buffer_memset(buffer, 0, static_cast<guint8>(level), GST_VIDEO_INFO_SIZE(&info));
-    GstVideoFrame frame;
-    gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ);
-    facts.visible = visible_part(frame);
-    while (!feed.give(frame, facts)) {
-    }
-    gst_video_frame_unmap(&frame);
-    gst_buffer_unref(buffer);
-  }
-
-  static Screenshot look(Window& window) {
-    std::optional<Screenshot> shot = window.screenshot(kLong);
-    EXPECT_TRUE(shot.has_value());
-    return shot ? std::move(*shot) : Screenshot{1, 1, {0, 0, 0}};
-  }
-
-  static PictureMap map_of(const Screenshot& shot) {
-    return map_picture(lay_out(shot.width, shot.height, 1).picture, 0, 0, 320, 240, 1);
-  }
-
-  static VirtualDisplay* display;
-};
-VirtualDisplay* WindowTest::display;
-
-TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
-  auto feed = std::make_shared<FrameFeed>();
-  ElementState state;
-  state.settings = {{"arrow-scale", "", Setting::Kind::kNumber, 5, 0.1, 100, {}}};
-  Window window(std::make_shared<FakeSource>(state), feed);
-  FrameFacts facts;
-  // To the right by 8 px: 40 px at this scale, from x = 60 to x = 100.
-  facts.scene.tracks.push_back({1, {60, 80}, {68, 80}, TrackOwner::kObject, 1, false});
-  facts.scene.wrench.force_N = {0, -3, 0};  // down, the most there is
-  give(*feed, facts);
-  const Screenshot shot = look(window);
-  const PictureMap map = map_of(shot);
-  const auto color = [&](double x_px, double y_px) {
-    const Eigen::Vector2d p = map({x_px, y_px});
-    return at(shot, p.x(), p.y());
-  };
-  // The shaft is 2.5 px wide or more and its ends are soft: a pixel inside each end.
-  for (const double x : {61.0, 70.0, 80.0, 90.0, 98.5}) {
-    EXPECT_TRUE(is_red(color(x, 80))) << x << ": " << shown(color(x, 80));
-  }
-  for (const auto& [x, y] : {std::pair{57, 80}, {103, 80}, {75, 77}, {75, 83}}) {
-    EXPECT_TRUE(is_grey(color(x, y))) << x << "," << y << ": " << shown(color(x, y));
-  }
-  // The felt arrow: from the middle, a fifth of the picture's 240 lines long.
-  EXPECT_TRUE(is_white(color(159.5, 121)));
-  EXPECT_TRUE(is_white(color(159.5, 119.5 + 46)));
-  EXPECT_TRUE(is_grey(color(159.5, 119.5 + 54)));
-  EXPECT_TRUE(is_grey(color(159.5, 112)));
-}
-
-TEST_F(WindowTest, ATensionBarHasItsHeight) {
-  ElementState state;
-  state.device.emplace();
-  DeviceView& device = *state.device;
-  device.name = "known";
-  device.geometry.count = 2;
-  device.geometry.exit_m[0] = {-0.1, 0, 0};
-  device.geometry.exit_m[1] = {0.1, 0, 0};
-  device.min_tension_N.head<2>() << 0.5, 0.5;
-  device.max_tension_N.head<2>() << 5, 5;
-  device.loop.last.tension_N.head<2>() << 4, 1.5;
-  Window window(std::make_shared<FakeSource>(state), std::make_shared<FrameFeed>());
-  const Screenshot shot = look(window);
-  const WindowLayout layout = lay_out(shot.width, shot.height, 1);
-  const auto bars = tension_bars(GripProjection(layout.grip, device.geometry), device, 1);
-  const double share[] = {0.8, 0.3};
-  for (size_t i = 0; i < 2; ++i) {
-    const Rect& range = bars[i].range;
-    int blue = 0;
-    for (double y = range.y + 1.5; y < range.bottom() - 1; ++y) {
-      const Color c = at(shot, range.x + range.width / 2, y);
-      blue += c.b > 200 && c.r < 100;
-    }
-    // The border takes a line at the lower end, the mark of the smallest tension two, for it lies
-    // between lines, and the bar's own end may be half covered: four lines of 44.
-    EXPECT_NEAR(blue, share[i] * range.height, 4) << "string " << i;
-  }
-}
 
 TEST_F(WindowTest, KeysChangeSettingsAndQClosesTheWindow) {
   ElementState state;

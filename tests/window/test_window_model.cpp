@@ -2,13 +2,18 @@
 // Copyright 2026 the gst-spidar authors
 // What a debug window is made of, without a window.
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "plugin/display/element_source.h"
+#include "plugin/spidar_motion.h"
 #include "plugin/window/frame_feed.h"
 #include "plugin/window/layout.h"
+#include "plugin/window/setting_text.h"
+#include "plugin/window/timeline.h"
 #include "plugin/window/window_model.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
@@ -25,6 +30,30 @@ TEST(FeltLine, SaysWhyNothingIsFelt) {
   EXPECT_EQ(felt_line(state), std::string("not felt: ") + sentence(ForceLimit::kCameraOnly));
 }
 
+TEST(CountOf, OneIsNotMany) {
+  EXPECT_EQ(count_of(0, "object"), "0 objects");
+  EXPECT_EQ(count_of(1, "object"), "1 object");
+  EXPECT_EQ(count_of(2, "object"), "2 objects");
+}
+
+TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
+  FrameFacts facts;
+  for (const uint32_t id : {3u, 5u, 8u}) {
+    MovingObject object;
+    object.id = id;
+    object.tracks = id == 8 ? 0 : 10;  // the last one is out of sight
+    object.relative_px_s = {10.0 * id, 1};
+    facts.scene.objects.push_back(object);
+  }
+  facts.scene.motion.velocity_px_s = facts.scene.objects[1].relative_px_s;
+  facts.settings.motion = MotionKind::kObject;
+  EXPECT_EQ(felt_objects(facts), std::vector<uint32_t>{5});
+  facts.settings.motion = MotionKind::kObjects;
+  EXPECT_EQ(felt_objects(facts), (std::vector<uint32_t>{3, 5}));
+  facts.settings.motion = MotionKind::kCamera;
+  EXPECT_TRUE(felt_objects(facts).empty());
+}
+
 TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
   for (const auto& [width, height] :
        {std::pair{1280, 800}, {640, 480}, {3840, 2160}, {20, 10}, {1, 1}, {0, 0}, {500, 2000}}) {
@@ -32,8 +61,8 @@ TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
       SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height) + " at " +
                    std::to_string(scale));
       const WindowLayout l = lay_out(width, height, scale);
-      const std::vector<Rect> panels{l.picture, l.force, l.speed,   l.status,
-                                     l.grip,    l.gain,  l.controls};
+      const std::vector<Rect> panels{l.picture, l.timeline, l.force,    l.speed,   l.gain,
+                                     l.status,  l.grip,     l.tensions, l.controls};
       for (size_t i = 0; i < panels.size(); ++i) {
         const Rect& a = panels[i];
         EXPECT_GE(a.width, 0);
@@ -75,14 +104,18 @@ TEST(Layout, TensionBarsShowTheirShareOfTheRange) {
   device.max_tension_N.head<3>() << 5, 5, 0;  // the last one has no range
   device.loop.last.tension_N.head<3>() << 2, 9, 1;
   const Rect panel{0, 0, 300, 300};
-  const auto bars = tension_bars(GripProjection(panel, device.geometry), device, 2);
+  const auto bars = tension_bars(panel, device);
   ASSERT_EQ(bars.size(), 3u);
   EXPECT_NEAR(bars[0].filled.height, 0.4 * bars[0].range.height, kRounding);
   EXPECT_NEAR(bars[0].filled.bottom(), bars[0].range.bottom(), kRounding);
   EXPECT_NEAR(bars[0].range.bottom() - bars[0].least_y, 0.1 * bars[0].range.height, kRounding);
   EXPECT_NEAR(bars[1].filled.height, bars[1].range.height, kRounding) << "not above its range";
   EXPECT_EQ(bars[2].filled.height, 0);
-  EXPECT_GT(bars[0].range.x, bars[1].range.x);
+  for (size_t i = 0; i < bars.size(); ++i) {
+    EXPECT_NEAR(bars[i].range.x + bars[i].range.width / 2, 50.0 + 100.0 * static_cast<double>(i),
+                kRounding)
+        << "side by side, in the order of the strings";
+  }
 }
 
 TEST(Layout, TheGripIsSeenFromTheRightAndAbove) {
@@ -98,37 +131,54 @@ TEST(Layout, TheGripIsSeenFromTheRightAndAbove) {
   EXPECT_GT(project({0, 0, 0.1}).y(), centre.y()) << "and down";
 }
 
-TEST(History, RemembersFiveSecondsAndTheLargestSpeed) {
-  MotionHistory history;
-  for (int i = 0; i <= 100; ++i) history.add({0.1 * i, 0, i == 3 ? 500.0 : 10.0, 0, 0});
-  EXPECT_NEAR(history.moments().front().time_s, 5, 0.1 + kRounding);
-  EXPECT_NEAR(history.moments().back().time_s, 10, kRounding);
-  EXPECT_EQ(history.largest_speed_px_s(), 500) << "also when it is not shown any more";
-  history.forget();
-  EXPECT_TRUE(history.moments().empty());
-  EXPECT_EQ(history.largest_speed_px_s(), 0);
+TEST(Settings, EachHasAGroupAndItsDefault) {
+  init_gstreamer();
+  auto* element = GST_ELEMENT(g_object_ref_sink(g_object_new(GST_TYPE_SPIDAR_MOTION, nullptr)));
+  const std::shared_ptr<WindowSource> source = make_element_source(element);
+  ElementState state;
+  ASSERT_TRUE(source->read(state));
+  std::multiset<std::string> there, shown{"mute"};
+  for (const Setting& setting : state.settings) {
+    there.insert(setting.name);
+    EXPECT_FALSE(is_changed(setting))
+        << setting.name << " is " << setting.value << ", not " << setting.initial;
+  }
+  for (const SettingGroup& group : setting_groups()) {
+    for (const SettingText& text : group.settings) shown.insert(text.property);
+  }
+  EXPECT_EQ(there, shown);
+  g_object_set(element, "max-force", 2.5, nullptr);
+  ASSERT_TRUE(source->read(state));
+  ASSERT_NE(state.setting("max-force"), nullptr);
+  EXPECT_TRUE(is_changed(*state.setting("max-force")));
+  gst_object_unref(element);
 }
 
 TEST(GainCurve, IsThatOfTheController) {
-  MotionHistory history;
-  history.add({0, 0.04, 400, 0, 0});
-  history.add({0.02, 0, 400, 0, 0});
+  Timeline timeline;
+  Moment moment;
+  moment.speed_px_s = 400;
+  moment.interval_s = 0.04;
+  timeline.add(moment);
+  moment.time_s = 0.02;
+  moment.interval_s = 0;
+  timeline.add(moment);
   ControllerSettings settings;  // eq. 15: 2 · 3 / π · atan(0.01 v)
-  const std::vector<double> nonlinear = gain_curve(settings, history, 200, 3);
+  const std::vector<double> nonlinear = gain_curve(settings, timeline, 200, 3);
   ASSERT_EQ(nonlinear.size(), 3u);
   EXPECT_EQ(nonlinear[0], 0);
   EXPECT_NEAR(nonlinear[1], 1.5, kRounding);
   EXPECT_NEAR(nonlinear[2], 6 / M_PI * std::atan(2.0), kRounding);
   settings.kind = ControllerKind::kLinear;  // eq. 12: k = 3 / 400
-  const std::vector<double> linear = gain_curve(settings, history, 200, 3);
+  const std::vector<double> linear = gain_curve(settings, timeline, 200, 3);
   EXPECT_NEAR(linear[2], 1.5, kRounding);
   // The same as one that was given the frame, once.
   settings.kind = ControllerKind::kAdaptive;
   const auto adaptive = make_controller(settings);
   adaptive->force_N({400, 0.04});
-  EXPECT_NEAR(gain_curve(settings, history, 200, 3)[1], adaptive->force_N(100), kRounding);
+  EXPECT_NEAR(gain_curve(settings, timeline, 200, 3)[1], adaptive->force_N(100), kRounding);
   settings.max_force_N = -1;
-  EXPECT_TRUE(gain_curve(settings, history, 200, 3).empty());
+  EXPECT_TRUE(gain_curve(settings, timeline, 200, 3).empty());
 }
 
 TEST(GainCurve, SpeedIsThatOfTheReferenceFrame) {

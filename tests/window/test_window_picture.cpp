@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What a debug window shows, read back from the frame buffer.
+#include <memory>
+#include <thread>
+
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include "tests/window/fake_source.h"
+#include "tests/window/window_fixture.h"
+
+namespace spidar::test {
+namespace {
+
+TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
+  auto feed = std::make_shared<FrameFeed>();
+  ElementState state;
+  state.settings = {{"arrow-scale", "", Setting::Kind::kNumber, 5, 0.1, 100, {}}};
+  Window window(std::make_shared<FakeSource>(state), feed);
+  FrameFacts facts;
+  // To the right by 8 px: 40 px at this scale, from x = 60 to x = 100.
+  facts.scene.tracks.push_back({1, {60, 80}, {68, 80}, TrackOwner::kObject, 1, false});
+  facts.scene.wrench.force_N = {0, -3, 0};  // down, the most there is
+  give(*feed, facts);
+  Screenshot shot = look(window);
+  const PictureMap map = map_of(shot);
+  const auto color = [&](double x_px, double y_px) {
+    const Eigen::Vector2d p = map({x_px, y_px});
+    return at(shot, p.x(), p.y());
+  };
+  const Color faint = color(80, 80);
+  EXPECT_FALSE(is_red(faint)) << "a track of an object that is not felt: " << shown(faint);
+  EXPECT_GT(faint.r, faint.g + 20) << shown(faint);
+  window.press(GLFW_KEY_D);  // with all detail
+  shot = look(window);
+  // The shaft is 2.5 px wide or more and its ends are soft: a pixel inside each end.
+  for (const double x : {61.0, 70.0, 80.0, 90.0, 98.5}) {
+    EXPECT_TRUE(is_red(color(x, 80))) << x << ": " << shown(color(x, 80));
+  }
+  for (const auto& [x, y] : {std::pair{57, 80}, {103, 80}, {75, 77}, {75, 83}}) {
+    EXPECT_TRUE(is_grey(color(x, y))) << x << "," << y << ": " << shown(color(x, y));
+  }
+  // The felt arrow: from the middle, a fifth of the picture's 240 lines long.
+  EXPECT_TRUE(is_white(color(159.5, 121)));
+  EXPECT_TRUE(is_white(color(159.5, 119.5 + 46)));
+  // Six pixels of the window beyond the tip its newtons are written.
+  EXPECT_FALSE(is_white(color(159.5, 119.5 + 48 + 5 / map.scale_y)));
+  EXPECT_TRUE(is_grey(color(159.5, 112)));
+}
+
+TEST_F(WindowTest, ATensionBarHasItsHeight) {
+  ElementState state;
+  state.device.emplace();
+  DeviceView& device = *state.device;
+  device.name = "known";
+  device.geometry.count = 2;
+  device.geometry.exit_m[0] = {-0.1, 0, 0};
+  device.geometry.exit_m[1] = {0.1, 0, 0};
+  device.min_tension_N.head<2>() << 0.5, 0.5;
+  device.max_tension_N.head<2>() << 5, 5;
+  device.loop.last.tension_N.head<2>() << 4, 1.5;
+  Window window(std::make_shared<FakeSource>(state), std::make_shared<FrameFeed>());
+  const Screenshot shot = look(window);
+  const WindowLayout layout = lay_out(shot.width, shot.height, 1);
+  const auto bars = tension_bars(tension_area(layout.tensions, 1), device);
+  const double share[] = {0.8, 0.3};
+  for (size_t i = 0; i < 2; ++i) {
+    const Rect& range = bars[i].range;
+    int blue = 0;
+    for (double y = range.y + 1.5; y < range.bottom() - 1; ++y) {
+      const Color c = at(shot, range.x + range.width / 2, y);
+      blue += c.b > 200 && c.r < 100;
+    }
+    // The loop leaves out two and a half lines at the ends, the mark of the smallest tension covers
+    // two, for it lies between lines, and the bar's own end may be half covered.
+    EXPECT_NEAR(blue, share[i] * range.height, 5) << "string " << i;
+  }
+}
+
+TEST_F(WindowTest, APauseHoldsThePictureAndLooksBack) {
+  auto feed = std::make_shared<FrameFeed>();
+  Window window(std::make_shared<FakeSource>(), feed);
+  const auto level = [&] {
+    const Screenshot shot = look(window);
+    const Eigen::Vector2d middle = map_of(shot)({100, 100});
+    return at(shot, middle.x(), middle.y()).g;
+  };
+  give(*feed, {}, 60);
+  EXPECT_NEAR(level(), 60, 1);
+  window.press(GLFW_KEY_P);
+  EXPECT_NEAR(level(), 60, 1) << "the small picture of it";
+  // Pictures are kept a quarter of a second apart: this one as well, however slow the window is.
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  give(*feed, {}, 160);
+  EXPECT_NEAR(level(), 60, 1) << "in a pause it stays";
+  window.press(GLFW_KEY_P);
+  EXPECT_NEAR(level(), 160, 1) << "and then shows the newest";
+  window.press(GLFW_KEY_P);
+  EXPECT_NEAR(level(), 160, 1);
+  for (int i = 0; i < 600; ++i) window.press(GLFW_KEY_COMMA);
+  EXPECT_NEAR(level(), 60, 1) << "the oldest, a minute of steps back";
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Windows of a test, and the colours in their pictures.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "plugin/window/layout.h"
+#include "plugin/window/window.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+#include "tests/support/virtual_display.h"
+
+namespace spidar::test {
+
+/// Long enough for any machine: it is only reached when a test fails.
+constexpr std::chrono::minutes kLong{2};
+
+struct Color {
+  int r = 0, g = 0, b = 0;
+};
+
+inline Color at(const Screenshot& shot, double x, double y) {
+  const size_t i = 3 * (static_cast<size_t>(std::floor(y)) * static_cast<size_t>(shot.width) +
+                        static_cast<size_t>(std::floor(x)));
+  return {shot.rgb.at(i), shot.rgb.at(i + 1), shot.rgb.at(i + 2)};
+}
+
+inline std::string shown(const Color& c) {
+  return std::to_string(c.r) + " " + std::to_string(c.g) + " " + std::to_string(c.b);
+}
+
+inline bool is_grey(const Color& c) {
+  // A conversion from limited to full range may be off by one level a channel.
+  return std::abs(c.r - c.g) <= 2 && std::abs(c.g - c.b) <= 2 && c.r < 200;
+}
+inline bool is_red(const Color& c) {
+  return c.r > 180 && c.g < 100 && c.b < 100;
+}
+inline bool is_white(const Color& c) {
+  return c.r > 240 && c.g > 240 && c.b > 240;
+}
+
+class WindowTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    init_gstreamer();
+    display = &VirtualDisplay::shared();
+  }
+  void SetUp() override {
+    if (!display->runs()) GTEST_SKIP() << VirtualDisplay::kWhyNot;
+  }
+
+  /// A grey frame of 320 × 240 with `facts`.
+  static void give(FrameFeed& feed, FrameFacts facts, int level = 128) {
+    GstVideoInfo info;
+    gst_video_info_set_format(&info, GST_VIDEO_FORMAT_RGB, 320, 240);
+    GstBuffer* buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
+    gst_buffer_memset(buffer, 0, static_cast<guint8>(level), GST_VIDEO_INFO_SIZE(&info));
+    GstVideoFrame frame;
+    gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ);
+    facts.visible = visible_part(frame);
+    while (!feed.give(frame, facts)) {
+    }
+    gst_video_frame_unmap(&frame);
+    gst_buffer_unref(buffer);
+  }
+
+  static Screenshot look(Window& window) {
+    std::optional<Screenshot> shot = window.screenshot(kLong);
+    EXPECT_TRUE(shot.has_value());
+    return shot ? std::move(*shot) : Screenshot{1, 1, {0, 0, 0}};
+  }
+
+  static PictureMap map_of(const Screenshot& shot) {
+    return map_picture(lay_out(shot.width, shot.height, 1).picture, 0, 0, 320, 240, 1);
+  }
+
+  static inline VirtualDisplay* display = nullptr;
+};
+
+}  // namespace spidar::test
