@@ -14,6 +14,7 @@
 #include <gst/gst.h>
 
 #include "plugin/feel/feel_tracer.h"
+#include "spidar/install_folder.h"
 
 namespace {
 
@@ -74,7 +75,7 @@ Wish parse(int argc, char** argv) {
 std::string plugin_folder() {
   std::error_code error;
   const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder : {beside, fs::path(SPIDAR_PLUGIN_DIR)})
+  for (const fs::path& folder : {beside, spidar::installed(SPIDAR_PLUGIN_DIR)})
     if (fs::exists(folder / "libgstspidar.so", error)) return folder.string();
   return {};
 }

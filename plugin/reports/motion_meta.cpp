@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/reports/motion_meta.h"
 
-#include "plugin/reports/gstspidarmotionmeta.h"
+#include <gst-spidar/gstspidarmotionmeta.h>
 
 namespace spidar {
 namespace {

@@ -26,9 +26,9 @@
  */
 #include "plugin/track/spidar_extract.h"
 
+#include <gst-spidar/gstspidarmotionmeta.h>
 #include <gst/base/gstflowcombiner.h>
 
-#include "plugin/reports/gstspidarmotionmeta.h"
 #include "plugin/track/track_stream.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "spidar/device.h"
+#include "spidar/install_folder.h"
 #include "spidar/realtime/monotonic.h"
 
 extern char** environ;
@@ -26,7 +27,7 @@ constexpr time_t kPatience_s = 5;
 
 std::string program() {
   const char* named = std::getenv("SPIDAR_GUARDIAN");
-  return named && *named ? named : SPIDAR_GUARDIAN_PATH;
+  return named && *named ? named : installed(SPIDAR_GUARDIAN_PATH).string();
 }
 
 /// Starts the program with `its_end` as its standard input. Returns errno.

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "spidar/install_folder.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/profiles/shipped_profiles.h"
 
@@ -29,7 +30,7 @@ std::vector<fs::path> search_path() {
     for (std::string part; std::getline(parts, part, ':');)
       if (!part.empty()) folders.emplace_back(part);
   }
-  folders.emplace_back(SPIDAR_PROFILE_DIR);
+  folders.push_back(installed(SPIDAR_PROFILE_DIR));
   return folders;
 }
 

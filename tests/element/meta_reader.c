@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Copyright 2026 the gst-spidar authors */
 /* A program in C that reads the meta. */
-#include "plugin/reports/gstspidarmotionmeta.h"
+#include <gst-spidar/gstspidarmotionmeta.h>
 
 gboolean read_motion_in_c (GstBuffer * buffer, GstSpidarMotion * motion);
 GArray *read_tracks_in_c (GstBuffer * buffer);

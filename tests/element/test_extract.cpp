@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include <gst-spidar/gstspidarmotionmeta.h>
 #include <gst/check/gstharness.h>
 #include <gtest/gtest.h>
 
 #include "core/track/track_format.h"
-#include "plugin/reports/gstspidarmotionmeta.h"
 #include "plugin/reports/motion_meta.h"
 #include "plugin/track/spidar_extract.h"
 #include "plugin/track/track_stream.h"

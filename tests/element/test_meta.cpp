@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <gst-spidar/gstspidarmotionmeta.h>
 #include <gtest/gtest.h>
 
-#include "plugin/reports/gstspidarmotionmeta.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 

@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/api.h"
 #include "spidar/transports/link_fault.h"
 #include "tests/emulated_bus/evdev_port.h"
+#include "tests/emulated_bus/exported.h"
 
 namespace spidar::test {
 
@@ -65,16 +65,16 @@ struct BusState {
 /// The bus of this process: shared with the processes that have the same $SPIDAR_EMULATED_BUS, a
 /// file that is made when it is not there; without, its own. When that is "sh4", "simple" or
 /// "mouse", its own with such a board; "stick", "wheel" or "pad", with such an input device.
-SPIDAR_API BusState& bus();
+BUS_API BusState& bus();
 
 /// The device is in the list of the bus from now on, as 1-1, 1-2, …, at rest.
-SPIDAR_API UsbPort& plug(size_t port, UsbKind kind, const char* serial = "");
+BUS_API UsbPort& plug(size_t port, UsbKind kind, const char* serial = "");
 
 /// Pulls it out. What is in flight fails with `errno_first` (EPROTO is common) or, when that is
 /// zero, with ESHUTDOWN; what comes later with ENODEV.
-SPIDAR_API void unplug(size_t port, int errno_first = 0);
+BUS_API void unplug(size_t port, int errno_first = 0);
 
 /// Everything pulled out and forgotten.
-SPIDAR_API void clear_bus();
+BUS_API void clear_bus();
 
 }  // namespace spidar::test

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/api.h"
+#include "tests/emulated_bus/exported.h"
 
 namespace spidar::test {
 
@@ -55,10 +55,10 @@ struct EvdevPort {
 constexpr size_t kEvdevPorts = 4;
 
 /// The device is listed and can be opened from now on, its effects and counters fresh.
-SPIDAR_API EvdevPort& plug_evdev(size_t number, EvdevKind kind);
+BUS_API EvdevPort& plug_evdev(size_t number, EvdevKind kind);
 
 /// Open files of it say ENODEV from now on.
-SPIDAR_API void unplug_evdev(size_t number);
+BUS_API void unplug_evdev(size_t number);
 
 /// What the effects that play add up to. As the kernel does, it erases them when no process has
 /// the device open and locked any more.
@@ -68,6 +68,6 @@ struct EvdevLevels {
   int rumble = 0;
   bool at_rest() const { return right == 0 && up == 0 && rumble == 0; }
 };
-SPIDAR_API EvdevLevels evdev_levels(size_t number);
+BUS_API EvdevLevels evdev_levels(size_t number);
 
 }  // namespace spidar::test

@@ -20,10 +20,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "core/api.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/descriptors.h"
 #include "tests/emulated_bus/evdev_files.h"
+#include "tests/emulated_bus/exported.h"
 #include "tests/emulated_bus/usb_files.h"
 
 namespace spidar::test {
@@ -93,15 +93,15 @@ using namespace spidar::test;
 
 // Declared by hand: libc's own declarations differ in attributes between versions.
 extern "C" {
-SPIDAR_API int open(const char* path, int flags, ...);
-SPIDAR_API int open64(const char* path, int flags, ...);
-SPIDAR_API int __open_2(const char* path, int flags);
-SPIDAR_API int __open64_2(const char* path, int flags);
-SPIDAR_API int ioctl(int file, unsigned long request, ...);
-SPIDAR_API int close(int file);
-SPIDAR_API int access(const char* path, int mode);
-SPIDAR_API DIR* opendir(const char* path);
-SPIDAR_API ssize_t write(int file, const void* bytes, size_t length);
+BUS_API int open(const char* path, int flags, ...);
+BUS_API int open64(const char* path, int flags, ...);
+BUS_API int __open_2(const char* path, int flags);
+BUS_API int __open64_2(const char* path, int flags);
+BUS_API int ioctl(int file, unsigned long request, ...);
+BUS_API int close(int file);
+BUS_API int access(const char* path, int mode);
+BUS_API DIR* opendir(const char* path);
+BUS_API ssize_t write(int file, const void* bytes, size_t length);
 
 int open(const char* path, int flags, ...) {
   va_list arguments;

@@ -9,8 +9,8 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/api.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/exported.h"
 
 using namespace spidar::test;
 
@@ -45,46 +45,46 @@ udev_device* device_in(size_t port) {
 
 extern "C" {
 
-SPIDAR_API udev* udev_new() {
+BUS_API udev* udev_new() {
   return new udev;
 }
-SPIDAR_API udev* udev_unref(udev* u) {
+BUS_API udev* udev_unref(udev* u) {
   delete u;
   return nullptr;
 }
 
-SPIDAR_API udev_monitor* udev_monitor_new_from_netlink(udev*, const char*) {
+BUS_API udev_monitor* udev_monitor_new_from_netlink(udev*, const char*) {
   return new udev_monitor{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
 }
-SPIDAR_API int udev_monitor_filter_add_match_subsystem_devtype(udev_monitor*, const char*,
-                                                               const char*) {
+BUS_API int udev_monitor_filter_add_match_subsystem_devtype(udev_monitor*, const char*,
+                                                            const char*) {
   return 0;
 }
-SPIDAR_API int udev_monitor_enable_receiving(udev_monitor*) {
+BUS_API int udev_monitor_enable_receiving(udev_monitor*) {
   return 0;
 }
-SPIDAR_API int udev_monitor_get_fd(udev_monitor* monitor) {
+BUS_API int udev_monitor_get_fd(udev_monitor* monitor) {
   return monitor->file;
 }
-SPIDAR_API udev_device* udev_monitor_receive_device(udev_monitor*) {
+BUS_API udev_device* udev_monitor_receive_device(udev_monitor*) {
   return nullptr;
 }
-SPIDAR_API udev_monitor* udev_monitor_unref(udev_monitor* monitor) {
+BUS_API udev_monitor* udev_monitor_unref(udev_monitor* monitor) {
   close(monitor->file);
   delete monitor;
   return nullptr;
 }
 
-SPIDAR_API udev_enumerate* udev_enumerate_new(udev*) {
+BUS_API udev_enumerate* udev_enumerate_new(udev*) {
   return new udev_enumerate;
 }
-SPIDAR_API int udev_enumerate_add_match_subsystem(udev_enumerate*, const char*) {
+BUS_API int udev_enumerate_add_match_subsystem(udev_enumerate*, const char*) {
   return 0;
 }
-SPIDAR_API int udev_enumerate_add_match_property(udev_enumerate*, const char*, const char*) {
+BUS_API int udev_enumerate_add_match_property(udev_enumerate*, const char*, const char*) {
   return 0;
 }
-SPIDAR_API int udev_enumerate_scan_devices(udev_enumerate* list) {
+BUS_API int udev_enumerate_scan_devices(udev_enumerate* list) {
   for (size_t i = 0; i < kPorts; ++i)
     if (bus().port[i].kind != UsbKind::kNone)
       list->entries.push_back({kSysfs + "1-" + std::to_string(i + 1), nullptr});
@@ -92,36 +92,36 @@ SPIDAR_API int udev_enumerate_scan_devices(udev_enumerate* list) {
     list->entries[i].next = &list->entries[i + 1];
   return 0;
 }
-SPIDAR_API udev_list_entry* udev_enumerate_get_list_entry(udev_enumerate* list) {
+BUS_API udev_list_entry* udev_enumerate_get_list_entry(udev_enumerate* list) {
   return list->entries.empty() ? nullptr : list->entries.data();
 }
-SPIDAR_API udev_enumerate* udev_enumerate_unref(udev_enumerate* list) {
+BUS_API udev_enumerate* udev_enumerate_unref(udev_enumerate* list) {
   delete list;
   return nullptr;
 }
-SPIDAR_API udev_list_entry* udev_list_entry_get_next(udev_list_entry* entry) {
+BUS_API udev_list_entry* udev_list_entry_get_next(udev_list_entry* entry) {
   return entry->next;
 }
-SPIDAR_API const char* udev_list_entry_get_name(udev_list_entry* entry) {
+BUS_API const char* udev_list_entry_get_name(udev_list_entry* entry) {
   return entry->syspath.c_str();
 }
 
-SPIDAR_API udev_device* udev_device_new_from_syspath(udev*, const char* path) {
+BUS_API udev_device* udev_device_new_from_syspath(udev*, const char* path) {
   for (size_t i = 0; i < kPorts; ++i)
     if (path == kSysfs + "1-" + std::to_string(i + 1) && bus().port[i].kind != UsbKind::kNone)
       return device_in(i);
   return nullptr;
 }
-SPIDAR_API const char* udev_device_get_devnode(udev_device* device) {
+BUS_API const char* udev_device_get_devnode(udev_device* device) {
   return device->node.c_str();
 }
-SPIDAR_API const char* udev_device_get_sysname(udev_device* device) {
+BUS_API const char* udev_device_get_sysname(udev_device* device) {
   return device->name.c_str();
 }
-SPIDAR_API const char* udev_device_get_action(udev_device*) {
+BUS_API const char* udev_device_get_action(udev_device*) {
   return "add";
 }
-SPIDAR_API udev_device* udev_device_unref(udev_device* device) {
+BUS_API udev_device* udev_device_unref(udev_device* device) {
   delete device;
   return nullptr;
 }

@@ -4,11 +4,11 @@
 //
 // feel-player PLAYBIN FILM STEP...: PLAYBIN is playbin or playbin3. Steps are
 //   own-filter, own-sink    the application's own video-filter; its own spidarmotion, device=none
-//   preroll, play, pause, stop, other (a second player is used from now on)
-//   frames=N, wait=MS       until so many more frames were shown; for so long
-//   loaded                  says whether the plugin is in this process
-//   stay                    for ever
-//   exit                    without stopping
+//   window                  a sink that takes what a window takes, and nothing that converts before
+//   it preroll, play, pause, stop, other (a second player is used from now on) frames=N, wait=MS
+//   until so many more frames were shown; for so long loaded                  says whether the
+//   plugin is in this process stay                    for ever exit                    without
+//   stopping
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -40,6 +40,24 @@ GstElement* make_player(const char* playbin, const std::string& film) {
   g_object_set(player, "uri", uri, "video-sink", sink, nullptr);
   g_free(uri);
   return player;
+}
+
+/// As a window: a format that a screen has, and no conversion by playbin itself.
+void show_in_window(GstElement* player) {
+  // Of GstPlayFlags, which is no public type. Without the others playbin has no reason to convert.
+  constexpr guint kVideo = 1 << 0, kNativeVideo = 1 << 6;
+  GstElement* sink = nullptr;
+  g_object_get(player, "video-sink", &sink, nullptr);
+  GstElement* window = gst_bin_new("window");
+  GstElement* format = gst_element_factory_make("capsfilter", nullptr);
+  gst_util_set_object_arg(G_OBJECT(format), "caps", "video/x-raw,format=BGRx");
+  gst_bin_add_many(GST_BIN(window), format, sink, nullptr);
+  gst_element_link(format, sink);
+  GstPad* pad = gst_element_get_static_pad(format, "sink");
+  gst_element_add_pad(window, gst_ghost_pad_new("sink", pad));
+  gst_object_unref(pad);
+  g_object_set(player, "flags", kVideo | kNativeVideo, "video-sink", window, nullptr);
+  gst_object_unref(sink);
 }
 
 /// Ends the program when the player fails.
@@ -85,6 +103,8 @@ int main(int argc, char** argv) {
       set_state(player, states.at(name));
     } else if (name == "own-filter") {
       g_object_set(player, "video-filter", gst_element_factory_make("identity", nullptr), nullptr);
+    } else if (name == "window") {
+      show_in_window(player);
     } else if (name == "own-sink") {
       g_object_set(
           player, "video-sink",

@@ -198,6 +198,33 @@ TEST_F(Feel, TheNextFilmIsFeltToo) {
   EXPECT_TRUE(port.at_rest());
 }
 
+TEST_F(Feel, AFilmOfTenBitsWithFullColourIsConvertedForTheScreen) {
+  const std::string deep = (folder->path / "deep.webm").string();
+  Outcome outcome =
+      run("gst-launch-1.0 -q videotestsrc pattern=smpte horizontal-speed=2 num-buffers=50 ! "
+          "video/x-raw,format=Y444_10LE,width=160,height=120,framerate=25/1 ! "
+          "vp9enc deadline=1 cpu-used=8 ! webmmux ! filesink location=" +
+          deep);
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  // It is what its name says.
+  outcome = run("gst-launch-1.0 -q filesrc location=" + deep +
+                " ! matroskademux ! vp9dec ! video/x-raw,format=Y444_10LE ! fakesink");
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  for (const std::string playbin : {"playbin", "playbin3"}) {
+    SCOPED_TRACE(playbin);
+    const std::vector<std::string> play{FEEL_PLAYER, playbin,     deep,  "window",
+                                        "play",      "frames=30", "stop"};
+    // Nothing else converts.
+    EXPECT_NE(run_all(joined({"timeout", "20"}, play)).status, 0);
+    outcome = run_all(joined(felt(), play));
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_EQ(outcome.text, "");
+    EXPECT_GT(largest_N(read_trace(trace())), 0.1);
+    EXPECT_TRUE(port.at_rest());
+  }
+}
+
 TEST_F(Feel, LookingAtAFilmOpensNoDevice) {
   plug(0, UsbKind::kSh4);
   // As a thumbnailer does.

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+#include <gst-spidar/device.h>
+
+#include "api/vectors.h"
+#include "spidar/boards/board_list.h"
+#include "spidar/device_factory.h"
+#include "spidar/haptic_session.h"
+
+namespace gst_spidar {
+inline namespace v0 {
+namespace {
+
+using spidar::HapticSession;
+
+constexpr int64_t kHold_ns = std::chrono::nanoseconds(Device::kHold).count();
+static_assert(kHold_ns <= spidar::WrenchTimeline::kLongestHold_ns, "longer than any frame is held");
+
+spidar::Profile profile_for(const std::string& device, const std::string& profile) {
+  if (device == "none") throw std::runtime_error("\"none\" is no device that can be opened");
+  return spidar::load_profile(profile.empty() ? spidar::default_profile(device) : profile);
+}
+
+/// Running time is CLOCK_MONOTONIC: what is pushed is due at once.
+spidar::PlaybackClock now_is_now() {
+  spidar::PlaybackClock clock;
+  clock.monotonic_ns = HapticSession::monotonic_now_ns();
+  clock.running_ns = clock.monotonic_ns;
+  clock.playing = true;
+  return clock;
+}
+
+void require_limit(double value, const char* what) {
+  if (std::isfinite(value) && value >= 0) return;
+  throw std::invalid_argument(std::string(what) + " must be finite and not negative, got " +
+                              std::to_string(value));
+}
+
+}  // namespace
+
+struct Device::Impl {
+  Impl(const std::string& device, const spidar::Profile& profile)
+      : session(profile, spidar::make_device(device, profile)) {
+    session.loop().set_playback_clock(now_is_now());
+  }
+
+  HapticSession session;
+  int64_t pushed_ns = 0;
+};
+
+Device::Device(const std::string& name, const std::string& profile)
+    : impl_(std::make_unique<Impl>(name, profile_for(name, profile))) {}
+
+Device::~Device() = default;
+Device::Device(Device&& other) noexcept = default;
+Device& Device::operator=(Device&& other) noexcept = default;
+
+bool Device::push(const Wrench& wrench) {
+  spidar::TimedWrench entry;
+  entry.wrench = from_api(wrench);
+  if (!entry.wrench.is_finite()) throw std::invalid_argument("a wrench must be six finite numbers");
+  // The clock may stand still between two calls; times must rise.
+  entry.time_ns = std::max(HapticSession::monotonic_now_ns(), impl_->pushed_ns + 1);
+  entry.hold_ns = kHold_ns;
+  impl_->pushed_ns = entry.time_ns;
+  return state() != DeviceState::kLost && impl_->session.loop().schedule(entry);
+}
+
+void Device::rest() {
+  impl_->session.loop().cancel_scheduled();
+}
+
+void Device::set_limits(double max_force_N, double max_torque_Nm) {
+  require_limit(max_force_N, "the largest force");
+  require_limit(max_torque_Nm, "the largest torque");
+  spidar::SafetyLimits limits;
+  limits.max_force_N = max_force_N;
+  limits.max_torque_Nm = max_torque_Nm;
+  impl_->session.loop().set_limits(limits);
+}
+
+std::optional<Pose> Device::pose() const {
+  const spidar::LoopSnapshot snapshot = impl_->session.loop().snapshot();
+  if (snapshot.pose_trouble != spidar::PoseTrouble::kNone) return std::nullopt;
+  return to_api(snapshot.last.pose);
+}
+
+Wrench Device::felt() const {
+  const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
+  if (tick.device != spidar::DeviceState::kRunning) return {};
+  return to_api(tick.delivered);
+}
+
+DeviceState Device::state() const {
+  switch (impl_->session.loop().snapshot().last.device) {
+    case spidar::DeviceState::kLost:
+      return DeviceState::kLost;
+    case spidar::DeviceState::kIdle:
+      return DeviceState::kIdle;
+    case spidar::DeviceState::kRunning:
+      return DeviceState::kRunning;
+    default:  // before the first tick; nothing is closed or closing while this object lives
+      return DeviceState::kOpening;
+  }
+}
+
+const std::string& Device::name() const {
+  return impl_->session.device().name();
+}
+
+std::vector<std::string> list_devices() {
+  std::vector<std::string> names;
+  for (const spidar::BoardInfo& board : spidar::list_boards()) names.push_back(board.device);
+  return names;
+}
+
+std::vector<std::string> list_profiles() {
+  return spidar::list_profiles();
+}
+
+}  // namespace v0
+}  // namespace gst_spidar

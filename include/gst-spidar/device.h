@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// \file
+/// A haptic device, real or simulated: push its grip and read where it is.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gst-spidar/export.h>
+#include <gst-spidar/wrench.h>
+
+namespace gst_spidar {
+inline namespace v0 {
+
+/// What an open device is doing.
+enum class DeviceState {
+  kOpening,  ///< the strings are being tightened, which takes 0.2 s
+  kRunning,  ///< wrenches are felt
+  kIdle,     ///< nothing was to be felt for minutes and the motors are off; a wrench wakes it
+  kLost,     ///< does not answer, for example unplugged; it is tried again until it does
+};
+
+/// An open device. A thread of its own drives it a thousand times a second, through the same limits
+/// and checks as the GStreamer element (docs/safety.md): a wrench is limited, so is its rate of
+/// change, and with no new wrench the device ramps to rest. A separate process,
+/// spidar-guardian, zeroes the motors of a real board if this process dies.
+///
+/// push(), rest() and set_limits() are for one thread at a time, what only reads is for any thread.
+class GST_SPIDAR_API Device {
+ public:
+  /// How long a wrench holds: a program that hangs does not keep pulling.
+  static constexpr std::chrono::milliseconds kHold{100};
+
+  /// Opens the device called `name`, as the element's property `device` does: "sim" is the
+  /// simulated SPIDAR, "usb" a board on USB, "ff" a force-feedback joystick, and list_devices()
+  /// finds more. `profile` is its geometry and motors: a name of list_profiles(), the path of a
+  /// .toml file, or empty for the one that suits the device.
+  ///
+  /// Throws std::runtime_error, which says what is wrong and what to do, when there is no such
+  /// device or profile, or when the device cannot be opened.
+  explicit Device(const std::string& name, const std::string& profile = {});
+  /// Ramps the motors to zero and closes the device; takes about 60 ms.
+  ~Device();
+  /// `other` may only be destroyed or assigned to afterwards.
+  Device(Device&& other) noexcept;
+  /// Closes the device that was open; `other` may only be destroyed or assigned to afterwards.
+  Device& operator=(Device&& other) noexcept;
+
+  /// The wrench that is wanted from now on, for kHold or until the next call: call it again before
+  /// kHold is over, at any rate up to 1 kHz, or the device ramps to rest. A wrench fades in, and
+  /// out, over 40 ms at most, and the limits of its rate of change hold.
+  ///
+  /// False when the device takes no wrench at present, because it is lost. Throws
+  /// std::invalid_argument when a number is not finite.
+  bool push(const Wrench& wrench);
+
+  /// Forgets all wrenches: the device ramps to rest, which takes 40 ms.
+  void rest();
+
+  /// Limits the total force (3 N at first) and the total torque (0.1 N m at first) of whatever is
+  /// pushed, from the next millisecond on. Throws std::invalid_argument unless both are finite and
+  /// not negative.
+  void set_limits(double max_force_N, double max_torque_Nm);
+
+  /// Where the grip is. Nothing while that is not known: just after opening, and while the readings
+  /// of the device do not fit together.
+  std::optional<Pose> pose() const;
+
+  /// What the device is told to exert on the grip at present, after all limits. Zero unless it
+  /// is kRunning.
+  Wrench felt() const;
+
+  /// What the device is doing.
+  DeviceState state() const;
+
+  /// What was opened, for people, for example "sim". Valid while the device is open.
+  const std::string& name() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Names for Device(): what is plugged in, then the simulated ones. Opens nothing.
+GST_SPIDAR_API std::vector<std::string> list_devices();
+
+/// Names of the profiles that Device() knows, sorted.
+GST_SPIDAR_API std::vector<std::string> list_profiles();
+
+}  // namespace v0
+}  // namespace gst_spidar

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// \file
+/// From pictures to a wrench, without GStreamer.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include <gst-spidar/export.h>
+#include <gst-spidar/wrench.h>
+
+namespace gst_spidar {
+inline namespace v0 {
+
+/// A grey picture that belongs to the caller: `height` rows of `width` bytes, 0 black and 255
+/// white, `stride` bytes from one row to the next. At least 16 pixels wide and high.
+struct GreyPicture {
+  const std::uint8_t* data = nullptr;
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride = 0;
+};
+
+/// How speed becomes force: the element's property `controller`.
+enum class Controller {
+  kLinear,     ///< proportional to the speed; the largest speed so far is the largest force
+  kNonlinear,  ///< an arc tangent of the speed
+  kAdaptive,   ///< the same, following the scene; no force below the noise of the measurement
+};
+
+/// Which motion is felt: the element's property `motion`.
+enum class FeltMotion {
+  kMean,    ///< of all points
+  kObject,  ///< of the dominant object against the background
+  kCamera,  ///< of the camera
+};
+
+/// What was found in one picture.
+struct MotionResult {
+  Wrench wrench;               ///< wanted, before the limits of a device; zero after a cut
+  double velocity_x_px_s = 0;  ///< of the motion that is felt, to the right
+  double velocity_y_px_s = 0;  ///< downwards
+  double growth_1_s = 0;       ///< relative change of lengths a second; positive comes nearer
+  double roll_rad_s = 0;       ///< clockwise as seen
+  bool has_picture_before =
+      false;  ///< false: nothing to compare with, and everything above is zero
+};
+
+/// Measures the motion of a picture and says what is to be felt of it, with the defaults of the
+/// GStreamer element. One thread at a time.
+class GST_SPIDAR_API MotionToWrench {
+ public:
+  /// Nonlinear, motion of the dominant object, at most 3 N.
+  MotionToWrench();
+  ~MotionToWrench();
+  /// `other` may only be destroyed or assigned to afterwards.
+  MotionToWrench(MotionToWrench&& other) noexcept;
+  /// `other` may only be destroyed or assigned to afterwards.
+  MotionToWrench& operator=(MotionToWrench&& other) noexcept;
+
+  /// The next picture, shown at `time` on a clock of the caller's. A time that is not after the one
+  /// before, and a cut, start anew: the wrench is zero. Throws std::invalid_argument for a picture
+  /// without data, smaller than 16 × 16, or with rows that overlap.
+  MotionResult analyze(const GreyPicture& picture, std::chrono::nanoseconds time);
+
+  /// The next picture has nothing to do with the one before: after a seek.
+  void restart();
+
+  /// From the next picture on.
+  void set_controller(Controller controller);
+  /// From the next picture on.
+  void set_motion(FeltMotion motion);
+  /// The largest force, from the next picture on. Throws std::invalid_argument unless it is finite
+  /// and not negative.
+  void set_max_force(double max_force_N);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace v0
+}  // namespace gst_spidar

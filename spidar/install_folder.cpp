@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/install_folder.h"
+
+#include <dlfcn.h>
+#include <elf.h>
+#include <link.h>
+#include <sys/auxv.h>
+#include <system_error>
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file that this code was loaded from; empty when the system does not say.
+fs::path own_file() {
+  Dl_info info{};
+  void* extra = nullptr;
+  // Any address of this code would do.
+  void* here = reinterpret_cast<void*>(&prefix_of);
+  if (!dladdr1(here, &info, &extra, RTLD_DL_LINKMAP) || !extra) return {};
+  std::error_code error;
+  // The program itself has no name in the list of what is loaded.
+  const char* name = static_cast<link_map*>(extra)->l_name;
+  return fs::canonical(name && *name ? fs::path(name) : "/proc/self/exe", error);
+}
+
+/// `folder` without `end` at its end; empty when it does not end so.
+fs::path without_end(const fs::path& folder, const fs::path& end) {
+  fs::path rest = folder;
+  for (fs::path part = end; !part.empty(); part = part.parent_path()) {
+    if (rest.filename() != part.filename()) return {};
+    rest = rest.parent_path();
+  }
+  return rest;
+}
+
+}  // namespace
+
+fs::path prefix_of(const fs::path& file) {
+  const fs::path libraries = SPIDAR_LIBDIR;
+  for (const fs::path& end : {libraries / "gstreamer-1.0", libraries, fs::path(SPIDAR_BINDIR)}) {
+    // A folder outside the prefix says nothing of it.
+    if (end.is_absolute()) continue;
+    const fs::path prefix = without_end(file.parent_path(), end);
+    if (!prefix.empty()) return prefix;
+  }
+  return {};
+}
+
+fs::path installed(const std::string& below) {
+  const fs::path prefix = prefix_of(own_file());
+  return (prefix.empty() ? fs::path(SPIDAR_PREFIX) : prefix) / below;
+}
+
+}  // namespace spidar
