@@ -6,12 +6,20 @@
 
 #include "plugin/reports/motion_stats.h"
 #include "spidar/device_factory.h"
+#include "spidar/simulation/simulated_device.h"
 
 namespace spidar {
 namespace {
 
 int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
+}
+
+/// Where ticks come from a test, they alone move the simulated grip: how long the test takes must
+/// not matter.
+std::unique_ptr<Device> device_for(const std::string& spec, const Profile& profile, bool threaded) {
+  if (threaded || spec != "sim") return make_device(spec, profile);
+  return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
 }
 
 }  // namespace
@@ -28,7 +36,8 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
   settings.trace_path = haptic_trace;
   settings.threaded = now_ == nullptr;
   const auto make_session = [&] {
-    return std::make_unique<HapticSession>(profile, make_device(device, profile), settings);
+    return std::make_unique<HapticSession>(profile, device_for(device, profile, settings.threaded),
+                                           settings);
   };
   std::string trace_problem;
   std::unique_ptr<HapticSession> session;
