@@ -164,7 +164,8 @@ std::string encoder_of(const std::string& path) {
   return {};
 }
 
-void run_pipeline(const std::string& line) {
+void run_pipeline(const std::string& line,
+                  const std::function<void(GstElement* pipeline)>& prepare) {
   GError* error = nullptr;
   GstElement* pipeline = gst_parse_launch(line.c_str(), &error);
   if (error) {
@@ -173,6 +174,7 @@ void run_pipeline(const std::string& line) {
     if (pipeline) gst_object_unref(pipeline);
     throw std::runtime_error(text);
   }
+  if (prepare) prepare(pipeline);
   GstBus* bus = gst_element_get_bus(pipeline);
   gst_element_set_state(pipeline, GST_STATE_PLAYING);
   GstMessage* message = gst_bus_timed_pop_filtered(

@@ -3,8 +3,11 @@
 /// Whole tracks of 1000 samples a second, from and to files of every kind.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
+
+#include <gst/gst.h>
 
 #include "core/track/track_format.h"
 #include "plugin/track/track_input.h"
@@ -30,8 +33,10 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
 /// cannot.
 std::string encoder_of(const std::string& path);
 
-/// Runs a pipeline to its end. Throws std::runtime_error with what it said.
-void run_pipeline(const std::string& line);
+/// Runs a pipeline to its end. `prepare` gets it before it starts. Throws std::runtime_error with
+/// what it said.
+void run_pipeline(const std::string& line,
+                  const std::function<void(GstElement* pipeline)>& prepare = {});
 
 bool ends_with(const std::string& text, const std::string& end);
 /// For a location in a launch line.

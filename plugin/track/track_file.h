@@ -19,7 +19,8 @@ struct TrackFile {
   TrackFaults faults;
 };
 
-/// Reads the first sound of a file in any container that GStreamer has a decoder for, in memory: 90
+/// Reads the haptic track of a file, else its first sound, from any container that GStreamer has a
+/// decoder for, in memory: 90
 /// MB an hour. Throws std::runtime_error, which says what was wrong, when there is none, when it is
 /// no haptic track (TrackInput::set_caps()), or when the file is damaged.
 TrackFile read_track_file(const std::string& path);

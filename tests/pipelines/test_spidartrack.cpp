@@ -3,13 +3,11 @@
 // What a user sees of spidartrack: exit status, messages, files.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/wait.h>
 #include <vector>
 
 #include <gst/gst.h>
@@ -17,42 +15,13 @@
 
 #include "core/track/track_format.h"
 #include "plugin/tools/track_samples.h"
+#include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Result {
-  int status = -1;
-  std::string text;  ///< both outputs
-};
-
-Result run(const std::string& arguments) {
-  Result result;
-  FILE* pipe = popen((std::string(SPIDARTRACK) + " " + arguments + " 2>&1").c_str(), "r");
-  if (!pipe) return result;
-  char part[4096];
-  while (std::fgets(part, sizeof part, pipe)) result.text += part;
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
-  return result;
-}
-
-void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
-}
-
-double largest_difference(const std::vector<TrackSample>& a, const std::vector<TrackSample>& b) {
-  double largest = 0;
-  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    for (size_t k = 0; k < kTrackChannels; ++k) {
-      largest = std::max(largest, std::fabs(static_cast<double>(a[i][k]) - b[i][k]));
-    }
-  }
-  return largest;
-}
 
 class Spidartrack : public testing::Test {
  protected:
@@ -81,7 +50,7 @@ class Spidartrack : public testing::Test {
 
 TEST_F(Spidartrack, HelpSucceedsAndWrongUsageSaysWhatWouldBeRight) {
   EXPECT_EQ(run("--help").status, 0);
-  for (const char* command : {"record", "info", "check", "convert", "plot"}) {
+  for (const char* command : {"record", "info", "check", "convert", "plot", "merge", "extract"}) {
     const Result help = run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     expect_contains(help.text, std::string("usage: spidartrack ") + command);
