@@ -192,12 +192,12 @@ void run_pipeline(const std::string& line,
   if (!problem.empty()) throw std::runtime_error(problem);
 }
 
-std::vector<TrackSample> load_track(const std::string& path, TrackFaults* faults) {
-  if (faults) *faults = {};
+std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition) {
+  if (condition) *condition = {};
   if (ends_with(path, ".hjif")) return read_hjif(read_text(path));
   if (ends_with(path, ".csv")) return samples_of_trace(path);
   const TrackFile track = read_track_file(path);
-  if (faults) *faults = track.faults;
+  if (condition) *condition = {track.faults, track.missing()};
   return samples_of(track);
 }
 

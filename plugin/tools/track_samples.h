@@ -14,10 +14,16 @@
 
 namespace spidar {
 
+/// What a file says that is not in its samples.
+struct TrackCondition {
+  TrackFaults faults;
+  std::string missing;  ///< empty, or what is missing at the end of the file
+};
+
 /// By the end of its name: HJIF (`.hjif`), the trace of spidarmotion (`.csv`), else sound, of any
 /// rate that spidarsink takes; gaps are silence, and so are samples that are no numbers, which
-/// `faults` counts. Throws std::runtime_error.
-std::vector<TrackSample> load_track(const std::string& path, TrackFaults* faults = nullptr);
+/// `condition` counts. Throws std::runtime_error.
+std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr);
 
 struct SaveOptions {
   double hjif_tolerance = 4e-4;  ///< of the full scale

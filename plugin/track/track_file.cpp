@@ -18,13 +18,15 @@ struct Reading {
   TrackFile track;
   std::string problem;
   bool has_caps = false;
+  bool is_alone = true;  // there is no other stream in the file
   GstElement* pipeline = nullptr;
   GstElement* decoder = nullptr;
 };
 
 /// All streams of the file are known: the haptic track is decoded, or the first
 /// sound, so that what is wrong with it is said. Nobody looks at the others.
-void choose_stream(const Reading& reading, GstElement* parser) {
+void choose_stream(Reading& reading, GstElement* parser) {
+  reading.is_alone = parser->numsrcpads == 1;
   GstPad* chosen = nullptr;
   StreamKind kind = StreamKind::kOther;
   for (GList* i = parser->srcpads; i; i = i->next) {
@@ -85,6 +87,17 @@ std::string text_of(GstMessage* message) {
 
 }  // namespace
 
+std::string TrackFile::missing() const {
+  // Containers round their durations, to milliseconds or samples.
+  if (promised_ns <= duration_ns + GST_MSECOND) return {};
+  gchar* const text = g_strdup_printf("it is cut off: %.3f s of %.3f s are there",
+                                      1e-9 * static_cast<double>(duration_ns),
+                                      1e-9 * static_cast<double>(promised_ns));
+  const std::string result = text;
+  g_free(text);
+  return result;
+}
+
 TrackFile read_track_file(const std::string& path) {
   GError* error = nullptr;
   const std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline(
@@ -120,6 +133,12 @@ TrackFile read_track_file(const std::string& path) {
   const bool failed = GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR;
   const std::string reason = failed ? text_of(message) : reading.problem;
   gst_message_unref(message);
+  gint64 promised_ns = 0;
+  // Of a film that is how long its longest stream is.
+  if (reading.is_alone &&
+      gst_element_query_duration(pipeline.get(), GST_FORMAT_TIME, &promised_ns)) {
+    reading.track.promised_ns = promised_ns;
+  }
   gst_element_set_state(pipeline.get(), GST_STATE_NULL);
   gst_object_unref(reading.decoder);
   if (!reason.empty()) throw std::runtime_error(path + ": " + reason);

@@ -16,7 +16,12 @@ namespace spidar {
 struct TrackFile {
   std::vector<TrackBlock> blocks;
   int64_t duration_ns = 0;
+  /// As long as the file says that it is; shorter than that it is cut off. 0: it does not say.
+  int64_t promised_ns = 0;
   TrackFaults faults;
+
+  /// Empty, or what is missing at the end of the file.
+  std::string missing() const;
 };
 
 /// Reads the haptic track of a file, else its first sound, from any container that GStreamer has a
