@@ -78,7 +78,8 @@ int merge_track_command(int argc, char** argv) {
   }
   const std::vector<TrackSample> samples = load_track(track);
   const PartFile part(out), sound(out, ".mka");
-  const bool is_sound = !ends_with(track, ".hjif") && !ends_with(track, ".csv");
+  const bool is_sound =
+      !ends_with(track, ".hjif") && !ends_with(track, ".csv") && !ends_with(track, ".jsonl");
   if (!is_sound) save_track(sound.path(), samples);
   try {
     merge_film(film, is_sound ? track : sound.path(),

@@ -20,7 +20,8 @@ struct TrackCondition {
   std::string missing;  ///< empty, or what is missing at the end of the file
 };
 
-/// By the end of its name: HJIF (`.hjif`), the trace of spidarmotion (`.csv`), else sound, of any
+/// By the end of its name: HJIF (`.hjif`), the trace of spidarmotion (`.csv`,
+/// `.jsonl`), else sound, of any
 /// rate that spidarsink takes; gaps are silence, and so are samples that are no numbers, which
 /// `condition` counts. Throws std::runtime_error.
 std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr);

@@ -68,6 +68,10 @@ TEST_F(Spidartrack, RecordsFilmsBesideThemAndGoesOnWhereItWas) {
   const Result first = run("record -j2 " + films);
   EXPECT_EQ(first.status, 0) << first.text;
   ASSERT_TRUE(fs::exists(path("a film.haptic.flac")));
+  for (const char* film : {"[1/2] ", "[2/2] "}) {
+    EXPECT_LT(first.text.find("film.avi: 10 %"), first.text.find("film.avi: 90 %")) << first.text;
+    expect_contains(first.text, film);
+  }
   const std::vector<TrackSample> track = load_track(path("b.haptic.flac"));
   EXPECT_EQ(track.size(), 2000u);
   EXPECT_GT(largest_difference(track, std::vector<TrackSample>(2000)), 0.1);
@@ -113,15 +117,22 @@ TEST_F(Spidartrack, ConvertsBetweenAllThatItKnows) {
 
 TEST_F(Spidartrack, ATraceBecomesTheTrackThatExtractGives) {
   make_film("film.avi");
-  run_pipeline(
-      "filesrc location=" + quoted(path("film.avi")) +
-      " ! decodebin ! videoconvert ! spidarmotion device=none attach-meta=true trace=" +
-      quoted(path("film.csv")) +
-      " ! spidarextract name=x x.wrench ! wavenc ! filesink location=" + quoted(path("film.wav")));
-  const std::vector<TrackSample> traced = load_track(path("film.csv"));
-  const std::vector<TrackSample> extracted = load_track(path("film.wav"));
-  ASSERT_EQ(traced.size(), extracted.size());
-  EXPECT_LE(largest_difference(traced, extracted), 1e-6);
+  for (const std::string trace : {"film.csv", "film.jsonl"}) {
+    SCOPED_TRACE(trace);
+    run_pipeline("filesrc location=" + quoted(path("film.avi")) +
+                 " ! decodebin ! videoconvert ! spidarmotion device=none attach-meta=true trace=" +
+                 quoted(path(trace)) +
+                 " ! spidarextract name=x x.wrench ! wavenc ! filesink location=" +
+                 quoted(path("film.wav")));
+    const std::vector<TrackSample> traced = load_track(path(trace));
+    const std::vector<TrackSample> extracted = load_track(path("film.wav"));
+    ASSERT_EQ(traced.size(), extracted.size());
+    EXPECT_LE(largest_difference(traced, extracted), 1e-6);
+  }
+  std::ofstream(path("bad.jsonl"), std::ios::app) << "{\"wrench\":3}\n";
+  const Result bad = run("convert " + path("bad.jsonl") + " " + path("bad.wav"));
+  EXPECT_EQ(bad.status, 1);
+  expect_contains(bad.text, "bad.jsonl:1: is no line of a trace");
 }
 
 TEST_F(Spidartrack, ARecordedTrackIsFoundBesideItsFilmAndFelt) {
