@@ -3,6 +3,7 @@
 // What a user sees of spidartrack: exit status, messages, files.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -165,6 +166,40 @@ TEST_F(Spidartrack, ARecordedTrackIsFoundBesideItsFilmAndFelt) {
   gst_object_unref(bus);
   gst_object_unref(motion);
   gst_object_unref(pipeline);
+}
+
+TEST_F(Spidartrack, AnEditorChangesWhatItTouchesAndNothingElse) {
+  save_track(path("a.wav"), samples());
+  run_pipeline(
+      "filesrc location=" + quoted(path("a.wav")) +
+      " ! wavparse ! volume volume=0.5 ! wavenc ! filesink location=" + quoted(path("weaker.wav")));
+  std::vector<TrackSample> half = samples();
+  for (TrackSample& sample : half) {
+    for (float& value : sample) value /= 2;
+  }
+  EXPECT_EQ(load_track(path("weaker.wav")), half) << "a half of a float is exact";
+
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "fades are not tested: ffmpeg is not installed";
+  }
+  const std::string fades = "afade=t=in:d=0.5,afade=t=out:st=1.5:d=0.5";
+  ASSERT_EQ(std::system(("ffmpeg -v error -i " + path("a.wav") + " -af " + fades +
+                         " -c:a pcm_f32le " + path("faded.wav"))
+                            .c_str()),
+            0);
+  const std::vector<TrackSample> faded = load_track(path("faded.wav")), whole = samples();
+  ASSERT_EQ(faded.size(), whole.size());
+  for (size_t i = 0; i < whole.size(); ++i) {
+    const double gain =
+        std::min({1.0, static_cast<double>(i) / 500, (2000 - static_cast<double>(i)) / 500});
+    for (size_t k = 0; k < kTrackChannels; ++k) {
+      if (i >= 500 && i <= 1500) {
+        ASSERT_EQ(faded[i][k], whole[i][k]) << i;
+      }
+      // Floats below 1.
+      ASSERT_NEAR(faded[i][k], gain * whole[i][k], 1e-7) << i;
+    }
+  }
 }
 
 TEST_F(Spidartrack, AFunscriptHasMillisecondsAndPositions) {
