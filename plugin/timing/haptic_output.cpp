@@ -15,6 +15,13 @@ int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
 }
 
+/// Where ticks come from a test, they alone move the simulated grip: how long the test takes must
+/// not matter.
+std::unique_ptr<Device> device_for(const std::string& spec, const Profile& profile, bool threaded) {
+  if (threaded || spec != "sim") return make_device(spec, profile);
+  return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
+}
+
 }  // namespace
 
 void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
@@ -28,13 +35,9 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
   SessionSettings settings;
   settings.trace_path = haptic_trace;
   settings.threaded = now_ == nullptr;
-  const auto make = [&]() -> std::unique_ptr<Device> {
-    if (settings.threaded || device != "sim") return make_device(device, profile);
-    // The loop is ticked by hand, and so is the time of the simulation.
-    return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
-  };
   const auto make_session = [&] {
-    return std::make_unique<HapticSession>(profile, make(), settings);
+    return std::make_unique<HapticSession>(profile, device_for(device, profile, settings.threaded),
+                                           settings);
   };
   std::string trace_problem;
   std::unique_ptr<HapticSession> session;

@@ -26,7 +26,8 @@ class HapticOutput {
   HapticOutput(GstElement* element, std::function<void()> refreshed)
       : element_(element), refreshed_(std::move(refreshed)) {}
 
-  /// Tests only, before open(): `now` stands for CLOCK_MONOTONIC and the loop waits to be ticked.
+  /// Tests only, before open(): `now` stands for CLOCK_MONOTONIC, the loop waits to be ticked, and
+  /// each tick is a millisecond for the device "sim".
   void set_manual(PlaybackSync::Now now, void* user);
 
   /// Opens the device; `profile` is a name or a path for load_profile(). Throws ProfileError,

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kHelp = R"(usage: spidartrack convert FROM TO [OPTION]...
 
 FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), or a trace of
-spidarmotion (.csv). TO is what its name ends in: .flac, .mka, .wav, .hjif or .funscript.
+spidarmotion (.csv, .jsonl). TO is what its name ends in: .flac, .mka, .wav, .hjif or .funscript.
 
   --tolerance SHARE  of the full scale, by which HJIF may differ between its keyframes; 0.0004
   --axis CHANNEL     that a funscript has: fx, fy, fz, tx, ty or tz; fy

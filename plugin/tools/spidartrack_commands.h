@@ -8,6 +8,8 @@ namespace spidar {
 
 int check_track_command(int argc, char** argv);
 int convert_track_command(int argc, char** argv);
+int extract_track_command(int argc, char** argv);
+int merge_track_command(int argc, char** argv);
 int plot_track_command(int argc, char** argv);
 int record_track_command(int argc, char** argv);
 int track_info_command(int argc, char** argv);

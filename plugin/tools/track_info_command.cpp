@@ -21,7 +21,7 @@ of each channel in shares of the full scale (10 N, 1 N m), and how much of its e
 constexpr const char* kCheckHelp =
     R"(usage: spidartrack check TRACK [--max-force N] [--max-torque NM]
 
-Whether a track can be felt as it is: all samples are numbers, none is beyond full scale, and force
+Whether a track can be felt as it is: nothing is missing at its end, all samples are numbers, none is beyond full scale, and force
 and torque stay below the limits of spidarsink (3 N and 0.1 N m, unless others are given) and change
 no faster than its 300 N/s. What is felt is within the limits in any case. A tenth of the energy of a
 channel above 30 Hz is no motion of a film. Exit status 1, and a line for each thing that is wrong.
@@ -64,8 +64,9 @@ int track_info_command(int argc, char** argv) {
     return kDone;
   }
   const std::string path = only_operand(operands);
-  TrackFaults faults;
-  const std::vector<TrackSample> samples = load_track(path, &faults);
+  TrackCondition condition;
+  const std::vector<TrackSample> samples = load_track(path, &condition);
+  const TrackFaults& faults = condition.faults;
   const TrackSummary summary = summarise(samples);
   if (json) {
     print_json(path, samples.size(), faults, summary);
@@ -73,8 +74,9 @@ int track_info_command(int argc, char** argv) {
   }
   std::cout << path << ": " << samples.size() << " samples, "
             << static_cast<double>(samples.size()) / kTrackRate_Hz << " s\n"
-            << "largest force " << summary.largest_force_N << " N, torque "
-            << summary.largest_torque_Nm << " N m, steepest " << summary.steepest_N_s << " N/s\n"
+            << (condition.missing.empty() ? "" : condition.missing + "\n") << "largest force "
+            << summary.largest_force_N << " N, torque " << summary.largest_torque_Nm
+            << " N m, steepest " << summary.steepest_N_s << " N/s\n"
             << "channel       peak        rms   above 30 Hz\n";
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const ChannelSummary& channel = summary.channels[i];
@@ -104,14 +106,16 @@ int check_track_command(int argc, char** argv) {
     return kDone;
   }
   const std::string path = only_operand(operands);
-  TrackFaults faults;
-  const std::vector<TrackSample> samples = load_track(path, &faults);
+  TrackCondition condition;
+  const std::vector<TrackSample> samples = load_track(path, &condition);
+  const TrackFaults& faults = condition.faults;
   const TrackSummary summary = summarise(samples);
   int problems = 0;
   const auto complain = [&problems, &path]() -> std::ostream& {
     ++problems;
     return std::cout << path << ": ";
   };
+  if (!condition.missing.empty()) complain() << condition.missing << '\n';
   if (faults.not_finite > 0) complain() << faults.not_finite << " samples are not numbers\n";
   if (faults.beyond_full > 0)
     complain() << faults.beyond_full << " samples are beyond full scale\n";

@@ -16,7 +16,7 @@
 
 #include "core/track/hjif.h"
 #include "core/track/track_reader.h"
-#include "core/track/track_sampler.h"
+#include "plugin/tools/trace_track.h"
 #include "plugin/track/track_file.h"
 
 namespace spidar {
@@ -51,46 +51,6 @@ std::vector<TrackSample> samples_of(const TrackFile& track) {
       if (index < samples.size()) samples[index] = block.samples[i];
     }
   }
-  return samples;
-}
-
-/// One row of a trace: running time, stream time, features, tracked, velocity, force, torque.
-constexpr size_t kTraceColumns = 12, kForceColumn = 6;
-
-std::vector<TrackSample> samples_of_trace(const std::string& path) {
-  std::istringstream rows(read_text(path));
-  std::string row;
-  std::getline(rows, row);
-  if (row.rfind("running_time_ns,stream_time_ns,", 0) != 0) {
-    throw std::runtime_error(path + ": is no trace of spidarmotion");
-  }
-  TrackSampler sampler;
-  sampler.begin(0);
-  std::vector<TrackSample> samples;
-  int64_t last_ns = -1, interval_ns = 0;
-  const auto take_until = [&](int64_t time_ns) {
-    while (sampler.next_ns() < time_ns) samples.push_back(to_track_sample(sampler.take()));
-  };
-  for (int line = 2; std::getline(rows, row); ++line) {
-    std::vector<double> cells;
-    std::istringstream in(row);
-    for (std::string cell; std::getline(in, cell, ',');)
-      cells.push_back(std::strtod(cell.c_str(), nullptr));
-    if (cells.size() < kTraceColumns) {
-      throw std::runtime_error(path + ":" + std::to_string(line) + ": a row has " +
-                               std::to_string(kTraceColumns) + " columns");
-    }
-    const auto time_ns = static_cast<int64_t>(cells[1]);
-    const auto* value = &cells[kForceColumn];
-    interval_ns = last_ns < 0 ? 0 : time_ns - last_ns;
-    sampler.add({time_ns,
-                 WrenchTimeline::hold_after(interval_ns),
-                 {{value[0], value[1], value[2]}, {value[3], value[4], value[5]}}});
-    last_ns = time_ns;
-    take_until(sampler.settled_ns(INT64_MAX / 4));
-  }
-  sampler.add({last_ns + interval_ns, 0, Wrench()});
-  take_until(last_ns + interval_ns);
   return samples;
 }
 
@@ -164,7 +124,8 @@ std::string encoder_of(const std::string& path) {
   return {};
 }
 
-void run_pipeline(const std::string& line) {
+void run_pipeline(const std::string& line,
+                  const std::function<void(GstElement* pipeline)>& prepare) {
   GError* error = nullptr;
   GstElement* pipeline = gst_parse_launch(line.c_str(), &error);
   if (error) {
@@ -173,6 +134,7 @@ void run_pipeline(const std::string& line) {
     if (pipeline) gst_object_unref(pipeline);
     throw std::runtime_error(text);
   }
+  if (prepare) prepare(pipeline);
   GstBus* bus = gst_element_get_bus(pipeline);
   gst_element_set_state(pipeline, GST_STATE_PLAYING);
   GstMessage* message = gst_bus_timed_pop_filtered(
@@ -190,12 +152,13 @@ void run_pipeline(const std::string& line) {
   if (!problem.empty()) throw std::runtime_error(problem);
 }
 
-std::vector<TrackSample> load_track(const std::string& path, TrackFaults* faults) {
-  if (faults) *faults = {};
+std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition) {
+  if (condition) *condition = {};
   if (ends_with(path, ".hjif")) return read_hjif(read_text(path));
-  if (ends_with(path, ".csv")) return samples_of_trace(path);
+  if (ends_with(path, ".csv")) return read_csv_trace(path, read_text(path));
+  if (ends_with(path, ".jsonl")) return read_json_trace(path, read_text(path));
   const TrackFile track = read_track_file(path);
-  if (faults) *faults = track.faults;
+  if (condition) *condition = {track.faults, track.missing()};
   return samples_of(track);
 }
 

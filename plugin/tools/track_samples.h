@@ -3,18 +3,27 @@
 /// Whole tracks of 1000 samples a second, from and to files of every kind.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
+
+#include <gst/gst.h>
 
 #include "core/track/track_format.h"
 #include "plugin/track/track_input.h"
 
 namespace spidar {
 
-/// By the end of its name: HJIF (`.hjif`), the trace of spidarmotion (`.csv`), else sound, of any
-/// rate that spidarsink takes; gaps are silence, and so are samples that are not numbers, which
-/// `faults` counts. Throws std::runtime_error.
-std::vector<TrackSample> load_track(const std::string& path, TrackFaults* faults = nullptr);
+/// What a file says that is not in its samples.
+struct TrackCondition {
+  TrackFaults faults;
+  std::string missing;  ///< empty, or what is missing at the end of the file
+};
+
+/// By the end of its name: HJIF (`.hjif`), the trace of spidarmotion (`.csv`, `.jsonl`), else
+/// sound, of any rate that spidarsink takes; gaps are silence, and so are samples that are not
+/// numbers, which `condition` counts. Throws std::runtime_error.
+std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr);
 
 struct SaveOptions {
   double hjif_tolerance = 4e-4;  ///< of the full scale
@@ -30,8 +39,10 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
 /// cannot.
 std::string encoder_of(const std::string& path);
 
-/// Runs a pipeline to its end. Throws std::runtime_error with what it said.
-void run_pipeline(const std::string& line);
+/// Runs a pipeline to its end. `prepare` gets it before it starts. Throws std::runtime_error with
+/// what it said.
+void run_pipeline(const std::string& line,
+                  const std::function<void(GstElement* pipeline)>& prepare = {});
 
 bool ends_with(const std::string& text, const std::string& end);
 /// For a location in a launch line.

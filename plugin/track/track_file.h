@@ -16,10 +16,16 @@ namespace spidar {
 struct TrackFile {
   std::vector<TrackBlock> blocks;
   int64_t duration_ns = 0;
+  /// As long as the file says that it is; shorter than that it is cut off. 0: it does not say.
+  int64_t promised_ns = 0;
   TrackFaults faults;
+
+  /// Empty, or what is missing at the end of the file.
+  std::string missing() const;
 };
 
-/// Reads the first sound of a file in any container that GStreamer has a decoder for, in memory: 90
+/// Reads the haptic track of a file, else its first sound, from any container that GStreamer has a
+/// decoder for, in memory: 90
 /// MB an hour. Throws std::runtime_error, which says what was wrong, when there is none, when it is
 /// no haptic track (TrackInput::set_caps()), or when the file is damaged.
 TrackFile read_track_file(const std::string& path);

@@ -7,6 +7,28 @@
 #include "plugin/track/sidecar.h"
 
 namespace spidar {
+namespace {
+
+/// The track is felt all the same.
+void name_faults(GstElement* element, const std::string& path, const TrackFaults& faults) {
+  if (faults.not_finite > 0) {
+    GST_ELEMENT_WARNING(element, STREAM, DECODE,
+                        ("The haptic track %s has %" G_GUINT64_FORMAT
+                         " samples that are not numbers; they are played as rest.",
+                         path.c_str(), static_cast<guint64>(faults.not_finite)),
+                        ("NaN or infinite."));
+  }
+  if (faults.beyond_full > 0) {
+    GST_ELEMENT_WARNING(
+        element, STREAM, DECODE,
+        ("The haptic track %s has %" G_GUINT64_FORMAT
+         " samples beyond full scale, 10 N and 1 N m; max-force holds all the same.",
+         path.c_str(), static_cast<guint64>(faults.beyond_full)),
+        ("Is it sound for ears?"));
+  }
+}
+
+}  // namespace
 
 void TrackPlayer::set_track(TrackFile track) {
   schedule_.forget();
@@ -50,13 +72,17 @@ std::optional<TrackFile> choose_track(GstElement* element, const std::string& wa
   if (!path.empty()) {
     try {
       track = read_track_file(path);
-      problem = other_film(pad, track->duration_ns, frame_ns);
+      problem = track->missing();
+      if (problem.empty()) problem = other_film(pad, track->duration_ns, frame_ns);
     } catch (const std::runtime_error& error) {
       problem = error.what();
     }
   }
   gst_object_unref(pad);
-  if (problem.empty()) return track;
+  if (problem.empty()) {
+    if (track) name_faults(element, path, track->faults);
+    return track;
+  }
   GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
                       ("The haptic track %s is not felt: %s.", path.c_str(), problem.c_str()),
                       ("The video is analysed in its place."));

@@ -133,6 +133,7 @@ int run(const Options& options) {
   const std::string clip = folder.path / "clip.avi";
   // At twice the rate, and with what is played before and after the measurement.
   make_clip(clip, 2 * options.seconds + 4);
+  make_track(track_of(clip), 2 * options.seconds + 4);
   bool all_good = true;
   std::string scheduling;
   for (const Scenario& scenario : options.chosen) {

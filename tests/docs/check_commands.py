@@ -35,6 +35,7 @@ TRACKS = {  # of these films, and what writes them
     "film.haptic.mka": "matroskamux",
     "film.haptic.wav": "wavenc",
 }
+OPTIONAL = {"ffmpeg": "ffmpeg", "parallel": "GNU parallel (package parallel)"}  # programs that lines need, and who has them
 WORKERS = 2
 LONGEST_S = 50  # of a line that ends; the test has a limit of its own
 ENDLESS_S = 2
@@ -93,7 +94,8 @@ def commands(page, source):
                 exports.append(command)
             else:
                 endless = any(kind == "endless" and (text is None or text in command) for kind, text, _ in comments)
-                yield Line(f"{page}:{begin}", command, list(exports), endless, not_run_of(comments, command))
+                not_run = not_run_of(comments, command) or missing_program(command)
+                yield Line(f"{page}:{begin}", command, list(exports), endless, not_run)
             command = ""
 
 
@@ -102,6 +104,14 @@ def not_run_of(comments, command):
     for kind, text, reason in comments:
         if kind == "not run" and (text is None if command is None else text is not None and text in command):
             return reason
+    return ""
+
+
+def missing_program(command):
+    """Why a line that needs an optional program is skipped; empty when it is there."""
+    for program, owner in OPTIONAL.items():
+        if re.search(rf"(^|[|;&] *){program} ", command) and not shutil.which(program):
+            return f"skipped: {owner} is not installed"
     return ""
 
 

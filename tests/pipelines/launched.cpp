@@ -63,7 +63,8 @@ Traces::~Traces() {
 }
 
 void Traces::record(GstElement* element) {
-  if (g_strcmp0(G_OBJECT_TYPE_NAME(element), "GstSpidarMotion") != 0) return;
+  const std::string type = G_OBJECT_TYPE_NAME(element);
+  if (type != "GstSpidarMotion" && type != "GstSpidarSink") return;
   const std::lock_guard<std::mutex> lock(mutex_);
   paths_.push_back((folder_.path / std::to_string(paths_.size())).string());
   g_object_set(element, "haptic-trace", paths_.back().c_str(), nullptr);

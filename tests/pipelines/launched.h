@@ -26,8 +26,8 @@ struct Outcome {
 /// Adds what a message says.
 void take(Outcome& outcome, GstMessage* message);
 
-/// Records every tick of each spidarmotion in `bin`, also of those to come, and looks at them when
-/// it goes: the pipeline has to be in NULL by then.
+/// Records every tick of each spidarmotion and spidarsink in `bin`, also of those to come, and
+/// looks at them when it goes: the pipeline has to be in NULL by then.
 class Traces {
  public:
   explicit Traces(GstElement* bin);

@@ -64,12 +64,14 @@ void SteppedTrack::push_bytes(const void* bytes, size_t size, GstClockTime pts,
   stream_.push_back(GST_MINI_OBJECT_CAST(buffer));
 }
 
-void SteppedTrack::begin_segment(double rate, GstClockTime start, GstClockTime stop) {
+void SteppedTrack::begin_segment(double rate, GstClockTime start, GstClockTime stop,
+                                 GstClockTime base) {
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_TIME);
   segment.rate = rate;
   segment.start = segment.time = start;
   segment.stop = stop;
+  segment.base = base;
   segment.position = rate > 0 ? start : stop;
   stream_.push_back(GST_MINI_OBJECT_CAST(gst_event_new_segment(&segment)));
 }
@@ -97,10 +99,20 @@ void SteppedTrack::set_state(GstState state) {
   output_->refresh_clock();
 }
 
-void SteppedTrack::seek(double rate, GstClockTime start, GstClockTime stop) {
+void SteppedTrack::continue_with(GstClockTime start, GstClockTime base) {
+  begin_segment(1, start, GST_CLOCK_TIME_NONE, base);
+}
+
+void SteppedTrack::flush() {
   gst_pad_push_event(source_, gst_event_new_flush_start());
   sender_.join();
   for (GstMiniObject* item : std::exchange(stream_, {})) gst_mini_object_unref(item);
+  flushing_ = true;
+}
+
+void SteppedTrack::seek(double rate, GstClockTime start, GstClockTime stop) {
+  flush();
+  flushing_ = false;
   gst_pad_push_event(source_, gst_event_new_flush_stop(TRUE));
   begin_segment(rate, start, stop);
 }
@@ -130,7 +142,7 @@ std::vector<std::string> SteppedTrack::complaints() {
 void SteppedTrack::let_through() {
   const bool plays = GST_STATE(pipeline_) == GST_STATE_PLAYING;
   const GstClockTime now = gst_clock_get_time(GST_CLOCK(clock_));
-  while (plays && !ended() && !failed_) {
+  while (plays && !ended() && !failed_ && !flushing_) {
     GstClockID pending = nullptr;
     // In real time: only so long does a test look for what happens in place of waiting.
     if (!gst_test_clock_timed_wait_for_multiple_pending_ids(clock_, 1, 10, nullptr)) continue;

@@ -42,6 +42,10 @@ class SteppedTrack {
   void send();
   /// Sends what was pushed. Returns when the state is reached.
   void set_state(GstState state);
+  /// The next segment of the same stream, whose running time begins at `base`.
+  void continue_with(GstClockTime start, GstClockTime base);
+  /// As a flushing seek begins: nothing is pushed afterwards.
+  void flush();
   /// As a flushing seek does: what comes is pushed anew.
   void seek(double rate, GstClockTime start, GstClockTime stop = GST_CLOCK_TIME_NONE);
   /// Both clocks go on by a millisecond, the sink takes what is due then, and the loop ticks.
@@ -57,7 +61,7 @@ class SteppedTrack {
   guint64 stat(const char* name) const;
 
  private:
-  void begin_segment(double rate, GstClockTime start, GstClockTime stop);
+  void begin_segment(double rate, GstClockTime start, GstClockTime stop, GstClockTime base = 0);
   void let_through();
 
   GstTestClock* clock_;
@@ -71,6 +75,7 @@ class SteppedTrack {
   TickWatch watch_;
   bool ended_ = false;
   bool failed_ = false;
+  bool flushing_ = false;
   std::vector<std::string> complaints_;
 };
 

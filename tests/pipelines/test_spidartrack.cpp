@@ -3,13 +3,12 @@
 // What a user sees of spidartrack: exit status, messages, files.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/wait.h>
 #include <vector>
 
 #include <gst/gst.h>
@@ -17,42 +16,13 @@
 
 #include "core/track/track_format.h"
 #include "plugin/tools/track_samples.h"
+#include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Result {
-  int status = -1;
-  std::string text;  ///< both outputs
-};
-
-Result run(const std::string& arguments) {
-  Result result;
-  FILE* pipe = popen((std::string(SPIDARTRACK) + " " + arguments + " 2>&1").c_str(), "r");
-  if (!pipe) return result;
-  char part[4096];
-  while (std::fgets(part, sizeof part, pipe)) result.text += part;
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
-  return result;
-}
-
-void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
-}
-
-double largest_difference(const std::vector<TrackSample>& a, const std::vector<TrackSample>& b) {
-  double largest = 0;
-  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    for (size_t k = 0; k < kTrackChannels; ++k) {
-      largest = std::max(largest, std::fabs(static_cast<double>(a[i][k]) - b[i][k]));
-    }
-  }
-  return largest;
-}
 
 class Spidartrack : public testing::Test {
  protected:
@@ -81,7 +51,7 @@ class Spidartrack : public testing::Test {
 
 TEST_F(Spidartrack, HelpSucceedsAndWrongUsageSaysWhatWouldBeRight) {
   EXPECT_EQ(run("--help").status, 0);
-  for (const char* command : {"record", "info", "check", "convert", "plot"}) {
+  for (const char* command : {"record", "info", "check", "convert", "plot", "merge", "extract"}) {
     const Result help = run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     expect_contains(help.text, std::string("usage: spidartrack ") + command);
@@ -99,6 +69,10 @@ TEST_F(Spidartrack, RecordsFilmsBesideThemAndGoesOnWhereItWas) {
   const Result first = run("record -j2 " + films);
   EXPECT_EQ(first.status, 0) << first.text;
   ASSERT_TRUE(fs::exists(path("a film.haptic.flac")));
+  for (const char* film : {"[1/2] ", "[2/2] "}) {
+    EXPECT_LT(first.text.find("film.avi: 10 %"), first.text.find("film.avi: 90 %")) << first.text;
+    expect_contains(first.text, film);
+  }
   const std::vector<TrackSample> track = load_track(path("b.haptic.flac"));
   EXPECT_EQ(track.size(), 2000u);
   EXPECT_GT(largest_difference(track, std::vector<TrackSample>(2000)), 0.1);
@@ -144,15 +118,22 @@ TEST_F(Spidartrack, ConvertsBetweenAllThatItKnows) {
 
 TEST_F(Spidartrack, ATraceBecomesTheTrackThatExtractGives) {
   make_film("film.avi");
-  run_pipeline(
-      "filesrc location=" + quoted(path("film.avi")) +
-      " ! decodebin ! videoconvert ! spidarmotion device=none attach-meta=true trace=" +
-      quoted(path("film.csv")) +
-      " ! spidarextract name=x x.wrench ! wavenc ! filesink location=" + quoted(path("film.wav")));
-  const std::vector<TrackSample> traced = load_track(path("film.csv"));
-  const std::vector<TrackSample> extracted = load_track(path("film.wav"));
-  ASSERT_EQ(traced.size(), extracted.size());
-  EXPECT_LE(largest_difference(traced, extracted), 1e-6);
+  for (const std::string trace : {"film.csv", "film.jsonl"}) {
+    SCOPED_TRACE(trace);
+    run_pipeline("filesrc location=" + quoted(path("film.avi")) +
+                 " ! decodebin ! videoconvert ! spidarmotion device=none attach-meta=true trace=" +
+                 quoted(path(trace)) +
+                 " ! spidarextract name=x x.wrench ! wavenc ! filesink location=" +
+                 quoted(path("film.wav")));
+    const std::vector<TrackSample> traced = load_track(path(trace));
+    const std::vector<TrackSample> extracted = load_track(path("film.wav"));
+    ASSERT_EQ(traced.size(), extracted.size());
+    EXPECT_LE(largest_difference(traced, extracted), 1e-6);
+  }
+  std::ofstream(path("bad.jsonl"), std::ios::app) << "{\"wrench\":3}\n";
+  const Result bad = run("convert " + path("bad.jsonl") + " " + path("bad.wav"));
+  EXPECT_EQ(bad.status, 1);
+  expect_contains(bad.text, "bad.jsonl:1: is no line of a trace");
 }
 
 TEST_F(Spidartrack, ARecordedTrackIsFoundBesideItsFilmAndFelt) {
@@ -185,6 +166,40 @@ TEST_F(Spidartrack, ARecordedTrackIsFoundBesideItsFilmAndFelt) {
   gst_object_unref(bus);
   gst_object_unref(motion);
   gst_object_unref(pipeline);
+}
+
+TEST_F(Spidartrack, AnEditorChangesWhatItTouchesAndNothingElse) {
+  save_track(path("a.wav"), samples());
+  run_pipeline(
+      "filesrc location=" + quoted(path("a.wav")) +
+      " ! wavparse ! volume volume=0.5 ! wavenc ! filesink location=" + quoted(path("weaker.wav")));
+  std::vector<TrackSample> half = samples();
+  for (TrackSample& sample : half) {
+    for (float& value : sample) value /= 2;
+  }
+  EXPECT_EQ(load_track(path("weaker.wav")), half) << "a half of a float is exact";
+
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "fades are not tested: ffmpeg is not installed";
+  }
+  const std::string fades = "afade=t=in:d=0.5,afade=t=out:st=1.5:d=0.5";
+  ASSERT_EQ(std::system(("ffmpeg -v error -i " + path("a.wav") + " -af " + fades +
+                         " -c:a pcm_f32le " + path("faded.wav"))
+                            .c_str()),
+            0);
+  const std::vector<TrackSample> faded = load_track(path("faded.wav")), whole = samples();
+  ASSERT_EQ(faded.size(), whole.size());
+  for (size_t i = 0; i < whole.size(); ++i) {
+    const double gain =
+        std::min({1.0, static_cast<double>(i) / 500, (2000 - static_cast<double>(i)) / 500});
+    for (size_t k = 0; k < kTrackChannels; ++k) {
+      if (i >= 500 && i <= 1500) {
+        ASSERT_EQ(faded[i][k], whole[i][k]) << i;
+      }
+      // Floats below 1.
+      ASSERT_NEAR(faded[i][k], gain * whole[i][k], 1e-7) << i;
+    }
+  }
 }
 
 TEST_F(Spidartrack, AFunscriptHasMillisecondsAndPositions) {
@@ -235,9 +250,10 @@ TEST_F(Spidartrack, WhatIsDamagedOrNoTrackIsNamed) {
   expect_contains(stereo.text, "2 channels");
   // Cut in the middle: what is left is a track.
   fs::resize_file(path("a.flac"), fs::file_size(path("a.flac")) / 2);
-  const Result cut = run("info " + path("a.flac"));
-  EXPECT_TRUE(cut.status == 0 || cut.status == 1) << cut.text;
-  EXPECT_FALSE(cut.text.empty());
+  expect_contains(run("info " + path("a.flac")).text, "it is cut off: 0.");
+  const Result cut = run("check " + path("a.flac"));
+  EXPECT_EQ(cut.status, 1);
+  expect_contains(cut.text, "s of 2.000 s are there");
 }
 
 }  // namespace

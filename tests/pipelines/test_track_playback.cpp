@@ -180,6 +180,58 @@ TEST(TrackPlayback, BackwardsTheLastSampleComesFirst) {
   for (int ms = 2; ms < 1000; ++ms) expect_wanted(track.tick(), 1000 - ms, 1e-6);
 }
 
+TEST(TrackPlayback, ALoopWithoutAFlushIsFeltWithoutAGap) {
+  // What a seek with GST_SEEK_FLAG_SEGMENT gives: the same samples again, in a segment whose
+  // running time begins where the one before ended.
+  constexpr int kRound_ms = 629;   // of the curve; its end meets its beginning
+  constexpr int kFadeIn_ms = 300;  // the device energises its strings and is trusted
+  SteppedTrack track;
+  for (int round = 0; round < 3; ++round) {
+    if (round > 0)
+      track.continue_with(0, static_cast<GstClockTime>(round * kRound_ms) * GST_MSECOND);
+    track.push(curve(0, 1, kRound_ms), 0);
+  }
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  for (int ms = 1; ms < 3 * kRound_ms; ++ms) {
+    const TickRecord tick = track.tick();
+    expect_wanted(tick, ms % kRound_ms, 1e-6);
+    EXPECT_TRUE(ms < kFadeIn_ms || tick.commanded.stacked() == tick.wanted.stacked()) << ms;
+  }
+  EXPECT_EQ(track.run(51).commanded.stacked().norm(), 0);
+}
+
+TEST(TrackPlayback, FlushedSamplesAreNotFeltAndRestIsReachedWithoutNewOnes) {
+  SteppedTrack track;
+  track.push(curve(), 0);
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  EXPECT_GT(track.run(150).commanded.stacked().norm(), 0.5);
+  track.flush();
+  EXPECT_EQ(track.run(50).commanded.stacked().norm(), 0);
+  EXPECT_EQ(track.run(500).commanded.stacked().norm(), 0);
+}
+
+TEST(TrackPlayback, ASeekWhilePausedIsFeltWhenItPlaysAgain) {
+  SteppedTrack track;
+  track.push(curve(), 0);
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  track.run(100);
+  track.set_state(GST_STATE_PAUSED);
+  track.run(60);
+  track.seek(-1, 0, GST_SECOND);
+  for (int at = 960; at >= 0; at -= 40) {
+    track.push(curve(at, 1, 40), static_cast<GstClockTime>(at) * GST_MSECOND);
+  }
+  track.end();
+  track.set_state(GST_STATE_PAUSED);
+  EXPECT_EQ(track.run(100).commanded.stacked().norm(), 0);
+  track.set_state(GST_STATE_PLAYING);
+  track.tick();
+  for (int ms = 2; ms < 900; ++ms) expect_wanted(track.tick(), 1000 - ms, 1e-6);
+}
+
 TEST(TrackPlayback, AGapIsRestAndWhatFollowsComesBackWithoutAKick) {
   SteppedTrack track;
   track.push(curve(0, 1, 200), 0);

@@ -10,7 +10,7 @@ namespace spidar::bench {
 
 std::string missing_element() {
   for (const char* const needed : {"videotestsrc", "audiotestsrc", "vp8enc", "vp8dec", "avimux",
-                                   "avidemux", "playbin", "playbin3", "appsrc"}) {
+                                   "avidemux", "wavparse", "playbin", "playbin3", "appsrc"}) {
     GstElementFactory* const factory = gst_element_factory_find(needed);
     if (!factory) return needed;
     gst_object_unref(factory);
@@ -18,17 +18,10 @@ std::string missing_element() {
   return "";
 }
 
-void make_clip(const std::string& path, int seconds) {
-  constexpr int kFrames_s = 30;
-  constexpr int kBlocks_s = 50;
-  const std::string launch =
-      "avimux name=mux ! filesink location=\"" + path +
-      "\" videotestsrc pattern=ball num-buffers=" + std::to_string(seconds * kFrames_s) +
-      " ! video/x-raw,format=I420,width=1280,height=720,framerate=30000/1001 "
-      "! vp8enc deadline=1 cpu-used=16 keyframe-max-dist=15 threads=2 ! queue ! mux. "
-      "audiotestsrc samplesperbuffer=960 num-buffers=" +
-      std::to_string(seconds * kBlocks_s) +
-      " ! audio/x-raw,format=S16LE,rate=48000,channels=2 ! queue ! mux.";
+namespace {
+
+/// Runs a pipeline that makes a file.
+void make(const std::string& launch) {
   GError* error = nullptr;
   GstElement* const pipeline = gst_parse_launch(launch.c_str(), &error);
   if (!error) {
@@ -48,6 +41,34 @@ void make_clip(const std::string& path, int seconds) {
   const std::string text = error->message;
   g_error_free(error);
   throw std::runtime_error("the clip cannot be made: " + text);
+}
+
+}  // namespace
+
+void make_clip(const std::string& path, int seconds) {
+  constexpr int kFrames_s = 30;
+  constexpr int kBlocks_s = 50;
+  const std::string launch =
+      "avimux name=mux ! filesink location=\"" + path +
+      "\" videotestsrc pattern=ball num-buffers=" + std::to_string(seconds * kFrames_s) +
+      " ! video/x-raw,format=I420,width=1280,height=720,framerate=30000/1001 "
+      "! vp8enc deadline=1 cpu-used=16 keyframe-max-dist=15 threads=2 ! queue ! mux. "
+      "audiotestsrc samplesperbuffer=960 num-buffers=" +
+      std::to_string(seconds * kBlocks_s) +
+      " ! audio/x-raw,format=S16LE,rate=48000,channels=2 ! queue ! mux.";
+  make(launch);
+}
+
+std::string track_of(const std::string& clip) {
+  return clip + ".wav";
+}
+
+void make_track(const std::string& path, int seconds) {
+  make("audiotestsrc freq=1 volume=0.1 samplesperbuffer=40 num-buffers=" +
+       std::to_string(seconds * 25) +
+       " ! audio/x-raw,format=F32LE,rate=1000,channels=6,channel-mask=(bitmask)0x3f ! wavenc ! "
+       "filesink location=\"" +
+       path + "\"");
 }
 
 }  // namespace spidar::bench

@@ -14,4 +14,10 @@ std::string missing_element();
 /// every half second, and PCM, in AVI, which counts frames exactly. Throws std::runtime_error.
 void make_clip(const std::string& path, int seconds);
 
+/// The haptic track of a clip: 1 N at 1 Hz on every axis, in WAV, for as many seconds. Throws
+/// std::runtime_error.
+void make_track(const std::string& path, int seconds);
+/// Where measure() looks for the track of a clip.
+std::string track_of(const std::string& clip);
+
 }  // namespace spidar::bench

@@ -3,8 +3,10 @@
 #include "tests/bench/skew/measure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "core/track/track_format.h"
 #include "examples/play/trace_reader.h"
 #include "spidar/realtime/monotonic.h"
 #include "tests/bench/skew/player.h"
@@ -21,7 +23,14 @@ struct FeltFrame {
 /// The ticks at which the loop came to another frame.
 class FeltFrames {
  public:
-  static std::vector<std::string> columns() { return {"playing", "frame_ns", "monotonic_ns"}; }
+  /// At this rate samples of a track are so far apart in running time.
+  explicit FeltFrames(const Scenario& scenario)
+      : track_(scenario.track),
+        step_ns_(std::llround(static_cast<double>(kTrackPeriod_ns) / scenario.rate)) {}
+
+  static std::vector<std::string> columns() {
+    return {"playing", "frame_ns", "monotonic_ns", "running_ns"};
+  }
 
   void add(const TraceReader::Fields& row) {
     if (row[0] != "1") {
@@ -29,6 +38,13 @@ class FeltFrames {
       return;
     }
     const int64_t frame_ns = to_integer(row[1]);
+    if (track_) {
+      // Between samples the force is interpolated: it is that of the tick's own running time.
+      const int64_t running_ns = to_integer(row[3]);
+      const bool has_sample = frame_ns >= 0 && running_ns - frame_ns < step_ns_;
+      if (has_sample) frames_.push_back({running_ns, to_integer(row[2])});
+      return;
+    }
     if (frame_ns == last_frame_ns_) return;
     last_frame_ns_ = frame_ns;
     if (frame_ns >= 0) frames_.push_back({frame_ns, to_integer(row[2])});
@@ -36,7 +52,21 @@ class FeltFrames {
 
   const std::vector<FeltFrame>& frames() const { return frames_; }
 
+  /// Of a track, from `begin_ns` on: the first tick that had reached each of these frames.
+  std::vector<FeltFrame> reached(const std::vector<ShownFrame>& shown, int64_t begin_ns) const {
+    std::vector<FeltFrame> reached;
+    size_t tick = 0;
+    while (tick < frames_.size() && frames_[tick].monotonic_ns < begin_ns) ++tick;
+    for (const ShownFrame& frame : shown) {
+      while (tick < frames_.size() && frames_[tick].running_ns < frame.running_ns) ++tick;
+      if (tick < frames_.size()) reached.push_back({frame.running_ns, frames_[tick].monotonic_ns});
+    }
+    return reached;
+  }
+
  private:
+  const bool track_;
+  const int64_t step_ns_;
   int64_t last_frame_ns_ = -1;
   std::vector<FeltFrame> frames_;
 };
@@ -57,7 +87,7 @@ Measurement measure(const Scenario& scenario, const std::string& clip, double se
   constexpr double kLongest_s = 0.3;  // the force of what is shown last has so long to come
   const test::TemporaryFolder folder;
   const std::string pipe = folder.path / "haptic";
-  FeltFrames felt;
+  FeltFrames felt(scenario);
   TraceReader reader(pipe, "", FeltFrames::columns(),
                      [&](const TraceReader::Fields& row) { felt.add(row); });
   std::vector<ShownFrame> shown;
@@ -85,7 +115,7 @@ Measurement measure(const Scenario& scenario, const std::string& clip, double se
     result.force.shown(frame.running_ns, frame.due_ns);
     result.picture_ms.add(1e-6 * static_cast<double>(frame.monotonic_ns - frame.due_ns));
   }
-  for (const FeltFrame& frame : felt.frames()) {
+  for (const FeltFrame& frame : scenario.track ? felt.reached(shown, begin_ns) : felt.frames()) {
     if (frame.monotonic_ns < begin_ns) continue;
     result.skew.felt(frame.running_ns, frame.monotonic_ns);
     result.force.felt(frame.running_ns, frame.monotonic_ns);

@@ -9,6 +9,7 @@
 #include <gst/audio/gstaudioclock.h>
 
 #include "spidar/realtime/monotonic.h"
+#include "tests/bench/skew/clip.h"
 #include "tests/bench/skew/sound_card.h"
 
 namespace spidar::bench {
@@ -27,11 +28,11 @@ GstElement* make(const char* factory) {
 Player::Player(const Scenario& scenario, const std::string& clip, const std::string& haptic_trace,
                OnShown on_shown)
     : scenario_(scenario),
-      filter_(make("spidarmotion")),
+      filter_(make(scenario.track ? "spidarsink" : "spidarmotion")),
       screen_(GST_ELEMENT(gst_object_ref_sink(make_screen(std::move(on_shown))))) {
   g_object_set(filter_, "haptic-trace", haptic_trace.c_str(), nullptr);
   const bool live = scenario.source == Source::kTestSource || scenario.source == Source::kCamera;
-  pipeline_ = live ? make_live() : make_player(clip);
+  pipeline_ = scenario.track ? make_track_player(clip) : live ? make_live() : make_player(clip);
   bus_ = gst_element_get_bus(pipeline_);
 }
 
@@ -73,6 +74,26 @@ GstElement* Player::make_live() {
   return GST_ELEMENT(gst_object_ref_sink(pipeline));
 }
 
+GstElement* Player::make_track_player(const std::string& clip) {
+  std::string launch =
+      "filesrc location=\"" + clip +
+      "\" ! avidemux name=film film.video_0 ! queue ! vp8dec ! identity name=video "
+      "filesrc location=\"" +
+      track_of(clip) + "\" ! wavparse ! identity name=track";
+  if (scenario_.sound) launch += " film.audio_0 ! queue ! identity name=sound";
+  GstElement* const pipeline = gst_parse_launch(launch.c_str(), nullptr);
+  const auto end_with = [pipeline](const char* name, GstElement* sink) {
+    GstElement* const end = gst_bin_get_by_name(GST_BIN(pipeline), name);
+    gst_bin_add(GST_BIN(pipeline), sink);
+    gst_element_link(end, sink);
+    gst_object_unref(end);
+  };
+  end_with("video", screen_);
+  end_with("track", filter_);
+  if (scenario_.sound) end_with("sound", make_sound_card(kDrift));
+  return GST_ELEMENT(gst_object_ref_sink(pipeline));
+}
+
 void Player::set_state(GstState state) {
   gst_element_set_state(pipeline_, state);
   await_state();
@@ -88,7 +109,9 @@ void Player::await_state() {
 }
 
 void Player::seek(GstClockTime position) {
-  const auto flags = static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT);
+  // A track has no key frames: picture and track would not go on from the same place.
+  const auto flags = static_cast<GstSeekFlags>(
+      GST_SEEK_FLAG_FLUSH | (scenario_.track ? GST_SEEK_FLAG_ACCURATE : GST_SEEK_FLAG_KEY_UNIT));
   if (!gst_element_seek(pipeline_, scenario_.rate, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET,
                         static_cast<gint64>(position), GST_SEEK_TYPE_NONE, 0)) {
     throw std::runtime_error("the pipeline cannot seek");

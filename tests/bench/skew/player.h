@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A pipeline with a spidarmotion in it that plays as a scenario says.
+/// A pipeline with a spidarmotion, or a spidarsink beside the video sink, that plays as a scenario
+/// says.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +44,7 @@ class Player {
  private:
   GstElement* make_player(const std::string& clip);
   GstElement* make_live();
+  GstElement* make_track_player(const std::string& clip);
   void set_state(GstState state);
   void await_state();
   void seek(GstClockTime position);

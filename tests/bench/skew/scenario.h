@@ -23,6 +23,7 @@ struct Scenario {
   int seeks = 0;             ///< before what is measured
   bool sound = false;        ///< with the clock of a sound card that runs kDrift too fast
   int64_t av_offset_ns = 0;  ///< the player's: > 0: the picture is shown later than the sound
+  bool track = false;        ///< spidarsink plays a track beside the film, and nothing is analysed
 };
 
 constexpr double kDrift = 300e-6;
@@ -38,6 +39,11 @@ inline const std::vector<Scenario>& scenarios() {
       {"seeks", "file after 100 seeks", Source::kPlaybin, 1, 100},
       {"sound", "file with sound, clock +300 ppm", Source::kPlaybin, 1, 0, true},
       {"sound-seeks", "the same after 100 seeks", Source::kPlaybin, 1, 100, true},
+      {"track", "track by spidarsink", Source::kPlaybin, 1, 0, false, 0, true},
+      {"track-seeks", "the same after 100 seeks", Source::kPlaybin, 1, 100, false, 0, true},
+      {"track-half", "the same at rate 0.5", Source::kPlaybin, 0.5, 0, false, 0, true},
+      {"track-twice", "the same at rate 2", Source::kPlaybin, 2, 0, false, 0, true},
+      {"track-sound", "the same with sound, clock +300 ppm", Source::kPlaybin, 1, 0, true, 0, true},
       {"av-offset", "file with sound, av-offset 100 ms", Source::kPlaybin, 1, 0, true, 100'000'000},
   };
   return all;

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/film_merger.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include <gst/gst.h>
+
+#include "plugin/tools/matroska_flags.h"
+#include "plugin/tools/track_samples.h"
+#include "plugin/track/film_streams.h"
+#include "plugin/track/sidecar.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kTrackName = "Haptic track";
+constexpr int64_t kFrame_ns = 40'000'000;  // where the film does not say how long one lasts
+
+struct Merge {
+  GstElement* mux = nullptr;
+  GstElement* queue = nullptr;    // of the film's streams
+  GstElement* samples = nullptr;  // the queue of the track
+  GstPad* track = nullptr;        // held back until the streams of the film are known
+  gulong hold = 0;
+  int64_t track_ns = 0;
+  bool has_sound = false, has_track = false;
+  int64_t frame_ns = kFrame_ns;
+  std::string other;  // why the film is another one
+};
+
+void refuse(GstElement* element, const std::string& reason) {
+  GST_ELEMENT_ERROR(element, STREAM, WRONG_TYPE, ("%s", reason.c_str()), ("spidartrack merge"));
+}
+
+/// Links `pad` to the muxer through the queue. False when Matroska does not take such a stream.
+bool link_to_mux(Merge& merge, GstPad* pad, GstCaps* caps) {
+  GstPad* into = gst_element_request_pad_simple(merge.queue, "sink_%u");
+  gchar* name = gst_pad_get_name(into);
+  const std::string out_name = "src_" + std::string(name).substr(5);
+  g_free(name);
+  GstPad* out = gst_element_get_static_pad(merge.queue, out_name.c_str());
+  GstPad* mux_pad = gst_element_get_compatible_pad(merge.mux, pad, caps);
+  const bool linked = mux_pad && gst_pad_link(pad, into) == GST_PAD_LINK_OK &&
+                      gst_pad_link(out, mux_pad) == GST_PAD_LINK_OK;
+  if (mux_pad) gst_object_unref(mux_pad);
+  gst_object_unref(out);
+  gst_object_unref(into);
+  return linked;
+}
+
+void add_stream(GstElement* parser, GstPad* pad, gpointer user) {
+  auto& merge = *static_cast<Merge*>(user);
+  GstCaps* caps = caps_of(pad);
+  const StreamKind kind = kind_of(caps);
+  merge.has_sound = merge.has_sound || kind == StreamKind::kSound;
+  merge.has_track = merge.has_track || kind == StreamKind::kHapticTrack;
+  int numerator = 0, denominator = 0;
+  if (kind == StreamKind::kVideo &&
+      gst_structure_get_fraction(gst_caps_get_structure(caps, 0), "framerate", &numerator,
+                                 &denominator) &&
+      numerator > 0 && denominator > 0) {
+    merge.frame_ns =
+        static_cast<int64_t>(gst_util_uint64_scale_int(GST_SECOND, denominator, numerator));
+  }
+  const bool linked = link_to_mux(merge, pad, caps);
+  if (!linked) {
+    gchar* const text = gst_caps_to_string(caps);
+    refuse(parser, std::string("Matroska takes no stream of ") + text +
+                       ": leave the track beside the film, where track=auto finds it.");
+    g_free(text);
+  } else if (merge.other.empty()) {
+    GstPad* peer = gst_pad_get_peer(pad);
+    merge.other = other_film(peer, merge.track_ns, merge.frame_ns);
+    gst_object_unref(peer);
+  }
+  gst_caps_unref(caps);
+}
+
+/// The film may go on, and the track with it, or there is a reason why not.
+void judge_film(const Merge& merge, GstElement* parser) {
+  if (merge.has_track) {
+    refuse(parser, "The film has a haptic track already: spidartrack extract takes it out.");
+  } else if (!merge.has_sound) {
+    refuse(
+        parser,
+        "The film has no sound: players would play the haptic track through the loudspeakers. "
+        "Leave it beside the film, as FILM.haptic.flac for FILM.mp4, where track=auto finds it.");
+  } else if (!merge.other.empty()) {
+    refuse(parser, "The track is that of another film: " + merge.other + ".");
+  } else {
+    // Behind those of the film: it is the first that players choose.
+    GstPad* mux_pad = gst_element_request_pad_simple(merge.mux, "audio_%u");
+    gst_pad_link(merge.track, mux_pad);
+    gst_object_unref(mux_pad);
+    gst_pad_remove_probe(merge.track, merge.hold);
+  }
+}
+
+GstPadProbeReturn hold_back(GstPad*, GstPadProbeInfo*, gpointer) {
+  return GST_PAD_PROBE_OK;
+}
+
+/// The muxer is told one name of the track, right before its first sample, and none that the track
+/// brings.
+GstPadProbeReturn name_track(GstPad* pad, GstPadProbeInfo*, gpointer) {
+  GstTagList* tags = gst_tag_list_new(GST_TAG_TITLE, name_with_room(kTrackName).c_str(), nullptr);
+  gst_tag_list_set_scope(tags, GST_TAG_SCOPE_STREAM);
+  GstPad* mux_pad = gst_pad_get_peer(pad);
+  gst_pad_send_event(mux_pad, gst_event_new_tag(tags));
+  gst_object_unref(mux_pad);
+  return GST_PAD_PROBE_REMOVE;
+}
+
+GstPadProbeReturn drop_tags(GstPad*, GstPadProbeInfo* info, gpointer) {
+  const bool is_tag = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) == GST_EVENT_TAG;
+  return is_tag ? GST_PAD_PROBE_DROP : GST_PAD_PROBE_OK;
+}
+
+void add_track(GstElement* parser, GstPad* pad, gpointer user) {
+  const auto& merge = *static_cast<Merge*>(user);
+  GstCaps* caps = caps_of(pad);
+  GstPad* into = gst_element_get_static_pad(merge.samples, "sink");
+  if (kind_of(caps) != StreamKind::kHapticTrack || gst_pad_is_linked(into) ||
+      gst_pad_link(pad, into) != GST_PAD_LINK_OK) {
+    refuse(parser, "The track is to be a file of its own; spidartrack extract makes one.");
+  }
+  gst_object_unref(into);
+  gst_caps_unref(caps);
+}
+
+}  // namespace
+
+void merge_film(const std::string& film, const std::string& track, int64_t track_ns,
+                const std::string& out) {
+  Merge merge;
+  std::optional<StreamsWatch> streams;
+  merge.track_ns = track_ns;
+  run_pipeline(
+      "matroskamux name=mux ! filesink location=" + quoted(out) +
+          " filesrc location=" + quoted(film) +
+          " ! parsebin name=film multiqueue name=streams max-size-bytes=0 max-size-buffers=0 "
+          "max-size-time=10000000000 filesrc location=" +
+          quoted(track) + " ! parsebin name=track queue name=samples",
+      [&](GstElement* pipeline) {
+        const auto find = [pipeline](const char* name) {
+          GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), name);
+          gst_object_unref(element);  // the pipeline has it
+          return element;
+        };
+        merge.mux = find("mux");
+        merge.queue = find("streams");
+        merge.samples = find("samples");
+        merge.track = gst_element_get_static_pad(merge.samples, "src");
+        gst_pad_add_probe(merge.track, GST_PAD_PROBE_TYPE_BUFFER, name_track, nullptr, nullptr);
+        gst_pad_add_probe(merge.track, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, drop_tags, nullptr,
+                          nullptr);
+        merge.hold = gst_pad_add_probe(merge.track, GST_PAD_PROBE_TYPE_BLOCK_DOWNSTREAM, hold_back,
+                                       nullptr, nullptr);
+        gst_object_unref(merge.track);
+        g_signal_connect(find("track"), "pad-added", G_CALLBACK(add_track), &merge);
+        g_signal_connect(find("film"), "pad-added", G_CALLBACK(add_stream), &merge);
+        GstElement* const parser = find("film");
+        streams.emplace(parser, [&merge, parser] { judge_film(merge, parser); });
+      });
+  clear_track_flags(out, kTrackName);
+}
+
+}  // namespace spidar

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "plugin/tools/film_merger.h"
+#include "plugin/tools/spidartrack_commands.h"
+#include "plugin/tools/track_samples.h"
+#include "spidar/tools/command_line.h"
+#include "spidar/tools/exit_status.h"
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMergeHelp = R"(usage: spidartrack merge FILM TRACK OUT.mkv
+
+Writes the film with its haptic track in it; neither is encoded anew. The film needs sound of its own,
+or players would play the track through the loudspeakers; the track is marked as not default and
+not enabled. A track in HJIF or a trace becomes F32.
+)";
+
+constexpr const char* kExtractHelp = R"(usage: spidartrack extract FILM OUT
+
+Writes the haptic track of a film into a file of its own: OUT ends in .flac, .mka, .wav, .hjif or
+.funscript.
+)";
+
+/// Three or two operands; empty when help was asked for.
+std::vector<std::string> parse(int argc, char** argv, const char* help_text, size_t count,
+                               const char* usage) {
+  bool help = false;
+  std::vector<std::string> operands =
+      parse_options(argc, argv, {{"help", false, [&](const std::string&) { help = true; }}});
+  if (help) {
+    std::cout << help_text;
+    return {};
+  }
+  if (operands.size() != count) throw UsageError(usage);
+  return operands;
+}
+
+/// Removes what is left of an output that did not become complete.
+class PartFile {
+ public:
+  explicit PartFile(const fs::path& target, const std::string& end = "")
+      : path_((target.parent_path() / (".part-" + target.filename().string() + end)).string()) {}
+  ~PartFile() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
+int merge_track_command(int argc, char** argv) {
+  const std::vector<std::string> operands =
+      parse(argc, argv, kMergeHelp, 3, "FILM, TRACK and OUT.mkv are needed, and nothing else");
+  if (operands.empty()) return kDone;
+  const std::string &film = operands[0], &track = operands[1], &out = operands[2];
+  if (!ends_with(out, ".mkv")) {
+    throw UsageError(out + ": a film with a track is Matroska, and ends in .mkv");
+  }
+  std::error_code none;
+  for (const std::string& input : {film, track}) {
+    if (!fs::exists(input)) throw std::runtime_error(input + ": there is no such file");
+    if (fs::equivalent(input, out, none)) {
+      throw UsageError(out + ": is to be another file than " + input);
+    }
+  }
+  const std::vector<TrackSample> samples = load_track(track);
+  const PartFile part(out), sound(out, ".mka");
+  const bool is_sound =
+      !ends_with(track, ".hjif") && !ends_with(track, ".csv") && !ends_with(track, ".jsonl");
+  if (!is_sound) save_track(sound.path(), samples);
+  try {
+    merge_film(film, is_sound ? track : sound.path(),
+               static_cast<int64_t>(samples.size()) * kTrackPeriod_ns, part.path());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(film + ": " + error.what());
+  }
+  fs::rename(part.path(), out);
+  return kDone;
+}
+
+int extract_track_command(int argc, char** argv) {
+  const std::vector<std::string> operands =
+      parse(argc, argv, kExtractHelp, 2, "FILM and OUT are needed, and nothing else");
+  if (operands.empty()) return kDone;
+  save_track(operands[1], load_track(operands[0]));
+  return kDone;
+}
+
+}  // namespace spidar

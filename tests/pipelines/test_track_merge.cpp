@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Films with a haptic track in them: what players make of them, and which films are refused.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+#include "core/track/track_format.h"
+#include "plugin/tools/track_samples.h"
+#include "tests/pipelines/track_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a player gave to the sink for sound.
+struct Heard {
+  std::vector<guint8> bytes;
+  std::string caps;
+};
+
+void hear(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
+  auto& heard = *static_cast<Heard*>(user);
+  if (heard.caps.empty()) {
+    GstCaps* caps = gst_pad_get_current_caps(pad);
+    gchar* text = gst_caps_to_string(caps);
+    heard.caps = text;
+    g_free(text);
+    gst_caps_unref(caps);
+  }
+  GstMapInfo map;
+  gst_buffer_map(buffer, &map, GST_MAP_READ);
+  heard.bytes.insert(heard.bytes.end(), map.data, map.data + map.size);
+  gst_buffer_unmap(buffer, &map);
+}
+
+/// Keeps the flags of a stream of sound, and lets the stream go nowhere.
+void look_at(GstElement*, GstPad* pad, gpointer user) {
+  GstCaps* caps = gst_pad_get_current_caps(pad);
+  int channels = 0;
+  gst_structure_get_int(gst_caps_get_structure(caps, 0), "channels", &channels);
+  gst_caps_unref(caps);
+  GstEvent* event = gst_pad_get_sticky_event(pad, GST_EVENT_STREAM_START, 0);
+  GstStreamFlags stream_flags;
+  gst_event_parse_stream_flags(event, &stream_flags);
+  gst_event_unref(event);
+  if (channels > 0) (*static_cast<std::map<int, GstStreamFlags>*>(user))[channels] = stream_flags;
+  GstElement* sink = gst_element_factory_make("fakesink", nullptr);
+  GstObject* pipeline = gst_object_get_parent(GST_OBJECT(GST_PAD_PARENT(pad)));
+  gst_bin_add(GST_BIN(pipeline), sink);
+  gst_object_unref(pipeline);
+  g_object_set(sink, "sync", FALSE, "async", FALSE, nullptr);
+  gst_element_sync_state_with_parent(sink);
+  GstPad* into = gst_element_get_static_pad(sink, "sink");
+  gst_pad_link(pad, into);
+  gst_object_unref(into);
+}
+
+class TrackMerge : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { gst_init(nullptr, nullptr); }
+  void SetUp() override {
+    const std::string video =
+        "videotestsrc num-buffers=50 pattern=ball ! video/x-raw,width=64,height=48,framerate=25/1 "
+        "! jpegenc ! mux. ";
+    // 0.02 s in each buffer.
+    const std::string sound =
+        "audiotestsrc num-buffers=100 samplesperbuffer=960 wave=ticks ! "
+        "audio/x-raw,format=S16LE,rate=48000,channels=2 ! mux.";
+    run_pipeline("avimux name=mux ! filesink location=" + quoted(path("film.avi")) + " " + video +
+                 sound);
+    run_pipeline("avimux name=mux ! filesink location=" + quoted(path("silent.avi")) + " " + video);
+    save_track(path("track.wav"), samples());
+    save_track(path("track.flac"), samples());
+  }
+
+  std::string path(const std::string& name) const { return (folder.path / name).string(); }
+  std::vector<TrackSample> samples(int count = 2000) const {
+    std::vector<TrackSample> track;
+    for (int i = 0; i < count; ++i) {
+      const auto x = static_cast<float>(0.05 * std::sin(0.01 * i));
+      track.push_back({x, 2 * x, -3 * x, x / 2, -x / 3, x / 4});
+    }
+    return track;
+  }
+  Result merge(const std::string& film, const std::string& track, const std::string& out) const {
+    return run("merge " + path(film) + " " + path(track) + " " + path(out));
+  }
+
+  Heard play(const std::string& player, const std::string& film) const {
+    Heard heard;
+    gchar* uri = gst_filename_to_uri(path(film).c_str(), nullptr);
+    run_pipeline(player + " name=player uri=" + uri + " video-sink=\"fakesink sync=false\"",
+                 [&heard](GstElement* pipeline) {
+                   GstElement* sink = gst_element_factory_make("fakesink", nullptr);
+                   g_object_set(sink, "sync", FALSE, "signal-handoffs", TRUE, nullptr);
+                   g_signal_connect(sink, "handoff", G_CALLBACK(hear), &heard);
+                   g_object_set(pipeline, "audio-sink", sink, nullptr);
+                 });
+    g_free(uri);
+    return heard;
+  }
+
+  /// Flags of each stream of sound, by number of channels, as a demuxer tells them.
+  std::map<int, GstStreamFlags> flags(const std::string& film) const {
+    std::map<int, GstStreamFlags> found;
+    run_pipeline("filesrc location=" + quoted(path(film)) + " ! matroskademux name=demux",
+                 [&](GstElement* pipeline) {
+                   GstElement* demux = gst_bin_get_by_name(GST_BIN(pipeline), "demux");
+                   g_signal_connect(demux, "pad-added", G_CALLBACK(look_at), &found);
+                   gst_object_unref(demux);
+                 });
+    return found;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(TrackMerge, PlayersPlayTheSoundOfTheFilmAsBefore) {
+  const Result result = merge("film.avi", "track.flac", "felt.mkv");
+  ASSERT_EQ(result.status, 0) << result.text;
+  for (const char* player : {"playbin", "playbin3"}) {
+    SCOPED_TRACE(player);
+    const Heard before = play(player, "film.avi"), after = play(player, "felt.mkv");
+    EXPECT_NE(after.caps.find("channels=(int)2"), std::string::npos) << after.caps;
+    ASSERT_EQ(before.bytes.size(), 100u * 960 * 2 * 2);
+    EXPECT_EQ(after.bytes, before.bytes);
+  }
+}
+
+TEST_F(TrackMerge, TheTrackIsNeitherDefaultNorEnabled) {
+  ASSERT_EQ(merge("film.avi", "track.flac", "felt.mkv").status, 0);
+  const std::map<int, GstStreamFlags> found = flags("felt.mkv");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_TRUE(found.at(2) & GST_STREAM_FLAG_SELECT);
+  EXPECT_FALSE(found.at(6) & GST_STREAM_FLAG_SELECT);
+  EXPECT_TRUE(found.at(6) & GST_STREAM_FLAG_UNSELECT);
+  // FlagDefault and FlagEnabled of RFC 9559, of one track.
+  std::ifstream file(path("felt.mkv"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string off("\x88\x81\x00\xB9\x81\x00", 6);
+  const size_t at = bytes.find(off);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(bytes.find(off, at + 1), std::string::npos);
+}
+
+TEST_F(TrackMerge, TheTrackComesBackSampleBySample) {
+  // Half a step of 24 bits, and what a float below 1 is rounded by.
+  const double half_step = std::ldexp(1.0, -24) + std::ldexp(1.0, -25);
+  save_track(path("track.hjif"), samples());
+  const std::pair<const char*, double> tracks[] = {
+      {"track.wav", 0}, {"track.flac", half_step}, {"track.hjif", 4.1e-4}};
+  for (const auto& [track, error] : tracks) {
+    SCOPED_TRACE(track);
+    ASSERT_EQ(merge("film.avi", track, "felt.mkv").status, 0);
+    ASSERT_EQ(run("extract " + path("felt.mkv") + " " + path("out.mka")).status, 0);
+    const std::vector<TrackSample> read = load_track(path("out.mka"));
+    ASSERT_EQ(read.size(), 2000u);
+    EXPECT_LE(largest_difference(read, samples()), error);
+  }
+}
+
+TEST_F(TrackMerge, SixConstantsStayInTheirChannels) {
+  const std::vector<TrackSample> constant(2000, {0.125F, -0.25F, 0.375F, -0.5F, 0.625F, -0.75F});
+  for (const char* track : {"constant.wav", "constant.flac", "constant.mka"}) {
+    SCOPED_TRACE(track);
+    save_track(path(track), constant);
+    ASSERT_EQ(merge("film.avi", track, "felt.mkv").status, 0);
+    for (const char* out : {"out.wav", "out.flac", "out.mka", "out.hjif"}) {
+      ASSERT_EQ(run("extract " + path("felt.mkv") + " " + path(out)).status, 0);
+      const std::vector<TrackSample> read = load_track(path(out));
+      ASSERT_EQ(read.size(), constant.size()) << out;
+      // All six are whole steps of every encoding.
+      EXPECT_LE(largest_difference(read, constant), 1e-7) << out;
+    }
+  }
+}
+
+TEST_F(TrackMerge, WhatPlayersWouldMakeNoiseOfIsRefused) {
+  const Result silent = merge("silent.avi", "track.flac", "felt.mkv");
+  EXPECT_EQ(silent.status, 1);
+  expect_contains(silent.text, "has no sound");
+  expect_contains(silent.text, "Leave it beside the film");
+  EXPECT_FALSE(fs::exists(path("felt.mkv")));
+  ASSERT_EQ(merge("film.avi", "track.flac", "felt.mkv").status, 0);
+  const Result twice = merge("felt.mkv", "track.flac", "twice.mkv");
+  EXPECT_EQ(twice.status, 1);
+  expect_contains(twice.text, "has a haptic track already");
+  for (const auto& entry : fs::directory_iterator(folder.path)) {
+    EXPECT_NE(entry.path().filename().string().rfind(".part-", 0), 0u) << entry.path();
+  }
+}
+
+TEST_F(TrackMerge, OtherMistakesAreNamed) {
+  save_track(path("long.wav"), samples(2200));
+  const Result other = merge("film.avi", "long.wav", "felt.mkv");
+  EXPECT_EQ(other.status, 1);
+  expect_contains(other.text, "another film: the track lasts 2.200 s, the film 2.000 s");
+  EXPECT_EQ(merge("film.avi", "track.flac", "felt.mp4").status, 2);
+  EXPECT_EQ(merge("film.avi", "film.avi", "felt.mkv").status, 1);
+  expect_contains(merge("none.avi", "track.flac", "felt.mkv").text, "there is no such file");
+  ASSERT_EQ(merge("film.avi", "track.flac", "felt.mkv").status, 0);
+  EXPECT_EQ(merge("felt.mkv", "track.flac", "felt.mkv").status, 2);
+  const Result none = run("extract " + path("film.avi") + " " + path("out.wav"));
+  EXPECT_EQ(none.status, 1);
+  expect_contains(none.text, "2 channels");
+  expect_contains(run("extract " + path("silent.avi") + " " + path("out.wav")).text,
+                  "no haptic track");
+}
+
+}  // namespace
+}  // namespace spidar::test

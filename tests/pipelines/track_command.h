@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// spidartrack as it is called on the command line, and its tracks compared.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/track/track_format.h"
+
+namespace spidar::test {
+
+struct Result {
+  int status = -1;
+  std::string text;  ///< both outputs
+};
+
+inline Result run(const std::string& arguments) {
+  Result result;
+  FILE* pipe = popen((std::string(SPIDARTRACK) + " " + arguments + " 2>&1").c_str(), "r");
+  if (!pipe) return result;
+  char part[4096];
+  while (std::fgets(part, sizeof part, pipe)) result.text += part;
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
+  return result;
+}
+
+inline void expect_contains(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
+}
+
+inline double largest_difference(const std::vector<TrackSample>& a,
+                                 const std::vector<TrackSample>& b) {
+  double largest = 0;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    for (size_t k = 0; k < kTrackChannels; ++k) {
+      largest = std::max(largest, std::fabs(static_cast<double>(a[i][k]) - b[i][k]));
+    }
+  }
+  return largest;
+}
+
+}  // namespace spidar::test
