@@ -92,10 +92,16 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
 /// What a surface that moves puts into the spring may come out again: that is what it is for.
 void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
                                  const Eigen::Vector3d& grip_m) noexcept {
-  const double half_N_m = 0.5 * settings.stiffness_N_m;
-  const double stored_J =
-      proxy_.touching() ? half_N_m * (proxy_.position_m() - grip_m).squaredNorm() : 0;
-  budget_.follow(way_m, velocity_m_s_, half_N_m * proxy_.stretched_m2(), stored_J);
+  if (!proxy_.touching()) {
+    budget_.follow(way_m, velocity_m_s_, 0, 0);
+    return;
+  }
+  // Beyond max_force_N the spring gives way.
+  const double length_m = (proxy_.position_m() - grip_m).norm();
+  const double force_N = std::min(settings.stiffness_N_m * length_m, settings.max_force_N);
+  const double stored_J = force_N * (length_m - 0.5 * force_N / settings.stiffness_N_m);
+  const double put_in_J = length_m > 0 ? 0.5 * force_N / length_m * proxy_.stretched_m2() : 0;
+  budget_.follow(way_m, velocity_m_s_, put_in_J, stored_J);
 }
 
 /// Without the bound.
