@@ -105,6 +105,7 @@ struct Case {
   double damping;
   double friction;
   bool texture;
+  bool bounded = true;
 };
 
 void explore_scenes(const std::vector<test::TouchScene>& scenes, long ticks) {
@@ -115,12 +116,14 @@ void explore_scenes(const std::vector<test::TouchScene>& scenes, long ticks) {
                         {"800 N/m, friction", 800, 1.5, 0.3, false},
                         {"800 N/m, friction, texture", 800, 1.5, 0.3, true},
                         {"800 N/m, friction, texture, damping 1.2 K t_d", 800, 1.2, 0.3, true},
-                        {"700 N/m, no damping", 700, 0, 0, false}}) {
+                        {"800 N/m, friction, texture, no budget", 800, 1.5, 0.3, true, false},
+                        {"the same, damping 1.2 K t_d", 800, 1.2, 0.3, true, false},
+                        {"700 N/m, no damping, no budget", 700, 0, 0, false, false}}) {
     ContactSettings settings;
     settings.stiffness_N_m = c.stiffness_N_m;
     settings.damping = c.damping;
     settings.friction = {c.friction, 0.8 * c.friction};
-    settings.bounds_energy = c.damping > 0;
+    settings.bounds_energy = c.bounded;
     std::printf("%s\n", c.name);
     for (const test::TouchScene& scene : scenes) {
       std::printf("  %-20s", scene.name.c_str());
