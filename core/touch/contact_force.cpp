@@ -25,6 +25,18 @@ Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
   return slope * (ContactForce::kMostTextureSlope / steepness);
 }
 
+/// The velocity is behind by its low-pass; the rest of the delay is that of all forces.
+ForcePath path_of(const ContactSettings& settings, double dt_s) noexcept {
+  ForcePath path;
+  path.max_force_N = settings.max_force_N;
+  path.max_slew_N_s = settings.max_slew_N_s;
+  path.lag_s = std::max(0.0, settings.delay_s - 1.5 * dt_s);
+  path.velocity_lag_s =
+      settings.delay_s + 1 / (2 * std::acos(-1.0) * ContactForce::kVelocityCutoff_Hz);
+  path.least_mass_kg = settings.least_mass_kg;
+  return path;
+}
+
 }  // namespace
 
 void validate(const ContactSettings& s) {
@@ -39,6 +51,11 @@ void validate(const ContactSettings& s) {
   require(s.friction.dynamic >= 0 && s.friction.dynamic <= s.friction.fixed, "friction.dynamic",
           "≥ 0 and at most friction.fixed", s.friction.dynamic);
   require(std::isfinite(s.texture) && s.texture >= 0, "texture", "finite and ≥ 0", s.texture);
+  require(s.max_force_N > 0, "max_force_N", "above 0", s.max_force_N);
+  require(std::isfinite(s.max_slew_N_s) && s.max_slew_N_s > 0, "max_slew_N_s", "finite and above 0",
+          s.max_slew_N_s);
+  require(std::isfinite(s.least_mass_kg) && s.least_mass_kg > 0, "least_mass_kg",
+          "finite and above 0", s.least_mass_kg);
 }
 
 void ContactForce::follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept {
@@ -57,10 +74,40 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
     reset();
     return Eigen::Vector3d::Zero();
   }
+  const Eigen::Vector3d way_m = started_ ? grip_m - last_m_ : Eigen::Vector3d(0, 0, 0);
   follow(grip_m, dt_s);
   proxy_.move(surface, settings.friction, grip_m, dt_s);
-  if (!proxy_.touching()) return Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_N = wanted_N(texture, settings, grip_m);
+  if (!settings.bounds_energy || !(dt_s > 0)) return force_N;
+  follow_energy(settings, way_m, grip_m);
+  const ForcePath path = path_of(settings, dt_s);
+  const double size_N = force_N.norm();
+  if (size_N > 0) {
+    force_N *= std::min(1.0, budget_.most_N(force_N / size_N, path, dt_s) / size_N);
+  }
+  budget_.command(force_N, path, dt_s);
+  return force_N;
+}
 
+/// What a surface that moves puts into the spring may come out again: that is what it is for.
+void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
+                                 const Eigen::Vector3d& grip_m) noexcept {
+  if (!proxy_.touching()) {
+    budget_.follow(way_m, velocity_m_s_, 0, 0);
+    return;
+  }
+  // Beyond max_force_N the spring gives way.
+  const double length_m = (proxy_.position_m() - grip_m).norm();
+  const double force_N = std::min(settings.stiffness_N_m * length_m, settings.max_force_N);
+  const double stored_J = force_N * (length_m - 0.5 * force_N / settings.stiffness_N_m);
+  const double put_in_J = length_m > 0 ? 0.5 * force_N / length_m * proxy_.stretched_m2() : 0;
+  budget_.follow(way_m, velocity_m_s_, put_in_J, stored_J);
+}
+
+/// Without the bound.
+Eigen::Vector3d ContactForce::wanted_N(const HeightField* texture, const ContactSettings& settings,
+                                       const Eigen::Vector3d& grip_m) const noexcept {
+  if (!proxy_.touching()) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d& normal = proxy_.normal();
   const Eigen::Vector3d spring_N = settings.stiffness_N_m * (proxy_.position_m() - grip_m);
   const double across_m_s = velocity_m_s_.dot(normal);

@@ -3,9 +3,12 @@
 /// The force of a grip that touches a relief.
 #pragma once
 
+#include <limits>
+
 #include <Eigen/Core>
 
 #include "core/api.h"
+#include "core/touch/energy_budget.h"
 #include "core/touch/moving_relief.h"
 #include "core/touch/proxy.h"
 
@@ -23,6 +26,13 @@ struct ContactSettings {
   double lateral_damping = 0.5;  ///< along the surface, in units of B; finite and ≥ 0.5
   Friction friction;
   double texture = 1;  ///< of the slope of the texture that is felt; finite and ≥ 0
+  /// What the safety chain lets through: a contact gives no more energy back than it took only if
+  /// these are right. Above 0; the force may be infinite.
+  double max_force_N = std::numeric_limits<double>::infinity();
+  double max_slew_N_s = 300;
+  /// Of the grip alone. A lighter one can get some energy out of a fast tap. Finite and above 0.
+  double least_mass_kg = 0.05;
+  bool bounds_energy = true;  ///< false, in measurements: without EnergyBudget
 
   static constexpr double kMostStiffness_N_m = 800;
 
@@ -32,8 +42,9 @@ struct ContactSettings {
 /// Throws std::invalid_argument that names the setting which is out of range.
 SPIDAR_API void validate(const ContactSettings& settings);
 
-/// A spring to the proxy, a damper, and the texture as a force along the surface. Fine texture as
-/// part of the relief would let the proxy snap from valley to valley.
+/// A spring to the proxy, a damper, and the texture as a force along the surface, together no more
+/// than what EnergyBudget allows. Fine texture as part of the relief would let the proxy snap from
+/// valley to valley.
 class SPIDAR_API ContactForce {
  public:
   /// Cutoff of the velocity, a first-order low-pass.
@@ -56,8 +67,13 @@ class SPIDAR_API ContactForce {
 
  private:
   void follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept;
+  Eigen::Vector3d wanted_N(const HeightField* texture, const ContactSettings& settings,
+                           const Eigen::Vector3d& grip_m) const noexcept;
+  void follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
+                     const Eigen::Vector3d& grip_m) noexcept;
 
   TouchProxy proxy_;
+  EnergyBudget budget_;
   bool started_ = false;
   Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();

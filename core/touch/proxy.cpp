@@ -18,13 +18,6 @@ constexpr double kSticksAgain = 0.6;
 constexpr double kLeastStep_m = 1e-9;
 constexpr int kMostHalvings = 3;
 
-/// A shifted surface a little nearer to its place. It falls faster than it rises: falling gives
-/// nothing to the hand.
-double settled(double shift_m, double dt_s) noexcept {
-  if (shift_m < 0) return std::min(0.0, shift_m + TouchProxy::kRise_m_s * dt_s);
-  return std::max(0.0, shift_m - TouchProxy::kFastest_m_s * dt_s);
-}
-
 }  // namespace
 
 void TouchProxy::move(const MovingRelief& surface, const Friction& friction,
@@ -33,9 +26,10 @@ void TouchProxy::move(const MovingRelief& surface, const Friction& friction,
     reset();
     return;
   }
-  const double shift_m = settled(shift_m_, dt_s);
+  const double shift_m = settled_m(dt_s);
+  stretched_m2_ = 0;
   if (touching_) {
-    carry(surface, shift_m, dt_s);
+    carry(surface, shift_m, grip_m, dt_s);
   } else {
     // Where nobody touches it the surface may fall at once.
     enter(surface, std::min(shift_m, 0.0), grip_m, dt_s);
@@ -45,12 +39,26 @@ void TouchProxy::move(const MovingRelief& surface, const Friction& friction,
   started_ = true;
 }
 
+/// A shifted surface a little nearer to its place. It falls faster than it rises: falling gives
+/// nothing to the hand.
+double TouchProxy::settled_m(double dt_s) noexcept {
+  if (shift_m_ >= 0) {
+    rise_m_s_ = 0;
+    return std::max(0.0, shift_m_ - kFastest_m_s * dt_s);
+  }
+  rise_m_s_ = std::min(kRise_m_s, rise_m_s_ + kRise_m_s2 * dt_s);
+  return std::min(0.0, shift_m_ + rise_m_s_ * dt_s);
+}
+
 /// Moves with the surface, not faster than kFastest_m_s.
-void TouchProxy::carry(const MovingRelief& surface, double shift_m, double dt_s) noexcept {
+void TouchProxy::carry(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
+                       double dt_s) noexcept {
   const SurfacePoint at = surface.at(position_m_.head<2>());
   const double rise_m = at.z_m + shift_m - position_m_.z();
   const double most_m = kFastest_m_s * dt_s;
+  const double before_m2 = (position_m_ - grip_m).squaredNorm();
   position_m_.z() += std::clamp(rise_m, -most_m, most_m);
+  stretched_m2_ = (position_m_ - grip_m).squaredNorm() - before_m2;
   shift_m_ = position_m_.z() - at.z_m;
   normal_ = at.normal();
 }

@@ -30,8 +30,10 @@ struct Friction {
 class SPIDAR_API TouchProxy {
  public:
   static constexpr double kFastest_m_s = 0.2;  ///< of a surface that is touched
-  /// A light hand overshoots it by 40 %: the grip stays slower than 0.05 m/s.
-  static constexpr double kRise_m_s = 0.035;
+  static constexpr double kRise_m_s = 0.04;
+  /// A rise gets as fast as that within 0.1 s. Begun at full speed, it would throw a lightly held
+  /// grip up 40 % faster.
+  static constexpr double kRise_m_s2 = 0.4;
   static constexpr int kMostSteps = 8;  ///< of half a cell each, in a tick
 
   /// One tick, `dt_s` > 0 after the last. `grip_m` in the device frame. Neither allocates nor
@@ -47,12 +49,17 @@ class SPIDAR_API TouchProxy {
   const Eigen::Vector3d& normal() const noexcept { return normal_; }
   /// How much higher (> 0) or lower the surface is held than it is.
   double shift_m() const noexcept { return shift_m_; }
+  /// By how much the surface's own move has changed the squared distance between proxy and grip in
+  /// this tick: 2 / stiffness times the energy that it has put into the spring.
+  double stretched_m2() const noexcept { return stretched_m2_; }
 
   /// The pose was lost or a new grip taken: its next place says nothing about how it moved.
   void reset() noexcept { *this = {}; }
 
  private:
-  void carry(const MovingRelief& surface, double shift_m, double dt_s) noexcept;
+  double settled_m(double dt_s) noexcept;
+  void carry(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
+             double dt_s) noexcept;
   void enter(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
              double dt_s) noexcept;
   void walk(const MovingRelief& surface, const Friction& friction,
@@ -65,6 +72,8 @@ class SPIDAR_API TouchProxy {
   bool sliding_ = false;
   bool started_ = false;
   double shift_m_ = 0;
+  double rise_m_s_ = 0;
+  double stretched_m2_ = 0;
   Eigen::Vector3d position_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d last_grip_m_ = Eigen::Vector3d::Zero();

@@ -109,15 +109,6 @@ void limit_slope(HeightField& field) noexcept {
   for (int y = kRows - 1; y >= 0; --y) envelope.pass(field, y, y + 1, -1);
 }
 
-void read_depth_row(const DepthView& depth, int y, float* values) noexcept {
-  const uint8_t* const row = depth.data + y * depth.stride_bytes;
-  const int high = depth.big_endian ? 0 : 1;
-  for (int x = 0; x < depth.width; ++x) {
-    const int value = depth.bytes == 1 ? row[x] : row[2 * x + high] * 256 + row[2 * x + (1 - high)];
-    values[x] = value == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
-  }
-}
-
 }  // namespace
 
 void validate(const ReliefSettings& settings) {
@@ -126,12 +117,6 @@ void validate(const ReliefSettings& settings) {
           settings.relief_m);
   require(finite_and_not_negative(settings.smoothing_m), "smoothing_m", "finite and ≥ 0",
           settings.smoothing_m);
-}
-
-void validate(const DepthRange& range) {
-  require(std::isfinite(range.near), "near", "finite", range.near);
-  require(std::isfinite(range.far), "far", "finite", range.far);
-  require(range.near != range.far, "near", "other than far", range.near);
 }
 
 ReliefBuilder::ReliefBuilder()
@@ -156,22 +141,9 @@ bool ReliefBuilder::from_brightness(const ImageView& picture, const ReliefSettin
   return true;
 }
 
-bool ReliefBuilder::from_depth(const DepthView& depth, const DepthRange& range,
-                               const ReliefSettings& settings, HeightField& field) {
-  if (depth.data == nullptr || depth.width <= 0 || depth.height <= 0) return false;
-  const auto far = static_cast<float>(range.far);
-  const auto scale = static_cast<float>(1 / (range.near - range.far));
-  average_.read(
-      depth.width, depth.height,
-      [&](int y, float* values) {
-        read_depth_row(depth, y, values);
-        // The order matters: a NaN stays one.
-        for (int x = 0; x < depth.width; ++x) {
-          const float level = (values[x] - far) * scale;
-          values[x] = level < 0 ? 0 : level > 1 ? 1 : level;
-        }
-      },
-      level_.data());
+bool ReliefBuilder::from_levels(const float* levels, const ReliefSettings& settings,
+                                HeightField& field) {
+  std::copy_n(levels, HeightField::kCells, level_.begin());
   if (!fill_holes()) return false;
   finish(settings, field);
   return true;

@@ -3,7 +3,6 @@
 /// From a picture or a depth image to a relief that can be touched.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,28 +21,6 @@ struct ReliefSettings {
 
 /// Throws std::invalid_argument that names the value which is out of range.
 SPIDAR_API void validate(const ReliefSettings& settings);
-
-/// Depth, `height` rows of `width` samples of one or two bytes, rows `stride_bytes` apart. A sample
-/// of 0 is a hole. Never owns the memory.
-struct DepthView {
-  const uint8_t* data = nullptr;
-  int width = 0;
-  int height = 0;
-  ptrdiff_t stride_bytes = 0;
-  int bytes = 1;            ///< of a sample: 1 or 2; a word need not lie at an even address
-  bool big_endian = false;  ///< of words
-};
-
-/// The samples that stand for the nearest and the farthest depth. A distance has near < far, a
-/// disparity near > far. What lies outside the range counts as its
-/// nearest end.
-struct DepthRange {
-  double near = 0;
-  double far = 0;
-};
-
-/// Throws std::invalid_argument unless both are finite and differ.
-SPIDAR_API void validate(const DepthRange& range);
 
 /// Builds reliefs. After the first picture of a size nothing is taken from the heap.
 ///
@@ -66,11 +43,11 @@ class SPIDAR_API ReliefBuilder {
   bool from_brightness(const ImageView& picture, const ReliefSettings& settings,
                        HeightField& field);
 
-  /// A hole becomes as far as the farther of what is left and right of it, an empty row that of
-  /// what is above and below. Returns false, and leaves `field` as it is, when the image has no
-  /// samples or nothing but holes. Settings and range have to be valid.
-  bool from_depth(const DepthView& depth, const DepthRange& range, const ReliefSettings& settings,
-                  HeightField& field);
+  /// From `levels` of HeightField::kCells cells, 0 (far) … 1 (near), as DepthPicture has them. A
+  /// hole (NaN) becomes as far as the farther of what is left and right of it, an empty row that of
+  /// what is above and below. Returns false, and leaves `field` as it is, when there is nothing but
+  /// holes. The settings have to be valid.
+  bool from_levels(const float* levels, const ReliefSettings& settings, HeightField& field);
 
   /// What the smoothing took out of the last picture or depth, as heights about 0: a texture. With
   /// the settings of that picture. Level before the first one.

@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 PROFILE = "only-in-the-moved-folder"
-HEADERS = {"device.h", "export.h", "gstspidarmotionmeta.h", "motion.h", "wrench.h"}
+HEADERS = {"device.h", "export.h", "gstspidardepthmeta.h", "gstspidarmotionmeta.h", "motion.h", "wrench.h"}
 MANUALS = ("spidar-feel.1", "spidarctl.1", "spidartrack.1")
 META_PROGRAM = """
 #include <gst-spidar/gstspidarmotionmeta.h>

@@ -11,6 +11,7 @@
 
 #include "core/touch/contact_force.h"
 #include "count_allocations.h"
+#include "tests/support/tap.h"
 #include "tests/support/touch_surfaces.h"
 #include "tests/support/touched_grip.h"
 
@@ -111,18 +112,21 @@ TEST(ContactForce, NeverPullsIn) {
 TEST(ContactForce, ACutOfACentimetreMovesTheGripSlowly) {
   const HeightField low = plane_field(0);
   const HeightField high = plane_field(0.010);
-  for (const Hand& hand : {kFirmHand, kLightHand}) {
-    ContactForce force;
-    TouchedGrip grip(hand, {0, 0, 0.0005});
-    double fastest_m_s = 0;
-    for (int n = 0; n < 2000; ++n) {
-      const Eigen::Vector3d wanted_N = force.tick({n < 1000 ? &low : &high}, nullptr,
-                                                  settings_of(500), grip.measured_m(), kTick_s);
-      grip.exchange(wanted_N, {0, 0, -0.001});
-      if (n >= 1000) fastest_m_s = std::max(fastest_m_s, grip.velocity_m_s().norm());
+  for (const double stiffness_N_m : {300.0, 500.0, 800.0}) {
+    for (const Hand& hand : {kFirmHand, kLightHand, kLooseHand}) {
+      ContactForce force;
+      TouchedGrip grip(hand, {0, 0, 0.0005});
+      const ContactSettings settings = settings_of(stiffness_N_m);
+      double fastest_m_s = 0;
+      for (int n = 0; n < 2000; ++n) {
+        const Eigen::Vector3d wanted_N =
+            force.tick({n < 1000 ? &low : &high}, nullptr, settings, grip.measured_m(), kTick_s);
+        grip.exchange(wanted_N, {0, 0, -0.001});
+        if (n >= 1000) fastest_m_s = std::max(fastest_m_s, grip.velocity_m_s().norm());
+      }
+      EXPECT_LE(fastest_m_s, 0.05) << hand.name;
+      EXPECT_GT(fastest_m_s, 0.01) << "the surface does lift it";
     }
-    EXPECT_LE(fastest_m_s, 0.05) << hand.name;
-    EXPECT_GT(fastest_m_s, 0.01) << "the surface does lift it";
   }
 }
 
@@ -260,6 +264,9 @@ TEST(ContactForce, SaysWhichSettingIsWrong) {
             }).find("friction.dynamic"),
             std::string::npos);
   EXPECT_NE(message([](auto& s) { s.texture = -1; }).find("texture"), std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.max_force_N = 0; }).find("max_force_N"), std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.max_slew_N_s = 0; }).find("max_slew_N_s"), std::string::npos);
+  EXPECT_NE(message([](auto& s) { s.least_mass_kg = 0; }).find("least_mass_kg"), std::string::npos);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
 #include "count_allocations.h"
 #include "tests/support/picture.h"
@@ -45,6 +46,13 @@ struct DepthImage {
   int height;
   std::vector<uint8_t> bytes;
 };
+
+/// A relief from depth with a fixed range.
+bool build(ReliefBuilder& builder, const DepthView& depth, const DepthSettings& range,
+           const ReliefSettings& settings, HeightField& field) {
+  DepthPicture picture;
+  return picture.read(depth, range, 0) && builder.from_levels(picture.levels(), settings, field);
+}
 
 float lowest(const HeightField& field) {
   return *std::min_element(field.row(0), field.row(0) + HeightField::kCells);
@@ -142,15 +150,15 @@ TEST(Relief, OfDepthIsHighWhereItIsNear) {
   HeightField field = empty_field();
   ReliefBuilder builder;
   const ReliefSettings settings;
-  ASSERT_TRUE(builder.from_depth(depth.view(), {1000, 2000}, settings, field));
+  ASSERT_TRUE(build(builder, depth.view(), {false, 1000, 2000}, settings, field));
   EXPECT_NEAR(field.at(-0.02, 0).z_m, 0, 1e-7);
   EXPECT_NEAR(field.at(0.02, 0).z_m, 0.008, 1e-7);
   // The same numbers as a disparity: near is the larger.
-  ASSERT_TRUE(builder.from_depth(depth.view(), {2000, 1000}, settings, field));
+  ASSERT_TRUE(build(builder, depth.view(), {true, 2000, 1000}, settings, field));
   EXPECT_NEAR(field.at(-0.02, 0).z_m, 0.008, 1e-7);
   EXPECT_NEAR(field.at(0.02, 0).z_m, 0, 1e-7);
   // Out of the range: not higher and not lower than its ends.
-  ASSERT_TRUE(builder.from_depth(depth.view(), {1400, 1600}, settings, field));
+  ASSERT_TRUE(build(builder, depth.view(), {false, 1400, 1600}, settings, field));
   EXPECT_NEAR(lowest(field), 0, 1e-7);
   EXPECT_NEAR(highest(field), 0.008, 1e-7);
 }
@@ -161,11 +169,11 @@ TEST(Relief, ReadsWordsInBothOrders) {
   HeightField little = empty_field();
   HeightField big = empty_field();
   ReliefBuilder builder;
-  ASSERT_TRUE(builder.from_depth(depth.view(), {300, 1000}, {}, little));
+  ASSERT_TRUE(build(builder, depth.view(), {false, 300, 1000}, {}, little));
   for (size_t i = 0; i < depth.bytes.size(); i += 2) std::swap(depth.bytes[i], depth.bytes[i + 1]);
   DepthView swapped = depth.view();
   swapped.big_endian = true;
-  ASSERT_TRUE(builder.from_depth(swapped, {300, 1000}, {}, big));
+  ASSERT_TRUE(build(builder, swapped, {false, 300, 1000}, {}, big));
   for (int i = 0; i < HeightField::kCells; ++i) ASSERT_EQ(little.row(0)[i], big.row(0)[i]);
 }
 
@@ -178,7 +186,7 @@ TEST(Relief, FillsAHoleWithTheFartherNeighbour) {
   HeightField field = empty_field();
   ReliefBuilder builder;
   const ReliefSettings unsmoothed{0, 0.008, 0};
-  ASSERT_TRUE(builder.from_depth(depth.view(), {1000, 2000}, unsmoothed, field));
+  ASSERT_TRUE(build(builder, depth.view(), {false, 1000, 2000}, unsmoothed, field));
   EXPECT_NEAR(field.row(100)[110], 0, 1e-7);
   EXPECT_NEAR(field.row(100)[150], 0.008, 1e-7);
   EXPECT_NEAR(field.row(0)[50], 0, 1e-7) << "the rows above are as the first one that is there";
@@ -190,8 +198,8 @@ TEST(Relief, LeavesTheFieldWhereThereIsNothing) {
   field.row(3)[4] = 0.5F;
   ReliefBuilder builder;
   DepthImage holes(32, 18);
-  EXPECT_FALSE(builder.from_depth(holes.view(), {1, 2}, {}, field));
-  EXPECT_FALSE(builder.from_depth({}, {1, 2}, {}, field));
+  EXPECT_FALSE(build(builder, holes.view(), {false, 1, 2}, {}, field));
+  EXPECT_FALSE(build(builder, {}, {false, 1, 2}, {}, field));
   EXPECT_FALSE(builder.from_brightness({}, {}, field));
   EXPECT_EQ(field.row(3)[4], 0.5F);
 }
@@ -231,12 +239,15 @@ TEST(Relief, TakesNothingFromTheHeapAfterTheFirst) {
   HeightField field = empty_field();
   ReliefBuilder from_picture;
   ReliefBuilder from_depth;
+  DepthPicture depth_picture;
   from_picture.from_brightness(picture.view(), {}, field);
-  from_depth.from_depth(depth.view(), {500, 1}, {}, field);
+  depth_picture.read(depth.view(), {}, 0.04);
+  from_depth.from_levels(depth_picture.levels(), {}, field);
   const size_t before = allocations;
   from_picture.from_brightness(picture.view(), {}, field);
   from_picture.fine_detail({}, field);
-  from_depth.from_depth(depth.view(), {500, 1}, {}, field);
+  depth_picture.read(depth.view(), {}, 0.04);
+  from_depth.from_levels(depth_picture.levels(), {}, field);
   EXPECT_EQ(allocations, before);
 }
 
@@ -246,9 +257,6 @@ TEST(Relief, SaysWhichSettingIsWrong) {
   EXPECT_THROW(validate(ReliefSettings{nan, 0.01, 0}), std::invalid_argument);
   EXPECT_THROW(validate(ReliefSettings{0, -0.01, 0}), std::invalid_argument);
   EXPECT_THROW(validate(ReliefSettings{0, 0.01, nan}), std::invalid_argument);
-  EXPECT_NO_THROW(validate(DepthRange{2, 1}));
-  EXPECT_THROW(validate(DepthRange{1, 1}), std::invalid_argument);
-  EXPECT_THROW(validate(DepthRange{nan, 1}), std::invalid_argument);
 }
 
 }  // namespace

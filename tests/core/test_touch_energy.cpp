@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/tap.h"
 #include "tests/support/touch_surfaces.h"
 #include "tests/support/touched_grip.h"
 
@@ -49,10 +50,30 @@ TEST(TouchEnergy, NoContactGivesMuchOutWhereItIsStiffest) {
   EXPECT_LE(explore_all(settings, true).worst_J, kStiffBound_J) << "with texture";
 }
 
+TEST(TouchEnergy, ATapGivesNoneBackHoweverFast) {
+  ContactSettings settings;
+  for (const Hand& hand : {kFirmHand, kLightHand, kLooseHand}) {
+    settings.stiffness_N_m = 500;
+    EXPECT_LE(worst_tap_J(settings, hand), kBound_J) << hand.name;
+    settings.stiffness_N_m = ContactSettings::kMostStiffness_N_m;
+    EXPECT_LE(worst_tap_J(settings, hand), kBound_J) << hand.name;
+  }
+}
+
+TEST(TouchEnergy, OfFastTapsItIsSeenWithoutTheBudget) {
+  ContactSettings settings;
+  settings.bounds_energy = false;
+  EXPECT_GT(worst_tap_J(settings, kLightHand), kStiffBound_J);
+  settings.stiffness_N_m = ContactSettings::kMostStiffness_N_m;
+  EXPECT_GT(worst_tap_J(settings, kFirmHand), kStiffBound_J);
+  EXPECT_GT(worst_tap_J(settings, kLightHand), 10 * kStiffBound_J);
+}
+
 TEST(TouchEnergy, WithoutDampingItIsSeen) {
   ContactSettings settings;
   settings.stiffness_N_m = 700;
   settings.damping = 0;  // validate() refuses it
+  settings.bounds_energy = false;
   const HeightField plane = plane_field(-0.002);
   const ContactEnergy energy = explore({&plane}, nullptr, settings, kLightHand, kTicks, 7);
   EXPECT_GT(energy.worst_J, kStiffBound_J);

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/touch/depth_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace spidar {
+namespace {
+
+constexpr int kMostSample = 65535;
+constexpr auto kCells = static_cast<size_t>(HeightField::kCells);
+constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
+
+void require(bool right, const std::string& name, const char* rule, double value) {
+  if (right) return;
+  throw std::invalid_argument("Depth: " + name + " must be " + rule + ", but is " +
+                              std::to_string(value));
+}
+
+/// Of `count` lines the one that stands for the n-th of `wanted`.
+int chosen(int n, int wanted, int count) noexcept {
+  return static_cast<int>((2LL * n + 1) * count / (2LL * wanted));
+}
+
+struct Half {
+  int x, y, width, height;
+};
+
+Half second_half(const ImageView& packed, DepthLayout layout) noexcept {
+  if (layout == DepthLayout::kRight) {
+    const int width = packed.width / 2;
+    return {packed.width - width, 0, width, packed.height};
+  }
+  const int height = packed.height / 2;
+  return {0, packed.height - height, packed.width, height};
+}
+
+}  // namespace
+
+ImageView picture_half(const ImageView& packed, DepthLayout layout) noexcept {
+  const Half half = second_half(packed, layout);
+  ImageView picture = packed;
+  picture.width = half.width;
+  picture.height = half.height;
+  return picture;
+}
+
+DepthView depth_half(const ImageView& packed, DepthLayout layout) noexcept {
+  const Half half = second_half(packed, layout);
+  if (packed.data == nullptr || half.width == 0 || half.height == 0) return {};
+  return {
+      packed.at(half.x, half.y), half.width, half.height, packed.stride_bytes, packed.sample.bytes,
+      packed.sample.big_endian,  false};
+}
+
+void validate(const DepthSettings& s) {
+  require(std::isfinite(s.near_sample) && s.near_sample <= kMostSample, "near",
+          "at most 65535, or -1 to be found", s.near_sample);
+  require(std::isfinite(s.far_sample) && s.far_sample <= kMostSample, "far",
+          "at most 65535, or -1 to be found", s.far_sample);
+  if (s.near_sample < 0 || s.far_sample < 0) return;
+  const std::string far = "far (" + std::to_string(s.far_sample) + ")";
+  if (s.disparity) {
+    require(s.near_sample > s.far_sample, "near", ("more than " + far + " in a disparity").c_str(),
+            s.near_sample);
+  } else {
+    require(s.near_sample < s.far_sample, "near", ("less than " + far + " in a distance").c_str(),
+            s.near_sample);
+  }
+}
+
+DepthPicture::DepthPicture()
+    : cells_(kCells, kHole), levels_(kCells, kHole), count_(kMostSample + 1) {}
+
+bool DepthPicture::read(const DepthView& depth, const DepthSettings& settings, double dt_s) {
+  if (depth.data == nullptr || depth.width <= 0 || depth.height <= 0) return false;
+  if (!average(depth)) return false;
+  const bool same = settings.disparity == settings_.disparity &&
+                    settings.near_sample == settings_.near_sample &&
+                    settings.far_sample == settings_.far_sample;
+  if (!same) has_range_ = false;
+  settings_ = settings;
+  follow(settings, dt_s);
+  const auto far = static_cast<float>(far_);
+  const auto scale = static_cast<float>(1 / (near_ - far_));
+  for (size_t i = 0; i < kCells; ++i) {
+    const float level = (cells_[i] - far) * scale;
+    // The order matters: a NaN stays one.
+    levels_[i] = level < 0 ? 0 : level > 1 ? 1 : level;
+  }
+  return true;
+}
+
+/// False when there are holes only.
+bool DepthPicture::average(const DepthView& depth) {
+  const int width = std::min(depth.width, kSamplesAcross * HeightField::kColumns);
+  const int height = std::min(depth.height, kSamplesAcross * HeightField::kRows);
+  if (width != read_width_ || depth.width != from_width_) {
+    column_.resize(static_cast<size_t>(width));
+    for (int x = 0; x < width; ++x) column_[static_cast<size_t>(x)] = chosen(x, width, depth.width);
+    read_width_ = width;
+    from_width_ = depth.width;
+  }
+  average_.read(
+      width, height,
+      [&](int y, float* values) { read_row(depth, chosen(y, height, depth.height), values); },
+      cells_.data());
+  return std::any_of(cells_.begin(), cells_.end(), [](float cell) { return !std::isnan(cell); });
+}
+
+void DepthPicture::read_row(const DepthView& depth, int y, float* values) const noexcept {
+  const uint8_t* const row = depth.data + y * depth.stride_bytes;
+  const size_t count = column_.size();
+  if (depth.bytes == 1) {
+    for (size_t x = 0; x < count; ++x) values[x] = row[column_[x]];
+  } else {
+    const int high = depth.big_endian ? 0 : 1;
+    for (size_t x = 0; x < count; ++x) {
+      const uint8_t* const word = row + 2 * column_[x];
+      values[x] = static_cast<float>(word[high] * 256 + word[1 - high]);
+    }
+  }
+  if (!depth.has_holes) return;
+  const float most = depth.bytes == 1 ? kMostSample + 1.0F : kMostSample;
+  for (size_t x = 0; x < count; ++x) {
+    if (values[x] == 0 || values[x] == most) values[x] = kHole;
+  }
+}
+
+/// Of the cells; at least one is no hole.
+DepthPicture::Ends DepthPicture::percentiles() noexcept {
+  std::fill(count_.begin(), count_.end(), uint16_t{0});  // a count is at most kCells
+  int cells = 0;
+  for (const float cell : cells_) {
+    if (std::isnan(cell)) continue;
+    ++count_[static_cast<size_t>(cell + 0.5F)];
+    ++cells;
+  }
+  const int outside = static_cast<int>(kOutside * cells);
+  int low = 0;
+  for (int below = count_[0]; below <= outside; below += count_[static_cast<size_t>(low)]) ++low;
+  int high = kMostSample;
+  for (int above = count_[kMostSample]; above <= outside;
+       above += count_[static_cast<size_t>(high)]) {
+    --high;
+  }
+  return {static_cast<double>(low), static_cast<double>(high)};
+}
+
+/// More cells than a film without a cut has are beyond an end that was found.
+bool DepthPicture::is_cut(const DepthSettings& settings) const noexcept {
+  const double sign = settings.disparity ? -1 : 1;
+  const double nearest = settings.near_sample < 0 ? sign * near_ : -HUGE_VAL;
+  const double farthest = settings.far_sample < 0 ? sign * far_ : HUGE_VAL;
+  int cells = 0;
+  int outside = 0;
+  for (const float cell : cells_) {
+    if (std::isnan(cell)) continue;
+    ++cells;
+    outside += sign * cell < nearest || sign * cell > farthest ? 1 : 0;
+  }
+  return outside > kCut * cells;
+}
+
+void DepthPicture::follow(const DepthSettings& settings, double dt_s) noexcept {
+  const bool finds_near = settings.near_sample < 0;
+  const bool finds_far = settings.far_sample < 0;
+  double near = settings.near_sample;
+  double far = settings.far_sample;
+  if (finds_near || finds_far) {
+    const Ends ends = percentiles();
+    if (finds_near) near = settings.disparity ? ends.high : ends.low;
+    if (finds_far) far = settings.disparity ? ends.low : ends.high;
+    // Made wide enough around its middle, or away from the end that is set.
+    const double sign = settings.disparity ? -1 : 1;
+    const double least = std::max(kLeastSpan, kLeastShare * std::max(near, far));
+    const double lacking = least - sign * (far - near);
+    if (lacking > 0) {
+      const double share = finds_near && finds_far ? 0.5 : 1;
+      if (finds_near) near -= sign * share * lacking;
+      if (finds_far) far += sign * share * lacking;
+    }
+    if (has_range_ && !is_cut(settings)) {
+      const double step = dt_s > 0 ? 1 - std::exp(-dt_s / kRange_s) : 0;
+      if (finds_near) near = near_ + step * (near - near_);
+      if (finds_far) far = far_ + step * (far - far_);
+    }
+  }
+  near_ = near;
+  far_ = far;
+  has_range_ = true;
+}
+
+}  // namespace spidar

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/touch/energy_budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+Eigen::Vector3d bounded(const Eigen::Vector3d& vector, double most) noexcept {
+  const double length = vector.norm();
+  return length > most ? Eigen::Vector3d(vector * (most / length)) : vector;
+}
+
+}  // namespace
+
+void EnergyBudget::follow(const Eigen::Vector3d& way_m, const Eigen::Vector3d& velocity_m_s,
+                          double put_in_J, double stored_J) noexcept {
+  left_J_ = std::min(left_J_ - before_N_.dot(way_m) + put_in_J, stored_J);
+  std::rotate(velocity_m_s_.begin(), velocity_m_s_.end() - 1, velocity_m_s_.end());
+  velocity_m_s_.front() = velocity_m_s;
+}
+
+double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& path,
+                            double dt_s) const noexcept {
+  const Eigen::Vector3d gained_m_s = velocity_m_s_.front() - velocity_m_s_.back();
+  const Eigen::Vector3d then_m_s =
+      velocity_m_s_.front() + gained_m_s * (path.velocity_lag_s / (kSlope * dt_s));
+  const double out_m_s = then_m_s.dot(direction);
+  const double left_J = std::max(0.0, left_J_ - mean_N_.dot(direction) * dt_s * out_m_s);
+  const double mass_kg = path.least_mass_kg;
+  const double whole_Ns = mass_kg * (std::sqrt(out_m_s * out_m_s + 2 * left_J / mass_kg) - out_m_s);
+  const double impulse_Ns = whole_Ns - path.lag_s * std::max(0.0, force_N_.dot(direction));
+  if (!(impulse_Ns > 0)) return 0;
+  const double slew_N_s = path.max_slew_N_s;
+  return slew_N_s * (std::sqrt(dt_s * dt_s + 2 * impulse_Ns / slew_N_s) - dt_s);
+}
+
+void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const ForcePath& path,
+                           double dt_s) noexcept {
+  const Eigen::Vector3d change_N = bounded(wanted_N, path.max_force_N) - limited_N_;
+  limited_N_ += bounded(change_N, path.max_slew_N_s * dt_s);
+  before_N_ = mean_N_;
+  // What is held for a tick, through a first-order lag.
+  const Eigen::Vector3d behind_N = force_N_ - limited_N_;
+  const double fading = path.lag_s > 0 ? std::exp(-dt_s / path.lag_s) : 0;
+  mean_N_ = limited_N_ + behind_N * ((1 - fading) * path.lag_s / dt_s);
+  force_N_ = limited_N_ + behind_N * fading;
+}
+
+}  // namespace spidar

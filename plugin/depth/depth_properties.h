@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What an application can set on spidardepth.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+#include <gst/video/video.h>
+
+#include "plugin/depth/depth_meta.h"
+
+namespace spidar {
+
+enum class DepthSamples { kAuto, kDistance, kDisparity };
+
+struct DepthProperties {
+  DepthSamples samples = DepthSamples::kAuto;
+  double near_sample = -1;
+  double far_sample = -1;
+  guint64 max_age_ns = 250 * GST_MSECOND;
+
+  /// Of an image of this format.
+  DepthMeaning meaning(GstVideoFormat format) const;
+  /// What is wrong with near and far for samples of this format, and what would be right; empty
+  /// when nothing is.
+  std::string trouble(GstVideoFormat format) const;
+};
+
+void install_depth_properties(GObjectClass* object_class);
+/// False for an unknown id.
+bool set_depth_property(DepthProperties& properties, guint id, const GValue* value);
+bool get_depth_property(const DepthProperties& properties, guint id, GValue* value);
+
+}  // namespace spidar

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/touch/energy_budget.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr double kTick_s = 1e-3;
+const Eigen::Vector3d kUp(0, 0, 1);
+const Eigen::Vector3d kStill(0, 0, 0);
+
+/// A budget that `left_J` are left of, for a grip of this speed, after a steady force.
+EnergyBudget budget_of(double left_J, double out_m_s, double force_N, const ForcePath& path) {
+  EnergyBudget budget;
+  for (int n = 0; n < 100; ++n) {
+    budget.follow(kStill, out_m_s * kUp, n == 99 ? left_J : 0, left_J);
+    budget.command(force_N * kUp, path, kTick_s);
+  }
+  return budget;
+}
+
+TEST(EnergyBudget, WhatIsTakenBackFromTheBoundOnDoesTheWorkThatIsLeft) {
+  for (const double lag_s : {0.0, 0.002}) {
+    for (const double left_J : {1e-5, 1e-4, 1e-3, 5e-3}) {
+      for (const double out_m_s : {-0.3, 0.0, 0.1, 0.5}) {
+        ForcePath path;
+        path.lag_s = lag_s;
+        const double before_N = 0.001 * left_J / 1e-5;
+        const EnergyBudget budget = budget_of(left_J, out_m_s, before_N, path);
+        const double most_N = budget.most_N(kUp, path, kTick_s);
+        if (most_N == 0) continue;
+        // The mass feels the force that is still there, and then the bound, which is taken back by
+        // a step a tick. The work follows from the impulse alone: p²/2m before and after.
+        double impulse_Ns = 0;
+        double force_N = before_N;
+        double command_N = most_N;
+        for (int n = 0; n < 200; ++n) {
+          const double fading = lag_s > 0 ? std::exp(-kTick_s / lag_s) : 0;
+          impulse_Ns += command_N * kTick_s + (force_N - command_N) * (1 - fading) * lag_s;
+          force_N = command_N + (force_N - command_N) * fading;
+          command_N = std::max(0.0, command_N - path.max_slew_N_s * kTick_s);
+        }
+        const auto work_J = [&](double Ns) {
+          return out_m_s * Ns + Ns * Ns / (2 * path.least_mass_kg);
+        };
+        // The tick that is not measured yet has been paid for.
+        const double unmeasured_J = before_N * kTick_s * out_m_s;
+        EXPECT_LE(work_J(impulse_Ns), left_J - unmeasured_J + 1e-12)
+            << lag_s << " " << left_J << " " << out_m_s;
+        // In steps it takes at least F²/2S + F T/2, the bound allows F T in place of that.
+        EXPECT_GE(work_J(impulse_Ns + 0.5 * most_N * kTick_s), left_J - unmeasured_J - 1e-9);
+      }
+    }
+  }
+}
+
+TEST(EnergyBudget, IsWhatTheHandHasDoneAndNoMoreThanTheSpringHolds) {
+  ForcePath path;
+  path.lag_s = 0;
+  path.max_slew_N_s = 1e9;
+  EnergyBudget budget;
+  budget.command(2 * kUp, path, kTick_s);
+  budget.command(3 * kUp, path, kTick_s);
+  // The way of the tick of 2 N.
+  budget.follow(-0.001 * kUp, kStill, 0, 1);
+  EXPECT_NEAR(budget.left_J(), 2e-3, 1e-15);
+  budget.command(3 * kUp, path, kTick_s);
+  budget.follow(0.0005 * kUp, kStill, 0, 1);
+  EXPECT_NEAR(budget.left_J(), 0.5e-3, 1e-15);
+  budget.follow(kStill, kStill, 1e-3, 1);
+  EXPECT_NEAR(budget.left_J(), 1.5e-3, 1e-15) << "the surface has put some in";
+  budget.follow(kStill, kStill, 0, 1e-4);
+  EXPECT_EQ(budget.left_J(), 1e-4);
+  budget.follow(kStill, kStill, 0, 0);
+  EXPECT_EQ(budget.left_J(), 0) << "nothing is touched";
+}
+
+TEST(EnergyBudget, KnowsTheLimitsOfThePath) {
+  ForcePath path;
+  path.lag_s = 0;
+  path.max_force_N = 1;
+  EnergyBudget budget;
+  // 0.3 N in the first tick, and 1 N at most.
+  for (int n = 0; n < 10; ++n) budget.command(50 * kUp, path, kTick_s);
+  budget.follow(-0.001 * kUp, kStill, 0, 1);
+  EXPECT_NEAR(budget.left_J(), 1e-3, 1e-15);
+  EnergyBudget fresh;
+  fresh.command(50 * kUp, path, kTick_s);
+  fresh.command(50 * kUp, path, kTick_s);
+  fresh.follow(-0.001 * kUp, kStill, 0, 1);
+  EXPECT_NEAR(fresh.left_J(), 0.3e-3, 1e-15);
+}
+
+TEST(EnergyBudget, AllowsAForceThatPressesOnASpringAtRest) {
+  // ½ F²/K are left at rest. The bound is above F as long as √(m/K) exceeds lag + tick + F / 2 S:
+  // up to 4.2 N at 500 N/m and up to 2.9 N at 800.
+  const ForcePath path;
+  for (const auto& [stiffness_N_m, force_N] : {std::pair{500.0, 4.1}, {800.0, 2.9}}) {
+    const double stored_J = 0.5 * force_N * force_N / stiffness_N_m;
+    const EnergyBudget budget = budget_of(stored_J, 0, force_N, path);
+    EXPECT_GE(budget.most_N(kUp, path, kTick_s), force_N);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test
