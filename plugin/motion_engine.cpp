@@ -154,11 +154,12 @@ void MotionEngine::set_track(std::optional<TrackFile> track) {
   player_.set_track(std::move(track).value_or(TrackFile{}));
 }
 
-void MotionEngine::touch_frame(const ImageView& luma, const TouchProperties& touch,
-                               int64_t running_ns, FrameReport& report) {
+void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
+                               const TouchProperties& touch, int64_t running_ns,
+                               FrameReport& report) {
   const Eigen::Vector2d middle(0.5, 0.5);
-  reliefs_.add(luma, report.analysis, schedule_.at_sink_ns(running_ns), touch,
-               grip_place().value_or(middle));
+  const bool found = reliefs_.add(buffer, luma, report.analysis, schedule_.at_sink_ns(running_ns),
+                                  touch, grip_place().value_or(middle));
   if (touch.kind == TouchKind::kOff) return;
   if (output_.session() == nullptr) {
     report.touch_problem = TouchProblem::kNoDevice;
@@ -166,6 +167,7 @@ void MotionEngine::touch_frame(const ImageView& luma, const TouchProperties& tou
   }
   report.stiffness_N_m = most_stiffness_N_m(output_.profile());
   if (touch.stiffness_N_m > report.stiffness_N_m) report.touch_problem = TouchProblem::kTooStiff;
+  if (!found) report.touch_problem = TouchProblem::kNoDepth;
 }
 
 FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& segment,
@@ -230,7 +232,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
   report.analysis.wrench = scaled(report.analysis.wrench, motion_share_);
   if (!time.in_place) {
-    touch_frame(luma, touch, running_ns, report);
+    touch_frame(frame.buffer, luma, touch, running_ns, report);
     schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
                    report.analysis.wrench, report.analysis.repeated});
   }

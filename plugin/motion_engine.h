@@ -91,8 +91,8 @@ class MotionEngine {
   std::optional<Eigen::Vector2d> grip_place() const;
 
  private:
-  void touch_frame(const ImageView& luma, const TouchProperties& touch, int64_t running_ns,
-                   FrameReport& report);
+  void touch_frame(GstBuffer* buffer, const ImageView& luma, const TouchProperties& touch,
+                   int64_t running_ns, FrameReport& report);
 
   // These outlive the output's thread, which hands on what waits.
   WrenchSchedule schedule_;

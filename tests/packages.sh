@@ -123,7 +123,7 @@ try_packages() {
     in_root awk -F, "$largest" /tmp/felt.csv
     say "tools"
     in_root spidarctl list | sed -n 1,8p
-    in_root spidar-feel max-force=2 -- gst-inspect-1.0 --exists spidarmotion
+    in_root spidar-feel max-force=2 -- gst-inspect-1.0 spidarmotion >/dev/null
     in_root spidartrack --version
     say "an example of libgst-spidar-dev"
     apt install -y --no-install-recommends g++ pkg-config

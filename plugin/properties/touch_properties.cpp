@@ -21,13 +21,42 @@ GType touch_type() {
         {static_cast<int>(TouchKind::kOff), "Nothing: the film's motion is felt", "off"},
         {static_cast<int>(TouchKind::kLuma), "A relief of the frame's brightness: bright is near",
          "luma"},
+        {static_cast<int>(TouchKind::kDepth), "A relief of the frame's depth, see depth-layout",
+         "depth"},
         {0, nullptr, nullptr}};
     return g_enum_register_static("GstSpidarMotionTouch", values);
   }();
   return type;
 }
 
+GType depth_layout_type() {
+  static const GType type = [] {
+    static const GEnumValue values[] = {
+        {static_cast<int>(DepthSource::kMeta), "A depth image that spidardepth has attached",
+         "meta"},
+        {static_cast<int>(DepthSource::kRight),
+         "The right half of the frame is the depth of the left half; bright is near", "right"},
+        {static_cast<int>(DepthSource::kBelow),
+         "The lower half of the frame is the depth of the upper half; bright is near", "below"},
+        {0, nullptr, nullptr}};
+    return g_enum_register_static("GstSpidarMotionDepthLayout", values);
+  }();
+  return type;
+}
+
 }  // namespace
+
+std::optional<DepthLayout> packed_layout(DepthSource source) {
+  switch (source) {
+    case DepthSource::kRight:
+      return DepthLayout::kRight;
+    case DepthSource::kBelow:
+      return DepthLayout::kBelow;
+    case DepthSource::kMeta:
+      break;
+  }
+  return std::nullopt;
+}
 
 void install_touch_properties(GObjectClass* c) {
   const TouchProperties defaults;
@@ -37,10 +66,13 @@ void install_touch_properties(GObjectClass* c) {
   install(kPropTouch,
           g_param_spec_enum("touch", "Touch", "What the grip touches in the picture", touch_type(),
                             static_cast<int>(defaults.kind), kControllable));
+  install(kPropDepthLayout,
+          g_param_spec_enum("depth-layout", "Depth layout", "Where touch=depth finds the depth",
+                            depth_layout_type(), static_cast<int>(defaults.depth), kControllable));
   install(kPropTouchRelief,
           g_param_spec_double("touch-relief", "Touch relief",
-                              "Height of the relief from black to white, in millimetres. Medium "
-                              "grey is in the middle of the workspace",
+                              "Height of the relief from black to white, or from far to near, in "
+                              "millimetres. Its middle is in the centre of the workspace",
                               0, kMostRelief_mm, defaults.relief_mm, kControllable));
   install(kPropTouchStiffness,
           g_param_spec_double("touch-stiffness", "Touch stiffness",
@@ -63,13 +95,17 @@ void install_touch_properties(GObjectClass* c) {
                               "Share of the force of the film's motion that is added to what is "
                               "touched. Without touch all of it is felt",
                               0, 1, defaults.motion_share, kControllable));
-  gst_type_mark_as_plugin_api(touch_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
+  for (const GType type : {touch_type(), depth_layout_type()})
+    gst_type_mark_as_plugin_api(type, GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
 }
 
 bool set_touch_property(TouchProperties& p, guint id, const GValue* value) {
   switch (id) {
     case kPropTouch:
       p.kind = static_cast<TouchKind>(g_value_get_enum(value));
+      return true;
+    case kPropDepthLayout:
+      p.depth = static_cast<DepthSource>(g_value_get_enum(value));
       return true;
     case kPropTouchRelief:
       p.relief_mm = g_value_get_double(value);
@@ -95,6 +131,9 @@ bool get_touch_property(const TouchProperties& p, guint id, GValue* value) {
   switch (id) {
     case kPropTouch:
       g_value_set_enum(value, static_cast<int>(p.kind));
+      return true;
+    case kPropDepthLayout:
+      g_value_set_enum(value, static_cast<int>(p.depth));
       return true;
     case kPropTouchRelief:
       g_value_set_double(value, p.relief_mm);

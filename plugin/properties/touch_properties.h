@@ -3,16 +3,31 @@
 /// What an application can set of what is touched in the picture.
 #pragma once
 
+#include <optional>
+
 #include <gst/gst.h>
+
+#include "core/touch/depth_picture.h"
 
 namespace spidar {
 
 /// Where the relief comes from.
-enum class TouchKind { kOff, kLuma };
+enum class TouchKind { kOff, kLuma, kDepth };
+
+/// Where the depth of a frame is.
+enum class DepthSource {
+  kMeta,   ///< on the frame, as spidardepth attaches it
+  kRight,  ///< the right half of the frame
+  kBelow,  ///< the lower half of the frame
+};
+
+/// The layout of a frame that contains its own depth; nothing for kMeta.
+std::optional<DepthLayout> packed_layout(DepthSource source);
 
 struct TouchProperties {
   TouchKind kind = TouchKind::kOff;
-  double relief_mm = 8;  ///< from black to white
+  DepthSource depth = DepthSource::kMeta;
+  double relief_mm = 8;  ///< from black to white, or from far to near
   double stiffness_N_m = 500;
   double friction = 0.3;    ///< μs; μd is 0.8 of it
   double texture = 0;       ///< gain of the fine detail's slope
@@ -21,6 +36,7 @@ struct TouchProperties {
 
 enum TouchPropertyId : guint {
   kPropTouch = 200,  ///< after those of DisplayProperties
+  kPropDepthLayout,
   kPropTouchRelief,
   kPropTouchStiffness,
   kPropTouchFriction,

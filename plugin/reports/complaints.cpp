@@ -93,6 +93,13 @@ void Complaints::look_at_touch(const FrameReport& report, const TouchProperties&
            wanted.stiffness_N_m, report.stiffness_N_m),
           ("The profile's drive_lag_s sets how stiff a surface may be (docs/touch.md)."));
       break;
+    case TouchProblem::kNoDepth:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("touch=depth, but a frame has no depth; the last relief stays."),
+          ("spidardepth in front of the element attaches a second stream of depth; a film that has "
+           "its depth in the frame needs depth-layout=right or below."));
+      break;
     case TouchProblem::kNone:
       break;
   }

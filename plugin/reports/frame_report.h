@@ -30,6 +30,7 @@ enum class TouchProblem {
   kNoDevice,  ///< device=none
   kTrack,     ///< a haptic track is played, and no frame is looked at
   kTooStiff,  ///< for the drives of this device: it is touched with less
+  kNoDepth,   ///< touch=depth, and the frame has none: the last relief stays
 };
 
 /// What became of one frame.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "plugin/depth/frame_depth.h"
 #include "plugin/touch/touched_motion.h"
 #include "spidar/realtime/monotonic.h"
 
@@ -19,6 +20,20 @@ constexpr double kSliding = 0.8;
 /// So many of the picture's samples, or more, are read for each sample of the relief, along both
 /// sides: two let nothing slip through that the relief can show, and cost does not grow with size.
 constexpr int kReadPerCell = 2;
+
+/// How much of the frame's width and height is picture: the relief covers that part.
+Eigen::Vector2d shown_share(const TouchProperties& properties) {
+  if (properties.kind != TouchKind::kDepth) return {1, 1};
+  switch (properties.depth) {
+    case DepthSource::kRight:
+      return {0.5, 1};
+    case DepthSource::kBelow:
+      return {1, 0.5};
+    case DepthSource::kMeta:
+      break;
+  }
+  return {1, 1};
+}
 
 int step_of(int samples, int cells) {
   return std::max(1, samples / (kReadPerCell * cells));
@@ -102,37 +117,62 @@ ImageView ReliefStream::thinned(const ImageView& luma) {
   return thin;
 }
 
-void ReliefStream::add(const ImageView& luma, const FrameAnalysis& analysis, int64_t shown_ns,
-                       const TouchProperties& properties, const Eigen::Vector2d& finger) {
-  if (!loop_) return;
+/// Fills in the surface of a frame. False when it has no depth.
+bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown_ns,
+                         const TouchProperties& properties, TouchFrame& frame) {
+  ReliefSettings settings;
+  settings.relief_m = 1e-3 * properties.relief_mm;
+  settings.floor_z_m = -0.5 * settings.relief_m;
+  validate(settings);
+  if (properties.kind == TouchKind::kDepth) {
+    // After a seek, or the first time, the range of depth is that of this frame.
+    const bool follows = depth_ns_ != INT64_MIN && shown_ns > depth_ns_;
+    if (!follows) depth_.reset();
+    const double dt_s = follows ? 1e-9 * static_cast<double>(shown_ns - depth_ns_) : 0;
+    const std::optional<DepthLayout> layout = packed_layout(properties.depth);
+    const bool has_depth = layout ? depth_.read(depth_half(luma, *layout), {true}, dt_s)
+                                  : read_frame_depth(buffer, dt_s, depth_);
+    if (!has_depth || !builder_.from_levels(depth_.levels(), settings, frame.relief)) return false;
+    depth_ns_ = shown_ns;
+  } else if (!builder_.from_brightness(thinned(luma), settings, frame.relief)) {
+    return false;
+  }
+  frame.has_texture = properties.texture > 0;
+  if (frame.has_texture) builder_.fine_detail(settings, frame.texture);
+  return true;
+}
+
+bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
+                       int64_t shown_ns, const TouchProperties& properties,
+                       const Eigen::Vector2d& finger) {
+  if (!loop_) return true;
   if (properties.kind == TouchKind::kOff) {
     end(shown_ns);
-    return;
+    return true;
   }
   if (!mailbox_) start();
   // In this order: what is muted or flushed after this line forgets this frame.
   const uint32_t generation = mailbox_->generation();
-  if (muted_) return;
+  if (muted_) return true;
   const int64_t begin_ns = monotonic_now_ns();
   TouchFrame* const frame = mailbox_->begin(generation);
   if (!frame) {
     ++reliefs_left_out_;
     left_out_ = true;
-    return;
+    return true;
   }
-  ReliefSettings settings;
-  settings.relief_m = 1e-3 * properties.relief_mm;
-  settings.floor_z_m = -0.5 * settings.relief_m;
-  validate(settings);
-  if (!builder_.from_brightness(thinned(luma), settings, frame->relief)) return;
-  frame->has_texture = properties.texture > 0;
-  if (frame->has_texture) builder_.fine_detail(settings, frame->texture);
+  if (!build(buffer, luma, shown_ns, properties, *frame)) {
+    left_out_ = true;  // nothing is known of the surface between the frames around this one
+    return properties.kind != TouchKind::kDepth;
+  }
   frame->time_ns = shown_ns;
   frame->has_surface = true;
   frame->contact = contact_settings(properties, profile_);
-  const Eigen::Vector2d moved_px = touched_displacement_px(analysis, finger);
-  frame->displacement_m = {moved_px.x() / analysis.width * frame->relief.width_m(),
-                           -moved_px.y() / analysis.height * frame->relief.height_m()};
+  const Eigen::Vector2d shown = shown_share(properties);
+  const Eigen::Vector2d moved_px = touched_displacement_px(analysis, finger.cwiseProduct(shown));
+  frame->displacement_m = {
+      moved_px.x() / (shown.x() * analysis.width) * frame->relief.width_m(),
+      -moved_px.y() / (shown.y() * analysis.height) * frame->relief.height_m()};
   frame->follows = touched_ && !left_out_ && generation == generation_ && !analysis.restarted;
   mailbox_->publish();
   touched_ = true;
@@ -140,6 +180,7 @@ void ReliefStream::add(const ImageView& luma, const FrameAnalysis& analysis, int
   generation_ = generation;
   ++reliefs_;
   took_.add(monotonic_now_ns() - begin_ns);
+  return true;
 }
 
 void ReliefStream::end(int64_t shown_ns) {

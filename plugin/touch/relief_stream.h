@@ -14,6 +14,7 @@
 
 #include "core/image_view.h"
 #include "core/motion_analyzer.h"
+#include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
 #include "plugin/properties/touch_properties.h"
 #include "spidar/loop/haptic_loop.h"
@@ -58,14 +59,18 @@ class ReliefStream {
 
   /// A frame that is shown at `shown_ns`, as it comes to the sink. `finger`: see
   /// touched_displacement_px(). Throws std::invalid_argument when the device has no workspace that
-  /// a picture fits into. After the first frame of a size nothing is taken from the heap.
-  void add(const ImageView& luma, const FrameAnalysis& analysis, int64_t shown_ns,
-           const TouchProperties& properties, const Eigen::Vector2d& finger);
+  /// a picture fits into. Returns false when touch=depth finds no depth in the frame, which then
+  /// leaves the last relief in place. After the first frame of a size nothing is taken from the
+  /// heap.
+  bool add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
+           int64_t shown_ns, const TouchProperties& properties, const Eigen::Vector2d& finger);
   /// From `shown_ns` on there is nothing to touch.
   void end(int64_t shown_ns);
 
  private:
   void start();
+  bool build(GstBuffer* buffer, const ImageView& luma, int64_t shown_ns,
+             const TouchProperties& properties, TouchFrame& frame);
   ImageView thinned(const ImageView& luma);
 
   HapticLoop* loop_ = nullptr;
@@ -76,6 +81,8 @@ class ReliefStream {
   std::atomic<bool> muted_{false};
   // Streaming thread.
   ReliefBuilder builder_;
+  DepthPicture depth_;
+  int64_t depth_ns_ = INT64_MIN;  ///< of the last frame that had depth
   std::vector<uint8_t> thinned_;
   bool touched_ = false;   ///< the newest frame has a surface
   bool left_out_ = false;  ///< the newest frame did not get into the mailbox

@@ -223,6 +223,10 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
     touch_.rest(*mailbox);
     return;
   }
+  // max-force may be 0; the contact needs a limit above that, and then nothing of it is let
+  // through.
+  constexpr double kLeast_N = 1e-3;
+  touch_.set_limits(std::max(kLeast_N, limits_.max_force_N), limits_.max_slew_N_s);
   record.contact = touch_.tick(*mailbox, record.running_ns, grip_.pose().position_m,
                                1e-9 * static_cast<double>(passed_ns));
   if (!record.contact.has_surface) return;

@@ -52,6 +52,8 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
   const double most_N_m = kStiffening_N_m_s * std::clamp(dt_s, 0.0, kLongestTick_s);
   stiffness_N_m_ += std::clamp(settings.stiffness_N_m - stiffness_N_m_, -most_N_m, most_N_m);
   settings.stiffness_N_m = stiffness_N_m_;
+  settings.max_force_N = max_force_N_;
+  settings.max_slew_N_s = max_slew_N_s_;
 
   result.has_surface = true;
   result.force_N = contact_.tick(surface, nearest->has_texture ? &nearest->texture : nullptr,

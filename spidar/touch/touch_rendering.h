@@ -43,6 +43,13 @@ class SPIDAR_API TouchRendering {
   Contact tick(TouchMailbox& mailbox, int64_t running_ns, const Eigen::Vector3d& grip_m,
                double dt_s) noexcept;
 
+  /// What the safety chain lets through of the force, both above 0; unlimited at first. The contact
+  /// gives no more energy back than it took only if it knows these limits.
+  void set_limits(double max_force_N, double max_slew_N_s) noexcept {
+    max_force_N_ = max_force_N;
+    max_slew_N_s_ = max_slew_N_s;
+  }
+
   /// A tick in which nothing is to be touched: nothing plays, or it is not known where the grip is.
   void rest(TouchMailbox& mailbox) noexcept;
 
@@ -61,6 +68,8 @@ class SPIDAR_API TouchRendering {
   int64_t to_ns_ = 0;
   int64_t reached_ns_ = 0;
   double stiffness_N_m_ = 0;  ///< 0: none yet
+  double max_force_N_ = ContactSettings{}.max_force_N;
+  double max_slew_N_s_ = ContactSettings{}.max_slew_N_s;
   ContactForce contact_;
 };
 

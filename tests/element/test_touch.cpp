@@ -162,11 +162,12 @@ TEST(ReliefStream, WhatTheLoopHasNoRoomForIsLeftOutAndCounted) {
   const std::vector<uint8_t> grey(320 * 240, 128);
   const ImageView luma{grey.data(), 320, 240, 320};
   TouchProperties touch;
-  reliefs.stream.add(luma, some_analysis(), 0, touch, {0.5, 0.5});
+  reliefs.stream.add(nullptr, luma, some_analysis(), 0, touch, {0.5, 0.5});
   EXPECT_EQ(number_of(reliefs.stream, "reliefs"), 0u) << "off";
   touch.kind = TouchKind::kLuma;
   for (size_t n = 0; n < ReliefStream::kSlots + 5; ++n) {
-    reliefs.stream.add(luma, some_analysis(), static_cast<int64_t>(n * kFrame), touch, {0.5, 0.5});
+    reliefs.stream.add(nullptr, luma, some_analysis(), static_cast<int64_t>(n * kFrame), touch,
+                       {0.5, 0.5});
   }
   EXPECT_EQ(number_of(reliefs.stream, "reliefs"), ReliefStream::kSlots);
   EXPECT_EQ(number_of(reliefs.stream, "reliefs-left-out"), 5u);
@@ -185,7 +186,8 @@ TEST(ReliefStream, TakesNothingFromTheHeapAfterTheFirstFrame) {
   size_t before = 0;
   for (int n = 0; n < 100; ++n) {
     if (n == 1) before = allocations;
-    reliefs.stream.add({grey.data(), 1920, 1080, 1920}, some_analysis(), n, touch, {0.5, 0.5});
+    reliefs.stream.add(nullptr, {grey.data(), 1920, 1080, 1920}, some_analysis(), n, touch,
+                       {0.5, 0.5});
     reliefs.stream.forget();
     now_ns += kTick_ns;
     reliefs.loop->tick(now_ns, now_ns);  // which makes room
@@ -225,7 +227,7 @@ TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
       }
     }
     const auto shown_ns = static_cast<int64_t>(kFrame) * (n + 10);
-    reliefs.stream.add({luma.data(), kWidth, kHeight, kWidth}, analysis, shown_ns, touch,
+    reliefs.stream.add(nullptr, {luma.data(), kWidth, kHeight, kWidth}, analysis, shown_ns, touch,
                        {0.5, 0.5});
   }
   // Half-way from frame 8 to 9 its top is in the middle, where the grip is held.
@@ -252,6 +254,54 @@ TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
   EXPECT_NEAR(grip_m.z() + last.contact.depth_m / cosine, surface_m, tolerance_m);
 }
 
+/// The left half of the frame is a picture of noise, the right half its depth: a plane. The grip is
+/// pressed against that plane, wherever it lies.
+TEST(ReliefStream, DepthBesideThePictureIsTheRelief) {
+  init_gstreamer();
+  constexpr int kWidth = 640, kHeight = 240;
+  for (const DepthSource layout : {DepthSource::kRight, DepthSource::kBelow}) {
+    Reliefs reliefs;
+    reliefs.loop->open();
+    TouchProperties touch;
+    touch.kind = TouchKind::kDepth;
+    touch.depth = layout;
+    std::vector<uint8_t> luma(kWidth * kHeight);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const bool is_depth = layout == DepthSource::kRight ? x >= kWidth / 2 : y >= kHeight / 2;
+        luma[static_cast<size_t>(y * kWidth + x)] =
+            static_cast<uint8_t>(is_depth ? 200 : (x * 31 + y * 57) % 256);
+      }
+    }
+    EXPECT_TRUE(reliefs.stream.add(nullptr, {luma.data(), kWidth, kHeight, kWidth}, some_analysis(),
+                                   0, touch, {0.5, 0.5}));
+    Pose hand;
+    hand.position_m.z() = -0.02;  // behind any relief of 8 mm
+    reliefs.device.set_hand(hand);
+    reliefs.loop->set_playback_clock({0, 0, 1.0, true});
+    for (int64_t now_ns = kTick_ns; now_ns < 2000 * kTick_ns; now_ns += kTick_ns)
+      reliefs.loop->tick(now_ns, now_ns);
+    const TickRecord last = reliefs.loop->snapshot().last;
+    ASSERT_TRUE(last.contact.touching);
+    // A plane has no slope: nothing of the noise beside it is felt.
+    EXPECT_NEAR(last.contact.force_N.head<2>().norm(), 0, 0.01 * last.contact.force_N.z());
+  }
+}
+
+TEST(ReliefStream, AFrameWithoutDepthLeavesTheReliefAndSaysSo) {
+  init_gstreamer();
+  Reliefs reliefs;
+  const std::vector<uint8_t> grey(320 * 240, 128);
+  const ImageView luma{grey.data(), 320, 240, 320};
+  TouchProperties touch;
+  touch.kind = TouchKind::kDepth;
+  GstBuffer* const plain = gst_buffer_new();
+  EXPECT_FALSE(reliefs.stream.add(plain, luma, some_analysis(), 0, touch, {0.5, 0.5}));
+  gst_buffer_unref(plain);
+  EXPECT_EQ(number_of(reliefs.stream, "reliefs"), 0u);
+  EXPECT_EQ(number_of(reliefs.stream, "reliefs-left-out"), 0u);
+}
+
 TEST(ReliefStream, ADeviceWithoutAWorkspaceIsAnErrorThatSaysSo) {
   init_gstreamer();
   Reliefs reliefs;
@@ -259,9 +309,9 @@ TEST(ReliefStream, ADeviceWithoutAWorkspaceIsAnErrorThatSaysSo) {
   const std::vector<uint8_t> grey(320 * 240, 128);
   TouchProperties touch;
   touch.kind = TouchKind::kLuma;
-  EXPECT_THROW(
-      reliefs.stream.add({grey.data(), 320, 240, 320}, some_analysis(), 0, touch, {0.5, 0.5}),
-      std::invalid_argument);
+  EXPECT_THROW(reliefs.stream.add(nullptr, {grey.data(), 320, 240, 320}, some_analysis(), 0, touch,
+                                  {0.5, 0.5}),
+               std::invalid_argument);
 }
 
 }  // namespace
