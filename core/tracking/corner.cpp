@@ -39,7 +39,7 @@ struct Tensor {
 
 /// Smaller eigenvalue of the window's mean tensor about its mean, (grey / px)²; 0 for an edge.
 /// About its mean, because windows are compared without their mean: a slope alone shows nothing.
-float strength(const Tensor& t) {
+float strength(const Tensor& t, float least_roundness) {
   constexpr float kTwice = 4;  // both derivatives
   constexpr float kPixels = kCornerWindow_px * kCornerWindow_px;
   const auto x = static_cast<float>(t.x);
@@ -51,7 +51,7 @@ float strength(const Tensor& t) {
   const float root = std::sqrt(difference * difference + 4 * xy * xy);
   const float smaller = xx + yy - root;
   const float larger = xx + yy + root;
-  return smaller > kLeastRoundness * larger ? 0.5f / (kTwice * kPixels) * smaller : 0.0f;
+  return smaller > least_roundness * larger ? 0.5f / (kTwice * kPixels) * smaller : 0.0f;
 }
 
 constexpr int kBlock_px = kCornerStep_px;
@@ -124,7 +124,7 @@ ImagePoint window_centre(int x0, int y0) {
 
 }  // namespace
 
-Corner best_corner(const PaddedImage& image, const PixelBox& box) {
+Corner best_corner(const PaddedImage& image, const PixelBox& box, float least_roundness) {
   const int columns = std::min(box.x1 - box.x0, kMostCornerBox_px) / kBlock_px;
   const int rows = std::min(box.y1 - box.y0, kMostCornerBox_px) / kBlock_px;
   Corner best;
@@ -141,7 +141,7 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box) {
       window += above[i + 1];
       window += below[i];
       window += below[i + 1];
-      const float found = strength(window);
+      const float found = strength(window, least_roundness);
       if (found <= best.strength) continue;
       best = {window_centre(box.x0 + static_cast<int>(i) * kBlock_px, y0 - kBlock_px), found};
     }
@@ -151,7 +151,7 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box) {
 
 namespace plain {
 
-Corner best_corner(const PaddedImage& image, const PixelBox& box) {
+Corner best_corner(const PaddedImage& image, const PixelBox& box, float least_roundness) {
   const int x1 = std::min(box.x1, box.x0 + kMostCornerBox_px);
   const int y1 = std::min(box.y1, box.y0 + kMostCornerBox_px);
   Corner best;
@@ -164,7 +164,7 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box) {
                      image.row(y + 1)[x] - image.row(y - 1)[x]);
         }
       }
-      const float found = strength(window);
+      const float found = strength(window, least_roundness);
       if (found > best.strength) best = {window_centre(x0, y0), found};
     }
   }

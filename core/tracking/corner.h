@@ -37,12 +37,14 @@ struct PixelBox {
 constexpr int kMostCornerBox_px = 64;
 
 /// The strongest of the windows that begin at the upper left corner of `box`, lie in it, and are
-/// kCornerStep_px apart. Derivatives are central differences. `box` must lie in the image.
-/// A box smaller than a window has no corner.
-Corner best_corner(const PaddedImage& image, const PixelBox& box);
+/// kCornerStep_px apart, and at least `least_roundness`. Derivatives are central differences. `box`
+/// must lie in the image. A box smaller than a window has no corner.
+Corner best_corner(const PaddedImage& image, const PixelBox& box,
+                   float least_roundness = kLeastRoundness);
 
 namespace plain {
-Corner best_corner(const PaddedImage& image, const PixelBox& box);
+Corner best_corner(const PaddedImage& image, const PixelBox& box,
+                   float least_roundness = kLeastRoundness);
 }
 
 }  // namespace spidar

@@ -20,7 +20,7 @@ struct FollowedPoint {
   bool is_new = true;
 
   bool found = false;        ///< in this frame
-  bool is_surprise = false;  ///< found, but not from where it was expected
+  bool is_surprise = false;  ///< found where neither its past nor its neighbours led
   bool has_place = false;    ///< on the grid
   PointMatch match;
 };

@@ -3,25 +3,35 @@
 #include "core/tracking/point_follower.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-
-#include "core/quantile.h"
 
 namespace spidar {
 namespace {
 
 /// Where it was not expected more is asked for: smooth windows look like many others.
 constexpr float kSameThingElsewhere = 0.35f;
+/// The same of a larger window, which a small object does not fill.
+constexpr float kSameSurroundings = 0.5f;
 /// A larger window may see something else beside: then its residual grows by this.
 constexpr float kWiderWorse = 0.1f;
-/// Followed back, a point comes to where it was, pixels of its level.
+/// Followed back, a point comes to where it was: its distance from there, pixels of its level …
 constexpr float kReturn_px = 0.5f;
+/// … and that times the residual. What hardly looks the same must come back the more exactly:
+/// beside something that moves differently both are large at once. On pairs with true flow, of
+/// what is above this every second place is wrong, and one in fifteen of what is below.
+constexpr float kReturnByResidual_px = 0.06f;
 
 /// Where a point is expected, the search begins at this level; where it is not, at the coarsest.
 constexpr int kExpectedLevel = 1;
 constexpr int kAnywhereLevel = GrayPyramid::kLevels - 1;
 /// Blocks are compared at a level where 12 px are a jump; from there it is a pixel or two.
 constexpr int kAfterBlocksLevel = 2;
+
+/// Neighbours whose motion is tried: behind the rim of an object the nearest may be the object.
+constexpr int kNeighbours = 3;
+/// Motions that are less than this apart lead a search to the same end, px.
+constexpr float kSameStart_px = 1;
 
 /// Points that blocks are compared for in one frame: enough to find how a picture has jumped.
 constexpr int kMostBlockSearches = 16;
@@ -40,6 +50,55 @@ bool has_room(const PaddedImage& image, ImagePoint p) {
          p.y_px <= static_cast<float>(image.height()) - 1 - kHalf_px;
 }
 
+/// Motion of the found points that are nearest to a place, the nearest first.
+class Neighbours {
+ public:
+  Neighbours(const std::vector<FollowedPoint>& points, ImagePoint at) {
+    for (const FollowedPoint& point : points) {
+      if (!point.found) continue;
+      const ImagePoint d = point.at - at;
+      insert({d.x_px * d.x_px + d.y_px * d.y_px, point.match.to - point.at});
+    }
+  }
+
+  int count() const { return count_; }
+  ImagePoint moved(int k) const { return nearest_[static_cast<size_t>(k)].moved; }
+
+  /// Whether one before the k-th, or `tried`, moved the same way.
+  bool is_known(int k, ImagePoint tried) const {
+    if (nearer_than(moved(k), tried, kSameStart_px)) return true;
+    for (int i = 0; i < k; ++i) {
+      if (nearer_than(moved(k), moved(i), kSameStart_px)) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Neighbour {
+    float distance_px2 = 0;
+    ImagePoint moved;
+  };
+
+  void insert(const Neighbour& neighbour) {
+    int k = count_;
+    if (count_ < kNeighbours) {
+      ++count_;
+    } else if (neighbour.distance_px2 >= nearest_[kNeighbours - 1].distance_px2) {
+      return;
+    } else {
+      k = kNeighbours - 1;
+    }
+    auto slot = static_cast<size_t>(k);
+    for (; slot > 0 && nearest_[slot - 1].distance_px2 > neighbour.distance_px2; --slot) {
+      nearest_[slot] = nearest_[slot - 1];
+    }
+    nearest_[slot] = neighbour;
+  }
+
+  std::array<Neighbour, kNeighbours> nearest_;
+  int count_ = 0;
+};
+
 }  // namespace
 
 struct PointFollower::Search {
@@ -48,47 +107,69 @@ struct PointFollower::Search {
   const Settings& settings;
   bool has_history;  ///< some points have been followed before
 
-  /// `gain` of 0: of each window its own.
-  bool find(FollowedPoint& point, ImagePoint expected, int first_level, float gain,
-            float most_residual) const {
-    SearchSettings search;
-    search.first_level = first_level;
-    search.last_level = point.level;
-    search.gain = gain;
-    search.least_strength = settings.least_strength;
-    PointMatch match;
-    if (!find_point(before, now, point.at, expected, search, match)) return false;
-    if (match.residual > most_residual) return false;
-    point.match = match;
-    point.found = comes_back(point, search) && look_wider(point, search);
-    return point.found;
+  /// Where it was expected to go.
+  bool find_expected(FollowedPoint& point) const {
+    return find(point, point.moved, {kExpectedLevel, settings.gain, kSameThing, !has_history});
+  }
+
+  /// Where its neighbours went, of which there is at least one: they vouch for it.
+  bool find_beside(FollowedPoint& point, const Neighbours& neighbours) const {
+    for (int k = 0; k < neighbours.count(); ++k) {
+      if (neighbours.is_known(k, point.moved)) continue;
+      const Attempt attempt{kExpectedLevel, settings.gain, kSameThing, false};
+      if (find(point, neighbours.moved(k), attempt)) return true;
+    }
+    return false;
   }
 
   bool find_elsewhere(FollowedPoint& point, ImagePoint expected, int first_level) const {
-    return find(point, expected, first_level, 0, kSameThingElsewhere);
+    point.is_surprise = find(point, expected, {first_level, 0, kSameThingElsewhere, true});
+    return point.is_surprise;
   }
 
  private:
+  struct Attempt {
+    int first_level;
+    float gain;  ///< 0: of each window its own
+    float most_residual;
+    bool in_doubt;
+  };
+
+  bool find(FollowedPoint& point, ImagePoint expected, const Attempt& attempt) const {
+    SearchSettings search;
+    search.first_level = attempt.first_level;
+    search.last_level = point.level;
+    search.gain = attempt.gain;
+    search.least_strength = settings.least_strength;
+    PointMatch match;
+    if (!find_point(before, now, point.at, expected, search, match)) return false;
+    if (match.residual > attempt.most_residual) return false;
+    point.match = match;
+    point.found = comes_back(point, search) && look_wider(point, search, attempt.in_doubt);
+    return point.found;
+  }
+
   bool comes_back(const FollowedPoint& point, const SearchSettings& search) const {
     SearchSettings back = search;
     back.first_level = search.last_level;
     back.gain = search.gain > 0 ? 1 / search.gain : 0;
     back.least_strength = 0;
-    const float reach_px = kReturn_px * static_cast<float>(1 << search.last_level);
+    const float residual = std::max(point.match.residual, kReturnByResidual_px / kReturn_px);
+    const float reach_px =
+        kReturnByResidual_px / residual * static_cast<float>(1 << search.last_level);
     PointMatch returned;
     return find_point(now, before, point.match.to, point.at - point.match.to, back, returned) &&
            nearer_than(returned.to, point.at, reach_px);
   }
 
-  /// Refines with a larger window, and asks it about points that were found elsewhere, and about
-  /// all in the first frame, where none has a neighbour to agree with: false when it does not see
-  /// the same thing. A small object does not fill it, so that others are not asked about.
-  bool look_wider(FollowedPoint& point, const SearchSettings& search) const {
-    const bool in_doubt = point.is_surprise || !has_history;
+  /// Refines with a larger window, and, in doubt, asks it: false when it does not see the same
+  /// thing. A small object does not fill it, so that it is asked only about points that were found
+  /// where nothing led to, and about all in the first frame, where none has a history.
+  bool look_wider(FollowedPoint& point, const SearchSettings& search, bool in_doubt) const {
     if (!in_doubt && !settings.refines) return true;
     PointMatch wide;
     if (!refine_point(before, now, point.at, search, point.match, wide)) return true;
-    if (in_doubt && wide.residual > kSameThing) return false;
+    if (in_doubt && wide.residual > kSameSurroundings) return false;
     if (settings.refines && wide.residual < point.match.residual + kWiderWorse) {
       point.match.to = wide.to;
       point.match.variance_px2 = wide.variance_px2;
@@ -102,41 +183,31 @@ void PointFollower::follow(const GrayPyramid& before, const GrayPyramid& now,
   const bool has_history = std::any_of(points.begin(), points.end(),
                                        [](const FollowedPoint& point) { return !point.is_new; });
   const Search search{before, now, settings, has_history};
-  moved_x_.clear();
-  moved_y_.clear();
+  size_t found = 0;
   for (FollowedPoint& point : points) {
     point.found = false;
     point.is_surprise = false;
-    if (!search.find(point, point.moved, kExpectedLevel, settings.gain, kSameThing)) continue;
-    moved_x_.push_back(point.match.to.x_px - point.at.x_px);
-    moved_y_.push_back(point.match.to.y_px - point.at.y_px);
+    if (search.find_expected(point)) ++found;
   }
-  if (moved_x_.size() == points.size()) return;
+  if (found == points.size()) return;
 
-  bool others_moved = !moved_x_.empty();
-  ImagePoint common;  // motion of the others
-  if (others_moved)
-    common = {median(moved_x_.begin(), moved_x_.end()), median(moved_y_.begin(), moved_y_.end())};
   int block_searches = 0;
   int in_vain = 0;
   for (FollowedPoint& point : points) {
     if (point.found) continue;
-    point.is_surprise = true;
-    // Where the others go it would leave: what looks like it elsewhere is not it.
-    if (others_moved && !has_room(now.levels[0], point.at + common)) continue;
-    if (others_moved && search.find_elsewhere(point, common, kExpectedLevel)) continue;
+    const Neighbours neighbours(points, point.at);
+    if (neighbours.count() > 0) {
+      // Where the others go it would leave: what looks like it elsewhere is not it.
+      if (!has_room(now.levels[0], point.at + neighbours.moved(0))) continue;
+      if (search.find_beside(point, neighbours)) continue;
+    }
     if (search.find_elsewhere(point, {0, 0}, kAnywhereLevel)) continue;
     if (block_searches >= kMostBlockSearches || in_vain > kMostInVain) continue;
     ++block_searches;
     ImagePoint moved;
-    if (find_by_blocks(before, now, point.at, moved) &&
-        search.find_elsewhere(point, moved, kAfterBlocksLevel)) {
-      common = point.match.to - point.at;
-      others_moved = true;
-      in_vain = 0;
-    } else {
-      ++in_vain;
-    }
+    const bool found_by_blocks = find_by_blocks(before, now, point.at, moved) &&
+                                 search.find_elsewhere(point, moved, kAfterBlocksLevel);
+    in_vain = found_by_blocks ? 0 : in_vain + 1;
   }
 }
 

@@ -12,8 +12,8 @@
 namespace spidar {
 
 /// Sets found, is_surprise and match of points. Each is looked for where it was expected, then
-/// where the others went, then at rest, and at last by comparing blocks. It is found if it looks
-/// the same, comes back to where it was when it is followed backwards, and, in doubt, if its
+/// where its neighbours went, then at rest, and at last by comparing blocks. It is found if it
+/// looks the same, comes back to where it was when it is followed backwards, and, in doubt, if its
 /// surroundings agree.
 class PointFollower {
  public:
@@ -28,13 +28,10 @@ class PointFollower {
               std::vector<FollowedPoint>& points);
 
   /// What passes for the same thing has a residual below this, see WindowMatch.
-  static constexpr float kSameThing = 0.5f;
+  static constexpr float kSameThing = 0.6f;
 
  private:
   struct Search;  // one frame's
-
-  std::vector<float> moved_x_;  // buffers of a median
-  std::vector<float> moved_y_;
 };
 
 }  // namespace spidar

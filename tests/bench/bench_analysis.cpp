@@ -2,7 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // Milliseconds that the analysis of a frame takes, beside what the same OpenCV functions take when
 // they are wired up the plain way. Both on one thread, on the same frames: a camera that pans over
-// a texture. And beside a frame of 8 bits the same one in 10, in words of two bytes.
+// a texture. And beside a frame of 8 bits the same one in 10, in words of two bytes, and beside all
+// that a dense flow, OpenCV's DIS, without what would make a force of it.
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -173,6 +174,26 @@ void naive(benchmark::State& state) {
   if (analyzer > 0) state.counters["times_slower"] = ms / analyzer;
 }
 
+/// DIS of half the size, preset medium; the frames are halved on the way, as a caller would.
+void dis(benchmark::State& state) {
+  const auto width = static_cast<int>(state.range(0));
+  cv::setNumThreads(1);
+  const cv::Ptr<cv::DISOpticalFlow> flow_of =
+      cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
+  cv::Mat before;
+  cv::Mat flow;
+  const double ms = run(state, pan(width), [&](const ImageView& frame, int) {
+    const cv::Mat whole(frame.height, frame.width, CV_8U, const_cast<uint8_t*>(frame.data),
+                        static_cast<size_t>(frame.stride_bytes));
+    cv::Mat now;
+    cv::resize(whole, now, {}, 0.5, 0.5, cv::INTER_AREA);
+    if (!before.empty()) flow_of->calc(before, now, flow);
+    before = now;
+  });
+  const double analyzer = analyzer_ms()[width];
+  if (analyzer > 0) state.counters["times_slower"] = ms / analyzer;
+}
+
 void sizes(benchmark::internal::Benchmark* b) {
   b->Unit(benchmark::kMillisecond)->Arg(640)->Arg(1280)->Arg(1920)->Arg(3840);
 }
@@ -180,6 +201,7 @@ void sizes(benchmark::internal::Benchmark* b) {
 BENCHMARK(analyze)->Apply(sizes)->Iterations(300);
 BENCHMARK(analyze_10_bits)->Apply(sizes)->Iterations(300);
 BENCHMARK(naive)->Apply(sizes)->Iterations(30);
+BENCHMARK(dis)->Apply(sizes)->Iterations(15);
 
 }  // namespace
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Is the right motion felt in real films? real_films.py BUILD FOLDER [CSV]: runs spidarmotion of a
-meson build folder over the films of FOLDER and prints a table with a row for each of its settings, one
-for films of which a corner is cut off, and one of methods with the processor time that each takes: see bench_real_film.cpp. The latter
-is also written to CSV, for real_films.gp.
+"""Is the right motion felt in real films? real_films.py BUILD FOLDER [OLDER_BUILD]: runs spidarmotion
+of a meson build folder over the films of FOLDER and writes three tables into docs/tracking.md: a row for
+each of its settings, and one for OLDER_BUILD, the build folder of an older version; films of which a
+corner is cut off; methods with the processor time that each takes, see bench_real_film.cpp. The last is
+also written to BUILD/real_films.csv, for real_films.gp.
 
 FOLDER holds films that GStreamer can decode. Beside a film, NAME.csv gives the true motion of its
 object against the background: lines `frame,x,y`, the first frame being 0, in pixels of the film
@@ -41,6 +42,8 @@ SETTINGS = [
     ["motion=mean"],
     ["tracker=opencv", "motion=mean", "filter-min-cutoff=0"],
 ]
+NAMES = {"tracker=opencv motion=mean filter-min-cutoff=0": "the paper"}
+PAGE = Path("docs/tracking.md")
 # Of bench_real_film, and their names in the table.
 METHODS = {
     "default": "`motion=object`",
@@ -51,6 +54,29 @@ METHODS = {
     "dis": "DIS at half size, largest region",
     "vectors": "H.264 vectors, largest region",
 }
+
+
+class Table:
+    """Rows that are printed as they come and then take the place of those of docs/tracking.md between
+    `<!-- real films: NAME -->` and `<!-- end -->`."""
+
+    def __init__(self, name, *columns):
+        self.mark = f"<!-- real films: {name} -->"
+        self.lines = []
+        if self.mark not in PAGE.read_text():
+            sys.exit(f"real_films.py: {PAGE} has no line '{self.mark}'")
+        self.add("| " + " | ".join(columns) + " |")
+        self.add("|---" * len(columns) + "|")
+
+    def add(self, line):
+        print(line, flush=True)
+        self.lines.append(line)
+
+    def write(self):
+        print(flush=True)
+        before, rest = PAGE.read_text().split(self.mark + "\n", 1)
+        after = rest[rest.index("<!-- end -->"):]
+        PAGE.write_text("\n".join([before + self.mark, "", *self.lines, "", after]))
 
 
 def read_truth(file):
@@ -98,8 +124,7 @@ def size_px(film):
 
 
 def compare_corners(build, films):
-    print("\n| cut off | right % | wrong % | felt % | false % | jitter (true) |")
-    print("|---|---|---|---|---|---|")
+    table = Table("corners", "cut off", "right %", "wrong %", "felt %", "false %", "jitter (true)")
     together = Tally()
     for name, x, y in corners():
         tally = Tally()
@@ -110,8 +135,9 @@ def compare_corners(build, films):
             truth = film.with_suffix(".csv")
             for each in (tally, together):
                 each.add(*found, read_truth(truth) if truth.exists() else None)
-        print(tally.row(name), flush=True)
-    print(together.row("all four"), flush=True)
+        table.add(tally.row(name))
+    table.add(together.row("all four"))
+    table.write()
 
 
 def jitter(motion, frames):
@@ -188,12 +214,9 @@ def measure(program, method, film):
     return motion, [1 / FRAMES_A_SECOND] * len(rows), rows[0][4], [row[3] for row in rows]
 
 
-def compare_methods(build, films, file):
+def compare_methods(build, films):
     program = build / "tests" / "bench" / "bench_real_film"
-    if not program.exists() or not shutil.which("ffmpeg"):
-        sys.exit("real_films.py: no table of methods: it needs libavformat-dev and ffmpeg")
-    print("\n| method | ms a frame | right % | wrong % | felt % | false % | jitter (true) |")
-    print("|---|---|---|---|---|---|---|")
+    table = Table("methods", "method", "ms a frame", "right %", "wrong %", "felt %", "false %", "jitter (true)")
     rows = []
     for method, name in METHODS.items():
         tally, times_ms = Tally(), []
@@ -203,34 +226,56 @@ def compare_methods(build, films, file):
             truth = film.with_suffix(".csv")
             tally.add(*found, read_truth(truth) if truth.exists() else None)
         time_ms = statistics.median(times_ms)
-        print(tally.row(f"{name} | {time_ms:.2f}"), flush=True)
+        table.add(tally.row(f"{name} | {time_ms:.2f}"))
         rows.append([name.strip("`").split(",")[0], time_ms, 100 * tally.right / tally.counted,
                      100 * tally.wrong / tally.counted,
                      100 * tally.false / max(tally.without_object, 1)])
-    if file:
-        with open(file, "w", newline="") as lines:
-            csv.writer(lines).writerows(rows)
+    table.write()
+    with open(build / "real_films.csv", "w", newline="") as lines:
+        csv.writer(lines).writerows(rows)
+
+
+def compare_settings(build, older, films):
+    table = Table("settings", "settings", "right %", "wrong %", "felt %", "false %", "jitter (true), px")
+    runs = [(build, properties, " ".join(properties) or "default") for properties in SETTINGS]
+    if older:
+        runs.append((older, [], "an older version"))
+    for which, properties, name in runs:
+        tally = Tally()
+        for film in films:
+            truth = film.with_suffix(".csv")
+            tally.add(*play(which, film, properties), read_truth(truth) if truth.exists() else None)
+        table.add(tally.row(NAMES.get(name) or (f"`{name}`" if properties else name)))
+    table.write()
+
+
+def check(builds):
+    """What is missing is said before the minutes that the first tables take."""
+    for build in builds:
+        if not list((build / "plugin").glob("libgstspidar.*")):
+            sys.exit(f"real_films.py: no plugin in {build}/plugin: build it with meson compile")
+    if not (builds[0] / "tests" / "bench" / "bench_real_film").exists() or not shutil.which("ffmpeg"):
+        sys.exit("real_films.py: the table of methods needs libavformat-dev (after which: meson configure "
+                 f"--clearcache {builds[0]}; meson setup --reconfigure {builds[0]}) and ffmpeg")
 
 
 def main():
     if len(sys.argv) not in (3, 4):
-        sys.exit("usage: real_films.py BUILD FOLDER [CSV]")
+        sys.exit("usage: real_films.py BUILD FOLDER [OLDER_BUILD]")
     build, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
+    older = Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else None
+    if not folder.is_dir():
+        sys.exit(f"real_films.py: {folder} is not a folder")
     films = sorted(f for f in folder.iterdir() if f.suffix not in (".csv", ".md", ".txt", ".py"))
     films = [f for f in films if f.is_file()]
     if not films:
         sys.exit(f"real_films.py: no films in {folder}")
-    print("| settings | right % | wrong % | felt % | false % | jitter (true) |")
-    print("|---|---|---|---|---|---|")
-    for properties in SETTINGS:
-        tally = Tally()
-        for film in films:
-            truth = film.with_suffix(".csv")
-            tally.add(*play(build, film, properties),
-                      read_truth(truth) if truth.exists() else None)
-        print(tally.row(" ".join(properties) or "default"), flush=True)
+    if not any(f.with_suffix(".csv").exists() for f in films):
+        sys.exit(f"real_films.py: no film in {folder} has a NAME.csv with the true motion of its object")
+    check([build] + ([older] if older else []))
+    compare_settings(build, older, films)
     compare_corners(build, films)
-    compare_methods(build, films, sys.argv[3] if len(sys.argv) > 3 else None)
+    compare_methods(build, films)
 
 
 main()

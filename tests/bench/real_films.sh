@@ -1,17 +1,21 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# The tables and the picture of real films in docs/tracking.md: real_films.sh BUILD FOLDER. What
-# FOLDER holds is said in real_films.py. No film is part of this repository.
-#
-# The table of methods and the picture need the packages libavformat-dev (if it is installed after
-# `meson setup`: `meson configure --clearcache BUILD`), ffmpeg and gnuplot; without them it ends with a
-# message after the others.
+# Measures anew what docs/tracking.md shows of real films, its three tables and the picture:
+#   tests/bench/real_films.sh BUILD FOLDER [OLDER_BUILD]
+# What FOLDER holds is said in real_films.py; no film is part of this repository. OLDER_BUILD is the build
+# folder of another version, which has a row in the first table; without it that row is missing. Needs
+# ffmpeg, gnuplot and libavformat-dev (if it is installed after `meson setup`: `meson configure
+# --clearcache BUILD` and `meson setup --reconfigure BUILD`).
 set -eu
 cd "$(dirname "$0")/../.."
-build=${1:?usage: tests/bench/real_films.sh BUILD FOLDER}
-folder=${2:?usage: tests/bench/real_films.sh BUILD FOLDER}
-meson compile -C "$build"
-python3 tests/bench/real_films.py "$build" "$folder" "$build/real_films.csv"
-[ ! -s "$build/real_films.csv" ] ||
-    gnuplot -e "csv='$build/real_films.csv'; picture='docs/figures/real_films.png'" tests/bench/real_films.gp
+usage='usage: tests/bench/real_films.sh BUILD FOLDER [OLDER_BUILD]'
+build=${1:?$usage}
+folder=${2:?$usage}
+shift 2
+command -v gnuplot >/dev/null || { echo 'real_films.sh: the picture needs gnuplot' >&2; exit 1; }
+ninja -C "$build" -t targets all | grep -q '^tests/bench/bench_real_film:' ||
+    { echo "real_films.sh: no bench_real_film in $build: it needs libavformat-dev" >&2; exit 1; }
+meson compile -C "$build" gstspidar bench_real_film
+python3 tests/bench/real_films.py "$build" "$folder" "$@"
+gnuplot -e "csv='$build/real_films.csv'; picture='docs/figures/real_films.png'" tests/bench/real_films.gp

@@ -61,6 +61,31 @@ TYPED_TEST(EveryTracker, FindsAKnownTranslationToAPartOfAPixel) {
   }
 }
 
+TEST(PatchTracker, WhatMovesFastIsFoundBesideWhatMovesSlowly) {
+  // As a floor below a moving camera: 2 px a frame at the top, 46 px at the bottom, further than
+  // any point is looked for from rest, with details of 5 px that do not show in a coarser picture.
+  constexpr int kWidth = 640;
+  constexpr int kHeight = 480;
+  const auto moved_px = [](double y) { return 2 + 44 * y / kHeight; };
+  const Texture texture(3, 5);
+  Picture before(kWidth, kHeight);
+  Picture after(kWidth, kHeight);
+  before.fill([&](double x, double y) { return texture.at(x, y); });
+  after.fill([&](double x, double y) { return texture.at(x - moved_px(y), y); });
+  PatchTracker tracker;
+  const int looked_for = tracker.track(before.view()).features;
+  ASSERT_GE(looked_for, 50);
+  const TrackedFrame& frame = tracker.track(after.view());
+  ASSERT_FALSE(frame.restarted);
+  // Half of the width of the band that leaves the picture, 24 px of 640, and as much for chance.
+  EXPECT_GE(static_cast<double>(frame.tracks.size()), 0.92 * looked_for);
+  for (const Track& track : frame.tracks) {
+    // A window of 16 px sees what moves differently by 0.73 px above and below its middle.
+    EXPECT_NEAR(dx(track), moved_px(static_cast<double>(track.from.y_px)), 0.75);
+    EXPECT_NEAR(dy(track), 0, 0.75);
+  }
+}
+
 TYPED_TEST(EveryTracker, TheFirstFrameHasNothingToCompareWith) {
   MovingTexture scene(640, 360, 1, 0);
   TypeParam tracker;

@@ -106,10 +106,9 @@ double height_m(double luma) {
   return kRelief_m * (luma / 255 - 0.5);
 }
 
-/// Depth of a second stream, at 2 m of 1 … 3 m, is the middle of the workspace.
+/// A second stream of depth, a plane half-way between near and far, lies in the middle of the
+/// workspace.
 TEST(Touch, ThePlaneThatSpidardepthAttachesIsTouched) {
-  // 2000 mm in GRAY16_LE, as videotestsrc makes it of a colour: both bytes of grey 0x07d0 differ,
-  // so that the depth comes from the range instead: near and far are as far from the plane.
   Touched touched(
       "spidardepth name=depth samples=distance near=22768 far=42768 ! spidarmotion name=motion "
       "touch=depth ! fakesink name=sink sync=true enable-last-sample=true "
@@ -123,9 +122,10 @@ TEST(Touch, ThePlaneThatSpidardepthAttachesIsTouched) {
   const double force_N = touched.last().contact.force_N.z();
   ASSERT_TRUE(touched.last().contact.touching);
   EXPECT_NEAR(force_N / (500 * touched.last().contact.depth_m), 1, 0.05);
-  // A plane of grey 128 of 255 in 16 bits is 32896: within 1 % of the middle of the range.
+  // Medium grey is 32768 in 16 bits, within two steps of 8 bits (257 each) of the conversion; the
+  // grip moves in a tick, as its pose is that of the exchange before.
   const double surface_m = touched.last().pose.position_m.z() + touched.last().contact.depth_m;
-  EXPECT_NEAR(surface_m, 0, 0.01 * kRelief_m + 1e-4);
+  EXPECT_NEAR(surface_m, 0, 2 * 257.0 / 20000 * kRelief_m + 1e-4);
 }
 
 TEST(Touch, APlaneAtMidPictureIsStiffnessTimesDepth) {

@@ -15,6 +15,12 @@ std::unique_ptr<Tracker> make_patch(int points) {
   return std::make_unique<PatchTracker>(settings);
 }
 
+std::unique_ptr<Tracker> make_opencv(double min_distance_px) {
+  TrackerSettings settings;
+  settings.min_distance_px = min_distance_px;
+  return std::make_unique<OpenCvTracker>(settings);
+}
+
 std::unique_ptr<Tracker> make_nothing() {
   return nullptr;
 }
@@ -25,6 +31,7 @@ const std::vector<Pipeline>& pipelines() {
   static const std::vector<Pipeline> all = {
       {"naive", "naive wiring of OpenCV", false, make_naive},
       {"opencv", "tracker=opencv", true, [] { return std::make_unique<OpenCvTracker>(); }},
+      {"opencv-30", "the same with min-distance=30", true, [] { return make_opencv(30); }},
       {"fast", "motion=object quality=fast", true, make_nothing, FieldPoints::Settings{64, false}},
       {"balanced", "motion=object", true, make_nothing, FieldPoints::Settings{64, true}},
       {"fine", "motion=object quality=fine", true, make_nothing, FieldPoints::Settings{200, true}},

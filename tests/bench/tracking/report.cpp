@@ -92,11 +92,11 @@ void print_silent(const std::vector<Pipeline>& pipelines, const CaseScores& case
 
 void print_pairs(const std::vector<Pipeline>& pipelines, const std::vector<Score>& scores) {
   std::puts("\n### Middlebury\n");
-  std::puts("| pipeline | EPE median | mean | 95 % | lost % |\n|---|---|---|---|---|");
+  std::puts("| pipeline | EPE median | mean | 95 % | lost % | tracks |\n|---|---|---|---|---|---|");
   for (size_t k = 0; k < scores.size(); ++k) {
     const Figures f = figures(scores[k]);
-    std::printf("| %-28s | %.3f | %.3f | %.2f | %.1f |\n", pipelines[k].description.c_str(),
-                f.epe_median, f.epe_mean, f.epe_p95, f.lost);
+    std::printf("| %-28s | %.3f | %.3f | %.2f | %.1f | %zu |\n", pipelines[k].description.c_str(),
+                f.epe_median, f.epe_mean, f.epe_p95, f.lost, scores[k].epe_px.size());
   }
 }
 
