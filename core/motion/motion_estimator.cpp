@@ -252,14 +252,14 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
   scene.background = &background_;
   scene.model = background.model.kind;
   scene.camera = camera_motion(background_, static_cast<int>(votes_.points.size()), interval_s);
+  // The camera's motion needs them, too: what moves by itself or is burned in has less or no vote.
+  const FieldInFrame field{field_, scale, field_offset_px(field_.picture(), reduced, scale),
+                           interval_s, placed_};
+  const std::vector<MovingObject>& objects = objects_.update(field, background);
+  estimator_.learn_noise(votes_, [this](size_t block) { return objects_.moves(block); });
   if (kind == MotionKind::kCamera) {
     scene.felt = scene.camera;
-    estimator_.learn_noise(votes_, [](size_t) { return false; });
   } else {
-    const FieldInFrame field{field_, scale, field_offset_px(field_.picture(), reduced, scale),
-                             interval_s, placed_};
-    const std::vector<MovingObject>& objects = objects_.update(field, background);
-    estimator_.learn_noise(votes_, [this](size_t block) { return objects_.moves(block); });
     scene.objects = static_cast<int>(objects.size());
     scene.object_list = &objects;
     // Also while all of them are felt: who then asks for one gets the one that was looked at.
@@ -285,11 +285,9 @@ void MotionEstimator::drop_unneeded(MotionKind kind) {
   if (kind == MotionKind::kMean) {
     field_.restart();
     estimator_.reset();
-  }
-  if (kind == MotionKind::kMean || kind == MotionKind::kCamera) {
     objects_.reset();
-    dominant_.reset();
   }
+  if (kind == MotionKind::kMean || kind == MotionKind::kCamera) dominant_.reset();
 }
 
 void MotionEstimator::reset() {

@@ -30,6 +30,10 @@ constexpr float kWorse_grey = 0.5f;
 constexpr float kWorseByNoise = 0.3f;
 constexpr float kWorseShare = 0.15f;
 
+/// Less of a block than this was in the picture before: what the camera has just brought into the
+/// picture cannot be compared with anything.
+constexpr float kSeenBefore = 0.5f;
+
 constexpr int kLeastNeighbours = 3;
 /// A block without texture moves with so many around it, when they are most of those that know.
 constexpr int kNeighboursOfUnknown = 4;
@@ -44,6 +48,21 @@ constexpr int kNeighboursOfLasting = 1;
 constexpr float kStandsOutLearnt = 0.4f;
 constexpr float kBeside = 0.9f;
 constexpr float kPersistenceLearnt = 0.5f;
+
+/// Share of a block that was in the picture before if it has moved with the background.
+float seen_before(const BlockField& field, size_t index, const RelativeBlock& block) {
+  const BlockGrid& grid = field.grid();
+  const int column = static_cast<int>(index) % grid.columns;
+  const int row = static_cast<int>(index) / grid.columns;
+  const auto inside = [](int from_px, float moved_px, int size_px) {
+    const float low_px = static_cast<float>(from_px) - moved_px;
+    const float high_px = std::min(low_px + kBlock_px, static_cast<float>(size_px));
+    return std::max(0.0f, high_px - std::max(low_px, 0.0f));
+  };
+  const float x_px = inside(grid.x_px(column), block.background_x_px, field.picture().width());
+  const float y_px = inside(grid.y_px(row), block.background_y_px, field.picture().height());
+  return x_px * y_px / kBlockArea_px;
+}
 
 }  // namespace
 
@@ -83,6 +102,7 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     relative.x_px = block.moved_x_px - moved_px.x();
     relative.y_px = block.moved_y_px - moved_px.y();
     relative.has_texture = block.texture() > kLeastTexture;
+    relative.is_new = seen_before(field, i, relative) < kSeenBefore;
     residuals_.push_back(block.residual);
   }
   const auto third = residuals_.begin() + static_cast<ptrdiff_t>(residuals_.size() / 3);
@@ -106,6 +126,7 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
   if (evidence < least_evidence * (1 + kEvidencePerResidual * block.residual)) {
     return Judgement::kStill;
   }
+  if (relative.is_new) return Judgement::kStill;
   const int with_background = field.difference_if_moved(
       static_cast<int>(index), relative.background_x_px, relative.background_y_px);
   if (with_background < 0) return Judgement::kUnknown;

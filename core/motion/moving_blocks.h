@@ -19,6 +19,7 @@ struct RelativeBlock {
   float background_x_px = 0;  ///< motion of the background at this place
   float background_y_px = 0;
   bool has_texture = false;  ///< enough to say how it moves
+  bool is_new = false;       ///< most of it was outside of the picture before
   bool moves = false;        ///< by itself, its neighbours considered
 };
 

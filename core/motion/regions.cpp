@@ -27,6 +27,17 @@ bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
   return x * x + y * y < most_px * most_px;
 }
 
+/// Whether a block is at the border of the picture, or of what was in the picture before: beyond it
+/// nobody knows how far a layer of the scene reaches.
+bool is_at_border(const BlockGrid& grid, const std::vector<RelativeBlock>& relative, int column,
+                  int row) {
+  if (column == 0 || row == 0 || column + 1 == grid.columns || row + 1 == grid.rows) return true;
+  const auto columns = static_cast<size_t>(grid.columns);
+  const size_t i = static_cast<size_t>(row) * columns + static_cast<size_t>(column);
+  return relative[i - 1].is_new || relative[i + 1].is_new || relative[i - columns].is_new ||
+         relative[i + columns].is_new;
+}
+
 }  // namespace
 
 int RegionFinder::root_of(int block) {
@@ -58,8 +69,7 @@ void RegionFinder::describe(const BlockField& field, const std::vector<RelativeB
     const int column = static_cast<int>(i) % grid.columns;
     const int row = static_cast<int>(i) / grid.columns;
     ++region.blocks;
-    region.border_blocks +=
-        column == 0 || row == 0 || column + 1 == grid.columns || row + 1 == grid.rows;
+    region.border_blocks += is_at_border(grid, relative, column, row);
     const Eigen::Vector2d at_px(block.x_px, block.y_px);
     region.position_px += at_px;
     region.low_px =

@@ -17,7 +17,8 @@ namespace spidar {
 /// places from its centre.
 struct Region {
   int blocks = 0;
-  int border_blocks = 0;                                  ///< of them at the border of the picture
+  /// Of them at the border of the picture, or of that part of it that was in the picture before.
+  int border_blocks = 0;
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero();       ///< upper left corner of its box
   Eigen::Vector2d high_px = Eigen::Vector2d::Zero();      ///< lower right

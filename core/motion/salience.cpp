@@ -31,6 +31,8 @@ double salience(const Region& region, const CameraMotion& camera, bool was_follo
   const double touching = region.border_blocks / std::sqrt(static_cast<double>(region.blocks));
   const double score = region.blocks * kBlockArea_px * speed_px / (1 + kBorderCost * touching);
   if (camera.speed_px < camera.still_px) return score;
+  // Of what is at the border as a whole nobody sees where it ends.
+  if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));
   const double along_px = region.relative_px.dot(region.background_px.normalized());

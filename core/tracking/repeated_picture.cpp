@@ -38,18 +38,41 @@ unsigned whole_block_change(const ImageView& a, const ImageView& b, int x, int y
 #endif
 }
 
+/// Mean of the largest values.
+class LargestMean {
+ public:
+  void add(float value) {
+    if (value <= largest_[kChangedBlocks - 1]) return;
+    size_t place = kChangedBlocks - 1;
+    for (; place > 0 && largest_[place - 1] < value; --place) largest_[place] = largest_[place - 1];
+    largest_[place] = value;
+  }
+
+  /// Of `count` values in all; where these are fewer than kChangedBlocks, of all of them.
+  float mean(size_t count) const {
+    float sum = 0;
+    for (const float value : largest_) sum += value;
+    return sum / static_cast<float>(std::clamp<size_t>(count, 1, kChangedBlocks));
+  }
+
+ private:
+  std::array<float, kChangedBlocks> largest_{};  ///< in descending order
+};
+
 template <typename Change>
 float largest(const ImageView& now, Change&& change) {
-  float most = 0;
+  LargestMean most;
+  size_t blocks = 0;
   for (int y = 0; y < now.height; y += kBlock_px) {
     const int rows = std::min(kBlock_px, now.height - y);
     for (int x = 0; x < now.width; x += kBlock_px) {
       const int columns = std::min(kBlock_px, now.width - x);
       const auto sum = static_cast<float>(change(x, y, columns, rows));
-      most = std::max(most, sum / static_cast<float>(rows * columns));
+      most.add(sum / static_cast<float>(rows * columns));
+      ++blocks;
     }
   }
-  return most;
+  return most.mean(blocks);
 }
 
 }  // namespace
@@ -68,18 +91,21 @@ float plain::largest_change(const ImageView& before, const ImageView& now) {
   });
 }
 
-RepeatedPicture::Rhythm RepeatedPicture::rhythm() const {
+RepeatedPicture::Rhythm RepeatedPicture::rhythm(float share) const {
   Rhythm rhythm;
   float largest = 0;  // of a run
+  size_t begin = 0;   // of a run, frames ago
   bool in_run = false;
   for (size_t i = count_; i-- > 0;) {
     const float change = latest(i);
-    if (in_run && kShare * change > largest) {
+    if (in_run && share * change > largest) {
       ++rhythm.dips;
+      for (size_t k = begin; k > i; --k) rhythm.is_dip[k] = true;
       in_run = false;
     }
-    if (change < kShare * rhythm.large) {
+    if (change < share * rhythm.large) {
       largest = in_run ? std::max(largest, change) : change;
+      if (!in_run) begin = i;
       in_run = true;
     } else {
       rhythm.large = change;
@@ -89,11 +115,28 @@ RepeatedPicture::Rhythm RepeatedPicture::rhythm() const {
   return rhythm;
 }
 
+/// Whether the changes were small one period and two periods ago, and not all the time since then.
+bool RepeatedPicture::is_due(const Rhythm& rhythm) const {
+  for (size_t period = 2; 2 * period <= count_; ++period) {
+    if (!rhythm.is_dip[period - 1] || !rhythm.is_dip[2 * period - 1]) continue;
+    for (size_t i = 0; i + 1 < period; ++i) {
+      if (!rhythm.is_dip[i]) return true;
+    }
+  }
+  return false;
+}
+
+bool RepeatedPicture::is_small(float change) const {
+  const Rhythm any = rhythm(kShare);
+  if (any.dips >= kDips && change < kShare * any.large) return true;
+  const Rhythm periodic = rhythm(kShareWhenDue);
+  return change < kShareWhenDue * periodic.large && is_due(periodic);
+}
+
 RepeatedPicture::Kind RepeatedPicture::look(const ImageView& before, const ImageView& now) {
   const float change = largest_change(before, now);
-  const Rhythm known = rhythm();
-  const bool alike = known.dips >= kDips && change < kShare * known.large;
-  largest_[next_] = change;
+  const bool alike = is_small(change);
+  changes_[next_] = change;
   next_ = (next_ + 1) % kFrames;
   count_ = std::min(count_ + 1, kFrames);
   if (change == 0) return Kind::kSame;

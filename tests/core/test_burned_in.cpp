@@ -144,8 +144,11 @@ std::vector<Picture> take(const Scene& scene) {
 }
 
 std::vector<FrameAnalysis> analyze(const std::vector<Picture>& film,
-                                   const Caption& caption = nullptr) {
-  MotionAnalyzer analyzer;
+                                   const Caption& caption = nullptr,
+                                   MotionKind motion = MotionKind::kObject) {
+  AnalyzerSettings settings;
+  settings.motion = motion;
+  MotionAnalyzer analyzer(settings);
   std::vector<FrameAnalysis> found;
   Picture picture(kWidth, kHeight);
   for (int n = 0; n < kFrames; ++n) {
@@ -180,6 +183,29 @@ TEST_P(BurnedIn, AddsNothingToAPan) {
       const Vector2d moved_px = found[static_cast<size_t>(n)].motion.velocity_px_s * kFrame_s;
       EXPECT_EQ(moved_px, Vector2d(0, 0)) << "frame " << n;
     }
+  }
+}
+
+TEST(BurnedInLines, DoNotSayHowTheCameraMoves) {
+  // A faint scene and bold letters that come line by line, as titles do: all together they have
+  // more texture than the scene.
+  const Vector2d pan(1, 4);
+  const std::vector<Picture> film = take([&](int n, const Vector2d& at) {
+    const Vector2d from = at + n * pan;
+    return 128 + 0.7 * (background().at(from.x(), from.y()) - 128);
+  });
+  const Caption lines = [](int n, const Vector2d& at, double grey) {
+    for (int line = 0; line < n / 4; ++line) {
+      grey = write(at, {60, 320.0 - 40 * line}, 520, 4, static_cast<uint32_t>(line), grey);
+    }
+    return grey;
+  };
+  const std::vector<FrameAnalysis> found = analyze(film, lines, MotionKind::kCamera);
+  // Blocks are right to a tenth of a pixel of the field, which is 1.5 of the frame's.
+  constexpr double kError_px = 0.15;
+  for (int n = 1; n < kFrames; ++n) {
+    const Vector2d moved_px = found[static_cast<size_t>(n)].motion.velocity_px_s * kFrame_s;
+    EXPECT_LT((moved_px - pan).norm(), kError_px) << "frame " << n;
   }
 }
 

@@ -143,6 +143,34 @@ TEST(FilmCauses, ABushThatIsALittleNearerIsNoObject) {
   }
 }
 
+TEST(FilmCauses, AStoneAtTheBorderIsNoObject) {
+  // All of it that shows is at the border of the picture: nobody sees where it ends.
+  const std::vector<FrameAnalysis> found = analyze(
+      [](int n, const Vector2d& at) {
+        if (at.y() > 338 && std::abs(at.x() - 560 + 13.0 * n) < 36) {
+          return foreground().at(at.x() + 13.0 * n, at.y());
+        }
+        return background().at(at.x() + 8.0 * n, at.y());
+      },
+      20);
+  for (size_t n = kFelt; n < 20; ++n) {
+    EXPECT_EQ(moved_px(found[n]), Vector2d(0, 0)) << "frame " << n;
+  }
+}
+
+TEST(FilmCauses, WhatAFastCameraBringsIntoThePictureIsNoObject) {
+  // Two blocks a frame come in at the side; a wall beside the camera goes faster than the scene.
+  const std::vector<FrameAnalysis> found = analyze(
+      [](int n, const Vector2d& at) {
+        if (at.x() < 120) return foreground().at(at.x() - 66.0 * n, at.y());
+        return background().at(at.x() - 44.0 * n, at.y());
+      },
+      16);
+  for (size_t n = kFelt; n < 16; ++n) {
+    EXPECT_EQ(moved_px(found[n]), Vector2d(0, 0)) << "frame " << n;
+  }
+}
+
 TEST(FilmCauses, PointsOnOneLayerDoNotMoveTheBackground) {
   // The camera pans, and all points that somebody follows are on a layer that is a little nearer:
   // half a pixel, which is within what a point may differ from its block.

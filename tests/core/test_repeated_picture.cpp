@@ -18,12 +18,15 @@ namespace {
 using test::Picture;
 using Kind = RepeatedPicture::Kind;
 
-Picture moved(double dx, uint32_t noise_seed = 0) {
+/// Noise of `grey` levels up and down, each as likely.
+Picture moved(double dx, uint32_t noise_seed = 0, uint32_t grey = 2) {
   static const test::Texture texture(1, 9);
   std::mt19937 random(noise_seed);
   Picture picture(150, 90);
   picture.fill([&](double x, double y) {
-    const double noise = noise_seed > 0 ? static_cast<double>(random() % 5) - 2 : 0;
+    const double noise =
+        noise_seed > 0 ? static_cast<double>(random() % (2 * grey + 1)) - static_cast<double>(grey)
+                       : 0;
     return texture.at(x - dx, y) / 2 + 60 + noise;
   });
   return picture;
@@ -71,6 +74,63 @@ TEST(RepeatedPicture, WhatSlowsDownAndTurnsRoundIsNoRepeat) {
     EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kDifferent) << n;
     before = now;
   }
+}
+
+/// Four pictures in five frames, as the first fields of a telecined film show them.
+double telecined_px(uint32_t frame) {
+  return 4.0 * (frame - (frame + 2) / 5);
+}
+
+TEST(RepeatedPicture, NoiseMayBeLargerWhereARepeatIsDue) {
+  constexpr uint32_t kGrey = 5;
+  RepeatedPicture repeated;
+  Picture before = moved(0, 1, kGrey);
+  float large = 0;
+  for (uint32_t n = 1; n < 60; ++n) {
+    const bool again = n % 5 == 3;
+    ASSERT_EQ(again, telecined_px(n) == telecined_px(n - 1)) << n;
+    const Picture now = moved(telecined_px(n), n + 1, kGrey);
+    const float change = largest_change(before.view(), now.view());
+    if (again) {
+      // As of an encoder that spends its bits on the repeated field.
+      ASSERT_GT(change, RepeatedPicture::kShare * large) << n;
+      ASSERT_LT(change, RepeatedPicture::kShareWhenDue * large) << n;
+    } else {
+      large = change;
+    }
+    const Kind kind = repeated.look(before.view(), now.view());
+    if (n > RepeatedPicture::kFrames) {
+      EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kDifferent) << n;
+    }
+    if (kind == Kind::kDifferent) before = now;
+  }
+}
+
+TEST(RepeatedPicture, TheSameNoiseOutOfRhythmIsAnotherPicture) {
+  RepeatedPicture repeated;
+  Picture before = moved(0, 1, 5);
+  double place = 0;
+  for (uint32_t n = 1; n < 60; ++n) {
+    // Standing for a frame now and then, never twice after the same time.
+    const bool stands = n == 9 || n == 22 || n == 28 || n == 43;
+    if (!stands) place += 4;
+    const Picture now = moved(place, n + 1, 5);
+    EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kDifferent) << n;
+    before = now;
+  }
+}
+
+TEST(RepeatedPicture, OneBlockIsAnAccidentAndAFewAreAnObject) {
+  const Picture before = moved(0);
+  Picture accident = before;
+  for (int x = 32; x < 48; ++x) accident.at(x, 40) = 255;
+  Picture object = before;
+  for (int x = 32; x < 96; ++x) {
+    for (int y = 32; y < 64; ++y) object.at(x, y) = 255;
+  }
+  // The picture has levels from 60 to 187, which is 68 to 195 below white.
+  EXPECT_LE(largest_change(before.view(), accident.view()), 195.0f / 16 / kChangedBlocks);
+  EXPECT_GE(largest_change(before.view(), object.view()), 68);
 }
 
 }  // namespace
