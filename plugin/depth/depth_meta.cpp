@@ -2,9 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/depth/depth_meta.h"
 
-#include <gst/video/video.h>
-
 #include <gst-spidar/gstspidardepthmeta.h>
+#include <gst/video/video.h>
 
 namespace spidar {
 namespace {

@@ -4,9 +4,8 @@
 
 #include <stdexcept>
 
-#include <gst/video/video.h>
-
 #include <gst-spidar/gstspidardepthmeta.h>
+#include <gst/video/video.h>
 
 namespace spidar {
 namespace {

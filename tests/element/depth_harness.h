@@ -7,11 +7,11 @@
 #include <thread>
 #include <vector>
 
+#include <gst-spidar/gstspidardepthmeta.h>
 #include <gst/check/gstharness.h>
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
-#include <gst-spidar/gstspidardepthmeta.h>
 #include "plugin/depth/spidar_depth.h"
 
 extern "C" gint first_sample_in_c(GstBuffer* frame);

@@ -4,11 +4,10 @@
 // it.
 #include <string>
 
+#include <gst-spidar/gstspidardepthmeta.h>
 #include <gst/app/gstappsink.h>
 #include <gst/gst.h>
 #include <gtest/gtest.h>
-
-#include <gst-spidar/gstspidardepthmeta.h>
 
 namespace spidar::test {
 namespace {
