@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Copyright 2026 the gst-spidar authors */
 /* A program in C that reads the depth of a frame. */
-#include "plugin/depth/gstspidardepthmeta.h"
+#include <gst-spidar/gstspidardepthmeta.h>
 
 gint first_sample_in_c (GstBuffer * frame);
 
