@@ -10,6 +10,7 @@
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
+#include "plugin/depth/spidar_depth.h"
 #include "plugin/grip_pointer.h"
 #include "plugin/spidar_motion.h"
 #include "spidar/loop/tick_trace.h"
@@ -109,6 +110,8 @@ double height_m(double luma) {
 /// A second stream of depth, a plane half-way between near and far, lies in the middle of the
 /// workspace.
 TEST(Touch, ThePlaneThatSpidardepthAttachesIsTouched) {
+  gst_init(nullptr, nullptr);
+  GST_ELEMENT_REGISTER(spidardepth, nullptr);
   Touched touched(
       "spidardepth name=depth samples=distance near=22768 far=42768 ! spidarmotion name=motion "
       "touch=depth ! fakesink name=sink sync=true enable-last-sample=true "

@@ -242,7 +242,19 @@ TEST(TouchRendering, AnotherStiffnessIsReachedSlowly) {
     ASSERT_LE(now_N - last_N, TouchRendering::kStiffening_N_m_s * kTick_s * 0.005 + 1e-9);
     last_N = now_N;
   }
-  EXPECT_NEAR(last_N, 800 * 0.005, 1e-6);
+  // A stiffer spring at the same depth holds more energy, which the hand has not put in: the force
+  // stays below that of the spring until the grip has pressed again.
+  EXPECT_GT(last_N, 200 * 0.005);
+  EXPECT_LT(last_N, 800 * 0.005);
+  const double depth_m = touched.grip_m.z();
+  for (int tick = 0; tick < 200; ++tick) {  // out and in again, at 0.1 m/s
+    touched.grip_m.z() = depth_m + 1e-4 * (tick < 100 ? tick : 200 - tick);
+    touched.tick();
+  }
+  touched.grip_m.z() = depth_m;
+  const double pressed_N = touched.run(touched.now_ns + 2 * kFrame).force_N.z();
+  EXPECT_GT(pressed_N, last_N);
+  EXPECT_LE(pressed_N, 800 * 0.005 + 1e-9);
 }
 
 TEST(TouchRendering, TakesNothingFromTheHeap) {
