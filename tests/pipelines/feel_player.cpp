@@ -5,10 +5,13 @@
 // feel-player PLAYBIN FILM STEP...: PLAYBIN is playbin or playbin3. Steps are
 //   own-filter, own-sink    the application's own video-filter; its own spidarmotion, device=none
 //   window                  a sink that takes what a window takes, and nothing that converts before
-//   it preroll, play, pause, stop, other (a second player is used from now on) frames=N, wait=MS
-//   until so many more frames were shown; for so long loaded                  says whether the
-//   plugin is in this process stay                    for ever exit                    without
-//   stopping
+//                           it
+//   preroll, play, pause, stop
+//   other                   a second player is used from now on
+//   frames=N, wait=MS       until so many more frames were shown; for so long
+//   loaded                  prints whether the plugin is in this process
+//   stay                    for ever
+//   exit                    without stopping
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -42,7 +45,9 @@ GstElement* make_player(const char* playbin, const std::string& film) {
   return player;
 }
 
-/// As a window: a format that a screen has, and no conversion by playbin itself.
+/// As a window: a format that graphics cards overlay, and no conversion by playbin itself. It is
+/// one that decoders of 10 bits have in their templates, too: playbin refuses a decoder none of
+/// whose formats the sink takes.
 void show_in_window(GstElement* player) {
   // Of GstPlayFlags, which is no public type. Without the others playbin has no reason to convert.
   constexpr guint kVideo = 1 << 0, kNativeVideo = 1 << 6;
@@ -50,7 +55,7 @@ void show_in_window(GstElement* player) {
   g_object_get(player, "video-sink", &sink, nullptr);
   GstElement* window = gst_bin_new("window");
   GstElement* format = gst_element_factory_make("capsfilter", nullptr);
-  gst_util_set_object_arg(G_OBJECT(format), "caps", "video/x-raw,format=BGRx");
+  gst_util_set_object_arg(G_OBJECT(format), "caps", "video/x-raw,format=I420");
   gst_bin_add_many(GST_BIN(window), format, sink, nullptr);
   gst_element_link(format, sink);
   GstPad* pad = gst_element_get_static_pad(format, "sink");
