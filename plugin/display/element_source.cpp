@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plugin/motion_engine.h"
+#include "plugin/engine/motion_engine.h"
 #include "plugin/spidar_motion.h"
 
 namespace spidar {

@@ -8,7 +8,7 @@
 
 #include "core/motion/objects.h"
 #include "core/motion_analyzer.h"
-#include "plugin/frame_luma.h"
+#include "plugin/engine/frame_luma.h"
 
 namespace spidar {
 

@@ -5,7 +5,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/motion_engine.h"
+#include "plugin/engine/motion_engine.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/reports/device_complaints.h"
 

@@ -5,7 +5,7 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/motion_engine.h"
+#include "plugin/engine/motion_engine.h"
 #include "plugin/overlay/scene_view.h"
 
 namespace spidar {

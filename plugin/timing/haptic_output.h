@@ -11,7 +11,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/device_view.h"
+#include "plugin/engine/device_view.h"
 #include "plugin/timing/playback_follower.h"
 #include "spidar/haptic_session.h"
 

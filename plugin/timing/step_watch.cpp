@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/timing/step_watch.h"
 
-#include "plugin/motion_engine.h"
+#include "plugin/engine/motion_engine.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/timing/downstream.h"
 

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/grip/pose.h"
-#include "plugin/device_view.h"
+#include "plugin/engine/device_view.h"
 
 namespace spidar {
 

@@ -10,7 +10,7 @@
 
 #include "core/force/force_limit.h"
 #include "core/motion_analyzer.h"
-#include "plugin/device_view.h"
+#include "plugin/engine/device_view.h"
 #include "plugin/overlay/scene_view.h"
 
 namespace spidar {

@@ -3,7 +3,7 @@
 // Where a grip points at the picture.
 #include <gtest/gtest.h>
 
-#include "plugin/grip_pointer.h"
+#include "plugin/engine/grip_pointer.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {

@@ -12,7 +12,7 @@
 #include <gst/check/gsttestclock.h>
 #include <gst/gst.h>
 
-#include "plugin/motion_engine.h"
+#include "plugin/engine/motion_engine.h"
 #include "tests/support/element_harness.h"
 
 namespace spidar::test {

@@ -12,8 +12,8 @@
 #include <gst/video/video.h>
 
 #include "core/motion_analyzer.h"
-#include "plugin/frame_luma.h"
-#include "plugin/grip_pointer.h"
+#include "plugin/engine/frame_luma.h"
+#include "plugin/engine/grip_pointer.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/reports/frame_report.h"
 #include "plugin/reports/frame_trace.h"
