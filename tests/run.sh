@@ -96,8 +96,8 @@ case ${1-} in
     export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
     export GST_REGISTRY_FORK=no
     build_and_test build-ci-address "${sanitized[@]}" \
-        -Db_sanitize=address,undefined -Dbenchmarks=disabled -- \
-        -t 4 --no-suite numerics --no-suite examples --no-suite kernel
+        -Db_sanitize=address,undefined -Dbenchmarks=disabled -Dexamples=false -- \
+        -t 4 --no-suite numerics --no-suite kernel
     check_reference build-ci-address
     say "thread sanitizer: what runs on several threads, and a player to which anything is done at random." \
         "GLib and GStreamer are not built with it: their locks are told to it (tests/support/tsan_glib.cpp)," \
