@@ -44,7 +44,8 @@ void require_limit(double value, const char* what) {
 
 }  // namespace
 
-struct Device::Impl {
+// A nested class is as visible as the one around it, unless it says otherwise.
+struct __attribute__((visibility("hidden"))) Device::Impl {
   Impl(const std::string& device, const spidar::Profile& profile)
       : session(profile, spidar::make_device(device, profile)) {
     session.loop().set_playback_clock(now_is_now());

@@ -37,7 +37,7 @@ spidar::MotionKind kind_of(FeltMotion motion) {
 
 }  // namespace
 
-struct MotionToWrench::Impl {
+struct __attribute__((visibility("hidden"))) MotionToWrench::Impl {
   /// Throws, and changes nothing, when a setting is out of range.
   void configure(const spidar::AnalyzerSettings& wanted) {
     analyzer.configure(wanted);
