@@ -27,36 +27,47 @@ std::vector<std::string> warnings_of(const std::string& properties) {
   return h.warnings();
 }
 
+/// What the element says of them.
+TouchProperties read_back(const std::string& launch) {
+  ElementHarness h(launch);
+  TouchProperties read;
+  gint kind, depth;
+  g_object_get(h.element(), "touch", &kind, "depth-layout", &depth, "touch-relief", &read.relief_mm,
+               "touch-stiffness", &read.stiffness_N_m, "touch-friction", &read.friction,
+               "touch-texture", &read.texture, "motion-share", &read.motion_share, nullptr);
+  read.kind = static_cast<TouchKind>(kind);
+  read.depth = static_cast<DepthSource>(depth);
+  return read;
+}
+
+void expect(const TouchProperties& read, const TouchProperties& wanted) {
+  EXPECT_EQ(read.kind, wanted.kind);
+  EXPECT_EQ(read.depth, wanted.depth);
+  EXPECT_EQ(read.relief_mm, wanted.relief_mm);
+  EXPECT_EQ(read.stiffness_N_m, wanted.stiffness_N_m);
+  EXPECT_EQ(read.friction, wanted.friction);
+  EXPECT_EQ(read.texture, wanted.texture);
+  EXPECT_EQ(read.motion_share, wanted.motion_share);
+}
+
 TEST(TouchProperties, DefaultsAreTheDocumentedOnes) {
-  ElementHarness h("device=none");
-  gint touch;
-  gdouble relief, stiffness, friction, texture, share;
-  g_object_get(h.element(), "touch", &touch, "touch-relief", &relief, "touch-stiffness", &stiffness,
-               "touch-friction", &friction, "touch-texture", &texture, "motion-share", &share,
-               nullptr);
-  EXPECT_EQ(touch, static_cast<gint>(TouchKind::kOff));
-  EXPECT_EQ(relief, 8);
-  EXPECT_EQ(stiffness, 500);
-  EXPECT_EQ(friction, 0.3);
-  EXPECT_EQ(texture, 0);
-  EXPECT_EQ(share, 0);
+  expect(read_back("device=none"), {TouchKind::kOff, DepthSource::kMeta, 8, 500, 0.3, 0, 0});
 }
 
 TEST(TouchProperties, ReadBackWhatWasWritten) {
-  ElementHarness h(
-      "device=none touch=luma touch-relief=12 touch-stiffness=300 touch-friction=0.1 "
-      "touch-texture=2 motion-share=0.4");
-  gint touch;
-  gdouble relief, stiffness, friction, texture, share;
-  g_object_get(h.element(), "touch", &touch, "touch-relief", &relief, "touch-stiffness", &stiffness,
-               "touch-friction", &friction, "touch-texture", &texture, "motion-share", &share,
-               nullptr);
-  EXPECT_EQ(touch, static_cast<gint>(TouchKind::kLuma));
-  EXPECT_EQ(relief, 12);
-  EXPECT_EQ(stiffness, 300);
-  EXPECT_EQ(friction, 0.1);
-  EXPECT_EQ(texture, 2);
-  EXPECT_EQ(share, 0.4);
+  const std::string rest =
+      " touch-relief=12 touch-stiffness=300 touch-friction=0.1 touch-texture=2 motion-share=0.4";
+  expect(read_back("device=none touch=luma depth-layout=right" + rest),
+         {TouchKind::kLuma, DepthSource::kRight, 12, 300, 0.1, 2, 0.4});
+  expect(read_back("device=none touch=depth depth-layout=below" + rest),
+         {TouchKind::kDepth, DepthSource::kBelow, 12, 300, 0.1, 2, 0.4});
+}
+
+TEST(TouchProperties, FramesWithoutDepthAreAWarningOnce) {
+  const std::vector<std::string> warnings = warnings_of("device=sim touch=depth");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("no depth"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(warnings_of("device=sim touch=depth depth-layout=right").empty());
 }
 
 TEST(TouchProperties, WithoutADeviceThereIsAWarningOnce) {
@@ -254,37 +265,49 @@ TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
   EXPECT_NEAR(grip_m.z() + last.contact.depth_m / cosine, surface_m, tolerance_m);
 }
 
-/// The left half of the frame is a picture of noise, the right half its depth: a plane. The grip is
-/// pressed against that plane, wherever it lies.
-TEST(ReliefStream, DepthBesideThePictureIsTheRelief) {
-  init_gstreamer();
-  constexpr int kWidth = 640, kHeight = 240;
-  for (const DepthSource layout : {DepthSource::kRight, DepthSource::kBelow}) {
-    Reliefs reliefs;
-    reliefs.loop->open();
-    TouchProperties touch;
-    touch.kind = TouchKind::kDepth;
-    touch.depth = layout;
-    std::vector<uint8_t> luma(kWidth * kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        const bool is_depth = layout == DepthSource::kRight ? x >= kWidth / 2 : y >= kHeight / 2;
-        luma[static_cast<size_t>(y * kWidth + x)] =
-            static_cast<uint8_t>(is_depth ? 200 : (x * 31 + y * 57) % 256);
-      }
+/// Force to the right for each newton to the viewer, on a grip that is pressed against the middle
+/// of a 2D+Z frame. From left to right each half is dark to bright, or grey.
+double tilt(DepthSource layout, bool picture_rises, bool depth_rises) {
+  constexpr int kWidth = 512, kHeight = 256;
+  const bool is_right = layout == DepthSource::kRight;
+  const int half_width = is_right ? kWidth / 2 : kWidth;
+  std::vector<uint8_t> luma(kWidth * kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const bool is_depth = is_right ? x >= kWidth / 2 : y >= kHeight / 2;
+      const int rising = x % half_width * 256 / half_width;
+      luma[static_cast<size_t>(y * kWidth + x)] =
+          static_cast<uint8_t>((is_depth ? depth_rises : picture_rises) ? rising : 128);
     }
-    EXPECT_TRUE(reliefs.stream.add(nullptr, {luma.data(), kWidth, kHeight, kWidth}, some_analysis(),
-                                   0, touch, {0.5, 0.5}));
-    Pose hand;
-    hand.position_m.z() = -0.02;  // behind any relief of 8 mm
-    reliefs.device.set_hand(hand);
-    reliefs.loop->set_playback_clock({0, 0, 1.0, true});
-    for (int64_t now_ns = kTick_ns; now_ns < 2000 * kTick_ns; now_ns += kTick_ns)
-      reliefs.loop->tick(now_ns, now_ns);
-    const TickRecord last = reliefs.loop->snapshot().last;
-    ASSERT_TRUE(last.contact.touching);
-    // A plane has no slope: nothing of the noise beside it is felt.
-    EXPECT_NEAR(last.contact.force_N.head<2>().norm(), 0, 0.01 * last.contact.force_N.z());
+  }
+  Reliefs reliefs;
+  reliefs.loop->open();
+  TouchProperties touch;
+  touch.kind = TouchKind::kDepth;
+  touch.depth = layout;
+  touch.friction = 0;
+  EXPECT_TRUE(reliefs.stream.add(nullptr, {luma.data(), kWidth, kHeight, kWidth}, some_analysis(),
+                                 0, touch, {0.5, 0.5}));
+  Pose hand;
+  hand.position_m.z() = -0.02;  // behind any relief of 8 mm
+  reliefs.device.set_hand(hand);
+  reliefs.loop->set_playback_clock({0, 0, 1.0, true});
+  for (int64_t now_ns = kTick_ns; now_ns < 2000 * kTick_ns; now_ns += kTick_ns)
+    reliefs.loop->tick(now_ns, now_ns);
+  const Contact contact = reliefs.loop->snapshot().last.contact;
+  EXPECT_TRUE(contact.touching);
+  EXPECT_GT(contact.force_N.z(), 0.5);
+  return contact.force_N.x() / contact.force_N.z();
+}
+
+TEST(ReliefStream, DepthInHalfOfTheFrameIsTheRelief) {
+  init_gstreamer();
+  for (const DepthSource layout : {DepthSource::kRight, DepthSource::kBelow}) {
+    // 8 mm of relief, for the depths between the percentiles 2 and 98, over 60 mm. Each end is
+    // known to one of 256 grey levels or columns; and a step of an encoder is 22.5 µm of some 3 mm.
+    const double slope = 0.008 / (0.96 * 0.06);
+    EXPECT_NEAR(tilt(layout, false, true), -slope, slope * (2.0 / 256 + 0.0225 / 3));
+    EXPECT_NEAR(tilt(layout, true, false), 0, slope * 0.0225 / 3);
   }
 }
 
