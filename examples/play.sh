@@ -43,13 +43,15 @@ street_clip() {
         mkdir -p "$cache"
         local work
         work=$(mktemp -d "$cache/download.XXXXXX")
+        # This function is called in a subshell: the folder goes with it, also after Ctrl-C.
+        # shellcheck disable=SC2064  # the name of now, as the variable is local
+        trap "rm -rf '$work'" EXIT
         # The user _apt may not write here; apt would warn about it when run as root.
         if (cd "$work" && apt-get -qq -o APT::Sandbox::User="$(id -un)" download opencv-doc &&
             dpkg-deb --fsys-tarfile opencv-doc_*.deb |
             tar -x ./usr/share/doc/opencv-doc/examples/data/vtest.avi) >"$work/log" 2>&1; then
             mv "$work/usr/share/doc/opencv-doc/examples/data/vtest.avi" "$clip"
         fi
-        rm -rf "$work"
     fi
     [[ -f $clip ]] && printf '%s\n' "$clip"
 }
