@@ -18,7 +18,7 @@ constexpr double kMostTexture = 10;
 GType touch_type() {
   static const GType type = [] {
     static const GEnumValue values[] = {
-        {static_cast<int>(TouchKind::kOff), "Nothing: the film's motion is felt", "off"},
+        {static_cast<int>(TouchKind::kOff), "No surface: the motion of the film is felt", "off"},
         {static_cast<int>(TouchKind::kLuma), "A relief of the frame's brightness: bright is near",
          "luma"},
         {static_cast<int>(TouchKind::kDepth), "A relief of the frame's depth, see depth-layout",
@@ -64,8 +64,8 @@ void install_touch_properties(GObjectClass* c) {
     g_object_class_install_property(c, id, spec);
   };
   install(kPropTouch,
-          g_param_spec_enum("touch", "Touch", "What the grip touches in the picture", touch_type(),
-                            static_cast<int>(defaults.kind), kControllable));
+          g_param_spec_enum("touch", "Touch", "Which surface the grip touches in the picture",
+                            touch_type(), static_cast<int>(defaults.kind), kControllable));
   install(kPropDepthLayout,
           g_param_spec_enum("depth-layout", "Depth layout", "Where touch=depth finds the depth",
                             depth_layout_type(), static_cast<int>(defaults.depth), kControllable));
@@ -76,24 +76,23 @@ void install_touch_properties(GObjectClass* c) {
                               0, kMostRelief_mm, defaults.relief_mm, kControllable));
   install(kPropTouchStiffness,
           g_param_spec_double("touch-stiffness", "Touch stiffness",
-                              "Stiffness of what is touched, in newtons per metre. A device whose "
-                              "drives are slow gets less, with a warning",
+                              "Stiffness of the surface, in newtons per metre. A device with slow "
+                              "drives gets less, with a warning",
                               kLeastStiffness_N_m, ContactSettings::kMostStiffness_N_m,
                               defaults.stiffness_N_m, kControllable));
-  install(kPropTouchFriction,
-          g_param_spec_double("touch-friction", "Touch friction",
-                              "Friction of what is touched, as a share of the force across it: so "
-                              "much before the grip slides, four fifths of that while it does",
-                              0, 1, defaults.friction, kControllable));
+  install(kPropTouchFriction, g_param_spec_double("touch-friction", "Touch friction",
+                                                  "Coefficient of static friction of the surface; "
+                                                  "that of kinetic friction is four fifths of it",
+                                                  0, 1, defaults.friction, kControllable));
   install(kPropTouchTexture,
           g_param_spec_double("touch-texture", "Touch texture",
-                              "How much of the picture's fine detail is felt as a force along the "
-                              "surface; 1: as steep as it is in the relief, 0: nothing",
+                              "Lateral force of the picture's fine detail, as a multiple of the "
+                              "slope that it has in the relief; 0 turns it off",
                               0, kMostTexture, defaults.texture, kControllable));
   install(kPropMotionShare,
           g_param_spec_double("motion-share", "Motion share",
-                              "Share of the force of the film's motion that is added to what is "
-                              "touched. Without touch all of it is felt",
+                              "With touch, the share of the force of the film's motion that is "
+                              "added to the contact force. Without touch, all of it is felt",
                               0, 1, defaults.motion_share, kControllable));
   for (const GType type : {touch_type(), depth_layout_type()})
     gst_type_mark_as_plugin_api(type, GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);

@@ -22,17 +22,17 @@ const std::vector<Command> kCommands = {
 
 constexpr const char* kHelp = R"(usage: spidartrack COMMAND
 
-  record   what is to be felt of films, into files beside them
-  info     length and size of a track
-  check    whether a track can be felt as it is
-  convert  FLAC, Matroska, WAV, HJIF, a trace of spidarmotion, funscript
-  plot     a picture of a track
-  merge    a film with its track in it
-  extract  the track of such a film
+  record   record the haptic tracks of films, into files beside them
+  info     print the length and size of a track
+  check    report what in a track cannot be felt as it is
+  convert  convert between FLAC, Matroska, WAV, HJIF, traces and funscript
+  plot     draw a picture of a track
+  merge    put a track into a film that has sound
+  extract  take the track out of such a film
   --help
   --version
 
-spidartrack COMMAND --help says more.
+spidartrack COMMAND --help explains a command.
 )";
 
 }  // namespace
