@@ -9,7 +9,7 @@
 namespace spidar {
 namespace {
 
-/// JSON text: commas are set where they belong.
+/// Appends JSON text and puts the commas between members.
 class Writer {
  public:
   explicit Writer(std::string& text) : text_(text) {}

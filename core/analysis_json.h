@@ -12,7 +12,7 @@
 namespace spidar {
 
 struct JsonOptions {
-  bool points = false;  ///< the tracks too
+  bool points = false;  ///< also writes the tracks
 };
 
 /// Appends one JSON object and a line end. Keys carry their units; positions are pixels from the
@@ -25,12 +25,13 @@ struct JsonOptions {
 ///                  coverage} or null,
 ///     objects: [{id, position_px, size_px, velocity_px_s, on_screen_px_s, growth_1_s, roll_rad_s,
 ///                model, tracks, prominence}, …],
-///     points: [[id, x, y, moved x, moved y], …] where they are in this frame, if asked for
+///     points: [[id, x, y, moved x, moved y], …] where they are in this frame, only with `points`
 ///
 /// (see ImageMotion, MotionModel and MovingObject; an object's velocity is against the background).
-/// `repeated`: the frame shows the picture before again, and everything else is that picture's.
-/// Numbers in the "C" locale, as short as they can be read back exactly; what is not finite, which
-/// JSON has no number for, is null. Does not allocate when `line` has the capacity.
+/// `repeated`: the frame shows the previous picture again, and all other values are those of that
+/// picture. Numbers are written in the "C" locale with as few digits as can be read back exactly. A
+/// number that is not finite becomes null, because JSON cannot express it. Does not allocate when
+/// the capacity of `line` is sufficient.
 SPIDAR_API void append_json(const FrameAnalysis& frame, int64_t running_time_ns,
                             int64_t stream_time_ns, const JsonOptions& options, std::string& line);
 

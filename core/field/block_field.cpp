@@ -11,14 +11,14 @@
 namespace spidar {
 namespace {
 
-/// The search is right to half a pixel or it is wrong.
+/// Largest refinement. The search result is either within half a pixel of the true place or wrong.
 constexpr float kMostStep_px = 1;
-/// The coarse picture's pixels are so many of the picture's.
+/// Pixels of the picture to one pixel of the coarse picture.
 constexpr int kCoarser = 4;
-/// What difference_if_moved() may read around a block.
+/// How far around a block difference_if_moved() may read.
 constexpr int kReach_px = PaddedImage::kPad_px - 2;
 
-/// Mean and contrast of two pictures of one size, grey levels.
+/// Mean brightness of two pictures of the same size, grey levels, and the ratio of their contrasts.
 struct LightChange {
   double mean_before = 0;
   double mean_now = 0;
@@ -56,14 +56,14 @@ LightChange light_change(const PaddedImage& before, const PaddedImage& now) {
   double variance_now = 0;
   mean_and_variance(before, change.mean_before, variance_before);
   mean_and_variance(now, change.mean_now, variance_now);
-  // Below a grey level there is nothing but rounding to compare.
+  // Contrast below one grey level is mostly rounding error.
   if (variance_before >= 1 && variance_now >= 1) {
     change.gain = std::sqrt(variance_now / variance_before);
   }
   return change;
 }
 
-/// Whether `before` with its values replaced is clearly more like `now`.
+/// Whether replacing the values of `before` makes it clearly more like `now`.
 bool makes_alike(const PaddedImage& before, const PaddedImage& now,
                  const std::array<uint8_t, 256>& table) {
   constexpr double kAlike = 0.8;
@@ -88,9 +88,10 @@ void replace_values(const std::array<uint8_t, 256>& table, PaddedImage& picture)
   picture.repeat_border();
 }
 
-/// A cut leaves at least this difference a pixel, after the best match of each block. Of the blocks
-/// whose pixels differ from their mean by the second at least, the third share is lost then: a
-/// block is, whose best match leaves the fourth share of that difference.
+/// A frame counts as a cut when the best matches of all blocks differ by at least kLeastCut_grey a
+/// pixel on the mean, and more than kCutShare of the textured blocks are lost. A block is textured
+/// when its pixels differ from their mean by at least kLeastContrast_grey, and lost when its best
+/// match leaves more than kLostShare of that difference.
 constexpr int kLeastCut_grey = 5;
 constexpr int kLeastContrast_grey = 4;
 constexpr double kCutShare = 0.8;
@@ -171,8 +172,8 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
   return Result::kMoved;
 }
 
-/// Blocks of another picture fit hardly better than their own mean does: nearly all of them, while
-/// of a picture that moves, however fast, some are found.
+/// After a cut, hardly any block matches the old picture better than its own mean does. In a
+/// picture that moves, however fast, some blocks still match.
 bool BlockField::is_cut() const {
   int64_t between = 0;
   for (const BlockMatch& match : matches_) between += match.difference;
@@ -192,8 +193,9 @@ bool BlockField::is_cut() const {
   return lost > kCutShare * with_texture;
 }
 
-/// Where the light of the whole picture has changed, the picture before is given that of now: a
-/// lamp that flickers, a fade, a shutter. It has, if that makes the two more alike.
+/// When the brightness of the whole picture has changed (a flickering lamp, a fade, a shutter),
+/// adapts the picture before to the new brightness. The change counts only if that makes the two
+/// pictures more alike.
 void BlockField::compensate_light() {
   const LightChange change = light_change(coarse_before_, coarse_now_);
   if (!change.is_noticed()) return;
@@ -207,8 +209,8 @@ void BlockField::compensate_light() {
   replace_values(table, before_);
 }
 
-/// Blocks of a quarter of the resolution cover four by four: where something has jumped they find
-/// it, as far as all others look.
+/// Searches a picture of a quarter of the resolution, in which each block covers four by four of
+/// the others and is searched over the whole range: this finds things that have jumped.
 void BlockField::find_hints() {
   hints_.clear();
   if (coarse_grid_.size() == 0) return;
@@ -284,7 +286,7 @@ void BlockField::refine(size_t index) {
   block.difference = match.difference;
 }
 
-/// Whether a block may begin between this pixel and the next ones of both directions.
+/// Whether a block may begin between this pixel and the next ones in both directions.
 bool BlockField::is_in_reach(int left_px, int top_px) const {
   return left_px >= -kReach_px && top_px >= -kReach_px &&
          left_px + 1 + kBlock_px <= now_.width() + kReach_px &&

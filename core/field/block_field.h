@@ -11,42 +11,44 @@
 
 namespace spidar {
 
-/// A block of kBlock_px × kBlock_px pixels of the picture that the field looks at. Lengths in
-/// pixels of that picture, the origin its centre; x right, y down.
+/// A block of kBlock_px × kBlock_px pixels of the picture in which motion is measured. Lengths are
+/// in pixels of that picture, measured from its centre; x right, y down.
 struct MotionBlock {
   float x_px = 0;  ///< of its centre
   float y_px = 0;
   float moved_x_px = 0;  ///< since the picture before
   float moved_y_px = 0;
-  /// Structure tensor, mean over the block and free of a common slope, (grey / px)².
+  /// Structure tensor: mean over the block, without its common slope, (grey / px)².
   float xx = 0;
   float xy = 0;
   float yy = 0;
-  /// What its motion leaves unexplained: mean squared difference, free of a common offset, grey².
+  /// What the block's motion leaves unexplained: mean squared difference without its common offset,
+  /// grey².
   float residual = 0;
   int difference = 0;  ///< Σ |now − before| at the nearest whole pixel
 
   float texture() const { return xx + yy; }
-  /// Smaller eigenvalue of the structure tensor: how well the motion along an edge is known, too.
+  /// Smaller eigenvalue of the structure tensor. It is large when the motion is known in every
+  /// direction, also along an edge.
   float weakest_texture() const;
 };
 
-/// Block motion between two pictures of about 427 × 240 px: whole pixels by BlockSearch, then one
-/// Gauss–Newton step with the derivatives of both pictures, which makes it second-order exact
-/// (Benhimane and Malis: Real-time image-based tracking of planes using efficient second-order
-/// minimization, IROS 2004).
+/// Motion of blocks between two pictures of about 427 × 240 px: BlockSearch finds it in whole
+/// pixels, then one Gauss–Newton step with the derivatives of both pictures refines it. Using both
+/// makes the step second-order exact (Benhimane and Malis: Real-time image-based tracking of planes
+/// using efficient second-order minimization, IROS 2004).
 class BlockField {
  public:
   enum class Result {
     kFirst,  ///< nothing to compare it with: the first picture, or one of another size
-    kCut,    ///< a picture of something else; like kFirst, all blocks stand still
+    kCut,    ///< a different picture; as with kFirst, all blocks stand still
     kMoved,
   };
 
-  /// `base` is the picture of the frame reduced by a power of 2.
+  /// `base` is the frame reduced by a power of 2.
   Result update(const PaddedImage& base);
 
-  /// The same picture again: nothing has moved.
+  /// The picture is shown again: all blocks stand still.
   void stand_still();
 
   /// Forgets the picture before.
@@ -55,22 +57,22 @@ class BlockField {
 
   const PaddedImage& picture() const { return now_; }
   const BlockGrid& grid() const { return grid_; }
-  /// Row by row; of the last update().
+  /// Blocks of the last update(), row by row.
   const std::vector<MotionBlock>& blocks() const { return blocks_; }
-  /// Pixels of the base to one of the picture.
+  /// Pixels of the base to one pixel of the picture.
   double scale() const { return pixels_to_one(scale_); }
 
-  /// Σ |now − before| of a block if it had moved by (`x_px`, `y_px`): the smallest of the nearest
-  /// whole pixels and the exact place. Negative when that is out of reach.
+  /// Σ |now − before| of a block if it had moved by (`x_px`, `y_px`): the smaller of the values at
+  /// the exact place and at the nearest whole pixels. Negative when that place is out of reach.
   int difference_if_moved(int block, float x_px, float y_px) const;
 
-  /// Pixels of a block, or of what is `beside_x_px`, `beside_y_px` beside it, that stayed where
-  /// they were while what is around them moved by (`x_px`, `y_px`); none when that is out of reach.
+  /// Pixels of a block, or of the area `beside_x_px`, `beside_y_px` beside it, that stayed in place
+  /// while their surroundings moved by (`x_px`, `y_px`); none when that is out of reach.
   StayingPixels staying_pixels(int block, float x_px, float y_px, int beside_x_px = 0,
                                int beside_y_px = 0) const;
 
-  /// Added to the diagonal of the structure tensor, (grey / px)²: where there is hardly texture the
-  /// whole pixel stays.
+  /// Added to the diagonal of the structure tensor, (grey / px)²: with hardly any texture, the
+  /// result of the search in whole pixels is kept.
   static constexpr float kRegularization = 2;
 
  private:

@@ -119,7 +119,7 @@ StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlo
     const v_uint8x16 changed = cv::v_absdiff(is, was);
     const v_uint8x16 moving =
         cv::v_max(cv::v_absdiff(is, moved_from.next()), cv::v_absdiff(was, moved_to.next()));
-    // Differences of 8-bit lanes end at 0.
+    // Subtraction of 8-bit lanes saturates at 0.
     const v_uint8x16 stays = (changed <= most) & (moving - changed >= clearly) & one;
     near += cv::v_reduce_sad(stays, none);
     exact += cv::v_reduce_sad(stays & (changed == none), none);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The arithmetic of a block of motion: all that is done once a pixel.
+/// Arithmetic of block motion: everything that is done for each pixel.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace spidar {
 
-/// Side of a block, px of the picture that the field looks at.
+/// Side of a block, px of the picture in which motion is measured.
 constexpr int kBlock_px = 16;
 constexpr int kBlockArea_px = kBlock_px * kBlock_px;
 
@@ -18,7 +18,7 @@ struct BlockPixels {
   ptrdiff_t stride;
 };
 
-/// Share of a pixel that a block is moved by for bilinear_difference(): of kFractionOne.
+/// Unit of the fraction of a pixel by which bilinear_difference() moves a block.
 constexpr int kFractionOne = 16;
 
 /// Σ over a block `now` and the block `before` that it is compared with. The derivatives g are
@@ -41,19 +41,20 @@ struct BlockSums {
   }
 };
 
-/// Pixels of a block that stayed where they were, as if the motion around them were none of theirs.
+/// Counts the pixels of a block that stayed in place although their surroundings moved.
 struct StayingPixels {
-  int near = 0;   ///< that have changed by kNear_grey at most
-  int exact = 0;  ///< of these, that have not changed at all
+  int near = 0;   ///< pixels that have changed by kNear_grey at most
+  int exact = 0;  ///< those of them that have not changed at all
 
   bool operator==(const StayingPixels& o) const { return near == o.near && exact == o.exact; }
 };
 constexpr int kNear_grey = 3;
-/// A pixel stays when the motion would have changed it by so many grey levels more than it changed.
+/// A pixel counts as staying when the motion would have changed it by this many grey levels more
+/// than it has changed.
 constexpr int kClearlyStays_grey = 8;
 
-/// A block that begins between pixels: each of its pixels is read `fraction_x`, `fraction_y` (0 …
-/// kFractionOne) of a pixel to the right and below.
+/// A block that begins between pixels: each pixel is read `fraction_x`, `fraction_y` (0 …
+/// kFractionOne) of a pixel further to the right and down.
 struct MovedBlock {
   BlockPixels pixels;
   int fraction_x = 0;
@@ -61,27 +62,29 @@ struct MovedBlock {
 };
 
 namespace vectors {
-/// Σ |a − b|. Stops after half of the rows when these alone reach `limit`, and then returns their
-/// sum.
+/// Σ |a − b|. Stops after half of the rows when their sum has reached `limit`, and then returns
+/// that sum.
 int block_difference(BlockPixels a, BlockPixels b, int limit);
 
-/// Σ |now − before|, `before` read `fraction_x`, `fraction_y` (0 … kFractionOne) of a pixel to the
-/// right and below, interpolated and rounded to whole grey levels. Reads one column and row more.
+/// Σ |now − before|, where `before` is read `fraction_x`, `fraction_y` (0 … kFractionOne) of a
+/// pixel further to the right and down, interpolated and rounded to whole grey levels. Reads one
+/// extra column and row.
 int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y);
 
 /// Reads one pixel around both blocks.
 BlockSums compare_blocks(BlockPixels now, BlockPixels before);
 
-/// Compares a block `now` with what is at its place in the picture `before`. `from` is where the
-/// motion around it would have brought it from, in the picture before; `to` where it would have
-/// brought the block before to, in the picture of now. Of both the larger difference counts: what
-/// stays in front of something that moves is seen by what should have been covered, and by what
-/// should have been uncovered. Reads one column and row more of `from` and `to`.
+/// Compares a block `now` with the same place in the picture `before`. `from` is the place in the
+/// picture before from which the surrounding motion would have brought the block; `to` is the place
+/// in the new picture to which it would have brought the block that was there. The larger of the
+/// two differences counts: something that stays in front of a moving background reveals itself both
+/// where it should have been covered and where it should have been uncovered. Reads one extra
+/// column and row of `from` and `to`.
 StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
                              const MovedBlock& to);
 }  // namespace vectors
 
-/// The same by their definition.
+/// The same functions pixel by pixel, as they are defined.
 namespace plain {
 int block_difference(BlockPixels a, BlockPixels b, int limit);
 int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y);

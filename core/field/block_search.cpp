@@ -12,21 +12,21 @@
 namespace spidar {
 namespace {
 
-/// What a pixel of deviation from the neighbours' median has to gain: an eighth of a grey level for
-/// each pixel of the block, up to kMostDeviation_px.
+/// By how much a match must improve for each pixel that it deviates from the median of its
+/// neighbours: an eighth of a grey level for each pixel of the block, for up to kMostDeviation_px.
 constexpr int kLambda = kBlockArea_px / 8;
 constexpr int kMostDeviation_px = 8;
-/// A block that differs by no more than a grey level a pixel is not improved.
+/// A block that differs by at most one grey level a pixel is not improved further.
 constexpr int kGoodDifference = kBlockArea_px;
-/// From three grey levels a pixel on it may have jumped: see the hints.
+/// From three grey levels a pixel on, the block may have jumped, and the hints are tried.
 constexpr int kDoubtfulDifference = 3 * kBlockArea_px;
-/// From eight grey levels a pixel on nothing fits: it is looked for further afield.
+/// From eight grey levels a pixel on, no candidate fits, and the search is widened.
 constexpr int kBadDifference = 8 * kBlockArea_px;
 constexpr int kFarthest_px = 16;
 constexpr int kNearest_px = 4;
 constexpr int kMostSteps = 8;
-/// Blocks may reach over the rim by the padding less what compare_blocks() and the interpolation
-/// read around them.
+/// How far blocks may extend beyond the picture: the padding, less the pixels that compare_blocks()
+/// and the interpolation read around them.
 constexpr int kReach_px = PaddedImage::kPad_px - 2;
 
 struct Vector {
@@ -52,7 +52,7 @@ class Walk {
 
   void expect(Vector expected) { expected_ = expected; }
 
-  /// Each vector once.
+  /// Adds a vector unless it is a candidate already.
   void add_candidate(Vector v) {
     v = inside(v);
     const auto end = candidates_.begin() + count_;
@@ -66,7 +66,7 @@ class Walk {
 
   void try_hint(Vector hint) { try_at(inside(hint)); }
 
-  /// Every second pixel around rest: for the few blocks of a coarse picture.
+  /// Tries every second pixel around rest; used for the few blocks of a coarse picture.
   void search_everywhere() {
     for (int dy = -kFarthest_px; dy <= kFarthest_px; dy += 2) {
       for (int dx = -kFarthest_px; dx <= kFarthest_px; dx += 2) try_at(inside({dx, dy}));
@@ -84,7 +84,7 @@ class Walk {
     }
   }
 
-  /// One pixel at a time, never back to where it came from.
+  /// Moves one pixel at a time and never back in the direction from which it came.
   void walk_downhill() {
     static constexpr std::array<Vector, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     int came_by = -1;
@@ -200,8 +200,8 @@ void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const 
       walk.add_candidate({0, 0});
       walk.try_candidates();
       if (walk.difference() > kGoodDifference) walk.walk_downhill();
-      // Only what nothing near explains is looked for further afield: a pattern that repeats itself
-      // looks the same at many places.
+      // The search is widened only if no nearby place fits, because a repetitive pattern looks the
+      // same in many places.
       if (walk.difference() > kDoubtfulDifference) {
         if (hints.empty()) {
           walk.search_everywhere();

@@ -10,7 +10,8 @@
 
 namespace spidar {
 
-/// Blocks side by side over a picture, in its middle; what is left at the rim is less than a block.
+/// Blocks side by side, centred on the picture. The strip that is left at each border is narrower
+/// than a block.
 struct BlockGrid {
   int columns = 0;
   int rows = 0;
@@ -23,21 +24,22 @@ struct BlockGrid {
   int y_px(int row) const;
 };
 
-/// A block at p is found at p + (dx, dy) of the picture before.
+/// A block at p was at p + (dx, dy) in the picture before.
 struct BlockMatch {
   int16_t dx = 0;  ///< px
   int16_t dy = 0;
   int difference = 0;  ///< Σ |now − before| of the block
 };
 
-/// Searches as video encoders do: a block begins with what its neighbours and the frame before did,
-/// walks downhill from the best of these, and looks further afield only when nothing fits. A motion
-/// unlike that of its neighbours has to fit better by what it deviates: textureless blocks follow.
+/// Searches as video encoders do: starts with the motions of the neighbouring blocks and of the
+/// frame before, descends from the best of these, and widens the search only if none fits. A motion
+/// that deviates from that of the neighbours must fit better in proportion; textureless blocks
+/// therefore move with their neighbours.
 class BlockSearch {
  public:
-  /// `matches` are those of the picture before on entry, one a block of `grid`, and those of `now`
-  /// on return. The pictures are of one size and have their borders repeated. `hints`, when there
-  /// are any, are what else each block may have done.
+  /// On entry `matches` holds those of the picture before, one for each block of `grid`; on return,
+  /// those of `now`. Both pictures have the same size and repeated borders. `hints`, if there are
+  /// any, are additional candidates for each block.
   void find(const PaddedImage& before, const PaddedImage& now, const BlockGrid& grid,
             const std::vector<BlockMatch>& hints, std::vector<BlockMatch>& matches);
 

@@ -13,21 +13,23 @@
 namespace spidar {
 namespace {
 
-/// A comb goes up and down by more than the first and comes back to within the second. Noise of σ =
-/// 5 grey levels makes 2 pixels of 100 000 look so.
+/// In a comb, brightness changes by more than kComb_grey from one line to the next and returns to
+/// within kSame_grey on the line after. Noise of σ = 5 grey levels makes 2 of 100 000 pixels look
+/// like this.
 constexpr int kComb_grey = 20;
 constexpr int kSame_grey = 10;
-/// From this share on a frame is combed: an object of 5 % of it with combs on one pixel in ten.
+/// A frame counts as combed from this share of its pixels on: an object on 5 % of the frame, with
+/// combs on one of its pixels in ten.
 constexpr double kCombed = 0.005;
-/// How long a film that was combed is taken for interlaced: ten seconds of 24 frames/s, for parts
-/// of it are still.
+/// For how many frames a film counts as interlaced after a combed frame: ten seconds at 24
+/// frames/s, because parts of a film are still.
 constexpr int kFrames = 240;
 
 constexpr int kLines = 4;
 constexpr int kEvery = 16;
 using Lines = std::array<const uint8_t*, kLines>;
 
-/// Pixels from column `x` on that look like a comb.
+/// Number of pixels from column `x` on that look like a comb.
 int combs_plain(const Lines& lines, int x, int width) {
   int combs = 0;
   for (; x < width; ++x) {
@@ -43,7 +45,7 @@ int combs_plain(const Lines& lines, int x, int width) {
 }
 
 #if CV_SIMD128
-/// The same of the first columns, as many as fill vectors.
+/// The same for the first columns, as many as fill whole vectors; `done` is their number.
 int combs_vectors(const Lines& lines, int width, int& done) {
   const cv::v_uint8x16 comb = cv::v_setall_u8(kComb_grey);
   const cv::v_uint8x16 same = cv::v_setall_u8(kSame_grey);
@@ -55,7 +57,7 @@ int combs_vectors(const Lines& lines, int width, int& done) {
     const cv::v_uint8x16 c = cv::v_load(lines[2] + done);
     const cv::v_uint8x16 d = cv::v_load(lines[3] + done);
     const cv::v_uint8x16 returns = (cv::v_absdiff(a, c) <= same) & (cv::v_absdiff(b, d) <= same);
-    // Differences of 8-bit lanes end at 0.
+    // Subtraction of 8-bit lanes saturates at 0.
     const cv::v_uint8x16 up = (b - a > comb) & (d - c > comb);
     const cv::v_uint8x16 down = (a - b > comb) & (c - d > comb);
     combs += cv::v_reduce_sum(returns & (up | down) & one);

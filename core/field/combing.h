@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Interlaced pictures that nobody has flagged.
+/// Detects interlaced pictures that are not flagged as such.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,26 @@
 
 namespace spidar {
 
-/// Share of pixels that show combs: what moved between two fields jumps there and back from line to
-/// line. Of every sixteen lines four are looked at, of pixels those that differ by kComb_grey from
-/// the line above and the one below and hardly from the next but one.
+/// Share of pixels that show combs: what moved between two fields jumps back and forth from line to
+/// line. Of every sixteen lines, four are examined. A pixel counts if it differs by kComb_grey from
+/// the lines above and below and hardly from the line after those.
 SPIDAR_API double comb_share(const ImageView& frame, std::vector<uint8_t>& lines);
 namespace plain {
 SPIDAR_API double comb_share(const ImageView& frame, std::vector<uint8_t>& lines);
 }
 
-/// Tells from the frames so far whether a film is interlaced, or telecined, though it says that it
-/// is not. In such a film one field is to be looked at, as the two fields are two moments. Fine
-/// stripes look the same; of these one field loses some sharpness and nothing else.
+/// Finds out from the frames so far whether a film is interlaced or telecined although it is not
+/// flagged. Only one field of such a film should be analysed, because its two fields show different
+/// moments. Fine stripes look the same; a film with such stripes loses some sharpness and nothing
+/// else.
 class SPIDAR_API Combing {
  public:
-  /// Looks at the next frame, and says whether to take a single field of it. Large frames need no
-  /// answer, as the analysis takes the lines of one field of them in any case (row_step()).
+  /// Examines the next frame and returns whether to take only one field of it. Large frames need no
+  /// answer, because the analysis reads only the lines of one field of them anyway (row_step()).
   bool see(const ImageView& frame);
 
  private:
-  int frames_left_ = 0;  ///< for which it is still taken for interlaced
+  int frames_left_ = 0;  ///< for which the film still counts as interlaced
   std::vector<uint8_t> lines_;
 };
 

@@ -16,11 +16,11 @@ namespace {
 
 constexpr double kArea_px2 = 427.0 * 240.0;
 
-// Two of three: a pixel covers one and a half, so of three in a row a, b, c the two are
-// (2 a + b) / 3 and (b + 2 c) / 3; in both directions, nine of the area's weights are
-// 4, 2, 2 and 1 of 9.
+// A pixel of the reduced picture covers one and a half of the base, so three in a row a, b, c
+// become the two (2 a + b) / 3 and (b + 2 c) / 3. In two dimensions the weights are 4, 2, 2 and 1
+// ninths.
 
-/// One pixel of two rows, that at the rim with twice the weight of the other.
+/// One pixel from two rows; the row at the border of the three counts twice.
 int across(int rim, int middle) {
   return 2 * rim + middle;
 }
@@ -33,8 +33,8 @@ uint8_t ninth(int sum) {
   return static_cast<uint8_t>((static_cast<unsigned>(sum + 4) * kNinth) >> 16);
 }
 
-/// The pixels of two rows of `reduced` that three rows of the image give, from column `x` of the
-/// reduced picture on, which is even.
+/// The two rows of `reduced` that three rows of the image give, from column `x` of the reduced
+/// picture on; `x` is even.
 void reduce_rows_plain(const uint8_t* const rows[3], int x, int width, uint8_t* upper,
                        uint8_t* lower) {
   for (; x < width; ++x) {
@@ -60,7 +60,7 @@ v_uint8x16 ninth(const v_uint16x8& low, const v_uint16x8& high) {
   return cv::v_pack(cv::v_mul_hi(low + four, factor), cv::v_mul_hi(high + four, factor));
 }
 
-/// Columns of three rows, as sums of two of them.
+/// Columns of three rows, added in pairs.
 struct Columns {
   std::array<v_uint16x8, 3> low;
   std::array<v_uint16x8, 3> high;
@@ -89,7 +89,7 @@ struct Columns {
   }
 };
 
-/// Columns of the reduced picture that were done from the left.
+/// Returns the number of columns of the reduced picture that were computed, from the left.
 int reduce_rows_vectors(const uint8_t* const rows[3], int width, uint8_t* upper, uint8_t* lower) {
   int x = 0;
   for (; x + 32 <= width; x += 32) {

@@ -12,19 +12,18 @@ namespace spidar {
 namespace {
 
 constexpr size_t kMostPoints = 512;
-/// Of the blocks that want some points, one in so many has one: every third column of every second
-/// row.
+/// Where blocks want kSome points, every third column of every second row gets one.
 constexpr int kColumnsForOne = 3;
 constexpr int kRowsForOne = 2;
-/// A corner weaker than this is not followed, (grey / px)²; rounding to grey levels gives 0.04.
+/// A weaker corner is not followed, (grey / px)²; rounding to grey levels alone gives 0.04.
 constexpr float kLeastStrength = 2;
 constexpr int kWindow_px = 16;
-/// A point is within this of where its block goes, px of the field's picture, or it shows something
-/// else.
+/// A point that is further than this from where its block went shows something else, px of the
+/// field's picture.
 constexpr float kReach_px = 1;
 constexpr MatchSettings kMatch{4, 0.02f, 2, 0};
 
-/// Block of the grid at a place of the base, clamped to the grid.
+/// Block of the grid at a place of the base; outside the grid, the nearest block.
 size_t block_of(const BlockField& field, ImagePoint base_px) {
   const BlockGrid& grid = field.grid();
   const auto scale = static_cast<float>(field.scale());
@@ -37,14 +36,15 @@ size_t block_of(const BlockField& field, ImagePoint base_px) {
   return static_cast<size_t>(row * grid.columns + column);
 }
 
-/// Where a point of the picture before is expected, px of the base.
+/// Where a point of the picture before should be now, px of the base.
 ImagePoint expected(const BlockField& field, ImagePoint at) {
   const auto scale = static_cast<float>(field.scale());
   const auto moved = [&](ImagePoint place) {
     const MotionBlock& block = field.blocks()[block_of(field, place)];
     return ImagePoint{at.x_px + scale * block.moved_x_px, at.y_px + scale * block.moved_y_px};
   };
-  // Blocks are those of the new picture: that at the old place only leads to the right one.
+  // Blocks belong to the new picture, so the block at the old place gives only a first estimate of
+  // the new place, and the block there gives the result.
   return moved(moved(at));
 }
 
@@ -61,7 +61,7 @@ size_t FieldPoints::block_at(const ReducedFrame& reduced, const BlockField& fiel
   return block_of(field, to_reduced(frame_px, reduced.factor()));
 }
 
-/// Brings the point to the new frame. False when it is lost.
+/// Follows the point to the new frame. Returns false when it is lost.
 bool FieldPoints::find(Point& point, const FineWindow& fine, const ImageView& frame,
                        const ReducedFrame& reduced, const BlockField& field) {
   WindowTemplate<kWindow_px> window;

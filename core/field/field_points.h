@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Points in the blocks of a field, for the last fraction of a pixel.
+/// Points in the blocks of a field, which measure motion to a small fraction of a pixel.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,19 @@
 
 namespace spidar {
 
-/// What points a block is to have.
+/// How many points a block should have.
 enum class PointWish : uint8_t {
   kNone,
-  kSome,  ///< one in a few blocks: the background, whose motion all of them share
-  kMany,  ///< one in each block: an object
+  kSome,  ///< one for several blocks: the background, which moves as a whole
+  kMany,  ///< one for each block: an object
 };
 
-/// Follows corners from where the field says they go: one window in the reduced picture, one in the
-/// frame, no search. A point that goes elsewhere is dropped.
+/// Follows corners from where the field says they went: one window in the reduced picture and one
+/// in the frame, without a search. A point that goes elsewhere is dropped.
 class FieldPoints {
  public:
-  /// At most `most` points; with `refines` in the frame itself, not only in the reduced picture.
+  /// Follows at most `most` points. With `refines`, also in the frame itself, not only in the
+  /// reduced picture.
   struct Settings {
     int most = 64;
     bool refines = true;
@@ -34,17 +35,17 @@ class FieldPoints {
 
   FieldPoints();
 
-  /// Looks for the points in `frame`; `field` has just been updated with it.
+  /// Looks for the points in `frame`, with which `field` has just been updated.
   void follow(const ImageView& frame, const ReducedFrame& reduced, const BlockField& field);
 
-  /// Points found by the last follow(): where they were and where they are.
+  /// Points found by the last follow(): where they were and where they are now.
   const std::vector<Track>& tracks() const { return tracks_; }
 
-  /// The block that a place of the frame is in, px.
+  /// The block at a place of the frame, px.
   static size_t block_at(const ReducedFrame& reduced, const BlockField& field, ImagePoint frame_px);
 
-  /// Drops points of blocks that want none and adds some where they are wanted; a wish for each
-  /// block. Takes what the next follow() needs of `frame`.
+  /// Drops points of blocks that should have none and adds points where they are wanted; `wishes`
+  /// has one entry for each block. Keeps what the next follow() needs of `frame`.
   void choose(const ImageView& frame, const ReducedFrame& reduced, const BlockField& field,
               const std::vector<PointWish>& wishes, const Settings& settings);
 
@@ -66,9 +67,10 @@ class FieldPoints {
            const std::vector<PointWish>& wishes, const Settings& settings);
 
   std::vector<Point> points_;
-  std::vector<FineWindow> windows_;  ///< of the points when they were chosen; may be longer
+  /// Of the points when they were chosen; may be longer than the list of points.
+  std::vector<FineWindow> windows_;
   std::vector<Track> tracks_;
-  std::vector<uint8_t> taken_;  ///< a block has a point
+  std::vector<uint8_t> taken_;  ///< for each block, whether it has a point
   LumaNeighbourhood neighbourhood_;
   bool refines_ = true;
   uint32_t next_id_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A frame, small: what everything that looks for motion begins with.
+/// A reduced frame, from which all measurements of motion start.
 #pragma once
 
 #include "core/api.h"
@@ -11,29 +11,29 @@
 
 namespace spidar {
 
-/// Reduces each frame once for all that look at it.
+/// Reduces each frame once, for all parts of the analysis.
 class SPIDAR_API ReducedFrame {
  public:
-  /// A frame that repeats the picture before is not taken: the next one is compared with that
+  /// A frame that repeats the picture before is skipped: the next one is compared with that
   /// picture. Throws as require_usable() does.
   void read(const ImageView& frame, Repeats repeats = Repeats::kSame);
 
-  /// Mean of each factor() × factor() block of the frame, see halving_factor(); its border is
+  /// Mean of each factor() × factor() block of the frame, see halving_factor(). The border is
   /// repeated.
   const PaddedImage& base() const { return base_; }
-  /// The same of the frame before, if it is comparable.
+  /// The same for the frame before, if it is comparable.
   const PaddedImage& before() const { return before_; }
   int factor() const { return factor_; }
   int width() const { return width_; }  ///< of the frame, px
   int height() const { return height_; }
-  /// The frame showed the picture before again.
+  /// Whether the frame shows the previous picture again.
   bool is_repeated() const { return is_repeated_; }
-  /// Not so, but it would with Repeats::kAlike.
+  /// Whether it does not, but would with Repeats::kAlike.
   bool is_alike() const { return is_alike_; }
-  /// The frame before had the same size.
+  /// Whether the frame before had the same size.
   bool is_comparable() const { return is_comparable_; }
 
-  /// The next frame is not compared with this one.
+  /// The next frame will not be compared with this one.
   void restart() { width_ = 0; }
 
  private:
