@@ -15,11 +15,11 @@
 namespace spidar {
 namespace {
 
-/// Points beside the field of blocks, by quality.
+/// Number of points in addition to the field of blocks, by quality.
 constexpr int kFewPoints = 64;
 constexpr int kManyPoints = 200;
 
-/// What the parts of the analyzer do not look at themselves.
+/// Checks settings that the parts of the analyzer do not check themselves.
 void validate_rest(const AnalyzerSettings& settings) {
   validate(settings.filter);
   validate(settings.axes);
@@ -33,7 +33,7 @@ Cadence::Picture picture_of(bool repeated, bool alike) {
   return alike ? Cadence::Picture::kAlike : Cadence::Picture::kOther;
 }
 
-/// The same motion in 1 / `factor` of the time.
+/// The same motion when it takes 1 / `factor` of the time.
 ImageMotion faster(ImageMotion motion, double factor) {
   motion.velocity_px_s *= factor;
   motion.growth_1_s *= factor;
@@ -61,7 +61,7 @@ struct MotionAnalyzer::Impl {
     validate_rest(given);
   }
 
-  /// The mean is that of its points, and tracker=opencv gives those that objects are measured by.
+  /// The mean is computed from points, and with tracker=opencv objects are measured by them.
   bool needs_tracker() const {
     return settings.motion == MotionKind::kMean || settings.tracker.kind == TrackerKind::kOpenCv;
   }
@@ -81,17 +81,17 @@ struct MotionAnalyzer::Impl {
   std::unique_ptr<GainController> controller;
   std::optional<int64_t> last_running_time_ns;
   Cadence cadence;
-  FrameAnalysis latest;  // of a frame that did not wait
+  FrameAnalysis latest;  // of the last frame that did not wait
 
   FrameAnalysis wait() const;
 };
 
-/// What is felt on while the picture before is shown again.
+/// The result that continues while the picture is repeated.
 FrameAnalysis MotionAnalyzer::Impl::wait() const {
   FrameAnalysis analysis = latest;
   analysis.restarted = false;
   analysis.same_picture = true;
-  // From zero on there is nothing that could go on.
+  // Zero motion has nothing to continue.
   analysis.repeated = !analysis.wrench.stacked().isZero(0);
   return analysis;
 }

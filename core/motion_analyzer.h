@@ -23,8 +23,8 @@ namespace spidar {
 struct AnalyzerSettings {
   TrackerSettings tracker;
   MotionKind motion = MotionKind::kObject;
-  /// Place of the picture that kObjects is felt at: (0, 0) is its top left corner, (1, 1) its
-  /// bottom right one; finite.
+  /// Place of the picture where kObjects is felt: (0, 0) is its top left corner, (1, 1) its bottom
+  /// right one; finite.
   Eigen::Vector2d pointer{0.5, 0.5};
   FilterSettings filter;
   AxisGains axes;
@@ -40,23 +40,23 @@ struct FrameAnalysis {
   int width = 0;  ///< of the frame, px
   int height = 0;
   int features = 0;    ///< points looked for in the next frame
-  ImageMotion motion;  ///< the one that is felt, unfiltered, in unscaled px/s of the frame given
+  ImageMotion motion;  ///< the one that is felt, unfiltered, in px/s of the frame as given
   /// Model of the background; nothing when `motion` needs none, and after a restart.
   std::optional<ModelKind> model;
   int objects = 0;         ///< how many are known; 0 when `motion` needs none
   Wrench wrench;           ///< wanted by the controller, before any safety limit
-  bool restarted = false;  ///< nothing to compare with: motion and wrench are zero
+  bool restarted = false;  ///< there was nothing to compare with: motion and wrench are zero
   /// The frame shows the previous picture again, and the motion may go on: motion and wrench are
   /// those of the previous frame.
   bool repeated = false;
-  /// The frame shows the picture before again, whether that waits (`repeated`) or rests: the same
-  /// pixels, or what the noise of coding has made of them.
+  /// Whether the frame shows the previous picture again, be it waiting (`repeated`) or at rest: the
+  /// same pixels, or the same apart from the noise of coding.
   bool same_picture = false;
-  /// The time in which the motion happened, see Cadence: between two pictures, which may be more
-  /// than two frames apart; 0 after a restart.
+  /// The time in which the motion happened, see Cadence: it may span more than two frames; 0 after
+  /// a restart.
   int64_t interval_ns = 0;
 
-  // What it was found from, not copied: valid until the next analyze().
+  // The data from which the result was computed, not copied: valid until the next analyze().
   const std::vector<Track>* tracks = nullptr;              ///< null after a restart
   const Background* background = nullptr;                  ///< null when `model` is nothing
   const std::vector<MovingObject>* object_list = nullptr;  ///< null when `motion` looks for none
@@ -79,16 +79,16 @@ class SPIDAR_API MotionAnalyzer {
   /// and then changes nothing.
   void configure(const AnalyzerSettings& settings);
 
-  /// Frames in the order in which they are shown. A running time that does not rise restarts, for
-  /// there is no Δt to divide by. A cut in the picture or a new size restarts tracks and filter
-  /// only: the largest speed of eq. 13 is one over the whole video, whatever its scenes, and so is
-  /// what the adaptive controller has learnt.
+  /// Frames must come in the order in which they are shown. A running time that does not rise
+  /// causes a restart, because the interval would not be positive. A cut in the picture or a new
+  /// size restarts tracks and filter only: the largest speed of eq. 13 and what the adaptive
+  /// controller has learnt belong to the whole video.
   /// Throws std::invalid_argument for a frame that Tracker::track() refuses.
   FrameAnalysis analyze(const ImageView& frame, int64_t running_time_ns);
 
-  /// A frame that is known to show the picture before again, without looking at it. Nothing when it
-  /// does so for too long, or when there is no picture before: then it is rest, and the next frame
-  /// has nothing to do with the one before.
+  /// Takes a frame that is known to repeat the previous picture, without analysing it. Returns
+  /// nothing when the picture has been repeated for too long, or when there is no previous picture:
+  /// then it is at rest, and the next frame is not compared with the one before.
   std::optional<FrameAnalysis> repeat(int64_t running_time_ns);
 
   /// After a flush, a seek or a discontinuity: the next frame has no motion, and the controller

@@ -10,8 +10,8 @@
 
 namespace spidar {
 
-/// The value that the share `share`, 0 … 1, of [first, last) does not exceed. The range has at
-/// least one value; its order is changed.
+/// The value that the share `share`, 0 … 1, of [first, last) does not exceed. The range must not be
+/// empty; its order is changed.
 template <typename Iterator>
 typename std::iterator_traits<Iterator>::value_type quantile(Iterator first, Iterator last,
                                                              double share) {
@@ -21,13 +21,13 @@ typename std::iterator_traits<Iterator>::value_type quantile(Iterator first, Ite
   return *at;
 }
 
-/// The order of `values` is changed.
+/// Changes the order of `values`.
 template <typename Value>
 Value quantile(std::vector<Value>& values, double share) {
   return quantile(values.begin(), values.end(), share);
 }
 
-/// Of an even number of values the upper one of the two in the middle.
+/// Of an even number of values, the upper one of the two in the middle.
 template <typename Iterator>
 typename std::iterator_traits<Iterator>::value_type median(Iterator first, Iterator last) {
   return quantile(first, last, 0.5);

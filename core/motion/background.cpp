@@ -8,16 +8,16 @@
 namespace spidar {
 namespace {
 
-/// Where so many of all votes are given no object can have them all.
+/// If this share of all votes is cast, no object can have them all.
 constexpr double kTexturedShare = 0.5;
 constexpr double kLeastCoverage = 0.2;
 constexpr double kLeastCoverageIfSpread = 0.06;
-/// Standard deviation of the places that speak for the model, as a share of the picture's width or
-/// height: 0.29 when they are all over it.
+/// Standard deviation of the places of the votes for the model, as a share of the picture's width
+/// or height: 0.29 when they are spread over all of it.
 constexpr double kLeastSpread = 0.2;
 
-/// Noise of a displacement, px of the picture that the field looks at. A vote further off than
-/// 2 σ, and less than kLeastReach_px, is an outlier.
+/// Noise of a displacement, px of the picture in which motion is measured. A vote that deviates by
+/// more than kOutlierSigmas · noise, and by at least kLeastReach_px, is an outlier.
 constexpr double kLeastNoise_px = 0.05;
 constexpr double kMostNoise_px = 2;
 constexpr double kNoiseAtFirst_px = 0.1;
@@ -27,17 +27,18 @@ constexpr double kOutlierSigmas = 2.5;
 constexpr double kLeastReach_px = 0.6;
 constexpr size_t kLeastVotes = 12;
 
-/// A model explains the votes when this share of them are inliers and the mean of their ρ is below
-/// the other; 4 is that of outliers.
+/// A model explains the votes when kExplainedShare of them are inliers and their mean ρ is below
+/// kExplained; the ρ of an outlier is 4.
 constexpr double kExplainedShare = 0.6;
 constexpr double kExplained = 0.3;
 constexpr double kMargin = 3;  // parameters
 constexpr int kPatience = 5;
-/// Climbing that did not help is not tried again for this many frames, unless the mean of ρ rose.
+/// After an attempt at a higher rung that did not help, the next one is made after this many
+/// frames, or when the mean ρ has risen.
 constexpr int kClimbInterval = 5;
 constexpr double kRisen = 0.1;
-/// Above this mean of ρ half of the votes are outliers and the camera's motion is not known: it is
-/// looked for in every frame.
+/// Above this mean ρ half of the votes are outliers and the camera's motion is not known: every
+/// frame is searched from scratch.
 constexpr double kLost = 2;
 
 ModelKind next(ModelKind kind, int step) {
@@ -70,8 +71,8 @@ void BackgroundEstimator::reset() {
   refused_cost_ = 0;
 }
 
-/// The sum becomes the number of equally weighted points that would know as much (Kish's effective
-/// sample size): with it the GRIC may be used as it stands.
+/// The weights are scaled so that their sum is the number of equally weighted points that carry the
+/// same information (Kish's effective sample size). The GRIC can then be used unchanged.
 void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
   evidence_.points = votes.points;
   evidence_.weights = votes.weights;
@@ -89,7 +90,7 @@ void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
   is_textured_ = voting_ >= kTexturedShare * votes.all;
 }
 
-/// Votes for the model of all votes; `border`: of those at the border.
+/// Share of all votes that agree with the model; `spread` is how widely their places are spread.
 double BackgroundEstimator::coverage_of(const MotionModel& model, const BackgroundVotes& votes,
                                         double& spread) const {
   double sum = 0;
@@ -112,7 +113,8 @@ double BackgroundEstimator::coverage_of(const MotionModel& model, const Backgrou
   return votes.all > 0 ? sum / votes.all : 0;
 }
 
-/// False when the votes do not determine such a model, or it does not cover the picture.
+/// Returns false when the votes do not determine such a model, or when it does not cover the
+/// picture.
 bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
                                 const BackgroundVotes& votes, Scored& scored) {
   const bool may_cover = is_textured_ || voting_ >= kLeastCoverageIfSpread * votes.all;
@@ -127,7 +129,7 @@ bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
                       (scored.coverage >= kLeastCoverageIfSpread && spread >= kLeastSpread);
   if (kind != ModelKind::kStill && !covers) return false;
   scored.cost = robust_cost(*model, evidence_);
-  // λ₁ d n is the same for all.
+  // The term λ₁ d n is the same for all models.
   scored.gric = scored.cost + std::log(4 * effective_points_) * parameters(kind);
   return true;
 }
@@ -146,7 +148,7 @@ bool BackgroundEstimator::is_explained(const MotionModel& model) const {
   return inliers > kExplainedShare * all && cost < kExplained * inliers;
 }
 
-/// Looks for a higher rung that is better. False when none is.
+/// Looks for a higher rung that is better. Returns false when there is none.
 bool BackgroundEstimator::climb(const MotionModel& start, const BackgroundVotes& votes,
                                 Scored& current) {
   const double margin = kMargin * std::log(4 * effective_points_);
@@ -162,7 +164,7 @@ bool BackgroundEstimator::climb(const MotionModel& start, const BackgroundVotes&
   return climbed;
 }
 
-/// Goes down to a lower rung that has been better for long enough: the next one, or none at all.
+/// Goes down to a lower rung that has been better for long enough: the next lower one, or 'still'.
 void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVotes& votes,
                                   Scored& current) {
   Scored best = current;
@@ -177,8 +179,9 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
   current = best;
 }
 
-/// From a low quantile: what moves by itself may not have been told yet. Where most of the picture
-/// is plain, what is not may all be an object, and the noise is taken for that of good pictures.
+/// Uses a low quantile, because some things that move by themselves may not have been recognised
+/// yet. Where most of the picture is plain, the textured part may all be an object; the noise is
+/// then assumed to be that of good pictures.
 void BackgroundEstimator::learn_noise() {
   double found_px = kNoiseAtFirst_px;
   if (residuals_px_.size() >= kLeastVotes &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What moves with the camera.
+/// Finds the motion of the background, and thereby that of the camera.
 #pragma once
 
 #include <vector>
@@ -11,26 +11,26 @@
 
 namespace spidar {
 
-/// A block at the border of the picture counts as two elsewhere: objects are rarely there.
+/// A block at the border of the picture counts as two elsewhere, because objects are rarely there.
 constexpr double kBorderVotes = 2;
 
-/// Displacements that may say how the camera moves.
+/// Displacements from which the camera's motion is estimated.
 struct BackgroundVotes {
   std::vector<Displacement> points;
-  std::vector<double> weights;     ///< > 0, one a point
-  std::vector<uint8_t> at_border;  ///< one a point: 1 at the border of the picture
-  std::vector<size_t> sources;     ///< one a point: what it is a displacement of, see learn_noise()
-  double all = 0;                  ///< votes of the whole picture, those of textureless parts too
+  std::vector<double> weights;     ///< > 0, one for each point
+  std::vector<uint8_t> at_border;  ///< one for each point: 1 at the border of the picture
+  std::vector<size_t> sources;     ///< one for each point: its index for learn_noise()
+  double all = 0;                  ///< votes of the whole picture, including its textureless parts
   Eigen::Vector2d size_px{1, 1};   ///< of the picture
 
   void clear();
 };
 
-/// The lowest rung of the ladder that explains the votes, from frame to frame.
+/// Chooses, from frame to frame, the lowest rung of the ladder that explains the votes.
 ///
-/// An object in front of a plain background may hold all the votes, but hardly the picture. Where
-/// less than half of the picture votes, a model other than 'still' needs a fifth of all votes,
-/// those of the textureless parts included, or fewer that are spread over the picture.
+/// An object in front of a plain background may have all the votes although it covers little of the
+/// picture. When less than half of the picture votes, a model other than 'still' therefore needs a
+/// fifth of all votes, textureless parts included, or fewer votes that are spread over the picture.
 ///
 /// Rungs compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil. Trans.
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
@@ -45,8 +45,8 @@ class SPIDAR_API BackgroundEstimator {
   /// Votes of one frame.
   const Background& estimate(const BackgroundVotes& votes);
 
-  /// Learns the noise of the displacements from the votes given to the last estimate(), to be used
-  /// in the next one. What `moves(source)` is true for moves by itself and tells nothing of it.
+  /// Learns the noise of the displacements from the votes of the last estimate(), for use in the
+  /// next one. Votes for which `moves(source)` is true are left out: they move by themselves.
   template <typename Moves>
   void learn_noise(const BackgroundVotes& votes, Moves&& moves) {
     residuals_px_.clear();
@@ -61,10 +61,10 @@ class SPIDAR_API BackgroundEstimator {
 
   const Background& background() const { return background_; }
 
-  /// For the tests and the benchmark: models that were fitted for the last frame.
+  /// For the tests and the benchmark: number of models that were fitted for the last frame.
   int fitted() const { return fitted_; }
 
-  /// A cut, a seek: nothing is known.
+  /// Forgets everything, after a cut or a seek.
   void reset();
 
  private:
@@ -89,12 +89,12 @@ class SPIDAR_API BackgroundEstimator {
   std::vector<MotionModel> known_;
   std::vector<double> residuals_px_;
   double effective_points_ = 0;
-  double voting_ = 0;         ///< votes of all points
+  double voting_ = 0;         ///< votes of all points together
   bool is_textured_ = false;  ///< most of the picture votes
   double noise_px_ = 0;
-  int patience_ = 0;  ///< frames in which a lower rung was better
+  int patience_ = 0;  ///< number of frames in which a lower rung was better
   int frames_since_climb_ = 0;
-  double refused_cost_ = 0;  ///< mean cost when climbing did not help
+  double refused_cost_ = 0;  ///< mean cost when no higher rung helped
   int fitted_ = 0;
   Background background_;
 };

@@ -10,19 +10,21 @@
 namespace spidar {
 namespace {
 
-/// The interval between frames that is the same up to rounding and a clock's jitter.
+/// Intervals that differ by less than this share count as equal: rounding and jitter of a clock.
 constexpr double kSameInterval = 0.25;
-/// From this share of equal intervals on the others are accidents and not part of a rhythm.
+/// When at least this share of the intervals is equal, the others are accidents and not part of a
+/// rhythm.
 constexpr double kAccidents = 5.0 / 6;
-/// Fewer pictures show no rhythm.
+/// Fewer pictures do not show a rhythm.
 constexpr size_t kEnough = 4;
-/// The logarithm of a speed by which one interval must fit better than the even one.
+/// By how much the logarithm of the speed must fit one interval better than the even one.
 constexpr double kClearly = 0.22;
 
 }  // namespace
 
 void Cadence::remember(const Shown& shown) {
-  // Another rate of playback, or frames of any length: what was learnt is not comparable.
+  // At another rate of playback, or with frames of irregular length, earlier intervals are not
+  // comparable.
   if (count_ > 0) {
     const double before = static_cast<double>(latest(0).interval_ns) / latest(0).frames;
     const double now = static_cast<double>(shown.interval_ns) / shown.frames;
@@ -39,8 +41,8 @@ int64_t Cadence::median_ns() const {
   return median(sorted.begin(), sorted.begin() + static_cast<ptrdiff_t>(count_));
 }
 
-/// How long the next picture may be shown: the second longest of the latest intervals, for one
-/// alone is a pause.
+/// How long the next picture may be shown: the second longest of the latest intervals, because a
+/// single long one may be a pause.
 int64_t Cadence::expected_ns() const {
   int64_t longest = 0;
   int64_t second = 0;
@@ -56,9 +58,9 @@ int64_t Cadence::expected_ns() const {
   return second;
 }
 
-/// Of the latest `pictures` that were taken at even intervals and are each shown from the next
-/// frame on: the line through the times at which they were first shown, if none is further from it
-/// than a frame. 0 when there is no such line.
+/// Interval of the latest `pictures` if they were taken at even intervals and each of them is shown
+/// from the next frame on: the slope of the line through the times at which they were first shown.
+/// 0 when one of them is further from the line than a frame.
 double Cadence::even_interval_ns(size_t pictures) const {
   std::array<double, kPictures + 1> time{};
   double frames = 0;
@@ -83,7 +85,7 @@ double Cadence::even_interval_ns(size_t pictures) const {
   return most - least <= (1 + kSameInterval) * frame_ns ? slope : 0;
 }
 
-/// Of as many pictures as have been shown in the same rhythm.
+/// The same for as many of the latest pictures as have kept one rhythm.
 double Cadence::even_interval_ns() const {
   for (size_t pictures = count_; pictures >= kEnough; pictures /= 2) {
     if (const double even_ns = even_interval_ns(pictures); even_ns > 0) return even_ns;
@@ -94,7 +96,7 @@ double Cadence::even_interval_ns() const {
 bool Cadence::would_wait(int64_t time_ns) const {
   if (!has_changed_ || time_ns <= frame_ns_) return false;
   const int64_t frame_ns = time_ns - frame_ns_;
-  // The next frame could show the next picture.
+  // The next frame could be the first to show the next picture.
   const int64_t next_ns = time_ns - picture_ns_ + frame_ns;
   return next_ns <= std::max(kRest_ns, expected_ns() + frame_ns / 2);
 }
@@ -111,7 +113,7 @@ Cadence::Step Cadence::see(Picture picture, int64_t time_ns) {
   shown_for_ns_ = frame_ns;
   if (repeated) {
     rests_ = true;
-    return step_;  // frame by frame
+    return step_;  // measured frame by frame from now on
   }
 
   const int64_t between_ns = begun_ ? time_ns - picture_ns_ : frame_ns;
@@ -137,7 +139,7 @@ Cadence::Step Cadence::see(Picture picture, int64_t time_ns) {
   }
   if (!repeats) return step_;
   if (count_ >= kEnough && static_cast<double>(alike) >= kAccidents * static_cast<double>(count_)) {
-    // Also when the picture begins to move again after a rest.
+    // This also holds when the picture begins to move again after a rest.
     step_.interval_ns = median;
   } else if (const double even_ns = even_interval_ns(); even_ns > 0) {
     step_.interval_ns = std::llround(even_ns);

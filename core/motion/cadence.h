@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// In what rhythm a film shows new pictures.
+/// Finds the rhythm in which a film shows new pictures.
 #pragma once
 
 #include <array>
@@ -11,59 +11,62 @@
 
 namespace spidar {
 
-/// A film whose frames repeat pictures moves all the same: 24 pictures a second in 60 frames, a
-/// cartoon drawn on twos, a frame that came too late and was shown once more. Its motion is what
-/// happened between two different pictures, over the time between them.
+/// A film can move although its frames repeat pictures: 24 pictures a second in 60 frames, a
+/// cartoon drawn on twos, a late frame that was shown twice. Its motion is the displacement between
+/// two different pictures, divided by the time between them.
 ///
-/// That time is not the one between showing them, if the pictures were taken at even intervals and
-/// are shown when a frame is due: 24 in 60 are shown for three frames and for two in turns. This
-/// class learns from the latest intervals which it is. And it says how long a picture that is shown
-/// again may still belong to something that moves, and from when on it is rest.
+/// This is not the time between their first frames when the pictures were taken at even intervals
+/// and each is shown when a frame is due: 24 pictures a second in 60 frames are shown for three and
+/// two frames in turn. This class learns the right time from the latest intervals. It also decides
+/// how long a repeated picture may still belong to a motion, and from when on it is at rest.
 class SPIDAR_API Cadence {
  public:
-  /// A picture that was shown for so long rests, where no longer intervals have been seen: with
-  /// the 15 ms in which the force of a late frame fades in (WrenchTimeline::kApproach_ns) that is
-  /// 100 ms.
+  /// A picture that has been shown for this long is at rest, unless longer intervals have been
+  /// seen. Together with the 15 ms in which the force of a late frame fades in
+  /// (WrenchTimeline::kApproach_ns) this is 100 ms.
   static constexpr int64_t kRest_ns = 85'000'000;
-  /// Pictures further apart than this do not make a motion: drawings on threes, and a frame.
+  /// Pictures that are further apart than this are not compared: a cartoon drawn on threes, plus a
+  /// frame.
   static constexpr int64_t kLongest_ns = 170'000'000;
 
-  /// What a frame shows.
+  /// What a frame shows, compared with the picture before.
   enum class Picture {
-    kSame,   ///< the picture before
-    kAlike,  ///< one that noise alone may have made of it, looked at because it waited long enough
-    kOther,  ///< another one
+    kSame,  ///< the same picture
+    /// A picture that differs by no more than noise, analysed because it waited for long enough.
+    kAlike,
+    kOther,  ///< a different picture
   };
 
-  /// What becomes of a frame.
+  /// How a frame is treated.
   struct Step {
-    /// It shows the picture before again, and nobody can tell yet whether that rests: what was felt
-    /// before is to be felt on.
+    /// The frame repeats the picture, and it is not known yet whether the picture is at rest: the
+    /// previous force continues.
     bool waits = false;
-    /// Otherwise: the time in which its motion happened, > 0.
+    /// Otherwise, the time in which its motion happened, > 0.
     int64_t interval_ns = 0;
   };
 
-  /// Whether a picture that is shown again at `time_ns` would have to wait.
+  /// Whether a picture that is repeated at `time_ns` would have to wait.
   bool would_wait(int64_t time_ns) const;
 
-  /// A frame is shown at `time_ns`, later than those before.
+  /// Takes the frame shown at `time_ns`, which must rise.
   Step see(Picture picture, int64_t time_ns);
 
-  /// By what the speed that was found with the interval of the last Step is to be multiplied. A
-  /// frame may have been repeated because the one after it was lost: then the picture has moved on
-  /// meanwhile, and the interval is that of showing. Which of the two it was is told by the speed
-  /// itself, which is near to the last one. To be called once for each Step that does not wait.
+  /// Factor for the speed that was computed with the interval of the last Step. A frame may have
+  /// been repeated because the one after it was lost: the picture has then moved on in the
+  /// meantime, and the time between the frames is the right one. The speed tells which of the two
+  /// it was, because it is close to the previous one. Call this once for each Step that does not
+  /// wait.
   double correction(double speed_px_s);
 
   /// When the latest picture was first shown.
   int64_t picture_ns() const { return picture_ns_; }
 
-  /// The next frame is the first picture after a cut: nothing is known of what moves, but the
-  /// rhythm is the film's.
+  /// The next frame is the first picture after a cut: the motion begins anew, but the rhythm
+  /// remains.
   void cut(int64_t time_ns);
 
-  /// Nothing is known.
+  /// Forgets everything.
   void restart() { *this = Cadence(); }
 
  private:
@@ -89,12 +92,12 @@ class SPIDAR_API Cadence {
   bool begun_ = false;
   int64_t picture_ns_ = 0;    ///< when the latest picture was first shown
   int64_t frame_ns_ = 0;      ///< the latest frame
-  int frames_ = 0;            ///< that have shown the latest picture
+  int frames_ = 0;            ///< number of frames that have shown the latest picture
   bool has_changed_ = false;  ///< there has been another picture since the cut
-  bool rests_ = false;        ///< it was shown for too long to belong to something that moves
+  bool rests_ = false;        ///< it was shown for too long to belong to a motion
   Step step_;                 ///< the last one that did not wait
-  int64_t shown_for_ns_ = 0;  ///< of that, between the pictures
-  double speed_px_s_ = 0;     ///< found then, corrected
+  int64_t shown_for_ns_ = 0;  ///< between the first frames of the pictures, in that step
+  double speed_px_s_ = 0;     ///< found in that step, corrected
 };
 
 }  // namespace spidar

@@ -11,12 +11,12 @@
 
 namespace spidar {
 
-/// Stays with an object until another one is clearly more prominent (kClearly times): the hand does
-/// not jump between objects that are much the same.
+/// Stays with an object until another one is clearly more prominent (kClearly times), so that the
+/// force does not jump between similar objects.
 class SPIDAR_API DominantObject {
  public:
-  /// One of `objects`, the most prominent one to begin with; null while there are none. Call it
-  /// once a frame.
+  /// Returns one of `objects`, at first the most prominent one; null when there are none. Call this
+  /// once for each frame.
   const MovingObject* choose(const std::vector<MovingObject>& objects);
 
   void reset() { id_ = 0; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From tracks to the motion that is felt.
+/// The motion of the picture, and the paper's way to compute it from tracks.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@ namespace spidar {
 /// Motion of the picture between two frames.
 struct ImageMotion {
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< image frame I: x right, y down
-  /// Relative change of lengths a second: 0.5 is half as large again. Positive: comes nearer.
+  /// Relative change of lengths per second: 0.5 is half as large again. Positive: it comes nearer.
   double growth_1_s = 0;
-  double roll_rad_s = 0;  ///< turn from x to y: clockwise as seen on the screen
-  int tracked = 0;        ///< points it was measured with
+  double roll_rad_s = 0;  ///< rotation from x to y: clockwise as seen on the screen
+  int tracked = 0;        ///< number of points from which it was measured
   /// Standard error of each coordinate of the velocity; 0: not known.
   double noise_px_s = 0;
 };
 
-/// The paper's frame velocity (eq. 9–10): mean over all tracks of displacement / Δt.
-/// `interval_ns` is the difference of the frames' running times and must be positive.
-/// No tracks: velocity 0 with `tracked` 0.
+/// The paper's frame velocity (eq. 9–10): mean over all tracks of displacement / Δt. `interval_ns`
+/// is the difference of the frames' running times and must be positive. Without tracks the velocity
+/// is 0 and `tracked` is 0.
 SPIDAR_API ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns);
 
 }  // namespace spidar

@@ -8,27 +8,28 @@
 namespace spidar {
 namespace {
 
-/// Blocks this near to the border of the picture are at it.
+/// Blocks this close to the border of the picture count as being at the border.
 constexpr int kBorderBlocks = 2;
-/// Smaller eigenvalue of the structure tensor, (grey / px)²: from the first on a block may vote,
-/// with much more than the second it has its full vote.
+/// Smaller eigenvalue of the structure tensor, (grey / px)²: a block may vote from kLeastTexture
+/// on, and its vote approaches a full one well above kFullTexture.
 constexpr double kLeastTexture = 6;
 constexpr double kFullTexture = 24;
-/// A block that its own motion explains as badly as this has half a vote, grey².
+/// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
 
-/// Points that move as the background's blocks say, px of the field's picture, and so many of them
-/// for each that its model needs, refine it.
+/// Points that agree with the background of the blocks to within kPointReach_px, px of the field's
+/// picture, refine its model if there are kPointsForEach of them for each point that the model
+/// needs.
 constexpr double kPointReach_px = 0.5;
 constexpr double kPointNoise_px = 0.1;
 constexpr int kPointsForEach = 4;
-/// By this much of ρ on the mean they may make the blocks' votes dearer: an outlier's is 4, so it
-/// is as much as if one vote in a hundred became one.
+/// By how much the refinement may raise the mean ρ of the blocks' votes. The ρ of an outlier is 4,
+/// so this is as if one vote in a hundred became an outlier.
 constexpr double kMostDearer = 0.04;
-/// Blocks among the tracks are numbered from here on.
+/// Blocks in the list of tracks have ids from this one on.
 constexpr uint32_t kFirstBlockId = 1u << 31;
 
-/// The same in pixels of which `scale` are one of those.
+/// The same background in smaller pixels: `scale` of them make one of the old.
 Background in_pixels_of(const Background& background, double scale) {
   Background result = background;
   result.model.shift_px *= scale;
@@ -48,7 +49,7 @@ double mean_cost(const MotionModel& model, const BackgroundVotes& votes, double 
   return all > 0 ? sum / all : 0;
 }
 
-/// The camera does the inverse of what the picture does.
+/// The camera's motion is the inverse of the picture's.
 ImageMotion camera_motion(const Background& background, int tracked, double interval_s) {
   const MotionModel& model = background.model;
   ImageMotion camera;
@@ -70,8 +71,8 @@ ImageMotion motion_of(const MovingObject& object) {
   return motion;
 }
 
-/// Where the centre of the field's picture is in the frame, from the frame's centre: both leave out
-/// what does not fill a pixel at the right and at the bottom.
+/// The centre of the field's picture relative to the centre of the frame. They differ because both
+/// leave out columns and rows at the right and at the bottom that do not fill a pixel.
 Eigen::Vector2d field_offset_px(const PaddedImage& picture, const ReducedFrame& frame,
                                 double scale) {
   return {(picture.width() * scale - frame.width()) / 2,
@@ -91,9 +92,9 @@ MotionEstimator::MotionEstimator() {
   tracks_.reserve(2 * kMostDisplacements);
 }
 
-/// Textured blocks say how the camera moves: the better, the more of their structure goes in both
-/// directions and the better it fits; at the border of the picture twice, where something moved by
-/// itself until now half as much.
+/// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
+/// block has in both directions and the better its motion fits; it counts twice at the border of
+/// the picture, and half for a block that moved by itself until now.
 void MotionEstimator::collect_votes() {
   votes_.clear();
   const BlockGrid& grid = field_.grid();
@@ -144,8 +145,8 @@ void MotionEstimator::collect_points(const ReducedFrame& reduced,
   }
 }
 
-/// The same model again, by the points that it explains: blocks are right to a tenth of a pixel,
-/// points to a few hundredths of one of the frame's.
+/// Refines the model with the points that agree with it: blocks are accurate to a tenth of a pixel,
+/// points to a few hundredths of a pixel of the frame.
 void MotionEstimator::refine_background(Background& background) {
   const ModelKind kind = background.model.kind;
   if (kind == ModelKind::kStill) return;
@@ -162,7 +163,7 @@ void MotionEstimator::refine_background(Background& background) {
   evidence_.sigma_px = kPointNoise_px;
   const auto refined = fitter_.refine(kind, background.model, evidence_);
   if (!refined) return;
-  // Far from the points it must not say something else.
+  // Far from the points the refined model must agree with the old one.
   const double x_px = field_.picture().width() / 2.0;
   const double y_px = field_.picture().height() / 2.0;
   for (const Eigen::Vector2d& corner_px :
@@ -172,7 +173,8 @@ void MotionEstimator::refine_background(Background& background) {
         refined->displacement_px(corner_px) - background.model.displacement_px(corner_px);
     if (change_px.norm() > reach_px) return;
   }
-  // Nor where the blocks are: many points may be on one layer of a scene with depth.
+  // It must also agree where the blocks are: many points may lie on a single layer of a scene with
+  // depth.
   const double dearer =
       mean_cost(*refined, votes_, reach_px / 2) - mean_cost(background.model, votes_, reach_px / 2);
   if (dearer > kMostDearer) return;
@@ -193,7 +195,7 @@ void MotionEstimator::choose_points(const ImageView& frame, const ReducedFrame& 
   points_.choose(frame, reduced, field_, wishes_, points.own);
 }
 
-/// What was looked at: the points, and the blocks that have none.
+/// Lists the tracks: the points, and the blocks that have no point.
 void MotionEstimator::report_tracks(const ReducedFrame& reduced,
                                     const std::vector<Track>& followed) {
   tracks_.assign(followed.begin(), followed.end());
@@ -252,7 +254,8 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
   scene.background = &background_;
   scene.model = background.model.kind;
   scene.camera = camera_motion(background_, static_cast<int>(votes_.points.size()), interval_s);
-  // The camera's motion needs them, too: what moves by itself or is burned in has less or no vote.
+  // The camera's motion needs them, too: blocks that move by themselves or are burned in have less
+  // of a vote, or none.
   const FieldInFrame field{field_, scale, field_offset_px(field_.picture(), reduced, scale),
                            interval_s, placed_};
   const std::vector<MovingObject>& objects = objects_.update(field, background);
@@ -262,7 +265,8 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
   } else {
     scene.objects = static_cast<int>(objects.size());
     scene.object_list = &objects;
-    // Also while all of them are felt: who then asks for one gets the one that was looked at.
+    // Chosen also while all objects are felt, so that a caller who asks for one object gets a
+    // stable choice.
     scene.dominant = dominant_.choose(objects);
     if (kind == MotionKind::kObjects) {
       const Eigen::Vector2d pointer_px((pointer.x() - 0.5) * reduced.width(),
@@ -279,7 +283,7 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
   return scene;
 }
 
-/// What a kind does not keep up to date would be stale when it is needed again.
+/// Drops the state that a kind does not update and that would be stale when it is needed again.
 void MotionEstimator::drop_unneeded(MotionKind kind) {
   kind_ = kind;
   if (kind == MotionKind::kMean) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds the motion that is felt in successive frames.
+/// Finds the motion of successive frames that is rendered as force.
 #pragma once
 
 #include <cstdint>
@@ -19,29 +19,30 @@
 
 namespace spidar {
 
-/// Frames → motion. Keeps what must be known of the frames before. Takes no memory from the heap
-/// after the first frames of a size.
+/// Computes motion from frames and keeps what it needs of earlier frames. Does not allocate after
+/// the first frames of a size.
 class SPIDAR_API MotionEstimator {
  public:
   MotionEstimator();
 
-  /// What is looked at beside the field of blocks.
+  /// Optional input beside the field of blocks.
   struct Points {
-    /// Tracks of the frame by somebody else; null: the estimator follows points of its own.
+    /// Tracks of the frame from another tracker; null: the estimator follows points of its own.
     const TrackedFrame* given = nullptr;
     FieldPoints::Settings own;
   };
 
-  /// The frame that was shown `interval_ns` > 0 after the one before, in whole and `reduced`.
-  /// kMean is the mean of the points given, which it needs; all others look at the frame itself and
-  /// take points for the last fraction of a pixel. `pointer` is a place of the picture, (0, 0) its
-  /// top left and (1, 1) its bottom right corner; it may lie outside. Only kObjects looks at it.
-  /// Another kind than in the frame before begins anew where it needs what that one did not keep.
+  /// Takes the frame that was shown `interval_ns` > 0 after the one before, both as it is and as
+  /// `reduced`. kMean is the mean of the given points and requires them; all other kinds analyse
+  /// the frame itself and use points for sub-pixel accuracy. `pointer` is a place in the picture,
+  /// where (0, 0) is the top left and (1, 1) the bottom right corner; it may lie outside. Only
+  /// kObjects uses it. When the kind changes, state that the previous kind did not update begins
+  /// anew.
   SceneMotion estimate(MotionKind kind, const ImageView& frame, const ReducedFrame& reduced,
                        const Points& points, int64_t interval_ns,
                        const Eigen::Vector2d& pointer = {0.5, 0.5});
 
-  /// A cut, a seek: the next frame has nothing to do with the one before.
+  /// After a cut or a seek: the next frame is not compared with the one before.
   void reset();
 
  private:
@@ -63,7 +64,7 @@ class SPIDAR_API MotionEstimator {
   WeightedDisplacements evidence_;
   std::vector<PlacedPoint> placed_;
   std::vector<PointWish> wishes_;
-  std::vector<uint8_t> has_point_;  ///< of each block
+  std::vector<uint8_t> has_point_;  ///< for each block
   std::vector<Track> tracks_;
   Background background_;  ///< in px of the frame
 };

@@ -10,7 +10,7 @@
 namespace spidar {
 namespace {
 
-/// Sum of weights, weighted means of place and displacement.
+/// Sum of the weights, and weighted means of place and displacement.
 struct Means {
   double weight = 0;
   Eigen::Vector2d at_px = Eigen::Vector2d::Zero();
@@ -31,10 +31,10 @@ Means means_of(const std::vector<Displacement>& points, const std::vector<double
   return means;
 }
 
-/// Points nearer together than this do not tell how they turn or grow, px rms.
+/// Points closer together than this do not determine rotation and growth, px rms.
 constexpr double kLeastSpread_px = 1;
 
-/// About the means the shift drops out: what is left is the linear part.
+/// Relative to the means the shift cancels; the linear part remains.
 bool fit_linear(const std::vector<Displacement>& points, const std::vector<double>& weights,
                 const Means& means, MotionModel& model) {
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  // Σ w q qᵀ
@@ -53,7 +53,7 @@ bool fit_linear(const std::vector<Displacement>& points, const std::vector<doubl
     model.linear << grow, -turn, turn, grow;
   } else {
     const double determinant = scatter.determinant();
-    // Nearly on one line: a hundred times as long as wide.
+    // The points lie almost on one line: a hundred times as long as wide.
     if (!(determinant > 1e-4 * scatter.trace() * scatter.trace())) return false;
     Eigen::Matrix2d adjugate;
     adjugate << scatter(1, 1), -scatter(0, 1), -scatter(1, 0), scatter(0, 0);
@@ -77,7 +77,7 @@ bool refine_homography(const std::vector<Displacement>& points, const std::vecto
       if (weights[i] == 0) continue;
       const Eigen::Vector2d& at = points[i].at_px;
       const double divisor = 1 + model.perspective_1_px.dot(at);
-      // The frame would reach behind the camera.
+      // The homography would map points behind the camera.
       if (!(divisor > 0.1)) return false;
       const Eigen::Vector2d to = at + model.displacement_px(at);
       const Eigen::Vector2d error = points[i].moved_px - (to - at);

@@ -8,48 +8,52 @@
 namespace spidar {
 namespace {
 
-/// Against the background, px of the field's picture: 0.7 px in a frame of 480 lines, and less
-/// where the camera is still, for no model of its motion can be wrong there.
+/// Least motion relative to the background, px of the field's picture: 0.7 px in a frame of 480
+/// lines. It is less while the camera is still, because no error in a model of its motion is
+/// possible then.
 constexpr float kLeastMotion_px = 0.35f;
 constexpr float kLeastMotionWhileStill_px = 0.15f;
 constexpr float kMotionSigmas = 3;
-/// Below this sum of the tensor's eigenvalues, (grey / px)², a block says nothing.
+/// Below this sum of the tensor's eigenvalues, (grey / px)², a block has too little texture.
 constexpr float kLeastTexture = 4;
-/// Mean squared grey levels that the background's motion must cost by the structure tensor, and by
-/// how much more where the block's own motion explains it badly.
+/// By how many squared grey levels the background's motion must fit worse on average, according to
+/// the structure tensor, and by how many more for each unit of residual of the block's own motion.
 constexpr float kLeastEvidence = 3;
 constexpr float kEvidencePerResidual = 0.1f;
-/// What is known to be there may become this much slower until it rests: it does not stop because
-/// it falls below the threshold, and a trunk that did would leave its motion to the faster limbs.
-/// Before a still camera it may go further, for no model of the camera's motion can be wrong there.
+/// A known object may become slower by this factor before it counts as resting. Otherwise it would
+/// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster
+/// limbs. Before a still camera it may become even slower, because no error in a model of the
+/// camera's motion is possible.
 constexpr float kSlower = 0.6f;
 constexpr float kSlowerWhileStill = 0.25f;
-/// Grey levels a pixel that the background's motion must cost in the picture itself: a fixed part,
-/// a share of the picture's noise, and a share of what the block's own motion costs.
+/// By how many grey levels a pixel the background's motion must fit worse in the picture itself: a
+/// constant, a share of the picture's noise, and a share of the residual of the block's own motion.
 constexpr float kWorse_grey = 0.5f;
 constexpr float kWorseByNoise = 0.3f;
 constexpr float kWorseShare = 0.15f;
 
-/// Less of a block than this was in the picture before: what the camera has just brought into the
-/// picture cannot be compared with anything.
+/// If less than this share of a block was in the picture before, the camera has just brought it
+/// into view and it cannot be compared.
 constexpr float kSeenBefore = 0.5f;
 
 constexpr int kLeastNeighbours = 3;
-/// A block without texture moves with so many around it, when they are most of those that know.
+/// A block without texture moves if this many blocks around it do and they are most of those with
+/// texture.
 constexpr int kNeighboursOfUnknown = 4;
-/// One that stands still but is surrounded by so many moves, too: its own motion is an error.
+/// A block that stands still among this many moving neighbours moves, too: its own motion is an
+/// error.
 constexpr int kNeighboursOfStill = 7;
 
-/// What has stood out in two of the last frames needs one neighbour.
+/// A block that stood out in two of the last frames needs only one moving neighbour.
 constexpr float kLasting = 0.5f;
 constexpr int kNeighboursOfLasting = 1;
-/// Shares of the newest frame in what is remembered of those before, and what counts of a block
-/// that stood out beside the one that this one came from.
+/// Weights of the newest frame in the memory of earlier ones. kBeside: weight of a block that stood
+/// out next to the one from which this block came.
 constexpr float kStandsOutLearnt = 0.4f;
 constexpr float kBeside = 0.9f;
 constexpr float kPersistenceLearnt = 0.5f;
 
-/// Share of a block that was in the picture before if it has moved with the background.
+/// Share of a block that was in the previous picture if it moved with the background.
 float seen_before(const BlockField& field, size_t index, const RelativeBlock& block) {
   const BlockGrid& grid = field.grid();
   const int column = static_cast<int>(index) % grid.columns;
@@ -85,7 +89,7 @@ void MovingBlocks::reset() {
   burned_in_.reset();
 }
 
-/// Motion of each block against the background.
+/// Motion of each block relative to the background.
 void MovingBlocks::compare(const BlockField& field, const Background& background) {
   const std::vector<MotionBlock>& blocks = field.blocks();
   relative_.resize(blocks.size());
@@ -93,7 +97,8 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
   for (size_t i = 0; i < blocks.size(); ++i) {
     const MotionBlock& block = blocks[i];
     const Eigen::Vector2d at_px(block.x_px, block.y_px);
-    // The model maps from the picture before to this one; it hardly differs between both places.
+    // The model maps from the previous picture to this one; it hardly differs between the two
+    // places.
     const Eigen::Vector2d there_px = at_px - background.model.displacement_px(at_px);
     const Eigen::Vector2f moved_px = background.model.displacement_px(there_px).cast<float>();
     RelativeBlock& relative = relative_[i];
@@ -186,7 +191,7 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
   }
 }
 
-/// How much each block has stood out of late. What is small may have moved on to the next block.
+/// How much each block has stood out recently. A small object may have moved on to the next block.
 void MovingBlocks::remember_judgements(const BlockField& field) {
   const size_t n = judgements_.size();
   stood_out_before_.swap(stood_out_);

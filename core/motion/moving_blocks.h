@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which parts of the picture move by themselves.
+/// Finds the parts of the picture that move by themselves.
 #pragma once
 
 #include <cstdint>
@@ -12,33 +12,34 @@
 
 namespace spidar {
 
-/// What is known of a block beside its own motion. Lengths in pixels of the field's picture.
+/// Properties of a block in addition to its motion. Lengths are in pixels of the field's picture.
 struct RelativeBlock {
-  float x_px = 0;  ///< motion against the background
+  float x_px = 0;  ///< motion relative to the background
   float y_px = 0;
   float background_x_px = 0;  ///< motion of the background at this place
   float background_y_px = 0;
-  bool has_texture = false;  ///< enough to say how it moves
-  bool is_new = false;       ///< most of it was outside of the picture before
-  bool moves = false;        ///< by itself, its neighbours considered
+  bool has_texture = false;  ///< enough to tell how it moves
+  bool is_new = false;       ///< most of it was outside the previous picture
+  bool moves = false;        ///< moves by itself, taking its neighbours into account
 };
 
 /// Compares each block with the background. A block moves by itself when its motion differs from
-/// the background's by more than noise, and the background's motion would explain its pixels
-/// clearly worse than its own does. Single blocks that stand out are errors unless they last, and
-/// textureless ones do as most of those around them.
+/// the background's by more than noise and the background's motion would explain its pixels clearly
+/// worse. A single block that stands out is an error unless it lasts. Textureless blocks move as
+/// most of their neighbours do.
 class MovingBlocks {
  public:
-  /// `expected`: blocks that something was on in the frame before and is now on, 1 or 0 each: these
-  /// need less to count.
+  /// `expected` is 1 for each block on which an object was in the previous frame, or is expected in
+  /// this one; such a block needs less evidence.
   const std::vector<RelativeBlock>& find(const BlockField& field, const Background& background,
                                          const std::vector<uint8_t>& expected);
 
-  /// How likely each block moves by itself, from the frames so far, 0 … 1, each place carried along
-  /// with the motion of what is on it.
+  /// How likely each block moves by itself, judged by the frames so far, 0 … 1. The values move
+  /// along with the picture.
   const std::vector<float>& persistence() const { return persistence_; }
 
-  /// What belongs to the screen: it says neither how the camera nor how anything else moves.
+  /// Blocks that belong to the screen: they say nothing about the motion of the camera or of
+  /// objects.
   const BurnedIn& burned_in() const { return burned_in_; }
 
   void reset();
@@ -62,10 +63,10 @@ class MovingBlocks {
   std::vector<float> residuals_;
   BurnedIn burned_in_;
   bool camera_is_still_ = true;
-  float picture_noise_ = 0;  ///< mean squared difference of what is explained best, grey²
+  float picture_noise_ = 0;  ///< mean squared difference of the best explained blocks, grey²
 };
 
-/// Block of the frame before that was where block `index` has come from, the nearest of the grid.
+/// Block of the previous frame from which block `index` has come: the nearest one of the grid.
 size_t origin_of(const BlockField& field, size_t index);
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What moves beyond the background.
+/// An object that moves relative to the background.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace spidar {
 
-/// One object in one frame. Image frame I about the centre of the frame: x right, y down.
+/// One object in one frame. Image frame I relative to the centre of the frame: x right, y down.
 struct MovingObject {
-  uint32_t id = 0;  ///< the same for as long as it lives, never used again
-  Eigen::Vector2d position_px = Eigen::Vector2d::Zero();     ///< of its middle
-  Eigen::Vector2d size_px = Eigen::Vector2d::Zero();         ///< of the box around it
-  Eigen::Vector2d relative_px_s = Eigen::Vector2d::Zero();   ///< velocity against the background
-  Eigen::Vector2d on_screen_px_s = Eigen::Vector2d::Zero();  ///< velocity that the viewer sees
-  double growth_1_s = 0;                                     ///< see ImageMotion, both against …
+  uint32_t id = 0;  ///< constant while the object exists, never reused
+  Eigen::Vector2d position_px = Eigen::Vector2d::Zero();    ///< of its middle
+  Eigen::Vector2d size_px = Eigen::Vector2d::Zero();        ///< of the box around it
+  Eigen::Vector2d relative_px_s = Eigen::Vector2d::Zero();  ///< velocity relative to the background
+  Eigen::Vector2d on_screen_px_s = Eigen::Vector2d::Zero();  ///< velocity as seen on the screen
+  double growth_1_s = 0;                                     ///< as in ImageMotion, relative to …
   double roll_rad_s = 0;                                     ///< … the background
   ModelKind model = ModelKind::kTranslation;                 ///< translation or similarity
-  int tracks = 0;         ///< points or blocks it was measured with; 0: out of sight
+  int tracks = 0;         ///< points or blocks from which it was measured; 0: out of sight
   double noise_px_s = 0;  ///< standard error of each coordinate of relative_px_s
-  double area_px2 = 0;    ///< of its blocks
-  double prominence = 0;  ///< what one would look at, see salience()
+  double area_px2 = 0;    ///< of its blocks together
+  double prominence = 0;  ///< how likely a viewer watches it, see salience()
 };
 
 }  // namespace spidar

@@ -8,20 +8,22 @@
 namespace spidar {
 namespace {
 
-/// An object turns or grows when this many blocks say so and the GRIC finds it worth it.
+/// Number of blocks from which rotation and growth are considered, if the GRIC prefers them.
 constexpr size_t kLeastForSimilarity = 6;
-/// Motion of the blocks of one object differs by this share besides the noise: it is not rigid.
+/// The blocks of an object differ in motion by this share in addition to noise, because it is not
+/// rigid.
 constexpr double kObjectNoiseShare = 0.1;
-/// Points are the object's own when they move as the median of its blocks does, up to this share of
-/// it and so many px of the field's picture; so many of them say more than the blocks.
+/// Points belong to the object if their motion differs from the median of its blocks by at most
+/// kPointReachShare of it plus kPointReach_px, px of the field's picture. They are used instead of
+/// the blocks if there are at least kLeastPoints of them and kPointShare of the number of blocks.
 constexpr double kPointReachShare = 0.35;
 constexpr double kPointReach_px = 0.5;
 constexpr double kLeastPoints = 4;
 constexpr double kPointShare = 0.5;
-/// Noise of a point's displacement, px of the field's picture, and a share of the displacement.
+/// Noise of a point's displacement, px of the field's picture, plus a share of the displacement.
 constexpr double kPointNoise_px = 0.1;
 constexpr double kPointNoiseShare = 0.03;
-/// Its points agree with one motion when the mean of ρ is below this; 4 is that of outliers.
+/// The object is rigid when the mean ρ of its points is below this; the ρ of an outlier is 4.
 constexpr double kRigid = 1;
 
 }  // namespace
@@ -31,7 +33,7 @@ ObjectMeter::ObjectMeter() {
   collected_.weights.reserve(kMostDisplacements);
 }
 
-/// The blocks of an object that show how they move.
+/// Collects the textured blocks of an object.
 void ObjectMeter::collect_blocks(uint32_t id, const Region& region,
                                  const ObjectEvidence& evidence) {
   collected_.points.clear();
@@ -49,7 +51,8 @@ void ObjectMeter::collect_blocks(uint32_t id, const Region& region,
       std::max(2 * evidence.background.sigma_px, kObjectNoiseShare * region.relative_px.norm());
 }
 
-/// Points on the object that move about as `motion` says. False when they are too few.
+/// Collects the points on the object whose motion is close to `motion`. Returns false when they are
+/// too few.
 bool ObjectMeter::collect_points(uint32_t id, const Region& region, const MotionModel& motion,
                                  const ObjectEvidence& evidence) {
   collected_.points.clear();
@@ -67,8 +70,8 @@ bool ObjectMeter::collect_points(uint32_t id, const Region& region, const Motion
   return n >= kLeastPoints && n >= kPointShare * region.blocks;
 }
 
-/// A similarity if that explains the evidence better by its price in the GRIC, and by as much again
-/// so that it does not flicker.
+/// Chooses a similarity if it is better than a translation by its price in the GRIC, and again by
+/// the same amount so that the choice does not flicker.
 void ObjectMeter::climb(MotionModel& motion) {
   const size_t n = collected_.points.size();
   if (motion.kind == ModelKind::kSimilarity || n < kLeastForSimilarity) return;

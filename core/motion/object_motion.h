@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How one object moves, from its blocks and from the points on it.
+/// Measures the motion of one object from its blocks and the points on it.
 #pragma once
 
 #include <cstdint>
@@ -19,35 +19,35 @@ namespace spidar {
 
 /// A point that was followed, in px of the field's picture from its centre.
 struct PlacedPoint {
-  size_t block = 0;  ///< that it is in now
+  size_t block = 0;  ///< the block in which it is now
   Displacement moved;
 };
 
-/// What there is to measure an object by. Lengths in px of the field's picture.
+/// Everything from which an object's motion is measured. Lengths are in px of the field's picture.
 struct ObjectEvidence {
   const BlockField& field;
-  const std::vector<RelativeBlock>& relative;  ///< of each block
-  const std::vector<uint32_t>& owners;         ///< object of each block, 0 for none
+  const std::vector<RelativeBlock>& relative;  ///< for each block
+  const std::vector<uint32_t>& owners;         ///< for each block, the id of its object; 0: none
   const std::vector<PlacedPoint>& points;
   const Background& background;
 };
 
-/// Motion of an object against the background, px of the field's picture.
+/// Motion of an object relative to the background, px of the field's picture.
 struct ObjectMotion {
   MotionModel model;            ///< translation or similarity
   Eigen::Vector2d relative_px;  ///< of the middle of the object
-  double sigma_px = 0;          ///< noise of what it was measured with
-  int tracks = 0;               ///< points or blocks it was measured with
-  bool is_rigid = false;        ///< its points agree with one motion
+  double sigma_px = 0;          ///< noise of the displacements that were used
+  int tracks = 0;               ///< number of points or blocks that were used
+  bool is_rigid = false;        ///< all its points agree with one motion
 };
 
-/// The blocks tell how an object moves, and the points on it to a fraction of a pixel where there
-/// are enough of them. It turns or grows when the GRIC finds that worth its price.
+/// Blocks give the motion of an object; the points on it, where there are enough, give it to a
+/// fraction of a pixel. Rotation and growth are used when the GRIC prefers them.
 class ObjectMeter {
  public:
   ObjectMeter();
 
-  /// `region` is where the object `id` is.
+  /// `region` is the region of the object `id`.
   ObjectMotion measure(uint32_t id, const Region& region, const ObjectEvidence& evidence);
 
  private:

@@ -10,31 +10,33 @@
 namespace spidar {
 namespace {
 
-/// Regions are the same object when their motions differ by less than this share, plus this much.
+/// Regions belong to the same object when their motions differ by less than kSameMotion of the
+/// motion plus kSameMotion_px.
 constexpr double kSameMotion = 0.5;
 constexpr double kSameMotion_px = 1;
-/// An object is what was seen in so many frames, with so many blocks in all of them together: what
-/// is small has to be seen more often.
+/// An object exists once it has been seen in kBornAfter frames with a total of kBornAfterBlocks
+/// blocks, so that a small one must be seen more often.
 constexpr int kBornAfter = 2;
 constexpr int kBornAfterBlocks = 8;
-/// Where an object is expected that was not seen, as a share of the sum of both boxes' sides.
+/// How far from its expected place an object may reappear, as a share of the sum of both boxes'
+/// sides.
 constexpr double kReach = 0.75;
-/// How many blocks an object usually has is what it had of late: the time constant in s by which
-/// fewer are believed, while more are believed at once.
+/// Time constant with which the usual number of blocks of an object falls; it rises at once.
 constexpr double kUsual_s = 0.8;
-/// Less than this share of them is a rim: the rest of the object is hidden.
+/// When less than this share of the usual blocks shows, only a rim is visible: the rest of the
+/// object is hidden.
 constexpr double kMostShows = 0.5;
-/// An object that is lost goes on for this long: its blocks fail for a frame or two now and then.
+/// A lost object continues for this long, because its blocks may fail for a frame or two.
 constexpr double kCoast_s = 0.05;
-/// Share of the new value in the velocity of an object that is not rigid, which thereby is late by
-/// a frame.
+/// Weight of the newest value in the velocity of an object that is not rigid. This delays it by a
+/// frame.
 constexpr double kNewest = 0.5;
-/// A camera slower than this is still, px of the field's picture a frame.
+/// A camera that moves by less than this counts as still, px of the field's picture in a frame.
 constexpr double kCameraStill_px = 0.25;
-/// An object that was none of the scene's layers for so many frames may become more like one.
+/// An object that was clearly no layer of the scene for this many frames may become more like one.
 constexpr int kProvenAfter = 3;
-/// What is larger than this share of the picture is no object but an error of the background; much
-/// less of it where hardly anything speaks for the background.
+/// A region larger than this share of the picture is an error of the background and not an object.
+/// The share is much smaller when little supports the background.
 constexpr double kMostOfPicture = 0.75;
 constexpr double kMostOfUnknown = 0.4;
 constexpr double kKnownCoverage = 0.07;
@@ -66,7 +68,7 @@ bool ObjectTracker::is_same_motion(const Life& life, const Region& region,
   return (region.relative_px - expected_px).norm() < kSameMotion * fastest_px + kSameMotion_px;
 }
 
-/// The object that most of the region's blocks were on; null when that is none.
+/// The object to which most blocks of the region belonged; null when most belonged to none.
 ObjectTracker::Life* ObjectTracker::owner_of(int16_t region) {
   Life* best = nullptr;
   int most = 0;
@@ -83,8 +85,8 @@ ObjectTracker::Life* ObjectTracker::owner_of(int16_t region) {
   return best;
 }
 
-/// The object out of sight that is expected nearest to it with such a motion; null when there is
-/// none.
+/// The object out of sight that is expected nearest to the region with a similar motion; null when
+/// there is none.
 ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const FieldInFrame& frame) {
   Life* best = nullptr;
   double nearest_px = 0;
@@ -100,7 +102,7 @@ ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const Fiel
   return best;
 }
 
-/// The id of a new object; 0 when there are too many.
+/// The id of a new object; 0 when there are too many objects.
 uint32_t ObjectTracker::create(const Region& region) {
   if (lives_.size() >= kMostObjects) return 0;
   lives_.emplace_back();
@@ -111,7 +113,7 @@ uint32_t ObjectTracker::create(const Region& region) {
   return life.object.id;
 }
 
-/// Gives each region to an object. The largest of those of an object is the object.
+/// Assigns each region to an object. Of several regions of an object, the largest one counts.
 void ObjectTracker::claim(const FieldInFrame& frame) {
   const std::vector<Region>& regions = finder_.find(frame.field, *relative_);
   region_ids_.assign(regions.size(), 0);
@@ -132,7 +134,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
     }
     if (!life || !life->is_born()) {
       Life* back = expected_at(region, frame);
-      // Noise does not move alike twice.
+      // Noise does not move twice in the same way.
       if (back || (life && !is_same_motion(*life, region, frame))) life = back;
     }
     if (!life) {
@@ -145,7 +147,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
   }
 }
 
-/// Place and velocity in the frame, from those of the region in the field's picture.
+/// Computes place and velocity in the frame from those of the region in the field's picture.
 void ObjectTracker::place(Life& life, const FieldInFrame& frame) const {
   MovingObject& object = life.object;
   const Region& region = life.region;
@@ -191,8 +193,8 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   life.is_layer = object.prominence == 0;
 }
 
-/// Blocks that an object had and that move with the background now. `textured`: those of them that
-/// show it.
+/// Blocks of the object that now move with the background. `textured`: those of them that have
+/// texture.
 int ObjectTracker::count_resting(const Life& life, int& textured) const {
   int all = 0;
   textured = 0;
@@ -204,8 +206,9 @@ int ObjectTracker::count_resting(const Life& life, int& textured) const {
   return all;
 }
 
-/// Its place shows nothing that moves by itself. Where most of it showed until now it rests there;
-/// where only a rim of it did, it is out of sight and goes on as it went.
+/// Nothing moves by itself at the object's place. If most of the object was visible before, it has
+/// come to rest there. If only a rim was visible, it is out of sight and continues with its last
+/// motion.
 void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   const int resting = count_resting(life, object.tracks);
@@ -234,7 +237,7 @@ void ObjectTracker::go_on_unseen(Life& life, const FieldInFrame& frame) const {
   life.expected_px += life.expected_px_s * frame.interval_s + life.region.background_px;
 }
 
-/// What is to be known of it if it goes out of sight.
+/// Remembers what is needed if the object goes out of sight.
 void ObjectTracker::expect(Life& life, const FieldInFrame& frame) const {
   const double blocks = life.region.blocks;
   const double forgotten = std::min(1.0, frame.interval_s / kUsual_s);

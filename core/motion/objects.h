@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Follows what moves beyond the background from frame to frame.
+/// Follows objects that move relative to the background from frame to frame.
 #pragma once
 
 #include <cstdint>
@@ -20,44 +20,44 @@
 
 namespace spidar {
 
-/// Field of block motion of one frame, and how its pixels lie in the frame.
+/// The field of block motion of one frame, and how its pixels map to the frame.
 struct FieldInFrame {
   const BlockField& field;
-  double scale = 1;  ///< frame px to one of the field's picture
-  /// Of the field's centre from the frame's, px of the frame.
+  double scale = 1;  ///< frame pixels to one pixel of the field's picture
+  /// Centre of the field relative to the centre of the frame, px of the frame.
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
-  double interval_s = 0;  ///< since the frame before, > 0
+  double interval_s = 0;  ///< since the previous frame, > 0
   const std::vector<PlacedPoint>& points;
 };
 
-/// Objects from frame to frame. A region that moves by itself is an object from the second frame on
-/// in which it does so alike. It is the object that most of its blocks were before, or else the one
-/// out of sight that is expected there: an object that goes behind another one, or behind something
-/// that stands in front of it, comes back with its id. It dies when it is out of sight for
-/// kForgotten_s or at rest for kAtRest_s; until then it may stand still.
+/// Follows objects from frame to frame. A region that moves by itself becomes an object in the
+/// second frame in which its motion is similar. A region belongs to the object to which most of its
+/// blocks belonged before, or else to an object out of sight that is expected there, so that an
+/// object that passes behind another one keeps its id. An object is dropped when it has been out of
+/// sight for kForgotten_s or at rest for kAtRest_s; until then it may stand still.
 class SPIDAR_API ObjectTracker {
  public:
   ObjectTracker();
 
-  /// Valid until the next call; in the order of birth. `background` in pixels of the field's
-  /// picture.
+  /// The result is valid until the next call and ordered by id. `background` is in pixels of the
+  /// field's picture.
   const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background);
 
-  /// How likely each block belongs to no background, see MovingBlocks::persistence().
+  /// How likely each block is not part of the background, see MovingBlocks::persistence().
   const std::vector<float>& persistence() const { return moving_.persistence(); }
-  /// Whether a block shows what belongs to the screen, see BurnedIn.
+  /// Whether a block belongs to the screen, see BurnedIn.
   bool is_burned_in(size_t block) const { return moving_.burned_in().holds(block); }
-  /// The object that each block is of in the last frame, its id; 0 for none.
+  /// The id of the object to which each block belongs in the last frame; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 
   /// Whether a block moved by itself in the last frame.
   bool moves(size_t block) const { return (*relative_)[block].moves; }
-  /// Whether a block has told in the last frame how an object moves.
+  /// Whether a block was used to measure the motion of an object in the last frame.
   bool is_measured(size_t block) const {
     return block < owners_.size() && owners_[block] != 0 && (*relative_)[block].has_texture;
   }
 
-  /// A cut, a seek: nothing is known.
+  /// Forgets everything, after a cut or a seek.
   void reset();
 
   static constexpr double kForgotten_s = 0.5;
@@ -67,22 +67,22 @@ class SPIDAR_API ObjectTracker {
  private:
   struct Life {
     MovingObject object;
-    Region region;  ///< of the last frame in which it was seen
-    Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< of the field, smoothed
-    double usual_blocks = 0;                                  ///< that show when nothing hides it
-    /// Where it is, how it goes and how large it is by the last frame in which most of it showed:
-    /// what shows of an object that goes out of sight is a rim that tells none of it.
+    Region region;  ///< in the last frame in which it was seen
+    Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
+    double usual_blocks = 0;  ///< number of blocks when nothing hides it
+    /// Place, motion and size in the last frame in which most of it was visible. When only a rim of
+    /// an object is left, the rim does not tell any of these.
     Eigen::Vector2d expected_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d expected_px_s = Eigen::Vector2d::Zero();
     Eigen::Vector2d expected_sides_px = Eigen::Vector2d::Zero();
     int frames_seen = 0;
-    int blocks_seen = 0;  ///< in all those frames
+    int blocks_seen = 0;  ///< in all frames together
     int proven = 0;
     double unseen_s = 0;
     double resting_s = 0;
     bool claimed = false;   ///< by a region of this frame
-    bool is_rigid = false;  ///< its points agree
-    bool is_layer = false;  ///< rather a part of the scene than an object in it
+    bool is_rigid = false;  ///< its points agree with one motion
+    bool is_layer = false;  ///< looks more like a part of the scene than like an object
 
     bool is_born() const;
   };
@@ -108,9 +108,9 @@ class SPIDAR_API ObjectTracker {
   const Background* background_ = nullptr;
   std::vector<uint8_t> expected_;
   std::vector<uint32_t> owners_;
-  std::vector<uint32_t> owners_before_;  ///< carried to the places of this frame
+  std::vector<uint32_t> owners_before_;  ///< moved to their places in this frame
   std::vector<uint32_t> region_ids_;     ///< object of each region
-  std::vector<size_t> order_;            ///< regions, the largest first
+  std::vector<size_t> order_;            ///< regions, largest first
   std::vector<Life> lives_;
   std::vector<MovingObject> objects_;
   uint32_t next_id_ = 1;

@@ -11,12 +11,12 @@
 namespace spidar {
 namespace {
 
-/// Neighbours move alike when their motions differ by less than this share of the faster one's and
-/// this much, px of the field's picture.
+/// Neighbours move alike when their motions differ by less than kAlikeShare of the faster one plus
+/// kAlike_px, px of the field's picture.
 constexpr float kAlikeShare = 0.5f;
 constexpr float kAlike_px = 0.3f;
 
-/// Blocks without texture move as their neighbours do.
+/// Blocks without texture are taken to move as their neighbours do.
 bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
   if (!a.has_texture || !b.has_texture) return true;
   const float fastest_px2 =
@@ -27,8 +27,8 @@ bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
   return x * x + y * y < most_px * most_px;
 }
 
-/// Whether a block is at the border of the picture, or of what was in the picture before: beyond it
-/// nobody knows how far a layer of the scene reaches.
+/// Whether a block is at the border of the picture, or of the part of it that was in the previous
+/// picture: how far a layer of the scene extends beyond is unknown.
 bool is_at_border(const BlockGrid& grid, const std::vector<RelativeBlock>& relative, int column,
                   int row) {
   if (column == 0 || row == 0 || column + 1 == grid.columns || row + 1 == grid.rows) return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Blocks that hang together and move by themselves.
+/// Finds connected blocks that move by themselves.
 #pragma once
 
 #include <cstdint>
@@ -13,31 +13,33 @@
 
 namespace spidar {
 
-/// A connected part of the picture that moves by itself. Lengths in pixels of the field's picture,
-/// places from its centre.
+/// A connected part of the picture that moves by itself. Lengths are in pixels of the field's
+/// picture, places relative to its centre.
 struct Region {
   int blocks = 0;
-  /// Of them at the border of the picture, or of that part of it that was in the picture before.
+  /// Number of them at the border of the picture, or of the part of it that was in the previous
+  /// picture.
   int border_blocks = 0;
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero();       ///< upper left corner of its box
   Eigen::Vector2d high_px = Eigen::Vector2d::Zero();      ///< lower right
-  Eigen::Vector2d relative_px = Eigen::Vector2d::Zero();  ///< median motion against the background
+  /// Median motion relative to the background.
+  Eigen::Vector2d relative_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d background_px = Eigen::Vector2d::Zero();  ///< mean motion of the background there
-  /// Smaller over larger eigenvalue of the structure tensor of all of it: 0 for a single edge,
-  /// whose motion along itself nobody can see.
+  /// Smaller over larger eigenvalue of the structure tensor of the whole region: 0 for a single
+  /// edge, whose motion along itself is invisible.
   double roundness = 0;
 };
 
-/// Blocks of no region.
+/// Label of blocks that belong to no region.
 constexpr int16_t kNoRegion = -1;
 
-/// Finds the regions of a field, the eight neighbours of a block being connected with it.
+/// Finds the regions of a field. Each block is connected with its eight neighbours.
 class RegionFinder {
  public:
   RegionFinder() { regions_.reserve(kMostRegions); }
 
-  /// Of the blocks that move. Regions of less than kLeastBlocks are left out.
+  /// Finds regions among the blocks that move and drops those of less than kLeastBlocks.
   const std::vector<Region>& find(const BlockField& field,
                                   const std::vector<RelativeBlock>& relative);
 
@@ -45,7 +47,7 @@ class RegionFinder {
   const std::vector<int16_t>& labels() const { return labels_; }
 
   static constexpr int kLeastBlocks = 2;
-  static constexpr size_t kMostRegions = 128;  ///< that memory is taken for at once
+  static constexpr size_t kMostRegions = 128;  ///< for which memory is reserved
 
  private:
   int root_of(int block);

@@ -8,18 +8,18 @@
 namespace spidar {
 namespace {
 
-/// Of two points: with half of the votes for the background one in four is free of outliers, and
-/// none of so many is with a chance of 1e-5.
+/// Number of pairs of points: when half of the votes belong to the background, one pair in four has
+/// no outlier, and with a probability of 1e-5 none of these pairs is.
 constexpr int kPairs = 40;
-/// Points of a pair that are nearer than this share of the points' spread do not tell how the
-/// picture turns and grows.
+/// A pair of points closer together than this share of the spread of all points does not determine
+/// rotation and growth.
 constexpr double kLeastDistanceShare = 0.5;
-/// The first steps reach further, for the start is as good as two of its points.
+/// The first steps tolerate larger deviations, because the start is only as accurate as two points.
 constexpr int kFarSteps = 2;
 constexpr int kSteps = 5;
 constexpr double kFarther = 8;
 
-/// The similarity that moves both points as they did.
+/// The similarity that moves both points as they moved.
 MotionModel through(const Displacement& a, const Displacement& b) {
   const Eigen::Vector2d q = b.at_px - a.at_px;
   const Eigen::Vector2d d = b.moved_px - a.moved_px;
@@ -66,7 +66,7 @@ MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
   const size_t n = evidence.points.size();
   if (n < 2) return best;
   const double least_px2 = kLeastDistanceShare * kLeastDistanceShare * spread_px2(evidence.points);
-  // std::minstd_rand is the same on every machine; the distributions of <random> are not.
+  // std::minstd_rand gives the same numbers on every machine; the distributions of <random> do not.
   std::minstd_rand random;
   for (int k = 0; k < kPairs; ++k) {
     const Displacement& a = evidence.points[random() % n];
@@ -89,7 +89,8 @@ std::optional<MotionModel> RobustFitter::refine(ModelKind kind, const MotionMode
       const double w = 1 / (1 + e2 / (reach_px * reach_px));
       weights_[i] = evidence.weights[i] * w * w;
     }
-    // The homography is costly, and what is far is as far from its affine part.
+    // The homography is expensive, and points that are far from it are equally far from its affine
+    // part.
     const bool far = step < kFarSteps;
     model = fit_model(far ? std::min(kind, ModelKind::kAffine) : kind, evidence.points, weights_);
   }

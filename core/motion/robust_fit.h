@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Models of displacements some of which belong to something else.
+/// Fits motion models to displacements some of which are outliers.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,16 @@
 
 namespace spidar {
 
-/// Displacements to explain.
+/// The displacements to be explained.
 struct WeightedDisplacements {
   std::vector<Displacement> points;
-  std::vector<double> weights;  ///< ≥ 0, one a point
+  std::vector<double> weights;  ///< ≥ 0, one for each point
   double sigma_px = 1;          ///< noise of a displacement, each coordinate, > 0
 };
 
 /// ρ of Torr's GRIC: min(e²/σ², λ₃ (r − d)), with λ₃ = 2, r = 4 coordinates of a track, and d = 2,
-/// the dimension of the set of tracks that a model allows. A point further off than 2 σ is an
-/// outlier, however far.
+/// the dimension of the set of tracks that a model allows. Every point that deviates by more than 2
+/// σ is an outlier and costs the same.
 constexpr double kMostCost = 4;
 
 inline double point_cost(const MotionModel& model, const Displacement& point, double sigma_px) {
@@ -29,23 +29,23 @@ inline double point_cost(const MotionModel& model, const Displacement& point, do
   return std::min(e2 / (sigma_px * sigma_px), kMostCost);
 }
 
-/// Σ w ρ. Gives up above `limit` and returns something larger.
+/// Σ w ρ. Stops when the sum exceeds `limit`, and then returns a value above it.
 SPIDAR_API double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence,
                               double limit = 1e300);
 
-/// Finds models of small robust_cost() in a bounded number of steps. The same evidence gives the
-/// same model, bit for bit. Takes no memory beyond that for kMostDisplacements.
+/// Finds models with a small robust_cost() in a bounded number of steps. The same evidence gives
+/// the same model, bit for bit. Allocates nothing for up to kMostDisplacements points.
 class SPIDAR_API RobustFitter {
  public:
   RobustFitter();
 
-  /// The best of similarities through pairs of points (MSAC: Torr and Zisserman: MLESAC, 2000) and
-  /// of the `known` models.
+  /// The best of the similarities through pairs of points (MSAC: Torr and Zisserman: MLESAC, 2000)
+  /// and the `known` models.
   MotionModel start(const WeightedDisplacements& evidence, const std::vector<MotionModel>& known);
 
-  /// The model of that kind that iteratively reweighted least squares leads to from `start`, with
-  /// the weights of Geman and McClure, 1 / (1 + e² / 4σ²)². Nothing when the points do not
-  /// determine it.
+  /// The model of the given kind to which iteratively reweighted least squares converges from
+  /// `start`, with the weights of Geman and McClure, 1 / (1 + e² / 4σ²)². Nothing when the points
+  /// do not determine it.
   std::optional<MotionModel> refine(ModelKind kind, const MotionModel& start,
                                     const WeightedDisplacements& evidence);
 

@@ -10,16 +10,17 @@ namespace {
 
 /// See Region::roundness.
 constexpr double kLeastRoundness = 0.02;
-/// Blocks at the border over the square root of all: 1 for a square that leans against one side.
+/// Blocks at the border divided by the square root of all blocks: 1 for a square that touches one
+/// side.
 constexpr double kBorder = 1.2;
-/// How much the score falls with it in any case.
+/// How much touching the border lowers the score in every case.
 constexpr double kBorderCost = 0.5;
-/// Speed as a share of the camera's that an object has at least, and twice that when it goes the
-/// same way as the background, as what is nearer does.
+/// Least speed of an object as a share of the camera's. Twice that is needed in the direction of
+/// the background's motion, because parts of the scene that are nearer move like this.
 constexpr double kLeastShareOfCamera = 0.2;
-/// What was followed before may be so much more like a layer.
+/// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;
-/// What is less of an object than this is none.
+/// A region with a smaller likelihood is not an object.
 constexpr double kLeastLikelihood = 0.3;
 
 }  // namespace
@@ -31,7 +32,7 @@ double salience(const Region& region, const CameraMotion& camera, bool was_follo
   const double touching = region.border_blocks / std::sqrt(static_cast<double>(region.blocks));
   const double score = region.blocks * kBlockArea_px * speed_px / (1 + kBorderCost * touching);
   if (camera.speed_px < camera.still_px) return score;
-  // Of what is at the border as a whole nobody sees where it ends.
+  // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which motion of the picture is felt.
+/// Chooses which motion of the picture is felt.
 #pragma once
 
 #include <optional>
@@ -17,44 +17,44 @@
 namespace spidar {
 
 enum class MotionKind {
-  kMean,     ///< mean velocity of all points: the paper's eq. 9–10
-  kObject,   ///< the dominant object against the background
-  kObjects,  ///< all objects against the background, weighted by area and nearness to the pointer
-  kCamera,   ///< what the camera does
+  kMean,    ///< mean velocity of all points: the paper's eq. 9–10
+  kObject,  ///< motion of the dominant object relative to the background
+  /// All objects relative to the background, weighted by area and nearness to the pointer.
+  kObjects,
+  kCamera,  ///< motion of the camera
 };
 
-/// How far from the pointer an object is still felt: σ of the Gaussian kernel, a share of the
-/// frame's height.
+/// How far from the pointer an object is felt: σ of the Gaussian weight, as a share of the frame's
+/// height.
 constexpr double kPointerReach = 0.25;
 
-/// Mean motion of the objects, each weighted by area_px2 · exp(−d² / 2σ²), d the distance of
-/// `pointer_px` (from the frame's centre) from the nearest edge of the object's box, 0 within it.
-/// An object at the pointer counts by its size alone; what is a quarter of the frame's height away
-/// counts 0.61, half of it 0.14, all of it 0.0003 of that. A single object is felt as it is,
-/// wherever it is: the pointer chooses, it does not weaken. Objects at rest count, those out of
-/// sight do not.
+/// Mean motion of the objects, each weighted by area_px2 · exp(−d² / 2σ²), where d is the distance
+/// of `pointer_px` (from the frame's centre) from the nearest edge of the object's box, 0 inside
+/// it. An object at the pointer counts with its full area; at a distance of a quarter of the
+/// frame's height the factor is 0.61, at half of it 0.14, at the full height 0.0003. A single
+/// object is felt at full strength wherever it is, because the weights are normalised. Objects at
+/// rest count, objects out of sight do not.
 SPIDAR_API ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
                                          const Eigen::Vector2d& pointer_px, int frame_height);
 
-/// What two successive frames say.
+/// Result for two successive frames.
 struct SceneMotion {
   ImageMotion felt;
-  /// Nothing to compare with: the first frame, another size, or a cut. Nothing is felt.
+  /// There is nothing to compare with: the first frame, another size, or a cut. Nothing is felt.
   bool restarted = false;
-  /// Of the background; nothing with kMean, which looks at no model.
+  /// Motion of the background; nothing with kMean, which fits no model.
   std::optional<ModelKind> model;
-  /// Of the camera: where the background goes to the left it goes to the right, where the
-  /// background grows it goes in. Zero with kMean.
+  /// Motion of the camera: it moves to the right when the background moves to the left, and
+  /// forwards when the background grows. Zero with kMean.
   ImageMotion camera;
-  int objects = 0;  ///< that are known, seen or not; 0 with kMean and kCamera
-  /// What was found, in detail: valid until the next estimate(). Null with
-  /// kMean; no objects with kCamera either.
+  int objects = 0;  ///< known objects, visible or not; 0 with kMean and kCamera
+  /// Details, valid until the next estimate(). Null with kMean; without objects with kCamera.
   const Background* background = nullptr;
-  const std::vector<MovingObject>* object_list = nullptr;  ///< in the order of birth
-  /// Points that were followed, and blocks without one that show how they moved.
+  const std::vector<MovingObject>* object_list = nullptr;  ///< ordered by id
+  /// Points that were followed, and the motion of blocks that have no point.
   const std::vector<Track>* tracks = nullptr;
-  int features = 0;  ///< that will be looked for in the next frame
-  /// The object that `object` follows, one of the list; null while there is none.
+  int features = 0;  ///< points that will be looked for in the next frame
+  /// The object of the list that kObject follows; null when there is none.
   const MovingObject* dominant = nullptr;
 };
 
