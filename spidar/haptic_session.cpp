@@ -10,8 +10,8 @@
 
 namespace spidar {
 
-// Members end in reverse order: the thread has brought the motors to zero when the trace takes its
-// last row.
+// Members are destroyed in reverse order: the thread has brought the motors to zero before the
+// trace takes its last row.
 struct HapticSession::Impl {
   Impl(const Profile& profile, std::unique_ptr<Device> owned, const SessionSettings& settings)
       : device(std::move(owned)), loop(profile, *device, settings.limits) {

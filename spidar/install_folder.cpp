@@ -13,20 +13,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file that this code was loaded from; empty when the system does not say.
+/// The file from which this code was loaded; empty when the system does not tell.
 fs::path own_file() {
   Dl_info info{};
   void* extra = nullptr;
-  // Any address of this code would do.
+  // Any address within this code will do.
   void* here = reinterpret_cast<void*>(&prefix_of);
   if (!dladdr1(here, &info, &extra, RTLD_DL_LINKMAP) || !extra) return {};
   std::error_code error;
-  // The program itself has no name in the list of what is loaded.
+  // The main program has no name in the list of loaded files.
   const char* name = static_cast<link_map*>(extra)->l_name;
   return fs::canonical(name && *name ? fs::path(name) : "/proc/self/exe", error);
 }
 
-/// `folder` without `end` at its end; empty when it does not end so.
+/// `folder` without the suffix `end`; empty when it does not end with it.
 fs::path without_end(const fs::path& folder, const fs::path& end) {
   fs::path rest = folder;
   for (fs::path part = end; !part.empty(); part = part.parent_path()) {
@@ -41,7 +41,7 @@ fs::path without_end(const fs::path& folder, const fs::path& end) {
 fs::path prefix_of(const fs::path& file) {
   const fs::path libraries = SPIDAR_LIBDIR;
   for (const fs::path& end : {libraries / "gstreamer-1.0", libraries, fs::path(SPIDAR_BINDIR)}) {
-    // A folder outside the prefix says nothing of it.
+    // A folder outside the prefix says nothing about the prefix.
     if (end.is_absolute()) continue;
     const fs::path prefix = without_end(file.parent_path(), end);
     if (!prefix.empty()) return prefix;

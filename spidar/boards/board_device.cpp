@@ -13,10 +13,10 @@
 namespace spidar {
 namespace {
 
-/// A fault of the wire may be of one packet; several in a row are not.
+/// A single fault on the wire may concern only one packet; several in a row do not.
 constexpr int kErrorsToRecover = 3;
 
-/// A stall goes on until it is ended, and a reply that is late would be taken for the next one.
+/// A stall lasts until it is cleared, and a late reply would be mistaken for the next one.
 bool needs_recovery(LinkFault fault) noexcept {
   return fault == LinkFault::kStall || fault == LinkFault::kTimeout;
 }
@@ -120,13 +120,13 @@ void BoardDevice::run() noexcept {
     Request request;
     if (stop_ || !requests_.pop(request)) continue;
     const Reply reply = answer(request);
-    // Room for as many as there can be requests, and one more.
+    // The queue has room for one reply more than there can be requests.
     replies_.push(reply);
     sem_post(&replied_);
   }
 }
 
-/// False when a connection has lost its guardian.
+/// Returns false when a connection has lost its guardian.
 bool BoardDevice::guarded(bool pulling) noexcept {
   bool all = true;
   for (const auto& guardian : guardians_) all &= guardian->watch(pulling);
@@ -143,8 +143,8 @@ BoardDevice::Reply BoardDevice::answer(const Request& request) noexcept {
   pulling_ |= pulls;
   if (guarded(pulling_)) exchange_now(request, reply);
   if (reply.fault == LinkFault::kNone) pulling_ = pulls;
-  // Asked again: what went out may be older than the zeros that a guardian sent when this process
-  // was stopped.
+  // Checked again, because these volts may have gone out after a guardian sent zeros while this
+  // process was stopped.
   if (guarded(pulling_)) return reply;
   unguarded_ = true;
   put_out_zero();
@@ -200,7 +200,7 @@ std::optional<BoardDevice::Reply> BoardDevice::ask(const Request& request) noexc
 }
 
 bool BoardDevice::bring_to_zero() noexcept {
-  // Volts that a guardian has taken away are not given again.
+  // Volts that a guardian has set to zero must not be restored.
   const MotorVolts from = unguarded_ ? MotorVolts{} : last_;
   double largest_V = 0;
   for (const double volt : from.volt) largest_V = std::fmax(largest_V, std::fabs(volt));
@@ -209,7 +209,7 @@ bool BoardDevice::bring_to_zero() noexcept {
     MotorVolts volts;
     for (size_t i = 0; i < volts.volt.size(); ++i) volts.volt[i] = from.volt[i] * left / kRamp_ms;
     const int64_t now_ns = monotonic_now_ns();
-    // Of several lines one may be dead: the others are taken down all the same.
+    // If one of several lines is dead, the others must still be ramped down.
     board_->cycle(volts, reading, now_ns + kTransfer_ns);
     if (settings_.threaded) sleep_until_ns(now_ns + kSecond_ns / 1000);
   }
@@ -220,7 +220,7 @@ bool BoardDevice::put_out_zero() noexcept {
   DeviceReading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
-    // A counter that jumped or an answer that is strange comes from a board that was told.
+    // After a counter jump or a strange answer the board has received the volts.
     if (fault == LinkFault::kNone || fault == LinkFault::kCounterJump ||
         fault == LinkFault::kWrongReply)
       return true;
@@ -236,7 +236,7 @@ void BoardDevice::close() noexcept {
   stop();
   const bool zero = bring_to_zero();
   board_->close();
-  // They try on for a while, which a board that is gone ends at once.
+  // The guardians keep trying for a while, and stop at once when the board is gone.
   if (!zero)
     for (const auto& guardian : guardians_) guardian->carry_out();
   guardians_.clear();

@@ -14,11 +14,11 @@
 namespace spidar {
 namespace {
 
-/// The CyVerse boards put out positive volts only, which the default profile is not made for.
+/// The CyVerse boards output positive volts only, which the default profile is not made for.
 constexpr const char* kPositiveProfile = "spidar-g6x3-v2-r";
 constexpr const char* kUartProfile = "spidar-g6x4";
 
-/// What is known of a device by the part of its name before the colon.
+/// Properties of a kind of device, selected by the part of its name before the colon.
 struct DeviceKind {
   const char* kind;
   const char* name;
@@ -34,7 +34,7 @@ constexpr DeviceKind kKinds[] = {
     {"ff", "force-feedback device", kDefaultProfile, false, Trial::kEmulated},
 };
 
-/// The names of simulated devices have no variable part.
+/// Simulated devices, whose names have no variable part.
 constexpr DeviceKind kSimulated[] = {
     {"sim", "simulated SPIDAR", kDefaultProfile, true, Trial::kEmulated},
     {"sim:sh4", "simulated SPIDAR behind the SH4 board's packets", kPositiveProfile, true,
@@ -51,7 +51,7 @@ bool begins(const std::string& text, const std::string& with) {
   return text.compare(0, with.size(), with) == 0;
 }
 
-/// Null when no device is called so.
+/// Null when no device has this name.
 const DeviceKind* kind_of(const std::string& device) {
   for (const DeviceKind& simulated : kSimulated)
     if (device == simulated.kind) return &simulated;
@@ -61,7 +61,7 @@ const DeviceKind* kind_of(const std::string& device) {
   return nullptr;
 }
 
-/// What the name alone says.
+/// Everything that the name alone determines.
 BoardInfo of_name(const std::string& device) {
   BoardInfo board;
   board.device = device;
@@ -160,7 +160,7 @@ BoardInfo board_info(const std::string& device) {
   if (id.empty() && of_kind == 1) return *only;
   if (kind == "uart" && !id.empty()) return uart_board(device, id.substr(0, id.find(',')));
   BoardInfo absent = of_name(device);
-  if (kind == "uart") absent.name.clear();  // make_device() needs a line
+  if (kind == "uart") absent.name.clear();  // make_device() requires the path of a line
   if (kind == "ff") absent.path = id;
   return absent;
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int64_t kUpdate_ns = ForceFeedbackBoard::kUpdate_ms * kSecond_ns / 1000;
 constexpr std::array<ff::Direction, 2> kDirections{ff::Direction::kRight, ff::Direction::kUp};
-/// Of the way from the middle to where the strings leave the frame.
+/// Full deflection of the stick, as a share of the distance from the centre to the strings' exits.
 constexpr double kReach = 0.5;
 
 template <typename Structure>
@@ -76,7 +76,7 @@ void ForceFeedbackBoard::begin_effects() {
   const bool both = description_.constant && description_.axes > 1 && description_.effects > 1;
   effect_count_ = both ? 2 : 1;
   effects_ = {};
-  // What earlier programs left would scale the force, or add to it.
+  // Settings left by earlier programs would scale the force or add to it.
   if (description_.gain) send(ff::encode_gain(ff::kFullGain));
   if (description_.autocentre) send(ff::encode_autocentre(0));
   for (size_t i = 0; i < effect_count_; ++i) {
@@ -108,7 +108,7 @@ int ForceFeedbackBoard::wanted_level(size_t effect) const noexcept {
   if (!std::isfinite(right) || !std::isfinite(up)) return 0;
   if (!description_.constant)
     return static_cast<int>(std::lround(ff::kFullStrength * std::min(1.0, std::hypot(right, up))));
-  // What is too strong keeps its direction.
+  // A force that is too strong keeps its direction.
   const double largest =
       effect_count_ > 1 ? std::max(std::abs(right), std::abs(up)) : std::abs(right);
   const double share = (effect == 0 ? right : up) / std::max(1.0, largest);
@@ -137,7 +137,7 @@ LinkFault ForceFeedbackBoard::update() noexcept {
 void ForceFeedbackBoard::run() noexcept {
   while (!stop_) {
     fault_ = update();
-    // From its end: a driver that takes long is not asked more often for that.
+    // Counted from the end of the update, so that a slow driver is not called more often.
     sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
   }
 }
@@ -153,15 +153,15 @@ Pose ForceFeedbackBoard::stick_pose() const noexcept {
 Eigen::Vector2d ForceFeedbackBoard::force_at(const Pose& pose,
                                              const MotorVolts& volts) const noexcept {
   StringVector tension_N = StringVector::Zero();
-  double above = 0;  // the strings' least tension, as a share of it
+  double above = 0;  // how far tensions are above their minimum, as a share of it
   for (int i = 0; i < profile_.geometry.count; ++i) {
     const auto k = static_cast<size_t>(i);
     const StringDrive& drive = profile_.drives[k];
     tension_N[i] = volts.volt[k] * drive.motor_sign * drive.newtons_per_volt;
     if (rest_N_[i] > 0) above = std::max(above, tension_N[i] / rest_N_[i] - 1);
   }
-  // The strings' own pull at rest, which fades out as soon as they pull for a force. Below their
-  // least tension they are on their way to zero.
+  // The tension of the strings at rest is subtracted, and fades out when tensions rise above their
+  // minimum to produce a force. Below the minimum the strings are being ramped to zero.
   StringVector rest_N = std::max(0.0, 1 - above) * rest_N_;
   rest_N = rest_N.cwiseMin(tension_N.cwiseMax(0));
   return structure_matrix(profile_.geometry, pose).topRows<2>() * (tension_N - rest_N);
@@ -169,7 +169,7 @@ Eigen::Vector2d ForceFeedbackBoard::force_at(const Pose& pose,
 
 LinkFault ForceFeedbackBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
                                     int64_t) noexcept {
-  // The pose of the reading before, for which the volts were made.
+  // The volts were computed for the pose of the previous reading.
   const Eigen::Vector2d force_N = force_at(stick_pose(), volts);
   force_N_[0] = force_N.x();
   force_N_[1] = force_N.y();

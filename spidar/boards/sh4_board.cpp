@@ -10,7 +10,7 @@ namespace spidar {
 Sh4Board::Sh4Board(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
     : CyverseBoard(std::move(name), profile, std::move(transport), 16) {}
 
-/// The published host resets the pipe only, which the transport has done.
+/// The published host only resets the pipe, which the transport has done already.
 LinkFault Sh4Board::reset(int64_t) noexcept {
   sent_ = {};
   return LinkFault::kNone;
@@ -27,7 +27,7 @@ LinkFault Sh4Board::exchange(const DacDigits& digits, Readout& readout,
   if (!sh4::decode_reading({in_.data(), transfer.received}, reading)) return LinkFault::kShort;
   if (std::find(sent_.begin(), sent_.end(), reading.dac_echo) == sent_.end())
     return LinkFault::kWrongEcho;
-  // Negated, for this board counts the other way round than the Simple one (published).
+  // Negated, because this board counts in the opposite direction to the Simple board (published).
   for (size_t i = 0; i < sh4::kChannels; ++i) readout.counter[i] = 0u - reading.counter[i];
   readout.inputs = reading.inputs;
   readout.rotary = reading.rotary();

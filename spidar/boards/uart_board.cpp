@@ -59,7 +59,7 @@ void UartBoard::find_all(int64_t patience_ns) {
 void UartBoard::open() {
   try {
     for (const auto& line : lines_) line->open();
-    // A busy computer may miss an answer.
+    // On a busy computer an answer may be missed.
     for (const int64_t patience_ns : {kEnquiry_ns, 5 * kEnquiry_ns}) {
       find_all(patience_ns);
       if (motors_ >= strings_) break;
@@ -99,8 +99,8 @@ LinkFault UartBoard::exchange(const Station& station, const MotorVolts& volts,
   return right ? LinkFault::kNone : LinkFault::kWrongReply;
 }
 
-/// Every board gets its command, whatever became of the ones before. The first fault, but kGone
-/// before all others.
+/// Every board gets its command, whether or not earlier ones failed. Returns the first fault, or
+/// kGone if any board is gone.
 LinkFault UartBoard::exchange_all(const MotorVolts& volts, std::array<uint32_t, kMaxStrings>& raw,
                                   int64_t deadline_ns) noexcept {
   LinkFault worst = LinkFault::kNone;
@@ -149,7 +149,7 @@ std::vector<LastWill> UartBoard::last_wills() const {
     for (const Station& station : stations_) {
       if (station.line != line.get()) continue;
       auto& packet = will->packet[will->packets];
-      // A host that ends within a packet leaves a board that waits for the rest of it.
+      // If the host stopped within a packet, the board is still waiting for the rest of it.
       const size_t before = will->packets == 0 ? uart_motor::kZerosBefore : 0;
       const size_t length = uart_motor::encode_current(
           station.id, station.info, {}, {packet.data() + before, packet.size() - before});

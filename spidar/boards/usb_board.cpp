@@ -8,7 +8,7 @@
 namespace spidar {
 namespace {
 
-/// The rotary switch's position that `id` names; −1 when it names none.
+/// Position of the rotary switch in `id`; −1 when it contains none.
 int rotary_of(const std::string& id) {
   const bool digits =
       !id.empty() && id.size() <= 2 &&
@@ -29,7 +29,7 @@ UsbBoard::UsbBoard(UsbFamily family, std::string name, std::string id, const Pro
   }
 }
 
-/// Those that the id names by path or serial; else all of them.
+/// The devices with the path or serial number in the id; without one, all of them.
 std::vector<UsbBoard::Candidate> UsbBoard::candidates() {
   std::vector<Candidate> all, named;
   for (Kind& kind : kinds_) {
@@ -64,8 +64,8 @@ void UsbBoard::open() {
   open_matching(found);
 }
 
-/// The one that says what is asked for, when each is asked. Without an id, any that says it is the
-/// right kind of device.
+/// Asks each candidate and keeps the one that reports the wanted rotary switch. Without an id,
+/// keeps any that reports the right kind of device.
 void UsbBoard::open_matching(const std::vector<Candidate>& found) {
   const int wanted = rotary_of(id_);
   const bool ask = family_ == UsbFamily::kMouse || wanted >= 0;

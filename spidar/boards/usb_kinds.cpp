@@ -27,7 +27,7 @@ std::string UsbBoardKind::id() const {
 }
 
 const std::vector<UsbBoardKind>& usb_kinds() {
-  // Never destroyed: a player that just exits may be opening its board again in another thread.
+  // Never destroyed: when a player exits, another thread may still be reopening its board.
   static const auto& kinds = *new std::vector<UsbBoardKind>{
       {UsbFamily::kCyverse,
        sh4::kVendor,

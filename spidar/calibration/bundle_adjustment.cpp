@@ -11,7 +11,7 @@
 namespace spidar {
 namespace {
 
-/// [position, quaternion x y z w], moved by a shift and a turn in D.
+/// A pose as [position, quaternion x y z w], perturbed by a shift and a rotation in D.
 using PoseManifold =
     ceres::ProductManifold<ceres::EuclideanManifold<3>, ceres::EigenQuaternionManifold>;
 constexpr int kPoseSize = 7;
@@ -28,7 +28,7 @@ Pose to_pose(const double* block) {
           Eigen::Map<const Eigen::Quaterniond>(block + 3)};
 }
 
-/// One sample: as many residuals as strings, in units of `unit_m`.
+/// One sample: one residual for each string, in units of `unit_m`.
 class SampleErrors final : public ceres::CostFunction {
  public:
   SampleErrors(const CalibrationModel& model, const StringVector& paid_out_m, double unit_m)
@@ -48,8 +48,8 @@ class SampleErrors final : public ceres::CostFunction {
         unit_m_;
     if (!jacobians) return true;
     if (jacobians[0]) {
-      // The manifold's turn is half a rotation vector. Ceres multiplies by dPlus, of which dMinus
-      // is the left inverse.
+      // A rotation of the manifold is half a rotation vector. Ceres multiplies by dPlus, whose left
+      // inverse is dMinus.
       Eigen::Matrix<double, 6, kPoseSize, Eigen::RowMajor> minus;
       if (!PoseManifold().MinusJacobian(blocks[0], minus.data())) return false;
       derivatives.by_twist.rightCols<3>() *= 2;

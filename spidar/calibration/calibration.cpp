@@ -24,16 +24,16 @@ constexpr int kMinStrings = 7;
 constexpr int kMaxIterations = 50;
 constexpr int kMaxRescalings = 5;
 constexpr double kSameSigma = 0.02;
-// exp(-12.5): of good samples four in a million are further out.
+// exp(-12.5): four in a million of the good samples are outside.
 constexpr double kOutlier = 5.0;
-// Where the strings slipped for good, the offsets of before no longer hold: the last tenth of the
-// samples must mostly fit.
+// If the strings slipped and stayed there, the earlier offsets are no longer valid: most of the
+// last tenth of the samples must fit.
 constexpr Eigen::Index kLastParts = 10;
-// Coefficients that are shown of a combination.
+// Coefficients of a combination that are printed.
 constexpr double kShownShare = 0.3;
 constexpr size_t kShownParts = 6;
 
-/// What was fitted, and how well.
+/// The fitted parameters and their errors.
 struct Fit {
   const CalibrationModel& model;
   const std::vector<StringVector>& lengths_m;
@@ -55,7 +55,7 @@ struct Fit {
     weights = (kHuber * sigma_m / norms_m.array().max(kHuber * sigma_m)).matrix();
   }
 
-  /// Of all samples, those in the tails by their weights.
+  /// Noise of all samples; those in the tails count with their weights.
   double noise_m(double floor_m) const {
     const double left = redundant() * weights.sum() - model.size();
     if (left <= 0) return floor_m;
@@ -63,7 +63,7 @@ struct Fit {
   }
 };
 
-/// Huber's corner follows the noise that is found.
+/// Adapts the corner of Huber's function to the noise that is found.
 void refine(double floor_m, Fit& fit) {
   fit.look_at_errors(floor_m);
   for (int i = 0; i < kMaxRescalings; ++i) {
@@ -81,7 +81,7 @@ void remove_bias(double noise_m, double floor_m, Fit& fit) {
   fit.look_at_errors(floor_m);
 }
 
-/// The largest coefficients of a combination of named quantities.
+/// The largest coefficients of a combination of named quantities, as text.
 std::string combination_text(const CalibrationModel& model, const Eigen::VectorXd& coefficients) {
   const Eigen::VectorXd hundredths = (100 * coefficients).array().round().matrix();
   std::vector<int> order(static_cast<size_t>(coefficients.size()));
@@ -99,8 +99,8 @@ std::string combination_text(const CalibrationModel& model, const Eigen::VectorX
   return text;
 }
 
-/// Standard deviations of what was estimated; returns whether they would be small enough if errors
-/// of successive samples did not depend on each other.
+/// Computes the standard deviations of the estimates. Returns whether they would be small enough if
+/// the errors of successive samples were independent.
 bool find_observable(const Fit& fit, CalibrationResult& result) {
   const CalibrationModel& model = fit.model;
   Observability observability(model.size());
@@ -156,7 +156,8 @@ void describe_errors(const Fit& fit, CalibrationResult& result) {
       fit.errors_m.colwise().norm().transpose() / std::sqrt(samples);
 }
 
-/// Half of the samples are worse than a tick of the loop may be, or the last ones do not fit.
+/// Whether half of the samples have larger errors than are tolerable in a tick, or the last ones do
+/// not fit.
 bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
   const double typical_m = median(fit.norms_m) / std::sqrt(fit.model.strings());
   const Eigen::Index last = (outliers.size() + kLastParts - 1) / kLastParts;
@@ -168,7 +169,8 @@ bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
 CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
                             const CalibrationSettings& settings) {
   check_samples(profile, counts, kMinStrings);
-  // Offsets alone first: a wrong start is much further away than exits and scale are wrong.
+  // Only the offsets at first: a wrong start is much further off than the errors of exits and
+  // scale.
   const CalibrationModel offsets_only(profile, {});
   const std::vector<StringVector> lengths_m = distinct_lengths_m(offsets_only, counts);
   const double rounding_m = rounding_sd_m(
@@ -185,7 +187,7 @@ CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
   if (motion_suffices) remove_bias(result.length_noise_m, rounding_m, fit);
   result.home_offset_uncertainty_m = offset_uncertainty_m(model, lengths_m, fit.bundle, fit.weights,
                                                           result.length_noise_m, rounding_m);
-  // Where the motion does not tell, no number is known.
+  // Quantities that the motion does not determine get no value.
   result.home_offset_uncertainty_m =
       result.home_offset_uncertainty_m.cwiseMax(result.home_offset_sd_m);
   describe_parameters(fit, result);

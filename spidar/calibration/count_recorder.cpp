@@ -28,7 +28,7 @@ void check(const RecordingSettings& settings) {
                                 " s and at most the whole time");
 }
 
-/// A device whose strings are at rest tension, times a share.
+/// Keeps the strings of a device at rest tension, multiplied by a share.
 class Strings {
  public:
   Strings(Device& device, const Profile& profile)
@@ -39,7 +39,7 @@ class Strings {
   Strings(const Strings&) = delete;
   Strings& operator=(const Strings&) = delete;
 
-  /// One exchange; false when it failed. Throws DeviceError when the device is lost.
+  /// One exchange. Returns false when it failed. Throws DeviceError when the device is lost.
   bool pull(double change_of_share, DeviceReading& reading) {
     share_ = std::clamp(share_ + change_of_share, 0.0, 1.0);
     const MotorVolts volts = to_volts(share_ * rest_N_, profile_);

@@ -13,8 +13,8 @@
 namespace spidar {
 namespace {
 
-// Over so short a way a string's length is linear in the pose to 0.3^2/(8*36) mm = 0.3 µm for the
-// smallest of the devices.
+// Within this distance the length of a string is linear in the pose up to 0.3^2/(8*36) mm = 0.3 µm
+// on the smallest of the devices.
 constexpr double kSameLength_m = 0.3e-3;
 constexpr double kMaxAveraged = 4;
 

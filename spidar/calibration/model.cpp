@@ -7,7 +7,8 @@
 namespace spidar {
 namespace {
 
-/// Displacements of the exits, stacked, that are orthogonal to shifts and small turns of all.
+/// Displacements of all exits, stacked, that are orthogonal to shifts and small rotations of the
+/// whole frame.
 Eigen::MatrixXd shape_changes(const StringGeometry& geometry) {
   const int rows = 3 * geometry.count;
   Eigen::MatrixXd rigid(rows, 6);
@@ -77,7 +78,7 @@ Eigen::VectorXd CalibrationModel::length_errors_m(const Eigen::VectorXd& paramet
                                   parameters.head(n) - scale(parameters) * paid_out_m.head(n);
   if (!derivatives) return error_m;
 
-  // A string shortens by the structure matrix' column times the twist (virtual work).
+  // A string shortens by its column of the structure matrix times the twist (virtual work).
   const StructureMatrix W = structure_matrix(moved, pose);
   derivatives->by_twist = -W.leftCols(n).transpose();
   Eigen::MatrixXd& by_parameter = derivatives->by_parameter;

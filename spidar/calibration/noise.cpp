@@ -36,7 +36,7 @@ double correlation_factor(const Eigen::MatrixXd& errors, const Eigen::VectorXd& 
   if (!(total > 0)) return 1;
   const double product = weighted.topRows(pairs).cwiseProduct(weighted.bottomRows(pairs)).sum();
   const double correlation = product / total;
-  // Three standard deviations of what independent errors show.
+  // Three standard deviations of the correlation of independent errors.
   const double chance = 3 / std::sqrt(static_cast<double>(redundant * pairs));
   if (correlation <= chance) return 1;
   const double bounded = std::min(correlation, kMaxCorrelation);

@@ -11,9 +11,10 @@
 namespace spidar {
 namespace {
 
-// Below this share of the largest singular value there are only rounding errors.
+// Singular values below this share of the largest one are rounding errors.
 constexpr double kRank = 1e-10;
-// What takes part in a direction by less takes no part: coefficients are of the order of one.
+// A quantity with a smaller coefficient does not count as part of a direction; coefficients are of
+// the order of one.
 constexpr double kTakesPart = 1e-6;
 
 }  // namespace

@@ -17,12 +17,12 @@ constexpr double kPlain = std::numeric_limits<double>::infinity();
 constexpr size_t kFew = 40;
 constexpr int kMaxIterations = 100;
 constexpr int kMaxRepairs = 4;
-// A sample in a minimum of its own has a residual far from the others'.
+// A sample that has converged to a wrong minimum has a residual far above the others.
 constexpr double kBad = 2.0;
 constexpr double kGood = 1.5;
 
-/// Where the counters may have been cleared: not turned, or by 1 rad about the axes and the
-/// diagonals of the cube, which leaves none within 80° further than 0.7 rad from the nearest.
+/// Poses at which the counters may have been cleared: unrotated, or rotated by 1 rad about the axes
+/// and the diagonals of the cube. Every rotation of up to 80° is within 0.7 rad of one of them.
 std::vector<Pose> starts() {
   std::vector<Pose> poses(1);
   for (int x = -1; x <= 1; ++x)
@@ -52,7 +52,7 @@ double rms_m(const CalibrationModel& model, const std::vector<double>& errors) {
   return std::sqrt(sum / static_cast<double>(errors.size() * static_cast<size_t>(model.strings())));
 }
 
-/// Index of the sample whose lengths are nearest to `lengths` among those that `may` allows.
+/// Index of the allowed sample (`may`) whose lengths are closest to `lengths`.
 template <typename May>
 size_t nearest(const std::vector<StringVector>& samples, const StringVector& lengths, May may) {
   size_t best = samples.size();
@@ -77,8 +77,8 @@ class Search {
   Search(const CalibrationModel& model, const std::vector<StringVector>& samples)
       : model_(model), samples_(samples) {}
 
-  /// A fit with all poses begun at `start`. Poses that ended in minima of their own begin again at
-  /// that of their nearest neighbour, as long as that helps.
+  /// Fits with all poses starting at `start`. Poses that end in wrong minima are restarted at the
+  /// pose of their nearest neighbour, as long as that helps.
   Candidate from(const Pose& start) const {
     Candidate best = fitted({model_.cleared_at(start), std::vector<Pose>(samples_.size(), start)});
     for (int repair = 0; repair < kMaxRepairs; ++repair) {

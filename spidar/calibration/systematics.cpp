@@ -12,12 +12,12 @@ namespace spidar {
 namespace {
 
 constexpr int kNoiseRounds = 5;
-/// Of what is estimated: no offset is off by as much, so that this says nothing but keeps the
-/// problem solvable where the motion tells nothing.
+/// Prior of each estimated parameter. No offset is off by this much, so it adds no information but
+/// keeps the problem solvable where the motion does not determine a parameter.
 constexpr double kUnknown_m = 1.0;
 
-/// Numbers of the profile that are taken as they are: a scale for each string, then the exits if
-/// they are not estimated, then the points on the grip.
+/// Numbers of the profile that are not estimated: a scale for each string, then the exits unless
+/// they are estimated, then the points on the grip.
 class FixedNumbers {
  public:
   explicit FixedNumbers(const CalibrationModel& model)
@@ -31,11 +31,11 @@ class FixedNumbers {
     return all;
   }
 
-  /// Derivatives of CalibrationModel::length_errors_m(), a row for each string.
+  /// Derivatives of CalibrationModel::length_errors_m(), one row for each string.
   Eigen::MatrixXd derivatives(const CalibrationModel& model, const Eigen::VectorXd& parameters,
                               const StringVector& paid_out_m, const Pose& pose) const {
-    // A string gets longer when its exit moves along its direction from the grip, and shorter when
-    // the point on the grip does.
+    // A string gets longer when its exit moves away from the grip, and shorter when its point on
+    // the grip moves towards the exit.
     const StructureMatrix W = structure_matrix(model.geometry(parameters), pose);
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(strings_, size());
     for (int i = 0; i < strings_; ++i) {
@@ -63,7 +63,8 @@ StringVector offset_uncertainty_m(const CalibrationModel& model,
   Eigen::VectorXd prior_sd(size);
   prior_sd << Eigen::VectorXd::Constant(estimated, kUnknown_m), fixed.sd();
 
-  // In units of the prior, so that the numbers are alike. The last row and column are the errors.
+  // In units of the prior, so that the numbers are of similar size. The last row and column hold
+  // the errors.
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size + 1, size + 1);
   Eigen::MatrixXd rows(model.strings(), size + 1);
   for (size_t k = 0; k < paid_out_m.size(); ++k) {
@@ -73,7 +74,7 @@ StringVector offset_uncertainty_m(const CalibrationModel& model,
     rows << d.by_parameter,
         fixed.derivatives(model, bundle.parameters, paid_out_m[k], bundle.poses[k]), error_m;
     rows.leftCols(size) *= prior_sd.asDiagonal();
-    // What no change of the pose explains.
+    // The part that no change of the pose explains.
     const Eigen::HouseholderQR<Eigen::MatrixXd> poses(d.by_twist);
     const Eigen::MatrixXd left = (poses.householderQ().adjoint() * rows).bottomRows(redundant);
     normal.noalias() += weights[static_cast<Eigen::Index>(k)] * left.transpose() * left;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The other end of the wire: boards as programs that answer as the real ones are described.
+/// Emulated boards, which answer as the descriptions of the real ones say.
 #pragma once
 
 #include <array>
@@ -11,25 +11,26 @@
 
 namespace spidar {
 
-/// What is connected to an emulated board.
+/// The device that is connected to an emulated board.
 class EmulatedMotors {
  public:
   virtual ~EmulatedMotors() = default;
-  /// The D/A has these digits now.
+  /// The board has set the D/A to these digits.
   virtual void put_out(const std::array<int, kMaxStrings>& digits) noexcept = 0;
-  /// Counts as the host is to see them.
+  /// Counts as the host should receive them.
   virtual std::array<int32_t, kMaxStrings> counts() noexcept = 0;
   /// 16 inputs; bits 4–7 are the rotary ID switch.
   virtual uint16_t inputs() noexcept { return 0; }
 };
 
-/// A board without its wire. One thread at a time.
+/// A board without its wire. Not thread-safe.
 class EmulatedBoard {
  public:
   virtual ~EmulatedBoard() = default;
-  /// Bytes from the host: one packet, or any piece of a stream.
+  /// Takes bytes from the host: one packet, or any piece of a stream.
   virtual void receive(ByteView bytes) noexcept = 0;
-  /// Writes the next reply that is due, returns its length; 0 when none is, or no room.
+  /// Writes the next reply that is due and returns its length; 0 when no reply is due or `reply` is
+  /// too small.
   virtual size_t reply(MutableBytes bytes) noexcept = 0;
 };
 

@@ -48,7 +48,7 @@ void EmulatedForceFeedback::receive(ByteView bytes) noexcept {
   } else if (const auto effect = ff::decode_effect(bytes)) {
     upload(*effect);
   } else if (const auto event = ff::decode_event(bytes)) {
-    if (event->code >= slots_.size()) return;  // gain or autocentre
+    if (event->code >= slots_.size()) return;  // gain or autocentre: no effect
     slots_[event->code].plays = event->value > 0;
     put_out();
   }

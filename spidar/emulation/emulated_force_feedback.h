@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A force-feedback joystick as a program.
+/// An emulated force-feedback joystick.
 #pragma once
 
 #include <array>
@@ -11,8 +11,9 @@
 
 namespace spidar {
 
-/// Its digits are what its playing effects add up to: level to the right and up, and strength of
-/// the rumble. Its counts are where the stick is, of ff::Position::kFull: to the right and up.
+/// Its digits are the sum of the playing effects: level to the right, level upwards, and strength
+/// of the rumble. Its counts are the position of the stick, of ff::Position::kFull: to the right
+/// and upwards.
 class SPIDAR_API EmulatedForceFeedback final : public EmulatedBoard {
  public:
   /// A stick with two axes, gain, autocentre and room for sixteen effects.

@@ -20,7 +20,7 @@ void EmulatedTransport::open() {
 Transfer EmulatedTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                                      int64_t) noexcept {
   const LinkFault fault = wire_->fault.load(std::memory_order_relaxed);
-  // What was pulled out has to be opened again.
+  // A device that was pulled out must be opened again.
   if (fault == LinkFault::kGone) open_ = false;
   if (!open_) return {LinkFault::kGone, 0};
   if (fault == LinkFault::kStall) return {fault, 0};

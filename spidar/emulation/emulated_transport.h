@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A transport without a wire, to an emulated board.
+/// A transport to an emulated board, without a wire.
 #pragma once
 
 #include <atomic>
@@ -12,14 +12,14 @@
 
 namespace spidar {
 
-/// What happens on the wire; outlives the transport. Any thread.
+/// Faults to be caused on the wire; must outlive the transport. Thread-safe.
 struct EmulatedWire {
-  /// Of every exchange; what it is decides whether packets arrive: with kStall and kGone they do
-  /// not. kBabble, kShort, kWrongReply spoil the reply.
+  /// The fault of every exchange. With kStall and kGone packets do not arrive; kBabble, kShort and
+  /// kWrongReply spoil the reply.
   std::atomic<LinkFault> fault{LinkFault::kNone};
 };
 
-/// Time does not pass in it: a reply is there at once or not at all.
+/// No time passes: a reply is available at once or not at all.
 class SPIDAR_API EmulatedTransport final : public Transport {
  public:
   EmulatedTransport(std::unique_ptr<EmulatedBoard> board, std::shared_ptr<EmulatedWire> wire);

@@ -17,7 +17,7 @@ void EmulatedUart::receive(ByteView bytes) noexcept {
   }
 }
 
-/// A byte between commands: zero is time for a reply, anything else a header.
+/// A byte between commands: a zero gives time for a reply, anything else is a header.
 void EmulatedUart::begin(uint8_t header) noexcept {
   if (header == 0) return;
   first_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// UART motor boards on one line as a program.
+/// Emulated UART motor boards on one line.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace spidar {
 
-/// Takes the line's bytes as they come, in pieces or together, as the boards' interrupts do.
+/// Takes the bytes of the line in pieces of any size, as the interrupts of the boards do.
 class SPIDAR_API EmulatedUart final : public EmulatedBoard {
  public:
   struct Station {
@@ -35,13 +35,13 @@ class SPIDAR_API EmulatedUart final : public EmulatedBoard {
   EmulatedMotors& motors_;
   const std::vector<Station> stations_;
   std::array<int, kMaxStrings> digits_{};
-  // The command under way.
+  // The command that is being received.
   const Station* station_ = nullptr;
-  size_t first_ = 0;  // motor of the station's first
+  size_t first_ = 0;  // first motor of the station
   std::array<uint8_t, 256> command_{};
   size_t length_ = 0;  // of the whole command
   size_t taken_ = 0;
-  // Replies that wait to be read.
+  // Replies that have not been read yet.
   std::array<uint8_t, 1024> reply_{};
   size_t due_ = 0;
 };

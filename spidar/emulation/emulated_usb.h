@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The CyVerse boards and the SPIDAR-mouse as programs.
+/// Emulated CyVerse boards and SPIDAR-mouse.
 #pragma once
 
 #include <array>

@@ -20,7 +20,7 @@
 namespace spidar {
 namespace {
 
-/// The simulated device's motors and encoders, wired to a board.
+/// The simulated device's motors and encoders, connected to a board.
 class SimulatedMotors final : public EmulatedMotors {
  public:
   SimulatedMotors(const Profile& profile, const DacScale& dac)
@@ -42,14 +42,14 @@ class SimulatedMotors final : public EmulatedMotors {
   DeviceReading reading_;
 };
 
-/// A mouse or a joystick has neither strings nor encoders: its force goes nowhere.
+/// A mouse or a joystick has neither strings nor encoders: its force has no effect.
 class NoMotors final : public EmulatedMotors {
  public:
   void put_out(const std::array<int, kMaxStrings>&) noexcept override {}
   std::array<int32_t, kMaxStrings> counts() noexcept override { return {}; }
 };
 
-/// Owns what its transport's board is connected to.
+/// Owns the device to which its transport's board is connected.
 class WireSimulation final : public Device {
  public:
   WireSimulation(std::unique_ptr<EmulatedMotors> motors, std::unique_ptr<Board> board)
@@ -67,7 +67,7 @@ class WireSimulation final : public Device {
  private:
   static BoardSettings settings() {
     BoardSettings settings;
-    // The simulated user begins at the centre, as counted from the profile's home offsets.
+    // The simulated user begins at the centre, from which the profile's home offsets are counted.
     settings.count_zero = CountZero::kNever;
     settings.guardian = false;
     settings.threaded = false;
@@ -97,7 +97,7 @@ std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Prof
     board = std::make_unique<SimpleBoard>(name, profile,
                                           transport_to(std::make_unique<EmulatedSimple>(*motors)));
   } else if (kind == "uart") {
-    // Two boards of four motors, as the published pair makes a SPIDAR-G.
+    // Two boards of four motors, like the published pair of a SPIDAR-G.
     constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
     motors = std::make_unique<SimulatedMotors>(profile, uart_dac());
     std::vector<std::unique_ptr<Transport>> lines;

@@ -13,11 +13,11 @@
 
 namespace spidar {
 
-/// `board`: "sh4", "simple", "uart", "mouse" or "ff". The grip, its hand and its motors are those
-/// of SimulatedDevice; volts and counts take the way over the packets, and the board's code is the
-/// one that drives the real board. Without a thread and without a guardian. `wire` makes faults.
-/// Throws DeviceError for another board, or when the board cannot drive the profile, and
-/// std::invalid_argument as SimulatedDevice does.
+/// `board`: "sh4", "simple", "uart", "mouse" or "ff". Grip, hand and motors are those of
+/// SimulatedDevice. Volts and counts pass through the packets and the code that drives the real
+/// board. No thread and no guardian is started. `wire` causes faults. Throws DeviceError for
+/// another board, or when the board cannot drive the profile, and std::invalid_argument as
+/// SimulatedDevice does.
 SPIDAR_API std::unique_ptr<Device> make_wire_simulation(
     const std::string& board, const Profile& profile,
     std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>());

@@ -22,7 +22,7 @@ extern char** environ;
 namespace spidar {
 namespace {
 
-/// An answer is awaited for so long: a will takes two seconds at most to be carried out.
+/// How long to wait for an answer: carrying out a will takes at most two seconds.
 constexpr time_t kPatience_s = 5;
 
 std::string program() {
@@ -37,7 +37,7 @@ int spawn(const std::string& path, int its_end, pid_t& process) {
   posix_spawn_file_actions_adddup2(&actions, its_end, STDIN_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // A session of its own: Ctrl-C in a terminal is for the host.
+  // In a session of its own, so that Ctrl-C in a terminal reaches only the host.
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
   std::string name = "spidar-guardian";
   std::array<char*, 2> arguments{name.data(), nullptr};
@@ -48,7 +48,7 @@ int spawn(const std::string& path, int its_end, pid_t& process) {
   return error;
 }
 
-/// The will, the device's file, and a descriptor of this process by which its end is seen.
+/// The will, the device's file, and a descriptor by which the end of this process is noticed.
 bool send_will(int socket, const LastWill& will) {
   const int self = static_cast<int>(syscall(SYS_pidfd_open, getpid(), 0));
   if (self < 0) return false;
@@ -114,7 +114,7 @@ void Guardian::carry_out() noexcept {
 
 bool Guardian::say(HostWord word) noexcept {
   const ssize_t sent = send(socket_, &word, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
-  // A socket that is full is one of a guardian that sleeps, which is seen by its answers.
+  // A full socket belongs to a guardian that sleeps; missing answers reveal that.
   return sent == 1 || errno == EAGAIN || errno == EINTR;
 }
 
@@ -140,19 +140,20 @@ bool Guardian::watch(bool pulling) noexcept {
   return say(pulling ? HostWord::kPulling : HostWord::kResting);
 }
 
-/// Waits until it has ended.
+/// Waits until the guardian has ended.
 void Guardian::finish() noexcept {
   if (socket_ < 0) return;
-  // A forked child has its copy of the socket to close, no more.
+  // A forked child only closes its copy of the socket.
   if (getpid() == owner_) {
-    // Not close(): a forked child may have the socket, too.
+    // Not close(), because a forked child may hold the socket, too.
     shutdown(socket_, SHUT_WR);
     char answer = 0;
     ssize_t got = 0;
     do {
       got = recv(socket_, &answer, 1, 0);
     } while (got > 0 || (got < 0 && errno == EINTR));
-    // It is stopped. As its end of the socket is open, the number is still its own.
+    // The guardian is stopped. Its end of the socket is still open, so its process id has not been
+    // reused.
     if (got < 0 && errno == EAGAIN) kill(process_, SIGKILL);
     while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }

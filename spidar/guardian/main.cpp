@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Waits until its host dies or falls silent, then takes the motors of one board to zero. Started by
-// Guardian with a socket as standard input.
+// Waits until its host dies or stops responding, then sets the motors of one board to zero.
+// Guardian starts it with a socket as standard input.
 //
-// The device's file comes from the host, open and claimed. The claim lasts as long as one process
-// has that file, so that a host that is stopped, or has left the file to a child, does not keep the
-// zeros from the board, and no new host gets the board before them.
+// The host passes the device's file, open and claimed. The claim lasts as long as any process holds
+// that file: a host that is stopped, or a child that has inherited the file, cannot keep the zeros
+// from the board, and no new host gets the board before them.
 
 #include <array>
 #include <cerrno>
@@ -38,9 +38,9 @@ void pause_10ms() {
   nanosleep(&duration, nullptr);
 }
 
-/// True when all packets are sent, or never can be.
+/// Returns true when all packets have been sent, or can never be sent.
 bool send_usb(LastWill& will) {
-  // Nothing when it is claimed already; a host that has closed the board has released it.
+  // Does nothing if it is claimed already; a host that has closed the board has released it.
   unsigned interface = will.interface_number;
   if (ioctl(will.file, USBDEVFS_CLAIMINTERFACE, &interface) != 0) return errno == ENODEV;
   for (uint32_t i = 0; i < will.packets; ++i) {
@@ -58,7 +58,7 @@ bool send_usb(LastWill& will) {
   return true;
 }
 
-/// As send_usb(). The file does not block.
+/// Like send_usb(). The file is non-blocking.
 bool send_terminal(const LastWill& will) {
   for (uint32_t i = 0; i < will.packets; ++i) {
     for (size_t sent = 0; sent < will.length[i];) {
@@ -81,8 +81,8 @@ bool carry_out(LastWill& will) {
   return false;
 }
 
-/// The will with a descriptor of this process for the device's file, and one of the host itself.
-/// False when what is on the socket is not from a host of this version.
+/// Receives the will, with a descriptor of this process for the device's file, and one for the
+/// host. Returns false when the message is not from a host of this version.
 bool receive(LastWill& will, int& host) {
   std::array<int, 2> files{-1, -1};
   iovec bytes{&will, sizeof will};
@@ -109,8 +109,8 @@ bool say(GuardianWord word) {
   return send(STDIN_FILENO, &word, 1, MSG_DONTWAIT | MSG_NOSIGNAL) == 1;
 }
 
-/// Carries the will out whenever the host is silent while its motors pull. Returns when the host
-/// has ended; false when it has dismissed its guardian.
+/// Carries out the will whenever the host is silent while its motors pull. Returns true when the
+/// host has ended, and false when it has dismissed its guardian.
 bool watch(int host, LastWill& will) {
   bool pulling = false, zeroed = false;
   for (;;) {
@@ -123,7 +123,8 @@ bool watch(int host, LastWill& will) {
       carry_out(will);
       zeroed = true;
     } else if (events[0].revents == 0) {
-      return true;  // no last word: a host that has dismissed its guardian may have ended since
+      // There may be a last message: a host that dismissed its guardian may have ended since.
+      return true;
     } else {
       HostWord word{};
       if (recv(STDIN_FILENO, &word, 1, 0) != 1) return true;
@@ -134,8 +135,8 @@ bool watch(int host, LastWill& will) {
   }
 }
 
-/// On a machine that is busy, or short of memory, it is needed as much. What is not allowed is done
-/// without.
+/// The guardian is needed just as much when the machine is busy or short of memory. It does without
+/// anything that is not permitted.
 void ask_for_promptness() {
   sched_param parameters{};
   parameters.sched_priority = sched_get_priority_min(SCHED_FIFO);
@@ -149,7 +150,7 @@ int main() {
   prctl(PR_SET_NAME, "spidar-guardian");
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGTSTP})
     signal(number, SIG_IGN);
-  // What else the host had open would otherwise stay open as long as this does.
+  // Other files inherited from the host would stay open as long as this process runs.
   close_range(STDERR_FILENO + 1, ~0U, 0);
   LastWill will;
   int host = -1;

@@ -8,14 +8,15 @@
 namespace spidar {
 namespace {
 
-/// Pose noise, and the time between the reading of the encoders and the clock.
+/// Allows for noise of the pose, and for the time between reading the encoders and the clock.
 constexpr double kJumpMargin_m = 2e-3;
 
 double reach_m(const StringGeometry& geometry) {
   double reach = 0;
   for (int i = 0; i < geometry.count; ++i) {
     const auto k = static_cast<size_t>(i);
-    // Motors inside the grip: the grip's points enclose the exits instead of the other way round.
+    // With motors inside the grip, the points on the grip enclose the exits instead of the other
+    // way round.
     reach = std::max({reach, geometry.exit_m[k].cwiseAbs().maxCoeff(),
                       geometry.grip_m[k].cwiseAbs().maxCoeff()});
   }
@@ -89,7 +90,7 @@ bool GripWatch::is_frozen(const DeviceReading& reading, const Wrench& applied,
       (applied.force_N - at_last_change_.force_N).norm(),
       (applied.torque_Nm - at_last_change_.torque_Nm).norm() / std::max(radius_m_, 1e-3));
   if (moved || change_N < kFrozenForce_N) pushed_ns_ = now_ns;
-  // At rest again the force is that of before, but the counters are still dead.
+  // At rest the force returns to its previous value, but dead counters stay dead.
   if (moved) frozen_ = false;
   if (now_ns - pushed_ns_ > kFrozenAfter_ns) frozen_ = true;
   return frozen_;
@@ -102,7 +103,7 @@ void GripWatch::see(const DeviceReading& reading, const Wrench& applied, bool ma
   residual_m_ = result.residual_m;
   PoseTrouble trouble = judge(result, now_ns);
   if (trouble == PoseTrouble::kNone || trouble == PoseTrouble::kJump) {
-    // A jump is where the next poses are compared with: the grip may be there.
+    // The next poses are compared with the pose after a jump, because the grip may really be there.
     pose_ = result.pose;
     located_ = true;
     located_ns_ = now_ns;
@@ -117,10 +118,10 @@ void GripWatch::see(const DeviceReading& reading, const Wrench& applied, bool ma
     return;
   }
   ++pose_errors_;
-  // One jump is enough: the pose of before is not the one of now.
+  // A single jump is enough: the previous pose is not the present one.
   if (trouble == PoseTrouble::kJump || trouble == PoseTrouble::kFrozen) misses_ = kMaxMisses;
   fail(trouble);
-  // What was near the last pose is long gone: search from the centre.
+  // The grip may have moved far from the last pose: search from the centre.
   if (!trusted_ && trouble == PoseTrouble::kNoFit) solver_.search_from({});
 }
 

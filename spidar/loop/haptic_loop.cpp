@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kMaxRate = 10;
 
-/// There is a wrench of the film to be felt now.
+/// Whether the film has a wrench to be felt now.
 bool has_frame(const TickRecord& record) noexcept {
   return record.playing && (record.found == Found::kExact || record.found == Found::kInterpolated ||
                             record.found == Found::kHeld);
 }
 
-/// There is a wrench to be felt now, of the film or of a surface.
+/// Whether there is a wrench to be felt now, from the film or from a surface.
 bool has_wanted(const TickRecord& record) noexcept {
   return has_frame(record) || record.contact.has_surface;
 }
@@ -68,7 +68,7 @@ bool HapticLoop::reopen() noexcept {
   return true;
 }
 
-/// The device was opened: from zero again, and nothing known about the grip but that it is at home.
+/// Starts from zero after the device was opened: of the grip only the home position is known.
 void HapticLoop::energise() noexcept {
   state_ = DeviceState::kOpening;
   energised_ = acknowledged_energised_ = 0;
@@ -120,13 +120,13 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   last_now_ns_ = now_ns;
   last_deadline_ns_ = deadline_ns;
 
-  // Held from the last tick when the writer is just at it.
+  // Keeps the values of the last tick while the writer is updating them.
   shared_clock_.try_load(clock_);
   shared_limits_.try_load(limits_);
   record.max_force_N = limits_.max_force_N;
   record.max_torque_Nm = limits_.max_torque_Nm;
   find_wanted(record);
-  // What the device was told last has acted until now.
+  // The last acknowledged tensions have acted until now.
   heat_.pass(acknowledged_N_, 1e-9 * static_cast<double>(passed_ns));
   if (state_ != DeviceState::kLost && state_ != DeviceState::kClosed) {
     const double dt_s = 1e-9 * static_cast<double>(std::min(passed_ns, kMaxStep_ns));
@@ -153,7 +153,8 @@ void HapticLoop::forget_timeline(uint32_t generation) noexcept {
   reached_ns_ = INT64_MIN;
 }
 
-/// Scheduled after a flush that took place just now: for the next tick.
+/// Whether an entry was scheduled after a flush that has just taken place, and so is for the next
+/// tick.
 bool HapticLoop::is_of_the_future(uint32_t generation) const noexcept {
   return static_cast<int32_t>(generation - timeline_generation_) > 0;  // the number wraps round
 }
@@ -164,8 +165,8 @@ void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
   while (const auto* next = scheduled_.front()) {
     if (next->generation == timeline_generation_) {
       const bool soon = timeline_.size() < 2 || before_newest_ns_ - kHorizon_ns <= running_ns;
-      // At a high frame rate the horizon holds more frames than the timeline, which would forget
-      // the frame that is on the screen.
+      // At a high frame rate there are more frames within the horizon than fit into the timeline,
+      // which would drop the frame that is on the screen.
       const bool has_room = timeline_.size_after(running_ns) < WrenchTimeline::kCapacity / 2;
       if (!playing || !soon || !has_room) return;
       const bool holds_on = next->entry.repeated && timeline_.size() > 0;
@@ -199,7 +200,7 @@ TimelineResult HapticLoop::read_track(bool playing, int64_t running_ns) noexcept
 }
 
 void HapticLoop::find_wanted(TickRecord& record) noexcept {
-  // Rates are near 1: anything else, or not a number, is not a clock.
+  // Rates are near 1: a much larger one, or NaN, does not come from a clock.
   record.playing =
       clock_.plays_at(record.monotonic_ns) && clock_.rate > 0 && clock_.rate < kMaxRate;
   if (record.playing) record.running_ns = clock_.running_at(record.monotonic_ns);
@@ -223,14 +224,14 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
     touch_.rest(*mailbox);
     return;
   }
-  // max-force may be 0; the contact needs a limit above that, and then nothing of it is let
-  // through.
+  // max-force may be 0, but the contact needs a limit above that; the safety chain then lets
+  // nothing through.
   constexpr double kLeast_N = 1e-3;
   touch_.set_limits(std::max(kLeast_N, limits_.max_force_N), limits_.max_slew_N_s);
   record.contact = touch_.tick(*mailbox, record.running_ns, grip_.pose().position_m,
                                1e-9 * static_cast<double>(passed_ns));
   if (!record.contact.has_surface) return;
-  // What has expired is there to be ramped down, not to be felt.
+  // An expired wrench serves for ramping down and must not be felt.
   if (!has_frame(record)) record.wanted = {};
   record.wanted.force_N += record.contact.force_N;
 }
@@ -255,8 +256,8 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
 void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
   tension_command_.leave_out(grip_.faulty_string());
   const StructureMatrix W = structure_matrix(profile_.geometry, grip_.pose());
-  // On its way to rest the wrench may still be large when its time is nearly over: solved for, the
-  // tensions would have no time left.
+  // Near the end of the ramp to rest the wrench may still be large. If it were solved for, the
+  // tensions would not have enough time left to fall.
   const bool fresh = has_wanted(record) && grip_.trusted() && state_ != DeviceState::kClosing;
   const StringVector wanted_N = fresh ? tension_command_.solve(W, record.commanded, heat_.limit_N())
                                       : tension_command_.fade(record.commanded);
@@ -286,7 +287,8 @@ void HapticLoop::exchange(TickRecord& record) noexcept {
   if (status == ExchangeStatus::kLost || ++errors_in_a_row_ >= kMaxErrors) lose();
 }
 
-/// The motors may not have got this tick: the next one is as far from the last that they got.
+/// The motors may not have received this tick, so the next one starts from the last acknowledged
+/// one.
 void HapticLoop::undo(TickRecord& record) noexcept {
   safety_.undo();
   record.commanded = limit_total(safety_.last(), limits_);

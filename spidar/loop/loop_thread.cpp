@@ -47,7 +47,7 @@ void LoopThread::run() noexcept {
     if (loop_.lost() && end >= next_try) {
       loop_.reopen();
       next_try = monotonic_now_ns() + kRetry_ns;
-      // How long that took says nothing about the scheduler.
+      // The duration of this says nothing about the scheduler.
       deadline = monotonic_now_ns() + kTick_ns;
     }
   }

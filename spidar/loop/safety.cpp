@@ -8,12 +8,12 @@
 namespace spidar {
 namespace {
 
-/// Negative or not a number: zero.
+/// Replaces negative values and NaN by zero.
 double non_negative(double x) {
   return x > 0 ? x : 0;
 }
 
-/// `v` no longer than `max`, same direction; zero when it has no length to speak of.
+/// `v` shortened to at most `max` in the same direction; zero when it has hardly any length.
 Eigen::Vector3d shorten(const Eigen::Vector3d& v, double max) {
   const double norm = v.stableNorm();
   if (norm <= max) return v;
@@ -21,7 +21,7 @@ Eigen::Vector3d shorten(const Eigen::Vector3d& v, double max) {
   return v * (max / norm);
 }
 
-/// From `from` towards `to` by at most `step`.
+/// Moves from `from` towards `to` by at most `step`.
 Eigen::Vector3d approach(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double step) {
   const Eigen::Vector3d difference = to - from;
   const double distance = difference.stableNorm();
@@ -44,7 +44,8 @@ Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept {
 }
 
 Wrench SlewLimit::apply(const Wrench& wanted, double dt_s, const SafetyLimits& limits) noexcept {
-  // Both ends within the total limits, which are balls: so is every point between them.
+  // Both ends are within the total limits. These are balls, so every point between the ends is
+  // within them, too.
   const Wrench from = limit_total(last_, limits);
   last_.force_N = approach(from.force_N, wanted.force_N, non_negative(limits.max_slew_N_s * dt_s));
   last_.torque_Nm =

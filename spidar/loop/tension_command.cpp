@@ -11,7 +11,8 @@ TensionCommand::TensionCommand(const Profile& profile)
     : min_N_(profile.min_tension_N()), max_N_(profile.max_tension_N()), last_N_(min_N_) {
   problem_.count = profile.geometry.count;
   const double radius_m = profile.geometry.grip_radius_m();
-  // A grip without extent feels no torque, whatever a torque is compared with.
+  // A grip of zero radius cannot transmit torque, so the length that weights torque does not
+  // matter.
   if (radius_m > 0) problem_.torque_length_m = radius_m;
   reset();
 }
@@ -44,9 +45,9 @@ double TensionCommand::pose_problem(const Wrench& wrench, const StringVector& li
   return 1;
 }
 
-// Where strings are denied some of their range, the others would give a wrench in another
-// direction: of the wanted one they are asked only as much as is not lost that way. The share goes
-// continuously with pose, wrench and limits.
+// When some strings may not use their full range, the others would produce a wrench in another
+// direction. The wanted wrench is therefore reduced to the share that can be produced. This share
+// varies continuously with pose, wrench and limits.
 StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrench,
                                    const StringVector& limit_N) noexcept {
   share_ = 1;
@@ -54,7 +55,7 @@ StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrenc
   last_N_ = min_N_;
   if (!(size > 0)) return last_N_;
   problem_.W = W;
-  // Half of the range denied counts in full: that is what a motor may have for ever, or more.
+  // Half of the range counts as all of it: that is at most what a motor may sustain for ever.
   const double denied = std::min(1.0, 2 * pose_problem(wrench, limit_N));
   TensionResult result = solver_.solve(problem_);
   if (denied > 0) {

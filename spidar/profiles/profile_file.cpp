@@ -15,7 +15,8 @@ using Values = std::array<double, kMaxStrings>;
 using Signs = std::array<int, kMaxStrings>;
 
 constexpr int kMinStrings = 6;  // fewer cannot hold six degrees of freedom
-// Beyond these a unit was mistaken: the largest SPIDAR fills a room, a count is some micrometres.
+// Larger values are a mistaken unit: the largest SPIDAR fills a room, and a count is some
+// micrometres.
 constexpr double kMaxCoordinate_m = 5.0;
 constexpr double kMinLength_m = 1e-3;
 constexpr double kMin_m_per_count = 1e-8;
@@ -64,7 +65,7 @@ StringGeometry read_geometry(const TomlField& in) {
   return geometry;
 }
 
-/// One number for all strings or an array with one for each; all above zero.
+/// One number for all strings, or an array with one for each; all above zero.
 Values per_string(const TomlField& field, int count) {
   Values values{};
   if (!field.is_array()) {
@@ -76,7 +77,7 @@ Values per_string(const TomlField& field, int count) {
   return values;
 }
 
-/// The same of a field that may be missing: zero.
+/// The same for an optional field: zero when it is missing.
 Values optional_per_string(const TomlField& in, const char* key, int count) {
   return in.has(key) ? per_string(in[key], count) : Values{};
 }
@@ -91,7 +92,7 @@ Signs signs(const TomlField& field, int count) {
   return values;
 }
 
-/// Missing: zero.
+/// Zero when it is missing.
 Values home_offsets(const TomlField& strings, const StringGeometry& geometry) {
   Values values{};
   if (!strings.has("home_offset_m")) return values;

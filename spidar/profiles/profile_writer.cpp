@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As short as it can be and still be read back as the same number.
+/// The shortest text that is read back as the same number.
 std::string number(double value) {
   char digits[32];
   const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value + 0.0);
   return {digits, end};
 }
 
-/// `value(i)` for each of `count` strings, in one line.
+/// `value(i)` for each of `count` strings, on one line.
 template <typename Value>
 std::string listed(size_t count, Value value) {
   std::string text = "[";

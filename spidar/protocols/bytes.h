@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Views of byte strings with their lengths, and little-endian numbers in them.
+/// Views of byte strings, and little-endian numbers in them.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace spidar {
 
-/// Bytes to read. Refers to them.
+/// Bytes to read; does not own them.
 struct ByteView {
   const uint8_t* data = nullptr;
   size_t size = 0;
@@ -30,7 +30,7 @@ struct ByteView {
   }
 };
 
-/// Bytes to write. Refers to them; what is put beyond the end is left out.
+/// Bytes to write; does not own them. Writes beyond the end are ignored.
 struct MutableBytes {
   uint8_t* data = nullptr;
   size_t size = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counters of few bits as counts that go on.
+/// Extends counters of few bits to counts that do not wrap round.
 #pragma once
 
 #include <array>
@@ -11,18 +11,19 @@
 
 namespace spidar {
 
-/// Follows up to kMaxStrings counters of `bits` bits by the shorter way round.
+/// Follows up to kMaxStrings counters of `bits` bits, assuming that each takes the shorter way
+/// round.
 class CountUnwrapper {
  public:
-  /// More than that between two readings is not a hand: a quarter of 16 bits is 0.28 m at 17 µm a
-  /// count, for which a hand at 10 m/s needs 28 ms; a board is lost after 20.
+  /// No hand moves further between two readings: a quarter of 16 bits is 0.28 m at 17 µm a count,
+  /// for which a hand at 10 m/s needs 28 ms; a board counts as lost after 20 ms.
   static constexpr int32_t kMaxStep = 1 << 14;
 
   /// 16 … 31 bits.
   explicit CountUnwrapper(int bits) noexcept : bits_(bits) {}
 
-  /// Counter values as the board gives them become counts that continue the last ones. False, and
-  /// nothing taken over, when one of them moved further than `max_step`.
+  /// Converts the board's counter values to counts that continue from the last ones. Returns false
+  /// and changes nothing when a counter has moved further than `max_step`.
   bool follow(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
               int32_t max_step = kMaxStep) noexcept {
     std::array<int32_t, kMaxStrings> next = count_;
@@ -37,35 +38,35 @@ class CountUnwrapper {
     return true;
   }
 
-  /// The same after a break in which the board was not read. False, and nothing taken over, when
-  /// its counters seem to have begun anew, as they do when it loses its power: all of them are near
-  /// zero now, and neither there before nor where they are now; or one of them jumped. A grip that
-  /// was moved by a hand while it was near the counters' zero looks the same: to be wrong about
-  /// that costs a new zero, to be wrong about the other thing costs the right one. Call begin()
-  /// when that is what is wanted.
+  /// The same after a break in which the board was not read. Returns false and changes nothing when
+  /// a counter has jumped, or when the counters seem to have been reset by a loss of power: all of
+  /// them are near zero now, were not near zero before, and are far from their previous values. A
+  /// grip that a hand moved while it was near the counters' zero looks the same. Mistaking it for a
+  /// reset costs a new zero; the opposite mistake would lose the right zero. Call begin() to accept
+  /// the new values.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     const bool anew = within(kNearZero, raw, {}, channels) && !within(kStill, raw_, {}, channels) &&
                       !within(kStill, raw, raw_, channels);
     return !anew && follow(raw, channels);
   }
 
-  /// Takes the counter values for the counts, sign extended: at a first reading.
+  /// Takes the counter values, sign extended, as counts; for a first reading.
   void begin(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     raw_ = raw;
     count_ = {};
     for (size_t i = 0; i < channels; ++i) count_[i] = signed_difference(raw[i]);
   }
 
-  /// Here is zero.
+  /// Makes the present position zero.
   void zero() noexcept { count_ = {}; }
 
   const std::array<int32_t, kMaxStrings>& counts() const noexcept { return count_; }
 
  private:
-  /// 17 mm at 17 µm a count: what strings go slack by while a board without power is switched on.
+  /// 17 mm at 17 µm a count: the slack of the strings while a board without power is switched on.
   static constexpr int32_t kNearZero = 1024;
 
-  /// 1 mm: a zero that is wrong by less does no harm, and a grip that nobody moves moves less.
+  /// 1 mm: a zero that is off by less does no harm, and a grip that nobody moves stays within it.
   static constexpr int32_t kStill = 64;
 
   /// Whether no counter differs from that of `other` by more than `counts`.

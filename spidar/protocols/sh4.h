@@ -3,8 +3,8 @@
 /// Packets of the CyVerse USB 2.0 SH4 board.
 ///
 /// Source: haselab-net/SpringheadOne src/Device/DRUsb20Sh4.cpp, which talks to the board through
-/// Windows' ezusb.sys. That its pipes are endpoints 2 and 6, that the D/A takes 12 bits, and that
-/// the echo is of the same or an earlier packet is inferred. Pure: bytes in, bytes out.
+/// ezusb.sys of Windows. It is inferred that the pipes are endpoints 2 and 6, that the D/A takes 12
+/// bits, and that the echo is of the same or an earlier packet. Pure: bytes in, bytes out.
 #pragma once
 
 #include <array>
@@ -26,10 +26,10 @@ constexpr double kAdc_V = 24.0 / 4096;  ///< volts per digit of the A/D
 using Packet = std::array<uint8_t, kPacketSize>;
 using DacDigits = std::array<uint16_t, kChannels>;
 
-/// What the board answers.
+/// A reply of the board.
 struct Reading {
   DacDigits dac_echo{};
-  /// 16 bits, counting the other way round than the Simple board does: its host negates them.
+  /// 16 bits, counting in the opposite direction to the Simple board: its host negates them.
   std::array<uint16_t, kChannels> counter{};
   std::array<uint16_t, kChannels> adc{};  ///< digits of kAdc_V
   uint16_t inputs = 0;                    ///< bits 4–7: rotary switch
@@ -38,13 +38,13 @@ struct Reading {
   int rotary() const noexcept { return inputs >> 4 & 0xF; }
 };
 
-/// The one command: put out D/A digits, answer with all readings.
+/// The only command: sets the D/A digits and asks for all readings.
 SPIDAR_API void encode_update(const DacDigits& digits, Packet& packet) noexcept;
-/// False when it is not that command, or not of kPacketSize.
+/// Returns false when it is not that command, or does not have kPacketSize bytes.
 SPIDAR_API bool decode_update(ByteView packet, DacDigits& digits) noexcept;
 
 SPIDAR_API void encode_reading(const Reading& reading, Packet& packet) noexcept;
-/// False when it is not of kPacketSize.
+/// Returns false when it does not have kPacketSize bytes.
 SPIDAR_API bool decode_reading(ByteView packet, Reading& reading) noexcept;
 
 }  // namespace spidar::sh4

@@ -8,7 +8,7 @@
 namespace spidar::mouse {
 namespace {
 
-// From force to duty, as published; what they mean is not.
+// Constants from force to duty, as published; their meaning is not.
 constexpr float kDutyA = 47.9867F;
 constexpr float kDutyB = 13.1215F;
 constexpr size_t kNumbersAt = 1;
@@ -50,7 +50,7 @@ void encode_force(const Force& force, Report& report) noexcept {
   begin(Command::kForce, report);
   const double total_N = std::hypot(force.x_N, force.y_N);
   if (!std::isfinite(total_N) || total_N <= 0) return;
-  // Numbers 0 and 1 are where the grip is, for which there is no sensor.
+  // Numbers 0 and 1 are the position of the grip, for which there is no sensor.
   put_float(report, 2, static_cast<float>(std::fmin(total_N, kMaxForce_N)));
   put_float(report, 3, static_cast<float>(force.x_N / total_N));
   put_float(report, 4, static_cast<float>(force.y_N / total_N));

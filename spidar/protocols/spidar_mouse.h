@@ -2,9 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 /// Reports of the SPIDAR-mouse: a HID with two force axes.
 ///
-/// Source: micuat/SPIDAR-mouse-UNIX src/spidarMouse.cpp. The id is that of Microchip's
-/// demonstrations, so other things have it too; the endpoints are theirs (inferred). Pure: bytes
-/// in, bytes out.
+/// Source: micuat/SPIDAR-mouse-UNIX src/spidarMouse.cpp. Its USB id belongs to Microchip's
+/// demonstrations, so other devices have it, too; the endpoints are those of the demonstrations
+/// (inferred). Pure: bytes in, bytes out.
 #pragma once
 
 #include <array>
@@ -20,7 +20,8 @@ constexpr uint16_t kProduct = 0x003F;
 constexpr uint8_t kEndpointOut = 0x01;
 constexpr uint8_t kEndpointIn = 0x81;
 constexpr size_t kReportSize = 64;
-/// Of the total force. The published program bounds each axis by this, the diagonal reaches more.
+/// Limit of the total force. The published program limits each axis by it, so that its diagonal is
+/// stronger.
 constexpr double kMaxForce_N = 1.5;
 constexpr double kMinForce_N = 0.3;
 
@@ -28,7 +29,7 @@ using Report = std::array<uint8_t, kReportSize>;
 
 enum class Command : uint8_t {
   kStart = 0x80,
-  kQuery = 0x82,  ///< the demonstrations of Microchip do not answer to it
+  kQuery = 0x82,  ///< Microchip's demonstrations do not answer it
   kForce = 0x97,
   kStop = 0x99,
 };
@@ -42,7 +43,7 @@ struct Force {
 SPIDAR_API void encode_query(Report& report) noexcept;
 /// With the published constants from force to duty.
 SPIDAR_API void encode_start(Report& report) noexcept;
-/// Shortened to kMaxForce_N; not a number counts as zero. The grip is said to be at the centre.
+/// Shortened to kMaxForce_N; NaN counts as zero. The position of the grip is sent as the centre.
 SPIDAR_API void encode_force(const Force& force, Report& report) noexcept;
 SPIDAR_API void encode_stop(Report& report) noexcept;
 

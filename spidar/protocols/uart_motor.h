@@ -27,7 +27,7 @@ enum class Command : uint8_t {
   kCurrent = 6,
 };
 
-/// What a board says it is. One that fits has 1 … kMaxMotors motors.
+/// A board's description of itself. Supported boards have 1 … kMaxMotors motors.
 struct BoardInfo {
   uint8_t model = 0;  ///< 5: B3M, 7: B5M
   uint8_t targets = 0;
@@ -47,9 +47,9 @@ constexpr uint8_t header(int board, Command command) noexcept {
   return static_cast<uint8_t>((board & 7) | static_cast<int>(command) << 3);
 }
 
-/// Zeros before an enquiry, so that a board in the midst of a packet comes to its end.
+/// Zeros before an enquiry, so that a board within a packet reaches its end.
 constexpr size_t kZerosBefore = 40;
-/// And after it: their time on the wire is the reply's.
+/// Zeros after it, which give the board the time to reply.
 constexpr size_t kZerosAfter = 26;
 constexpr size_t kEnquiryLength = kZerosBefore + 1 + kZerosAfter;
 constexpr size_t kInfoLength = 7;
@@ -61,7 +61,7 @@ constexpr size_t current_command_length(size_t motors) noexcept {
 constexpr size_t current_reply_length(size_t motors, size_t forces) noexcept {
   return 1 + 4 * motors + 2 * forces;
 }
-/// With the zeros whose time is the reply's.
+/// Includes the zeros that give the time to reply.
 constexpr size_t current_cycle_length(size_t motors, size_t forces) noexcept {
   const size_t command = current_command_length(motors);
   const size_t reply = current_reply_length(motors, forces);
@@ -75,25 +75,25 @@ constexpr size_t kMaxReplyLength = current_reply_length(kMaxMotors, kMaxMotors);
 SPIDAR_API std::array<uint8_t, kCommands> command_lengths(size_t motors, size_t forces) noexcept;
 
 SPIDAR_API void encode_enquiry(int board, std::array<uint8_t, kEnquiryLength>& packet) noexcept;
-/// False when it is not the reply of that board or makes no sense.
+/// Returns false when it is not the reply of that board, or its content is invalid.
 SPIDAR_API bool decode_info(ByteView reply, int board, BoardInfo& info) noexcept;
 SPIDAR_API void encode_info(const BoardInfo& info, int board,
                             std::array<uint8_t, kInfoLength>& reply) noexcept;
 
-/// So that every board can skip the packets of the others.
+/// Tells every board the lengths of the others' packets, so that it can skip them.
 SPIDAR_API void encode_lengths(int board, const BoardInfo& info,
                                std::array<uint8_t, kSetLengthsLength>& packet) noexcept;
 
-/// One servo cycle of one board. Digits are cut to ±kMaxDigit. Returns the length, 0 when `packet`
-/// is too small or the board has too many motors.
+/// One servo cycle of one board. Digits are clamped to ±kMaxDigit. Returns the length, 0 when
+/// `packet` is too small or the board has too many motors.
 SPIDAR_API size_t encode_current(int board, const BoardInfo& info,
                                  const std::array<int, kMaxMotors>& digits,
                                  MutableBytes packet) noexcept;
-/// False when `command` is not the CURRENT command of that board.
+/// Returns false when `command` is not the CURRENT command of that board.
 SPIDAR_API bool decode_current(ByteView command, int board, const BoardInfo& info,
                                std::array<int, kMaxMotors>& digits) noexcept;
 
-/// False when it is not that board's reply, or of another length.
+/// Returns false when it is not that board's reply, or has another length.
 SPIDAR_API bool decode_reading(ByteView reply, int board, const BoardInfo& info,
                                Reading& reading) noexcept;
 /// Returns the length, 0 when `reply` is too small.

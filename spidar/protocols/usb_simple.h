@@ -3,8 +3,8 @@
 /// Packets of the CyVerse USB 2.0 Simple board.
 ///
 /// Source: haselab-net/SpringheadOne src/Device/DRUsb20Simple.cpp; the product id is from
-/// Springhead/Springhead core/include/HumanInterface/DRUsb20Simple.h. That its pipes are endpoints
-/// 2 and 6 and that the D/A takes 12 bits is inferred. Pure: bytes in, bytes out.
+/// Springhead/Springhead core/include/HumanInterface/DRUsb20Simple.h. It is inferred that the pipes
+/// are endpoints 2 and 6 and that the D/A takes 12 bits. Pure: bytes in, bytes out.
 #pragma once
 
 #include <array>
@@ -26,13 +26,13 @@ using Packet = std::array<uint8_t, kPacketSize>;
 using DacDigits = std::array<uint16_t, kChannels>;
 
 enum class Command {
-  kEncoderDirection,  ///< a bit per channel: order of the encoder's phases
-  kClearCounters,     ///< a bit per channel
+  kEncoderDirection,  ///< one bit for each channel: order of the encoder's phases
+  kClearCounters,     ///< one bit for each channel
   kSetDac,
-  kLatchCounters,  ///< the next packet from the board holds the counters of this moment
+  kLatchCounters,  ///< the next packet from the board holds the counters at this moment
 };
 
-/// What the board answers to kLatchCounters.
+/// The board's reply to kLatchCounters.
 struct Reading {
   std::array<int32_t, kChannels> counter{};  ///< 24 bits, sign extended
   uint8_t inputs = 0;                        ///< bits 4–7: rotary switch
@@ -45,19 +45,19 @@ SPIDAR_API void encode_clear_counters(uint8_t channels, Packet& packet) noexcept
 SPIDAR_API void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept;
 SPIDAR_API void encode_latch(Packet& packet) noexcept;
 
-/// What a packet to the board says.
+/// A packet to the board, decoded.
 struct HostPacket {
   Command command = Command::kLatchCounters;
   uint8_t channels = 0;  ///< of kEncoderDirection and kClearCounters
   DacDigits digits{};    ///< of kSetDac
 };
 
-/// False when it is none of the commands, or not of kPacketSize.
+/// Returns false when it is none of the commands, or does not have kPacketSize bytes.
 SPIDAR_API bool decode_command(ByteView packet, HostPacket& command) noexcept;
 
-/// Counters are cut to 24 bits.
+/// Counters are reduced to 24 bits.
 SPIDAR_API void encode_reading(const Reading& reading, Packet& packet) noexcept;
-/// False when it is not of kPacketSize.
+/// Returns false when it does not have kPacketSize bytes.
 SPIDAR_API bool decode_reading(ByteView packet, Reading& reading) noexcept;
 
 }  // namespace spidar::usb_simple

@@ -45,7 +45,7 @@ void request_exact_timers() noexcept {
 }
 
 void request_background() noexcept {
-  // On Linux priorities are those of a thread, whatever POSIX says of processes.
+  // On Linux a priority belongs to a thread, although POSIX defines it for processes.
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
 }
 

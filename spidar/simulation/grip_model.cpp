@@ -10,7 +10,7 @@
 namespace spidar {
 namespace {
 
-/// Step times the highest angular frequency. The method is stable below 2, so that the strings'
+/// Step times the highest angular frequency. The method is stable below 2, so the strings'
 /// stiffness t/L may still grow 64-fold: a string may shorten to 1/64 of its length at the centre.
 constexpr double kStepTimesFrequency = 0.25;
 constexpr double kTick_s = 1e-3;
@@ -55,7 +55,7 @@ double max_frequency_squared(const StringGeometry& geometry, const StringVector&
 
 Eigen::Quaterniond rotation_by(const Eigen::Vector3d& vector_rad) {
   const double angle = vector_rad.norm();
-  // sin(a/2)/a, with its limit where a² is lost beside 1.
+  // sin(a/2)/a; its limit where a² vanishes beside 1.
   const double scale = angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5;
   Eigen::Quaterniond rotation;
   rotation.w() = std::cos(angle / 2);
@@ -68,7 +68,7 @@ Eigen::Quaterniond rotation_by(const Eigen::Vector3d& vector_rad) {
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept {
   const double sine = rotation.vec().norm();
   const double sign = rotation.w() < 0 ? -1.0 : 1.0;
-  // angle / sin(angle/2), with its limit at no rotation.
+  // angle / sin(angle/2); its limit where there is no rotation.
   const double scale = sine > 1e-8 ? 2 * std::atan2(sine, sign * rotation.w()) / sine : 2.0;
   return sign * scale * rotation.vec();
 }

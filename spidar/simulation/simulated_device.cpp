@@ -18,7 +18,7 @@ namespace spidar {
 namespace {
 
 constexpr int64_t kStep_ns = 1'000'000;
-constexpr int64_t kMaxElapsed_ns = 50'000'000;  // a stopped process must not leap when it goes on
+constexpr int64_t kMaxElapsed_ns = 50'000'000;  // a stopped process must not leap when it continues
 
 int64_t monotonic_ns() noexcept {
   timespec now{};
@@ -26,7 +26,8 @@ int64_t monotonic_ns() noexcept {
   return static_cast<int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
 }
 
-/// Tension that the motor of `drive` settles at: D/A range, D/A steps, then the motor's own limit.
+/// Tension at which the motor of `drive` settles: range of the D/A, its steps, then the motor's own
+/// limit.
 double settled_tension_N(double volt, const StringDrive& drive, const Profile& profile) noexcept {
   const double pulling_V = volt * drive.motor_sign;
   if (!(pulling_V > 0) || !std::isfinite(pulling_V)) return 0;
@@ -105,7 +106,7 @@ struct SimulatedDevice::Impl {
   const double model_lag_s;
   const GripDynamics dynamics;
   const StringVector zero_length_m;
-  // Of the thread that exchanges.
+  // Used only by the thread that exchanges.
   bool open = false;
   int64_t time_ns = 0;
   int64_t last_ns = 0;

@@ -27,12 +27,12 @@ constexpr int kNotCalibrated = 3;
 constexpr double kHoldSeconds = 2;
 constexpr double kSamplePeriod_s = 0.002;
 
-/// The device that is calibrated, and the hand of a simulated one.
+/// The device to calibrate and, if it is simulated, its hand.
 class Bench {
  public:
   Bench(const CalibrateOptions& options, const Profile& profile) : geometry_(profile.geometry) {
     if (options.device != "sim") {
-      // Offsets are those of the board's own counters.
+      // Offsets refer to the board's own counters.
       BoardSettings as_counted;
       as_counted.count_zero = CountZero::kNever;
       device_ = make_device(options.device, profile, as_counted);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is asked of `spidarctl calibrate`.
+/// Options of `spidarctl calibrate`.
 #pragma once
 
 #include <optional>
@@ -20,12 +20,12 @@ struct CalibrateOptions {
   double seconds = 20;
   CalibrationSettings settings;
   std::string output;             ///< empty: none
-  std::optional<Pose> sim_start;  ///< where the simulated device's counters were cleared
+  std::optional<Pose> sim_start;  ///< pose at which the simulated device's counters were cleared
   bool json = false;
   bool help = false;
 };
 
-/// `argv[0]` is the sub-command. Throws UsageError.
+/// `argv[0]` is the name of the sub-command. Throws UsageError.
 CalibrateOptions parse_calibrate_options(int argc, char** argv);
 
 extern const char* const kCalibrateHelp;

@@ -34,7 +34,7 @@ std::string triple(const Eigen::Vector3d& value, const char* pattern) {
   for (int axis = 0; axis < 3; ++axis) {
     char number[32];
     std::snprintf(number, sizeof number, pattern, value[axis]);
-    // Not "-0.00".
+    // Avoids "-0.00".
     if (std::strtod(number, nullptr) == 0) std::snprintf(number, sizeof number, pattern, 0.0);
     text += (axis ? " " : "") + std::string(number);
   }

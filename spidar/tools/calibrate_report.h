@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What `spidarctl calibrate` says about a result.
+/// Prints the result of `spidarctl calibrate`.
 #pragma once
 
 #include <iosfwd>
@@ -11,11 +11,11 @@
 
 namespace spidar {
 
-/// `how`: like "moved for 20 s".
+/// `how` is a phrase like "moved for 20 s".
 void print_result(std::ostream& out, const Profile& profile, const CalibrationResult& result,
                   const std::string& how);
 
-/// One JSON object; units are in the names. Infinities are strings.
+/// One JSON object; names include units. Infinities are strings.
 void print_result_json(std::ostream& out, const Profile& profile, const CalibrationResult& result,
                        const std::string& how);
 

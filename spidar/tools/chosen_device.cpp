@@ -24,7 +24,7 @@ ChosenDevice choose_device(const DeviceOptions& options, CountZero count_zero) {
   chosen.profile = load_profile(options.profile.empty() ? chosen.board.profile : options.profile);
   BoardSettings settings;
   settings.count_zero = count_zero;
-  // Nothing here is so urgent that an exchange cannot be waited for.
+  // No tool is in such a hurry that it could not wait for an exchange.
   settings.threaded = false;
   chosen.device = make_device(options.device, chosen.profile, settings);
   return chosen;

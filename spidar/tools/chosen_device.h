@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The device that a command is about.
+/// The device on which a command works.
 #pragma once
 
 #include <memory>
@@ -24,11 +24,11 @@ struct ChosenDevice {
 ChosenDevice choose_device(const DeviceOptions& options,
                            CountZero count_zero = CountZero::kByProfile);
 
-/// Throws DeviceError that says that `command` is for strings when the board has none.
+/// Throws DeviceError when the board has no strings; its message says that `command` needs them.
 void require_strings(const BoardInfo& board, const std::string& command);
 
-/// The device can put out negative volts. Boards from zero volts cannot: they refuse such a
-/// profile.
+/// Whether the device can output negative volts. Boards that output positive volts only refuse such
+/// a profile.
 bool can_reverse(const std::string& device, Profile profile);
 
 }  // namespace spidar

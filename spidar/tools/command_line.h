@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the commands' command lines have in common.
+/// Command-line parsing shared by all commands.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace spidar {
 
-/// A command line that cannot be followed. what() says what was wrong and what would be right.
+/// An invalid command line. what() says what was wrong and what would be right.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -22,51 +22,51 @@ struct CommandOption {
   std::function<void(const std::string& value)> take;
 };
 
-/// Calls take() of the options that are given, in any place, and returns the other arguments.
-/// `argv[0]` is the sub-command. Throws UsageError, and what take() throws.
+/// Calls take() for each option that is given, at any position, and returns the other arguments.
+/// `argv[0]` is the name of the sub-command. Throws UsageError, and what take() throws.
 std::vector<std::string> parse_options(int argc, char** argv,
                                        const std::vector<CommandOption>& options);
 
-/// Throws UsageError that begins with `what` when `text` is no finite number.
+/// Throws UsageError that begins with `what` when `text` is not a finite number.
 double parse_number(const std::string& what, const std::string& text);
 
-/// Throws UsageError also when it is not from `min` to `max`. `unit` is for the message: "s".
+/// Also throws UsageError when the number is not in `min` … `max`. `unit` is for the message: "s".
 double parse_number(const std::string& what, const std::string& text, double min, double max,
                     const std::string& unit);
 
-/// Parts between commas.
+/// Splits at commas.
 std::vector<std::string> split_at_commas(const std::string& text);
 
 /// Throws UsageError when `file` does not end in .toml, as profile files do.
 std::string parse_profile_file(const std::string& what, const std::string& file);
 
-/// What every command that opens a device is told.
+/// Arguments of every command that opens a device.
 struct DeviceOptions {
   std::string device;
-  std::string profile;  ///< empty: the one that the board begins with
+  std::string profile;  ///< empty: the default profile of the board
   bool help = false;
   std::vector<std::string> operands;  ///< after DEVICE
 };
 
-/// DEVICE and as many operands as `operands` names, --profile, --help, and `own` options.
-/// `help` in the result: nothing else is to be done. Throws UsageError.
+/// Parses DEVICE, as many operands as `operands` names, --profile, --help, and the options `own`.
+/// If `help` is set in the result, there is nothing else to do. Throws UsageError.
 DeviceOptions parse_device_options(int argc, char** argv, std::vector<CommandOption> own = {},
                                    const std::vector<std::string>& operands = {});
 
-/// One thing that a program can do. run() takes the command line from the command's name on and
-/// returns the exit status; it may throw.
+/// One command of a program. run() takes the command line from the command's name on and returns
+/// the exit status; it may throw.
 struct Command {
   const char* name;
   int (*run)(int argc, char** argv);
 };
 
-/// The main() of a program that is called as PROGRAM COMMAND ARGUMENTS…: runs the command, answers
-/// --help with `help` and --version, and prints what a command throws to standard error. Returns
-/// the exit status (see exit_status.h).
+/// main() of a program that is called as PROGRAM COMMAND ARGUMENTS…: runs the command, handles
+/// --version and --help (with `help`), and prints exceptions of a command to standard error.
+/// Returns the exit status (see exit_status.h).
 int run_program(const std::string& program, const std::vector<Command>& commands, const char* help,
                 int argc, char** argv);
 
-/// --json for `options` of commands that give data. Outlived by `json`.
+/// The option --json of commands that print data. `json` must outlive the result.
 CommandOption json_option(bool& json);
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A hand that shows a simulated grip everything calibration wants to see.
+/// A hand that moves a simulated grip through the motion that calibration needs.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace spidar {
 
-/// Away from the centre and about it in all six directions at once, with periods of about two to
-/// four seconds that have no common multiple: by up to 0.4 of the frame's half-width and 0.45 rad
-/// each way. At the centre until `time_s` is zero. `phase_rad` makes it another motion.
+/// Moves and rotates in all six directions at once, with incommensurable periods of about two to
+/// four seconds: by up to 0.4 of the frame's half-width and 0.45 rad in each direction. At the
+/// centre up to `time_s` = 0. Another `phase_rad` gives another motion.
 inline Pose hand_in_motion(const StringGeometry& geometry, double time_s, double phase_rad = 0) {
   constexpr double kShare = 0.4, kTurn_rad = 0.45, kFadeIn_s = 1.0;
   constexpr double kRate_Hz[6] = {0.437, 0.361, 0.281, 0.251, 0.319, 0.397};

@@ -19,7 +19,7 @@ Opens DEVICE, reads it for a tenth of a second with the motors at zero, and prin
 struct Found {
   DeviceReading reading;
   LinkHealth health;
-  std::string description;  // by the open device
+  std::string description;  // reported by the open device
 };
 
 Found read(ChosenDevice& chosen) {
@@ -103,7 +103,7 @@ int info_command(int argc, char** argv) {
     std::cout << kHelp;
     return kDone;
   }
-  // As the board counts.
+  // Shows the counts as the board gives them, without a new zero.
   ChosenDevice chosen = choose_device(options, CountZero::kNever);
   catch_signals();
   const Found found = read(chosen);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Data for other programs. Units are in the names.
+/// Data for other programs. Names include units.
 #pragma once
 
 #include <sstream>
@@ -23,7 +23,7 @@ inline std::string json_text(const toml::table& table) {
   return out.str();
 }
 
-/// On one line, for data that keep coming. Line ends within strings are escaped already.
+/// Writes to a single line, for streams of data. Line breaks within strings are already escaped.
 inline std::string json_line(const toml::table& table) {
   std::string line;
   bool indent = false;

@@ -18,7 +18,7 @@ constexpr const char* kKnown =
                               kKnown + ", channels are 0 to " + std::to_string(strings - 1));
 }
 
-/// Channels after the colon, one or two.
+/// One or two channels after the colon.
 std::array<size_t, 2> channels_of(const std::string& fault, int strings, bool two) {
   std::istringstream in(fault.substr(fault.find(':') + 1));
   int first = -1, second = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device whose exchanges are looked at.
+/// A device whose exchanges are measured.
 #pragma once
 
 #include <array>
@@ -13,21 +13,22 @@
 
 namespace spidar {
 
-/// What a device did in all the time that it was open.
+/// Statistics over the whole time in which a device was open.
 struct Observation {
-  std::string description;  ///< as it was opened last
+  std::string description;  ///< as of the last opening
   uint64_t exchanges = 0;
   uint64_t answered = 0;
   LatencyHistogram duration;  ///< of an exchange
   LatencyHistogram period;    ///< from one exchange to the next, while it stayed open
   std::array<int32_t, kMaxStrings> smallest{};
   std::array<int32_t, kMaxStrings> largest{};
-  std::array<int64_t, kMaxStrings> largest_step{};  ///< between two answers, either way
-  uint32_t inputs = 0;                              ///< of the first answer
-  uint32_t changed_inputs = 0;                      ///< those that were different at some time
+  /// Between two successive answers, in either direction.
+  std::array<int64_t, kMaxStrings> largest_step{};
+  uint32_t inputs = 0;          ///< of the first answer
+  uint32_t changed_inputs = 0;  ///< inputs that have ever differed from that
 };
 
-/// Does what the device does. One thread.
+/// Forwards all calls to the device. Not thread-safe.
 class ObservedDevice final : public Device {
  public:
   explicit ObservedDevice(std::unique_ptr<Device> device) : device_(std::move(device)) {}
@@ -47,7 +48,7 @@ class ObservedDevice final : public Device {
   const std::unique_ptr<Device> device_;
   Observation seen_;
   DeviceReading last_;
-  int64_t last_begin_ns_ = 0;  // 0: none since it was opened
+  int64_t last_begin_ns_ = 0;  // 0: no exchange since it was opened
 };
 
 }  // namespace spidar

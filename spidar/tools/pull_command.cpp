@@ -30,12 +30,13 @@ Exit status: 0 the string was pulled, 1 no device, no answer, or not confirmed, 
 130 interrupted.
 )";
 
-/// Half a kilogram hangs as hard on a finger. A motor's heat goes with the time as well.
+/// 5 N is the weight of half a kilogram hanging on a finger. The heat of a motor also grows with
+/// time.
 constexpr double kMaxPull_N = 5;
 constexpr double kMaxPull_Ns = 5;
 constexpr double kMaxPull_s = 10;
 
-/// Up and down.
+/// Duration of each ramp, up and down.
 constexpr double kRamp_s = 0.1;
 
 struct Pull {

@@ -9,7 +9,7 @@
 
 namespace spidar {
 
-/// Computes what the haptic loop computes from a reading.
+/// Computes lengths and pose from a reading as the haptic loop does.
 class Readout {
  public:
   explicit Readout(const Profile& profile)

@@ -13,7 +13,7 @@
 namespace spidar {
 namespace {
 
-/// What a profile of the device as it is wired says.
+/// Signs in a profile of the device as it is wired.
 int motor_sign(const Profile& profile, const WiringReport& report, int i) {
   const auto k = static_cast<size_t>(i);
   return profile.drives[k].motor_sign * (report.channel[k].motor_reversed ? -1 : 1);
@@ -24,7 +24,7 @@ int encoder_sign(const Profile& profile, const WiringReport& report, int i) {
   return profile.drives[k].encoder_sign * (report.channel[k].encoder_reversed ? -1 : 1);
 }
 
-/// Also when the plugs were put back: a motor takes its sign with it.
+/// Holds also after the plugs are put right, because a motor keeps its direction of rotation.
 bool motor_reversed(const Profile& profile, const WiringReport& report, int i) {
   const int string = report.channel[static_cast<size_t>(i)].motor_string;
   return string >= 0 &&
@@ -44,7 +44,7 @@ std::string what(int string, bool reversed, int own, const char* verb, const cha
   return text.empty() ? "ok" : text;
 }
 
-/// "strings 2 and 5 are swapped", or where each is when more than two changed places.
+/// "strings 2 and 5 are swapped", or the place of each when more than two are exchanged.
 template <typename StringOf>
 void find_exchanges(const WiringReport& report, const std::string& things, const StringOf& of,
                     std::vector<std::string>& faults) {
@@ -100,7 +100,7 @@ bool silent(const WiringReport& report) {
                      [](const WiringChannel& channel) { return channel.motor_string < 0; });
 }
 
-/// " 2, 5"; empty: none.
+/// Text like " 2, 5"; empty when there are none.
 std::string unclear_motors(const WiringReport& report) {
   std::string names;
   for (int i = 0; i < report.count; ++i)

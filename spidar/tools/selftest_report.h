@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What `spidarctl selftest` found, for people and programs.
+/// Prints the result of `spidarctl selftest` for people and for programs.
 #pragma once
 
 #include <iosfwd>

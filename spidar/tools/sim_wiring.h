@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Simulated devices that are wired otherwise than their profile says.
+/// Simulated devices that are wired differently from their profile.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace spidar {
 
 bool is_simulated(const std::string& device);
 
-/// --sim-wiring for `options`. Outlived by `faults`.
+/// Adds --sim-wiring to `options`. `faults` must outlive the result.
 CommandOption sim_wiring_option(std::string& faults);
 
-/// Nothing when `faults` is empty. Throws UsageError when it is not understood, or the device is
+/// Does nothing when `faults` is empty. Throws UsageError when `faults` is invalid or the device is
 /// not simulated.
 void miswire(const std::string& faults, const std::string& device, ChosenDevice& chosen);
 

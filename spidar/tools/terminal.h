@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The person in front of it: signals, questions, files.
+/// Interaction with the person at the terminal: signals, questions, files.
 #pragma once
 
 #include <string>
@@ -9,18 +9,19 @@
 
 namespace spidar {
 
-/// From now on SIGINT, SIGTERM and SIGHUP only set interrupted(): the strings are released before
-/// the program ends, whoever ends it.
+/// From now on SIGINT, SIGTERM and SIGHUP only set interrupted(), so that the strings are released
+/// before the program ends.
 void catch_signals();
 bool interrupted();
 
-/// A millisecond after the last call, or at once when that is past; false when interrupted.
+/// Waits until a millisecond after the last call, or not at all if that has passed; returns false
+/// when interrupted.
 Pace every_millisecond();
 
-/// True when the answer is yes. Throws UsageError when there is nobody to ask.
+/// Returns true when the answer is yes. Throws UsageError when standard input is not a terminal.
 bool confirm(const std::string& question);
 
-/// Before anything moves for nothing. Throws ProfileError.
+/// Checks that the file can be written, before the device moves in vain. Throws ProfileError.
 void check_folder_of(const std::string& file);
 
 }  // namespace spidar

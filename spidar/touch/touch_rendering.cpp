@@ -7,7 +7,7 @@
 namespace spidar {
 namespace {
 
-/// Whether the surface can go from one frame to the other.
+/// Whether the surface can change continuously from one frame to the other.
 bool leads_to(const TouchFrame& before, const TouchFrame& after) noexcept {
   return after.follows && before.has_surface && after.has_surface &&
          after.time_ns > before.time_ns && after.displacement_m.allFinite();
@@ -84,7 +84,7 @@ void TouchRendering::drop_forgotten(TouchMailbox& mailbox) noexcept {
   }
 }
 
-/// Null also where it is of a generation that began after this tick did.
+/// Null also if the frame is of a generation that began after this tick.
 const TouchFrame* TouchRendering::frame(const TouchMailbox& mailbox, size_t nth) const noexcept {
   const TouchFrame* const found = mailbox.front(nth);
   return found != nullptr && found->generation == generation_ ? found : nullptr;
@@ -107,7 +107,8 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
     if (!leads_on_) {
       leads_on_ = true;
       jumped_ = false;
-      // Known already: from where the last way ended, so that the surface never waits for a tick.
+      // If the frame is known already, the transition begins where the last one ended, so that the
+      // surface does not wait for the next tick.
       from_ns_ = just_reached ? reached_ns_ : running_ns;
       const int64_t interval_ns = next->time_ns - now->time_ns;
       to_ns_ = leads_to(*now, *next)
@@ -125,7 +126,7 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
   }
 }
 
-/// Whether what is at this place rises faster than a surface may that is there all at once.
+/// Whether the surface rises faster at this place than a new surface is allowed to.
 bool TouchRendering::jumps(const MovingRelief& surface,
                            const Eigen::Vector2d& place_m) const noexcept {
   const Eigen::Vector2d before_m = place_m - surface.share * surface.displacement_m;

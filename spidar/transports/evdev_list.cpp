@@ -27,7 +27,7 @@ std::string attribute(const std::string& path) {
   return line.substr(0, line.find('\n'));
 }
 
-/// Bits as sysfs has them: hexadecimal words of a long each, the highest first.
+/// Bits as sysfs prints them: hexadecimal words of the size of a long, the highest first.
 bool has_bit(const std::string& words, unsigned bit) {
   constexpr unsigned kBits = 8 * sizeof(unsigned long);
   std::string left = words;

@@ -29,7 +29,7 @@ bool has(const std::array<uint8_t, N>& bits, unsigned bit) noexcept {
   return bits[bit / 8] >> bit % 8 & 1;
 }
 
-/// Which codes of an event type the device has; none when it does not say.
+/// Codes of an event type that the device supports; none when it does not tell.
 template <size_t Bits>
 BitSet<Bits> codes(int file, unsigned type) noexcept {
   BitSet<Bits> bits{};
@@ -54,7 +54,7 @@ LinkFault fault_of(int error) noexcept {
   }
 }
 
-/// The place on an axis, −kFull … kFull; false when the device is gone.
+/// Position on an axis, −kFull … kFull; false when the device is gone.
 bool place_on(int file, int axis, int16_t& place) noexcept {
   input_absinfo info{};
   if (ioctl(file, EVIOCGABS(static_cast<unsigned>(axis)), &info) < 0) return false;
@@ -113,8 +113,8 @@ void EvdevTransport::open() {
   find_axes();
 }
 
-/// A wheel's other axes are its pedals. Drivers tell wheels by an axis or a button that only wheels
-/// have, or only by their name.
+/// The other axes of a wheel are its pedals. Drivers identify a wheel by an axis or a button that
+/// only wheels have, or only by its name.
 void EvdevTransport::find_axes() noexcept {
   const auto axes = codes<ABS_CNT>(file_, EV_ABS);
   const auto keys = codes<KEY_CNT>(file_, EV_KEY);
@@ -143,11 +143,11 @@ ff::Description EvdevTransport::describe() const noexcept {
 
 bool EvdevTransport::read_position(ff::Position& position) const noexcept {
   int effects = 0;
-  // A device without axes is asked as well: the answer says that it is still there.
+  // A device without axes is queried as well, because the answer shows that it is still connected.
   if (ioctl(file_, EVIOCGEFFECTS, &effects) < 0) return false;
   if (right_axis_ >= 0 && !place_on(file_, right_axis_, position.right)) return false;
   if (up_axis_ >= 0 && !place_on(file_, up_axis_, position.up)) return false;
-  position.up = static_cast<int16_t>(-position.up);  // y of a stick is down
+  position.up = static_cast<int16_t>(-position.up);  // y of a stick points down
   return true;
 }
 

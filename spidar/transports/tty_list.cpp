@@ -18,7 +18,7 @@ bool begins(const std::string& name, const char* with) {
 std::vector<TtyLine> list_tty_lines(const std::string& folder) {
   std::vector<TtyLine> lines;
   std::error_code error;
-  // Files that cannot be listed are none.
+  // A folder that cannot be listed counts as empty.
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();

@@ -20,12 +20,13 @@ namespace spidar {
 namespace {
 
 LinkFault fault_of(int error) noexcept {
-  // EIO and ENXIO are what a USB adapter that was pulled out gives.
+  // A USB adapter that was pulled out gives EIO or ENXIO.
   return error == EIO || error == ENXIO || error == ENODEV || error == EBADF ? LinkFault::kGone
                                                                              : LinkFault::kBusError;
 }
 
-/// Raw 8N1 at any speed: termios2, for 2 Mbaud and more is not among the constants everywhere.
+/// Raw 8N1 at any speed, through termios2, because not every system has a constant for 2 Mbaud and
+/// more.
 bool set_raw(int file, int baud) noexcept {
   termios2 settings{};
   if (ioctl(file, TCGETS2, &settings) != 0) return false;
@@ -40,8 +41,8 @@ bool set_raw(int file, int baud) noexcept {
   return ioctl(file, TCSETS2, &settings) == 0;
 }
 
-/// FTDI adapters collect bytes for 16 ms otherwise. Other drivers do not know it, and pseudo
-/// terminals need it not.
+/// FTDI adapters otherwise collect bytes for 16 ms. Other drivers do not support it, and pseudo
+/// terminals do not need it.
 void ask_for_low_latency(int file) noexcept {
   serial_struct serial{};
   if (ioctl(file, TIOCGSERIAL, &serial) != 0) return;
@@ -101,7 +102,7 @@ LinkFault TtyTransport::wait_for(short events, int64_t deadline_ns) noexcept {
 Transfer TtyTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                                 int64_t deadline_ns) noexcept {
   if (file_ < 0) return {LinkFault::kGone, 0};
-  // Bytes that nobody asked for would be taken for the reply.
+  // Unexpected bytes would be mistaken for the reply.
   int unread = 0;
   ioctl(file_, FIONREAD, &unread);
   if (unread > 0) ioctl(file_, TCFLSH, TCIFLUSH);

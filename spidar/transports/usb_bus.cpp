@@ -16,7 +16,7 @@ namespace spidar {
 namespace {
 
 std::string bus_path(libusb_device* device) {
-  std::array<uint8_t, 7> ports{};  // USB has no deeper trees
+  std::array<uint8_t, 7> ports{};  // the deepest tree that USB allows
   const int depth = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
   std::string path = std::to_string(libusb_get_bus_number(device));
   for (int i = 0; i < depth; ++i)
@@ -24,7 +24,8 @@ std::string bus_path(libusb_device* device) {
   return path;
 }
 
-/// As the kernel read it when the device was plugged in: asking the device needs it open.
+/// As the kernel read it when the device was plugged in; reading it from the device requires
+/// opening it.
 std::string kernel_serial(const std::string& path) {
   const int file = open(("/sys/bus/usb/devices/" + path + "/serial").c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return {};

@@ -53,7 +53,7 @@ extern "C" void LIBUSB_CALL mark_done(libusb_transfer* transfer) {
   *static_cast<int*>(transfer->user_data) = 1;
 }
 
-/// What to do about an error of opening or claiming.
+/// Advice for an error in opening or claiming.
 std::string advice(int error) {
   switch (error) {
     case LIBUSB_ERROR_ACCESS:
@@ -78,7 +78,7 @@ bool has_endpoint(const libusb_interface_descriptor& setting, uint8_t address, b
   return false;
 }
 
-/// A process that was killed a moment ago may still have the board, or its guardian.
+/// A process that was just killed, or its guardian, may still hold the board.
 int claim(libusb_device_handle* handle) {
   const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
   int error = libusb_claim_interface(handle, kInterface);
@@ -107,8 +107,8 @@ int setting_with(libusb_device* device, const UsbPipes& pipes) {
   return found;
 }
 
-/// The descriptor of the only device that is open in the context; −1 when there is none. usbfs says
-/// by POLLOUT that a transfer is done, and libusb waits for it on nothing else.
+/// The file descriptor of the only open device of the context; −1 when there is none. usbfs signals
+/// a completed transfer with POLLOUT, and libusb polls no other descriptor for it.
 int open_file(libusb_context* context) {
   const libusb_pollfd** const list = libusb_get_pollfds(context);
   int file = -1;
@@ -189,7 +189,7 @@ bool UsbTransport::in_flight() const noexcept {
   return std::any_of(slots_.begin(), slots_.end(), [](const Slot& s) { return s.done == 0; });
 }
 
-/// Handles events until nothing is in flight, which from the deadline on is cancelled.
+/// Handles events until no transfer is in flight; from the deadline on, cancels them.
 void UsbTransport::finish(int64_t deadline_ns) noexcept {
   bool cancelled = false;
   while (in_flight()) {
@@ -225,7 +225,7 @@ Transfer UsbTransport::exchange(std::initializer_list<ByteView> packets, Mutable
     std::copy_n(packet.data, length, slot.bytes.begin());
     fault = submit(slot, pipes_.out, length);
   }
-  // A packet that is not sent has no reply.
+  // If a packet was not sent there will be no reply.
   finish(fault == LinkFault::kNone ? deadline_ns : 0);
   if (fault != LinkFault::kNone) return {fault, 0};
 
@@ -246,11 +246,11 @@ Transfer UsbTransport::exchange(std::initializer_list<ByteView> packets, Mutable
 
 void UsbTransport::recover() noexcept {
   if (!handle_) return;
-  // Unasked the published hosts reset the pipe of the replies only.
+  // Unless there is a stall, the published hosts reset only the pipe of the replies.
   if (out_stalled_) libusb_clear_halt(handle_, pipes_.out);
   out_stalled_ = false;
   libusb_clear_halt(handle_, pipes_.in);
-  // Replies to what timed out, of which a board keeps a few.
+  // Drops replies to exchanges that timed out; a board buffers a few of them.
   std::array<uint8_t, kMaxLength> old{};
   for (int i = 0; i < 4; ++i) {
     const Transfer transfer = exchange({}, old, monotonic_now_ns() + kDrain_ns);
@@ -275,7 +275,7 @@ void UsbTransport::close() noexcept {
     libusb_close(handle_);
     handle_ = nullptr;
   }
-  // A transfer keeps the device that it was last submitted to, which keeps to its context.
+  // A transfer refers to the device to which it was last submitted, and that to its context.
   for (Slot& slot : slots_) {
     libusb_free_transfer(slot.transfer);
     slot.transfer = nullptr;

@@ -25,7 +25,7 @@ StringHold::~StringHold() {
   device_.close();
 }
 
-/// False when there is no new reading.
+/// Returns false when there is no new reading.
 bool StringHold::exchange() {
   const ExchangeStatus status = device_.exchange(to_volts(tension_N_, profile_), reading_);
   errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
@@ -49,7 +49,7 @@ bool StringHold::go(const StringVector& tension_N, double seconds) {
 }
 
 bool StringHold::stay(double seconds, const std::function<bool(const DeviceReading&)>& seen) {
-  // Half a tick: the sum of many rounds.
+  // Half a tick, for the rounding errors of a long sum.
   for (double left_s = seconds; left_s > kTick_s / 2; left_s -= kTick_s) {
     if (!pace_()) return false;
     if (exchange() && seen && !seen(reading_)) return true;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kRunaway_m = 0.03;
 constexpr int kRounds = 4;
-/// Of an answer: by so much the next one may differ. Hands drift and tremble, and a motor that does
-/// nothing has no answer, so that this allows no more than smallest_answer_m().
+/// By which share of an answer the next one may differ, because hands drift and tremble. A motor
+/// that does nothing has no answer, so this allows at most smallest_answer_m() for it.
 constexpr double kSteady = 0.25;
 
 class WiringTest {
@@ -69,10 +69,11 @@ class WiringTest {
     return true;
   }
 
-  /// Counts.
+  /// Changes of the counts.
   struct Pull {
     StringVector answer = StringVector::Zero();
-    StringVector drift = StringVector::Zero();  ///< from the rest before to the rest after
+    /// From the rest before the pull to the rest after it.
+    StringVector drift = StringVector::Zero();
   };
 
   bool pull(int motor, const StringVector& pulled_N, Pull& result) {
@@ -82,7 +83,7 @@ class WiringTest {
     if (!hold_.go(pulled_N, settings_.ramp_s) || !stay() || !average(pulled)) return false;
     pulling_ = -1;
     if (!hold_.go(rest_N_, settings_.ramp_s) || !stay() || !average(after)) return false;
-    // Against both rests, so that a hand that drifts away slowly does not count.
+    // Relative to the mean of both rests, so that a slow drift of the hand cancels.
     result.answer = pulled - 0.5 * (at_rest_ + after);
     result.drift = after - at_rest_;
     at_rest_ = after;
@@ -97,7 +98,7 @@ class WiringTest {
     return largest;
   }
 
-  /// Keeps the other sign when that is the one that pulls.
+  /// Tries the other sign and keeps it if the motor then pulls.
   bool ask_reversed(int motor, WiringAnswers& answers) {
     if (!turn(motor) || !ask(motor, answers)) return false;
     answers.reversed[static_cast<size_t>(motor)] = answered(answers, motor);
@@ -161,8 +162,8 @@ class WiringTest {
   const StringVector rest_N_;
   StringHold hold_;
   int pulling_ = -1;
-  StringVector at_rest_ = StringVector::Zero();  // newest average of the counts
-  bool rested_ = false;                          // it is of the tensions as they are
+  StringVector at_rest_ = StringVector::Zero();  // latest average of the counts
+  bool rested_ = false;                          // whether it belongs to the present tensions
 };
 
 }  // namespace

@@ -14,12 +14,13 @@
 namespace spidar {
 namespace {
 
-/// What an explanation loses for each fault that it assumes, as a share of a perfect correlation.
+/// By how much each assumed fault lowers the score of an explanation, as a share of a perfect
+/// correlation.
 constexpr double kFaultCost = 2e-3;
-/// An answer below this share of the median of the strongest answers is none.
+/// An answer below this share of the median of the strongest answers counts as none.
 constexpr double kSilent = 0.1;
-/// A motor's answer beside the others', as a multiple of the expected one: hands are not equally
-/// stiff in all directions, and motors are not equally strong.
+/// Allowed strength of a motor's answer relative to the others, as a multiple of the expected one:
+/// hands are not equally stiff in all directions, and motors not equally strong.
 constexpr double kWeakest = 1.0 / 3, kStrongest = 3;
 constexpr double kRotationShares[] = {0.1, 0.3, 1, 3, 10};
 
@@ -29,7 +30,7 @@ struct Explanation {
   Assignment motor{}, encoder{};
   std::array<bool, kMaxStrings> encoder_reversed{};
   double correlation = 0;
-  double worth = -1;  // correlation less the cost of the faults
+  double worth = -1;  // correlation minus the cost of the faults
 };
 
 class Judge {
@@ -92,7 +93,7 @@ class Judge {
       if (silent_encoder_[i]) answer_.row(static_cast<Eigen::Index>(i)).setZero();
   }
 
-  /// Shortening of string j for a pull of string i, up to a factor.
+  /// Shortening of string j when string i is pulled, up to a common factor.
   void expect(double rotation_share) {
     const GripModel hand;
     Eigen::Matrix<double, 6, 1> compliance;
@@ -103,9 +104,9 @@ class Judge {
 
   /// How well an assignment of motors and encoders to strings explains the answers: the correlation
   ///   Σⱼ |Σᵢ answer(j, i) expected(encoder j, motor i)| / (‖answer‖ ‖expected‖)
-  /// over all encoders j and motors i that are not silent. Each encoder is taken with the sign that
-  /// suits it. Every fault costs a little, so that of two explanations that are equally good the
-  /// simpler one is chosen.
+  /// over all encoders j and motors i that are not silent. Each encoder has the sign that fits
+  /// better. Every fault has a small cost, so that the simpler one of two equally good explanations
+  /// is chosen.
   Explanation explain(const Assignment& motor, const Assignment& encoder) const {
     Explanation e;
     e.motor = motor;
@@ -125,7 +126,7 @@ class Judge {
     return e;
   }
 
-  /// Of encoder j for a pull of each motor, not reversed; zero for silent motors.
+  /// Expected answers of encoder j, not reversed, to a pull of each motor; zero for silent motors.
   StringVector expected_answers(const Explanation& e, size_t j) const {
     StringVector expected = StringVector::Zero();
     for (size_t i = 0; i < static_cast<size_t>(count_); ++i)
@@ -133,7 +134,7 @@ class Judge {
     return expected;
   }
 
-  /// A motor and an encoder that were exchanged together with another pair count once.
+  /// A motor and an encoder that were exchanged together count as one fault.
   int count_faults(const Explanation& e) const {
     int faults = 0;
     for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
@@ -145,7 +146,7 @@ class Judge {
     return faults;
   }
 
-  /// The motors whose answers do not match their strings, in direction or in size.
+  /// Motors whose answers do not match their strings in direction or size.
   std::array<bool, kMaxStrings> find_unclear(const Explanation& e) const {
     std::array<bool, kMaxStrings> unclear{};
     std::array<double, kMaxStrings> size{};
