@@ -79,9 +79,9 @@ MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self) {
 
 // --- debug window ------------------------------------------------------------------------------
 
-/// Open while the element is and the property says so. Of several threads that change that at a
-/// time one does it for all; it may not wait for the others, for the window's own thread is one of
-/// them.
+/// Opens or closes the debug window according to the property and the state. If several threads
+/// change these at the same time, one of them does the work for all. The others must not be waited
+/// for, because one of them may be the window's own thread.
 static void follow_debug_window(GstSpidarMotion* self) {
   if (g_atomic_int_add(&self->window_changes, 1) > 0) return;
   gint seen;
@@ -220,8 +220,8 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->display = new MotionDisplay(GST_ELEMENT(self));
   self->steps = new spidar::StepWatch;
   self->complaints = new spidar::Complaints(GST_ELEMENT(self));
-  // Frames are looked at and passed on. GstVideoFilter would drop late ones before that: here it is
-  // the application's choice.
+  // GstVideoFilter would drop late frames before they are analysed; here the application decides
+  // that with `qos`.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);
   gst_base_transform_set_qos_enabled(GST_BASE_TRANSFORM(self), FALSE);
 }
@@ -235,7 +235,7 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   object_class->finalize = gst_spidar_motion_finalize;
   spidar::install_motion_properties(object_class);
   spidar::register_motion_meta();
-  // gboolean save-window(const gchar *path): what the debug window shows, as a PNG file.
+  // gboolean save-window(const gchar *path): saves the contents of the debug window as a PNG file.
   g_signal_new_class_handler("save-window", GST_TYPE_SPIDAR_MOTION,
                              static_cast<GSignalFlags>(G_SIGNAL_RUN_LAST | G_SIGNAL_ACTION),
                              G_CALLBACK(gst_spidar_motion_save_window), nullptr, nullptr, nullptr,

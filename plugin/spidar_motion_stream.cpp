@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Frames and events on their way through the element.
+// Frames and events that pass through the element.
 #include <string>
 
 #include "plugin/reports/exceptions.h"
@@ -19,7 +19,8 @@ static GstBaseTransformClass* parent_class() {
   return GST_BASE_TRANSFORM_CLASS(g_type_class_peek(GST_TYPE_VIDEO_FILTER));
 }
 
-/// GST_CLOCK_TIME_NONE where the segment is not in time, as from a file source without a parser.
+/// GST_CLOCK_TIME_NONE when the segment is not in time format, as from a file source without a
+/// parser.
 static GstClockTime running_time_of(const GstSegment& segment, GstClockTime time) {
   return segment.format == GST_FORMAT_TIME
              ? gst_segment_to_running_time(&segment, GST_FORMAT_TIME, time)
@@ -33,8 +34,8 @@ static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffe
   if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
 }
 
-/// Once a stream, with its first frame: before that neither the film's name nor its length is
-/// known.
+/// Called once for each stream, with its first frame: neither name nor length of the film is known
+/// earlier.
 static void choose_track(GstSpidarMotion* self, const GstVideoInfo& info) {
   if (self->track_chosen) return;
   self->track_chosen = TRUE;
@@ -75,7 +76,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     self->display->show(report, display, settings, *frame);
   });
   if (!processed) {
-    // The pipeline may go on playing for as long as the application likes.
+    // The application may leave the pipeline in PLAYING.
     self->engine->stop_touching();
     return GST_FLOW_ERROR;
   }
@@ -103,7 +104,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
                                                                           : GST_FLOW_ERROR;
 }
 
-/// A frame without a picture is not even mapped: that may have to wait for its memory.
+/// A frame without a picture is not mapped, because mapping may have to wait for its memory.
 static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, GstBuffer* buffer) {
   if (!GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP)) {
     return parent_class()->transform_ip(trans, buffer);
@@ -121,8 +122,8 @@ static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, Gst
              : GST_FLOW_ERROR;
 }
 
-/// In passthrough nothing is writable. A meta is added to the buffer and not to its memory, so a
-/// copy of the buffer that shares the memory will do.
+/// In passthrough the buffer may not be writable. A meta belongs to the buffer and not to its
+/// memory, so a copy of the buffer that shares the memory is sufficient.
 static GstFlowReturn gst_spidar_motion_prepare_output_buffer(GstBaseTransform* trans,
                                                              GstBuffer* input, GstBuffer** output) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
@@ -136,7 +137,7 @@ static GstFlowReturn gst_spidar_motion_prepare_output_buffer(GstBaseTransform* t
   return *output ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
-/// Whether the same moments are shown at the same pace after `b` as after `a`.
+/// Whether `b` shows the same moments at the same rate as `a`.
 static bool same_playback(const GstSegment& a, const GstSegment& b) {
   return a.format == b.format && a.rate == b.rate && a.start == b.start && a.base == b.base &&
          a.time == b.time && a.offset == b.offset;
@@ -154,7 +155,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
       GST_DEBUG_OBJECT(self, "end of flush%s", reset_time ? ", running time starts at zero" : "");
-      // Again: a frame may have been on its way through when the flush began.
+      // Flushes again, because a frame may have been in progress when the flush began.
       engine.flush();
       engine.restart_timing();
       if (reset_time) engine.output().expect_base_time();
@@ -175,7 +176,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     case GST_EVENT_GAP: {
       GstClockTime time, duration;
       gst_event_parse_gap(event, &time, &duration);
-      // Played backwards it begins at its end.
+      // In reverse playback the gap begins at its end.
       if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
       GST_DEBUG_OBJECT(self, "gap from %" GST_TIME_FORMAT ", force ends there",
                        GST_TIME_ARGS(time));
@@ -237,7 +238,7 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
     GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("The end of the trace could not be written."),
                         ("Disk full?"));
   }
-  // Here, because what is said on the way to NULL reaches nobody.
+  // Reported here, because messages during the change to NULL are discarded.
   if (self->engine->output().session()) self->engine->output().session()->drain_trace();
   self->complaints->look_at_haptic_trace(*self->engine);
   return TRUE;

@@ -23,7 +23,7 @@ gboolean query_latency(std::initializer_list<GstPad*> sink_pads, GstQuery* query
     if (!branch_live) continue;
     live = TRUE;
     min = std::max(min, branch_min);
-    max = std::min(max, branch_max);  // none is the largest number
+    max = std::min(max, branch_max);  // GST_CLOCK_TIME_NONE is the largest number
   }
   gst_query_set_latency(query, live, min, max);
   return TRUE;

@@ -8,8 +8,8 @@
 namespace spidar {
 namespace {
 
-/// The depth image covers the whole picture, so it stays right when the frame is copied, converted
-/// or scaled. Cut or turned it would not.
+/// The depth image covers the whole picture, so it remains valid when the frame is copied,
+/// converted or scaled, but not when it is cropped or rotated.
 gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark type, gpointer data,
                    gpointer) {
   const bool copied =
@@ -30,7 +30,7 @@ gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark type, 
 
 void register_depth_meta() {
   static const bool registered = [] {
-    // Elements that change one of these ask transform(), or drop the meta.
+    // Elements that change one of these call transform() or drop the meta.
     const gchar* tags[] = {GST_META_TAG_VIDEO_STR, GST_META_TAG_VIDEO_SIZE_STR,
                            GST_META_TAG_VIDEO_ORIENTATION_STR, nullptr};
     return gst_meta_register_custom(GST_SPIDAR_DEPTH_META_NAME, tags, transform, nullptr,

@@ -97,7 +97,7 @@ static void update_latency(GstSpidarDepth* self) {
   gst_query_unref(query);
 }
 
-/// What belongs to the frame, after the waiting.
+/// Waits for the depth of the frame and returns it.
 static DepthGate::Found find_depth(GstSpidarDepth* self, const spidar::ShownTime& time,
                                    guint64 max_age) {
   update_latency(self);
@@ -131,7 +131,7 @@ static GstFlowReturn gst_spidar_depth_chain(GstPad*, GstObject* parent, GstBuffe
   return gst_pad_push(self->src, buffer);
 }
 
-/// Depth that never met a frame is worth a word.
+/// Warns when no depth image has ever matched a frame.
 static void end_video(GstSpidarDepth* self) {
   self->gate->finish_video();
   if (self->attached > 0 || self->depth->images() == 0) return;
@@ -156,7 +156,7 @@ static gboolean gst_spidar_depth_sink_event(GstPad*, GstObject* parent, GstEvent
     case GST_EVENT_CAPS: {
       GstCaps* caps;
       gst_event_parse_caps(event, &caps);
-      // What no GstVideoInfo describes passes as well.
+      // Caps that GstVideoInfo cannot describe pass as well.
       if (!gst_video_info_from_caps(&self->video.info, caps))
         gst_video_info_init(&self->video.info);
       break;
@@ -174,7 +174,7 @@ static gboolean gst_spidar_depth_sink_event(GstPad*, GstObject* parent, GstEvent
   return gst_pad_push_event(self->src, event);
 }
 
-/// Caps and memory are a matter between upstream and whoever takes the video.
+/// Caps and allocation are negotiated between the elements upstream and downstream.
 static gboolean gst_spidar_depth_sink_query(GstPad* pad, GstObject* parent, GstQuery* query) {
   GstSpidarDepth* self = GST_SPIDAR_DEPTH(parent);
   const GstQueryType type = GST_QUERY_TYPE(query);
@@ -190,7 +190,7 @@ static GstFlowReturn gst_spidar_depth_depth_chain(GstPad*, GstObject* parent, Gs
   return GST_SPIDAR_DEPTH(parent)->depth->add(buffer);
 }
 
-/// Nothing of the depth goes downstream.
+/// No event of the depth stream goes downstream.
 static gboolean gst_spidar_depth_depth_event(GstPad*, GstObject* parent, GstEvent* event) {
   GstSpidarDepth* self = GST_SPIDAR_DEPTH(parent);
   if (GST_EVENT_TYPE(event) == GST_EVENT_STREAM_START)
@@ -221,12 +221,12 @@ static void gst_spidar_depth_depth_unlink(GstPad*, GstObject* parent) {
 
 // --- from downstream ---------------------------------------------------------------------------
 
-/// Whether the video can be sought is what counts.
+/// The result is that of seeking in the video.
 static gboolean seek(GstSpidarDepth* self, GstEvent* event) {
   GstSeekFlags flags;
   gst_event_parse_seek(event, nullptr, nullptr, &flags, nullptr, nullptr, nullptr, nullptr);
   const bool flushes = (flags & GST_SEEK_FLAG_FLUSH) != 0 && gst_pad_is_linked(self->depth_sink);
-  // Frames after the seek must not meet depth from before it.
+  // Frames after the seek must not get depth from before it.
   if (flushes) self->gate->begin_seek();
   const gboolean done = gst_pad_push_event(self->sink, gst_event_ref(event));
   if (done && gst_pad_is_linked(self->depth_sink) &&

@@ -11,7 +11,7 @@
 namespace spidar {
 namespace {
 
-/// A reference for as long as the element is looked at, and no longer: drawing may take its time.
+/// Holds a reference while the element is read and not longer, because drawing may take long.
 class Held {
  public:
   explicit Held(GWeakRef& weak) : element_(static_cast<GstElement*>(g_weak_ref_get(&weak))) {}
@@ -43,7 +43,7 @@ double number_of(const GValue* value) {
   return result;
 }
 
-/// False for a property that is no setting: not to be changed while playing, or no number.
+/// Returns false for a property that cannot be changed while playing or is not a number.
 bool describe(const GParamSpec* spec, Setting& setting) {
   if (spec->owner_type != GST_TYPE_SPIDAR_MOTION) return false;
   if ((spec->flags & GST_PARAM_MUTABLE_PLAYING) == 0) return false;
@@ -148,7 +148,7 @@ class ElementSource final : public WindowSource {
     GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
     for (guint i = 0; i < count; ++i) {
       Setting setting;
-      // A window that closes itself by a switch of its own would be odd.
+      // The window does not offer a switch that would close it.
       if (describe(specs[i], setting) && setting.name != "debug-window") {
         settings.push_back(std::move(setting));
       }

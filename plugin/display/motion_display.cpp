@@ -20,7 +20,7 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   }
   const VisiblePart visible = visible_part(frame);
   const SceneView& scene = viewer_.see(report.analysis, visible);
-  // Before the overlay, whose arrows would be seen twice.
+  // Before the overlay draws into the frame, because the window draws arrows of its own.
   if (window_feed && window_feed->wanted()) {
     FrameFacts facts;
     facts.running_ns = static_cast<int64_t>(report.running_time);
@@ -57,7 +57,7 @@ void MotionDisplay::open_window() {
   if (window()) return;
   auto new_feed = std::make_shared<FrameFeed>();
   auto new_window = std::make_shared<Window>(make_element_source(element_), new_feed);
-  // A second caller's window, if there is one, closes when it leaves here.
+  // If another thread has opened a window meanwhile, this one closes at the end of the function.
   const std::lock_guard<std::mutex> lock(mutex_);
   if (window_) return;
   window_ = std::move(new_window);

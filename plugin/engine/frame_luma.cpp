@@ -33,8 +33,8 @@ bool is_packed(GstVideoFormat format, PackedOrder& order) {
   }
 }
 
-/// Luma of a pixel as it is unpacked: alpha, then Y, U, V or R, G, B, of which the highest eight
-/// bits count. Of R, G and B as luma_of_packed() has it.
+/// Luma of an unpacked pixel: alpha, then Y, U, V or R, G, B, of which the upper eight bits are
+/// used. R, G and B are weighted as in luma_of_packed().
 template <typename Sample>
 uint8_t luma_of(const Sample* pixel, bool is_rgb) {
   constexpr int kShift = 8 * (static_cast<int>(sizeof(Sample)) - 1);
@@ -50,7 +50,7 @@ void write_luma(const Sample* pixels, int count, bool is_rgb, uint8_t* to) {
   for (int x = 0; x < count; ++x) to[x] = luma_of(pixels + 4 * x, is_rgb);
 }
 
-/// Of the luma of a planar or semi-planar format, whose first component it is.
+/// How the luma of a planar or semi-planar format is stored; it is the first component.
 LumaSample sample_of(const GstVideoFormatInfo& format) {
   const int depth = static_cast<int>(GST_VIDEO_FORMAT_INFO_DEPTH(&format, 0));
   if (depth <= 8) return {};
@@ -88,11 +88,11 @@ bool holds_picture(const GstVideoFrame& frame) {
     const auto plane = static_cast<guint>(GST_VIDEO_FRAME_COMP_PLANE(&frame, c));
     const gint64 stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, plane);
     const gint64 pixel = GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, c);
-    // Pixels that share words, as in v210, have no size of their own.
+    // In formats like v210, in which pixels share words, a pixel has no size.
     const gint64 line = pixel > 0 ? pixel * GST_VIDEO_FRAME_COMP_WIDTH(&frame, c)
                                   : GST_VIDEO_INFO_PLANE_STRIDE(&tight, plane);
     const gint64 bytes = stride * (GST_VIDEO_FRAME_COMP_HEIGHT(&frame, c) - 1) + line;
-    // With a meta each plane is mapped by itself; else they all are in the first.
+    // With a video meta each plane is mapped separately; without one, all are in the first map.
     const GstMapInfo& map = frame.map[frame.meta ? plane : 0];
     const auto* first = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, plane));
     if (stride < line || first - map.data + bytes > static_cast<gint64>(map.size)) return false;
@@ -112,7 +112,7 @@ ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const VisiblePart& sho
   gpointer planes[GST_VIDEO_MAX_PLANES];
   std::copy(std::begin(frame.data), std::end(frame.data), planes);
   for (int y = 0; y < shown.height; ++y) {
-    // Whole rows: not every format can be unpacked from its middle on.
+    // Whole rows, because not every format can be unpacked from the middle of a row.
     format->unpack_func(format, GST_VIDEO_PACK_FLAG_NONE, unpacked_row_.data(), planes,
                         frame.info.stride, 0, shown.y + y, width);
     uint8_t* const to = converted_.data() + static_cast<size_t>(y) * shown_width;
@@ -128,7 +128,7 @@ ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const VisiblePart& sho
 }
 
 ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
-  // The field's own lines, and between them their mean: the picture keeps its shape.
+  // The lines of one field, with their mean between them, so that the picture keeps its height.
   const size_t width = static_cast<size_t>(frame.width);
   const int first = top_first ? 0 : 1;
   field_.resize(width * static_cast<size_t>(frame.height));
@@ -160,10 +160,10 @@ ImageView FrameLuma::view(const GstVideoFrame& frame) {
     luma = unpacked(frame, shown);
   }
   if (GST_VIDEO_FRAME_IS_INTERLACED(&frame) && luma.height >= 2) {
-    // A crop that begins on an odd line begins with the other field.
+    // In a crop that begins on an odd line, the other field comes first.
     luma = first_field(luma, GST_VIDEO_FRAME_IS_TFF(&frame) == (shown.y % 2 == 0));
   } else if (combing_.see(luma)) {
-    // Nobody says which field is the earlier one: always the same will do.
+    // It is unknown which field is earlier, so always the same one is taken.
     luma = first_field(luma, true);
   }
   return luma;

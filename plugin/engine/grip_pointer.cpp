@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kReach = 0.5;  // of the frame
 
-/// 0 … 1 for −half … half.
+/// Maps −half … half to 0 … 1.
 double share(double at_m, double half_m) {
   if (!(half_m > 0)) return 0.5;
   return std::min(std::max(0.5 + at_m / (2 * half_m), 0.0), 1.0);

@@ -7,7 +7,7 @@
 namespace spidar {
 namespace {
 
-/// Bit for bit the same with a share of 1.
+/// With a share of 1 the result is the same bit for bit.
 Wrench scaled(const Wrench& wrench, double share) {
   return {share * wrench.force_N, share * wrench.torque_Nm};
 }
@@ -30,7 +30,7 @@ void MotionEngine::close() {
   schedule_.connect(nullptr);
   player_.connect(nullptr);
   output_.close();
-  reliefs_.disconnect();  // what the loop has looked at
+  reliefs_.disconnect();  // releases what the loop has been reading
 }
 
 std::string MotionEngine::start(const std::string& trace_path) {
@@ -95,8 +95,8 @@ std::optional<Eigen::Vector2d> MotionEngine::grip_place() const {
 
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
-  // Of a track everything, which the next frame gives again at the new rate. First, for what the
-  // schedule hands on again stays.
+  // Drops everything from a track; the next frame adds it again at the new rate. This comes first,
+  // because what the schedule hands on after it must stay.
   player_.forget();
   schedule_.change_rate(multiplier, running_time, upstream);
 }
@@ -119,7 +119,7 @@ void MotionEngine::restart_timing() {
 
 void MotionEngine::run_out(GstClockTime running_time) {
   restart();
-  if (!is_time(running_time)) return;  // what was scheduled expires by itself
+  if (!is_time(running_time)) return;  // scheduled wrenches expire without help
   schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
 }
 
@@ -130,7 +130,7 @@ void MotionEngine::pass_gap(GstClockTime running_time) {
   }
   const int64_t running_ns = static_cast<int64_t>(running_time);
   const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
-  // What videorate makes of a frame that is to be shown again.
+  // videorate makes such a gap of a frame that is shown again.
   const std::optional<FrameAnalysis> analysis =
       time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : std::nullopt;
   if (analysis) {
@@ -228,7 +228,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;
   pacer_.take(time, moved);
   limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis, settings.motion);
-  // Only so much of the film's motion is felt, told and shown beside what is touched.
+  // This share of the film's motion is felt, reported and shown in addition to touch.
   motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
   report.analysis.wrench = scaled(report.analysis.wrench, motion_share_);
   if (!time.in_place) {

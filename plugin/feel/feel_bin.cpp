@@ -11,17 +11,17 @@ struct _GstSpidarFeelBin {
   GstBin parent;
 
   gchar* properties;
-  // In the bin, in this order.
+  // The elements of the bin, in this order.
   GstElement* before;
-  GstElement* middle;  // lets pass what spidarmotion can take; kept while it is not in the bin
+  GstElement* middle;  // accepts the caps of spidarmotion; kept while it is not in the bin
   GstElement* after;
-  GstElement* motion;  // has the device; nullptr: not felt
+  GstElement* motion;  // the spidarmotion that has the device; nullptr: nothing is felt
   gulong probe;        // on the pad before the middle, until `motion` is in its place
 };
 
 G_DEFINE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST_TYPE_BIN)
 
-/// Which of this process has the device.
+/// The bin of this process that has the device.
 static std::atomic<GstSpidarFeelBin*> device_owner{nullptr};
 
 static bool take_device(GstSpidarFeelBin* self) {
@@ -33,7 +33,7 @@ static void leave_device(GstSpidarFeelBin* self) {
   device_owner.compare_exchange_strong(self, nullptr);
 }
 
-/// The application has put a spidarmotion into the pipeline by itself.
+/// Whether the application has put a spidarmotion into the pipeline itself.
 static bool is_felt_already(GstSpidarFeelBin* self) {
   GstObject* top = GST_OBJECT(gst_object_ref(self));
   while (GstObject* above = gst_object_get_parent(top)) {
@@ -63,8 +63,8 @@ static void set_properties(GstElement* motion, const char* properties) {
   g_strfreev(lines);
 }
 
-/// The video plays on: an error of the device is a warning of the player. Players may keep
-/// warnings to themselves, so it is said on standard error, too.
+/// The video continues: an error of the device becomes a warning in the player. Players may hide
+/// warnings, so it is also printed on standard error.
 static void warn(GstSpidarFeelBin* self, GstMessage* message) {
   GError* error = nullptr;
   gchar* details = nullptr;
@@ -79,8 +79,8 @@ static void warn(GstSpidarFeelBin* self, GstMessage* message) {
   g_free(details);
 }
 
-/// A spidarmotion that has opened its device; nullptr when it could not. In no bin yet: what it
-/// says is heard on a bus of its own.
+/// Returns a spidarmotion that has opened its device, or nullptr when it could not. It is in no bin
+/// yet, so its messages are collected on a bus of its own.
 static GstElement* open_motion(GstSpidarFeelBin* self) {
   GstElement* motion = gst_element_factory_make("spidarmotion", nullptr);
   if (!motion) return nullptr;
@@ -103,7 +103,7 @@ static GstElement* open_motion(GstSpidarFeelBin* self) {
   return nullptr;
 }
 
-/// One for the other, while nothing flows between `before` and `after`.
+/// Replaces `out` by `in` while no data flow between `before` and `after`.
 static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   gst_element_unlink_many(self->before, out, self->after, nullptr);
   gst_element_set_state(out, GST_STATE_NULL);
@@ -132,7 +132,7 @@ static void begin_to_feel(GstSpidarFeelBin* self) {
   gst_object_unref(pad);
 }
 
-/// The pads of all elements are inactive.
+/// Called while the pads of all elements are inactive.
 static void stop_feeling(GstSpidarFeelBin* self) {
   if (!self->motion) return;
   if (self->probe != 0) {
@@ -182,7 +182,7 @@ static void add_ghost_pad(GstSpidarFeelBin* self, GstElement* element, const cha
   gst_object_unref(pad);
 }
 
-/// What spidarmotion can take; nullptr when there is none.
+/// Caps that spidarmotion accepts; nullptr when the element does not exist.
 static GstCaps* motion_caps() {
   GstElementFactory* factory = gst_element_factory_find("spidarmotion");
   if (!factory) return nullptr;

@@ -37,7 +37,7 @@ static bool is_playbin(GstElement* element) {
   return g_strcmp0(name, "playbin") == 0 || g_strcmp0(name, "playbin3") == 0;
 }
 
-/// Of all elements, in any thread: quick for all but players.
+/// Called for every element, in any thread: returns at once for anything but players.
 static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
                                 GstStateChange transition) {
   if (transition != GST_STATE_CHANGE_READY_TO_PAUSED || !is_playbin(element)) return;
@@ -45,7 +45,8 @@ static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
   guint flags = 0;
   g_object_get(element, "video-filter", &filter, "flags", &flags, nullptr);
   if (filter || (flags & kPlayVideo) == 0) {
-    gst_clear_object(&filter);  // the application's own, or this tracer's of the film before
+    // The application's own, or the one that this tracer set for the previous film.
+    gst_clear_object(&filter);
     return;
   }
   filter = gst_spidar_feel_bin_new(g_getenv(SPIDAR_FEEL_VARIABLE));

@@ -70,8 +70,8 @@ Wish parse(int argc, char** argv) {
   return wish;
 }
 
-/// Where the plugin is when GStreamer does not look there: beside this program in a folder where it
-/// was built, else where it was installed.
+/// Folder of the plugin when GStreamer does not search it by default: in the build tree, beside
+/// this program; else where the plugin was installed.
 std::string plugin_folder() {
   std::error_code error;
   const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -87,7 +87,7 @@ bool has_plugin() {
   return true;
 }
 
-/// Leaves an environment in which GStreamer finds the plugin.
+/// Sets up the environment so that GStreamer finds the plugin.
 void find_plugin() {
   gst_init(nullptr, nullptr);
   if (has_plugin()) return;
@@ -103,7 +103,7 @@ void find_plugin() {
          "GStreamer does not find the plugin of gst-spidar; name its folder in GST_PLUGIN_PATH");
 }
 
-/// Exits with what is wrong with `text`, which is NAME=VALUE.
+/// Exits with a message when `text`, of the form NAME=VALUE, is invalid.
 void check(GObjectClass* element, const std::string& text) {
   const size_t equals = text.find('=');
   const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
@@ -115,7 +115,7 @@ void check(GObjectClass* element, const std::string& text) {
   GValue parsed = G_VALUE_INIT;
   g_value_init(&parsed, property->value_type);
   const bool understood = gst_value_deserialize_with_pspec(&parsed, value.c_str(), property);
-  // Changes what is out of range.
+  // Clamps values that are out of range.
   const bool wrong = !understood || g_param_value_validate(property, &parsed);
   g_value_unset(&parsed);
   if (wrong)

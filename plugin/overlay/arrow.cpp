@@ -8,9 +8,9 @@
 namespace spidar {
 namespace {
 
-/// Shorter arrows are squares.
+/// Shorter arrows are drawn as squares.
 constexpr double kShortest_px = 1.0;
-/// Head: this share of a short arrow, this many shaft widths of a long one.
+/// Length of the head: this share of a short arrow, this many shaft widths of a long one.
 constexpr double kHeadShare = 0.5;
 constexpr double kHeadWidths = 4.0;
 
@@ -18,7 +18,7 @@ constexpr double kThin_px = 1.5, kBold_px = 2.5, kFelt_px = 6;  // in a picture 
 constexpr double kPale = 0.45;
 constexpr double kFeltLength = 0.2;
 
-/// Narrower than this a shaft has gaps, for a pixel is drawn when its centre is inside.
+/// A narrower shaft would have gaps, because a pixel is drawn when its centre is inside.
 constexpr double kNarrowest_px = 1.5;
 
 double width_px(double at_480, const ArrowStyle& style) {
@@ -57,8 +57,8 @@ ArrowShape shape_of(const Arrow& arrow) {
 Rgb direction_color(const Eigen::Vector2d& direction, double saturation) {
   const double turns = std::atan2(-direction.y(), direction.x()) / (2 * M_PI);
   const auto channel = [&](double shift) {
-    // HSV of value 1: a channel is full for a third of the circle on either side of its own hue,
-    // and falls linearly beyond a sixth.
+    // HSV with V = 1: a channel is full within a sixth of the circle around its own hue, and falls
+    // linearly beyond.
     double distance = std::fabs(turns - shift);
     distance = std::fabs(distance - std::round(distance));
     const double pure = std::clamp(2 - 6 * distance, 0.0, 1.0);
@@ -89,7 +89,7 @@ double felt_width_px(const ArrowStyle& style) {
 std::optional<FeltArrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style) {
   if (!(style.max_force_N > 0)) return std::nullopt;
   const double px_N = kFeltLength * style.height_px / style.max_force_N;
-  // Up is y > 0 in the device and y < 0 in the picture.
+  // Upwards is y > 0 in the device and y < 0 in the picture.
   const Eigen::Vector2d along_px = px_N * Eigen::Vector2d(wrench.force_N.x(), -wrench.force_N.y());
   FeltArrow felt;
   felt.arrow.width_px = felt_width_px(style);

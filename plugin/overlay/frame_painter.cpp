@@ -12,8 +12,8 @@ uint16_t bounded(double value, uint16_t most) {
   return static_cast<uint16_t>(std::clamp<long>(std::lround(value), 0, most));
 }
 
-/// Of a component from the beginning of its pixel, bytes. GStreamer 1.22 says 1 for V of P010 and
-/// its kin, which follows a word of two bytes.
+/// Offset of a component from the beginning of its pixel, bytes. For V of P010 and similar formats
+/// GStreamer 1.22 reports 1, although it follows a word of two bytes.
 int offset_of(const GstVideoFormatInfo* format, guint component) {
   const int offset = GST_VIDEO_FORMAT_INFO_POFFSET(format, component);
   return GST_VIDEO_FORMAT_INFO_DEPTH(format, component) > 8 && offset == 1 ? 2 : offset;
@@ -28,7 +28,7 @@ double cross_product(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 FramePainter::Components FramePainter::components_of(Rgb color) const {
   const GstVideoInfo& info = frame_.info;
   if (GST_VIDEO_INFO_IS_RGB(&info)) return {color.r, color.g, color.b, 255};
-  // Luma and colour differences of ITU-R BT.601 or what else the caps say.
+  // Luma and colour differences by ITU-R BT.601, or by the colorimetry of the caps.
   double kr = 0.299, kb = 0.114;
   gst_video_color_matrix_get_Kr_Kb(GST_VIDEO_INFO_COLORIMETRY(&info).matrix, &kr, &kb);
   gint offset[GST_VIDEO_MAX_COMPONENTS], scale[GST_VIDEO_MAX_COMPONENTS];
@@ -57,7 +57,7 @@ void FramePainter::set(int x, int y, const Components& value) {
       *sample = static_cast<uint8_t>(value[c]);
       continue;
     }
-    // A word need not lie at an even address: the frame's memory may begin anywhere.
+    // A word may lie at an odd address, because the frame's memory may begin anywhere.
     const auto word = static_cast<uint16_t>(value[c] << GST_VIDEO_FORMAT_INFO_SHIFT(format, c));
     const bool low_first = GST_VIDEO_FORMAT_INFO_IS_LE(format);
     sample[low_first ? 0 : 1] = static_cast<uint8_t>(word & 0xFF);
@@ -77,7 +77,7 @@ void FramePainter::fill(const Eigen::Vector2d* corners_px, size_t count, const C
   const double around = area < 0 ? -1 : 1;
   constexpr double kOnBorder = 1e-9;
   const int width = GST_VIDEO_FRAME_WIDTH(&frame_), height = GST_VIDEO_FRAME_HEIGHT(&frame_);
-  // Clamped as doubles: corners may lie further off than an int reaches.
+  // Clamped as doubles, because corners may lie outside the range of an int.
   const auto first = [](double low, int size) {
     return static_cast<int>(std::ceil(std::clamp(low, 0.0, static_cast<double>(size))));
   };

@@ -8,7 +8,7 @@
 namespace spidar {
 namespace {
 
-/// What is further from the background moves by itself.
+/// A track that deviates from the background by more moves by itself.
 constexpr double kMovingSigmas = 3;
 
 bool by_id(const SceneTrack& a, const SceneTrack& b) {
@@ -64,10 +64,11 @@ const SceneView& SceneViewer::see(const FrameAnalysis& analysis, const VisiblePa
   return scene_;
 }
 
-/// The background's, else that of the object in whose box it is and whose velocity is nearest.
+/// The background if the track follows it; else, of the objects whose box contains the track, the
+/// one with the most similar velocity.
 void SceneViewer::find_owner(const FrameAnalysis& analysis, const VisiblePart& visible,
                              SceneTrack& track) {
-  // As displacements() has it: about the centre of the picture.
+  // Relative to the centre of the picture, as in displacements().
   const Eigen::Vector2d centre_px(0.5 * (visible.width - 1), 0.5 * (visible.height - 1));
   const Eigen::Vector2d from_px = Eigen::Vector2d(track.from.x_px, track.from.y_px) - centre_px;
   const Eigen::Vector2d to_px = Eigen::Vector2d(track.to.x_px, track.to.y_px) - centre_px;

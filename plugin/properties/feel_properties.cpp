@@ -5,7 +5,7 @@
 namespace spidar {
 namespace {
 
-/// Changeable while playing, and by a GstController.
+/// Can be changed while playing, and controlled by a GstController.
 constexpr auto kControllable =
     static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_CONTROLLABLE |
                              GST_PARAM_MUTABLE_PLAYING);

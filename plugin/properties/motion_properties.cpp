@@ -36,7 +36,7 @@ GType quality_type() {
 
 constexpr auto kRead = static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS);
 constexpr auto kReadWrite = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS);
-/// Changeable while playing, and by a GstController.
+/// Can be changed while playing, and controlled by a GstController.
 constexpr auto kControllable =
     static_cast<GParamFlags>(kReadWrite | GST_PARAM_CONTROLLABLE | GST_PARAM_MUTABLE_PLAYING);
 constexpr auto kPlaying = static_cast<GParamFlags>(kReadWrite | GST_PARAM_MUTABLE_PLAYING);

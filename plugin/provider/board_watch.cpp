@@ -12,13 +12,13 @@
 namespace spidar {
 namespace {
 
-/// A board that may be opened now, or has another serial number, is another one.
+/// Boards count as different when the serial number or the permission to open them differs.
 bool same(const BoardInfo& a, const BoardInfo& b) {
   return std::tie(a.device, a.usb_id, a.serial, a.accessible) ==
          std::tie(b.device, b.usb_id, b.serial, b.accessible);
 }
 
-/// Those of `boards` that are not in `others`.
+/// The elements of `boards` that are not in `others`.
 std::vector<BoardInfo> without(const std::vector<BoardInfo>& boards,
                                const std::vector<BoardInfo>& others) {
   std::vector<BoardInfo> left;
@@ -33,7 +33,7 @@ std::vector<BoardInfo> without(const std::vector<BoardInfo>& boards,
 
 std::vector<BoardInfo> playable_boards() {
   std::vector<BoardInfo> boards = list_boards();
-  // The simulated device behind a board's packets feels the same.
+  // The device behind the packets of an emulated board is the same simulated one.
   boards.erase(std::remove_if(
                    boards.begin(), boards.end(),
                    [](const BoardInfo& board) { return board.device.compare(0, 4, "sim:") == 0; }),

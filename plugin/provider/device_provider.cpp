@@ -83,7 +83,7 @@ static GstElement* gst_spidar_device_create_element(GstDevice* device, const gch
 }
 
 static gboolean gst_spidar_device_reconfigure_element(GstDevice* device, GstElement* element) {
-  // It keeps the device that it has opened.
+  // An element keeps the device that it has opened.
   if (!GST_IS_SPIDAR_MOTION(element) || GST_STATE(element) != GST_STATE_NULL) return FALSE;
   give(*GST_SPIDAR_DEVICE(device)->board, element);
   return TRUE;
@@ -107,7 +107,7 @@ static void gst_spidar_device_class_init(GstSpidarDeviceClass* klass) {
 struct _GstSpidarDeviceProvider {
   GstDeviceProvider parent;
 
-  BoardWatch* watch;  // while started
+  BoardWatch* watch;  // null unless the provider is started
 };
 
 G_DEFINE_FINAL_TYPE(GstSpidarDeviceProvider, gst_spidar_device_provider, GST_TYPE_DEVICE_PROVIDER)

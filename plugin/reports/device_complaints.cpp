@@ -10,10 +10,10 @@ GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
 namespace spidar {
 namespace {
 
-/// A hand that moves a slack string about loses the pose for a moment; that is not worth a word.
+/// A hand that swings a slack string loses the pose for a moment, which is not reported.
 constexpr int64_t kPoseLost_ns = 500'000'000;
 
-/// ": unplugged", ": time-out", …: what happened to the link last; empty when there is no link.
+/// ": unplugged", ": time-out", …: the last fault of the link; empty when there is no link.
 std::string last_fault(const HapticSession& session) {
   const LinkFault fault = session.device().health().last_fault;
   return fault == LinkFault::kNone ? "" : std::string(": ") + to_string(fault);

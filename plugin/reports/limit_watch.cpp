@@ -7,10 +7,10 @@
 namespace spidar {
 namespace {
 
-/// A hand that moves a slack string about loses the pose for shorter than this.
+/// When a hand swings a slack string, the pose is lost for less than this.
 constexpr int64_t kGripLost_ns = 100'000'000;
 
-/// Nothing was felt for as long as is looked at, and there is no frame whose time it is.
+/// Whether nothing was felt in the whole interval and no frame was due in it.
 bool is_late(const LoopSnapshot& loop) {
   return loop.unfelt_ns >= ForceLimitHistory::kWindow_ns &&
          (loop.last.found == Found::kExpired || loop.last.found == Found::kNothing);

@@ -33,7 +33,7 @@ void set_values(GstStructure* structure, const GstSpidarMotion& m) {
                     G_TYPE_DOUBLE, m.torque_z, nullptr);
 }
 
-/// The meta of `from` on `to`, whose pixels are `scale_x` × `scale_y` times as many.
+/// Copies the meta of `from` to `to`, whose picture is `scale_x` × `scale_y` times as large.
 bool copy_scaled(GstBuffer* to, GstBuffer* from, double scale_x, double scale_y, guint width,
                  guint height) {
   GstSpidarMotion motion;
@@ -49,7 +49,7 @@ bool copy_scaled(GstBuffer* to, GstBuffer* from, double scale_x, double scale_y,
   std::vector<GstSpidarMotionTrack> scaled;
   for (guint i = 0; i < tracks->len; ++i) {
     GstSpidarMotionTrack track = g_array_index(tracks, GstSpidarMotionTrack, i);
-    // The corner of the picture stays where it is, which is at (−½, −½).
+    // The corner of the picture, at (−½, −½), stays in place.
     for (gdouble* x : {&track.from_x, &track.to_x}) *x = (*x + 0.5) * scale_x - 0.5;
     for (gdouble* y : {&track.from_y, &track.to_y}) *y = (*y + 0.5) * scale_y - 0.5;
     scaled.push_back(track);
@@ -68,7 +68,7 @@ gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer* from, GQuark t
   GstStructure* given = gst_custom_meta_get_structure(meta);
   if (GST_META_TRANSFORM_IS_COPY(type)) {
     const auto* copy = static_cast<const GstMetaTransformCopy*>(data);
-    if (copy->region) return FALSE;  // a part of the bytes is no picture
+    if (copy->region) return FALSE;  // the picture is incomplete in a part of the buffer
     gst_structure_foreach(
         given,
         [](GQuark field, const GValue* value, gpointer target) -> gboolean {
@@ -94,7 +94,8 @@ gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer* from, GQuark t
 
 void register_motion_meta() {
   static const bool registered = [] {
-    // What the values depend on: elements that change one of these ask transform(), or drop it.
+    // The values depend on these: an element that changes one of them calls transform() or drops
+    // the meta.
     const gchar* tags[] = {GST_META_TAG_VIDEO_STR, GST_META_TAG_VIDEO_SIZE_STR,
                            GST_META_TAG_VIDEO_ORIENTATION_STR, nullptr};
     return gst_meta_register_custom(GST_SPIDAR_MOTION_META_NAME, tags, transform, nullptr,

@@ -9,12 +9,12 @@ class Search {
  public:
   explicit Search(const std::function<bool(GstElement*)>& wanted) : wanted_(wanted) {}
 
-  /// Whether the wanted element is behind `source`. The path leads there then.
+  /// Whether the wanted element can be reached from `source`, along the links of the path.
   bool reaches(GstPad* source) {
     GstPad* peer = --pads_left_ > 0 ? gst_pad_get_peer(source) : nullptr;
     if (!peer) return false;
     path.add(GST_PAD(gst_object_ref(source)), nullptr);
-    // Of a ghost pad the links go on inside, and what is inside of one has no parent element.
+    // A ghost pad continues inside the bin, and a pad inside a ghost pad has no parent element.
     GstElement* element = gst_pad_get_parent_element(peer);
     path.add(peer, element);
     if ((element && wanted_(element)) || is_passed_to(peer)) return true;
@@ -41,7 +41,7 @@ class Search {
   }
 
   const std::function<bool(GstElement*)>& wanted_;
-  int pads_left_ = 256;  // ends a search that goes round in a circle
+  int pads_left_ = 256;  // ends the search in a cycle
 };
 
 }  // namespace

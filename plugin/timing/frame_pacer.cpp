@@ -11,8 +11,9 @@
 namespace spidar {
 namespace {
 
-/// Of frames that are closer together one timestamp is wrong: their distance is no time to divide a
-/// motion by. An eighth of what the caps promise, as far as they can be believed.
+/// Least interval between frames: if they are closer together, one timestamp is wrong, and a motion
+/// must not be divided by their difference. An eighth of the interval in the caps, within plausible
+/// limits.
 int64_t least_interval_ns(const GstVideoInfo& info, double rate) {
   constexpr double kMost_ns = 5e6;
   if (info.fps_n <= 0) return kLeastInterval_ns;
@@ -44,12 +45,12 @@ GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment) {
 
 FramePacer::Order FramePacer::order(int64_t running_ns, const GstVideoFrame& frame,
                                     const GstSegment& segment) const {
-  // Sources and decoders mark every buffer, or the first of every group, when they play backwards.
+  // In reverse playback, sources and decoders mark every buffer, or the first of every group.
   if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) return Order::kFirst;
   if (last_running_ns_ >= 0 && running_ns >= last_running_ns_ &&
       running_ns - last_running_ns_ < least_interval_ns(frame.info, segment.rate)) {
-    // After an accurate seek what is left of the first frame may be next to nothing, and of the
-    // segment before it nothing is left.
+    // After an accurate seek, next to nothing may be left of the first frame, and nothing is left
+    // of the previous segment.
     return frames_in_segment_ > 1 ? Order::kTooSoon : Order::kFirst;
   }
   return running_ns < last_running_ns_ ? Order::kFalling : Order::kNext;
@@ -62,7 +63,7 @@ FrameTime FramePacer::at(int64_t running_ns, double rate_multiplier) const {
   if (last_running_ns_ < 0) return time;
   const double since_ns = static_cast<double>(running_ns - last_running_ns_) / rate_multiplier;
   const double paced_ns = static_cast<double>(last_paced_ns_) + since_ns;
-  if (std::fabs(paced_ns) <= static_cast<double>(kLatest_ns)) {  // else anew
+  if (std::fabs(paced_ns) <= static_cast<double>(kLatest_ns)) {  // else it starts again
     time.paced_ns = last_paced_ns_ + std::llround(since_ns);
   }
   time.since_ns = time.paced_ns - last_paced_ns_;

@@ -15,8 +15,8 @@ int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
 }
 
-/// Where ticks come from a test, they alone move the simulated grip: how long the test takes must
-/// not matter.
+/// If a test makes the ticks, only these move the simulated grip, so that the speed of the test
+/// does not matter.
 std::unique_ptr<Device> device_for(const std::string& spec, const Profile& profile, bool threaded) {
   if (threaded || spec != "sim") return make_device(spec, profile);
   return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
@@ -68,8 +68,8 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
 
 void HapticOutput::close() {
   std::unique_ptr<HapticSession> session;
-  std::unique_ptr<PlaybackFollower> follower;  // ends before the loop that it publishes to
-  // Both end after the lock is given back: the ramp to rest takes 60 ms.
+  std::unique_ptr<PlaybackFollower> follower;  // destroyed before the loop to which it publishes
+  // Both are destroyed after the lock is released, because the ramp to rest takes 60 ms.
   const std::lock_guard<std::mutex> lock(mutex_);
   session = std::move(session_);
   follower = std::move(follower_);

@@ -39,13 +39,13 @@ void PlaybackFollower::set_playing(bool playing) {
 void PlaybackFollower::set_latency(GstClockTime latency) {
   const std::lock_guard<std::mutex> lock(mutex_);
   delay_.set_latency(latency);
-  // A sink that is new to the pipeline makes it distribute the latency anew.
+  // The pipeline distributes the latency again when a sink is added.
   sink_outdated_ = true;
   refresh_locked();
 }
 
 void PlaybackFollower::look_for_sink() {
-  // By the next refresh: this is the thread that links.
+  // The search is left to the next refresh, because this thread is linking pads.
   const std::lock_guard<std::mutex> lock(mutex_);
   sink_outdated_ = true;
 }

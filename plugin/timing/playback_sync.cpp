@@ -28,7 +28,7 @@ void PlaybackSync::add_reading(int64_t monotonic_ns, int64_t clock_ns) {
 }
 
 void PlaybackSync::fit() {
-  // Real clocks drift by tens of ppm; a slope beyond this is jitter over too short a time.
+  // Real clocks drift by tens of ppm; a larger slope is jitter over too short a time.
   constexpr double kMaxDrift = 0.01;
   rate_ = 1.0;
   if (readings_ < kEnough) return;
@@ -43,7 +43,7 @@ void PlaybackSync::fit() {
   const double rate = static_cast<double>(numerator) / static_cast<double>(denominator);
   if (!(std::fabs(rate - 1.0) < kMaxDrift)) return;
   rate_ = rate;
-  // The value of the line at the newest reading, in place of that reading.
+  // Uses the value of the line at the newest reading instead of the reading itself.
   const int64_t since_base_ns = monotonic_ns_ - static_cast<int64_t>(x_base);
   clock_ns_ = static_cast<int64_t>(base) +
               static_cast<int64_t>(std::llround(static_cast<double>(since_base_ns) * rate));
@@ -52,7 +52,7 @@ void PlaybackSync::fit() {
 void PlaybackSync::watch_progress(int64_t monotonic_ns, int64_t clock_ns) {
   if (watched_) {
     const int64_t passed_ns = monotonic_ns - watched_monotonic_ns_;
-    // A clock that goes back has not gone on; one that leaps makes up for the longest standstill.
+    // Going back is no progress, and a leap cannot count for more than the longest standstill.
     const int64_t progress_ns = std::clamp<int64_t>(clock_ns - watched_clock_ns_, 0,
                                                     std::max(passed_ns, kLongestStandstill_ns));
     behind_ns_ =
@@ -75,7 +75,7 @@ PlaybackClock PlaybackSync::observe(GstElement* element) {
   GstClock* clock = playing_ ? gst_element_get_clock(element) : nullptr;
   if (!clock || !GST_CLOCK_TIME_IS_VALID(base_time)) {
     if (clock) gst_object_unref(clock);
-    return result;  // not playing: nothing is to be felt
+    return result;  // not playing: there must be no force
   }
   const int64_t before_ns = now_(now_user_);
   if (base_time == outdated_base_time_ && before_ns < outdated_until_ns_) {
@@ -88,7 +88,7 @@ PlaybackClock PlaybackSync::observe(GstElement* element) {
   const int64_t after_ns = now_(now_user_);
   gst_object_unref(clock);
 
-  // A reading during which this thread was put aside says little about when it was made.
+  // If this thread was interrupted during a reading, the time of the reading is uncertain.
   constexpr int64_t kMaxReading_ns = 200 * 1000;
   if (readings_ == 0 || after_ns - before_ns <= kMaxReading_ns) {
     add_reading(before_ns + (after_ns - before_ns) / 2, to_ns(time));

@@ -14,13 +14,13 @@ bool waits_for_clock(GstElement* element) {
   return GST_IS_BASE_SINK(element) && gst_base_sink_get_sync(GST_BASE_SINK(element));
 }
 
-/// Whether `object` has a readable property of that name and type.
+/// Whether `object` has a readable property of this name and type.
 bool has_property(GObject* object, const char* name, GType type) {
   const GParamSpec* spec = g_object_class_find_property(G_OBJECT_GET_CLASS(object), name);
   return spec && spec->value_type == type && (spec->flags & G_PARAM_READABLE);
 }
 
-/// `ts-offset` of an element that is no sink and waits for the clock.
+/// `ts-offset` of an element that is not a sink and waits for the clock.
 std::optional<GstClockTimeDiff> offset_of_waiting(GstElement* element) {
   GObject* object = G_OBJECT(element);
   if (GST_IS_BASE_SINK(element) || !has_property(object, "sync", G_TYPE_BOOLEAN) ||
@@ -34,7 +34,7 @@ std::optional<GstClockTimeDiff> offset_of_waiting(GstElement* element) {
   return offset_ns;
 }
 
-/// That of live sources, as such an element asks for it. 0 where none are.
+/// Latency of the live sources, as such an element queries it; 0 without live sources.
 GstClockTimeDiff latency_before(GstPad* sink_pad) {
   GstQuery* query = gst_query_new_latency();
   gboolean live = FALSE;

@@ -14,7 +14,7 @@ void on_step_done(GstBus*, GstMessage* message, gpointer element) {
   guint64 duration = GST_CLOCK_TIME_NONE;
   gst_message_parse_step_done(message, nullptr, nullptr, nullptr, &flush, nullptr, &duration,
                               nullptr);
-  // Without a flush the pipeline distributes another base time.
+  // After a step without a flush the pipeline distributes a new base time.
   if (!flush || !GST_CLOCK_TIME_IS_VALID(duration)) return;
   const bool is_behind =
       !find_path_downstream(GST_ELEMENT(element),

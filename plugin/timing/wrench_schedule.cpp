@@ -5,7 +5,7 @@
 namespace spidar {
 namespace {
 
-/// At least as many as the loop's ring and its timeline hold.
+/// At least as many as fit into the loop's ring and its timeline together.
 constexpr size_t kHandedOn = 512;
 
 }  // namespace
@@ -67,8 +67,8 @@ void WrenchSchedule::change_rate(double multiplier, GstClockTime running_time,
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto skipped = static_cast<GstClockTime>(skipped_ns_);
   instant_rate_.change(multiplier, running_time + skipped, upstream + skipped);
-  // What waits between here and the sink was analysed at the old rate, but is shown at other times.
-  // The frame on the screen is the first of them, so that the force goes on from there.
+  // Frames between here and the sink were analysed at the old rate and are shown at other times
+  // now. The frame on the screen is the first of them, so that the force continues from there.
   while (recent_.size() > 1 && recent_[1].time_ns <= static_cast<int64_t>(upstream + skipped)) {
     recent_.pop_front();
   }

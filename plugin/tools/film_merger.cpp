@@ -17,25 +17,27 @@ namespace spidar {
 namespace {
 
 constexpr const char* kTrackName = "Haptic track";
-constexpr int64_t kFrame_ns = 40'000'000;  // where the film does not say how long one lasts
+// Used when the film does not tell the duration of a frame.
+constexpr int64_t kFrame_ns = 40'000'000;
 
 struct Merge {
   GstElement* mux = nullptr;
-  GstElement* queue = nullptr;    // of the film's streams
-  GstElement* samples = nullptr;  // the queue of the track
-  GstPad* track = nullptr;        // held back until the streams of the film are known
+  GstElement* queue = nullptr;    // for the streams of the film
+  GstElement* samples = nullptr;  // for the samples of the track
+  GstPad* track = nullptr;        // blocked until the streams of the film are known
   gulong hold = 0;
   int64_t track_ns = 0;
   bool has_sound = false, has_track = false;
   int64_t frame_ns = kFrame_ns;
-  std::string other;  // why the film is another one
+  std::string other;  // why the track belongs to another film
 };
 
 void refuse(GstElement* element, const std::string& reason) {
   GST_ELEMENT_ERROR(element, STREAM, WRONG_TYPE, ("%s", reason.c_str()), ("spidartrack merge"));
 }
 
-/// Links `pad` to the muxer through the queue. False when Matroska does not take such a stream.
+/// Links `pad` to the muxer through the queue. Returns false when Matroska does not accept such a
+/// stream.
 bool link_to_mux(Merge& merge, GstPad* pad, GstCaps* caps) {
   GstPad* into = gst_element_request_pad_simple(merge.queue, "sink_%u");
   gchar* name = gst_pad_get_name(into);
@@ -79,7 +81,7 @@ void add_stream(GstElement* parser, GstPad* pad, gpointer user) {
   gst_caps_unref(caps);
 }
 
-/// The film may go on, and the track with it, or there is a reason why not.
+/// Lets the film and the track continue, or stops with the reason why they cannot be merged.
 void judge_film(const Merge& merge, GstElement* parser) {
   if (merge.has_track) {
     refuse(parser, "The film has a haptic track already: spidartrack extract takes it out.");
@@ -91,7 +93,7 @@ void judge_film(const Merge& merge, GstElement* parser) {
   } else if (!merge.other.empty()) {
     refuse(parser, "The track is that of another film: " + merge.other + ".");
   } else {
-    // Behind those of the film: it is the first that players choose.
+    // Added after the film's sound, because players choose the first audio stream.
     GstPad* mux_pad = gst_element_request_pad_simple(merge.mux, "audio_%u");
     gst_pad_link(merge.track, mux_pad);
     gst_object_unref(mux_pad);
@@ -103,8 +105,8 @@ GstPadProbeReturn hold_back(GstPad*, GstPadProbeInfo*, gpointer) {
   return GST_PAD_PROBE_OK;
 }
 
-/// The muxer is told one name of the track, right before its first sample, and none that the track
-/// brings.
+/// Sends the name of the track to the muxer right before its first sample, and drops the names in
+/// the track itself.
 GstPadProbeReturn name_track(GstPad* pad, GstPadProbeInfo*, gpointer) {
   GstTagList* tags = gst_tag_list_new(GST_TAG_TITLE, name_with_room(kTrackName).c_str(), nullptr);
   gst_tag_list_set_scope(tags, GST_TAG_SCOPE_STREAM);

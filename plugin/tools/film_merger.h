@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A film with a haptic track in it.
+/// Merges a haptic track into a film.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace spidar {
 
-/// Writes the streams of `film`, none of them decoded, and the sound of the file `track`, which
-/// lasts `track_ns`, into the Matroska file `out`. Throws std::runtime_error, which says what would
-/// be right, when the film has no sound, has a haptic track already, is another one than that of
-/// the track, or has a stream that Matroska does not take. `out` is then not complete.
+/// Copies the streams of `film` without decoding them, together with the sound of the file `track`,
+/// which lasts `track_ns`, into the Matroska file `out`. Throws std::runtime_error, whose message
+/// says what would be right, when the film has no sound, has a haptic track already, is not the
+/// film of the track, or has a stream that Matroska does not accept. `out` is then incomplete.
 void merge_film(const std::string& film, const std::string& track, int64_t track_ns,
                 const std::string& out);
 

@@ -9,12 +9,12 @@
 namespace spidar {
 namespace {
 
-/// FlagDefault = 0 and FlagEnabled = 0: identifier, one byte of content, the byte.
+/// FlagDefault = 0 and FlagEnabled = 0: the identifier, the size (one byte), and the value.
 constexpr char kFlags[] = {'\x88', '\x81', '\x00', '\xB9', '\x81', '\x00'};
-/// The tracks are described within the first bytes of the file, before the pictures.
+/// The description of the tracks is within the first bytes of the file, before the pictures.
 constexpr size_t kHead = size_t{1} << 20;
 
-/// The element Name with `content`, as the muxer writes it: with a zero at its end.
+/// The element Name with `content`, which the muxer terminates with a zero.
 std::string name_element(const std::string& content) {
   std::string element = "\x53\x6E";
   element += static_cast<char>(0x80 | (content.size() + 1));

@@ -28,7 +28,7 @@ Writes the haptic track of a film into a file of its own: OUT ends in .flac, .mk
 .funscript.
 )";
 
-/// Three or two operands; empty when help was asked for.
+/// Two or three operands; empty when help was requested.
 std::vector<std::string> parse(int argc, char** argv, const char* help_text, size_t count,
                                const char* usage) {
   bool help = false;
@@ -42,7 +42,7 @@ std::vector<std::string> parse(int argc, char** argv, const char* help_text, siz
   return operands;
 }
 
-/// Removes what is left of an output that did not become complete.
+/// Removes an output that is incomplete.
 class PartFile {
  public:
   explicit PartFile(const fs::path& target, const std::string& end = "")

@@ -29,7 +29,7 @@ set ylabel 'force, N'
 plot '-' using 1:2 title 'x, right', '' using 1:3 title 'y, up', '' using 1:4 title 'z, to the viewer'
 )";
 
-/// So many points are as much as the picture can show.
+/// The picture cannot show more points than this.
 constexpr size_t kMostPoints = 20000;
 
 void send(FILE* gnuplot, const std::vector<TrackSample>& samples, bool torque) {

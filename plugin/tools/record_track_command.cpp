@@ -45,7 +45,7 @@ struct RecordOptions {
 
 RecordOptions parse(int argc, char** argv) {
   RecordOptions options;
-  // What comes after -- is not for getopt.
+  // getopt must not see the arguments after --.
   int own = 1;
   while (own < argc && std::string(argv[own]) != "--") ++own;
   for (int i = own + 1; i < argc; ++i) {
@@ -87,12 +87,12 @@ fs::path track_of(const std::string& film, const RecordOptions& options) {
   return options.folder.empty() ? track : fs::path(options.folder) / track.filename();
 }
 
-/// Tells `percent` of a film that has been recorded, each time it is ten more.
+/// Reports `percent` of the film as recorded, in steps of ten.
 class Progress {
  public:
   explicit Progress(std::function<void(int percent)> tell) : tell_(std::move(tell)) {}
 
-  /// Looks at the buffers that come out of `extract` in `pipeline`.
+  /// Counts the buffers that come out of `extract` in `pipeline`.
   void watch(GstElement* pipeline) {
     GstElement* extract = gst_bin_get_by_name(GST_BIN(pipeline), "extract");
     sink_ = gst_element_get_static_pad(extract, "sink");
@@ -109,7 +109,7 @@ class Progress {
     if (self.film_ns_ == 0)
       gst_pad_peer_query_duration(self.sink_, GST_FORMAT_TIME, &self.film_ns_);
     if (self.film_ns_ <= 0) {
-      self.film_ns_ = -1;  // a container that does not say
+      self.film_ns_ = -1;  // the container does not tell
       return GST_PAD_PROBE_REMOVE;
     }
     const GstClockTime at = GST_BUFFER_PTS(GST_PAD_PROBE_INFO_BUFFER(info));

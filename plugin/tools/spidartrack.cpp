@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Haptic tracks: records, looks at, checks, converts, draws and merges them.
+// Records, inspects, checks, converts, plots and merges haptic tracks.
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What spidartrack can do. Each takes its own command line, argv[0] being its name, and returns
-/// the exit status. They throw UsageError, std::runtime_error.
+/// The commands of spidartrack. Each takes its own command line, in which argv[0] is its name, and
+/// returns the exit status. They throw UsageError and std::runtime_error.
 #pragma once
 
 namespace spidar {

@@ -22,7 +22,7 @@ std::runtime_error wrong_line(const std::string& path, int line, const std::stri
   return std::runtime_error(path + ":" + std::to_string(line) + ": " + what);
 }
 
-/// Takes frames and gives the samples between them.
+/// Takes frames and returns the samples between them.
 class TraceSampler {
  public:
   TraceSampler() { sampler_.begin(0); }

@@ -43,7 +43,7 @@ std::vector<TrackSample> samples_of(const TrackFile& track) {
     const bool has = result.found == Found::kExact || result.found == Found::kInterpolated;
     if (has) samples[i] = to_track_sample(result.wrench);
   }
-  // Samples that are whole milliseconds are taken over to the bit.
+  // Samples at whole milliseconds are copied bit by bit.
   for (const TrackBlock& block : track.blocks) {
     if (block.begin_ns % kTrackPeriod_ns != 0 || block.period_ns() != kTrackPeriod_ns) continue;
     for (size_t i = 0; i < block.count; ++i) {
@@ -61,8 +61,8 @@ void write_text(const std::string& path, const std::string& text) {
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
-/// Positions from 0 to 100, 50 in the middle, wherever the line between those before and after is
-/// off by a step.
+/// Positions from 0 to 100 with 50 in the middle, wherever a straight line between the neighbouring
+/// positions would be off by one step.
 std::string funscript(const std::vector<TrackSample>& samples, size_t axis) {
   std::ostringstream out;
   out << R"({"version":"1.0","inverted":false,"range":100,"actions":[)";
@@ -164,7 +164,7 @@ std::vector<TrackSample> load_track(const std::string& path, TrackCondition* con
 
 void save_track(const std::string& path, const std::vector<TrackSample>& samples,
                 const SaveOptions& options) {
-  // The end of the name stays, for it says what the file is.
+  // Keeps the end of the name, because it determines the format.
   const fs::path target(path);
   const std::string part =
       (target.parent_path() / (".part-" + target.filename().string())).string();

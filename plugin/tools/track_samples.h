@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whole tracks of 1000 samples a second, from and to files of every kind.
+/// Reads and writes whole tracks of 1000 samples a second, in all file formats.
 #pragma once
 
 #include <functional>
@@ -14,15 +14,15 @@
 
 namespace spidar {
 
-/// What a file says that is not in its samples.
+/// Information in a file besides its samples.
 struct TrackCondition {
   TrackFaults faults;
-  std::string missing;  ///< empty, or what is missing at the end of the file
+  std::string missing;  ///< what is missing at the end of the file; empty if it is complete
 };
 
-/// By the end of its name: HJIF (`.hjif`), the trace of spidarmotion (`.csv`, `.jsonl`), else
-/// sound, of any rate that spidarsink takes; gaps are silence, and so are samples that are not
-/// numbers, which `condition` counts. Throws std::runtime_error.
+/// The format follows from the end of the name: HJIF (`.hjif`), a trace of spidarmotion (`.csv`,
+/// `.jsonl`), else sound of any rate that spidarsink accepts. Gaps become silence, and so do
+/// samples that are not numbers, which `condition` counts. Throws std::runtime_error.
 std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr);
 
 struct SaveOptions {
@@ -30,22 +30,23 @@ struct SaveOptions {
   size_t funscript_axis = 0;     ///< channel
 };
 
-/// By the end of its name: `.flac`, `.wav`, `.mka` (both F32), `.hjif` or `.funscript`. A file that
-/// is there is replaced when the new one is complete. Throws std::runtime_error.
+/// The format follows from the end of the name: `.flac`, `.wav`, `.mka` (both F32), `.hjif` or
+/// `.funscript`. An existing file is replaced when the new one is complete. Throws
+/// std::runtime_error.
 void save_track(const std::string& path, const std::vector<TrackSample>& samples,
                 const SaveOptions& options = {});
 
-/// What GStreamer makes such a file of samples with: "flacenc blocksize=40", …; empty when it
-/// cannot.
+/// The elements with which GStreamer makes such a file from samples: "flacenc blocksize=40", …;
+/// empty when it cannot.
 std::string encoder_of(const std::string& path);
 
-/// Runs a pipeline to its end. `prepare` gets it before it starts. Throws std::runtime_error with
-/// what it said.
+/// Runs a pipeline to its end. `prepare` is called with it before it starts. Throws
+/// std::runtime_error with the pipeline's error message.
 void run_pipeline(const std::string& line,
                   const std::function<void(GstElement* pipeline)>& prepare = {});
 
 bool ends_with(const std::string& text, const std::string& end);
-/// For a location in a launch line.
+/// Quotes a location for a launch line.
 std::string quoted(const std::string& path);
 
 }  // namespace spidar

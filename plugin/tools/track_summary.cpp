@@ -11,7 +11,7 @@ namespace {
 constexpr double kCorner_Hz = 30;
 constexpr double kPi = 3.14159265358979323846;
 
-/// Second-order Butterworth high-pass by the bilinear transform.
+/// Second-order Butterworth high-pass filter, by the bilinear transform.
 class HighPass {
  public:
   HighPass() {

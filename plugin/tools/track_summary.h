@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What there is to say of a track in numbers.
+/// Summarises a track in numbers.
 #pragma once
 
 #include <array>
@@ -11,18 +11,18 @@
 
 namespace spidar {
 
-/// Of one channel, in shares of the full scale.
+/// Statistics of one channel, in shares of the full scale.
 struct ChannelSummary {
   double peak = 0;
   double rms = 0;
-  double above_30_Hz = 0;  ///< share of the energy; nothing that moves in a film is so fast
+  double above_30_Hz = 0;  ///< share of the energy; no motion in a film is this fast
 };
 
 struct TrackSummary {
   std::array<ChannelSummary, kTrackChannels> channels;
   double largest_force_N = 0;
   double largest_torque_Nm = 0;
-  double steepest_N_s = 0;  ///< change of the force
+  double steepest_N_s = 0;  ///< largest rate of change of the force
 };
 
 TrackSummary summarise(const std::vector<TrackSample>& samples);

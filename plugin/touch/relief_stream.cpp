@@ -12,16 +12,18 @@
 namespace spidar {
 namespace {
 
-/// Half a tick for which a force is held, and a tick because the pose is that of the last exchange.
+/// A force is held for a tick, half of it on average; and the pose is that of the last exchange,
+/// one tick ago.
 constexpr double kLoopDelay_s = 1.5e-9 * static_cast<double>(kTick_ns);
-/// Of what is held while the grip slides.
+/// Dynamic friction as a share of the static one.
 constexpr double kSliding = 0.8;
 
-/// So many of the picture's samples, or more, are read for each sample of the relief, along both
-/// sides: two let nothing slip through that the relief can show, and cost does not grow with size.
+/// At least this many samples of the picture are read for each sample of the relief, in both
+/// directions. With two nothing is missed that the relief can show, and the cost does not grow with
+/// the size.
 constexpr int kReadPerCell = 2;
 
-/// How much of the frame's width and height is picture: the relief covers that part.
+/// Share of the frame's width and height that is picture and gets the relief.
 Eigen::Vector2d shown_share(const TouchProperties& properties) {
   if (properties.kind != TouchKind::kDepth) return {1, 1};
   switch (properties.depth) {
@@ -94,7 +96,7 @@ void ReliefStream::start() {
   mailbox_ = std::move(mailbox);
 }
 
-/// Every so many rows and pixels of what is larger than the relief needs.
+/// Skips rows and pixels when the picture is larger than the relief needs.
 ImageView ReliefStream::thinned(const ImageView& luma) {
   const int down = step_of(luma.height, HeightField::kRows);
   const int across = step_of(luma.width, HeightField::kColumns);
@@ -117,7 +119,7 @@ ImageView ReliefStream::thinned(const ImageView& luma) {
   return thin;
 }
 
-/// Fills in the surface of a frame. False when it has no depth.
+/// Fills in the surface of a frame. Returns false when the frame has no depth.
 bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown_ns,
                          const TouchProperties& properties, TouchFrame& frame) {
   ReliefSettings settings;
@@ -125,7 +127,7 @@ bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown
   settings.floor_z_m = -0.5 * settings.relief_m;
   validate(settings);
   if (properties.kind == TouchKind::kDepth) {
-    // After a seek, or the first time, the range of depth is that of this frame.
+    // After a seek, and at the beginning, the range of depth is that of this frame.
     const bool follows = depth_ns_ != INT64_MIN && shown_ns > depth_ns_;
     if (!follows) depth_.reset();
     const double dt_s = follows ? 1e-9 * static_cast<double>(shown_ns - depth_ns_) : 0;
@@ -151,7 +153,7 @@ bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnal
     return true;
   }
   if (!mailbox_) start();
-  // In this order: what is muted or flushed after this line forgets this frame.
+  // The order matters: a mute or flush after this line drops this frame.
   const uint32_t generation = mailbox_->generation();
   if (muted_) return true;
   const int64_t begin_ns = monotonic_now_ns();
@@ -162,7 +164,7 @@ bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnal
     return true;
   }
   if (!build(buffer, luma, shown_ns, properties, *frame)) {
-    left_out_ = true;  // nothing is known of the surface between the frames around this one
+    left_out_ = true;  // the surface between the neighbouring frames is unknown
     return properties.kind != TouchKind::kDepth;
   }
   frame->time_ns = shown_ns;

@@ -46,7 +46,7 @@ std::string find_sidecar(const std::string& film) {
 std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns) {
   gint64 film_ns = 0;
   if (!gst_pad_peer_query_duration(pad, GST_FORMAT_TIME, &film_ns) || film_ns <= 0) return {};
-  // And a millisecond, as many containers round durations.
+  // Plus a millisecond, because many containers round durations to milliseconds.
   if (std::llabs(film_ns - track_ns) <= frame_ns + GST_MSECOND) return {};
   return "the track lasts " + seconds(track_ns) + ", the film " + seconds(film_ns);
 }

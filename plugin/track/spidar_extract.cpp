@@ -47,7 +47,7 @@ struct _GstSpidarExtract {
   // Streaming thread.
   TrackStream* track;
   GstFlowCombiner* flows;
-  gboolean complained;  // that frames have no meta
+  gboolean complained;  // about frames that have no meta
 };
 
 static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -64,7 +64,7 @@ GST_ELEMENT_REGISTER_DEFINE(spidarextract, "spidarextract", GST_RANK_NONE, GST_T
 
 // --- streaming thread --------------------------------------------------------------------------
 
-/// `last` is the wrench of the frame before.
+/// `last` is the wrench of the previous frame.
 static FrameWrench read_frame(GstBuffer* buffer, const Wrench& last) {
   FrameWrench frame;
   frame.pts = GST_BUFFER_PTS(buffer);
@@ -75,14 +75,14 @@ static FrameWrench read_frame(GstBuffer* buffer, const Wrench& last) {
     frame.compared = motion.interval > 0;
     frame.wrench = {{motion.force_x, motion.force_y, motion.force_z},
                     {motion.torque_x, motion.torque_y, motion.torque_z}};
-    // A picture that has been standing for long is not felt any more, which is another wrench.
+    // A picture that has stood still for long is no longer felt, so its wrench differs.
     frame.repeats =
         gst_buffer_repeats_spidar_motion(buffer) && frame.wrench.stacked() == last.stacked();
   }
   return frame;
 }
 
-/// Counts what a pad has said into what is said upstream.
+/// Combines the flow return of a pad with that of the others.
 static GstFlowReturn combined(GstSpidarExtract* self, GstPad* pad, GstFlowReturn flow) {
   return gst_flow_combiner_update_pad_flow(self->flows, pad, flow);
 }
@@ -90,7 +90,7 @@ static GstFlowReturn combined(GstSpidarExtract* self, GstPad* pad, GstFlowReturn
 static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuffer* buffer) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
   const FrameWrench frame = read_frame(buffer, self->track->last_wrench());
-  // A frame without a picture has no meta, and is none to complain of.
+  // A frame without a picture has no meta; it needs no warning.
   if (!frame.known && !self->complained && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP)) {
     self->complained = TRUE;
     GST_ELEMENT_WARNING(
@@ -139,7 +139,7 @@ static gboolean gst_spidar_extract_sink_event(GstPad*, GstObject* parent, GstEve
   return gst_pad_push_event(self->src, event) || GST_EVENT_TYPE(event) == GST_EVENT_EOS;
 }
 
-/// Caps and memory are a matter between upstream and whoever takes the video.
+/// Caps and allocation are negotiated between the elements upstream and downstream.
 static gboolean gst_spidar_extract_sink_query(GstPad* pad, GstObject* parent, GstQuery* query) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
   switch (GST_QUERY_TYPE(query)) {
@@ -177,8 +177,8 @@ static gboolean gst_spidar_extract_wrench_query(GstPad* pad, GstObject* parent, 
   return TRUE;
 }
 
-/// That the samples come late is not the decoder's fault, and other caps of theirs are not its
-/// business.
+/// The decoder must not drop frames because samples are late, nor renegotiate because of the caps
+/// of the samples.
 static gboolean gst_spidar_extract_wrench_event(GstPad* pad, GstObject* parent, GstEvent* event) {
   if (GST_EVENT_TYPE(event) == GST_EVENT_QOS || GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
     gst_event_unref(event);

@@ -51,9 +51,9 @@ static constexpr gint64 kAhead_ns = 200 * 1000 * 1000;
 struct _GstSpidarSink {
   GstBaseSink parent;
 
-  GMutex setting;              // what is set reaches the output in the order it was set
+  GMutex setting;              // settings reach the output in the order in which they were made
   SinkProperties* properties;  // object lock
-  TrackFaults faults;          // object lock; so far in this stream
+  TrackFaults faults;          // object lock; of the stream so far
   guint64 samples;             // object lock
   BlockSchedule* schedule;
   HapticOutput* output;
@@ -63,7 +63,7 @@ struct _GstSpidarSink {
   spidar::TrackComplaints* track_complaints;
 };
 
-// The second kind of caps is refused with a sentence, which is more than a link that fails says.
+// The second kind of caps is refused with an error message, which says more than a failed link.
 static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
     "sink", GST_PAD_SINK, GST_PAD_ALWAYS,
     GST_STATIC_CAPS(
@@ -93,14 +93,14 @@ static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
   return FALSE;
 }
 
-/// Samples are handed on ahead of their time: render() waits, the base class does not.
+/// Samples are handed to the loop ahead of their time, so render() waits instead of the base class.
 static void gst_spidar_sink_get_times(GstBaseSink*, GstBuffer*, GstClockTime* start,
                                       GstClockTime* end) {
   *start = *end = GST_CLOCK_TIME_NONE;
 }
 
-/// Waits until what has this running time is due, less `ahead_ns`; `object` is what the sink is
-/// prerolled with when it is paused meanwhile.
+/// Waits until `ahead_ns` before this running time. `object` is used for preroll when the sink is
+/// paused meanwhile.
 static GstFlowReturn wait_until(GstSpidarSink* self, GstMiniObject* object, gint64 running_ns,
                                 gint64 ahead_ns) {
   GstBaseSink* sink = GST_BASE_SINK(self);
@@ -160,7 +160,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
-      // Again: a buffer may have been on its way when the flush began.
+      // Flushes again, because a buffer may have been in progress when the flush began.
       self->schedule->forget();
       self->input->restart();
       if (reset_time) self->output->expect_base_time();
@@ -190,7 +190,7 @@ static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
 static gboolean gst_spidar_sink_stop(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   self->schedule->forget();
-  // Here, because what is said on the way to NULL reaches nobody.
+  // Reported here, because messages during the change to NULL are discarded.
   if (self->output->session()) self->output->session()->drain_trace();
   self->complaints->look_at_haptic_trace(self->output->session());
   return TRUE;

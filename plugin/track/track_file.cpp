@@ -18,13 +18,13 @@ struct Reading {
   TrackFile track;
   std::string problem;
   bool has_caps = false;
-  bool is_alone = true;  // there is no other stream in the file
+  bool is_alone = true;  // the file has no other stream
   GstElement* pipeline = nullptr;
   GstElement* decoder = nullptr;
 };
 
-/// All streams of the file are known: the haptic track is decoded, or the first
-/// sound, so that what is wrong with it is said. Nobody looks at the others.
+/// Called when all streams of the file are known: decodes the haptic track, or else the first
+/// sound, so that the reason for refusing it can be reported. All other streams are ignored.
 void choose_stream(Reading& reading, GstElement* parser) {
   reading.is_alone = parser->numsrcpads == 1;
   GstPad* chosen = nullptr;
@@ -59,7 +59,7 @@ void choose_stream(Reading& reading, GstElement* parser) {
                     ("No stream of sound."));
 }
 
-/// Streaming thread of the pipeline that reads.
+/// Runs in the streaming thread of the pipeline that reads the file.
 void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
   auto& reading = *static_cast<Reading*>(user);
   if (!reading.has_caps) {
@@ -88,7 +88,7 @@ std::string text_of(GstMessage* message) {
 }  // namespace
 
 std::string TrackFile::missing() const {
-  // Containers round their durations, to milliseconds or samples.
+  // Containers round durations, to milliseconds or samples.
   if (promised_ns <= duration_ns + GST_MSECOND) return {};
   gchar* const text = g_strdup_printf("it is cut off: %.3f s of %.3f s are there",
                                       1e-9 * static_cast<double>(duration_ns),
@@ -134,7 +134,7 @@ TrackFile read_track_file(const std::string& path) {
   const std::string reason = failed ? text_of(message) : reading.problem;
   gst_message_unref(message);
   gint64 promised_ns = 0;
-  // Of a film that is how long its longest stream is.
+  // For a film this is the duration of its longest stream.
   if (reading.is_alone &&
       gst_element_query_duration(pipeline.get(), GST_FORMAT_TIME, &promised_ns)) {
     reading.track.promised_ns = promised_ns;

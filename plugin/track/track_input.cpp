@@ -20,7 +20,7 @@ std::string hexadecimal(guint64 mask) {
   return result;
 }
 
-/// Neither "none" nor the one that containers give back for it.
+/// Whether the channel mask is neither "none" nor the one into which containers convert it.
 std::string strange_mask(const GstCaps* caps) {
   guint64 mask = 0;
   const GstStructure* structure = gst_caps_get_structure(caps, 0);
@@ -72,8 +72,8 @@ void TrackInput::unpack(const guint8* data, size_t count) {
     integers_.resize(values);
     into = integers_.data();
   }
-  // The flag makes zeros of the bits that a smaller format does not have; by default it repeats
-  // others.
+  // With this flag the missing bits of a smaller format become zeros; by default other bits are
+  // repeated into them.
   format->unpack_func(format, GST_AUDIO_PACK_FLAG_TRUNCATE_RANGE, into, data,
                       static_cast<gint>(values));
   if (floats) return;
@@ -142,8 +142,8 @@ GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, dou
     TrackSample next = sample(backwards ? first + last - 1 - i : i, gain);
     if (thinner_.add(next)) {
       if (block.count == 0) {
-        // The mean belongs to the middle of its samples, of which the last was added. Backwards the
-        // first sample ends where the buffer does.
+        // A mean belongs to the middle of its samples, of which the last one was just added. In
+        // reverse playback the first sample ends where the buffer does.
         const double middle = static_cast<double>(i - first) - (group - 1) / 2;
         block.begin_ns = at_ns(backwards ? middle + 1 : middle);
       }

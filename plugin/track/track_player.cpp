@@ -9,7 +9,7 @@
 namespace spidar {
 namespace {
 
-/// The track is felt all the same.
+/// The track is felt in spite of it.
 void name_faults(GstElement* element, const std::string& path, const TrackFaults& faults) {
   if (faults.not_finite > 0) {
     GST_ELEMENT_WARNING(element, STREAM, DECODE,

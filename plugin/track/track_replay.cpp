@@ -9,8 +9,8 @@
 namespace spidar {
 namespace {
 
-/// Frames whose timestamps are rounded, or of which one was left out, follow each other all the
-/// same.
+/// Frames up to this far apart are consecutive, even if timestamps are rounded or a frame is
+/// missing.
 constexpr int64_t kJump_ns = 500'000'000;
 
 int64_t end_of(const TrackBlock& block) {
@@ -19,7 +19,7 @@ int64_t end_of(const TrackBlock& block) {
 
 }  // namespace
 
-/// The first that ends after `stream_ns`.
+/// The first block that ends after `stream_ns`.
 size_t TrackReplay::block_at(int64_t stream_ns) const {
   const auto ends_before = [](const TrackBlock& block, int64_t time_ns) {
     return end_of(block) <= time_ns;

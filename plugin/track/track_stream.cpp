@@ -10,8 +10,9 @@ namespace spidar {
 namespace {
 
 constexpr size_t kBufferSamples = TrackStream::kBuffer_ns / kTrackPeriod_ns;
-/// A stream whose first frame is further from the beginning of its segment begins with that frame,
-/// and not with silence: its timestamps are those of a source that has been running for long.
+/// If the first frame is further than this from the beginning of its segment, the track begins with
+/// that frame and not with silence: the timestamps are those of a source that has been running for
+/// long.
 constexpr int64_t kLongestSilentStart_ns = 10'000'000'000;
 
 GstTagList* describe_track() {
@@ -45,7 +46,7 @@ TrackStream::~TrackStream() {
 }
 
 void TrackStream::begin_stream(GstElement* element, const GstEvent* stream_start) {
-  // gst_event_parse_*() take events that are not const, and do not change them.
+  // gst_event_parse_*() take non-const events, but do not change them.
   auto* const given = const_cast<GstEvent*>(stream_start);
   gchar* const id = gst_pad_create_stream_id(pad_, element, "wrench");
   GstEvent* const event = gst_event_new_stream_start(id);
@@ -97,7 +98,7 @@ void TrackStream::begin_at(int64_t first_frame_ns) {
 
 GstFlowReturn TrackStream::add(const FrameWrench& frame) {
   const bool in_time = segment_.format == GST_FORMAT_TIME && is_time(frame.pts);
-  if (!in_time) return GST_FLOW_OK;  // spidarmotion says why such a frame is not felt
+  if (!in_time) return GST_FLOW_OK;  // spidarmotion reports why such a frame is not felt
   const bool has_duration = is_time(frame.duration);
   guint64 from = 0, to = 0;
   if (!gst_segment_clip(&segment_, GST_FORMAT_TIME, frame.pts,

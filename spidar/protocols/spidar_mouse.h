@@ -47,7 +47,8 @@ SPIDAR_API void encode_start(Report& report) noexcept;
 SPIDAR_API void encode_force(const Force& force, Report& report) noexcept;
 SPIDAR_API void encode_stop(Report& report) noexcept;
 
-/// What a report to the device says. False when it is none of the commands, or not of kReportSize.
+/// Decodes a report to the device. Returns false when it is none of the commands, or does not have
+/// kReportSize bytes.
 SPIDAR_API bool decode_command(ByteView report, Command& command, Force& force) noexcept;
 
 /// The answer to kQuery begins with its number (inferred).
