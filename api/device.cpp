@@ -27,7 +27,7 @@ spidar::Profile profile_for(const std::string& device, const std::string& profil
   return spidar::load_profile(profile.empty() ? spidar::default_profile(device) : profile);
 }
 
-/// Running time is CLOCK_MONOTONIC: what is pushed is due at once.
+/// Running time is CLOCK_MONOTONIC, so a wrench that is pushed is due at once.
 spidar::PlaybackClock now_is_now() {
   spidar::PlaybackClock clock;
   clock.monotonic_ns = HapticSession::monotonic_now_ns();
@@ -44,7 +44,7 @@ void require_limit(double value, const char* what) {
 
 }  // namespace
 
-// A nested class is as visible as the one around it, unless it says otherwise.
+// A nested class has the visibility of the enclosing class unless it states its own.
 struct __attribute__((visibility("hidden"))) Device::Impl {
   Impl(const std::string& device, const spidar::Profile& profile)
       : session(profile, spidar::make_device(device, profile)) {
@@ -66,7 +66,7 @@ bool Device::push(const Wrench& wrench) {
   spidar::TimedWrench entry;
   entry.wrench = from_api(wrench);
   if (!entry.wrench.is_finite()) throw std::invalid_argument("a wrench must be six finite numbers");
-  // The clock may stand still between two calls; times must rise.
+  // The clock may stand still between two calls, but times must rise.
   entry.time_ns = std::max(HapticSession::monotonic_now_ns(), impl_->pushed_ns + 1);
   entry.hold_ns = kHold_ns;
   impl_->pushed_ns = entry.time_ns;
@@ -106,7 +106,7 @@ DeviceState Device::state() const {
       return DeviceState::kIdle;
     case spidar::DeviceState::kRunning:
       return DeviceState::kRunning;
-    default:  // before the first tick; nothing is closed or closing while this object lives
+    default:  // before the first tick; the device does not close while this object lives
       return DeviceState::kOpening;
   }
 }

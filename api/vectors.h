@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Between the types of the installed headers and those of the rest of the project.
+/// Conversions between the types of the installed headers and those of the rest of the project.
 #pragma once
 
 #include <gst-spidar/wrench.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How the gain controllers would feel: compare_controllers [VIDEO ...]
+/// Compares how the gain controllers would feel: compare_controllers [VIDEO ...]
 ///
 /// Measures the motion of a rendered bouncing ball and of each video once, as the element does by
-/// default, gives it to each of the controllers, and prints what a hand would notice of it as a
-/// table (Markdown). Figures do not replace asking people.
+/// default, applies each controller to it, and prints a table (Markdown) of what a hand would
+/// notice. The figures do not replace asking people.
 
 #include <cmath>
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace {
 using spidar::ControllerKind;
 using spidar::Film;
 
-/// The ball of paper_figures, until it lies.
+/// The ball of paper_figures, until it comes to rest.
 Film ball_film(const spidar::AnalyzerSettings& settings) {
   constexpr int kFrameRate_Hz = 30;
   constexpr int kDuration_s = 12;

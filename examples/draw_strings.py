@@ -47,7 +47,7 @@ def main(path):
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#fff"/>',
         f'<text x="14" y="24" font-size="14" font-weight="bold">{profile["description"]}</text>',
     ]
-    # The box around the exits, thin.
+    # The box around the exits, in thin lines.
     low = [min(p[i] for p in exits) for i in range(3)]
     high = [max(p[i] for p in exits) for i in range(3)]
     corner = lambda bits: tuple(high[i] if bits >> i & 1 else low[i] for i in range(3))

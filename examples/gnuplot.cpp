@@ -12,7 +12,7 @@
 
 namespace {
 
-/// As a gnuplot string in single quotes, which knows no escapes: a quote is doubled.
+/// A gnuplot string in single quotes. These have no escapes: a quote is doubled.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);

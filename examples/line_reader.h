@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Problems as lines of numbers on standard input.
+/// Reads problems as lines of numbers from standard input.
 #pragma once
 
 #include <cmath>
@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-/// Calls `use(numbers)` for each line of exactly `count` finite or non-finite numbers. A line that
-/// is not is refused on standard error by its number; empty lines and those that begin with # are
-/// skipped. Returns the number of refused lines.
+/// Calls `use(numbers)` for each line of exactly `count` numbers, which may be infinite or NaN. Any
+/// other line is reported on standard error with its number; empty lines and comments, which begin
+/// with #, are skipped. Returns the number of bad lines.
 template <typename Use>
 int for_each_line(std::istream& input, size_t count, Use use) {
   int refused = 0;

@@ -3,8 +3,8 @@
 /// Draws Fig. 6 to 10 of the paper: paper_figures FOLDER
 ///
 /// A bouncing ball is rendered frame by frame, its motion is measured from the pictures as the
-/// element does, and both gain controllers turn it into force; beside each curve stands the one
-/// that follows from the physics of the scene.
+/// element does, and both gain controllers turn it into force. Each curve is drawn together with
+/// the one that follows from the physics of the scene.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ constexpr double kDuration_s = 6;
 constexpr int kFrameRate_Hz = 30;
 constexpr double kAnalyticStep_s = 0.001;
 
-/// As high as the reference frame, so that the controllers see the pixels of the figures.
+/// The same height as the reference frame, so that the controllers see the pixels of the figures.
 BallSettings scene_settings() {
   BallSettings settings;
   settings.width = 640;
@@ -41,7 +41,7 @@ BallSettings scene_settings() {
   return settings;
 }
 
-/// One moment; up is positive, as in the paper.
+/// One moment; upwards is positive, as in the paper.
 struct Row {
   double time_s = 0;
   double position_px = 0;  ///< above the floor
@@ -49,7 +49,7 @@ struct Row {
   double acceleration_px_s2 = 0;
 };
 
-/// Feeds both controllers with a curve, in its order, and writes it with their answers.
+/// Applies both controllers to a curve, in its order, and writes it together with the forces.
 class CurveFile {
  public:
   explicit CurveFile(const fs::path& path) : file_(path) { file_.exceptions(std::ios::failbit); }
@@ -86,15 +86,15 @@ void write_analytic(const BallScene& scene, const fs::path& path) {
   curve.close();
 }
 
-/// How far the measured steps are from the true ones, pixels a frame.
+/// Error of the measured displacements, pixels in a frame.
 struct StepError {
   double rms_px = 0;
   double largest_px = 0;
 };
 
-/// Position is the sum of the measured steps, from where the ball starts. A measured velocity is
-/// the mean of a frame interval and stands at its middle; acceleration is the difference of two of
-/// them.
+/// The position is the sum of the measured displacements, starting where the ball starts. A
+/// measured velocity is the mean over an interval between frames and belongs to its middle;
+/// acceleration is the difference of two velocities.
 StepError write_measured(const BallScene& scene, const fs::path& path) {
   const BallSettings& settings = scene.settings();
   std::vector<uint8_t> pixels(static_cast<size_t>(settings.width * settings.height));

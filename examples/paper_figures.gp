@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Fig. 6 to 10 of the paper, drawn from a rendered bouncing ball into `folder`.
-# paper_figures.cpp writes `measured` (a row a frame) and `analytic` (a row a millisecond) with the
-# columns: time, position, velocity, acceleration, k, linear force, nonlinear force; up is positive.
-# `gravity` is the scene's, in px/s².
+# Fig. 6 to 10 of the paper, from a rendered bouncing ball, drawn into `folder`.
+# paper_figures.cpp writes `measured` (one row for each frame) and `analytic` (one row for each
+# millisecond) with the columns time, position, velocity, acceleration, k, linear force, nonlinear
+# force; upwards is positive. `gravity` is that of the scene, in px/s².
 set encoding utf8
 set grid linecolor rgb "#d8d8d8" linetype 1 linewidth 0.5
 set border 3 linecolor rgb "#606060"
@@ -13,7 +13,7 @@ set style line 1 linecolor rgb "#b0b0b0" linewidth 3                         # a
 set style line 2 linecolor rgb "#0b5fa5" linewidth 1 pointtype 7 pointsize 0.5   # measured
 set xrange [0:*]
 
-# A panel: column of both files, from analytic curve to what was measured.
+# A panel: column of both files, for the analytic curve and the measured points.
 panel(column) = sprintf("plot analytic using 1:%d with lines linestyle 1 title 'analytic', " . \
                         "measured using 1:%d with points linestyle 2 title 'measured'", column, column)
 start(name, height) = sprintf("set terminal pngcairo size 1100,%d font 'sans,12'; " . \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Plays a video and lets it be felt, then says how that went. examples/play.sh builds it and finds
-/// a video.
+/// Plays a video whose motion is felt, then prints a report. examples/play.sh builds it and finds a
+/// video.
 
 #include <algorithm>
 #include <cerrno>
@@ -106,7 +106,7 @@ Options parse(const std::vector<std::string>& arguments) {
   return options;
 }
 
-/// A folder for pipes and curves, gone with the object.
+/// A folder for pipes and curves that is removed when the object is destroyed.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -126,7 +126,7 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-/// Sets a path property of the filter and returns what the user had set.
+/// Sets a path property of the filter and returns the value that the user had set.
 std::string exchange_path(GstElement* filter, const char* property, const std::string& path) {
   char* old = nullptr;
   g_object_get(filter, property, &old, nullptr);
@@ -136,7 +136,7 @@ std::string exchange_path(GstElement* filter, const char* property, const std::s
   return result;
 }
 
-/// Saves the debug window, once, when the video has got far enough for its plots to be full.
+/// Saves the debug window once, when enough of the video has been played for its plots to be full.
 class WindowPicture {
  public:
   WindowPicture(GstElement* filter, const std::string& path) : filter_(filter), path_(path) {}
@@ -169,8 +169,8 @@ std::string progress_line(const Now& now) {
   return line;
 }
 
-/// The folder, made if need be, before a film is played for it. Throws std::invalid_argument when
-/// nothing can be written there.
+/// Makes the folder, if necessary, before a film is played for it. Throws std::invalid_argument
+/// when it cannot be written to.
 void prepare_output(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -242,7 +242,7 @@ int play(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with the errors, in a file too
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with errors, also when written to a file
   gst_init(nullptr, nullptr);
   try {
     const Options options = parse({argv + 1, argv + argc});

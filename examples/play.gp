@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# What a playback was like: draws `frames` and `ticks` into `png`, headed by `title`. play.cpp writes
-# the two files; without a device `ticks` is an empty string. Panels as in Fig. 6 to 10 of the paper:
-# position, velocity, force; then, where a hand could feel them (`depth`, `roll` are not empty), force
-# towards the viewer and torque; then the strings. Forces are drawn on axes at ± `max_force`, the
-# torque at ± the torque that this force has at `arm`.
+# The curves of a playback: draws `frames` and `ticks` into `png` under the heading `title`.
+# play.cpp writes the two files; without a device `ticks` is an empty string. Panels as in Fig. 6 to
+# 10 of the paper: position, velocity, force; then force towards the viewer and torque if a hand
+# could feel them (`depth`, `roll` are not empty); then the strings. Axes of force go to ±
+# `max_force`, those of torque to ± the torque that this force has at `arm`.
 panels = 4 + (strlen(depth) > 0) + (strlen(roll) > 0) + (strlen(ticks) > 0)
 set terminal pngcairo size 1400,280 * panels font "DejaVu Sans,12"
 set output png
@@ -12,7 +12,7 @@ set encoding utf8
 
 set linetype 1 linecolor rgb "#0b5fa5" linewidth 1.5  # x
 set linetype 2 linecolor rgb "#d9541e" linewidth 1.5  # y
-# One colour a string, from Okabe and Ito's set for colour-blind readers.
+# One colour for each string, from Okabe and Ito's set for colour-blind readers.
 array colours[8] = ["#e69f00", "#56b4e9", "#009e73", "#999933", "#0072b2", "#d55e00", "#cc79a7", \
                     "#000000"]
 

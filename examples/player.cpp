@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A player for the terminal: a film, and its motion in the hand.
+// A player for the terminal: plays a film and renders its motion as force.
 //
 //   player [--headless] FILE-OR-URI
 //
-// On a terminal it shows which keys there are, what is played, and the force as a bar. Keys may
-// also come from a pipe: each is done when the one before is.
+// On a terminal it shows the keys, what is playing, and the force as a bar. Keys may also come from
+// a pipe; each takes effect when the previous one has.
 #include "examples/player/player.h"
 
 #include <cstdio>
@@ -46,7 +46,7 @@ void show(Session& session) {
                       kKeys[1]});
 }
 
-/// For people, below what stands on the terminal.
+/// Prints a line for the user, below the status lines.
 void tell(Session& session, const std::string& text) {
   session.lines.leave();
   std::fprintf(stderr, "%s\n", text.c_str());
@@ -55,7 +55,7 @@ void tell(Session& session, const std::string& text) {
 gboolean on_key(gint file, GIOCondition, gpointer user) {
   auto& session = *static_cast<Session*>(user);
   char byte = 0;
-  if (read(file, &byte, 1) != 1) return G_SOURCE_REMOVE;  // no more keys: the film plays on
+  if (read(file, &byte, 1) != 1) return G_SOURCE_REMOVE;  // end of input: the film continues
   const Action action = session.keys.take(byte);
   if (action.command == Command::kQuit) g_main_loop_quit(session.loop);
   session.player.act(action);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The grip's pose from string lengths on standard input, eight a line, in metres:
+// Computes the grip's pose from string lengths on standard input, eight on each line, in metres:
 //   solve_pose PROFILE [--track]
-// PROFILE is a name (spidar-gcc, …) or the path of a profile file. Writes a line for each:
+// PROFILE is a name (spidar-gcc, …) or the path of a profile file. Writes for each line:
 //   position x y z (m), quaternion w x y z, root mean square length error (m), status
 // where status is solved, solved-without-N (string N does not fit the others and was left out),
-// ambiguous (the lengths fit two poses within the encoder's step) or not-converged; the last two
-// come with the pose before. Each line is located from the centre, or with --track next to the line
-// before. A bad line is refused by its number on standard error, and the next one read. Exit status
-// 1 when any was.
+// ambiguous (the lengths fit two poses within the encoder's step) or not-converged; in the last two
+// cases the pose is the previous one. Each line is located starting at the centre, or with --track
+// next to the previous line. A bad line is reported with its number on standard error and skipped;
+// the exit status is then 1.
 #include <cstdio>
 #include <cstring>
 #include <exception>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Tensions for problems on standard input, one a line:
+// Computes tensions for problems on standard input, one on each line:
 //   48 numbers of W by rows, 6 of the wrench, 8 t_min, 8 t_max, 8 t_ref, epsilon, l
-// where S = diag(1, 1, 1, 1/l, 1/l, 1/l). Writes a line for each:
+// where S = diag(1, 1, 1, 1/l, 1/l, 1/l). Writes for each line:
 //   8 tensions, status (solved or iteration-limit), relative KKT residual, iterations
-// A bad line is refused by its number on standard error, and the next one read. Exit status 1 when
-// any was.
+// A bad line is reported with its number on standard error and skipped; the exit status is then 1.
 #include <cstdio>
 #include <iostream>
 #include <string>
@@ -33,7 +32,7 @@ TensionProblem to_problem(const std::vector<double>& numbers) {
 }
 
 std::string solve(const std::vector<double>& numbers) {
-  TensionSolver solver;  // every line is a cold start
+  TensionSolver solver;  // without the state of previous lines
   const TensionResult result = solver.solve(to_problem(numbers));
   if (result.status == TensionStatus::kBadInput)
     return "not a problem: all numbers must be finite, t_min <= t_max, epsilon > 0 and l > 0";

@@ -117,7 +117,7 @@ Ending play(const Trial& trial, const Options& options) {
   return ending;
 }
 
-/// False when the participant stops here.
+/// Returns false when the participant stops here.
 bool run_trial(const Trial& trial, const std::vector<Question>& open, const Options& options) {
   if (!wait_for_return(std::cin, std::cout)) return false;
   const Ending ending = play(trial, options);
@@ -135,7 +135,7 @@ int run(const Options& options) {
   check_name(options.participant);
   for (const std::string& clip : options.clips) {
     check_name(clip);
-    film_uri(clip);  // all are there before the first is shown
+    film_uri(clip);  // checks that all clips exist before the first one is shown
   }
   for (const Question& question : options.questions) check_name(question.name);
   const std::vector<Answer> answers = read_answers(options.answers);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Lets a simulated hand stroke across a picture, and draws what it felt. examples/touch.sh builds
-/// it. The relief, the 1 kHz loop and the simulated device are those of the element; only playback
-/// is left out, for a still picture needs none.
+/// Simulates a hand that strokes across a picture, and draws what it feels. examples/touch.sh
+/// builds it. The relief, the 1 kHz loop and the simulated device are those of the element;
+/// playback is left out, because a still picture needs none.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -33,9 +33,9 @@ constexpr const char* kUsage =
     "  --output FOLDER  where touch.png, touch-relief.csv and touch-ticks.csv go; else the current "
     "folder\n";
 
-constexpr int kApproach_ticks = 600;  ///< to the left side, and then into the surface
+constexpr int kApproach_ticks = 600;  ///< to the left side, then into the surface
 constexpr int kStroke_ticks = 4000;
-/// Where the hand wants to be, behind the middle of the relief: it presses with some 1.5 N.
+/// Target position of the hand behind the middle of the relief: it presses with about 1.5 N.
 constexpr double kPress_m = 0.008;
 constexpr double kStroke = 0.8;  ///< of the picture's width
 
@@ -53,7 +53,7 @@ void publish(const ImageView& picture, TouchMailbox& mailbox) {
   mailbox.publish();
 }
 
-/// Of the hand, at a tick: to the side of the picture, in, across, out.
+/// Target of the hand at a tick: to the side of the picture, in, across, out.
 Eigen::Vector3d hand_m(int tick, double half_width_m) {
   const double side_m = kStroke * half_width_m;
   if (tick < kApproach_ticks) return {-side_m, 0, kPress_m};

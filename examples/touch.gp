@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# What a stroke across a picture was like: draws the files `relief` and `ticks`, which touch.cpp
-# writes, into `png`, headed by `title`.
+# The curves of a stroke across a picture: draws the files `relief` and `ticks`, which touch.cpp
+# writes, into `png` under the heading `title`.
 set terminal pngcairo size 1100,1300 font "sans,12"
 set output png
 set encoding utf8

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Lets a simulated hand stroke across a picture, as with touch=luma, and ends with some numbers and
-# a picture of relief, path and force. Installs what is missing (Debian) and builds first.
+# Simulates a hand that strokes across a picture, as with touch=luma, and ends with some numbers and
+# a picture of relief, path and force. First installs missing packages (Debian) and builds.
 #   examples/touch.sh IMAGE
 #   examples/touch.sh IMAGE --output FOLDER
 set -euo pipefail

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What moves in a video, as one line of JSON a frame on standard output:
+// Prints what moves in a video, as one line of JSON for each frame:
 //   track_video FILE [--points] [--motion=mean|object|objects|camera]
-// FILE may be a URI. Each line has the time, the background's model, the objects (identity, place,
-// size, velocity against the background and on the screen, growth, roll) and the motion that would
-// be felt; core/analysis_json.h names the keys. --points adds the points with their motion, as
-// [id, x, y, moved x, moved y]. All from the centre of the frame, x right, y down, pixels.
+// FILE may be a URI. Each line has the time, the background's model, the objects (id, position,
+// size, velocity relative to the background and on the screen, growth, roll) and the motion that
+// would be felt; core/analysis_json.h lists the keys. --points adds the points with their motion,
+// as [id, x, y, moved x, moved y]. Positions are in pixels from the centre of the frame, x right, y
+// down.
 //   track_video film.mkv | jq -c '.objects[] | [.id, .velocity_px_s]'
 #include <cstdio>
 #include <cstring>

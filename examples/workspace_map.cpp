@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which part of a wanted force a SPIDAR delivers over its workspace; docs/workspace.md explains
-/// the numbers.
+/// Computes which part of a wanted force a SPIDAR delivers over its workspace; docs/workspace.md
+/// explains the numbers.
 
 #include <cstdio>
 #include <exception>

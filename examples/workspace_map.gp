@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# What a device gives of a wanted force of 3 N: draws `position` and `rotation` of the device
-# `profile` into `png`. workspace/pose_map.cpp writes the two files. Top row: the grip moved in the
-# plane of the screen; bottom row: turned at the centre.
+# Maps of what a device delivers of a wanted force of 3 N: draws `position` and `rotation` of the
+# device `profile` into `png`. workspace/pose_map.cpp writes the two files. Top row: the grip moved
+# in the plane of the screen; bottom row: rotated at the centre.
 set terminal pngcairo size 1600,760 font "sans,11"
 set output png
 set encoding utf8
 set datafile separator ","
 
-# Viridis (van der Walt and Smith): even for the eye, and for colour-blind readers.
+# Viridis (van der Walt and Smith): perceptually uniform, and suitable for colour-blind readers.
 set palette defined (0 "#440154", 1 "#472d7b", 2 "#3b528b", 3 "#2c728e", 4 "#21918c", \
                      5 "#28ae80", 6 "#5ec962", 7 "#addc30", 8 "#fde725")
 set border linecolor rgb "#606060"
@@ -18,7 +18,7 @@ set autoscale xfix
 set autoscale yfix
 set size ratio -1
 
-# Panels in a row: column of the file, heading, largest value. Colour bars stand above the top row.
+# Panels in a row: column of the file, heading, largest value. Colour bars are above the top row.
 array columns[5] = [3, 4, 6, 5, 7]
 array names[5] = ["tension factor\n(white: no force closure)", \
                   "force, N\ngst-spidar", "force, N\npublished weights", \

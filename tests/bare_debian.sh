@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Runs README's two commands on a Debian 12 that has nothing but what every Debian has, in a folder, as
-# root: a package that the tests or examples/play.sh need and tests/debian-packages.txt does not name
-# fails here. Nothing of this machine is seen from there: this folder is copied, and no more than proc,
-# dev/pts and dev/shm is mounted. Warnings of the compiler are errors.
+# Runs the two commands of the README in a folder with a Debian 12 that has only the packages of
+# every Debian, as root. A package that the tests or examples/play.sh need fails here unless
+# tests/debian-packages.txt lists it. Nothing of this machine is visible from there: this source
+# tree is copied, and only proc, dev/pts and dev/shm are mounted. Warnings of the compiler are
+# errors.
 #   tests/bare_debian.sh RESULTS   leaves the tests' results in RESULTS/meson-logs, for summary.py
-# The exit status is 0 when the tests were run, whatever their results, and play.sh went well. A small
-# Debian, 0.2 GB, and the packages, 0.3 GB, are kept in ${XDG_CACHE_HOME:-~/.cache}/gst-spidar/ for later
-# runs; what is installed and built is not.
+# The exit status is 0 when the tests have run, whatever their results, and play.sh has succeeded. A
+# small Debian, 0.2 GB, and the packages, 0.3 GB, are kept in
+# ${XDG_CACHE_HOME:-~/.cache}/gst-spidar/ for later runs; installed packages and builds are not.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source-path=SCRIPTDIR source=../tests/install.sh

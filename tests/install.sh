@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 # Sourced by tests/run.sh, tests/runtimes.sh and examples/play.sh: installs Debian packages without
-# asking.
-# shellcheck shell=bash
+# Sourced by the scripts in tests/ and examples/: installs Debian packages without asking.
 
 # install_packages GROUP...: those of debian-packages.txt in these groups that are missing. Silent
 # when none is. Elsewhere than on Debian it leaves the system alone: the build says what it misses.

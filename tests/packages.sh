@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Builds the Debian packages in a Debian that has nothing but what debian/control names, looks at them
-# with lintian, installs the four into a Debian that has nothing at all, plays a clip there with the
-# simulated device, and builds and runs an example. As root; nothing of this machine is seen from there.
+# Builds the Debian packages in a Debian that has only the packages named by debian/control, checks
+# them with lintian, installs the four into a minimal Debian, plays a clip there with the simulated
+# device, and builds and runs an example. Needs root; nothing of this machine is visible from there.
 #   tests/packages.sh debian-12|debian-13 [FOLDER]   leaves the packages in FOLDER
-# The last line is what was shown. A small Debian, what the compiler made (ccache) and the downloaded
+# The last line is the result. A small Debian, the compiler cache (ccache) and the downloaded
 # packages are kept in ${XDG_CACHE_HOME:-~/.cache}/gst-spidar/ for later runs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

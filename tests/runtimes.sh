@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Runs the tests with newer releases than this machine's, on Debian, as root, without asking. The last
-# line is `N passed, N failed, N skipped`; the exit status is 0 when nothing failed.
+# Runs the tests with newer releases than this machine's, on Debian, as root, without asking. The
+# last line is `N passed, N failed, N skipped`; the exit status is 0 when nothing failed.
 #   tests/runtimes.sh debian-13       builds and tests everything with the packages of Debian 13
 #   tests/runtimes.sh gstreamer-1.28  tests what is built in build/ with GStreamer 1.28 and GLib, those
 #                                     of Debian 14: element, pipelines, examples

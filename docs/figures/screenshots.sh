@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Takes the pictures of the debug window again, without a screen: `meson compile -C build screenshots`, or
+# Makes the pictures of the debug window, without a screen: `meson compile -C build screenshots`, or
 #   docs/figures/screenshots.sh BUILD
-# Writes debug_window.png and debug_window.gif beside itself. A busy machine draws fewer different frames. Needs ffmpeg,
-# xvfb, python3-numpy, gstreamer1.0-libav or -good (MJPEG) and fonts-dejavu-core.
+# Writes debug_window.png and debug_window.gif into its own folder. On a busy machine fewer
+# different frames are drawn. Needs ffmpeg, xvfb, python3-numpy, gstreamer1.0-libav or -good (MJPEG)
+# and fonts-dejavu-core.
 set -euo pipefail
 build=$(realpath "${1:?usage: docs/figures/screenshots.sh BUILD}")
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

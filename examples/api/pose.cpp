@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   using namespace std::chrono_literals;
   try {
     const gst_spidar::Device device(argc > 1 ? argv[1] : "sim", argc > 2 ? argv[2] : "");
-    // It takes some readings that agree until the pose is known.
+    // The pose is known after several readings that agree.
     for (int i = 0; i < 500 && !device.pose(); ++i) std::this_thread::sleep_for(10ms);
     for (int i = 0; i < 10; ++i) {
       if (const std::optional<gst_spidar::Pose> pose = device.pose()) {

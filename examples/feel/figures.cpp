@@ -12,7 +12,7 @@
 namespace spidar {
 namespace {
 
-/// 1 for the smallest; equal values share the mean of their ranks.
+/// Ranks from 1 for the smallest value; equal values share the mean of their ranks.
 std::vector<double> ranks(const std::vector<double>& values) {
   std::vector<size_t> order(values.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -28,7 +28,8 @@ std::vector<double> ranks(const std::vector<double>& values) {
   return result;
 }
 
-/// What the eye sees, in px/s of the reference frame: growth and roll count as in the rendering.
+/// Speed as the eye sees it, in px/s of the reference frame: growth and roll count as in the
+/// rendering.
 double seen_px_s(const ImageMotion& motion, int height) {
   const Eigen::Vector2d velocity_px_s = kReferenceHeight_px / height * motion.velocity_px_s;
   return std::hypot(velocity_px_s.norm(), kRim_px * motion.growth_1_s, kRim_px * motion.roll_rad_s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a hand would notice of a film.
+/// Statistics of what a hand would notice of a film.
 #pragma once
 
 #include <vector>
@@ -12,29 +12,29 @@
 
 namespace spidar {
 
-/// The Weber fraction of force, about that of the paper that kFeltForce_N is from.
+/// The Weber fraction of force, approximately as in the paper from which kFeltForce_N is taken.
 constexpr double kWeberFraction = 0.10;
-/// What is slower than this, in px/s of a frame 480 lines high, does not count as moving.
+/// A slower motion does not count as moving, px/s of a frame 480 lines high.
 constexpr double kMoving_px_s = 1;
 constexpr double kAtLimit = 0.95;  ///< of the maximum force
 
-/// Shares of the time in which something moves, 0 … 1.
+/// Statistics of a film; shares are of the time in which something moves, 0 … 1.
 struct FeelFigures {
-  double moving = 0;        ///< share of the whole film
-  double felt = 0;          ///< the force is at least kFeltForce_N
-  double at_limit = 0;      ///< the force is at least kAtLimit of the maximum: speeds feel alike
-  double told_apart = 0;    ///< the force differs from that of the frame before by more than …
-                            ///< … kWeberFraction of the larger one, and by kFeltForce_N
-  double rank = 0;          ///< Spearman's correlation of seen speed and size of the force
+  double moving = 0;      ///< share of the whole film
+  double felt = 0;        ///< the force is at least kFeltForce_N
+  double at_limit = 0;    ///< the force is at least kAtLimit of the maximum: speeds feel alike
+  double told_apart = 0;  ///< the force differs from that of the previous frame by more than …
+                          ///< … kWeberFraction of the larger one, and by kFeltForce_N
+  double rank = 0;  ///< Spearman's correlation between the visible speed and the size of the force
   double mean_force_N = 0;  ///< while something moves
 };
 
-/// The film filtered and felt with a controller, frame by frame as the element does.
+/// Filters the film and applies a controller to it, frame by frame as the element does.
 FeelFigures feel(const Film& film, const FilterSettings& filter,
                  const ControllerSettings& controller);
 
-/// Spearman's rank correlation; equal values share their mean rank. 0 when all of `a` or of `b` are
-/// equal. As many values in both.
+/// Spearman's rank correlation of two lists of the same length; equal values share their mean rank.
+/// 0 when all of `a` or all of `b` are equal.
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace spidar

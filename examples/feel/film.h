@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The motion of a film as it was measured, so that it can be felt with one controller after the
-/// other.
+/// The measured motion of a film, to which several controllers can be applied.
 #pragma once
 
 #include <string>
@@ -12,7 +11,7 @@
 namespace spidar {
 
 struct FilmFrame {
-  /// Running time since the frame that this one was compared with; 0: a cut, or the first frame.
+  /// Running time since the frame with which this one was compared; 0: a cut, or the first frame.
   double interval_s = 0;
   ImageMotion motion;  ///< not filtered
 };

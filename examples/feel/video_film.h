@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Films out of video files, by way of GStreamer.
+/// Measures the motion of video files, read with GStreamer.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace spidar {
 
-/// Decodes the whole file or URI, as fast as it goes; after gst_init(). Throws as LumaReader does.
+/// Decodes the whole file or URI as fast as possible; call gst_init() before. Throws as LumaReader
+/// does.
 Film read_film(const std::string& path, const AnalyzerSettings& settings);
 
 }  // namespace spidar

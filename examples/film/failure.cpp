@@ -7,14 +7,14 @@
 
 namespace {
 
-/// The last line of what is meant for programmers gives the reason, those before the place.
+/// The reason is in the last line of GStreamer's debug text; the lines before tell the place.
 std::string last_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   const size_t end = text.rfind('\n');
   return end == std::string::npos ? "" : text.substr(end + 1);
 }
 
-/// Why the host of a URI does not answer; empty where it does, or where the URI has none.
+/// Why the host of a URI does not answer; empty when it does, or when the URI has no host.
 std::string host_problem(const std::string& uri) {
   GUri* const parts = g_uri_parse(uri.c_str(), G_URI_FLAGS_NONE, nullptr);
   if (!parts) return {};
@@ -62,7 +62,7 @@ bool misses_sound_only(GstMessage* message) {
   GError* error = nullptr;
   char* debug = nullptr;
   gst_message_parse_error(message, &error, &debug);
-  // The types of all streams that nothing was made of are in what is meant for programmers.
+  // The types of all streams for which no decoder was found are in the debug text.
   const std::string streams = debug ? debug : "";
   const bool result = g_error_matches(error, GST_CORE_ERROR, GST_CORE_ERROR_MISSING_PLUGIN) &&
                       streams.find("(audio/") != std::string::npos &&

@@ -8,7 +8,7 @@
 
 namespace {
 
-constexpr double kSmallest = 1e-9;  // everything nearer to zero is zero
+constexpr double kSmallest = 1e-9;  // values nearer to zero count as zero
 constexpr double kRatio = 1.01;
 
 int index_of(double value) {

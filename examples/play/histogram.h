@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <map>
 
-/// Counts values in bins that are 1 % wide, so a quantile is off by at most half of that; smallest
-/// and largest value are exact. Values may have either sign.
+/// Counts values in bins that are 1 % wide, so the error of a quantile is at most half of that; the
+/// smallest and the largest value are exact. Values may have either sign.
 class Histogram {
  public:
   void add(double value);
@@ -20,7 +20,7 @@ class Histogram {
   double quantile(double p) const;
 
  private:
-  std::map<int, uint64_t> bins_;  ///< by index, which rises with the value
+  std::map<int, uint64_t> bins_;  ///< by index, which increases with the value
   uint64_t count_ = 0;
   double min_ = 0;
   double max_ = 0;

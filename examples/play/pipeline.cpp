@@ -19,7 +19,7 @@ GstElement* make(const char* factory) {
                            ": is gstreamer1.0-plugins-good installed?");
 }
 
-/// What autovideosink has chosen, or null. It takes a fakesink when nothing else works.
+/// The sink that autovideosink has chosen, or null. It uses a fakesink when nothing else works.
 GstElement* chosen_sink(GstElement* autovideosink) {
   GValue item = G_VALUE_INIT;
   GstIterator* const sinks = gst_bin_iterate_sinks(GST_BIN(autovideosink));
@@ -43,8 +43,8 @@ Screen open_screen(bool headless) {
   } else if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) {
     screen.why_none = "neither DISPLAY nor WAYLAND_DISPLAY is set";
   } else {
-    // An X server that has no other client starts anew when autovideosink lets go of the first sink
-    // it tries, and is not there for the next one.
+    // An X server resets itself when its last client disconnects. That happens when autovideosink
+    // closes the first sink that it tries, and the server is then not ready for the next one.
     for (int attempt = 0; attempt < 5; ++attempt) {
       screen.element = make("autovideosink");
       gst_element_set_state(screen.element, GST_STATE_READY);
@@ -72,7 +72,7 @@ GstElement* make_player(const std::string& uri, GstElement* filter, const Screen
   GstElement* const player = make("playbin");
   guint flags = 0;
   g_object_get(player, "flags", &flags, nullptr);
-  // Frames in graphics memory would pass the filter by.
+  // Frames in graphics memory would bypass the filter.
   g_object_set(player, "uri", uri.c_str(), "video-filter", filter, "video-sink", screen.element,
                "flags", flags | kForceFilters, nullptr);
   if (!screen.why_none.empty()) {
@@ -94,7 +94,7 @@ GstElement* make_ball(GstElement* filter, const Screen& screen) {
   gst_util_set_object_arg(G_OBJECT(caps), "caps",
                           "video/x-raw, width=640, height=480, framerate=30/1");
   g_object_set(source, "num-buffers", 300, nullptr);
-  g_object_set(queue, "max-size-buffers", 3u, nullptr);  // as playbin has it
+  g_object_set(queue, "max-size-buffers", 3u, nullptr);  // as in playbin
   gst_bin_add_many(GST_BIN(pipeline), source, caps, before, filter, queue, after, screen.element,
                    nullptr);
   gst_element_link_many(source, caps, before, filter, queue, after, screen.element, nullptr);

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From a video to the screen and the grip.
+/// The pipeline from a video to the screen and the grip.
 #pragma once
 
 #include <string>
 
 #include <gst/gst.h>
 
-/// Where the picture goes.
+/// The sink for the picture.
 struct Screen {
   GstElement* element = nullptr;  ///< for the pipeline; floating
   GstElement* sink = nullptr;     ///< the GstBaseSink in it; borrowed
-  std::string why_none;           ///< empty when a window is shown
+  std::string why_none;           ///< why there is no window; empty when one is shown
 };
 
-/// A window, or without a display a sink that only keeps time.
+/// A window or, without a display, a sink that only keeps time.
 Screen open_screen(bool headless);
 
-/// The filter to be set up. Throws std::runtime_error when the plugin is not found.
+/// The filter, to be configured by the caller. Throws std::runtime_error when the plugin is not
+/// found.
 GstElement* make_filter();
 
 /// playbin with the filter between decoder and screen.
 GstElement* make_player(const std::string& uri, GstElement* filter, const Screen& screen);
 
-/// A ball that jumps about for ten seconds, for want of a video.
+/// A ball that bounces for ten seconds, used when there is no video.
 GstElement* make_ball(GstElement* filter, const Screen& screen);

@@ -22,21 +22,21 @@ struct Playback {
   GMainLoop* main_loop;
   Ending ending = Ending::kFailed;
   bool buffering = false;
-  std::map<std::string, int> warnings = {};  ///< how often, by text
+  std::map<std::string, int> warnings = {};  ///< number of times, by text
 
   void stop(Ending why) {
     ending = why;
     g_main_loop_quit(main_loop);
   }
 
-  /// Messages start on a line of their own.
+  /// Messages begin on a new line.
   void clear_line() const {
     if (on_terminal) std::printf("\r\033[K");
     std::fflush(stdout);
   }
 };
 
-/// Of a playbin; empty for another pipeline.
+/// For a playbin; empty for another pipeline.
 std::string film_of(GstElement* pipeline) {
   if (!g_object_class_find_property(G_OBJECT_GET_CLASS(pipeline), "current-uri")) return {};
   char* uri = nullptr;
@@ -69,7 +69,7 @@ void end_by_end(Playback& playback) {
   playback.stop(Ending::kEndOfVideo);
 }
 
-/// A broken video warns at every frame; each text is said once.
+/// A broken video warns at every frame; each text is printed once.
 void report_warning(Playback& playback, GstMessage* message) {
   GError* error = nullptr;
   gst_message_parse_warning(message, &error, nullptr);
@@ -87,7 +87,7 @@ void report_missing_plugin(const Playback& playback, GstMessage* message) {
   g_free(what);
 }
 
-/// Network streams: waits until enough has arrived.
+/// Network streams: pauses until enough data have arrived.
 void follow_buffering(Playback& playback, GstMessage* message) {
   int percent = 0;
   gst_message_parse_buffering(message, &percent);
@@ -172,7 +172,7 @@ Ending run_playback(GstElement* pipeline, int seconds,
     sources.push_back(g_timeout_add_seconds(static_cast<guint>(seconds), on_time_over, &playback));
   }
 
-  // A failure is on the bus, with its reason.
+  // The bus has a message with the reason of a failure.
   gst_element_set_state(pipeline, GST_STATE_PLAYING);
   g_main_loop_run(playback.main_loop);
 

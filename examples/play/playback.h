@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A pipeline at work.
+/// Runs a pipeline and reports its messages.
 #pragma once
 
 #include <functional>
@@ -14,9 +14,9 @@ enum class Ending {
   kFailed,
 };
 
-/// Plays until the video ends, fails, the user stops it, or `seconds` have passed (0: never).
-/// Errors and warnings of the pipeline go to standard error, `progress` to standard output: in
-/// place on a terminal, else a line now and then. The pipeline is still in PLAYING or PAUSED
-/// afterwards.
+/// Plays until the video ends or fails, the user stops it, or `seconds` have passed (0: never).
+/// Prints errors and warnings of the pipeline on standard error and `progress` on standard output:
+/// in place on a terminal, otherwise a line from time to time. Afterwards the pipeline is still in
+/// PLAYING or PAUSED.
 Ending run_playback(GstElement* pipeline, int seconds,
                     const std::function<std::string()>& progress);

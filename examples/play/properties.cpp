@@ -10,7 +10,7 @@ namespace {
 
 using Pspecs = std::unique_ptr<GParamSpec*, decltype(&g_free)>;
 
-/// The properties that the element adds to those that every element has.
+/// The element's own properties, without those that every element has.
 std::string own_properties(GstElement* element) {
   guint count = 0;
   const Pspecs pspecs(g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count), g_free);
@@ -74,7 +74,7 @@ void set_property(GstElement* element, const std::string& assignment) {
   }
   GValue value = G_VALUE_INIT;
   g_value_init(&value, pspec->value_type);
-  // g_param_value_validate() changes what is out of range.
+  // g_param_value_validate() clamps values that are out of range.
   const bool right = gst_value_deserialize_with_pspec(&value, text.c_str(), pspec) &&
                      !g_param_value_validate(pspec, &value);
   if (right) g_object_set_property(G_OBJECT(element), name.c_str(), &value);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Element properties as a user types them.
+/// Element properties as typed by a user.
 #pragma once
 
 #include <string>

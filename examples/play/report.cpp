@@ -15,7 +15,7 @@
 
 namespace {
 
-/// A column; NaN stays empty.
+/// A column of the table; NaN is left empty.
 void print_cell(double value) {
   if (std::isnan(value)) {
     std::printf("%10s", "");
@@ -36,7 +36,7 @@ void print_row(const char* name, const Histogram& values) {
             values.quantile(0.999), values.max());
 }
 
-/// Instead of numbers near zero, that there was no force.
+/// Says that there was no force, in place of numbers near zero.
 void print_forces(const SessionRecord::Numbers& numbers) {
   const auto is_felt = [](const Histogram& force_N) {
     return force_N.count() > 0 && force_N.max() >= spidar::kFeltForce_N;
@@ -68,9 +68,9 @@ std::string to_text(const GValue* value) {
   return result;
 }
 
-/// Continues a paragraph of "name value" pairs; `column` is where it stands.
+/// Continues a paragraph of "name value" pairs; `column` is the present position in the line.
 gboolean print_field(GQuark name, const GValue* value, void* column) {
-  if (name == g_quark_from_static_string("limit-reason")) return TRUE;  // was said above
+  if (name == g_quark_from_static_string("limit-reason")) return TRUE;  // already printed above
   const std::string pair = std::string(g_quark_to_string(name)) + " " + to_text(value);
   auto& at = *static_cast<size_t*>(column);
   constexpr size_t kWidth = 78;

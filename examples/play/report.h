@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a playback was like, as a table and as a picture.
+/// Reports a playback as a table and as a picture.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@
 void print_report(const SessionRecord::Numbers& numbers, const GstStructure* stats);
 
 /// Draws position, velocity, force and string tensions over time into a PNG; force towards the
-/// viewer and torque only where a hand could feel them. Forces are on axes at ± `max_force_N`.
-/// `folder` is for the files that gnuplot reads. Throws std::runtime_error when it cannot.
+/// viewer and torque are included only where a hand could feel them. Axes of force go to ±
+/// `max_force_N`. `folder` is for the files that gnuplot reads. Throws std::runtime_error when
+/// drawing fails.
 void draw_report(const SessionRecord::Numbers& numbers, double max_force_N,
                  const std::string& title, const std::string& folder, const std::string& png_path);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Curves for a picture, however long the video is.
+/// Curves for a picture, in limited memory however long the video is.
 #pragma once
 
 #include <array>
@@ -8,14 +8,14 @@
 #include <ostream>
 #include <vector>
 
-/// N quantities over time. Keeps every sample until there are kMaxBins; from then on neighbours are
-/// merged to their smallest and largest value, so that a peak stays visible.
+/// N quantities over time. Keeps every sample until there are kMaxBins; from then on, neighbours
+/// are merged into their smallest and largest value, so that peaks remain visible.
 template <size_t N>
 class Series {
  public:
   using Values = std::array<double, N>;
 
-  /// Times should rise; one that does not is merged into the bin before.
+  /// Times should rise; a sample whose time does not is merged into the previous bin.
   void add(double time_s, const Values& values) {
     if (bins_.empty() || time_s >= bins_.back().time_s + width_s_) {
       if (bins_.size() == kMaxBins) halve();
@@ -25,8 +25,8 @@ class Series {
     }
   }
 
-  /// Two rows a bin, least and largest values, so that a line through them fills the range; one row
-  /// where they are the same.
+  /// Writes two rows for each bin, smallest and largest values, so that a line through them fills
+  /// the range; one row where they are equal.
   void write(std::ostream& out) const {
     for (const Bin& bin : bins_) {
       write_row(out, bin.time_s, bin.least);

@@ -57,7 +57,7 @@ std::vector<std::string> SessionRecord::haptic_columns() {
 
 void SessionRecord::add_motion(const TraceReader::Fields& row) {
   const int64_t frame_ns = to_integer(row[kRunningTime]);
-  // Up is positive, as in the paper's figures; images count downwards.
+  // Upwards is positive, as in the paper's figures; y of images points down.
   const double velocity_px_s[2] = {to_number(row[kVelocity]), -to_number(row[kVelocity + 1])};
   const double speed_px_s = std::hypot(velocity_px_s[0], velocity_px_s[1]);
   const double wanted_N[3] = {to_number(row[kWanted]), to_number(row[kWanted + 1]),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Everything that is known of one playback, in memory that does not grow with its length.
+/// Collects the data of one playback, in memory that does not grow with its length.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 constexpr size_t kStrings = 8;
 
-/// Latest state, for a line of progress.
+/// The latest state, for a line of progress.
 struct Now {
   int64_t running_ns = 0;
   double speed_px_s = 0;
@@ -30,28 +30,28 @@ class SessionRecord {
   static std::vector<std::string> motion_columns();
   static std::vector<std::string> haptic_columns();
 
-  /// A row of each trace with these columns.
+  /// Takes a row of each trace with these columns.
   void add_motion(const TraceReader::Fields& row);
   void add_haptic(const TraceReader::Fields& row);
   void add_shown(int64_t running_ns, int64_t monotonic_ns);
 
   Now now() const;
 
-  /// After the playback: the numbers to print and the curves to draw, for one thread.
+  /// For use after the playback, by one thread: the numbers to print and the curves to draw.
   struct Numbers {
     uint64_t frames = 0;  ///< analysed
     uint64_t shown = 0;
-    double duration_s = 0;                   ///< of the video that was played
-    std::map<std::string, uint64_t> limits;  ///< how many frames, by the nick of spidar::ForceLimit
+    double duration_s = 0;  ///< of the video that was played
+    /// Number of frames, by the nick of spidar::ForceLimit.
+    std::map<std::string, uint64_t> limits;
     Histogram speed_px_s;
-    Histogram wanted_N;       ///< what the controller asks for, a frame
-    Histogram delivered_N;    ///< what the strings give, a tick
+    Histogram wanted_N;       ///< output of the controller, for each frame
+    Histogram delivered_N;    ///< delivered by the strings, for each tick
     uint64_t ticks = 0;       ///< while playing
-    uint64_t felt_ticks = 0;  ///< of these, with kFeltForce_N or more
+    uint64_t felt_ticks = 0;  ///< ticks with kFeltForce_N or more
     Histogram lateness_ms;    ///< of the loop's wake-up
     Skew skew;
-    /// Largest size of the force towards the viewer and of the torque about z, wanted or at the
-    /// grip.
+    /// The largest force towards the viewer and the largest torque about z, wanted or at the grip.
     double largest_depth_N = 0, largest_roll_Nm = 0;
     /// Position [px] and velocity [px/s], x and y of each; wanted force x, y, z [N] and torque
     /// about z [Nm].

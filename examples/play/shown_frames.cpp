@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#define GST_USE_UNSTABLE_API  // tracer hooks: the only place behind a sink's drawing
+#define GST_USE_UNSTABLE_API  // tracer hooks are the only place after a sink's drawing
 
 #include "examples/play/shown_frames.h"
 
@@ -15,14 +15,14 @@ struct Watch {
   GstElement* sink = nullptr;
   GstPad* sink_pad = nullptr;
   std::function<void(int64_t, int64_t)> on_shown;
-  // Of the push under way; one thread pushes into a sink.
+  // The push in progress; only one thread pushes into a sink.
   int64_t running_ns = -1;
   uint64_t rendered = 0;
 };
 
 Watch watch;
 
-// A hook belongs to a tracer; this one has no other use.
+// A hook must belong to a tracer; this one has no other purpose.
 struct HookOwner {
   GstTracer parent;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Time between a picture and its force.
+/// Measures the time between a picture and its force.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,18 @@
 
 #include "examples/play/histogram.h"
 
-/// Joins, by the running time of the frame, when it was shown with when its force was at the
-/// device. The two become known in either order and some frames never get one of them: of each kind
-/// only the newest kMaxWaiting wait.
+/// Pairs the time at which a frame was shown with the time at which its force reached the device,
+/// by the frame's running time. The two become known in either order, and some frames never get one
+/// of them: of each kind only the newest kMaxWaiting are kept.
 class Skew {
  public:
   void shown(int64_t frame_ns, int64_t monotonic_ns);
 
-  /// Call for every tick; the first one with a frame counts.
+  /// Call this for every tick; the first tick of a frame counts.
   void felt(int64_t frame_ns, int64_t monotonic_ns);
 
-  const Histogram& signed_ms() const { return signed_ms_; }  ///< > 0: force after picture
+  /// > 0: the force came after the picture.
+  const Histogram& signed_ms() const { return signed_ms_; }
   const Histogram& size_ms() const { return size_ms_; }
 
  private:

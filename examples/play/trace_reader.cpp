@@ -56,7 +56,7 @@ TraceReader::TraceReader(std::string path, const std::string& copy_path,
   if (mkfifo(path_.c_str(), 0600) != 0) {
     throw std::runtime_error(path_ + ": " + std::strerror(errno));
   }
-  // Not blocking, for a writer may never come.
+  // Non-blocking, because a writer may never come.
   pipe_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (pipe_ < 0 || pipe2(stop_, O_CLOEXEC) != 0) {
     throw std::runtime_error(path_ + ": " + std::strerror(errno));
@@ -101,12 +101,12 @@ void TraceReader::read() {
       pending.erase(0, begin);
       continue;
     }
-    // Nothing now: no writer (0) or none that has more (EAGAIN).
+    // No data at present: no writer (0), or none that has written more (EAGAIN).
     if (stopping) return;
     pollfd fds[2] = {{pipe_, POLLIN, 0}, {stop_[0], POLLIN, 0}};
     poll(fds, 2, -1);
     stopping = fds[1].revents != 0;
-    // A pipe whose writer has gone always answers; it may be opened again.
+    // A pipe whose writer has closed it is always ready; it may be opened again.
     if (!stopping && (fds[0].revents & POLLIN) == 0) usleep(10'000);
   }
 }
@@ -114,7 +114,7 @@ void TraceReader::read() {
 void TraceReader::take_line(std::string_view line) {
   split(line, line_fields_);
   const bool is_header = !line.empty() && std::isalpha(static_cast<unsigned char>(line.front()));
-  if (is_header) {  // again when the element opens the trace again
+  if (is_header) {  // repeated when the element opens the trace again
     wanted_.clear();
     for (const std::string& column : columns_) {
       const auto found = std::find(line_fields_.begin(), line_fields_.end(), column);
@@ -129,7 +129,7 @@ void TraceReader::take_line(std::string_view line) {
   }
   if (wanted_.empty()) return;
   for (size_t i = 0; i < wanted_.size(); ++i) {
-    if (wanted_[i] >= line_fields_.size()) return;  // cut short by a full disk or a crash
+    if (wanted_[i] >= line_fields_.size()) return;  // truncated by a full disk or a crash
     fields_[i] = line_fields_[wanted_[i]];
   }
   on_row_(fields_);

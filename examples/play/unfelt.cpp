@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Reasons that hold for less than this share of the frames are left out.
+/// Reasons of less than this share of the frames are left out.
 constexpr double kWorthALine = 0.005;
 
 std::string sentence_of(const std::string& nick) {

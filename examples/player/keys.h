@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Keys of a terminal.
+/// Decodes keys of a terminal.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ struct Action {
   int value = 0;  ///< kSeek: seconds; kSpeed: +1 or −1; kDelay: ms
 };
 
-/// Puts keys together that come as several bytes: arrows, and d with a number.
+/// Decodes keys that arrive as several bytes: arrows, and d with a number.
 class KeyReader {
  public:
-  /// What the next byte completes.
+  /// Takes the next byte and returns the key that it completes.
   Action take(char byte);
 
-  /// The number that is being typed, with its d; empty otherwise.
+  /// The d and number typed so far; empty otherwise.
   const std::string& typed() const { return typed_; }
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<double, 7> kSpeeds{0.25, 0.5, 0.75, 1, 1.5, 2, 4};
 constexpr size_t kUsual = 3;
-/// More frames than a queue before the screen holds.
+/// More than the frames in a queue before the sink.
 constexpr size_t kMostForces = 256;
 
 std::string minutes(gint64 time) {
@@ -41,7 +41,7 @@ void Player::play() {
   settle();
 }
 
-/// A live source never gets there, and one on a network takes its time.
+/// A live source never prerolls, and a source on a network takes long.
 void Player::settle() {
   gst_element_get_state(playbin_, nullptr, nullptr, 5 * GST_SECOND);
 }
@@ -111,7 +111,7 @@ void Player::note(const GstStructure* message) {
                          &frame.force_N[1], "force-z", G_TYPE_DOUBLE, &frame.force_N[2], nullptr)) {
     return;
   }
-  // Elsewhere in the film: what was there before is of no use.
+  // The frames from the previous place are useless after a seek.
   if (!forces_.empty() && frame.stream_time < forces_.back().stream_time) forces_.clear();
   forces_.push_back(frame);
   if (forces_.size() > kMostForces) forces_.pop_front();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A film with its forces.
+/// Plays a film and tells its forces.
 #pragma once
 
 #include <array>
@@ -14,29 +14,29 @@
 
 class Player {
  public:
-  /// `uri` of the film. `headless`, or where there is no display: neither seen nor heard, but in
-  /// time. Throws std::runtime_error when an element is missing.
+  /// `uri` of the film. With `headless`, or without a display, the film is neither seen nor heard
+  /// but keeps its timing. Throws std::runtime_error when an element is missing.
   Player(const std::string& uri, bool headless);
   ~Player();
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
   void play();
-  /// Returns when it is done: the film is at its new place.
+  /// Returns when the seek is done and the film is at its new place.
   void act(const Action& action);
-  /// The end of the film was reached: from the beginning again, or false.
+  /// Call this at the end of the film: starts again from the beginning, or returns false.
   bool again();
 
-  /// A message of the element about a frame that it has analysed; others are left alone.
+  /// Takes a message of the element about an analysed frame; ignores others.
   void note(const GstStructure* message);
-  /// Of the frame on the screen, N: x right, y up, z towards the viewer; zero in a pause and while
-  /// the force is off.
+  /// Force of the frame on the screen, N: x right, y up, z towards the viewer; zero in a pause and
+  /// while the force is off.
   std::array<double, 3> force_N() const;
   double max_force_N() const;
 
   /// "0:12.48 / 3:45.00, 1x, playing, force on, delay 0 ms"
   std::string status() const;
-  /// Empty when the film is seen.
+  /// Why the film is not shown; empty when it is.
   const std::string& why_no_screen() const { return screen_.why_none; }
   GstElement* pipeline() const { return playbin_; }
   GstBus* bus() const { return bus_; }
@@ -46,7 +46,7 @@ class Player {
   void settle();
   gint64 position() const;
 
-  /// Of frames that were analysed and not yet followed by another one on the screen.
+  /// Frames that were analysed and have not been replaced on the screen.
   struct FrameForce {
     GstClockTime stream_time = 0;
     std::array<double, 3> force_N{};

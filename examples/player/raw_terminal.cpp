@@ -11,7 +11,7 @@ namespace {
 constexpr int kDeadly[] = {SIGHUP,  SIGINT, SIGQUIT, SIGTERM, SIGABRT,
                            SIGSEGV, SIGBUS, SIGFPE,  SIGILL};
 
-// Of the process, as its signals are. Written before the handlers are installed.
+// State of the process, like its signal handlers. Written before they are installed.
 int terminal = -1;
 termios before, raw;
 
@@ -22,7 +22,7 @@ void handle(int signal, void (*handler)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
-/// Does what the signal does without a handler.
+/// Does what the signal would do without a handler.
 void raise_plainly(int signal) {
   handle(signal, SIG_DFL);
   sigset_t only;
@@ -32,7 +32,7 @@ void raise_plainly(int signal) {
   sigprocmask(SIG_UNBLOCK, &only, nullptr);
 }
 
-// Both call only what a handler of signals may call.
+// Both call only functions that are safe in a signal handler.
 void restore_and_die(int signal) {
   tcsetattr(terminal, TCSANOW, &before);
   raise_plainly(signal);
@@ -41,7 +41,7 @@ void restore_and_die(int signal) {
 void restore_and_stop(int signal) {
   tcsetattr(terminal, TCSANOW, &before);
   raise_plainly(signal);
-  // Continued.
+  // The process has been continued.
   handle(signal, restore_and_stop);
   tcsetattr(terminal, TCSANOW, &raw);
 }

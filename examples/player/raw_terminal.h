@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A terminal that gives each key at once.
+/// A terminal that delivers each key at once.
 #pragma once
 
-/// Each key at once and unseen while this lives, where `file` is a terminal. The terminal is as
-/// before when it is destroyed, when a signal ends the process and while one stops it (Ctrl-Z).
-/// One at a time.
+/// While this object lives, keys on the terminal `file` are delivered at once and not echoed. The
+/// terminal is restored when the object is destroyed, when a signal ends the process, and while one
+/// stops it (Ctrl-Z). Only one such object may exist at a time.
 class RawTerminal {
  public:
   explicit RawTerminal(int file);

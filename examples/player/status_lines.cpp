@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kBarWidth = 20;
 
-/// Of the terminal, in characters.
+/// Width of the terminal, in characters.
 size_t columns() {
   winsize size{};
   const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
@@ -41,7 +41,7 @@ void StatusLines::show(const std::vector<std::string>& lines) {
     std::fflush(stdout);
     return;
   }
-  // A line that is too long would take two, and the next ones would not hit their places.
+  // A line that is too long would occupy two, and the others would be misplaced.
   const size_t most = columns() - 1;
   std::string text = "\r";
   for (size_t i = 0; i < lines.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a player writes on a terminal.
+/// Status lines of a player on a terminal.
 #pragma once
 
 #include <array>
@@ -11,18 +11,18 @@
 /// z towards the viewer. The bar is full at `max_force_N`.
 std::string force_line(const std::array<double, 3>& force_N, double max_force_N);
 
-/// Lines at the foot of a terminal that are written over each other. On something else than a
-/// terminal only the first line is written, each time anew.
+/// Lines at the bottom of a terminal that are overwritten in place. If the output is not a
+/// terminal, only the first line is written, each time on a new line.
 class StatusLines {
  public:
   StatusLines();
 
   void show(const std::vector<std::string>& lines);
-  /// The cursor goes below the lines: what is written next follows them.
+  /// Moves the cursor below the lines, where further output continues.
   void leave();
   bool is_terminal() const { return is_terminal_; }
 
  private:
   const bool is_terminal_;
-  size_t below_ = 0;  // lines from the one with the cursor to the last
+  size_t below_ = 0;  // lines from the cursor down to the last one
 };

@@ -11,13 +11,13 @@
 namespace study {
 namespace {
 
-constexpr double kTail = 0.025;  // of either side of an interval of 95 %
+constexpr double kTail = 0.025;  // probability in each tail of a 95 % interval
 
-/// The p at which `rising`, which is monotonic in it, reaches `value`.
+/// The p at which the monotonic function `rising` reaches `value`.
 template <typename Function>
 double solve(Function&& rising, double value) {
   double low = 0, high = 1;
-  for (int i = 0; i < 60; ++i) {  // to the last bit of a double
+  for (int i = 0; i < 60; ++i) {  // to the precision of a double
     const double middle = (low + high) / 2;
     (rising(middle) < value ? low : high) = middle;
   }
@@ -31,7 +31,7 @@ bool is_second(Condition condition) {
 std::vector<std::string> question_names(const std::vector<Answer>& answers) {
   std::vector<std::string> names;
   for (const Answer& answer : answers) {
-    // A free question may be asked in both parts: each is a question of its own.
+    // A free question may be asked in both parts and then counts as a question of its own in each.
     const std::string name = std::string(to_string(answer.trial.part)) + ": " + answer.question;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
@@ -42,7 +42,7 @@ bool is_of(const Answer& answer, const std::string& name) {
   return std::string(to_string(answer.trial.part)) + ": " + answer.question == name;
 }
 
-/// Sum of differences second − first of one participant, over the clips that have both.
+/// Sum of the differences second − first of one participant over the clips that have both answers.
 double difference(const std::vector<Answer>& answers, const std::string& question,
                   const std::string& participant, int& pairs) {
   std::map<std::string, std::pair<int, int>> clips;

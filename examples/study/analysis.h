@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the answers say.
+/// Statistics of the answers.
 #pragma once
 
 #include <string>
@@ -14,18 +14,19 @@ struct Interval {
   double low = 0, high = 1;
 };
 
-/// P(X ≤ k) of n throws with probability p each.
+/// P(X ≤ k) for n trials with probability p each.
 double binomial_cdf(int k, int n, double p);
 
-/// Exact (Clopper–Pearson, Biometrika 26, 1934) interval of 95 % for a share of which `k` of `n`
-/// were counted; 0 … 1 when n is 0.
+/// Exact (Clopper–Pearson, Biometrika 26, 1934) 95 % interval for a share of which `k` of `n` were
+/// counted; 0 … 1 when n is 0.
 Interval share_interval(int k, int n);
 
-/// Two-sided p value of the exact sign test: `more` of more + less went one way. 1 when there are
-/// none.
+/// Two-sided p value of the exact sign test, for `more` positive and `less` negative differences; 1
+/// when there are none.
 double sign_test(int more, int less);
 
-/// One question in one condition. Table 1 has the percentage of good answers, Table 2 the mean.
+/// One question in one condition. Table 1 of the paper gives the percentage of good answers, Table
+/// 2 the mean.
 struct Rating {
   std::string question;
   Condition condition = Condition::kLinear;
@@ -35,8 +36,9 @@ struct Rating {
   double mean = 0;          ///< weighted average of steps 1 … 5
 };
 
-/// One question in both conditions, by participants: of each, whether the mean over the clips that
-/// were seen in both is higher with the second condition (linear → nonlinear, without → with).
+/// One question in both conditions. A participant counts as higher when the mean over the clips
+/// that were seen in both conditions is higher in the second one (linear → nonlinear, without →
+/// with).
 struct Comparison {
   std::string question;
   int higher = 0, lower = 0, equal = 0;
@@ -48,7 +50,7 @@ struct Comparison {
 std::vector<Rating> ratings(const std::vector<Answer>& answers);
 std::vector<Comparison> comparisons(const std::vector<Answer>& answers);
 
-/// Tables for people.
+/// Prints tables.
 std::string report(const std::vector<Answer>& answers);
 
 }  // namespace study

@@ -21,8 +21,8 @@ std::pair<Condition, Condition> conditions_of(Part part) {
   return {Condition::kWithout, Condition::kWith};
 }
 
-/// std::shuffle and the distributions differ from one standard library to the next; the engine does
-/// not. The bias of the remainder is below 1e-8 for so few.
+/// std::shuffle and the distributions differ between standard libraries; the engine does not. For
+/// so few elements the bias of the remainder is below 1e-8.
 size_t below(std::mt19937& random, size_t count) {
   return random() % count;
 }
@@ -32,7 +32,7 @@ void shuffle(std::vector<T>& values, std::mt19937& random) {
   for (size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[below(random, i)]);
 }
 
-/// A letter and a digit, none twice, none that can be read as another.
+/// Codes of a letter and a digit, all different, without characters that can be confused.
 std::vector<std::string> codes(std::mt19937& random) {
   std::vector<std::string> all;
   for (const char letter : std::string("ACDEFHJKLMNPRTUVWXY")) {

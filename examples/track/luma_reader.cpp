@@ -13,7 +13,7 @@
 
 namespace {
 
-/// 8-bit formats whose first plane is the luma; others are converted to the first of them.
+/// 8-bit formats whose first plane is the luma; others are converted to the first of these.
 constexpr const char* kPipeline =
     "uridecodebin name=source expose-all-streams=false caps=video/x-raw(ANY) ! videoconvert ! "
     "video/x-raw,format={GRAY8,I420,YV12,NV12,NV21,Y42B,Y444,NV16,NV24,Y41B} ! "
@@ -24,10 +24,10 @@ constexpr const char* kPipeline =
 struct LumaReader::Impl {
   std::string name;
   std::string uri;
-  bool seen = false;  ///< a frame
+  bool seen = false;  ///< there was a frame
   GstElement* pipeline = nullptr;
   GstElement* sink = nullptr;
-  GstSample* sample = nullptr;  ///< that `mapped` belongs to
+  GstSample* sample = nullptr;  ///< the sample to which `mapped` belongs
   GstVideoFrame mapped{};
 
   void release() {
@@ -78,7 +78,7 @@ LumaReader::~LumaReader() = default;
 
 bool LumaReader::next(Frame& frame) {
   impl_->release();
-  // Comes back without a sample at the end, and when the pipeline fails.
+  // Returns without a sample at the end, and when the pipeline fails.
   GstSample* sample = nullptr;
   while (!sample) {
     sample = gst_app_sink_try_pull_sample(GST_APP_SINK(impl_->sink), 100 * GST_MSECOND);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The luma of a video's frames, by GStreamer.
+/// Reads the luma of a video's frames with GStreamer.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 #include "core/image_view.h"
 
-/// Decodes as fast as it is asked to. Of a format with luma in a plane of its own nothing is
-/// converted or copied.
+/// Decodes frames on demand. A format that has luma in a plane of its own is neither converted nor
+/// copied.
 class LumaReader {
  public:
   struct Frame {
@@ -19,13 +19,13 @@ class LumaReader {
     int64_t stream_time_ns = 0;
   };
 
-  /// `video` is a file or a URI. Throws std::invalid_argument for a name that can be no film, and
+  /// `video` is a file or a URI. Throws std::invalid_argument for a name that cannot be a film, and
   /// std::runtime_error that says why it cannot be played.
   explicit LumaReader(const std::string& video);
   ~LumaReader();
 
-  /// False at the end. Throws std::runtime_error when the video is broken, there is none in the
-  /// file, or a frame of it has no time.
+  /// Returns false at the end. Throws std::runtime_error when the video is broken, the file has no
+  /// video, or a frame has no timestamp.
   bool next(Frame& frame);
 
  private:

@@ -27,8 +27,8 @@ constexpr unsigned kPaths = 20;
 
 const PathLimits kPathKinds[] = {PathLimits(), spidar::test::far_and_turned()};
 
-/// Smaller paths for small devices: half of the shortest string for moving and a quarter for
-/// turning, because a string near to no length turns round at once.
+/// Smaller paths for small devices: half of the shortest string for translation and a quarter for
+/// rotation, because a string of almost no length reverses its direction suddenly.
 PathLimits fitted(PathLimits limits, const spidar::Profile& profile) {
   const spidar::StringGeometry& geometry = profile.geometry;
   const double shortest_m = string_lengths_m(geometry, {}).head(geometry.count).minCoeff();
@@ -38,8 +38,8 @@ PathLimits fitted(PathLimits limits, const spidar::Profile& profile) {
 }
 
 struct Walk {
-  std::vector<double> steps_N;      ///< of the string that moved most, tick by tick
-  std::vector<double> residuals_N;  ///< ‖S(W t − f)‖, tick by tick
+  std::vector<double> steps_N;      ///< of the string that changed most, in each tick
+  std::vector<double> residuals_N;  ///< ‖S(W t − f)‖, in each tick
   TensionStep largest;
 };
 

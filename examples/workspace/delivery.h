@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a device gives of a wanted force.
+/// Computes the force that a device delivers for a wanted force.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,15 @@
 #include "core/grip/tension_solver.h"
 #include "spidar/profiles/profile.h"
 
-/// What is minimised when tensions are chosen: ½‖S(W t − f)‖² + ½ε‖t − t_ref‖².
+/// The objective that determines the tensions: ½‖S(W t − f)‖² + ½ε‖t − t_ref‖².
 struct Weights {
   double epsilon = spidar::TensionProblem().epsilon;                  ///< ε
   double torque_length_m = spidar::TensionProblem().torque_length_m;  ///< ℓ in S
   spidar::StringVector t_ref_N = spidar::StringVector::Zero();
 };
 
-/// Those of the haptic loop: ε as in TensionProblem, ℓ the grip radius where there is one, and
-/// tensions as low as the strings may be.
+/// The weights of the haptic loop: ε as in TensionProblem, ℓ the grip radius if it is not zero, and
+/// t_ref the smallest tensions that are allowed.
 Weights loop_weights(const spidar::Profile& profile);
 
 /// The default of the published SPIDAR code (Springhead, HISpidarCalc6Dof::SetForce with
@@ -25,21 +25,21 @@ Weights loop_weights(const spidar::Profile& profile);
 /// ℓ = 1/√6 = 0.408 m, ε = s/λt and t_ref = 0.
 Weights published_weights();
 
-/// The problem of `profile` with these weights; pose and wrench are to be filled in.
+/// The problem of `profile` with these weights, without pose and wrench.
 spidar::TensionProblem tension_problem(const spidar::Profile& profile, const Weights& weights);
 
-/// A wanted force of `kWanted_N` without torque, and what comes.
+/// Result for a wanted force of `kWanted_N` without torque.
 struct Delivery {
-  double force_N = 0;    ///< part of the delivered force that is along the wanted one
-  double moment_Nm = 0;  ///< size of the delivered torque: all of it is stray
+  double force_N = 0;    ///< component of the delivered force along the wanted one
+  double moment_Nm = 0;  ///< size of the delivered torque, which is unwanted
 };
 
 inline constexpr double kWanted_N = 3;
 
-/// Directions spread evenly over the sphere: a Fibonacci lattice.
+/// Directions distributed evenly over the sphere: a Fibonacci lattice.
 std::vector<Eigen::Vector3d> even_directions(int count);
 
-/// Solves the problem of `profile` at one pose for a force in any direction.
+/// Solves the problem of `profile` at one pose, for forces in any direction.
 class Deliverer {
  public:
   Deliverer(const spidar::Profile& profile, const Weights& weights)
@@ -47,12 +47,12 @@ class Deliverer {
 
   void go_to(const spidar::StructureMatrix& W) { problem_.W = W; }
 
-  /// `direction` has length one. Throws std::runtime_error when the tensions could not be found.
+  /// `direction` must have length one. Throws std::runtime_error when no tensions are found.
   Delivery deliver(const Eigen::Vector3d& direction);
 
-  /// Whether the whole force comes, and nothing else: some t within bounds has W t = f. At the
-  /// minimum ½r² ≤ ½ε‖t − t_ref‖² if there is one, and the tensions of two points within bounds are
-  /// ‖t_max − t_min‖ apart at most. With ε = 1e-12 that leaves r = 57 µN for eight strings of 20 N.
+  /// Whether the force can be delivered exactly: some t within bounds has W t = f. If so, ½r² ≤
+  /// ½ε‖t − t_ref‖² at the minimum, and two points within bounds are at most ‖t_max − t_min‖ apart.
+  /// With ε = 1e-12 this gives r ≤ 57 µN for eight strings of 20 N.
   bool delivers_exactly(const Eigen::Vector3d& direction);
 
  private:

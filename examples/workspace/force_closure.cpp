@@ -13,16 +13,16 @@ using spidar::StringVector;
 using Directions = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kMaxStrings, 2>;
 using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxStrings>;
 
-// Smaller singular values than this share of the largest count as zero: at a singular pose they are
-// rounding, and a pose this near to one is of no use.
+// Singular values below this share of the largest count as zero: at a singular pose they are
+// rounding errors, and a pose this close to one is useless.
 constexpr double kRankTolerance = 1e-9;
-// A ratio of tensions below this is a rounded zero: the pose is on the border.
+// A smaller ratio of tensions is zero apart from rounding: the pose is on the border.
 constexpr double kLeastRatio = 1e-12;
-// Stands for "above zero" where a profile lets tensions fall to zero.
+// Stands for "above zero" when a profile allows tensions of zero.
 constexpr double kLeastTension_N = 1e-9;
 
-/// Null space of `A` by columns, the second one zero when there is only one. No columns when A has
-/// not rank 6 or nothing is left over.
+/// Null space of `A` by columns; the second column is zero if it has dimension one. No columns when
+/// A does not have rank 6 or has no null space.
 bool null_space(const Columns& A, Directions& N) {
   const Eigen::JacobiSVD<Columns> svd(A, Eigen::ComputeFullV);
   const auto rest = A.cols() - 6;
@@ -32,11 +32,12 @@ bool null_space(const Columns& A, Directions& N) {
   return true;
 }
 
-/// Largest min tᵢ/lowᵢ over max tᵢ/highᵢ of all t = N d; 0 when no t is all positive.
+/// Largest min tᵢ/lowᵢ over max tᵢ/highᵢ of all t = N d; 0 when no t is positive throughout.
 ///
-/// With eight strings d turns in a plane. Where t is all positive, which is an arc of directions,
-/// the ratio is 0 at both ends and monotonic between the directions at which another string becomes
-/// the least or the largest, so its largest value is at one of those. With seven, d is ±(1, 0).
+/// With eight strings, d rotates in a plane. The directions for which all of t is positive form an
+/// arc. The ratio is 0 at both ends of it and monotonic between the directions at which another
+/// string becomes the smallest or the largest, so its maximum is at one of those. With seven
+/// strings, d is ±(1, 0).
 double best_ratio(const Directions& N, const StringVector& low, const StringVector& high) {
   const auto count = N.rows();
   const Directions L = low.head(count).cwiseInverse().asDiagonal() * N;
@@ -71,7 +72,7 @@ ForceClosure force_closure(const spidar::StructureMatrix& W, int count, double t
   if (!null_space(A, N)) return closure;
   const StringVector one = StringVector::Ones();
   closure.tension_factor = best_ratio(N, one, one);
-  // t can be scaled: when the least of tᵢ/t_minᵢ is made 1, the largest tᵢ/t_maxᵢ must be ≤ 1.
+  // t can be scaled so that the smallest tᵢ/t_minᵢ is 1; the largest tᵢ/t_maxᵢ must then be ≤ 1.
   closure.balanced_within_bounds =
       closure.tension_factor > 0 && best_ratio(N, t_min_N.cwiseMax(kLeastTension_N), t_max_N) >= 1;
   return closure;

@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kCells = 61;  // a side
+constexpr int kCells = 61;  // on each side
 constexpr int kDirections = 32;
 constexpr double kLargestAngle_deg = 90;
 
-/// Worst of all directions.
+/// The worst case over all directions.
 Delivery worst_delivery(Deliverer& deliverer, const std::vector<Eigen::Vector3d>& directions) {
   Delivery worst{kWanted_N, 0};
   for (const Eigen::Vector3d& direction : directions) {
@@ -31,7 +31,7 @@ Delivery worst_delivery(Deliverer& deliverer, const std::vector<Eigen::Vector3d>
   return worst;
 }
 
-/// A plane of poses: coordinates in the unit of the axes, −`half_size` … `half_size`.
+/// A plane of poses; coordinates from −`half_size` to `half_size`, in the unit of the axes.
 struct Plane {
   Eigen::Vector2d half_size;
   std::function<spidar::Pose(const Eigen::Vector2d&)> pose;

@@ -19,7 +19,7 @@ constexpr int kDirections = 32;
 constexpr unsigned kSeed = 1;
 constexpr double kDegree = M_PI / 180;
 
-/// What one choice of weights delivers, pose by pose.
+/// Results of one choice of weights, for each pose.
 class Tally {
  public:
   Tally(const spidar::Profile& profile, const Weights& weights) : deliverer_(profile, weights) {}

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# The table of docs/films.md: pathologies.sh BUILD [CLIP...]. What it measures is said in pathologies.py; without a CLIP
-# nothing has to be downloaded. Needs ffmpeg.
+# Measures the table of docs/films.md: pathologies.sh BUILD [CLIP...]. pathologies.py describes what
+# is measured; without a CLIP nothing has to be downloaded. Needs ffmpeg.
 set -eu
 cd "$(dirname "$0")/../.."
 build=${1:?usage: tests/bench/pathologies.sh BUILD [CLIP...]}

@@ -1,12 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Measures anew what docs/tracking.md shows of real films, its three tables and the picture:
+# Updates the three tables and the picture of real films in docs/tracking.md:
 #   tests/bench/real_films.sh BUILD FOLDER [OLDER_BUILD]
-# What FOLDER holds is said in real_films.py; no film is part of this repository. OLDER_BUILD is the build
-# folder of another version, which has a row in the first table; without it that row is missing. Needs
-# ffmpeg, gnuplot and libavformat-dev (if it is installed after `meson setup`: `meson configure
-# --clearcache BUILD` and `meson setup --reconfigure BUILD`).
+# real_films.py describes the contents of FOLDER; no film is part of this repository. OLDER_BUILD is
+# the build folder of another version, for a row of the first table; without it that row is missing.
+# Needs ffmpeg, gnuplot and libavformat-dev (if it is installed after `meson setup`: `meson
+# configure --clearcache BUILD` and `meson setup --reconfigure BUILD`).
 set -eu
 cd "$(dirname "$0")/../.."
 usage='usage: tests/bench/real_films.sh BUILD FOLDER [OLDER_BUILD]'

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Measures anew what docs/tracking.md shows: its tables and its picture. About ten minutes.
+# Updates the tables and the picture of docs/tracking.md. Takes about ten minutes.
 #   tests/bench/tracking.sh BUILD [option of bench_tracking...]
 # for example  tests/bench/tracking.sh build --full --middlebury FOLDER
 set -eu
