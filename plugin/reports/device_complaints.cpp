@@ -45,8 +45,9 @@ void DeviceComplaints::look_at_strings(const HapticSession& session) {
       element_, RESOURCE, READ,
       ("String %d of the haptic device is slack, or its encoder is faulty.", string),
       ("Its length fits no pose that the other strings allow. The string is not used, and the "
-       "force is limited to what the others can deliver. If all strings are taut, the counters "
-       "were not zeroed with the grip at the centre (spidarctl zero, spidarctl calibrate)."));
+       "force is limited to what the others can deliver. If all strings are taut, the grip was not "
+       "at the centre when the device was opened: start again with the grip there, or calibrate "
+       "the device (spidarctl calibrate)."));
 }
 
 void DeviceComplaints::look_at_pose(const HapticSession& session) {
@@ -62,8 +63,9 @@ void DeviceComplaints::look_at_pose(const HapticSession& session) {
         ("The pose of the grip is unknown: %s. There is no force until it is known again.",
          to_string(loop.pose_trouble)),
         ("The strings have their minimum tension. Possible causes: slack strings, dead encoders, "
-         "or counters that were not zeroed with the grip at the centre (spidarctl zero, spidarctl "
-         "calibrate)."));
+         "or a grip that was not at the centre when the device was opened: start again with the "
+         "grip "
+         "there, or calibrate the device (spidarctl calibrate)."));
   }
   if (loop.held_back && loop.motor_heat > MotorHeat::kLimitFrom && !held_back_) {
     held_back_ = true;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The numbers of docs/safety.md: how long each kind of stop takes at the device, what the grip
-// feels and what work the strings do until then; and what rest is on every profile. On the
-// simulated device in its own time: the same on every machine.
+// Measures the numbers of docs/safety.md: how long each kind of stop takes at the device, which
+// force acts on the grip and what work the strings do until then; and the force at rest of every
+// profile. Uses the simulated device in simulated time, so the results are the same on every
+// machine.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -122,12 +123,12 @@ const std::vector<Stop> kStops = {
        p.feeding = false;
        p.loop->cancel_scheduled();
      }},
-    {"no more frames (from the last one shown)",
+    {"no more frames (from the last frame shown)",
      [](Player& p) {
        p.feeding = false;
        while (p.now_ns - p.began_ns < p.next_ns - kFrame_ns) p.tick();
      }},
-    {"clock that is none",
+    {"invalid clock",
      [](Player& p) {
        p.loop->set_playback_clock({p.now_ns, 0, std::nan(""), true});
      }},
@@ -141,7 +142,7 @@ const std::vector<Stop> kStops = {
      [](Player& p) {
        for (const int string : {0, 3, 5}) p.simulated.set_count_error(string, 2000);
      }},
-    {"pose lost: three encoders stop, the hand goes 3 cm and 29° away",
+    {"pose lost: three encoders stop, the hand moves by 3 cm and 29°",
      [](Player& p) {
        p.device.stop_encoders(0b101001);
        p.circling = false;
@@ -184,8 +185,8 @@ void print_stops(const std::string& profile) {
 /// Rest within 2 cm and 60°, with and without a zero that is wrong by 5 mm and 3°.
 void print_rest() {
   std::printf(
-      "\n| profile | least tension, N | largest string at rest | net force at rest, N: least "
-      "tensions | the loop | with a wrong zero |\n|---|---|---|---|---|---|\n");
+      "\n| profile | minimum tension, N | largest tension at rest | net force at rest, N: minimum "
+      "tensions | loop | loop, wrong zero |\n|---|---|---|---|---|---|\n");
   for (const std::string& name : list_profiles()) {
     const Profile believed = load_profile(name);
     std::mt19937_64 random(2);
