@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Sourced by tests/runtimes.sh and tests/bare_debian.sh: a Debian of another release or with fewer
 # Sourced by tests/runtimes.sh, tests/bare_debian.sh and tests/packages.sh: makes a folder with a
 # Debian of another release or with fewer packages. tests/install.sh must have been sourced.
+# shellcheck shell=bash
 
 # Where such folders are kept between runs.
 debian_cache=${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar

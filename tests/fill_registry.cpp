@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// fill-registry ELEMENT: looks at all installed plugins and writes GStreamer's registry, so that
-// the tests that share it find it written. What other projects' plugins leak while they are looked
-// at would else be counted as a leak of the test that comes first. The exit status is 0 when the
-// registry has the element.
+// fill-registry ELEMENT: loads all installed plugins and writes GStreamer's registry, so that tests
+// which share it find it complete. Otherwise, leaks of other plugins during the scan would be
+// attributed to the first test. The exit status is 0 when the registry contains the element.
 #include <cstdio>
 
 #include <gst/gst.h>

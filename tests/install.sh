@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Sourced by tests/run.sh, tests/runtimes.sh and examples/play.sh: installs Debian packages without
 # Sourced by the scripts in tests/ and examples/: installs Debian packages without asking.
+# shellcheck shell=bash
 
-# install_packages GROUP...: those of debian-packages.txt in these groups that are missing. Silent
-# when none is. Elsewhere than on Debian it leaves the system alone: the build says what it misses.
+# install_packages GROUP...: installs the missing packages of these groups in debian-packages.txt.
+# Prints nothing when none is missing. On other systems than Debian it does nothing: the build then
+# reports what is missing.
 install_packages() {
     local list package groups group choice names=() wanted=() missing=() as_root=()
     list=$(dirname "${BASH_SOURCE[0]}")/debian-packages.txt

@@ -6,8 +6,8 @@
 #   tests/runtimes.sh debian-13       builds and tests everything with the packages of Debian 13
 #   tests/runtimes.sh gstreamer-1.28  tests what is built in build/ with GStreamer 1.28 and GLib, those
 #                                     of Debian 14: element, pipelines, examples
-# Each keeps a small Debian of its own in ${XDG_CACHE_HOME:-~/.cache}/gst-spidar/, 2 GB and 1 GB, which
-# later runs use again.
+# Each keeps a small Debian of its own, of 2 GB and 1 GB, in ${XDG_CACHE_HOME:-~/.cache}/gst-spidar/ for
+# later runs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source-path=SCRIPTDIR source=../tests/install.sh

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Counts the test cases of meson builds: summary.py BUILD... prints what failed and what was skipped
-and why, and as its last line `N passed, N failed, N skipped`. Fails when a test did.
+"""Counts the test cases of meson builds: summary.py BUILD... prints failed and skipped tests with the
+reasons, and as its last line `N passed, N failed, N skipped`. Exits with an error when a test failed.
 
-`--failed WHAT` counts something that is no meson test and went wrong, `--passed WHAT` one that went
-well. `--log NAME` reads what `meson test --logbase NAME` wrote."""
+`--failed WHAT` counts a check that is not a meson test and failed, `--passed WHAT` one that passed. `--log NAME` reads what `meson test --logbase NAME` wrote."""
 
 import argparse
 import json

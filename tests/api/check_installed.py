@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Installs a build into a folder, moves that folder, and uses what is in it with nothing set but what
-every GStreamer plugin and every library in a folder of its own needs.
+"""Installs a build into a folder, moves that folder, and uses the installation. Only the variables are
+set that any GStreamer plugin and any library outside the system's folders need.
 
 check_installed.py SOURCE BUILD PREFIX LIBDIR PKGCONFIG BUS COMPILER...: PREFIX and LIBDIR are those of
 the build; PKGCONFIG is `relocatable`, or `fixed` in a build folder that was set up without that option of

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Compares the symbols that libgst-spidar exports with the list that is kept of them.
+"""Compares the symbols that libgst-spidar exports with the recorded list.
 
 check_symbols.py LIBRARY LIST            says what was removed or added, and what to do about it
 check_symbols.py LIBRARY LIST --write    writes the list

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The interface of libgst-spidar, linked as other programs link it.
+// The interface of libgst-spidar, linked in the same way as by other programs.
 #include <chrono>
 #include <cmath>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Milliseconds that the analysis of a frame takes, beside what the same OpenCV functions take when
-// they are wired up the plain way. Both on one thread, on the same frames: a camera that pans over
-// a texture. And beside a frame of 8 bits the same one in 10, in words of two bytes, and beside all
-// that a dense flow, OpenCV's DIS, without what would make a force of it.
+// Milliseconds for the analysis of a frame, compared with a straightforward use of the same OpenCV
+// functions. Both run on one thread, on the same frames of a camera that pans over a texture. Also
+// compares frames of 8 bits with frames of 10 bits in words of two bytes, and measures a dense flow
+// alone (OpenCV's DIS), without the steps from flow to force.
 #include <algorithm>
 #include <cmath>
 #include <ctime>

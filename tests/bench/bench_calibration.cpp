@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// How long a grip must be moved for how exact a calibration: the simulated device, its counters
-// cleared anywhere within ±4 cm and 1 rad of the centre and its strings off by up to 3 mm, with
-// encoders of 15 µm and noise added to the counts. The optional argument is how often each case is
-// repeated.
+// Accuracy of the calibration as a function of the time for which the grip is moved. Uses the
+// simulated device, whose counters are cleared anywhere within ±4 cm and 1 rad of the centre and
+// whose strings are off by up to 3 mm, with encoders of 15 µm and noise added to the counts. The
+// optional argument is the number of repetitions of each case.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

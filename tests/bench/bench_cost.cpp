@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What the element costs in a pipeline: beside identity, of the time of a frame, and beside the
-// decoder it works for; with moving frames, ones that repeat them, still ones and gaps.
+// Cost of the element in a pipeline, compared with identity, with the duration of a frame, and with
+// a decoder; for moving frames, repeated frames, still frames and gaps.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

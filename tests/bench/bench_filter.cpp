@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What the 1 € filter costs and gives: delay of moving things against jitter of slow ones. Motion
-// is measured from rendered, noisy pictures as the element does, and then filtered with several
-// settings.
+// Trade-off of the 1 € filter between the delay of fast motion and the jitter of slow motion.
+// Motion is measured from rendered, noisy pictures as the element does, and then filtered with
+// several settings.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What an exchange with a board on USB costs on the host's side: libusb's synchronous calls, the
+// Cost of an exchange with a USB board on the host's side: libusb's synchronous calls, the
 // transport's asynchronous ones, and the device with its thread, at 1 kHz on an emulated bus whose
-// boards answer at once. The optional argument is seconds each.
+// boards answer at once. The optional argument is the duration of each in seconds.
 #include <array>
 #include <cstdio>
 #include <cstdlib>

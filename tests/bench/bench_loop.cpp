@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// How punctual the haptic loop is: a session with its thread on the simulated device, playing a
-// force that goes round, with and without real-time priority. The optional argument is seconds
-// each.
+// Punctuality of the haptic loop: a session with its thread plays a rotating force on the simulated
+// device, with and without real-time priority. The optional argument is the duration of each in
+// seconds.
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Microseconds from the picture to the motion that is felt, by what the camera does and how many
-// objects there are: a scene pays for the rungs, objects and points that it has.
+// Microseconds from the picture to the motion that is felt, by the motion of the camera and the
+// number of objects: the cost depends on the rungs, objects and points that a scene needs.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

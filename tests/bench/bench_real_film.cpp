@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How one way of finding motion does on one film: a line `frame,x,y,ms,height` for each frame: its
-/// motion in px since the frame before, the processor time that it took, decoding left out, and the
-/// lines of the picture.
+/// Measures how one method of finding motion does on one film. Prints a line `frame,x,y,ms,height`
+/// for each frame: its motion in px since the previous frame, the processor time for it without
+/// decoding, and the height of the picture.
 ///   bench_real_film METHOD FILM
-/// METHOD is one of the element's settings, or one of two flows whose object is found the plain
-/// way:
+/// METHOD is one of the element's settings or one of two flows:
 ///   default, fast, fine, opencv, mean, paper
 ///   dis       dense flow (DIS, preset medium) at half size
-///   vectors   motion vectors of the coded film, which has to be H.264 without B frames
-/// For these two a homography is fitted robustly to the flow at every 16th pixel, and the object is
-/// the largest region of what differs from it.
+///   vectors   motion vectors of the coded film, which must be H.264 without B frames
+/// For the two flows, a homography is fitted robustly at every 16th pixel, and the object is the
+/// largest region that deviates from it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// How long after its picture the force of a frame is at the device: real pipelines in real time,
-// the plugin as GStreamer loads it, the simulated device.
+// Time from a picture to its force at the device, in real pipelines in real time, with the plugin
+// as GStreamer loads it and the simulated device.
 #include <charconv>
 #include <cmath>
 #include <cstdio>

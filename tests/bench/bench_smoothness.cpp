@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What is felt between two frames: the spectrum of the force for 24 and 60 frames/s, as the
-// timeline gives it to the 1 kHz loop, against holding each frame's force and against straight
-// lines.
+// Spectrum of the force between two frames at 24 and 60 frames/s, as the timeline gives it to the 1
+// kHz loop, compared with holding each frame's force and with straight lines.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

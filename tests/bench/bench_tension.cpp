@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The tension solver beside others: nanoseconds against error, on what a device meets and on hard
-// cases.
+// Compares the tension solver with others, in nanoseconds and error, on problems of a real device
+// and on hard ones.
 //
 // KKT is the largest violation of the optimality conditions in long double, relative to |Q||t| +
-// |c|; a case fails when it is above 1e-9 or a bound is exceeded by more than 1e-9 of the largest
-// tension. max* is the slowest case by its fastest pass, which interruptions do not reach. Times of
-// one run compare with each other; absolute ones drift from machine to machine.
+// |c|. A case fails when it is above 1e-9, or a bound is exceeded by more than 1e-9 of the largest
+// tension. max* is the slowest case, each case being timed by its fastest pass, which excludes
+// interruptions. Compare times within one run only; absolute times depend on the machine.
 #include <cmath>
 #include <cstdio>
 #include <memory>

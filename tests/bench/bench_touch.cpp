@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Touching a picture: what a frame and a tick cost, and what energy a surface gives out. An
-// argument sets the number of ticks for each scene and hand.
+// Cost of touching a picture for a frame and for a tick, and the energy that a surface gives off.
+// The optional argument is the number of ticks for each scene and hand.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// How often the force of touching a film of depth asks for more than the slew limit.
+// Counts how often the force of touching a film of depth would exceed the slew limit.
 //
 //     bench_touch_film FILE WIDTH HEIGHT [FRAMES]
 //
-// FILE has frames of 16 bits, big end first, 30 a second, as `pngdec ! video/x-raw,format=GRAY16_BE
-// ! filesink` writes them.
+// FILE has frames of 16 bits, big-endian, 30 a second, as `pngdec ! video/x-raw,format=GRAY16_BE !
+// filesink` writes them.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

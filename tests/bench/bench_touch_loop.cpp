@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What touching adds to a tick of the haptic loop and to a frame. Whole ticks on the simulated
-// device, with and without a moving relief under the grip, turn and turn about.
+// Cost of touching for a tick of the haptic loop and for a frame. Measures whole ticks on the
+// simulated device, alternately with and without a moving relief under the grip.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Speed against error of trackers on films whose motion is known: docs/tracking.md says what the
-// columns are.
+// Speed and error of trackers on films of known motion; docs/tracking.md explains the columns.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Times single calls of some hundred nanoseconds: pinned, hot, each call the median of several
-/// passes.
+/// Times single calls of some hundred nanoseconds: pinned to a core, with warm caches, each call by
+/// the median of several passes.
 #pragma once
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""How much faster is the analysis than that of another version? compare_analysis.py BUILD OLDER_BUILD
-[ROUNDS]: runs bench_analysis of two meson build folders in turns, 7 times each unless ROUNDS says
-otherwise, and prints a table with the median of the median times and the ratio of each pair of runs,
-which a machine that is busy disturbs less than the times."""
+"""Compares the speed of the analysis with that of another version: compare_analysis.py BUILD OLDER_BUILD
+[ROUNDS] runs bench_analysis of two meson build folders alternately, ROUNDS times each (default 7), and
+prints a table with the median of the median times and the ratio of each pair of runs. A busy machine
+affects the ratios less than the times."""
 
 import json
 import statistics

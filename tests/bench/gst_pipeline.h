@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Pipelines that benchmarks run.
+/// Pipelines of the benchmarks.
 #pragma once
 
 #include <memory>

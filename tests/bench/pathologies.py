@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Are films as they come felt as the plain film? pathologies.py BUILD [CLIP...]: makes variants of a film with ffmpeg,
-plays them through the spidarmotion of a meson build folder, and prints a table with a row for each.
+"""Compares the force of variants of a film with that of the plain film. pathologies.py BUILD [CLIP...] makes the variants
+with ffmpeg, plays them through the spidarmotion of a meson build folder, and prints a table with a row for each.
 
 Without a CLIP the films are made, too: one with a moving object in front of a pan, and the pan alone. A CLIP is
 something that ffmpeg reads, with one shot of two seconds or more.

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Is the right motion felt in real films? real_films.py BUILD FOLDER [OLDER_BUILD]: runs spidarmotion
-of a meson build folder over the films of FOLDER and writes three tables into docs/tracking.md: a row for
+"""Measures whether the right motion is felt in real films. real_films.py BUILD FOLDER [OLDER_BUILD] runs the
+spidarmotion of a meson build folder on the films of FOLDER and writes three tables into docs/tracking.md: a row for
 each of its settings, and one for OLDER_BUILD, the build folder of an older version; films of which a
 corner is cut off; methods with the processor time that each takes, see bench_real_film.cpp. The last is
 also written to BUILD/real_films.csv, for real_films.gp.

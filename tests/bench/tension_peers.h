@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Solvers of the tension problem to compare with: Eigen's factorisations, projected Gauss–Seidel,
-/// Ceres with bounds, and the weights that were published.
+/// Other solvers of the tension problem for comparison: Eigen's factorisations, projected
+/// Gauss–Seidel, Ceres with bounds, and the published weights.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counts what the program takes from the heap. For one source file of a test program.
+/// Counts heap allocations of a test program. Include it in one source file.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Both ways to follow points, on a texture that moves by a known displacement.
+/// Both trackers, on a texture that moves by a known displacement.
 #pragma once
 
 #include <algorithm>

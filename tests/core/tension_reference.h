@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The tension problem solved by trying every pattern of bounds, in long double.
+/// Solves the tension problem by trying every combination of active bounds, in long double.
 #pragma once
 
 #include <algorithm>

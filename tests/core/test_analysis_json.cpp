@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A frame's analysis as JSON, read back by somebody else's parser.
+// The analysis of a frame as JSON, read back by an independent parser.
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>

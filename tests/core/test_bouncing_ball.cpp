@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The paper's Fig. 6–10 on a ball whose physics is exact: position, velocity, acceleration and both
-// controllers' forces, measured in the pictures, beside the analytic curves.
+// The paper's Fig. 6–10 on a ball of known physics: position, velocity, acceleration and both
+// controllers' forces are measured in pictures and compared with the analytic curves.
 //
-// Over an interval [a, b] a track's displacement is p(b) − p(a) whatever happens in between, so the
-// velocity to compare with is the exact mean (p(b) − p(a)) / (b − a). In a flight that is the
-// velocity at the middle of the interval, velocity being linear in time; with an impact inside, it
-// is between the velocities before and after, and exact all the same.
+// Over an interval [a, b] the displacement of a track is p(b) − p(a) whatever happens in between,
+// so the velocity to compare with is the exact mean (p(b) − p(a)) / (b − a). During a flight it
+// equals the velocity at the middle of the interval, because velocity is linear in time. With an
+// impact in the interval, it lies between the velocities before and after, and is exact as well.
 #include <algorithm>
 #include <cmath>
 #include <string>

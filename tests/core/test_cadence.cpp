@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// In what rhythm a film shows new pictures, and which frames show the one before.
+// The rhythm in which a film shows new pictures, and the recognition of repeated ones.
 #include <cmath>
 #include <cstdint>
 #include <random>

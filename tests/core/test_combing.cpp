@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Interlaced films that say they are not: the combs of what moves between two fields give them
-// away.
+// Interlaced films that are not flagged as such are recognised by the combs of what moves between
+// two fields.
 #include <cmath>
 #include <cstdint>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A disc on a plain ground after JPEG. Its rim rings in the codec's blocks: corners for small
-// windows, but they stay with the blocks when the disc goes on.
+// A disc on a plain background after JPEG compression. Ringing around its rim makes corners in
+// small windows, but these stay with the blocks of the codec when the disc moves.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

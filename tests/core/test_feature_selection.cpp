@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Which points the tracker chooses. A picture shown twice gives each of them as a track that starts
-// at the point.
+// Which points the tracker chooses. When a picture is shown twice, each point gives a track that
+// starts at the point.
 #include <algorithm>
 #include <cmath>
 #include <random>

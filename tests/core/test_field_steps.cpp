@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The steps of the field of block motion, each against its definition: the vector code gives the
-// bits of the plain one, and a block of a picture that has moved is found where it came from.
+// The steps of the field of block motion, compared with their definitions: the vector code gives
+// the same bits as the plain code, and a block of a moved picture is found where it came from.
 #include <cmath>
 #include <cstdint>
 #include <random>

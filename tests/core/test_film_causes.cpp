@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What makes motion go wrong on real films, each cause in a film made for it.
+// Causes of wrong motion on real films, each in a film made for it.
 #include <cmath>
 #include <functional>
 #include <random>

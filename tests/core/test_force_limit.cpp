@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Reasons why there is no force: their wording, and which of them a second of frames has.
+// Reasons why there is no force: their texts, and which of them a second of frames has.
 #include <cstring>
 #include <set>
 #include <string>

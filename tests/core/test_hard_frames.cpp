@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Frames in which nothing can be told to move: what comes out is exactly nothing, of every tracker.
+// Frames from which no motion can be determined: every tracker reports exactly none.
 #include <functional>
 #include <memory>
 #include <ostream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The films that trackers are measured with: what they say of their motion is so.
+// Checks that the films with which trackers are measured move as they claim.
 #include <cmath>
 #include <cstring>
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What is felt of rendered scenes whose motion is known: a camera, and discs in front of it.
+// The motion that is felt in rendered scenes of known motion: a camera, and discs in front of it.
 #include <cmath>
 #include <string>
 #include <vector>

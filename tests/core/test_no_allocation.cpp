@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The solvers run in the haptic thread, which must not touch the heap, on good input or bad; and
-// the motion of a frame is found without it, whatever the scene does.
+// The solvers run in the haptic thread, which must not allocate, whether the input is good or bad.
+// The motion of a frame is found without allocating as well, whatever the scene.
 #include <algorithm>
 #include <limits>
 #include <vector>

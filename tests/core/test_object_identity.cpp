@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Whether an object keeps its id while it is in view, meets others or is hidden, and loses it when
-// it is gone.
+// An object keeps its id while it is in view, meets others or is hidden, and loses it when it has
+// gone.
 #include <cmath>
 #include <functional>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The steps of the patch tracker, each against its definition: the vector code gives the bits of
-// the plain one.
+// The steps of the patch tracker, compared with their definitions: the vector code gives the same
+// bits as the plain code.
 #include <cmath>
 #include <cstdint>
 #include <random>

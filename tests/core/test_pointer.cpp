@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What is felt of several objects where the pointer is, and what is kept when another motion is
-// asked for.
+// Which of several objects is felt, depending on the pointer, and what is kept when another motion
+// is selected.
 #include <cmath>
 #include <vector>
 

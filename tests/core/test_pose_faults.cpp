@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// One string that lies, in motion and counted by encoders: noticed, named, survived.
+// One string with wrong counts while the grip moves: the fault is noticed, attributed and
+// tolerated.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Films whose frames repeat pictures are felt as the plain film: 24 pictures a second in 25, 30 and
-// 60 frames, drawn on twos and threes, with frames that came too late; in a player, which knows the
-// next frames, and live. True rest is rest.
+// Films whose frames repeat pictures are felt like the plain film: 24 pictures a second in 25, 30
+// and 60 frames, drawn on twos and threes, with late frames; in a player, which knows the next
+// frames, and live. A picture at rest gives no force.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Which frames show the picture before again: the same pixels, or what coding makes of them.
+// Which frames repeat the previous picture: with the same pixels, or changed by coding.
 #include <cmath>
 #include <cstdint>
 #include <random>

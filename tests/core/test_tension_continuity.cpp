@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Along a smooth path the tensions do not jump: no tick moves a string further than the
-// conditioning of the problem allows.
+// Tensions do not jump along a smooth path: no tick changes a string by more than the conditioning
+// of the problem allows.
 
 #include <algorithm>
 #include <cmath>

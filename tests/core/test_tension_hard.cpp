@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The tension solver on problems that break solvers: see tension_cases.h.
+// The tension solver on hard problems, see tension_cases.h.
 #include <gtest/gtest.h>
 
 #include "core/grip/tension_solver.h"

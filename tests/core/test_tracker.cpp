@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// How the tracker follows points through frames with a known motion.
+// Trackers on frames with a known motion.
 #include <algorithm>
 #include <cmath>
 #include <map>

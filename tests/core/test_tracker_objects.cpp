@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Objects that come into the picture, and noise, before the trackers.
+// Trackers with objects that enter the picture, and with noise.
 #include <algorithm>
 #include <random>
 #include <type_traits>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The curve through frames at random times: exact, smooth, and never outside of what it joins.
+// The curve through frames at random times is exact, smooth, and never outside the range of its
+// ends.
 #include <algorithm>
 #include <cmath>
 #include <random>

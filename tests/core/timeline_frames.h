@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Wrenches of frames for the tests of the timeline.
+/// Wrenches of frames, for the tests of the timeline.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Tracks whose motion is known.
+/// Tracks of known motion.
 #pragma once
 
 #include <cstdint>

@@ -3,12 +3,12 @@
 # Copyright 2026 the gst-spidar authors
 """Runs the command lines of README.md, CONTRIBUTING.md and docs/.
 
-check_commands.py SOURCE BUILD: every block of code in these pages is taken for lines of a shell and run, line
-by line, in a folder that looks like SOURCE with BUILD as build/, a short film under the names that the
-pages use, and its haptic tracks. All must end with status 0, on a virtual screen, without profiles or plugins that are installed.
+check_commands.py SOURCE BUILD: every code block of these pages is run line by line in a shell, in a folder that
+looks like SOURCE with BUILD as build/, with a short film under the names that the pages use, and its haptic
+tracks. All lines must exit with status 0, on a virtual screen, without installed profiles or plugins.
 
-An HTML comment before a block says what is different, for the whole block, or, in parentheses, for lines that
-contain some text:
+An HTML comment before a block states exceptions for the whole block or, with parentheses, for lines that contain
+the given text:
 
     <!-- not run: REASON -->             needs hardware, root, minutes, or a person
     <!-- not run (TEXT): REASON -->

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// spidardepth: ends, flushes, missing timestamps, latency, and settings that cannot be.
+// spidardepth: ends, flushes, missing timestamps, latency, and invalid settings.
 #include <string>
 #include <thread>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The device while the video plays: it may fail, it may come back, and it is always put to rest.
+// The device while the video plays: it may fail and return, and is always brought to rest.
 #include <cmath>
 #include <memory>
 #include <string>

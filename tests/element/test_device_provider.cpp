@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// SPIDARs as GstDeviceMonitor lists them, boards being plugged into an emulated USB.
+// SPIDARs in the list of GstDeviceMonitor, while boards are plugged into an emulated USB.
 #include <map>
 #include <string>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Frames of every format, size, stride, crop and field order, in as many memories as they like:
-// what is measured in them is, bit for bit, what is measured in the same picture as plain GRAY8 (of
-// more than 8 bits: in the 8 highest), and no byte outside of the picture is touched
-// (tests/support/guarded_frame.h).
+// Random frames of every format, size, stride, crop and field order, in any number of memories: the
+// measured motion is, bit for bit, that of the same picture as plain GRAY8 (with more than 8 bits:
+// of the 8 highest), and no byte outside the picture is touched (tests/support/guarded_frame.h).
 //
-// SPIDAR_SEED says which (1), SPIDAR_FILMS how many films of three frames (60).
+// SPIDAR_SEED is the seed (default 1), SPIDAR_FILMS the number of films of three frames (default
+// 60).
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>

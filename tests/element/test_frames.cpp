@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What the element does with frames: formats, strides, crops, fields, and that it leaves them
-// alone.
+// How the element treats frames: formats, strides, crops and fields; frames are not modified.
 #include <array>
 #include <cmath>
 #include <cstring>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Where a grip points at the picture.
+// The place in the picture at which the grip points.
 #include <gtest/gtest.h>
 
 #include "plugin/engine/grip_pointer.h"

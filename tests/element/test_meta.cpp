@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The meta that travels with the frame, read as a program in C reads it.
+// The meta on a frame, read as a C program reads it.
 #include <array>
 #include <memory>
 #include <string>

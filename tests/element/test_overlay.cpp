@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What is drawn into the video: pixels are read back.
+// The overlay in the video, read back from the pixels.
 #include <array>
 #include <cmath>
 #include <cstring>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Without the overlay a frame is only looked at: what leaves the element is what came in, and what
-// is asked of downstream is answered by downstream.
+// Without the overlay frames are only read: the output buffers are the input buffers, and queries
+// for downstream are answered by downstream.
 #include <memory>
 #include <string>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Which running time is on the screen at which moment of the haptic loop's clock.
+// Which running time is on the screen at a given time of the haptic loop's clock.
 #include <cmath>
 #include <memory>
 #include <random>

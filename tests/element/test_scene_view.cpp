@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Which track belongs to what.
+// To which object each track belongs.
 #include <vector>
 
 #include <gtest/gtest.h>

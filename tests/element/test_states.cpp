@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Every way through the states, as GStreamer's generic tests of elements have it.
+// All sequences of state changes, as in GStreamer's generic tests of elements.
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Timestamps, segments, discontinuities: motion is over running time, and only ever between two
-// frames that are shown one after the other.
+// Timestamps, segments and discontinuities: motion is measured over running time, and only between
+// two frames that are shown in succession.
 #include <algorithm>
 #include <string>
 #include <utility>

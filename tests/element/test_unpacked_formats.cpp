@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Formats that the element does not read in place: packed YUV of cameras, planar RGB, packed words
-// of 10 and 12 bits. What is measured is what the grey picture gives.
+// of 10 and 12 bits. The measured motion is that of the grey picture.
 #include <sstream>
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What waits until the haptic loop has room for it.
+// Wrenches that wait until the haptic loop has room for them.
 #include <gtest/gtest.h>
 
 #include "plugin/timing/wrench_schedule.h"

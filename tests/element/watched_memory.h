@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Memory of a frame that counts what is done to it.
+/// Memory of a frame that counts how it is accessed.
 #pragma once
 
 #include <gst/gst.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// evdev as far as force feedback uses it.
+// The parts of evdev that force feedback uses.
 #undef _FORTIFY_SOURCE
 
 #include "tests/emulated_bus/evdev_files.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What each kind of emulated input device can do, as the kernel reports it.
+/// Capabilities of each kind of emulated input device, as the kernel reports them.
 #pragma once
 
 #include <cstddef>

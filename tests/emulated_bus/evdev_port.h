@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Force-feedback devices that do not exist, in memory that processes can share.
+/// Emulated force-feedback devices, in memory that processes can share.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The functions by which libusb and force feedback reach the system, for files of an emulated bus;
-// everything else goes to the kernel as ever. Symbols of this library come before libc's and
-// libudev's, when a program is linked with it or by LD_PRELOAD.
+// Replaces the functions through which libusb and force feedback access the system, for files of an
+// emulated bus; all other calls go to the kernel as usual. The symbols of this library precede
+// those of libc and libudev when a program is linked with it or preloads it.
 #undef _FILE_OFFSET_BITS  // it would rename open to open64
 #undef _FORTIFY_SOURCE
 

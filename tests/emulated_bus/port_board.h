@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The board in a port of the emulated USB, and what a faulty link makes of its transfers.
+/// The board in a port of the emulated USB, and the effect of link faults on its transfers.
 #pragma once
 
 #include <array>

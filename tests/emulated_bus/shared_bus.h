@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// An emulated bus that this process shares with those it starts.
+/// An emulated bus that this process shares with its child processes.
 #pragma once
 
 #include <cstdlib>

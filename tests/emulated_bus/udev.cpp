@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// libudev as far as libusb uses it, listing the emulated bus. There are no events: who wants to see
-// what was plugged in later lists again in a new context, as on a machine without udevd.
+// The parts of libudev that libusb uses; it lists the emulated bus. There are no events: to see
+// devices that were plugged in later, list again in a new context, as on a machine without udevd.
 #include <array>
 #include <cstring>
 #include <string>

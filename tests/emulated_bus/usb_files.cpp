@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// usbfs for libusb 1.0: what its Linux backend asks of a device file, no more.
+// The parts of usbfs that the Linux backend of libusb 1.0 uses.
 //
-// Readiness: the file is one end of a socket pair whose send buffer is kept full while there is
-// nothing to reap, so that poll(POLLOUT) waits; closing the other end with data unread makes
+// Readiness: the file is one end of a socket pair. Its send buffer is kept full while there is
+// nothing to reap, so that poll(POLLOUT) waits. Closing the other end with unread data causes
+// POLLERR, as when a device is pulled out.
 // POLLERR, which is how a device that was pulled out looks.
 #include "tests/emulated_bus/usb_files.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Device files of the emulated USB, as usbfs has them.
+/// Device files of the emulated USB, as in usbfs.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Programs that read a film say what is wrong with a name and end: check_films.py PROGRAM..."""
+"""Checks that programs report what is wrong with the name of a film, and exit: check_films.py PROGRAM..."""
 import os
 import re
 import subprocess

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""A picture is touched, and what was felt is what is in it: check_touch.py PROGRAM"""
+"""Checks that the touched relief is that of the picture: check_touch.py PROGRAM"""
 import csv
 import os
 import struct

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What compare_controllers counts.
+// The statistics of compare_controllers.
 #include <cmath>
 #include <vector>
 

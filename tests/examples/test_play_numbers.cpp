@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the player keeps of a playback: quantiles, curves, skew.
+/// The statistics that the player collects: quantiles, curves, skew.
 
 #include <cmath>
 #include <sstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The traces as the player reads them.
+/// Reading traces in the player.
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// track_video as a user runs it, beside what the element's trace says of the same file.
+// Output of track_video, compared with the element's trace of the same file.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

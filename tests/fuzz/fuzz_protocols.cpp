@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Fuzz target of the boards' packets; CONTRIBUTING.md says how to run it under libFuzzer.
-// The first byte chooses a decoder and its parameters, the rest is the packet. Whatever it is,
-// nothing is read beyond it, and what is accepted says the same when it is written and read again.
+// The first byte chooses a decoder and its parameters, the rest is the packet. Nothing may be read
+// beyond its end, and an accepted packet must be the same after it is written and read again.
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Fuzz target of the tension solver; CONTRIBUTING.md says how to run it under libFuzzer.
-// The bytes are taken as the numbers of a problem. Whatever they are, tensions are within bounds
-// that are bounds, never NaN, and what is called solved is solved.
+// The bytes are read as the numbers of a problem. Tensions must be within valid bounds and never
+// NaN, and a solution must be optimal.
 #include <cstddef>
 #include <cstdint>
 

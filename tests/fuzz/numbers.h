@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A fuzzer's bytes taken as numbers, and what to do when something is wrong.
+/// Reads a fuzzer's bytes as numbers, and reports failures.
 #pragma once
 
 #include <cstddef>

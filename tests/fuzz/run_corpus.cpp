@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Runs a fuzz target without a fuzzer: on the files and the files of the folders named, and on
-// seeded inputs of its own, made of numbers of all sizes, of special ones, and of plain noise.
+// Runs a fuzz target without a fuzzer: on the given files and all files of the given folders, and
+// on seeded inputs of numbers of all sizes, special numbers, and plain noise.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

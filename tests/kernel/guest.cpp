@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The first and only program of the virtual machine: makes it a Linux with a virtual USB host
-/// controller, and runs the tests in it. What run_guest.py puts into its root is all there is.
+/// The only program of the virtual machine: sets up a Linux with a virtual USB host controller, and
+/// runs the tests in it. Its root file system contains only the files that run_guest.py puts there.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

@@ -3,9 +3,9 @@
 # Copyright 2026 the gst-spidar authors
 """Runs the tests of GUEST as the only program of a virtual machine with Debian's kernel.
 
-run_guest.py GUEST --profiles FOLDER --programs FILE... --plugins FILE...: programs lie beside GUEST in the
-machine, plugins of GStreamer in /plugins. No rights and no USB are needed; the processor is emulated. Exit
-status: that of the tests; 77 when QEMU or a kernel is missing.
+run_guest.py GUEST --profiles FOLDER --programs FILE... --plugins FILE...: in the machine, programs are in the
+folder of GUEST and plugins of GStreamer in /plugins. Neither permissions nor USB are needed; the processor is
+emulated. The exit status is that of the tests, or 77 when QEMU or a kernel is missing.
 
 The kernel is the newest in /boot that has a folder in /lib/modules, or in $SPIDAR_TEST_KERNEL: a folder
 into which Debian's package was unpacked."""

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// device=ff through a real kernel's evdev, on devices made by uinput. Waits for things to happen;
-/// times are of the machine, which counts instructions.
+/// device=ff through a real kernel's evdev, on devices made by uinput. Waits for events; times are
+/// those of the virtual machine, which counts instructions.
 #include <cmath>
 #include <csignal>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The driver with a real kernel's USB between it and the board. Waits for things to happen, never
-/// for a time.
+/// The driver and an emulated board, connected through a real kernel's USB. Waits for events, never
+/// for a fixed time.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A force-feedback device that the kernel believes to be one: the other end of /dev/uinput.
+/// An emulated force-feedback device that the kernel takes for a real one: the other end of
+/// /dev/uinput.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Packets of USB/IP, the device's end. Source: Documentation/usb/usbip_protocol.rst of Linux.
+/// Packets of USB/IP, on the device's side. Source: Documentation/usb/usbip_protocol.rst of Linux.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""As an effect of a GES timeline the element says that it is in the wrong place; behind it, it is felt."""
+"""As an effect of a GES timeline the element warns that it is in the wrong place; after the timeline it works."""
 import csv
 import os
 import sys

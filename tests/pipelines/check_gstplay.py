@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""GstPlay, which many players are made of, gst-play-1.0, which everybody has, and steps in playbin."""
+"""Tests GstPlay, on which many players are based, gst-play-1.0, and frame steps in playbin."""
 import csv
 import os
 import shutil

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""The meta as Python reads it, after elements that change the picture, and examples/read_meta.py:
+"""Reads the meta in Python, after elements that change the picture, and runs examples/read_meta.py:
 check_meta.py EXAMPLE"""
 import re
 import subprocess

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A player of the plainest kind, which knows nothing of haptics: playbin does as the arguments say.
+// A simple player without any knowledge of haptics, which controls playbin according to its
+// arguments.
 //
 // feel-player PLAYBIN FILM STEP...: PLAYBIN is playbin or playbin3. Steps are
-//   own-filter, own-sink    the application's own video-filter; its own spidarmotion, device=none
-//   window                  a sink that takes what a window takes, and nothing that converts before
-//                           it
+//   own-filter, own-sink    sets a video-filter, or a sink with spidarmotion device=none, of its
+//   own
+//   window                  uses a sink that accepts what a window accepts, without a converter
 //   preroll, play, pause, stop
-//   other                   a second player is used from now on
-//   frames=N, wait=MS       until so many more frames were shown; for so long
+//   other                   uses a second player from now on
+//   frames=N, wait=MS       waits until N more frames were shown; for MS milliseconds
 //   loaded                  prints whether the plugin is in this process
-//   stay                    for ever
-//   exit                    without stopping
+//   stay                    waits for ever
+//   exit                    exits without stopping
 #include <atomic>
 #include <chrono>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Pipelines with the plugin as GStreamer loads it, in real time, with every tick under watch.
+/// Pipelines with the plugin as GStreamer loads it, in real time, with a check of every tick.
 #pragma once
 
 #include <mutex>

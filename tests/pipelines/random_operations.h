@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Everything that people, applications and streams do to a player.
+/// Random operations of users, applications and streams on a player.
 #pragma once
 
 #include <functional>

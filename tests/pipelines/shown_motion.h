@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A moving ball in a SteppedPipeline, and whether what is felt is what is shown.
+/// A moving ball in a SteppedPipeline, and a check that the force matches the shown motion.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A whole pipeline on a GstTestClock, and the haptic loop of its spidarmotion ticked by hand: time
-/// passes only when the test says so.
+/// A whole pipeline on a GstTestClock; the haptic loop of its spidarmotion is ticked by hand. Time
+/// passes only when the test advances it.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A track that plays into a spidarsink on a GstTestClock, whose haptic loop is ticked by hand.
+/// A track that plays into a spidarsink on a GstTestClock; the haptic loop is ticked by hand.
 #pragma once
 
 #include <cstdint>

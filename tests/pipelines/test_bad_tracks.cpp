@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Files that are no haptic tracks, or bad ones, in spidarmotion track= and in spidarsink: what is
-// said, and every tick under watch. In real time, with the plugin as GStreamer loads it.
+// Invalid and faulty haptic tracks, in spidarmotion track= and in spidarsink: the messages, with a
+// check of every tick. In real time, with the plugin as GStreamer loads it.
 #include <cmath>
 #include <cstdint>
 #include <filesystem>

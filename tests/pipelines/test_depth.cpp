@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Video and depth from two sources that run as fast as they can, with the plugin as GStreamer loads
+// Video and depth from two sources that run as fast as possible, with the plugin as GStreamer loads
 // it.
 #include <string>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Several devices in one pipeline and in one process: each is felt on its own. On test clocks.
+// Several devices in one pipeline and in one process, each with a force of its own. On test clocks.
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// spidar-feel: players that know nothing of haptics, as programs of their own, with an SH4 board on
-// an emulated USB.
+// spidar-feel with players that are separate programs, and an SH4 board on an emulated USB.
 #include <chrono>
 #include <cmath>
 #include <csignal>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Films as decoders give them: of 8, 10 and 12 bits, with as much colour as they like, grey of 16
-// bits, video range and full; and as videorate repeats them. What is felt is what the plain 8-bit
-// film gives.
+// Films in the formats of decoders: 8, 10 and 12 bits, any chroma subsampling, grey of 16 bits,
+// video range and full range; and as videorate repeats them. The force is that of the plain 8-bit
+// film.
 #include <string>
 #include <vector>
 

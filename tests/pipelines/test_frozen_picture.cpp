@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A picture that stands on the screen for long is not felt, and what is felt is never of another
-// frame than the one that is shown. On a test clock; TickWatch looks at every tick besides.
+// A picture that stays on the screen for long is not felt, and the force always belongs to the
+// frame that is shown. On a test clock; TickWatch also checks every tick.
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What interrupts a film: pauses, single frames, other clocks, other latencies. On a test clock.
+// Interruptions of a film: pauses, frame steps, new clocks, new latencies. On a test clock.
 #include <string>
 
 #include <gst/app/gstappsrc.h>

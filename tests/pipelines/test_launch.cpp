@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Whole pipelines with the installed form of the plugin, as people launch them.
+// Whole pipelines as users launch them, with the plugin as GStreamer loads it.
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>

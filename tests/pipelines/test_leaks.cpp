@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Starting and stopping leaves nothing behind, says GStreamer's own tracer.
+// Starting and stopping leaks nothing, according to GStreamer's leak tracer.
 #include <cstdio>
 #include <string>
 #include <vector>

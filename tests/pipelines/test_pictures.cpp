@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What films show: cuts, fades, stills, any frame rate, turned pictures. On a test clock.
+// Contents of films: cuts, fades, still pictures, any frame rate, rotated pictures. On a test
+// clock.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The players and sources that people have, in real time on this machine. How fast it is decides
-// nothing here: that frames come through, that something is felt, and what the watch of every tick
-// says.
+// Common players and sources in real time. The tests do not depend on the speed of the machine:
+// they check that frames arrive, that a force is felt, and every tick.
 #include <memory>
 #include <random>
 #include <string>

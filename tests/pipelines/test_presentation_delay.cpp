@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What delays the picture behind the element delays the force as well. On a test clock.
+// Delays of the picture after the element delay the force equally. On a test clock.
 #include <string>
 
 #include <gst/base/gstbasesink.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Anything at any moment, in real time and with all threads: nothing crashes or hangs, the force
-// keeps its promises in every tick, and afterwards the player plays as at first.
+// Random operations at random times, in real time and with all threads: nothing crashes or hangs,
+// every tick is within its limits, and afterwards the player plays as before.
 //
-// SPIDAR_OPERATIONS says how many (300), SPIDAR_SEED which (1). What is done and how long is waited
-// between is the same for the same seed; what the threads make of it is not.
+// SPIDAR_OPERATIONS is the number of operations (default 300), SPIDAR_SEED the seed (default 1).
+// The same seed gives the same operations and pauses; the interleaving of the threads differs.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Films and cameras whose frames repeat pictures, in whole pipelines on a test clock: the force at
+// Films and cameras whose frames repeat pictures, in whole pipelines on a test clock: the force in
 // each millisecond is that of the film without repeated frames, live, at other rates, after seeks
-// and frame steps; and a picture that stays is rest.
+// and after frame steps. A picture that stays is at rest.
 #include <algorithm>
 #include <cmath>
 #include <functional>

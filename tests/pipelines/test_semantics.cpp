@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What people do with a player, and what streams do to them: what is felt is the motion that is
-// shown, at the time when it is shown. On a test clock; TickWatch looks at every tick besides.
+// Operations on a player and properties of streams: the force is that of the shown motion, at the
+// time when it is shown. On a test clock; TickWatch also checks every tick.
 #include <atomic>
 #include <string>
 #include <vector>

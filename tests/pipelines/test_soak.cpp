@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Long runs: every frame is felt, at its time to the nanosecond, and nothing piles up.
+// Long runs: every frame is felt at its time to the nanosecond, and memory does not grow.
 //
-// SPIDAR_HOURS of video on a clock that is stepped (0.03), SPIDAR_MINUTES of it in real time
-// (0.01): `meson test --suite soak` asks for a day, and for half an hour.
+// SPIDAR_HOURS is the duration of video on a stepped clock (default 0.03), SPIDAR_MINUTES that in
+// real time (default 0.01); `meson test --suite soak` runs a day and half an hour.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>

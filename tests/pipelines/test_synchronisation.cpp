@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The wrench of a frame is there at the moment the frame is shown, and at no other. On a test
-// clock: nothing here depends on how fast the machine is.
+// The wrench of a frame acts at the moment at which the frame is shown. On a test clock, so nothing
+// depends on the speed of the machine.
 #include <algorithm>
 #include <string>
 

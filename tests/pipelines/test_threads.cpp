@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Threads that the element starts in an application's process.
+// The threads that the element starts in an application's process.
 #include <chrono>
 #include <csignal>
 #include <cstdint>

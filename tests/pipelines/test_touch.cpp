@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The picture is touched: whole pipelines on a test clock, and the simulated device, whose hand the
-// test leads. TickWatch looks at every tick besides.
+// Touching the picture: whole pipelines on a test clock, with the simulated device whose hand the
+// test moves. TickWatch also checks every tick.
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What the strings of the simulated device do with a recorded track, beside what they do while the
-// film is analysed. On a test clock, every tick under watch.
+// Compares the strings of the simulated device during a recorded track with those during the
+// analysis of the film. On a test clock; every tick is checked.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Films with a haptic track in them: what players make of them, and which films are refused.
+// Films that contain a haptic track: how players handle them, and which films are refused.
 #include <cmath>
 #include <filesystem>
 #include <fstream>

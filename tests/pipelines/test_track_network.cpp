@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Haptic tracks over the network, as docs/haptic-track.md sends them, on the loopback interface. In
-// real time; nothing here depends on how long anything takes.
+// Haptic tracks over the network, sent as in docs/haptic-track.md, on the loopback interface. In
+// real time, but independent of durations.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What spidarsink makes of tracks, good and bad. On a test clock, every tick under watch.
+// spidarsink with good and bad tracks. On a test clock; every tick is checked.
 #include <cmath>
 #include <cstring>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// spidarmotion with a track in place of its analysis. On a test clock, every tick under watch.
+// spidarmotion with a track instead of its analysis. On a test clock; every tick is checked.
 #include <cmath>
 #include <cstring>
 #include <fstream>

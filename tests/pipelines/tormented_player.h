@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A pipeline in real time, on the simulated device and with all of its threads, to which anything
-/// may be done.
+/// A pipeline in real time, with the simulated device and all of its threads, on which any
+/// operation may be performed.
 #pragma once
 
 #include <atomic>

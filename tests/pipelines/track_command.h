@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// spidartrack as it is called on the command line, and its tracks compared.
+/// Runs spidartrack as on the command line, and compares its tracks.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Boards on an emulated wire, for tests.
+/// Boards on an emulated wire.
 #pragma once
 
 #include <memory>

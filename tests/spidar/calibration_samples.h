@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counts of devices that are not quite what their profile says.
+/// Counts of devices that differ slightly from their profiles.
 #pragma once
 
 #include <cmath>

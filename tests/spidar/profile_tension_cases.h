@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Tension problems as the haptic loop of a profile poses them, and harder.
+/// Tension problems that the haptic loop poses for a profile, and harder ones.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the tests of the simulated device share.
+/// Shared by the tests of the simulated device.
 #pragma once
 
 #include <random>

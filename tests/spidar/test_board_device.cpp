@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What one board alone does, and what stands around them: the device that waits for the link, the
-// factory, the simulated device behind a board's packets.
+// A single board, and the code around boards: the device that waits for the link, the factory, and
+// the simulated device behind a board's packets.
 #include <cmath>
 #include <condition_variable>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Every kind of board against its emulation, without a wire.
+/// Every kind of board with its emulation, without a wire.
 #include <cmath>
 #include <condition_variable>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What calibrate() finds, how sure it is, and what it says when it cannot know.
+// Results of calibrate(), their standard deviations, and the cases that it must refuse.
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The predicted standard deviations against ceres::Covariance of the same problem, written down
-// anew with automatic derivatives.
+// Compares the predicted standard deviations with ceres::Covariance of the same problem, formulated
+// independently with automatic derivatives.
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What calibration says about input that it cannot use.
+// Messages of the calibration for unusable input.
 
 #include <functional>
 #include <limits>

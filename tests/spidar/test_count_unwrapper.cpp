@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Counters of a board that wrap, jump and begin anew.
+// Counters of a board that wrap round, jump or restart.
 #include <array>
 #include <cstdint>
 #include <limits>

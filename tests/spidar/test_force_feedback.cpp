@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Joysticks, wheels and gamepads on emulated input devices, by the calls that real ones get.
+/// Joysticks, wheels and gamepads on emulated input devices, through the same calls as real ones.
 #include <cerrno>
 #include <cmath>
 #include <filesystem>

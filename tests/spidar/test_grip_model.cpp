@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The simulated grip against closed solutions, and its stability on every profile.
+// The simulated grip compared with closed-form solutions, and its stability for every profile.
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Motors come to zero when the process that drives them is killed.
+/// Motors go to zero when the process that drives them is killed.
 ///
-/// The process to be killed is this program again, with a device and a file to say that it pulls.
+/// The process that is killed is another instance of this program, with a device, and a file in
+/// which it reports that it pulls.
 #include <cerrno>
 #include <chrono>
 #include <csignal>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is felt when: playback, flush, limits.
+/// Which force acts when: playback, flush, limits.
 #include <limits>
 
 #include <gtest/gtest.h>

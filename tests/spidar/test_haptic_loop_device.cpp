@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The loop and its device: opening, closing, losing it, and where the grip is.
+/// The loop and its device: opening, closing, losing it, and the pose of the grip.
 #include <cmath>
 #include <random>
 

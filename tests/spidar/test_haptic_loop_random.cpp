@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What holds in every tick, whatever happens; and that a tick takes nothing from the heap.
+/// Conditions that hold in every tick whatever happens; and a tick does not allocate.
 #include <cmath>
 #include <limits>
 #include <random>

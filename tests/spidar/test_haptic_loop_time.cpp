@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which frame is felt when its times are out of the ordinary.
+/// Which frame is felt when the times of frames are unusual.
 #include <gtest/gtest.h>
 
 #include "tests/spidar/loop_driver.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is felt of the samples of a track.
+/// The force of a track's samples in the haptic loop.
 #include <cmath>
 #include <limits>
 

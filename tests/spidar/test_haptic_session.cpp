@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Loop, thread and trace together. Waits for things to happen, never for a time.
+/// Loop, thread and trace together. Waits for events, never for a fixed time.
 #include <chrono>
 #include <filesystem>
 #include <fstream>

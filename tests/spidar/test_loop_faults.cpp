@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The loop when something fails: a pose that is lost, a string that is broken, exchanges that
-/// fail, a device that nobody uses.
+/// The loop when something fails: a lost pose, a broken string, failed exchanges; and a device that
+/// is not used.
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What load_profile() finds, and what it says about files that cannot be used.
+// load_profile(): where it finds profiles, and its messages for unusable files.
 
 #include <algorithm>
 #include <cstdlib>

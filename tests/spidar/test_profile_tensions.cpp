@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Tensions for every profile shipped, from the centre to outside the frame.
+// Tensions for every shipped profile, from the centre to outside the frame.
 #include <cctype>
 #include <string>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// save_profile() and load_profile() are each other's inverse.
+// load_profile() reads back exactly what save_profile() has written.
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Random wrenches, hands and faults on every profile, seen from outside. Short by default;
-/// SPIDAR_TICKS=10000000 is the long run (--suite soak), SPIDAR_SEED another one.
+/// Random wrenches, hands and faults on every profile, checked at the output to the device. Short
+/// by default; SPIDAR_TICKS=10000000 is the long run (--suite soak), SPIDAR_SEED selects another
+/// seed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the strings do when there is nothing to be felt.
+/// The tensions of the strings when there is no force.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Seqlock and ring, alone and between two threads (which is for the thread sanitizer).
+/// Seqlock and ring, alone and between two threads (for the thread sanitizer).
 #include <array>
 #include <thread>
 

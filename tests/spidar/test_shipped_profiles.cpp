@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The profiles in spidar/profiles/shipped against the published numbers they were written from.
+// Compares the profiles in spidar/profiles/shipped with the published numbers.
 
 #include <cmath>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What a board shows of the simulated grip: quantised, saturated, in balance, and repeatable.
+// The readings of the simulated device: quantised, saturated, in equilibrium, and repeatable.
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The simulated device when the host goes silent, faults are asked for, it is closed, and several
-// threads look at it.
+// The simulated device when the host is silent, when faults are injected, when it is closed, and
+// when several threads read it.
 
 #include <atomic>
 #include <chrono>

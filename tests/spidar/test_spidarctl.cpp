@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What a user sees of spidarctl: exit status, messages, files.
+// spidarctl as a user sees it: exit status, messages, files.
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// That the watch over the other tests does see what it is to see.
+// Checks that TickWatch, which monitors the other tests, detects every violation.
 #include <limits>
 
 #include <gtest/gtest-spi.h>

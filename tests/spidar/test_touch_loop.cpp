@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A surface in the haptic loop: its force, what switches it off, and that without one nothing is
-/// different.
+/// A surface in the haptic loop: its force, and when it ends. Without a surface nothing changes.
 #include <cmath>
 #include <random>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reliefs between two threads (which is for the thread sanitizer, too).
+/// Reliefs passed between two threads (also for the thread sanitizer).
 #include <atomic>
 #include <limits>
 #include <stdexcept>

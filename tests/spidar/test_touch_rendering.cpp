@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which surface is touched at which moment.
+/// Which surface is touched at each moment.
 #include <cmath>
 #include <functional>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Which motor and which encoder belong to which string: from answers that follow from the geometry,
-// and from the simulated device, whose hand and motors are not those that are expected.
+// Finds the wiring from answers computed from the geometry, and from the simulated device, whose
+// hand and motors differ from the assumed ones.
 #include <cmath>
 #include <memory>
 #include <random>

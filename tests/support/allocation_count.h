@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counts what the program takes from the heap. Replaces the global operator new: include it in one
-/// source of a test program.
+/// Counts heap allocations. Replaces the global operator new: include it in one source file of a
+/// test program.
 #pragma once
 
 #include <atomic>

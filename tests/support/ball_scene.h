@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A bouncing ball whose every moment is known: the paper's Fig. 6.
+/// A bouncing ball whose motion is known exactly: the paper's Fig. 6.
 #pragma once
 
 #include <cstddef>

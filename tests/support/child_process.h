@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A program that a test starts and ends by a signal.
+/// A program that a test starts, and ends with a signal.
 #pragma once
 
 #include <csignal>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A spidarmotion in a GstHarness, and what came out of it.
+/// A spidarmotion in a GstHarness, and its output.
 #pragma once
 
 #include <string>

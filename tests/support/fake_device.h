@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device that remembers what it is given and answers as it is told.
+/// A device that records its input and gives the configured answers.
 #pragma once
 
 #include <atomic>

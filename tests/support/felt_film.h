@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A film as it is felt a thousand times a second, and how two such curves differ.
+/// The force of a film in each millisecond, and the difference of two such curves.
 #pragma once
 
 #include <cmath>

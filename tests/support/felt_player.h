@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A haptic session in which a film plays whose force does not change, for force-feedback devices.
+/// A haptic session that plays a film of constant force, for force-feedback devices.
 #pragma once
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Makes films of one size from the same sheets.
+/// Renders films of one size from the same sheets.
 #pragma once
 
 #include <cstdint>

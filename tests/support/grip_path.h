@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Smooth paths of a grip and of the wrench it is given.
+/// Smooth paths of a grip and of the wrench on it.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Frames whose memory ends where their picture does.
+/// Frames whose memory ends exactly where the picture ends.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A film whose every motion is known: things that move in front of a background.
+/// A film of known motion: objects that move in front of a background.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Films for measuring trackers: what they are good at and what is hard.
+/// Films for measuring trackers, from easy to hard.
 #pragma once
 
 #include <cstdint>

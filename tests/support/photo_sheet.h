@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What moves in a film without a photograph at hand.
+/// A substitute for a photograph as the content of a film.
 #pragma once
 
 #include <cstdint>

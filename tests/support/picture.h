@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grey picture of its own.
+/// A grey picture that owns its memory.
 #pragma once
 
 #include <cmath>

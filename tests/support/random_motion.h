@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Directions, poses and numbers at random, the same for the same seed.
+/// Random directions, poses and numbers, repeatable by their seed.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Numbers from a seed, for tests that try what nobody thought of.
+/// Random numbers from a seed, for tests with random input.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Motors and encoders of an emulated board that a test looks at and turns.
+/// Motors and encoders of an emulated board, which a test reads and moves.
 #pragma once
 
 #include <array>

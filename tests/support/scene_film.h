@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Films given by the grey level of each place, and what the analysis finds in them.
+/// Films defined by a function for the grey level at each place, and the result of their analysis.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What holds at the seam between loop and device, whatever is played and whatever breaks.
+/// Checks conditions that always hold between the loop and the device, whatever is played or fails.
 #pragma once
 
 #include <string>

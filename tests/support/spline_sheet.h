@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A picture that is known between its pixels, fast enough for films.
+/// A picture that is defined between its pixels, too, fast enough for films.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device and random poses for the tests of strings.
+/// A device and random poses, for the tests of strings.
 #pragma once
 
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device between the loop and another device: some of its encoders are dead, and what the motors
-/// get is seen from outside.
+/// A device placed between the loop and another device: makes some encoders dead, and records the
+/// volts for the motors.
 #pragma once
 
 #include <array>

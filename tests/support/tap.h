@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A hand that taps a plane.
+/// Simulates a hand that taps a plane.
 #pragma once
 
 #include <algorithm>

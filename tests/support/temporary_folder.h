@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A folder for what a test writes.
+/// A temporary folder for a test.
 #pragma once
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Families of tension problems, from what a device meets all day to what breaks solvers.
+/// Families of tension problems, from everyday ones to hard ones.
 #pragma once
 
 #include "core/grip/tension_solver.h"

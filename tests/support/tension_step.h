@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How far the exact tensions can move between two problems.
+/// Bounds how far the exact tensions can change between two problems.
 #pragma once
 
 #include "core/grip/tension_solver.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grey texture that is known between the pixels too.
+/// A grey texture that is defined between the pixels, too.
 #pragma once
 
 #include <cstdint>

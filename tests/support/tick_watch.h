@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What holds in every tick of the haptic loop, whatever is played.
+/// Checks conditions that hold in every tick of the haptic loop, whatever is played.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Surfaces to be touched, about z = −2 mm, over a picture of 60 mm × 34 mm.
+/// Surfaces for tests of touching, at about z = −2 mm, over a picture of 60 mm × 34 mm.
 #pragma once
 
 #include <algorithm>

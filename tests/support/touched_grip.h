@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grip that a hand moves about and that a commanded force pushes, with the delays of a device.
+/// A grip that a hand moves and a commanded force pushes, with the delays of a device.
 #pragma once
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// GLib's locks and references, as the thread sanitizer has to see them.
+// Tells the thread sanitizer about GLib's locks and references.
 //
-// GLib and GStreamer are not built with the sanitizer, and their mutexes are futexes of their own:
-// what one thread did before it unlocked would look unordered to what another does after it locked.
-// The functions here stand before GLib's, call them, and tell the sanitizer what they order.
-// Recursive and read-write locks are pthread's inside, which the sanitizer knows by itself.
-// It is to be run with ignore_noninstrumented_modules=1: code that it cannot see is not judged.
+// GLib and GStreamer are not built with the sanitizer, and their mutexes are futexes of their own.
+// The accesses of one thread before it unlocks would therefore seem unordered with those of another
+// thread after it locks. The functions here replace GLib's: they call them and report the order to
+// the sanitizer. Recursive and read-write locks use pthread, which the sanitizer knows. Run it with
+// ignore_noninstrumented_modules=1, so that code that it cannot see is not judged.
 #include <dlfcn.h>
 #include <sanitizer/tsan_interface.h>
 

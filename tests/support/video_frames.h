@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Frames with a texture that is moved by known amounts, in every format.
+/// Frames in every format, with a texture that moves by known amounts.
 #pragma once
 
 #include <gst/video/video.h>

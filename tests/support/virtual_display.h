@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// An X server of the test's own, without a screen.
+/// An X server for a test, without a screen.
 #pragma once
 
 #include <csignal>

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""GStreamer's own judge: scenarios of gst-validate with spidarmotion in playbin, beside identity.
+"""Runs scenarios of gst-validate with spidarmotion in playbin, and with identity for comparison.
 
-What gst-validate has to say must be the same with both, and spidarmotion must not warn. Exits with 77
-(skipped) where there is no gst-validate-1.0; CONTRIBUTING.md says where it comes from.
+gst-validate must report the same for both, and spidarmotion must not warn. Exits with 77 (skipped)
+without gst-validate-1.0; CONTRIBUTING.md explains how to build it.
 """
 import os
 import re

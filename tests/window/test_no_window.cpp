@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A build without GLFW or Dear ImGui.
+// The plugin built without GLFW or Dear ImGui.
 #include <gtest/gtest.h>
 
 #include "plugin/window/window.h"

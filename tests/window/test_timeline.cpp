@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The last minute of a window: recorded, paused, looked back at.
+// The timeline of the last minute: recording, pausing, and looking back.
 #include <memory>
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Debug windows on an X server of the test's own: the frame buffer is read back.
+// Debug windows on an X server of the test; the frame buffer is read back.
 #include <cstdlib>
 #include <filesystem>
 #include <memory>

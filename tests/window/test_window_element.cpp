@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A debug window and its element: states, settings, a window system that hangs.
+// A debug window and its element: states, settings, and a window system that hangs.
 #include <chrono>
 #include <cstdio>
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What a debug window is made of, without a window.
+// The data of a debug window, without a window.
 #include <cmath>
 #include <set>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What a debug window shows, read back from the frame buffer.
+// The contents of a debug window, read back from the frame buffer.
 #include <memory>
 #include <thread>
 

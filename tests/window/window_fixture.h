@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Windows of a test, and the colours in their pictures.
+/// Debug windows for a test, and the colours in their pictures.
 #pragma once
 
 #include <chrono>

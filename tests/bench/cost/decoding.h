@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Decoding a film, with an element behind the decoder.
+/// Decodes a film, optionally with an element after the decoder.
 #pragma once
 
 #include <string>

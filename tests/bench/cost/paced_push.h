@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Frames that are there already, pushed through an element at the times of a film.
+/// Pushes prepared frames through an element, paced like a film.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Work for every core.
+/// Keeps every core busy.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Frames as from a camera.
+/// A source whose frames come like those of a camera.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A film to play.
+/// The film that is played.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Picture and force of one playback.
+/// Measures the times of picture and force in one playback.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A pipeline with a spidarmotion, or a spidarsink beside the video sink, that plays as a scenario
-/// says.
+/// A pipeline with a spidarmotion, or with a spidarsink beside the video sink, that plays a
+/// scenario.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A video sink that says when it shows a frame.
+/// A video sink that reports when it shows a frame.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// An audio sink without a sound card, whose clock is that of a cheap one.
+/// An audio sink without a sound card, with the clock of a cheap one.
 #pragma once
 
 #include <gst/gst.h>

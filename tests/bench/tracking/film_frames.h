@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The frames of a film, drawn before the clock runs.
+/// The frames of a film, drawn before the time is measured.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What one would use instead of the project's trackers, as Trackers. Bare OpenCV, the library's
-/// own defaults where it has some. None knows a cut; each first frame restarts.
+/// Other trackers for comparison, with the interface of Tracker. They use OpenCV directly, with its
+/// defaults where it has some. None of them detects cuts; the first frame restarts each.
 #pragma once
 
 #include <memory>
