@@ -22,7 +22,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A change here is one of the binary interface: it needs a new soname, as a removed symbol does.
+// A change here changes the binary interface and needs a new soname, as removing a symbol does.
 static_assert(sizeof(Vector3) == 3 * sizeof(double));
 static_assert(sizeof(Quaternion) == 4 * sizeof(double));
 static_assert(sizeof(Wrench) == 2 * sizeof(Vector3));
@@ -36,7 +36,7 @@ static_assert(static_cast<int>(DeviceState::kLost) == 3);
 static_assert(static_cast<int>(Controller::kAdaptive) == 2);
 static_assert(static_cast<int>(FeltMotion::kCamera) == 2);
 
-/// What is waited for takes milliseconds; a machine that is busy may take its time.
+/// Events that take milliseconds; the limit is generous for a busy machine.
 bool comes_true(const std::function<bool()>& what) {
   const auto until = std::chrono::steady_clock::now() + 30s;
   while (std::chrono::steady_clock::now() < until) {
@@ -66,8 +66,8 @@ TEST(Device, WhatIsPushedIsFeltUntilItIsLetGo) {
     SCOPED_TRACE(name);
     Device device(name);
     EXPECT_EQ(device.name(), name);
-    // The strings of spidar-gcc give a force of this size at the centre, where the grip is, but for
-    // what the solver gives up for even tensions: less than a hundredth.
+    // The strings of spidar-gcc can give a force of this size at the centre, except for what the
+    // solver sacrifices for even tensions: less than a hundredth.
     EXPECT_TRUE(comes_true([&] {
       EXPECT_TRUE(device.push(to_the_right(1)));
       return std::abs(device.felt().force_N.x - 1) < 0.01;

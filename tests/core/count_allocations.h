@@ -16,8 +16,8 @@ constexpr bool kCountsAllocations = true;
 #endif
 }  // namespace spidar::test
 
-// Eigen and the library's own code both end in malloc: it is what has to be counted, so the C
-// library's entry points are wrapped, which replaces operator new as well.
+// Both Eigen and the library end in malloc, so the entry points of the C library are wrapped, which
+// covers operator new as well.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 void* __libc_malloc(std::size_t size);

@@ -16,8 +16,8 @@
 
 namespace spidar::test {
 
-/// Pixels of the frame to one of the picture that points are followed in: the longer side becomes
-/// about 480 px.
+/// Frame pixels to one pixel of the picture in which points are followed; its longer side is about
+/// 480 px.
 inline double reduction(int width, int height) {
   return std::max(1.0, std::round(std::max(width, height) / 480.0));
 }
@@ -57,7 +57,7 @@ inline double dx(const Track& t) {
 inline double dy(const Track& t) {
   return static_cast<double>(t.to.y_px) - static_cast<double>(t.from.y_px);
 }
-/// What holds for whatever follows points.
+/// Properties that hold for every tracker.
 template <typename T>
 class EveryTracker : public testing::Test {};
 

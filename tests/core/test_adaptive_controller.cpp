@@ -22,7 +22,7 @@ constexpr double kFrame_s = 0.04;
 constexpr double kRounding = 1e-13;
 const double kPi = std::acos(-1.0);
 
-/// Plays a film of which each frame has the speed given, and returns the last force.
+/// Plays a film with the given speed in each frame, and returns the last force.
 double play(Adaptive& controller, double speed_px_s, double duration_s,
             double interval_s = kFrame_s) {
   double force_N = 0;
@@ -44,7 +44,8 @@ TEST(AdaptiveController, BeginsAsTheNonlinearOneBeyondTheDeadZone) {
 }
 
 TEST(AdaptiveController, ASteadySpeedComesToHalfOfTheMaximum) {
-  // To a slow film and to a fast one alike. The dead zone takes its part: (V − V₀) / V.
+  // The controller adapts to a slow film as it does to a fast one. The dead zone takes its share:
+  // (V − V₀) / V.
   for (const double speed : {20.0, 60.0, 300.0, 800.0}) {
     Adaptive controller(kMax_N, kAlpha_s_px);
     const double force = play(controller, speed, 90);
@@ -165,7 +166,7 @@ TEST(AdaptiveController, TheForceOfAMotionDoesNotDependOnTheFrameRate) {
     EXPECT_NEAR(std::log(slow.scale_px_s()), std::log(fast.scale_px_s()), scales) << second;
     EXPECT_NEAR(slow_N, fast_N, kMax_N / kPi * scales) << second;
   }
-  // Of a speed that is constant between the frames of both, there is no difference but rounding.
+  // If the speed is constant between the frames of both, only rounding differs.
   Adaptive coarse(kMax_N, kAlpha_s_px);
   Adaptive fine(kMax_N, kAlpha_s_px);
   for (const double v : {30.0, 700.0, 4.0, 90.0}) {
@@ -195,7 +196,7 @@ TEST(AdaptiveController, NewLimitsKeepTheScaleAndResetForgetsIt) {
   EXPECT_EQ(controller.scale_px_s(), scale_px_s);
   EXPECT_NEAR(controller.force_N(300), force_N(300 - Adaptive::kLeast_px_s, scale_px_s) / kMax_N,
               kRounding);
-  // Out of a decade of the new α: brought to its edge.
+  // Outside a decade of the new α: clamped to its edge.
   controller.configure({ControllerKind::kAdaptive, kMax_N, 1.0});
   EXPECT_NEAR(controller.scale_px_s(), 10, kRounding);
   controller.reset();

@@ -33,7 +33,7 @@ void add_object(TrackSource& source, std::vector<Displacement>& points, int coun
   }
 }
 
-/// Each point has one vote, at the border two, of those of a picture with `blocks`.
+/// Each point has one vote, two at the border, out of those of a picture with `blocks`.
 BackgroundVotes votes(const std::vector<Displacement>& points, int blocks = 250) {
   constexpr double kBorder_px = 32;
   BackgroundVotes votes;
@@ -74,7 +74,7 @@ TEST_P(EachRung, IsTheOneThatTheTracksNeed) {
       BackgroundEstimator estimator;
       for (int n = 0; n < 20; ++n) {
         const Background found = settle(estimator, source, truth, 1, kSigma_px, strays);
-        // From the first frame on, and never another one.
+        // From the first frame on, and without ever changing.
         ASSERT_EQ(to_string(found.model.kind), std::string(to_string(truth.kind)))
             << "seed " << seed << ", frame " << n << ", strays " << strays;
         // 160 points at least; eight parameters share 2 · 160 equations, so that a displacement has
@@ -142,7 +142,7 @@ TEST(Background, AnObjectOnAPlainBackgroundIsNotTheBackground) {
 }
 
 TEST(Background, AnObjectWithTooFewVotesForAnyBackgroundCostsNoFit) {
-  // 50 of 900: less than what a model needs wherever its votes are.
+  // 50 of 900: less than a model needs, wherever its votes are.
   TrackSource source(6);
   BackgroundEstimator estimator;
   for (int n = 0; n < 10; ++n) {

@@ -72,7 +72,7 @@ BallSettings ball(bool textured_background) {
   return settings;
 }
 
-/// Large enough for some points whose windows see nothing but the ball, in front of a texture.
+/// Large enough for some points whose windows see only the ball, in front of a texture.
 BallSettings large_ball() {
   BallSettings settings = ball(true);
   settings.radius_px = 60;
@@ -81,8 +81,8 @@ BallSettings large_ball() {
   return settings;
 }
 
-/// Texture all over, still and moving points at once: what belongs to the ball is told by the
-/// place.
+/// Texture everywhere, with still and moving points at once: points on the ball are recognised by
+/// their place.
 struct BallTracks {
   int on_ball = 0;     ///< windows wholly on the ball, in both frames
   int background = 0;  ///< windows wholly beside it, in both frames
@@ -134,7 +134,7 @@ TEST(BouncingBall, TheSceneObeysItsPhysics) {
   EXPECT_NEAR(scene.velocity_px_s(top_s).y(), 0, 1e-9);
   EXPECT_NEAR(s.floor_px - s.radius_px - scene.position_px(top_s).y(),
               s.restitution * s.restitution * drop_px, 1e-9);
-  // The velocity turns round at the impact, and is the slope of the position elsewhere.
+  // The velocity reverses at the impact, and elsewhere is the slope of the position.
   const double before = scene.velocity_px_s(impacts[1] - 1e-9).y();
   EXPECT_NEAR(scene.velocity_px_s(impacts[1]).y(), -s.restitution * before, 1e-5);
   const double h = 1e-6;
@@ -287,7 +287,7 @@ TEST(BouncingBall, TheMeanIsBiasedByTheShareOfBackgroundPoints) {
     const BallTracks sorted = sort_tracks(frame.tracks, scene, n);
     const double share = static_cast<double>(sorted.on_ball) / sorted.all();
     const double edge_share = static_cast<double>(sorted.at_edge) / sorted.all();
-    // A point at the edge goes with the ball, stays, or lies between.
+    // A point at the edge follows the ball, stays, or does something in between.
     const Eigen::Vector2d expected = (share + edge_share / 2) * v;
     const double tolerance_px_s = edge_share / 2 * v.norm() + kVelocity_px_s;
     EXPECT_LT((motion.velocity_px_s - expected).norm(), tolerance_px_s)

@@ -17,8 +17,8 @@ using Shows = Cadence::Picture;
 
 constexpr double kSpeed_px_s = 100;
 
-/// Shows pictures taken `picture_Hz` times a second in frames; the intervals of those that did not
-/// wait, ms.
+/// Shows pictures taken `picture_Hz` times a second in frames, and returns the intervals of those
+/// that did not wait, ms.
 std::vector<double> intervals_ms(Cadence& cadence, double picture_Hz, double frame_Hz, int frames) {
   std::vector<double> found;
   cadence.cut(0);
@@ -30,7 +30,7 @@ std::vector<double> intervals_ms(Cadence& cadence, double picture_Hz, double fra
     if (!step.waits && picture != before) {
       const double interval_s = 1e-9 * static_cast<double>(step.interval_ns);
       found.push_back(1e3 * interval_s);
-      // The picture moves by as much each time.
+      // The picture moves equally far each time.
       cadence.correction(kSpeed_px_s / picture_Hz / interval_s);
     }
     before = picture;
@@ -86,7 +86,7 @@ TEST(Cadence, AFrameThatWasLostIsToldFromOneThatWasRepeated) {
       const double moved_px = kSpeed_px_s * 1e-9 * kFrame_ns * (after && lost ? 2 : 1);
       const double speed_px_s = moved_px / (1e-9 * static_cast<double>(step.interval_ns));
       const double felt_px_s = speed_px_s * cadence.correction(speed_px_s);
-      // Until four pictures have been seen nothing is known: the first comes after that.
+      // Nothing is known until four pictures have been seen, so the first result comes after that.
       EXPECT_NEAR(felt_px_s, kSpeed_px_s, 1e-6) << n;
     }
   }

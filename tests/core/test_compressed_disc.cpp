@@ -44,7 +44,8 @@ Block cosines() {
   return c;
 }
 
-/// What is left of a picture, whose sides are multiples of 8 px. The largest change, grey levels.
+/// Replaces a picture, whose sides are multiples of 8 px, by its compressed version. Returns the
+/// largest change, grey levels.
 int compress(int quality, Picture& picture) {
   int largest = 0;
   static const Block transform = cosines();
@@ -75,7 +76,7 @@ int compress(int quality, Picture& picture) {
 constexpr double kRadius_px = 20;
 constexpr double kRim_1_px = 110;  ///< grey levels a pixel, at its edge
 
-/// As videotestsrc's ball goes about in 320 × 240 px.
+/// Moves approximately like videotestsrc's ball in 320 × 240 px.
 Eigen::Vector2d place(int frame) {
   return {160 + 140 * std::sin(2 * M_PI * frame / 200),
           120 + 100 * std::sin(2 * M_PI * frame / 200 * M_SQRT2)};

@@ -23,7 +23,7 @@ using test::Picture;
 using test::Scene;
 using test::Texture;
 
-/// An object is felt from the second pair of frames on in which it moves.
+/// An object is felt from the second pair of frames in which it moves.
 constexpr int kFelt = 3;
 
 std::vector<FrameAnalysis> analyze(const Scene& scene, int frames,
@@ -43,7 +43,7 @@ Vector2d moved_px(const FrameAnalysis& frame) {
   return frame.motion.velocity_px_s * test::kSceneFrame_s;
 }
 
-/// Right as the benchmark of real films has it: within 30 degrees and a factor of 2.
+/// Right as in the benchmark of real films: within 30 degrees and a factor of 2.
 void expect_right(const FrameAnalysis& frame, const Vector2d& true_px, int n) {
   const Vector2d found_px = moved_px(frame);
   ASSERT_GT(found_px.norm(), 0.5 * true_px.norm()) << "frame " << n;
@@ -90,7 +90,7 @@ TEST(FilmCauses, AJointedBodyMovesAsItsTrunk) {
 }
 
 TEST(FilmCauses, ABodyThatSlowsDownIsFollowed) {
-  // Before a camera that pans it slows down to what would be too slow to be noticed first.
+  // In front of a panning camera it slows down to a speed that would be too low for a new object.
   const auto trunk_px = [](int n) { return n < 10 ? 3.0 * n : 30 + 0.45 * (n - 10); };
   const Vector2d pan_px(-2, 0);
   expect_right(
@@ -104,7 +104,7 @@ TEST(FilmCauses, ABodyThatSlowsDownIsFollowed) {
       24, [&](int n) { return Vector2d(trunk_px(n) - trunk_px(n - 1), 0); });
 }
 
-/// Everything that finds motion; whoever follows the points, the same is felt.
+/// Every way of finding motion; the result must not depend on it.
 std::vector<TrackerSettings> trackers() {
   std::vector<TrackerSettings> all(4);
   all[1].quality = TrackerQuality::kFast;
@@ -114,7 +114,8 @@ std::vector<TrackerSettings> trackers() {
 }
 
 TEST(FilmCauses, LayersOfASceneAreNoObjectsWhileTheCameraMoves) {
-  // A hedge in front of a field: the camera goes sideways, and what is near goes faster.
+  // A hedge in front of a field: the camera moves sideways, and the hedge moves faster in the
+  // picture.
   for (const TrackerSettings& tracker : trackers()) {
     const std::vector<FrameAnalysis> found = analyze(
         [](int n, const Vector2d& at) {
@@ -144,7 +145,7 @@ TEST(FilmCauses, ABushThatIsALittleNearerIsNoObject) {
 }
 
 TEST(FilmCauses, AStoneAtTheBorderIsNoObject) {
-  // All of it that shows is at the border of the picture: nobody sees where it ends.
+  // The whole visible part is at the border of the picture, so its extent is unknown.
   const std::vector<FrameAnalysis> found = analyze(
       [](int n, const Vector2d& at) {
         if (at.y() > 338 && std::abs(at.x() - 560 + 13.0 * n) < 36) {
@@ -159,7 +160,7 @@ TEST(FilmCauses, AStoneAtTheBorderIsNoObject) {
 }
 
 TEST(FilmCauses, WhatAFastCameraBringsIntoThePictureIsNoObject) {
-  // Two blocks a frame come in at the side; a wall beside the camera goes faster than the scene.
+  // Two blocks a frame enter at the side; a wall beside the camera moves faster than the scene.
   const std::vector<FrameAnalysis> found = analyze(
       [](int n, const Vector2d& at) {
         if (at.x() < 120) return foreground().at(at.x() - 66.0 * n, at.y());
@@ -210,7 +211,7 @@ TEST(FilmCauses, ASkyWithoutTextureIsNoBackground) {
 }
 
 TEST(FilmCauses, WaterThatGlittersIsNoObject) {
-  // Every patch of the water goes somewhere else in each frame, before a still shore.
+  // Every patch of the water moves differently in each frame, in front of a still shore.
   constexpr int kPatch_px = 40;
   for (int water = 0; water < 5; ++water) {
     const std::vector<FrameAnalysis> found = analyze(
@@ -267,7 +268,7 @@ TEST(FilmCauses, WhatTheCameraFollowsMovesAgainstTheBackground) {
 }
 
 TEST(FilmCauses, InFieldsOfTwoTimesTheMotionIsNotReversed) {
-  // Interlaced: even rows are half a frame earlier than odd ones.
+  // Interlaced: even rows are from half a frame earlier than odd ones.
   const std::vector<FrameAnalysis> found = analyze(
       [](int n, const Vector2d& at) {
         const double t = static_cast<int>(at.y()) % 2 == 0 ? n : n + 0.5;
@@ -283,7 +284,7 @@ TEST(FilmCauses, InFieldsOfTwoTimesTheMotionIsNotReversed) {
 }
 
 TEST(FilmCauses, ANewShotIsFeltWithinThreeFrames) {
-  // Shots of eight frames, each with a disc of its own that goes another way.
+  // Shots of eight frames, each with a disc that moves in a different direction.
   const std::vector<Texture> walls{Texture(11, 10), Texture(12, 10), Texture(13, 10)};
   const std::vector<Vector2d> ways{{6, 0}, {0, 5}, {-6, 2}};
   const std::vector<FrameAnalysis> found = analyze(

@@ -25,7 +25,7 @@ std::ostream& operator<<(std::ostream& out, const NamedTracker& kind) {
   return out << kind.name;
 }
 
-/// Another tracker is a line here.
+/// Add a tracker here.
 const std::vector<NamedTracker> kTrackers = {
     {"opencv", [] { return std::make_unique<OpenCvTracker>(); }},
     {"patch", [] { return std::make_unique<PatchTracker>(); }},
@@ -38,7 +38,7 @@ constexpr int64_t kFrame_ns = 40'000'000;
 
 class HardFrames : public testing::TestWithParam<NamedTracker> {
  protected:
-  /// Runs a film; says what is felt of it where that is anything.
+  /// Runs a film, and reports any motion that is felt.
   static void expect_nothing(const std::string& name) {
     for (const uint32_t seed : {1u, 2u}) {
       SCOPED_TRACE(name + ", picture " + std::to_string(seed));

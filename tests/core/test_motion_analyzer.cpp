@@ -145,7 +145,7 @@ TEST(MotionAnalyzer, ARunningTimeThatDoesNotRiseRestarts) {
     analyzer.analyze(scene.frame(0), 0);
     analyzer.analyze(scene.frame(1), kFrame_ns);
     expect_restarted(analyzer.analyze(scene.frame(2), kFrame_ns + step_ns));
-    // Goes on from there.
+    // Continues from there.
     const FrameAnalysis next = analyzer.analyze(scene.frame(3), 2 * kFrame_ns + step_ns);
     EXPECT_FALSE(next.restarted);
     EXPECT_EQ(next.interval_ns, kFrame_ns);
@@ -213,7 +213,7 @@ TEST(MotionAnalyzer, TheFilterBeginsAnewAfterACut) {
   for (const uint32_t seed : {8u, 77u}) {
     Scene scene(640, 360, seed == 8 ? 6 : -6, 2, seed);
     for (int n = 0; n < 4; ++n) {
-      time_ns += kFrame_ns * (1 + n % 2);  // uneven: velocities that differ
+      time_ns += kFrame_ns * (1 + n % 2);  // uneven intervals, for velocities that differ
       const FrameAnalysis frame = analyzer.analyze(scene.frame(n), time_ns);
       const FrameAnalysis plain = unfiltered.analyze(scene.frame(n), time_ns);
       EXPECT_EQ(frame.motion.velocity_px_s, plain.motion.velocity_px_s) << "what is reported";
@@ -275,7 +275,7 @@ TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
   const double relative = 2 * kMeanTolerance_px / kFrame_s / 100;
   EXPECT_NEAR(half.wrench.force_N.norm(), 0.5, 0.5 * relative);
 
-  // Another kind begins anew.
+  // Another kind starts anew.
   settings.controller.kind = ControllerKind::kNonlinear;
   analyzer.configure(settings);
   const FrameAnalysis nonlinear = analyzer.analyze(scene.frame(3), 4 * kFrame_ns);

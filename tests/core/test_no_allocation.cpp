@@ -22,8 +22,8 @@ namespace {
 
 TEST(NoAllocation, TheCounterCounts) {
   if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
-  // Volatile: a compiler that sees what is called may leave it out, or take the counter for
-  // constant.
+  // Volatile, because a compiler that knows the callee may leave out the call, or take the counter
+  // for constant.
   void* (*volatile take)(size_t) = ::operator new;
   const size_t before = allocations;
   void* something = take(800);
@@ -61,7 +61,7 @@ TEST(NoAllocation, PoseSolver) {
 constexpr int kWidth = 640;
 constexpr int kHeight = 360;
 
-/// A lively scene: the camera does something else every ten frames, discs come and go.
+/// A lively scene: the camera changes its motion every ten frames, and discs come and go.
 TEST(NoAllocation, Motion) {
   // Regions and objects come and go: after a turn of the scene all memory has been used once.
   constexpr int kTurn = 60;

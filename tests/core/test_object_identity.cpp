@@ -41,7 +41,7 @@ Disc straight(uint32_t texture, const Vector2d& from_px, const Vector2d& step_px
   return {texture, radius_px, [=](int n) { return Vector2d(from_px + n * step_px); }};
 }
 
-/// Something that stands in front of all discs, and goes with the background.
+/// An obstacle in front of all discs, which moves with the background.
 struct Post {
   double left_px;
   double right_px;
@@ -72,7 +72,7 @@ struct Film {
   }
 };
 
-/// An object that is seen in a frame.
+/// An object found in a frame.
 struct Seen {
   uint32_t id;
   Vector2d at_px;  ///< from the upper left corner
@@ -133,7 +133,7 @@ TEST(ObjectIdentity, TwoThatPassEachOtherKeepTheirs) {
   EXPECT_NE(only_id(seen, film.discs[0], kFound, 39), only_id(seen, film.discs[1], kFound, 39));
 }
 
-/// Frames in which the discs are further apart than so much, from the first pair on.
+/// Frames in which the discs are further apart than this, from the first pair on.
 struct Meeting {
   int last_before = 0;
   int first_after = 0;

@@ -47,8 +47,8 @@ struct Motion {
 };
 
 struct Tally {
-  int named = 0;         ///< runs in which the first name was right
-  int misnamed = 0;      ///< and in which it was not
+  int named = 0;         ///< runs in which the first reported string was right
+  int misnamed = 0;      ///< runs in which it was wrong
   int wrong_ticks = 0;   ///< ticks with a wrong name
   int false_alarms = 0;  ///< ticks before the fault with a name or without a pose
   int lost_ticks = 0;
@@ -57,7 +57,7 @@ struct Tally {
   double median_worst_m() const { return worst_m[worst_m.size() / 2]; }
 };
 
-/// `spoil(lengths, string, begins)` makes one string lie, before the counts are rounded.
+/// `spoil(lengths, string, begins)` falsifies one string before the counts are rounded.
 template <typename Spoil>
 Tally run(double speed, Spoil spoil) {
   const StringGeometry geometry = g6x3_geometry();

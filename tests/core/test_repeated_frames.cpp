@@ -29,11 +29,11 @@ using test::ShownFrame;
 constexpr int kPictures = 72;
 constexpr double kPicture_Hz = 24;
 constexpr int64_t kAhead_ns = 150'000'000;  // a queue of a few frames
-/// A rhythm is known by then.
+/// By then the rhythm is known.
 constexpr size_t kLearnt_ms = 700;
 const double kDegree_rad = std::acos(-1.0) / 180;
 
-/// Copies of the frames, for a film draws into the same one again.
+/// Copies of the frames, because a film reuses its memory.
 std::vector<Picture> pictures_of(test::Film film) {
   std::vector<Picture> pictures;
   for (int n = 0; n < kPictures; ++n) {
@@ -106,7 +106,7 @@ std::vector<ShownFrame> frames_of(const Variant& variant, const std::vector<Pict
   return frames;
 }
 
-/// Nobody says which frames are repeated: they are looked at.
+/// Repeated frames are not flagged, so all are analysed.
 std::vector<ShownFrame> unflagged(std::vector<ShownFrame> frames) {
   for (ShownFrame& frame : frames) frame.flagged = false;
   return frames;

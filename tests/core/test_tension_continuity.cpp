@@ -23,7 +23,7 @@ namespace {
 constexpr double kTick_s = 0.001;
 constexpr int kTicks = 1000;
 
-/// As the haptic loop poses it: the least tensions are the reference.
+/// As in the haptic loop: the minimum tensions are the reference.
 TensionProblem loop_problem(const Pose& pose, const Wrench& wrench) {
   TensionProblem p = g6x3_problem(pose, wrench);
   p.t_ref_N = p.t_min_N;
@@ -75,7 +75,7 @@ Walk walk(const PathLimits& limits, uint64_t seed) {
           << "seed " << seed << " tick " << tick << ":\n"
           << to_line(last) << '\n'
           << to_line(p);
-      // A step that stands out of the solver's error says how much room the bound leaves.
+      // A step that exceeds the solver's error shows how tight the bound is.
       if (step.largest_N > 1e3 * error_N)
         sum.nearest = std::max(sum.nearest, step.largest_N / step.piecewise_N);
       sum.active_set_changes +=
@@ -91,7 +91,7 @@ Walk walk(const PathLimits& limits, uint64_t seed) {
 
 class TensionContinuity : public testing::TestWithParam<uint64_t> {};
 
-// That the bound is reached says that it is no wider than the problem.
+// Reaching the bound shows that it is no wider than necessary.
 TEST_P(TensionContinuity, WithinReach) {
   const Walk sum = walk(PathLimits(), GetParam());
   EXPECT_GT(sum.nearest, 0.99);

@@ -124,7 +124,7 @@ TEST(WrenchTimeline, WhatComesAfterEverythingHasExpiredIsThereAtOnce) {
   WrenchTimeline timeline = two_frames();
   const int64_t expired_ns = 2 * kFrame_ns + 1;
   EXPECT_EQ(timeline.at(expired_ns).found, Found::kExpired);
-  timeline.push({2 * kFrame_ns, 0, Wrench()});  // the end of the stream, heard of late
+  timeline.push({2 * kFrame_ns, 0, Wrench()});  // the end of the stream, which became known late
   EXPECT_EQ(timeline.at(expired_ns).found, Found::kExpired);
   EXPECT_TRUE(same_bits(timeline.at(expired_ns).wrench, Wrench()));
 }
@@ -265,7 +265,7 @@ TEST(WrenchTimeline, TheCurveGoesOnWithoutACornerAfterAGap) {
   WrenchTimeline timeline;
   timeline.push(timed(0, 1));
   timeline.push(timed(kGap_ns, 3));
-  timeline.push(timed(kGap_ns + kRamp_ns, 6));  // as far again, in the same time
+  timeline.push(timed(kGap_ns + kRamp_ns, 6));  // equally far again, in the same time
   constexpr int64_t kStep_ns = 1000;
   const auto before = timeline.at(kGap_ns - kStep_ns).wrench.force_N;
   const auto after = timeline.at(kGap_ns + kStep_ns).wrench.force_N;

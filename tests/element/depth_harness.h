@@ -37,7 +37,7 @@ inline GstBuffer* depth_image(GstClockTime pts, GstClockTime duration = kFrame) 
   return make_buffer(pts, 64, static_cast<guint8>(pts / kFrame), duration);
 }
 
-/// A frame that came out, and the depth on it.
+/// An output frame, and the depth on it.
 struct Shown {
   GstClockTime pts = 0;
   bool has_depth = false;
@@ -78,7 +78,7 @@ class DepthHarness : public testing::Test {
 
   void close() {
     if (!video) return;
-    gst_element_set_state(element, GST_STATE_NULL);  // whoever waits is released
+    gst_element_set_state(element, GST_STATE_NULL);  // releases threads that wait
     if (depth_thread.joinable()) depth_thread.join();
     if (video_thread.joinable()) video_thread.join();
     gst_harness_teardown(depth);
@@ -89,7 +89,7 @@ class DepthHarness : public testing::Test {
     video = depth = nullptr;
   }
 
-  /// Pushes these from a thread of their own, then EOS when `ends`.
+  /// Pushes these in a thread of their own, followed by EOS if `ends`.
   void push_depth(std::vector<GstBuffer*> images, bool ends = true) {
     if (depth_thread.joinable()) depth_thread.join();
     depth_thread = std::thread([this, images, ends] {

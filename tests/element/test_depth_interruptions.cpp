@@ -59,7 +59,7 @@ TEST_F(DepthInterruptions, AGapOfTheDepthLetsTheVideoGoOn) {
 TEST_F(DepthInterruptions, AFlushOfTheVideoReleasesAFrameThatWaits) {
   GstFlowReturn flow = GST_FLOW_OK;
   video_thread = std::thread([&] { flow = gst_harness_push(video, video_frame(0)); });
-  // Whether it waits already or not yet: it ends.
+  // It ends whether or not it is waiting already.
   gst_harness_push_event(video, gst_event_new_flush_start());
   video_thread.join();
   EXPECT_EQ(flow, GST_FLOW_FLUSHING);

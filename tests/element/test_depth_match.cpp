@@ -25,8 +25,8 @@ struct Film {
   int frames;
 };
 
-/// The begin of the image that each frame gets, −1 where none; `images` come when they are asked
-/// for.
+/// The begin of the image that each frame gets, −1 for none; `images` arrive when they are
+/// requested.
 std::vector<gint64> match(const Film& video, const std::vector<ShownTime>& images,
                           guint64 max_age_ns = 0) {
   gst_init(nullptr, nullptr);

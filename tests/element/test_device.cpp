@@ -155,7 +155,7 @@ TEST_F(DeviceTest, TheGripPointsAtWhatIsFelt) {
     // frame: 59 mm / 2.
     hand.position_m.x() = side * 0.059 / 4;
     device().set_hand(hand);
-    // The simulated grip moves in real time: it takes as long as it takes.
+    // The simulated grip moves in real time, so the test waits for as long as necessary.
     while (side * loop().snapshot().last.pose.position_m.x() < 0.9 * 0.059 / 4) tick();
     h->engine().restart();
     for (int n = 0; n < 6; ++n, ++frames) {

@@ -43,12 +43,12 @@ class DeviceProvider : public testing::Test {
   }
   ~DeviceProvider() override {
     gst_object_unref(monitor_);
-    // Nothing was ever sent to a board.
+    // No board has ever been sent anything.
     for (const UsbPort& port : bus().port) EXPECT_EQ(port.updates, 0u);
     clear_bus();
   }
 
-  /// By what spidarmotion calls them. To be cleared by forget().
+  /// The listed devices by the value of the property `device`. Release them with forget().
   using Devices = std::map<std::string, GstDevice*>;
   Devices devices() {
     Devices found;
@@ -63,7 +63,7 @@ class DeviceProvider : public testing::Test {
     devices.clear();
   }
 
-  /// "+usb:1-1" or "-usb:1-1": the next thing that happened, however long that takes.
+  /// The next event as "+usb:1-1" or "-usb:1-1"; waits for it.
   std::string next_change() {
     GstBus* bus = gst_device_monitor_get_bus(monitor_);
     std::string change;
@@ -175,7 +175,7 @@ TEST_F(DeviceProvider, TellsWhatComesAndGoes) {
   EXPECT_NE(text_in(found["usb:1-4"], "note"), "endpoints and D/A range are inferred");
   forget(found);
   gst_device_monitor_stop(monitor_);
-  // Another time, from the beginning.
+  // A second time, from the beginning.
   ASSERT_TRUE(gst_device_monitor_start(monitor_));
   gst_device_monitor_stop(monitor_);
 }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 constexpr int kFrame_ms = 40;
-constexpr int kFrames = 30;  // more than the second that is looked back at
+constexpr int kFrames = 30;  // more than the second that is evaluated
 constexpr int kOpened_ms = 300;
 
 int64_t read_time(void* time) {
@@ -47,7 +47,7 @@ class ForceLimitTest : public testing::Test {
     }
   }
 
-  /// Running time begins, with a device that runs.
+  /// Starts running time, with a device that runs.
   void play() {
     tick(kOpened_ms);
     PlaybackClock clock;

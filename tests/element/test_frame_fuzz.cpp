@@ -50,7 +50,7 @@ GreyPicture part_of(const GreyPicture& whole, const VisiblePart& part) {
   return picture;
 }
 
-/// Three frames of one format, one of the two harnesses being given them as plain grey.
+/// Three frames of one format, which one of two harnesses gets as plain grey.
 class Film {
  public:
   Film(RandomSource& random) : random_(random) {
@@ -186,7 +186,7 @@ TEST(FrameFuzz, TheSamePictureIsMeasuredTheSameHoweverItIsStored) {
   EXPECT_GT(tracked, films) << "nothing was compared with nothing";
 }
 
-/// A frame that says of itself more than it has.
+/// A frame that claims to have more memory than it has.
 void spoil(GstBuffer* frame, RandomSource& random) {
   GstVideoMeta* meta = gst_buffer_get_video_meta(frame);
   // Of several planes in one memory only the last has nothing behind it.

@@ -40,7 +40,7 @@ class Meta : public testing::Test {
     h->set_caps(make_caps("I420", 320, 240));
   }
 
-  /// What comes out of the next frame, (3, −1) pixels further on.
+  /// The output for the next frame, which is moved by (3, −1) pixels.
   GstBuffer* push_next(GstBuffer** pushed = nullptr) {
     const int n = frames++;
     GstBuffer* frame = make_frame(h->info(), 3.0 * n, -1.0 * n);
@@ -201,7 +201,7 @@ TEST_F(Meta, IsScaledWithThePicture) {
     EXPECT_DOUBLE_EQ(b[i].to_y, a[i].to_y / 2 - 0.25);
     EXPECT_EQ(b[i].id, a[i].id);
   }
-  // Anything else that is done to a picture: unknown.
+  // Any other change of the picture is unknown.
   EXPECT_FALSE(
       meta->info->transform_func(scaled, meta, out, g_quark_from_static_string("turned"), nullptr));
   gst_buffer_unref(scaled);

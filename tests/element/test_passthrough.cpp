@@ -17,7 +17,7 @@ namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 
-/// The picture of make_frame() in memory that is watched.
+/// The picture of make_frame(), in memory that counts accesses.
 GstBuffer* make_watched_frame(const GstVideoInfo& info, double dx, MemoryUse& use) {
   GstBuffer* picture = make_frame(info, dx, 0);
   GstBuffer* frame = gst_buffer_new();
@@ -47,7 +47,7 @@ class Passthrough : public testing::TestWithParam<const char*> {
     h->set_caps(make_caps(format, 320, 240));
   }
 
-  /// Pushes the next frame and compares what comes out of it.
+  /// Pushes the next frame and compares the output with it.
   void expect_same(bool held, guint flags = 0) {
     const int n = frames_++;
     GstBuffer* frame = make_watched_frame(h->info(), 2.0 * n, use);
@@ -81,7 +81,7 @@ class Passthrough : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(Passthrough, NeitherCopiesNorWritesNorKeepsAFrame) {
-  // Luma that is read where it is, and luma that has to be made.
+  // Luma that is read in place, and luma that must be converted.
   for (const char* format : {"I420", "BGR"}) {
     SCOPED_TRACE(format);
     open(format);
@@ -165,7 +165,7 @@ class Allocation : public testing::Test {
     gst_object_unref(pool_);
   }
 
-  /// In words, what the source learns; the sink refuses to answer when it offers nothing.
+  /// The answer that the source gets, as text; without an offer the sink refuses to answer.
   std::string ask(GstElement* element, bool offers = true, bool need_pool = true) {
     GstHarness* h = gst_harness_new_with_element(element, "sink", "src");
     gst_harness_set_src_caps(h, gst_caps_ref(caps_));

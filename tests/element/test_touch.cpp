@@ -27,7 +27,7 @@ std::vector<std::string> warnings_of(const std::string& properties) {
   return h.warnings();
 }
 
-/// What the element says of them.
+/// Warnings and errors of the element about its properties.
 TouchProperties read_back(const std::string& launch) {
   ElementHarness h(launch);
   TouchProperties read;
@@ -147,7 +147,7 @@ TEST(TouchedMotion, WithoutModelsItIsThatOfTheWholePicture) {
               1e-12);
 }
 
-/// A loop that is not ticked: what was published is there to be looked at.
+/// The loop is not ticked, so that a test can inspect what was published.
 struct Reliefs {
   Reliefs() : loop(std::make_unique<HapticLoop>(profile, device)) {
     stream.connect(loop.get(), profile, {0.03, 0.03});

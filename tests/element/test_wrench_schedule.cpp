@@ -22,7 +22,7 @@ struct Schedule : testing::Test {
   void add(int64_t n) {
     schedule.add({n * kFrame, kFrame, push_right(0.001 * static_cast<double>(n % 1000))});
   }
-  /// The frame that is felt at the time of each from `first` to before `last`.
+  /// The frame that is felt at the time of each frame from `first` to before `last`.
   void expect_frames(int64_t first, int64_t last) {
     driver.play((first - 1) * kFrame);
     for (int64_t n = first; n < last; ++n) {

@@ -60,7 +60,7 @@ static void gst_watched_allocator_init(GstWatchedAllocator* allocator) {
 GstMemory* spidar::test::new_watched_memory(gsize size, MemoryUse& use) {
   GstAllocator* allocator = GST_ALLOCATOR(g_object_new(gst_watched_allocator_get_type(), nullptr));
   gst_object_ref_sink(allocator);
-  // Not to be shared: a copy of the buffer would copy the memory, too, and be seen.
+  // Not shareable: a copy of the buffer would copy the memory, and be counted.
   auto* memory = new WatchedMemory{{}, g_malloc0(size), &use};
   gst_memory_init(GST_MEMORY_CAST(memory), GST_MEMORY_FLAG_NO_SHARE, allocator, nullptr, size, 0, 0,
                   size);

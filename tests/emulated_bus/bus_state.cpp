@@ -42,7 +42,7 @@ EvdevKind evdev_named(const std::string& name) {
   return name == "pad" ? EvdevKind::kPad : EvdevKind::kNone;
 }
 
-/// Fresh pages are zeros, which is how all of BusState begins.
+/// New pages are filled with zeros, which is the initial value of all members of BusState.
 BusState* map_state() {
   const char* named = std::getenv("SPIDAR_EMULATED_BUS");
   const UsbKind kind = kind_named(named ? named : "");

@@ -16,19 +16,18 @@ namespace spidar::test {
 
 enum class UsbKind : int { kNone, kSh4, kSimple, kMouse };
 
-/// One socket of the bus and what is plugged into it. All of it may be changed at any time, by any
-/// process.
+/// One port of the bus and the device in it. Any process may change any member at any time.
 struct UsbPort {
   std::atomic<UsbKind> kind{UsbKind::kNone};
   std::atomic<int> address{0};  ///< a new one every time something is plugged in
   std::array<char, 32> serial{};
 
-  std::array<std::atomic<int>, 8> digit{};      ///< what the D/A puts out; mouse: mN, x and y
-  std::array<std::atomic<int32_t>, 8> count{};  ///< what the encoders say
+  std::array<std::atomic<int>, 8> digit{};      ///< digits of the D/A; mouse: mN, x and y
+  std::array<std::atomic<int32_t>, 8> count{};  ///< counts of the encoders
   std::atomic<uint16_t> inputs{0};              ///< bits 4–7: rotary switch
   std::atomic<uint64_t> updates{0};             ///< how often the digits were set
 
-  /// Of all transfers until it is changed. kGone is for unplug() alone.
+  /// Applied to all transfers until it is changed. kGone is reserved for unplug().
   std::atomic<LinkFault> fault{LinkFault::kNone};
   std::atomic<bool> forbidden{false};   ///< open() gives EACCES
   std::atomic<bool> has_driver{false};  ///< a kernel driver that must be detached first
@@ -43,7 +42,7 @@ struct UsbPort {
 
 constexpr size_t kPorts = 4;
 
-/// An open device file, as the processes see it that have a descriptor of it: it is a socket, known
+/// An open device file, shared by all processes that have a descriptor of it: a socket, identified
 /// by its inode.
 struct SharedFile {
   std::atomic<uint64_t> inode{0};
@@ -58,23 +57,24 @@ struct BusState {
   std::atomic<int> last_address{0};
   std::array<UsbPort, kPorts> port;
   std::atomic<size_t> files_opened{0};
-  std::array<SharedFile, kSharedFiles> file;  ///< the newest ones
+  std::array<SharedFile, kSharedFiles> file;  ///< the latest ones
   std::array<EvdevPort, kEvdevPorts> evdev;
 };
 
-/// The bus of this process: shared with the processes that have the same $SPIDAR_EMULATED_BUS, a
-/// file that is made when it is not there; without, its own. When that is "sh4", "simple" or
-/// "mouse", its own with such a board; "stick", "wheel" or "pad", with such an input device.
+/// The bus of this process. If $SPIDAR_EMULATED_BUS is the name of a file, which is created if
+/// necessary, the bus is shared with all processes that have the same value. If it is "sh4",
+/// "simple" or "mouse", the process has a bus of its own with such a board; "stick", "wheel" or
+/// "pad", with such an input device. Without it, the process has an empty bus of its own.
 BUS_API BusState& bus();
 
-/// The device is in the list of the bus from now on, as 1-1, 1-2, …, at rest.
+/// Adds the device to the list of the bus, as 1-1, 1-2, …, at rest.
 BUS_API UsbPort& plug(size_t port, UsbKind kind, const char* serial = "");
 
-/// Pulls it out. What is in flight fails with `errno_first` (EPROTO is common) or, when that is
-/// zero, with ESHUTDOWN; what comes later with ENODEV.
+/// Pulls the device out. Pending transfers fail with `errno_first` (EPROTO is common) or, if that
+/// is zero, with ESHUTDOWN; later ones with ENODEV.
 BUS_API void unplug(size_t port, int errno_first = 0);
 
-/// Everything pulled out and forgotten.
+/// Unplugs everything and resets the state.
 BUS_API void clear_bus();
 
 }  // namespace spidar::test

@@ -31,7 +31,7 @@
 
 namespace spidar::test {
 
-/// What is called, with access to all of a port.
+/// An open call, with access to all of a port.
 struct EvdevCalls {
   EvdevPort& port;
 
@@ -81,7 +81,7 @@ std::string sysfs_folder(size_t number) {
   return folder() + "/sys/event" + std::to_string(number);
 }
 
-/// Without write(), which asks for the bus, which may be about to be made.
+/// Avoids write(), which would use the bus while it is being created.
 void put_file(const std::string& path, const std::string& text) {
   const int file = real_open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0 || syscall(SYS_write, file, text.data(), text.size()) < 0) std::abort();
@@ -111,7 +111,7 @@ void unplug_from(BusState& state, size_t number) {
   std::filesystem::remove_all(sysfs_folder(number), error);
 }
 
-/// The port whose file that is; nullptr and `is_evdev` when it was unplugged.
+/// The port of that file; nullptr and `is_evdev` when it was unplugged.
 EvdevPort* port_of(int file, bool& is_evdev) {
   struct stat status {};
   is_evdev = false;
@@ -244,7 +244,7 @@ bool evdev_ioctl(int file, unsigned long request, void* argument, int& result) {
 
 bool evdev_write(int file, const void* bytes, size_t length, long& result) {
   const auto event = ff::decode_event({static_cast<const uint8_t*>(bytes), length});
-  if (!event) return false;  // far the most of what programs write
+  if (!event) return false;  // by far the most frequent case
   bool is_evdev = false;
   EvdevPort* port = port_of(file, is_evdev);
   if (!is_evdev) return false;

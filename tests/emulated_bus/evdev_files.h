@@ -13,16 +13,16 @@ namespace spidar::test {
 
 struct BusState;
 
-/// plug_evdev() while the bus is being made.
+/// plug_evdev() for use while the bus is being created.
 EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind);
 
-/// Where `path` of /dev/input or /sys/class/input lies; other paths are left as they are.
+/// Location of `path` of /dev/input or /sys/class/input; other paths are returned unchanged.
 std::string evdev_path(const char* path);
 
-/// As ioctl(2), of a file of an input device; false when it is not one.
+/// Like ioctl(2), for a file of an input device; false when it is not one.
 bool evdev_ioctl(int file, unsigned long request, void* argument, int& result);
 
-/// As write(2), of a file of an input device; false when it is not one.
+/// Like write(2), for a file of an input device; false when it is not one.
 bool evdev_write(int file, const void* bytes, size_t length, long& result);
 
 }  // namespace spidar::test

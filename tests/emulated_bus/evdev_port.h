@@ -20,8 +20,8 @@ enum class EvdevKind : int {
   kKeyboard,  ///< neither
 };
 
-/// An input device, as /dev/input/eventN of its number. Every field may be changed at any time, by
-/// any process.
+/// An input device, as /dev/input/eventN with its number. Any process may change any member at any
+/// time.
 struct EvdevPort {
   struct Effect {
     std::atomic<bool> used{false};
@@ -32,19 +32,19 @@ struct EvdevPort {
   };
 
   std::atomic<EvdevKind> kind{EvdevKind::kNone};
-  std::atomic<uint64_t> inode{0};  ///< of its file: another one every time it is plugged in
-  /// Where the stick is, −1000 … 1000: to the right, and to the user, as ABS_X and ABS_Y are.
+  std::atomic<uint64_t> inode{0};  ///< of its file; a new one each time it is plugged in
+  /// Position of the stick, −1000 … 1000: to the right, and towards the user, like ABS_X and ABS_Y.
   std::array<std::atomic<int>, 2> axis{};
   std::array<Effect, 4> effect{};
   std::atomic<int> gain{0};
   std::atomic<int> autocentre{0};
 
   std::atomic<uint64_t> uploads{0};
-  std::atomic<uint64_t> unchanged{0};  ///< uploads of what the effect was already
+  std::atomic<uint64_t> unchanged{0};  ///< uploads that did not change an effect
   std::atomic<uint64_t> plays{0};
-  std::atomic<int64_t> shortest_ns{0};  ///< between two uploads, of those since it was 0
+  std::atomic<int64_t> shortest_ns{0};  ///< least time between two uploads since it was set to 0
 
-  std::atomic<int> upload_ms{0};     ///< that the driver takes for an upload
+  std::atomic<int> upload_ms{0};     ///< time that the driver takes for an upload
   std::atomic<int> upload_error{0};  ///< errno of every upload; 0: none
 
  private:
@@ -54,14 +54,14 @@ struct EvdevPort {
 
 constexpr size_t kEvdevPorts = 4;
 
-/// The device is listed and can be opened from now on, its effects and counters fresh.
+/// Lists the device so that it can be opened, with fresh effects and counters.
 BUS_API EvdevPort& plug_evdev(size_t number, EvdevKind kind);
 
-/// Open files of it say ENODEV from now on.
+/// From now on its open files return ENODEV.
 BUS_API void unplug_evdev(size_t number);
 
-/// What the effects that play add up to. As the kernel does, it erases them when no process has
-/// the device open and locked any more.
+/// Sum of the playing effects. Like the kernel, it erases them when no process has the device open
+/// and locked any more.
 struct EvdevLevels {
   int right = 0;
   int up = 0;

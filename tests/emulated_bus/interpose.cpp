@@ -41,7 +41,7 @@ int no_such_file() {
   return -1;
 }
 
-/// The plugged-in port whose number or address that is; −1 when there is none.
+/// The plugged-in port with that number or address; −1 when there is none.
 int port_with_address(int address) {
   for (size_t i = 0; i < kPorts; ++i) {
     const UsbPort& port = bus().port[i];
@@ -62,7 +62,7 @@ int open_attribute(size_t number, const char* attribute) {
   return no_such_file();
 }
 
-/// Opens `path` when it is of the emulated bus; false when it is not.
+/// Opens `path` when it belongs to the emulated bus; false when it does not.
 bool open_emulated(const char* path, int& file) {
   int number = 0, address = 0;
   std::array<char, 64> attribute{};

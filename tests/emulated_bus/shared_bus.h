@@ -11,7 +11,7 @@
 
 namespace spidar::test {
 
-/// To be made before anything looks at the bus.
+/// Create it before anything uses the bus.
 class SharedBus {
  public:
   SharedBus() {

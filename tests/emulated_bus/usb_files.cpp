@@ -48,11 +48,11 @@ struct UsbFile {
   PortMotors motors;
   std::unique_ptr<EmulatedBoard> board;
   int file = -1;
-  int other_end = -1;  // −1: another process has it
+  int other_end = -1;  // −1: held by another process
   int claim_lock = -1;
   bool full = false;
   bool connected = true;
-  std::deque<usbdevfs_urb*> waiting;  // IN, for the board to say something
+  std::deque<usbdevfs_urb*> waiting;  // IN transfers that wait for a reply of the board
   std::deque<usbdevfs_urb*> done;
 };
 
@@ -73,13 +73,13 @@ UsbFile* find(int file) {
                                                          : nullptr;
 }
 
-/// 0 when it is no socket.
+/// 0 when it is not a socket.
 uint64_t inode_of(int file) {
   struct stat status {};
   return fstat(file, &status) == 0 && S_ISSOCK(status.st_mode) ? status.st_ino : 0;
 }
 
-/// Room for one more of the bus, in place of the oldest.
+/// A place for one more file of the bus, replacing the oldest.
 SharedFile& share(int file, size_t port) {
   SharedFile& shared = bus().file[bus().files_opened++ % kSharedFiles];
   shared.claimed = false;
@@ -89,7 +89,7 @@ SharedFile& share(int file, size_t port) {
   return shared;
 }
 
-/// A file that another process has opened and passed on to this one.
+/// A file that another process has opened and passed to this one.
 UsbFile* adopt(int file) {
   const uint64_t inode = file >= 0 && file < static_cast<int>(kMaxFiles) ? inode_of(file) : 0;
   if (inode == 0) return nullptr;
@@ -143,8 +143,7 @@ bool still_there(UsbFile& f) {
   return f.connected;
 }
 
-/// Puts the board's replies into the URBs that wait for them, with the fault that the port is set
-/// to.
+/// Puts the board's replies into the waiting URBs, with the fault that is set for the port.
 void answer(UsbFile& f) {
   while (!f.waiting.empty()) {
     const LinkFault fault = f.port.fault;
@@ -191,7 +190,7 @@ int discard(UsbFile& f, void* urb) {
   return 0;
 }
 
-/// The synchronous transfer that libusb never uses, but spidar-guardian does.
+/// The synchronous transfer, which libusb never uses but spidar-guardian does.
 int bulk(UsbFile& f, usbdevfs_bulktransfer& transfer) {
   if (!f.shared.claimed) return -ENOENT;
   if (const int status = status_of(f.port.fault)) return status;
@@ -200,7 +199,7 @@ int bulk(UsbFile& f, usbdevfs_bulktransfer& transfer) {
   return static_cast<int>(transfer.len);
 }
 
-/// 0 when it is a lock or unlock of the port for everyone who has a copy of the descriptor.
+/// 0 when it locks or unlocks the port for all holders of a copy of the descriptor.
 int lock_port(int file, size_t port, short type) {
   struct flock lock {};
   lock.l_type = type;
@@ -210,8 +209,9 @@ int lock_port(int file, size_t port, short type) {
   return fcntl(file, F_OFD_SETLK, &lock);
 }
 
-/// Between processes by a lock, within one by looking. What is passed on is claimed already; once
-/// its first owner has died, others could claim it, too, which usbfs would not let them.
+/// Excludes other processes by a lock, and this one by a check. A file that is passed on is claimed
+/// already. After the death of its first owner others could claim it as well, which usbfs would not
+/// allow.
 int claim(UsbFile& f, bool detach) {
   if (f.shared.claimed) return 0;
   if (f.port.has_driver && !detach) return -EBUSY;
@@ -222,7 +222,7 @@ int claim(UsbFile& f, bool detach) {
       return -EBUSY;
   }
   if (lock_file() >= 0) {
-    // A lock of its own: what a descriptor's copies have in common ends with the last of them.
+    // A separate lock, because a lock shared by copies of a descriptor ends with the last of them.
     const std::string path = "/proc/self/fd/" + std::to_string(lock_file());
     const int own = real_open(path.c_str(), O_RDWR | O_CLOEXEC, 0);
     if (own < 0 || lock_port(own, f.port_number, F_WRLCK) != 0) {
@@ -305,7 +305,7 @@ int open_usb_file(size_t port) {
 }
 
 bool usb_ioctl(int file, unsigned long request, void* argument, int& result) {
-  // 'U' is usbfs'; other files are asked other things, very often.
+  // 'U' marks requests of usbfs; others are far more frequent.
   if (_IOC_TYPE(request) != 'U') return false;
   const std::lock_guard<std::mutex> lock(mutex());
   UsbFile* f = find(file);

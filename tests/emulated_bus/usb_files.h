@@ -11,20 +11,20 @@ namespace spidar::test {
 int real_open(const char* path, int flags, unsigned mode);
 
 /// Claims are locks in this file, so that they end with the last process that has inherited the
-/// device file; −1: claims are of this process only.
+/// device file; −1: claims hold within this process only.
 void set_lock_file(int file);
 
-/// A descriptor for the device in that port, or −1 and errno.
+/// A descriptor of the device in that port, or −1 and errno.
 int open_usb_file(size_t port);
 
-/// As ioctl(2), for a descriptor of open_usb_file(), also one that another process has passed on;
+/// Like ioctl(2), for a descriptor of open_usb_file(), also one that another process has passed on;
 /// false when it is not one.
 bool usb_ioctl(int file, unsigned long request, void* argument, int& result);
 
-/// Before close(2) of any descriptor.
+/// Call before close(2) of any descriptor.
 void forget_usb_file(int file);
 
-/// All open files of the port find their device gone.
+/// Makes all open files of the port report that the device is gone.
 void disconnect_files(size_t port, int errno_first);
 
 }  // namespace spidar::test

@@ -33,7 +33,7 @@ bool mount_at(const char* type, const char* path) {
   return done(mount(type, path, type, 0, nullptr), path);
 }
 
-/// In the order in which they need each other.
+/// In the order of their dependencies.
 bool load_modules() {
   for (const std::string name :
        {"usb-common", "usbcore", "usbip-core", "vhci-hcd", "evdev", "uinput"}) {
@@ -66,15 +66,15 @@ spidar::MotorVolts all_strings() {
   return volts;
 }
 
-/// A joystick, which takes the sum of all strings, feels one alone.
+/// A joystick takes the sum of all strings, so one alone gives a force.
 spidar::MotorVolts one_string() {
   spidar::MotorVolts volts;
   volts.volt[0] = 1;
   return volts;
 }
 
-/// Pulls until the board is lost; ends by a signal only. `forks`: a child that does nothing has
-/// copies of all files for the longer time.
+/// Pulls until the board is lost; only a signal ends it. With `forks`, an idle child holds copies
+/// of all files for the rest of the time.
 [[noreturn]] void pull(const char* spec, const char* profile, const spidar::MotorVolts& volts,
                        bool forks) {
   constexpr unsigned kLonger_s = 3;

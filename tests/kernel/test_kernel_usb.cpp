@@ -32,7 +32,7 @@ namespace {
 constexpr const char* kProfile = "spidar-g6x3-v2-r";
 constexpr int kExchanges = 5000;
 
-/// The test's own time limit is the only one.
+/// Waits without a limit; the test has one.
 void wait_for(const std::function<bool()>& happened) {
   while (!happened()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
@@ -99,7 +99,7 @@ TEST_F(KernelUsb, ThousandsOfExchangesCarryVoltsAndCounts) {
   EXPECT_TRUE(bench.all_zero());
 }
 
-/// A session that plays; forces are those of a film that stands still.
+/// A session that plays the constant force of a film.
 class KernelSession : public KernelUsb {
  protected:
   /// From now on, for ever.
@@ -160,7 +160,7 @@ TEST_F(KernelSession, BoardPulledOutInMidTransferIsTakenBack) {
   }
 }
 
-/// All guardians; there is one.
+/// All guardians, of which there is one.
 void signal_guardian(int signal) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     std::string name;
@@ -169,10 +169,10 @@ void signal_guardian(int signal) {
   }
 }
 
-/// A process that pulls, and what happens to it.
+/// A process that pulls, to which something happens.
 class KernelGuardian : public KernelUsb {
  protected:
-  /// Three times: the motors are at zero in time after `happens` to a victim.
+  /// Three times: the motors are at zero in time after `happens` was applied to a victim.
   void expect_zeros_after(const char* what, const std::string& how,
                           const std::function<void(ChildProcess&)>& happens) {
     // Of the machine's own time, which is counted in instructions: kSilence_ms, and as much again

@@ -25,9 +25,9 @@ class UinputDevice {
     std::atomic<int> rumble{0};
   };
 
-  /// Plugged in when it returns. Throws std::runtime_error.
+  /// Plugged in when the constructor returns. Throws std::runtime_error.
   explicit UinputDevice(UinputKind kind, const std::string& name = "uinput device");
-  /// Pulled out.
+  /// Pulls it out.
   ~UinputDevice();
   UinputDevice(const UinputDevice&) = delete;
   UinputDevice& operator=(const UinputDevice&) = delete;
@@ -35,7 +35,7 @@ class UinputDevice {
   /// −1000 … 1000: to the right, and to the user.
   void move(int x, int y);
 
-  /// What the effects that play add up to.
+  /// Sum of the playing effects.
   int right() const;
   int up() const;
   int rumble() const;

@@ -32,7 +32,7 @@ bool read_all(int socket, void* bytes, size_t size) {
   return size == 0 || recv(socket, bytes, size, MSG_WAITALL) == static_cast<ssize_t>(size);
 }
 
-/// For a host controller that the kernel is still taking the last board away from.
+/// Waits while the kernel is still detaching the previous board from the host controller.
 void attach(int socket) {
   // Port 0, a device number that only messages show, 3: high speed.
   const std::string line = "0 " + std::to_string(socket) + " 65538 3";
@@ -91,7 +91,7 @@ void UsbipBoard::serve(int socket) {
   shutdown(socket, SHUT_RDWR);
 }
 
-/// False: pull the board out.
+/// Returns false to pull the board out.
 bool UsbipBoard::take(const UsbipRequest& request, const std::vector<uint8_t>& data) {
   if (request.endpoint == 0) return control(request);
   if (request.in && request.endpoint == kIn) {
@@ -104,7 +104,7 @@ bool UsbipBoard::take(const UsbipRequest& request, const std::vector<uint8_t>& d
   return reply(UsbipCommand::kSubmitReply, request.sequence, 0, data.size()) && answer();
 }
 
-/// What the board says into the requests that wait.
+/// Copies the board's replies into the waiting requests.
 bool UsbipBoard::answer() {
   std::array<uint8_t, kMaxLength> bytes{};
   while (!waiting_.empty()) {

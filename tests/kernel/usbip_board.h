@@ -17,23 +17,23 @@ namespace spidar::test {
 /// An SH4 board behind the kernel's vhci-hcd, which gets its packets through a socket.
 class UsbipBoard {
  public:
-  /// Not plugged in. `motors` outlives it.
+  /// Initially not plugged in. `motors` must outlive it.
   UsbipBoard(EmulatedMotors& motors, std::string serial);
   ~UsbipBoard();
   UsbipBoard(const UsbipBoard&) = delete;
   UsbipBoard& operator=(const UsbipBoard&) = delete;
 
-  /// Into the first port of the virtual host controller. Returns when the kernel has taken it,
-  /// before it has read the descriptors. Throws std::system_error.
+  /// Plugs it into the first port of the virtual host controller. Returns when the kernel has
+  /// accepted it, before it has read the descriptors. Throws std::system_error.
   void plug();
 
   /// Pulls it out at once; nothing when it is not plugged in.
   void unplug();
 
-  /// Pulls it out when the host waits for a reply the next time, which it never gets.
+  /// Pulls it out the next time the host waits for a reply, which never comes.
   void unplug_in_transfer() { unplug_in_transfer_ = true; }
 
-  /// Requests that were waiting for a reply when the board was pulled out last.
+  /// Requests that were waiting for a reply when the board was last pulled out.
   size_t abandoned() const { return abandoned_; }
 
  private:

@@ -13,21 +13,21 @@
 
 namespace spidar::test {
 
-/// How a pipeline ended, and what it said on the way.
+/// How a pipeline ended, and its messages.
 struct Outcome {
   bool eos = false;
   std::string error;
   std::vector<std::string> warnings;
-  std::string clock;  ///< type of the one that was played by last
+  std::string clock;  ///< type of the last clock
   int motions = 0;
   double largest_force_N = 0;
 };
 
-/// Adds what a message says.
+/// Records a message.
 void take(Outcome& outcome, GstMessage* message);
 
-/// Records every tick of each spidarmotion and spidarsink in `bin`, also of those to come, and
-/// looks at them when it goes: the pipeline has to be in NULL by then.
+/// Records every tick of each spidarmotion and spidarsink in `bin`, including ones added later, and
+/// checks them when it is destroyed; the pipeline must be in NULL by then.
 class Traces {
  public:
   explicit Traces(GstElement* bin);
@@ -44,10 +44,11 @@ class Traces {
   std::vector<std::string> paths_;
 };
 
-/// Plays to the end, or until `frames` were analysed where that is not 0. Takes the pipeline.
+/// Plays to the end or, if `frames` is not 0, until that many frames were analysed. Takes ownership
+/// of the pipeline.
 Outcome run_to_end(GstElement* pipeline, int frames = 0);
 
-/// The same of a launch line.
+/// The same for a launch line.
 Outcome launch(const std::string& line, int frames = 0);
 
 }  // namespace spidar::test

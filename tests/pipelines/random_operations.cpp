@@ -17,7 +17,7 @@ GstClockTime position(RandomSource& random) {
   return random.below(kLength);
 }
 
-/// Flushing, of this length at most. A player that is not up refuses it.
+/// Flushing seek of at most this length. A player that is not running refuses it.
 void jump(TormentedPlayer& player, RandomSource& random, double rate, int flags,
           GstClockTime length) {
   const GstClockTime start = position(random);
@@ -33,8 +33,8 @@ void append(TormentedPlayer& player, RandomSource& random, int flags) {
   player.seek(1, flags, start, start + random.below(GST_SECOND));
 }
 
-/// What a pipeline tells the elements when it changes the rate without a seek. The sink is not
-/// asked: it wants a segment first, and criticises where there is none.
+/// Sends the event with which a pipeline changes the rate without a seek to the elements. The sink
+/// is left out, because it reports a critical error without a segment.
 void change_rate_instantly(TormentedPlayer& player, RandomSource& random) {
   const GstClockTime now = gst_element_get_current_running_time(player.element());
   const GstClockTime shown = GST_CLOCK_TIME_IS_VALID(now) ? now : 0;
@@ -61,7 +61,7 @@ void set_property(TormentedPlayer& player, RandomSource& random, const std::stri
   g_value_unset(&value);
 }
 
-/// The texts: they hold when the element is opened or started next.
+/// Properties that are strings; they take effect when the element is next opened or started.
 void set_texts(TormentedPlayer& player, RandomSource& random) {
   constexpr const char* kDevices[] = {"sim", "sim", "sim", "none"};
   constexpr const char* kProfiles[] = {"spidar-g", "spidar-g645", "spidar-g6x3-v1-l"};
@@ -92,7 +92,7 @@ void set_latency(TormentedPlayer& player, RandomSource& random) {
   gst_bin_recalculate_latency(GST_BIN(player.pipeline()));
 }
 
-/// As an application does when it is told that the clock is lost.
+/// As an application does when the clock is lost.
 void change_clock(TormentedPlayer& player, RandomSource& random) {
   auto* clock = static_cast<GstClock*>(g_object_new(
       GST_TYPE_SYSTEM_CLOCK, "clock-type",
@@ -117,7 +117,7 @@ void unplug(TormentedPlayer& player, ExchangeStatus fault) {
   if (SimulatedDevice* device = player.device()) device->set_fault(fault);
 }
 
-/// From another thread, which comes when it likes, while this one does something else.
+/// From another thread at an arbitrary time, while this thread does something else.
 void stop_in_the_midst(TormentedPlayer& player, RandomSource& random) {
   const std::vector<Operation> others = interruptible_operations(player);
   const std::chrono::microseconds after(random.below(4000));

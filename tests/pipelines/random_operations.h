@@ -14,17 +14,17 @@ namespace spidar::test {
 
 struct Operation {
   std::string name;
-  int weight;  ///< how often, to the others
+  int weight;  ///< relative frequency
   std::function<void(TormentedPlayer&, RandomSource&)> run;
 };
 
-/// Those that another thread may stop the player in the midst of: none of them changes the state or
+/// Operations during which another thread may stop the player: none of them changes the state or
 /// needs the device.
 std::vector<Operation> interruptible_operations(const TormentedPlayer& player);
-/// The others.
+/// All other operations.
 std::vector<Operation> other_operations();
 
-/// One of them, by weight.
+/// One of them at random, by weight.
 const Operation& draw(const std::vector<Operation>& operations, RandomSource& random);
 
 }  // namespace spidar::test

@@ -27,7 +27,7 @@ const std::string kMotion =
 const std::string kSink = "! queue ! fakesink name=sink sync=true";
 const std::string kPlayer = kBall + kMotion + kSink;
 
-/// The tick at the time of the frame that is shown now found this frame's wrench, bit for bit.
+/// The tick at the time of the shown frame must have found this frame's wrench, bit for bit.
 inline void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& tick) {
   EXPECT_EQ(pipeline.shown(), pipeline.running_time());
   const auto frame = pipeline.wrenches().find(pipeline.running_time());
@@ -39,13 +39,13 @@ inline void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& 
   EXPECT_EQ(tick.wanted.torque_Nm, frame->second.torque_Nm);
 }
 
-/// The velocity that feels like this, px/s on 480 lines: equation 15, solved for it.
+/// The velocity that gives this force, px/s in a frame of 480 lines: equation 15, solved for it.
 inline Eigen::Vector3d velocity_px_s(const Eigen::Vector3d& force_N) {
   const double speed = std::tan(std::acos(-1.0) / 2 * force_N.norm() / 3) / 0.0005;
   return speed > 0 ? Eigen::Vector3d(speed * force_N.normalized()) : Eigen::Vector3d::Zero();
 }
 
-/// Shows `count` frames, and the velocity that is felt at each.
+/// Shows `count` frames, and returns the velocity that is felt at each.
 inline std::vector<Eigen::Vector3d> play(SteppedPipeline& pipeline, int count) {
   std::vector<Eigen::Vector3d> felt_px_s;
   for (int n = 0; n < count; ++n) {
@@ -57,7 +57,7 @@ inline std::vector<Eigen::Vector3d> play(SteppedPipeline& pipeline, int count) {
   return felt_px_s;
 }
 
-/// Nothing is commanded `after` that time, exactly.
+/// Nothing at all is commanded `after` that time.
 inline void expect_rest(SteppedPipeline& pipeline, GstClockTime after) {
   EXPECT_EQ(pipeline.idle(after).commanded.stacked().norm(), 0);
 }

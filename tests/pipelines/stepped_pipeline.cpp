@@ -12,7 +12,7 @@
 namespace spidar::test {
 namespace {
 
-// Any time will do that is not zero: a base time of zero would hide a forgotten one.
+// Any time but zero: a base time of zero would hide one that is missing.
 constexpr GstClockTime kStart = 1000 * GST_SECOND;
 
 }  // namespace
@@ -184,7 +184,7 @@ void SteppedPipeline::take(GstMessage* message) {
   messages_ |= GST_MESSAGE_TYPE(message);
   if (gst_message_has_name(message, "spidar-motion")) {
     const MotionMessage motion = parse_motion_message(message);
-    // Running time begins anew with a seek, and what was before does not count any more.
+    // Running time starts again with a seek; earlier frames no longer count.
     if (!wrenches_.empty() && motion.running_time <= wrenches_.rbegin()->first) wrenches_.clear();
     wrenches_[motion.running_time] = motion.wrench;
   }

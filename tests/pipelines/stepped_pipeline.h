@@ -19,51 +19,54 @@ namespace spidar::test {
 
 class SteppedPipeline {
  public:
-  /// `launch` holds a spidarmotion named "motion" and a sink named "sink".
+  /// `launch` must contain a spidarmotion named "motion" and a sink named "sink".
   explicit SteppedPipeline(const std::string& launch);
   ~SteppedPipeline();
 
-  /// Returns when the state is reached.
+  /// Returns when the state has been reached.
   void set_state(GstState state);
-  /// To PLAYING, without waiting for the sink: it has nothing to show before the first step().
+  /// Goes to PLAYING without waiting for the sink, which has nothing to show before the first
+  /// step().
   void play_live();
-  /// Flushing, to this position of the stream.
+  /// Flushing seek to this position of the stream.
   void seek(GstClockTime position);
-  /// From `start` to `stop` of the stream at this rate. Returns when the state is reached again.
+  /// Plays from `start` to `stop` of the stream at this rate. Returns when the state has been
+  /// reached again.
   void seek(double rate, int flags, GstClockTime start, GstClockTime stop);
-  /// The sink steps over so many frames (GST_EVENT_STEP). Returns when the next one is there.
+  /// Makes the sink step over this number of frames (GST_EVENT_STEP). Returns when the next frame
+  /// has arrived.
   void step_frames(guint64 count);
-  /// A clock that shows this time takes the place of the pipeline's, which goes through PAUSED as
-  /// an application does on CLOCK_LOST.
+  /// Replaces the pipeline's clock by one that shows this time. The pipeline goes through PAUSED,
+  /// as after CLOCK_LOST.
   void replace_clock(GstClockTime start);
-  /// What the element is given for a timestamp, by number of the frame; before playing.
+  /// Timestamps for the element, by number of the frame; set them before playing.
   void retime(std::function<GstClockTime(int frame, GstClockTime pts)> pts);
 
-  /// Waits until `waiters` elements wait for the clock; the earliest of their times.
+  /// Waits until `waiters` elements wait for the clock; returns the earliest of their times.
   GstClockTime await(guint waiters = 1);
-  /// Waits like await(), moves the clock to that time, ticks
-  /// the loop once, and lets that element go on. The record of the tick.
+  /// Waits like await(), moves the clock to that time, ticks the loop once, and lets that element
+  /// continue. Returns the record of the tick.
   TickRecord step(guint waiters = 1);
-  /// Moves the clock without letting anything through, and ticks the loop every millisecond. The
-  /// record of the last tick.
+  /// Moves the clock without letting anything pass, and ticks the loop every millisecond. Returns
+  /// the record of the last tick.
   TickRecord idle(GstClockTime duration);
-  /// The pipeline's clock stands still for so long, while the loop is ticked every millisecond.
+  /// Stops the pipeline's clock for this time, and ticks the loop every millisecond.
   TickRecord stand_still(GstClockTime duration);
 
   GstClockTime now() const { return gst_clock_get_time(GST_CLOCK(clock_)); }
-  /// Of the frame that is to be shown now.
+  /// Running time of the frame that should be shown now.
   GstClockTime running_time() const;
-  /// Of the frame that the sink had at the last step(), as it came to the sink.
+  /// Running time of the frame that the sink had at the last step(), as the sink received it.
   GstClockTime shown() const { return shown_; }
 
   /// Waits for a message of this type since the last call.
   void await_message(GstMessageType type);
-  /// Waits until the element has seen so many frames.
+  /// Waits until the element has received this number of frames.
   void await_analysed(size_t frames);
-  /// Wrench of each frame since the start or the last seek, by running time, as the element told
-  /// it.
+  /// Wrench of each frame since the start or the last seek, by running time, from the element's
+  /// messages.
   const std::map<GstClockTime, Wrench>& wrenches();
-  /// Frees what wrenches() has from before this running time.
+  /// Drops entries of wrenches() before this running time.
   void forget_before(GstClockTime running_time);
 
   GstElement* element() const { return element_; }
@@ -75,7 +78,7 @@ class SteppedPipeline {
   TickRecord tick();
   void take(GstMessage* message);
 
-  /// For the haptic loop: goes on when the pipeline's clock is replaced.
+  /// Time for the haptic loop; continues when the pipeline's clock is replaced.
   static int64_t monotonic_ns(void* self);
 
   GstTestClock* clock_;

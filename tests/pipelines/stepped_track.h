@@ -20,8 +20,8 @@ namespace spidar::test {
 constexpr const char* kTrackCaps =
     "audio/x-raw,format=F32LE,layout=interleaved,rate=1000,channels=6,channel-mask=(bitmask)0x3f";
 
-/// All buffers and the end are pushed before the pipeline plays: while it does, the sink waits for
-/// the clock and for nothing else.
+/// All buffers and EOS are pushed before the pipeline plays, so that the sink only waits for the
+/// clock.
 class SteppedTrack {
  public:
   explicit SteppedTrack(const std::string& properties = "", const std::string& caps = kTrackCaps);
@@ -29,7 +29,7 @@ class SteppedTrack {
   SteppedTrack(const SteppedTrack&) = delete;
   SteppedTrack& operator=(const SteppedTrack&) = delete;
 
-  /// A buffer of bytes as the caps have them.
+  /// A buffer of bytes in the format of the caps.
   template <typename Sample>
   void push(const std::vector<Sample>& samples, GstClockTime pts, int rate_Hz = 1000) {
     push_bytes(samples.data(), samples.size() * sizeof(Sample), pts,
@@ -38,17 +38,17 @@ class SteppedTrack {
   void push_bytes(const void* bytes, size_t size, GstClockTime pts, GstClockTime duration);
   void end() { stream_.push_back(GST_MINI_OBJECT_CAST(gst_event_new_eos())); }
 
-  /// To PAUSED, and sends what was pushed on its way.
+  /// Goes to PAUSED and sends the pushed buffers.
   void send();
-  /// Sends what was pushed. Returns when the state is reached.
+  /// Sends the pushed buffers. Returns when the state has been reached.
   void set_state(GstState state);
-  /// The next segment of the same stream, whose running time begins at `base`.
+  /// The next segment of the same stream; its running time begins at `base`.
   void continue_with(GstClockTime start, GstClockTime base);
-  /// As a flushing seek begins: nothing is pushed afterwards.
+  /// The first part of a flushing seek: nothing is pushed afterwards.
   void flush();
-  /// As a flushing seek does: what comes is pushed anew.
+  /// A complete flushing seek: buffers are pushed again afterwards.
   void seek(double rate, GstClockTime start, GstClockTime stop = GST_CLOCK_TIME_NONE);
-  /// Both clocks go on by a millisecond, the sink takes what is due then, and the loop ticks.
+  /// Advances both clocks by a millisecond, lets the sink take what is due, and ticks the loop.
   TickRecord tick();
   TickRecord run(int ticks);
   /// Whether EOS was posted.

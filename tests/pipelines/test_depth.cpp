@@ -48,7 +48,7 @@ class DepthPipeline : public testing::Test {
               GST_STATE_CHANGE_FAILURE);
   }
 
-  /// Running time of the frame and of its depth, −1 where it has none.
+  /// Running time of the frame and of its depth, −1 without depth.
   static std::pair<gint64, gint64> times(GstSample* sample) {
     GstBuffer* frame = gst_sample_get_buffer(sample);
     GstSpidarDepthImage depth;
@@ -58,7 +58,8 @@ class DepthPipeline : public testing::Test {
     return {static_cast<gint64>(shown), found ? depth.running_time : -1};
   }
 
-  /// The frames up to the end, each with depth that is not older than `period_ns`; how many.
+  /// Checks the frames up to the end, each with depth that is not older than `period_ns`; returns
+  /// their number.
   int play_to_end(gint64 period_ns) {
     int frames = 0;
     while (GstSample* sample = gst_app_sink_pull_sample(GST_APP_SINK(sink))) {

@@ -23,7 +23,7 @@
 namespace spidar::test {
 namespace {
 
-/// Waits for as long as it takes; the test's own time limit is the only one.
+/// Waits without a limit; the test has one.
 template <typename Condition>
 void wait_for(const Condition& condition) {
   while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -45,7 +45,7 @@ Outcome run(const std::string& command) {
   return outcome;
 }
 
-/// The columns of a haptic trace that are looked at here.
+/// The columns of a haptic trace that are evaluated here.
 struct Tick {
   int64_t monotonic_ns = 0;
   double force_N = 0;
@@ -112,7 +112,7 @@ class Feel : public testing::Test {
 
   std::string trace() const { return (folder->path / "trace.csv").string(); }
 
-  /// Before the player: the SH4 board, and a trace.
+  /// Sets up the SH4 board and a trace, before the player starts.
   std::vector<std::string> felt() const {
     return {SPIDAR_FEEL, "device=usb", "motion=mean", "haptic-trace=" + trace(), "--"};
   }
@@ -294,7 +294,7 @@ TEST_F(Feel, WrongUsageIsNamed) {
 
 #ifdef EMULATED_BUS_LIBRARY
 
-/// Programs that are not built here see the bus by this.
+/// Programs that are not built here see the bus through this library.
 const std::vector<std::string> kOnTheBus{"LD_PRELOAD=" EMULATED_BUS_LIBRARY};
 
 TEST_F(Feel, GstPlayIsFeltAndAtRestHoweverItEnds) {

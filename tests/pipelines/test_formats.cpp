@@ -17,7 +17,7 @@ const std::string kFilm = "videotestsrc pattern=ball num-buffers=" + std::to_str
                           " ! video/x-raw,format=I420,width=320,height=240,framerate=25/1,"
                           "colorimetry=(string)2:4:16:4 "
                           "! videoconvert ! video/x-raw,";
-/// So that little of the difference is that of the coding.
+/// So that hardly any of the difference is due to coding.
 const std::string kCoded =
     " ! vp9enc end-usage=cq cq-level=4 min-quantizer=0 max-quantizer=8 "
     "cpu-used=8 deadline=1 ! decodebin ";

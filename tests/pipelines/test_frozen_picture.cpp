@@ -11,7 +11,7 @@
 namespace spidar::test {
 namespace {
 
-/// Held for 100 ms, and rest 40 ms later; ten more until the clock has been read again.
+/// Held for 100 ms, at rest 40 ms later, and ten more until the clock has been read again.
 constexpr GstClockTime kRest = 150 * GST_MSECOND;
 
 /// Frames, and as many ticks: readings enough of the clock for a line that is followed when a few

@@ -15,7 +15,7 @@ namespace {
 
 constexpr GstClockTime kMinute = 60 * GST_SECOND;
 
-/// Frames from here on are in time, and felt.
+/// Checks that frames from here on are in time, and felt.
 void expect_motion(SteppedPipeline& pipeline, int frames) {
   for (const Eigen::Vector3d& felt_px_s : play(pipeline, frames)) {
     EXPECT_GT(felt_px_s.norm(), kMoves_px_s);
@@ -59,8 +59,8 @@ TEST(Interruptions, PausedBeforeTheFirstFrame) {
   expect_motion(pipeline, 9);
 }
 
-/// A sink that has stepped over frames shows later ones earlier: the force is that of the frame
-/// shown all the same.
+/// After a sink has stepped over frames, it shows later ones earlier: the force is still that of
+/// the frame that is shown.
 void expect_motion_of_what_is_shown(SteppedPipeline& pipeline, int frames) {
   for (int n = 0; n < frames; ++n) {
     const TickRecord tick = pipeline.step();

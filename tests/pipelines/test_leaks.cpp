@@ -12,7 +12,7 @@ namespace spidar::test {
 
 namespace {
 
-/// What the tracer says when GStreamer ends: objects that are still alive.
+/// Collects the tracer's report when GStreamer is deinitialised: objects that are still alive.
 std::vector<std::string> leaks;
 
 void log_leak(GstDebugCategory*, GstDebugLevel, const gchar*, const gchar*, gint, GObject*,
@@ -21,7 +21,7 @@ void log_leak(GstDebugCategory*, GstDebugLevel, const gchar*, const gchar*, gint
   if (text.find("object-alive") != std::string::npos) leaks.push_back(text);
 }
 
-/// Up, down and up again, to the end of the stream, and away.
+/// Starts, stops and starts again, plays to the end of the stream, and releases the pipeline.
 void play(const std::string& line) {
   GError* error = nullptr;
   GstElement* pipeline = gst_parse_launch(line.c_str(), &error);

@@ -25,7 +25,7 @@ constexpr int kHeight = 120;
 /// Grey level, 0 … 255, of pixel (x, y) in frame n.
 using Picture = std::function<double(int n, int x, int y)>;
 
-/// What a user begins with, and the paper's.
+/// The defaults, and the settings of the paper.
 const std::vector<std::string> kSettings{"! spidarmotion name=motion ", kMotion};
 
 /// Plays a film of `frames` at 25 frames/s. The wrench that is wanted at each frame.
@@ -160,7 +160,7 @@ TEST(Pictures, AnyFrameRate) {
   }
 }
 
-/// As on the screen: what was to the right goes down, forces with y up.
+/// As on the screen: motion to the right becomes downward motion; y of forces points up.
 Eigen::Vector3d turned_clockwise(const Eigen::Vector3d& v) {
   return {v.y(), -v.x(), v.z()};
 }
@@ -183,7 +183,7 @@ TEST(Pictures, TurnedByAnElementBeforeOrAfter) {
   const std::string tag = "! taginject tags=image-orientation=rotate-90 ";
   expect_turned(ball(25) + "! videoflip video-direction=90r " + kMotion + kSink, true);
   expect_turned(ball(25) + tag + "! videoflip video-direction=auto " + kMotion + kSink, true);
-  // Of what comes later the element does not know.
+  // The element does not know what happens after it.
   expect_turned(ball(25) + tag + kMotion + kSink, false);
   expect_turned(ball(25) + kMotion + "! videoflip video-direction=90r " + kSink, false);
 }

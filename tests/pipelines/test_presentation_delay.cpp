@@ -13,7 +13,7 @@ namespace {
 
 constexpr GstClockTime kDelay = 100 * GST_MSECOND;
 
-/// What is shown `delay` after its running time is felt then.
+/// A frame that is shown `delay` after its running time is felt at that time.
 void expect_in_time(SteppedPipeline& pipeline, int frames, GstClockTime delay, guint waiters = 1) {
   int felt = 0;
   for (int n = 0; n < frames;) {

@@ -31,7 +31,7 @@ void set_defaults(GstElement* element) {
   g_object_set(element, "device", "sim", "profile", "spidar-g", "trace", nullptr, nullptr);
 }
 
-/// All is well again, and it is felt. Waits for that as long as the test may run.
+/// Everything works again, and the force is felt. Waits for that without a limit; the test has one.
 void expect_to_play(TormentedPlayer& player) {
   player.stop();
   player.disturb(Upstream::kNothing);
@@ -64,12 +64,12 @@ TEST(RandomOperations, DoNoHarm) {
   for (uint64_t n = 0; n < count && !testing::Test::HasFailure(); ++n) {
     const Operation& operation = draw(operations, random);
     SCOPED_TRACE(replay + ", operation " + std::to_string(n) + ": " + operation.name);
-    // Before it is done: the last line is the one to look at when the program does not survive it.
+    // Printed before the operation: if the program crashes, the last line names the cause.
     std::fprintf(stderr, "%s %zu %s\n", replay.c_str(), static_cast<size_t>(n),
                  operation.name.c_str());
     operation.run(player, random);
     player.drain_bus();
-    // Mostly too short for anything to settle; now and then long enough for it to be felt.
+    // Mostly too short for anything to settle; sometimes long enough for a force.
     const std::chrono::milliseconds longest(random.chance(0.04) ? 300 : 4);
     std::this_thread::sleep_for(longest * random.share());
   }

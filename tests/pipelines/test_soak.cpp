@@ -45,9 +45,9 @@ size_t resident() {
   return pages * static_cast<size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// What may be there at one time and not at another: the frames of a queue, one second of them at
-/// most and a few on their way, with their pictures, messages and wrenches; and as much again, for
-/// lists and rings that grow to hold them.
+/// Memory that may be in use at one time and not at another: the frames of a queue, at most one
+/// second of them and a few in progress, with their pictures, messages and wrenches; and the same
+/// amount again, because lists and rings grow in steps.
 constexpr size_t kInFlight = 2 * (kFrames_Hz + 4) * (160 * 120 + 4096);
 
 TEST(Soak, SteppedEveryFrameIsFeltAtItsTimeAndMemoryIsFlat) {

@@ -16,7 +16,7 @@ const std::string kScene =
     "pattern=ball ! video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 "
     "! spidarmotion name=motion ";
 
-/// The ball is felt at all: without this the other checks would compare zero with zero.
+/// Checks that the ball is felt: otherwise the other checks would compare zero with zero.
 void expect_something_felt(SteppedPipeline& pipeline) {
   double largest_N = 0;
   for (const auto& [time, wrench] : pipeline.wrenches()) {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 constexpr double kRelief_m = 0.008;
-/// The hand is never moved by more than this when a surface comes up under it.
+/// The hand is never moved by more than this when a surface rises under it.
 constexpr double kGentle_m_s = 0.05;
 
 std::string film(const std::string& source, const std::string& properties, int width = 320,
@@ -52,7 +52,7 @@ class Touched {
   }
   FeltState felt() const { return device_->felt(); }
 
-  /// Shows so many frames.
+  /// Shows this number of frames.
   void play(int frames) {
     for (int n = 0; n < frames; ++n) {
       const GstClockTime next = pipeline.await();
@@ -61,13 +61,13 @@ class Touched {
     }
     pipeline.await();
   }
-  /// So many milliseconds in which no frame is shown.
+  /// Lets this number of milliseconds pass without a new frame.
   void wait(int ticks) {
     for (int n = 0; n < ticks; ++n) see(pipeline.idle(GST_MSECOND));
   }
 
   const TickRecord& last() const { return rows_; }
-  /// Of the grip since the last call.
+  /// Largest motion of the grip since the last call.
   double fastest_m_s() { return std::exchange(fastest_m_s_, 0.0); }
   const std::string& trace() const { return trace_; }
 
@@ -219,7 +219,7 @@ TEST(Touch, ACutIsNoKick) {
   }
 }
 
-/// What ends the contact lets the hand sink in at its own speed. After that the surface rises.
+/// When the contact ends, the hand sinks in at its own speed. After that the surface rises.
 TEST(Touch, PauseSeekMuteAndOffEndIt) {
   Touched touched(film("pattern=white", "touch=luma"));
   touched.hold(0, 0, -0.004);

@@ -51,7 +51,7 @@ class TrackFidelity : public testing::Test {
     GST_ELEMENT_REGISTER(spidarextract, nullptr);
   }
 
-  /// What is felt of the film with these properties of spidarmotion.
+  /// The ticks of the film with these properties of spidarmotion.
   static Ticks play(const Film& film, const std::string& properties) {
     SteppedPipeline pipeline(film.source() + " ! spidarmotion name=motion " + properties +
                              " ! queue ! fakesink name=sink sync=true");

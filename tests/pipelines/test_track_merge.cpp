@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a player gave to the sink for sound.
+/// The data that a player sent to its audio sink.
 struct Heard {
   std::vector<guint8> bytes;
   std::string caps;

@@ -17,7 +17,7 @@
 namespace spidar::test {
 namespace {
 
-/// Waits for as long as it takes; the test's own time limit is the only one.
+/// Waits without a limit; the test has one.
 template <typename Condition>
 void wait_for(const Condition& condition) {
   while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -48,7 +48,7 @@ std::string next_warning(GstBus* bus) {
   return text;
 }
 
-/// Frames go on coming.
+/// Frames keep arriving.
 void wait_for_frames(GstBus* bus, int frames) {
   gst_bus_set_flushing(bus, TRUE);
   gst_bus_set_flushing(bus, FALSE);

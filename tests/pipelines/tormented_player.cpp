@@ -20,7 +20,7 @@ constexpr char kPipeline[] =
 
 constexpr GstClockTime kPatience = 100 * GST_MSECOND;
 
-/// Trouble that was asked for.
+/// Faults that the test has caused itself.
 bool is_expected(const std::string& from, std::string_view text) {
   if (from == "motion") return text.find("does not answer") != std::string_view::npos;
   return from == "size" || from == "source";

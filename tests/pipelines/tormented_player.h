@@ -16,7 +16,7 @@
 
 namespace spidar::test {
 
-/// What comes out of the source in place of its next frame, or with it.
+/// Sent by the source instead of its next frame, or with it.
 enum class Upstream {
   kNothing,
   kGap,           ///< a gap event of 20 ms before the frame
@@ -36,25 +36,25 @@ class TormentedPlayer {
   ~TormentedPlayer();
 
   GstElement* pipeline() const { return pipeline_; }
-  /// "source", "size" or "sink"; to be given back.
+  /// "source", "size" or "sink"; the caller must unref it.
   GstElement* part(const char* name) const { return gst_bin_get_by_name(GST_BIN(pipeline_), name); }
   GstElement* element() const { return element_; }
   MotionEngine& engine() const;
   /// Null while there is none. Not while another thread changes the state.
   SimulatedDevice* device() const;
 
-  /// To NULL, and looks at every tick since the last time.
+  /// Goes to NULL, and checks every tick since the last time.
   void stop();
   void set_state(GstState state);
   /// For a short time: a stream in trouble may never get there.
   bool reaches(GstState state) const;
   bool reaches_end_of_segment();
-  /// It may be refused.
+  /// The operation may be refused.
   void seek(double rate, int flags, GstClockTime start, GstClockTime stop);
   void set_caps(const std::string& caps);
   void disturb(Upstream what) { upstream_ = what; }
 
-  /// Fails for what is neither known trouble nor a state of the player's own.
+  /// Fails unless it is a known fault or a state that the player has entered itself.
   void drain_bus();
 
   const TickWatch& watch() const { return watch_; }

@@ -70,9 +70,9 @@ struct BoardBench {
     return std::make_unique<BoardDevice>(board(), settings);
   }
 
-  /// The encoders of strings; a mouse and a joystick take a force instead.
+  /// Strings that have encoders; a mouse and a joystick take a force instead.
   bool counts() const { return kind != Kind::kMouse && kind != Kind::kForceFeedback; }
-  /// Cycles in which it speaks to the device once.
+  /// Number of cycles in which it communicates with the device once.
   int cycles() const {
     return kind == Kind::kMouse           ? 4
            : kind == Kind::kForceFeedback ? ForceFeedbackBoard::kUpdate_ms
@@ -92,7 +92,7 @@ inline MotorVolts all_volts(double volt) {
   return volts;
 }
 
-/// Until the strings are energised; of a session without a thread.
+/// Runs a session without a thread until the strings are energised.
 inline void tick_until_running(HapticSession& session) {
   int64_t now_ns = 0;
   while (session.loop().snapshot().last.device != DeviceState::kRunning) {

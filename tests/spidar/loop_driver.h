@@ -23,7 +23,7 @@ struct LoopDriver {
                       const Profile& of = load_profile(kDefaultProfile))
       : profile(of), loop(std::make_unique<HapticLoop>(profile, device, limits)) {}
 
-  /// One tick `step_ns` after the last, in time.
+  /// One tick, `step_ns` after the last one and on time.
   TickRecord tick(int64_t step_ns = kTick_ns) {
     now_ns += step_ns;
     loop->tick(now_ns, now_ns);
@@ -42,7 +42,7 @@ struct LoopDriver {
     run(static_cast<int64_t>(HapticLoop::kEnergise_s * 1e9) + 2 * kMs);
   }
 
-  /// From now on `running_ns` and what follows is on the screen.
+  /// Shows `running_ns` now, and continues from there.
   void play(int64_t running_ns) { loop->set_playback_clock({now_ns, running_ns, 1.0, true}); }
   void pause() { loop->set_playback_clock({now_ns, 0, 1.0, false}); }
 

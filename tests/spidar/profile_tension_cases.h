@@ -11,9 +11,9 @@
 
 namespace spidar::test {
 
-/// Poses from the centre to outside the frame, turned anyhow; wrenches from none to ten times the
-/// largest tension. Bounds, reference and torque length as in HapticLoop; now and then one string
-/// is given up (its bounds coincide), or ε is lost beside WᵀS²W.
+/// Poses from the centre to outside the frame, rotated arbitrarily; wrenches from none to ten times
+/// the largest tension. Bounds, reference and torque length as in HapticLoop. In some cases one
+/// string is given up (its bounds coincide), or ε vanishes beside WᵀS²W.
 inline TensionProblem random_problem(Random& random, const Profile& profile) {
   Eigen::Vector3d frame_m = Eigen::Vector3d::Zero();
   for (int i = 0; i < profile.geometry.count; ++i)

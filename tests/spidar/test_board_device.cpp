@@ -109,7 +109,7 @@ TEST(ExampleBoard, IsABoard) {
   EXPECT_TRUE(bench.motors.all_zero());
 }
 
-/// A wire that does not answer before it is told to.
+/// A wire that does not answer until it is told to.
 class HeldTransport final : public Transport {
  public:
   explicit HeldTransport(std::unique_ptr<Transport> real) : real_(std::move(real)) {}
@@ -193,7 +193,7 @@ TEST(DeviceFactory, RefusesNegativeVoltsForBoardsWithoutThem) {
   }
 }
 
-/// The simulated grip feels the same whether volts are handed over or go through packets.
+/// The simulated grip moves equally whether volts are passed directly or through packets.
 TEST(WireSimulation, HoldsTheGripWhereTheSimulationDoes) {
   for (const char* spec : {"sim", "sim:sh4", "sim:simple", "sim:uart"}) {
     const Profile profile = load_profile("spidar-g6x3-v2-r");

@@ -267,8 +267,8 @@ TEST_P(Boards, TheHapticLoopDrivesIt) {
   }
 }
 
-/// Encoders that stand still although the force has changed are dead; a device without says nothing
-/// by it.
+/// Encoders that stand still although the force has changed are dead. For a device without encoders
+/// this means nothing.
 TEST_P(Boards, ForceLastsWhereNothingIsCounted) {
   if (counts()) return;
   SessionSettings by_hand;

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int64_t kMs = 1'000'000;
 
-/// What open() says; empty when it works.
+/// The message of open(); empty on success.
 std::string opening(const std::string& spec) {
   BoardSettings settings;
   settings.guardian = false;

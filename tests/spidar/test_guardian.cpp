@@ -32,7 +32,7 @@ namespace {
 constexpr const char* kUsbProfile = "spidar-g6x3-v2-r";
 constexpr const char* kUartProfile = "spidar-g6x5-r";
 
-/// For every string; a joystick, which takes their sum, would feel nothing of that.
+/// For every string; a joystick, which takes their sum, would have no force.
 MotorVolts one_volt(const std::string& device = "") {
   MotorVolts volts;
   volts.volt.fill(1);
@@ -44,8 +44,8 @@ void sleep_1ms() {
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-/// A child that does nothing, with copies of all files that are open. It ends when another
-/// board is plugged in, or the test has ended.
+/// An idle child with copies of all open files. It ends when another board is plugged in, or the
+/// test has ended.
 void leave_files_to_a_child() {
   const pid_t tester = getppid();
   if (fork() != 0) return;
@@ -74,7 +74,7 @@ class Victim : public ChildProcess {
       : ChildProcess({"/proc/self/exe", how, spec, profile}) {}
 };
 
-/// Waits for as long as it takes; the test's own time limit is the only one.
+/// Waits without a limit; the test has one.
 template <typename Condition>
 void wait_for(const Condition& condition) {
   while (!condition()) sleep_1ms();
@@ -154,7 +154,7 @@ TEST(Guardian, TakesJoysticksToZeroWhenTheHostIsKilledOrStopped) {
       victim.end(signal);
     }
     wait_for([&] { return evdev_levels(0).at_rest() && port.autocentre == 0xFFFF; });
-    // Once nobody has the file any more, its effects are erased.
+    // When no process has the file any more, its effects are erased.
     wait_for([&] { return evdev_levels(0).at_rest() && !port.effect[0].used; });
   }
   clear_bus();
@@ -251,7 +251,7 @@ TEST(Guardian, GoesAwayWhenTheDeviceIsClosed) {
     }
     device->open();
   }
-  // All of its children have been waited for.
+  // All of its children have been reaped.
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
   EXPECT_TRUE(port.at_rest());

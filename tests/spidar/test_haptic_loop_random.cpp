@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
 
-/// A player, a user and a device that do what they like.
+/// A player, a user and a device with random behaviour.
 class Chaos {
  public:
   Chaos(LoopDriver& driver, uint64_t seed) : driver_(driver), random_(seed) {}
@@ -71,7 +71,7 @@ class Chaos {
     if (chance(0.1)) return ExchangeStatus::kBadReply;
     return ExchangeStatus::kOk;
   }
-  /// The grip jumps to where a hand can be; sometimes an encoder tells nonsense.
+  /// The grip jumps to any place that a hand can reach; sometimes an encoder gives nonsense.
   void move() {
     const StringGeometry& geometry = driver_.profile.geometry;
     const Pose pose{{uniform(-0.02, 0.02), uniform(-0.02, 0.02), uniform(-0.02, 0.02)}, {}};

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr int64_t kMs = 1'000'000;
 
-/// False when nothing of the kind happens in a time in which anything would.
+/// Returns false when nothing of the kind happens within a sufficient time.
 bool wait_for(const std::function<bool()>& happened) {
   for (int i = 0; i < 30'000; ++i) {
     if (happened()) return true;

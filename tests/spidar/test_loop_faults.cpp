@@ -202,8 +202,8 @@ TEST(BrokenString, IsLeftOut) {
   }
 }
 
-// The others cannot give every wrench: what they give is no further from what was asked of them
-// than what was asked of them is short of the wanted one, and the least tensions pull.
+// The other strings cannot give every wrench: the delivered wrench is no further from the requested
+// one than the requested one is from the wanted one, plus the pull of the minimum tensions.
 TEST(BrokenString, TheOthersAreAskedOnlyForWhatIsSure) {
   RandomMotion random(14);
   for (const std::string name : {"spidar-gcc", "spidar-g6c", "spidar-g6x3-v2-r"}) {

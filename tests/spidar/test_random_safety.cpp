@@ -25,9 +25,9 @@ namespace {
 constexpr int64_t kMs = 1'000'000;
 constexpr int64_t kFrame_ns = 40 * kMs;
 constexpr int64_t kRest_ns = 50 * kMs;
-/// From the moment at which the last frame is shown.
+/// Counted from the moment at which the last frame is shown.
 constexpr int64_t kExpiry_ns = 100 * kMs;
-/// Of the short run, two rounds on each profile.
+/// For the short run: two rounds on each profile.
 constexpr int kRoundTicks = 2000;
 
 uint64_t number(const char* variable, uint64_t otherwise) {
@@ -55,7 +55,7 @@ class Round {
     loop_->open();
   }
 
-  /// False when a promise was broken.
+  /// Returns false when a condition was violated.
   bool run(int ticks) {
     for (int i = 0; i < ticks && !watch_.failed(); ++i) {
       act();
@@ -79,7 +79,7 @@ class Round {
 
   int64_t running_ns() const { return now_ns_ - played_at_ns_; }
 
-  /// From now on nothing is to be felt.
+  /// From now on there must be no force.
   void stop(int64_t rest_in_ns) {
     if (!playing_) return;
     playing_ = false;
@@ -133,7 +133,7 @@ class Round {
       case 1:  // flush, and nothing new
         loop_->cancel_scheduled();
         return stop(kRest_ns);
-      case 2:  // a clock that is none
+      case 2:  // an invalid clock
         loop_->set_playback_clock({now_ns_, 0, std::numeric_limits<double>::quiet_NaN(), true});
         return stop(kRest_ns);
       default:  // no more frames: the last one is still ahead

@@ -51,8 +51,8 @@ TEST(Rest, IsLeastTensionWhereverTheGripIs) {
   }
 }
 
-// The tensions at rest do not depend on the pose, so a zero that is wrong by 5 mm and 3° changes
-// nothing about them: the net force on the grip is that of the least tensions where it really is.
+// Tensions at rest do not depend on the pose, so a zero that is wrong by 5 mm and 3° does not
+// change them: the net force on the grip is that of the minimum tensions at its real pose.
 TEST(Rest, IsNoStrongerWhenTheZeroIsWrong) {
   RandomMotion random(kSeed);
   for (const std::string& name : list_profiles()) {

@@ -11,8 +11,8 @@
 namespace spidar::test {
 namespace {
 
-/// After the tick with which a frame came: 100 until it is old and 51 to rest, and 41 in which a
-/// force may be that of the next frame.
+/// Counted from the tick with which a frame came: 100 until it is too old, 51 to rest, and 41 in
+/// which the force may be that of the next frame.
 constexpr int kFrameIsFelt_ticks = 100 + 51 + 41;
 
 /// A loop that plays, a tick at a time.

@@ -77,9 +77,9 @@ std::string row_of(const TickRecord& record) {
   return row;
 }
 
-/// One loop has never heard of touching, one has a mailbox in which nothing is published, one has
-/// one in which everything was taken back. Frames, poses, pauses, flushes and faults at random:
-/// what they do is the same, to the last bit.
+/// Three loops: one without a mailbox, one with an empty mailbox, and one whose mailbox was
+/// emptied. Random frames, poses, pauses, flushes and faults give the same results, to the last
+/// bit.
 TEST(TouchLoop, WithoutASurfaceNothingIsDifferent) {
   LoopDriver plain;
   LoopDriver empty;

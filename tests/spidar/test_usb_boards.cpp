@@ -26,7 +26,7 @@ MotorVolts all_volts(double volt) {
   return volts;
 }
 
-/// What open() says; empty when it works.
+/// The message of open(); empty on success.
 std::string opening(Device& device) {
   try {
     device.open();
@@ -36,7 +36,7 @@ std::string opening(Device& device) {
   }
 }
 
-/// Exchanges until the answer is that, however slow the machine is.
+/// Exchanges until the answer is as given, however slow the machine is.
 void exchange_until(Device& device, ExchangeStatus wanted, DeviceReading& reading) {
   while (device.exchange(all_volts(1), reading) != wanted) {
   }

@@ -41,7 +41,7 @@ bool at_once() {
   return true;
 }
 
-/// A simulated device whose hand shifts once when it feels a certain motor, or should feel it.
+/// A simulated device whose hand shifts once while a certain motor pulls, or should pull.
 class ShiftingHand final : public Device {
  public:
   struct Shift {

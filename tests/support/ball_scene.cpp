@@ -9,7 +9,7 @@
 namespace spidar::test {
 namespace {
 
-/// A flight shorter than this is rest: there are infinitely many of them.
+/// A shorter flight counts as rest, because there are infinitely many of them.
 constexpr double kRest_s = 1e-9;
 constexpr double kPlainGrey = 128;
 

@@ -33,7 +33,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Returns when it is gone.
+  /// Returns when the process has ended.
   void end(int signal) {
     if (process_ < 0) return;
     kill(process_, signal);
@@ -41,7 +41,7 @@ class ChildProcess {
     process_ = -1;
   }
 
-  /// Goes on at once, whatever the signal does.
+  /// Returns at once, whatever the signal does.
   void send(int signal) const { kill(process_, signal); }
 
   /// Its exit status when it has ended by itself; −1 when a signal ended it.
@@ -52,7 +52,7 @@ class ChildProcess {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  /// It has not ended by itself.
+  /// Whether it is still running.
   bool lives() {
     if (process_ > 0 && waitpid(process_, nullptr, WNOHANG) != 0) process_ = -1;
     return process_ > 0;

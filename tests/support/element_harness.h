@@ -29,13 +29,13 @@ struct MotionMessage {
 };
 MotionMessage parse_motion_message(GstMessage* message);
 
-/// Owns the harness and the element's bus. The element feels as the paper does, motion=mean without
-/// a filter, unless its properties say otherwise.
+/// Owns the harness and the element's bus. Unless properties say otherwise, the element works as in
+/// the paper: motion=mean without a filter.
 class ElementHarness {
  public:
   /// `properties` as in a launch line, e.g. "device=none alpha=0.02".
   explicit ElementHarness(const std::string& properties = "device=none");
-  /// `now` stands for CLOCK_MONOTONIC, and the haptic loop waits to be ticked.
+  /// `now` replaces CLOCK_MONOTONIC, and the haptic loop is ticked by the test.
   ElementHarness(const std::string& properties, PlaybackSync::Now now, void* user);
   ~ElementHarness();
 
@@ -44,7 +44,7 @@ class ElementHarness {
   GstFlowReturn push(GstBuffer* frame, GstClockTime pts, guint flags = 0);
   GstFlowReturn push_moved(double dx, double dy, GstClockTime pts, guint flags = 0);
 
-  // Everything posted so far; of warnings and errors the text for people.
+  // Everything posted so far; of warnings and errors the message text.
   const std::vector<MotionMessage>& motions();
   const std::vector<std::string>& warnings();
   const std::vector<std::string>& errors();
@@ -53,7 +53,7 @@ class ElementHarness {
   GstHarness* harness() const { return harness_; }
   const GstVideoInfo& info() const { return info_; }
   MotionEngine& engine();
-  /// Ticks the haptic loop of an element that waits for it, under watch.
+  /// Ticks the haptic loop of an element that waits for it, and checks the tick.
   TickRecord tick(int64_t now_ns) {
     return watch_.tick(engine().output().session()->loop(), now_ns);
   }

@@ -12,19 +12,19 @@
 
 namespace spidar::test {
 
-/// What happened to a FakeDevice; outlives it. Atomics may be used while a loop's thread runs, the
-/// rest before and after.
+/// Record of what happened to a FakeDevice; must outlive it. Atomics may be used while a loop's
+/// thread runs, other members before and after.
 struct FakeDeviceLog {
-  /// The device is there: open() works.
+  /// Whether the device is present, so that open() works.
   std::atomic<bool> present{true};
   /// Answer of every exchange; kLost also closes.
   std::atomic<ExchangeStatus> answer{ExchangeStatus::kOk};
-  std::array<int32_t, kMaxStrings> count{};  ///< what the encoders say
+  std::array<int32_t, kMaxStrings> count{};  ///< counts of the encoders
 
   std::atomic<bool> is_open{false};
   std::atomic<int> opened{0};
   std::atomic<int> closed{0};
-  /// Of every exchange up to kMemory, so that nothing is allocated.
+  /// All exchanges up to kMemory, preallocated.
   std::vector<MotorVolts> volts;
   MotorVolts last_volts;
 

@@ -16,14 +16,14 @@
 
 namespace spidar::test {
 
-/// A frame of a film that is made of some pictures: which of them it shows, and when.
+/// A frame of a film that consists of several pictures: which picture it shows, and when.
 struct ShownFrame {
   int64_t time_ns;
   const Picture* picture;
-  bool flagged = false;  ///< as videorate flags what it repeats, and nobody looks at
+  bool flagged = false;  ///< flagged as repeated, as by videorate, and not analysed
 };
 
-/// Force at each millisecond. A frame is known `ahead_ns` before it is shown.
+/// Force in each millisecond. A frame becomes known `ahead_ns` before it is shown.
 inline std::vector<Eigen::Vector3d> feel(const std::vector<ShownFrame>& frames, int64_t ahead_ns,
                                          const AnalyzerSettings& settings = {}) {
   constexpr int64_t kTick_ns = 1'000'000;

@@ -18,7 +18,7 @@
 
 namespace spidar::test {
 
-/// Waits for as long as it takes; the test's own time limit is the only one.
+/// Waits without a limit; the test has one.
 template <typename Condition>
 void wait_for(const Condition& condition) {
   while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -33,7 +33,7 @@ inline TimedWrench lasting(const Eigen::Vector3d& force_N, int64_t time_ns = 0) 
   return entry;
 }
 
-/// A loop that runs, and a film that plays.
+/// A running loop with a film.
 struct FeltPlayer {
   explicit FeltPlayer(const std::string& spec = "ff", bool guardian = false) {
     BoardSettings settings;
@@ -51,7 +51,7 @@ struct FeltPlayer {
     loop().set_playback_clock({HapticSession::monotonic_now_ns(), 0, 1.0, false});
   }
 
-  /// Returns when the loop gives all of it.
+  /// Returns when the loop applies the full force.
   void push(double x_N, double y_N) const {
     loop().cancel_scheduled();
     ASSERT_TRUE(loop().schedule(lasting({x_N, y_N, 0})));

@@ -12,7 +12,7 @@
 
 namespace spidar::test {
 
-/// Always in its place.
+/// Stays in place.
 Pose still();
 /// From `start_px` by `step_px` a frame.
 Pose straight(const Eigen::Vector2d& start_px, const Eigen::Vector2d& step_px);
@@ -30,7 +30,7 @@ class FilmStudio {
   /// Pixels of the frame to one at a width of 640.
   double unit() const { return unit_; }
 
-  /// Nothing moves.
+  /// A still film.
   Film still_film();
   Film behind(std::shared_ptr<const SplineSheet> sheet, Pose pose) const;
   Film camera(Pose pose);
@@ -40,10 +40,10 @@ class FilmStudio {
   /// The same in front of a pan.
   Film pan_with_object();
 
-  /// A disc that covers `share` of the frame. Another name is another picture.
+  /// A disc that covers `share` of the frame. A different name gives a different picture.
   FilmObject object(double share, Pose pose, const std::string& name = "object");
   static constexpr double kShare = 0.08;
-  /// By `step` a frame, through `middle` when half of the frames are over.
+  /// Moves by `step` a frame, and passes through `middle` when half of the frames have passed.
   Pose crossing(const Eigen::Vector2d& step, const Eigen::Vector2d& middle = {0, 0}) const;
 
   std::shared_ptr<const SplineSheet> background(const std::string& name = "background");

@@ -34,8 +34,8 @@ class SmoothVector {
   Eigen::Vector3d frequency_rad_s_, phase_rad_;
 };
 
-/// As it stands: near the centre, with a wrench that a SPIDAR-G can give, from one end to the other
-/// in a tenth of a second.
+/// A normal path: near the centre, with a wrench that a SPIDAR-G can give, from one end to the
+/// other in a tenth of a second.
 struct PathLimits {
   double reach_m = 0.02, speed_m_s = 1;
   double angle_rad = 0.35, turn_rad_s = 5;
@@ -43,7 +43,8 @@ struct PathLimits {
   double torque_Nm = 0.03, torque_rate_Nm_s = 0.6;
 };
 
-/// As far out and turned as it goes, in and out of where the strings can balance a wrench.
+/// As far out and as rotated as possible, in and out of the region where the strings can balance a
+/// wrench.
 inline PathLimits far_and_turned() {
   PathLimits limits;
   limits.reach_m = 0.04;
@@ -51,7 +52,7 @@ inline PathLimits far_and_turned() {
   return limits;
 }
 
-/// There, and nearly always more wanted than the motors have.
+/// The same, with a wrench that nearly always exceeds what the motors can do.
 inline PathLimits beyond_reach() {
   PathLimits limits = far_and_turned();
   limits.force_N = 60;

@@ -31,7 +31,7 @@ struct FrameLayout {
   bool guard_in_front = false;              ///< the forbidden page is there, and not behind
 };
 
-/// Any, that is right for such frames.
+/// A random layout that is valid for such frames.
 FrameLayout random_layout(const GstVideoInfo& info, RandomSource& random);
 
 /// A buffer with a GstVideoMeta that shows `picture`, which is as large as `info` says: in luma, or

@@ -16,8 +16,8 @@
 
 namespace spidar::test {
 
-/// Where something is at a time, in frames: from its own pixels to those of the picture, both from
-/// the centre of the frame, x right, y down.
+/// Position of something at a time, in frames: maps its own pixels to those of the picture, both
+/// relative to the centre of the frame, x right, y down.
 using Pose = std::function<Eigen::Affine2d(double frame)>;
 
 /// A textured ellipse.
@@ -62,11 +62,11 @@ class Film {
   /// Valid until the next call.
   ImageView draw(int frame);
 
-  /// There is something in this frame that was in the one before.
+  /// Whether something in this frame was also in the previous one.
   bool is_comparable(int frame) const { return frame != cut_at; }
-  /// Where what is seen at `from_px` (pixels of the frame before) goes until this frame.
+  /// The place in this frame of what was at `from_px` (pixels of the previous frame).
   Eigen::Vector2d displacement_px(int frame, const Eigen::Vector2d& from_px) const;
-  /// The same of an object against the background.
+  /// The same for an object relative to the background.
   Eigen::Vector2d object_displacement_px(int frame, const FilmObject& object,
                                          const Eigen::Vector2d& from_px) const;
   /// The object shows at least half of its area in this frame and the two before.

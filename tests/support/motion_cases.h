@@ -15,15 +15,15 @@ namespace spidar::test {
 
 enum class CaseGroup {
   kUsual,   ///< averaged over
-  kHard,    ///< has an object or a camera to find, each on its own
-  kSilent,  ///< nothing is to be felt
+  kHard,    ///< contains an object or a camera motion to be found, evaluated separately
+  kSilent,  ///< no motion may be felt
 };
 
 /// Lengths below are at a width of 640 px; a wider film shows the same with more detail.
 struct MotionCase {
   std::string name;
   CaseGroup group;
-  bool coded;  ///< is to be seen through a video codec
+  bool coded;  ///< to be passed through a video codec
   std::function<Film(int width, int height, uint32_t seed)> film;
 };
 
@@ -34,7 +34,7 @@ constexpr double kFast_px = 26;
 
 const std::vector<MotionCase>& motion_cases();
 
-/// Throws std::invalid_argument that names those there are.
+/// Throws std::invalid_argument that lists the valid names.
 const MotionCase& motion_case(const std::string& name);
 
 }  // namespace spidar::test

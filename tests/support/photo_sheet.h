@@ -9,8 +9,8 @@
 
 namespace spidar::test {
 
-/// Looks like a photograph to whoever follows points: things of all sizes that hide each other,
-/// with edges, some of them flat, some grained.
+/// Resembles a photograph for trackers: things of all sizes that hide each other, with edges, some
+/// of them flat, some grained.
 ///
 /// Dead leaves (Lee, Mumford, Huang: Occlusion models for natural images, Int. J. Computer Vision
 /// 41, 2001): ellipses and rectangles whose number goes with radius⁻³, so that every octave covers
@@ -22,7 +22,7 @@ SplineSheet photo_sheet(uint32_t seed, double width_px, double height_px);
 /// One grey level.
 SplineSheet plain_sheet(double grey);
 
-/// Dark on one side of a line through `through_px`, bright on the other, which `normal` points to.
+/// Dark on one side of a line through `through_px`, bright on the side to which `normal` points.
 SplineSheet edge_sheet(double width_px, double height_px, const Eigen::Vector2d& through_px,
                        const Eigen::Vector2d& normal);
 

@@ -11,8 +11,8 @@
 
 namespace spidar::test {
 
-/// `width` × `height` pixels in rows `stride` bytes apart; what lies between the rows is not 0, so
-/// that reading it shows.
+/// `width` × `height` pixels in rows `stride` bytes apart. The bytes between rows are not 0, so
+/// that reading them is noticed.
 struct Picture {
   Picture(int width_px, int height_px, int padding = 0)
       : width(width_px),

@@ -19,7 +19,7 @@
 
 namespace spidar::test {
 
-/// Answers from a thread of its own until it is destroyed, which hangs the line up.
+/// Answers from a thread of its own until it is destroyed, which hangs up the line.
 class UartLine {
  public:
   explicit UartLine(EmulatedUart boards) : boards_(std::move(boards)) {
@@ -42,7 +42,7 @@ class UartLine {
   }
 
   const std::string& path() const { return path_; }
-  /// The boards neither hear nor answer.
+  /// The boards neither receive nor answer.
   void set_silent(bool silent) { silent_ = silent; }
 
  private:

@@ -13,8 +13,8 @@
 
 namespace spidar::test {
 
-/// The same numbers for the same seed, whatever the standard library: no distribution of it is
-/// used.
+/// The same numbers for the same seed with every standard library, because none of its
+/// distributions is used.
 class RandomSource {
  public:
   explicit RandomSource(uint64_t seed) : engine_(seed) {}
@@ -37,12 +37,11 @@ class RandomSource {
   std::mt19937_64 engine_;
 };
 
-/// Sets `value` to something that a property of this kind (boolean, number, enumeration) takes: its
-/// default in four of five cases, an end of its range, or what lies between.
+/// Sets `value` to a valid value of such a property (boolean, number, enumeration): its default in
+/// four of five cases, otherwise an end of its range or a value between.
 void set_random_value(GParamSpec* spec, RandomSource& random, GValue* value);
 
-/// Names of the properties of `object` that can be written and are of such a kind, and belong to
-/// its own class.
+/// Names of the writable properties of such kinds that the class of `object` itself defines.
 std::vector<std::string> random_properties(GObject* object);
 
 }  // namespace spidar::test

@@ -11,13 +11,13 @@
 
 namespace spidar::test {
 
-/// What was put out, and what the encoders say; outlives the board. Atomics: any thread.
+/// Outputs to the motors, and counts of the encoders; must outlive the board. Atomics: any thread.
 struct MotorBench {
   std::array<std::atomic<int>, kMaxStrings> digit{};
   std::array<std::atomic<int32_t>, kMaxStrings> count{};
   std::atomic<uint16_t> inputs{0};
   std::atomic<int> updates{0};
-  /// Of the first motor, every update. While no board runs.
+  /// All updates of the first motor. Read it while no board runs.
   std::vector<int> history;
 
   bool all_zero() const {

@@ -12,24 +12,24 @@
 
 namespace spidar::test {
 
-/// Sees every tick from outside: what the motors were told, and what that is on the real grip. The
-/// first breach fails the test, with the tick that it was in.
+/// Checks every tick from outside: the volts for the motors, and their effect on the real grip. The
+/// first violation fails the test and names the tick.
 class SeamWatch {
  public:
-  /// `real`: geometry and zero as they are, not as the loop believes them to be.
+  /// `real`: geometry and zero as they really are, not as the loop assumes.
   explicit SeamWatch(const Profile& real);
 
   struct Tick {
-    StringVector told_N = StringVector::Zero();  ///< by the volts of this tick
+    StringVector told_N = StringVector::Zero();  ///< from the volts of this tick
     bool acknowledged = false;
-    double dt_s = 0;        ///< since the tick before
-    double size_N = 0;      ///< largest wrench that the limits allow, torque by the grip radius
-    bool resting = false;   ///< 50 ms and more after the last wrench that was to be felt
-    bool released = false;  ///< the motors are to be off
-    FeltState felt;         ///< what the grip feels
+    double dt_s = 0;    ///< since the tick before
+    double size_N = 0;  ///< largest wrench that the limits allow, torque divided by the grip radius
+    bool resting = false;   ///< at least 50 ms after the last wrench that was due
+    bool released = false;  ///< the motors must be off
+    FeltState felt;         ///< what acts on the grip
   };
 
-  /// `where` is said when it fails.
+  /// `where` is printed when it fails.
   void see(const Tick& tick, const std::string& where);
 
   /// The device was closed or opened: the motors are at zero.
@@ -37,19 +37,19 @@ class SeamWatch {
 
   bool failed() const { return failed_; }
 
-  /// What was seen, for a table.
+  /// Largest values, for a table.
   struct Largest {
     double resting_force_N = 0;  ///< on the real grip
-    double resting_excess = 0;   ///< of that, over what the least tensions give there
+    double resting_excess = 0;   ///< of that, above the force of the minimum tensions there
     double playing_force_N = 0;  ///< on the real grip
-    double step_N = 0;           ///< of a string in a tick
+    double step_N = 0;           ///< change of a string's tension in a tick
     double stop_energy_J = 0;    ///< of the strings at the grip, from a stop to rest
     uint64_t resting_ticks = 0;
     uint64_t playing_ticks = 0;
   };
   const Largest& largest() const { return largest_; }
 
-  /// A wrench is not to be felt any more: the work that is done until rest counts.
+  /// The wrench has ended: counts the work until rest from here.
   void stop() {
     stopping_ = true;
     stop_energy_J_ = 0;

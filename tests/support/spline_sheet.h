@@ -12,10 +12,10 @@ namespace spidar::test {
 
 /// Grey levels by a cubic B-spline over a grid of control values, which repeats in both directions.
 ///
-/// The picture is the spline, not something between samples: it may be moved by any part of a pixel
-/// without an error. Where it is drawn at scale 1 its spectrum is that of the control values times
-/// sinc⁴(2 f), which has its zero at the Nyquist frequency f = 1/2 and stays below 0.3 % beyond: an
-/// edge in the control values becomes one of some 3 px, and nothing aliases.
+/// The picture is the spline itself, not an interpolation between samples, so it can be moved by
+/// any fraction of a pixel without error. Drawn at scale 1, its spectrum is that of the control
+/// values times sinc⁴(2 f), which is zero at the Nyquist frequency f = 1/2 and below 0.3 % beyond
+/// it: an edge in the control values becomes one of about 3 px, and nothing aliases.
 class SplineSheet {
  public:
   /// Pixels from one control value to the next.
@@ -31,8 +31,8 @@ class SplineSheet {
   float& control(int i, int j) { return values_[index(i, j)]; }
   float control(int i, int j) const { return values_[index(i, j)]; }
 
-  /// Sets each control value to grey(x, y), 0 … 255, at its place in pixels; (0, 0) is in the
-  /// middle of what is not a repetition.
+  /// Sets each control value to grey(x, y), 0 … 255, at its place in pixels; (0, 0) is the middle
+  /// of the part that is not a repetition.
   template <typename Grey>
   void fill(Grey&& grey) {
     for (int j = -rows_ / 2; j < rows_ / 2; ++j) {

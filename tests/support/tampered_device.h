@@ -15,13 +15,13 @@ namespace spidar::test {
 
 class TamperedDevice final : public Device {
  public:
-  /// `inner` outlives it.
+  /// `inner` must outlive it.
   explicit TamperedDevice(Device& inner) : inner_(inner) {}
 
-  /// From the next exchange on the counters of these strings (bit i: string i) stand still.
+  /// From the next exchange on, the counters of these strings (bit i: string i) stand still.
   void stop_encoders(unsigned strings) { stopped_ = strings; }
 
-  /// What the motors got last.
+  /// Volts of the last exchange.
   const MotorVolts& volts() const { return volts_; }
   /// Of the last exchange.
   ExchangeStatus status() const { return status_; }
@@ -33,7 +33,8 @@ class TamperedDevice final : public Device {
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     DeviceReading read;
     status_ = inner_.exchange(volts, read);
-    // A garbled answer comes from a board that was told; one that is gone lets go.
+    // After a garbled answer the board has received the volts; one that is gone releases the
+    // motors.
     if (status_ != ExchangeStatus::kTimeout) volts_ = volts;
     if (status_ == ExchangeStatus::kLost) volts_ = {};
     if (status_ != ExchangeStatus::kOk) return status_;
@@ -67,8 +68,8 @@ inline StringVector tensions_N(const MotorVolts& volts, const Profile& profile) 
   return tension_N;
 }
 
-/// A profile as it really is when the grip was not at the centre, but at `pose`, when its counters
-/// were zeroed.
+/// A profile as it really is when the counters were zeroed with the grip at `pose` instead of the
+/// centre.
 inline Profile zeroed_at(Profile profile, const Pose& pose) {
   const StringVector off_m =
       string_lengths_m(profile.geometry, pose) - string_lengths_m(profile.geometry, {});

@@ -13,11 +13,11 @@
 
 namespace spidar::test {
 
-/// Holds the grip so loosely that it flies up after a tap.
+/// Holds the grip so loosely that it bounces after a tap.
 constexpr Hand kLooseHand{"loose", 30, 0.5};
 
 /// The hand goes from 20 mm above a plane to `depth_m` below it and out again, at the same speed.
-/// What the contact that gave out most gave (below 0: took), J; −∞ where the grip never touched.
+/// The largest energy that a contact gave out (below 0: absorbed), J; −∞ if the grip never touched.
 inline double tap_J(const ContactSettings& settings, const Hand& hand, double speed_m_s,
                     double depth_m) {
   constexpr double kAbove_m = 0.02;
@@ -47,7 +47,7 @@ inline double tap_J(const ContactSettings& settings, const Hand& hand, double sp
   return most_J;
 }
 
-/// The most of taps of all speeds up to 1 m/s and of several depths.
+/// The largest value over taps of all speeds up to 1 m/s and of several depths.
 inline double worst_tap_J(const ContactSettings& settings, const Hand& hand) {
   double most_J = -std::numeric_limits<double>::infinity();
   for (double speed_m_s = 0.02; speed_m_s < 1; speed_m_s += 0.02) {

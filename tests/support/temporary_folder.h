@@ -11,7 +11,8 @@
 
 namespace spidar::test {
 
-/// Gone, with what is in it, when the object is. Throws std::runtime_error when it cannot be made.
+/// Removed with its contents when the object is destroyed. Throws std::runtime_error when it cannot
+/// be created.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

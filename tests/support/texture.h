@@ -7,9 +7,9 @@
 
 namespace spidar::test {
 
-/// Smooth random texture: a cubic B-spline over random values on a grid of `cell_px`. Twice
-/// differentiable, without repetition, rich in corners, and its value at any real position is
-/// exact: a picture of it may be moved by any part of a pixel without resampling.
+/// Smooth random texture: a cubic B-spline over random values on a grid of `cell_px`. It is twice
+/// differentiable, does not repeat, has many corners, and can be evaluated exactly at any position,
+/// so that a picture of it can be moved by any fraction of a pixel without resampling.
 class Texture {
  public:
   /// `cell_px` > 0: distance of the grid points; structures are about twice as large.

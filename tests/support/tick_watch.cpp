@@ -29,7 +29,7 @@ bool to_be_felt(const TickRecord& record) {
                             record.found == Found::kHeld);
 }
 
-/// A surface pushes: that is felt for as long as the grip is in it, however old its frame is.
+/// A surface pushes for as long as the grip is in it, however old its frame is.
 bool is_pushed(const TickRecord& record) {
   return record.playing && record.contact.force_N.norm() > 0;
 }
@@ -91,7 +91,7 @@ TickRecord TickWatch::tick(HapticLoop& loop, int64_t now_ns) {
 }
 
 void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
-  // Another loop, or the same one opened again; or a trace with a gap.
+  // Another loop, the same one opened again, or a trace with a gap.
   if (record.tick != last_.tick + 1) following_ = false;
   const int64_t step_ns = following_ ? record.monotonic_ns - last_.monotonic_ns : kTick_ns;
   const double dt_s = 1e-9 * static_cast<double>(std::clamp<int64_t>(step_ns, 0,  //

@@ -9,23 +9,23 @@
 
 namespace spidar::test {
 
-/// Sees every tick of a test and fails it at the first that breaks one of the promises: force and
-/// torque never above their limits; their changes never faster than the slew limit allows; rest,
-/// exactly, 50 ms after the last wrench that was to be felt (of time in which the device answered);
-/// and the same 50 ms after the newest frame has become 100 ms old, by CLOCK_MONOTONIC or by
-/// running time, but for the 40 ms in which the force fades in before the next frame, and for a
-/// surface that the grip is in.
+/// Checks every tick of a test, and fails it at the first violation of one of these conditions.
+/// Force and torque never exceed their limits. Their changes never exceed the slew limit. There is
+/// exactly no force 50 ms after the last wrench that was due (counting only time in which the
+/// device answered), and 50 ms after the newest frame has become 100 ms old, by CLOCK_MONOTONIC or
+/// by running time. The exceptions are the 40 ms in which the force fades in before the next frame,
+/// and a surface that the grip touches.
 class TickWatch {
  public:
-  /// Ticks the loop in time, and looks at what came of it.
+  /// Ticks the loop on time, and checks the result.
   TickRecord tick(HapticLoop& loop, int64_t now_ns);
 
-  /// The next tick of a loop, which ran under these limits. Its tick, monotonic_ns, running_ns,
-  /// frame_ns, found, playing, device and commanded are looked at.
+  /// Checks the next tick of a loop that ran under these limits. It uses tick, monotonic_ns,
+  /// running_ns, frame_ns, found, playing, device and commanded.
   void see(const TickRecord& record, const SafetyLimits& limits);
 
-  /// Reads the trace of a loop, which ran under the total limits that it names and the others of
-  /// `limits`. Fails where there is none.
+  /// Checks the trace of a loop that ran under the total limits in the trace and the other limits
+  /// of `limits`. Fails when there is no trace.
   void see_trace(const std::string& path, const SafetyLimits& limits = {});
 
   uint64_t ticks() const { return ticks_; }
@@ -37,10 +37,10 @@ class TickWatch {
   void look_at_age(const TickRecord& record, double dt_s);
   void fail(const TickRecord& record, const std::string& what);
 
-  bool failed_ = false;  // one failure says it all
+  bool failed_ = false;  // reports only the first failure
   bool following_ = false;
   TickRecord last_;
-  double largest_N_ = 0;  // limits that held once
+  double largest_N_ = 0;  // largest limits so far
   double largest_Nm_ = 0;
   double stopped_s_ = 0;
   int64_t newest_frame_ns_ = INT64_MIN;

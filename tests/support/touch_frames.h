@@ -9,10 +9,10 @@
 
 namespace spidar::test {
 
-/// Whether the frame follows the one that was published before.
+/// Whether the frame continues the one that was published before.
 enum class After { kCut, kFrame };
 
-/// Publishes a frame with these heights, z_m(x_m, y_m). False when the mailbox is full.
+/// Publishes a frame with the heights z_m(x_m, y_m). Returns false when the mailbox is full.
 template <typename Surface>
 bool publish_surface(TouchMailbox& mailbox, int64_t time_ns, After after, Surface&& z_m,
                      const ContactSettings& contact = {}) {
@@ -33,14 +33,14 @@ bool publish_surface(TouchMailbox& mailbox, int64_t time_ns, After after, Surfac
   return true;
 }
 
-/// The same of a level surface.
+/// The same for a level surface.
 inline bool publish_plane(TouchMailbox& mailbox, int64_t time_ns, double z_m,
                           After after = After::kCut, const ContactSettings& contact = {}) {
   return publish_surface(
       mailbox, time_ns, after, [z_m](double, double) { return z_m; }, contact);
 }
 
-/// From `time_ns` on there is nothing to touch.
+/// Publishes that there is nothing to touch from `time_ns` on.
 inline bool publish_nothing(TouchMailbox& mailbox, int64_t time_ns) {
   TouchFrame* const frame = mailbox.begin(mailbox.generation());
   if (frame == nullptr) return false;

@@ -40,13 +40,13 @@ class TouchedGrip {
   explicit TouchedGrip(const Hand& hand, const Eigen::Vector3d& at_m = Eigen::Vector3d::Zero())
       : hand_(hand), position_m_(at_m) {}
 
-  /// What the host knows: the place in the last exchange, in steps of the encoder.
+  /// What the host knows: the position in the last exchange, in steps of the encoder.
   Eigen::Vector3d measured_m() const { return measured_m_; }
   const Eigen::Vector3d& position_m() const { return position_m_; }
   const Eigen::Vector3d& velocity_m_s() const { return velocity_m_s_; }
-  /// Force that the grip really gets.
+  /// Force that really acts on the grip.
   const Eigen::Vector3d& force_N() const { return force_N_; }
-  /// Work that the grip has done on that force.
+  /// Work of the grip against that force.
   double given_J() const { return given_J_; }
 
   /// The exchange of a tick, and the time to the next one. The hand pulls towards `hand_m`.
@@ -82,8 +82,8 @@ class TouchedGrip {
   double given_J_ = 0;
 };
 
-/// Where a hand that explores at random wants to be: six sines an axis, of 0.15 to 3 Hz, slow ones
-/// wide.
+/// Target of a hand that explores at random: six sines on each axis, from 0.15 to 3 Hz, slow ones
+/// with large amplitude.
 class RandomHand {
  public:
   explicit RandomHand(unsigned seed) {
@@ -115,10 +115,10 @@ class RandomHand {
   Sine sines_[3][6];
 };
 
-/// Energy by contacts: what a still surface gave out.
+/// Energy that a still surface gave out, by contacts.
 struct ContactEnergy {
   int contacts = 0;
-  int generating = 0;  ///< that gave out more than they got
+  int generating = 0;  ///< contacts that gave out more than they absorbed
   double worst_J = 0;  ///< given out by one of them, ≥ 0
 
   void add(double out_J) {
@@ -128,9 +128,9 @@ struct ContactEnergy {
   }
 };
 
-/// Lets the hand explore for so many ticks. The grip first has half a second to come to the hand
-/// from above. A contact is over when the force has faded: 20 ticks,
-/// ten times the drive's lag, after the proxy has left.
+/// Lets the hand explore for this number of ticks. The grip first has half a second to reach the
+/// hand from above. A contact is over when the force has faded: 20 ticks, ten times the drive's
+/// lag, after the proxy has left.
 inline ContactEnergy explore(const MovingRelief& relief, const HeightField* texture,
                              const ContactSettings& settings, const Hand& hand, long ticks,
                              unsigned seed) {

@@ -12,12 +12,13 @@
 
 namespace spidar::test {
 
-/// Xvfb on a free display. DISPLAY names it, and WAYLAND_DISPLAY is unset, for as long as it lives;
-/// no window may be open then.
+/// Xvfb on a free display. While it lives, DISPLAY names it and WAYLAND_DISPLAY is unset. No window
+/// may be open when it is created or destroyed.
 class VirtualDisplay {
  public:
   VirtualDisplay() {
-    // Two that start at the same time may choose the same display; one of them gives up then.
+    // Two servers that start at the same time may choose the same display; one of them then gives
+    // up.
     for (int attempt = 0; attempt < 5 && name_.empty(); ++attempt) start();
     if (name_.empty()) return;
     setenv("DISPLAY", name_.c_str(), 1);
@@ -31,7 +32,7 @@ class VirtualDisplay {
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
 
-  /// One for all windows of the process: GLFW keeps the display that it was given first.
+  /// One for all windows of the process, because GLFW keeps the first display that it gets.
   static VirtualDisplay& shared() {
     static VirtualDisplay display;
     return display;
@@ -40,7 +41,7 @@ class VirtualDisplay {
   bool runs() const { return !name_.empty(); }
   static constexpr const char* kWhyNot = "Xvfb does not start: is the package xvfb installed?";
 
-  /// It answers nobody until thaw(): neither does what waits for it.
+  /// Stops answering until thaw(), so its clients hang.
   void freeze() const { signal(SIGSTOP); }
   void thaw() const { signal(SIGCONT); }
 
