@@ -61,7 +61,7 @@ std::string message_of(const std::function<void()>& what) {
   return {};
 }
 
-TEST(Device, WhatIsPushedIsFeltUntilItIsLetGo) {
+TEST(Device, APushIsFeltUntilRest) {
   for (const char* name : {"sim", "sim:sh4"}) {
     SCOPED_TRACE(name);
     Device device(name);

@@ -36,14 +36,14 @@ double force_N(double excess_px_s, double scale_px_s) {
   return 2 * kMax_N / kPi * std::atan(excess_px_s / scale_px_s);
 }
 
-TEST(AdaptiveController, BeginsAsTheNonlinearOneBeyondTheDeadZone) {
+TEST(AdaptiveController, StartsLikeTheNonlinearOneBeyondTheDeadZone) {
   for (const double speed : {3.0, 50.0, 102.1, 1e4}) {
     Adaptive controller(kMax_N, kAlpha_s_px);
     EXPECT_NEAR(controller.force_N(speed), force_N(speed - Adaptive::kLeast_px_s, 100), kRounding);
   }
 }
 
-TEST(AdaptiveController, ASteadySpeedComesToHalfOfTheMaximum) {
+TEST(AdaptiveController, ASteadySpeedConvergesToHalfOfTheMaximum) {
   // The controller adapts to a slow film as it does to a fast one. The dead zone takes its share:
   // (V − V₀) / V.
   for (const double speed : {20.0, 60.0, 300.0, 800.0}) {
@@ -116,7 +116,7 @@ TEST(AdaptiveController, ASlowFilmIsFeltAndAFastOneIsNotAllAtTheLimit) {
   EXPECT_GT(film(900, nonlinear), 0.9 * kMax_N);
 }
 
-TEST(AdaptiveController, NothingIsExactlyNothingAndNothingIsLearntOfIt) {
+TEST(AdaptiveController, RestGivesExactlyNoForceAndIsNotLearnt) {
   Adaptive controller(kMax_N, kAlpha_s_px);
   play(controller, 50, 3);
   const double scale_px_s = controller.scale_px_s();

@@ -141,7 +141,7 @@ TEST(Background, AnObjectOnAPlainBackgroundIsNotTheBackground) {
   }
 }
 
-TEST(Background, AnObjectWithTooFewVotesForAnyBackgroundCostsNoFit) {
+TEST(Background, AnObjectWithTooFewVotesCausesNoFit) {
   // 50 of 900: less than a model needs, wherever its votes are.
   TrackSource source(6);
   BackgroundEstimator estimator;
@@ -172,7 +172,7 @@ TEST(Background, FollowsThePanBehindAnObjectThatHasTwoFifthsOfTheVotes) {
   }
 }
 
-TEST(Background, IsFoundInTheFirstFrameInWhichItCanBeSeenAgain) {
+TEST(Background, IsFoundInTheFirstFrameInWhichItIsVisibleAgain) {
   // A camera so fast that every block is wrong, for longer and shorter than climbing waits.
   MotionModel pan;
   pan.kind = ModelKind::kTranslation;
@@ -190,7 +190,7 @@ TEST(Background, IsFoundInTheFirstFrameInWhichItCanBeSeenAgain) {
   }
 }
 
-TEST(Background, NothingButNoiseIsStillHoweverStrong) {
+TEST(Background, PureNoiseIsStillHoweverStrong) {
   // Up to 5 px of a frame of 360 lines, in px of a field of 240, and beyond what is learnt.
   for (const double sigma_px : {0.05, 0.2, 0.4, 1.0, 2.0, 5.0 * 240 / 360}) {
     for (uint32_t seed = 1; seed <= 10; ++seed) {
@@ -219,7 +219,7 @@ TEST(Background, LearnsTheNoiseOfBadVideo) {
   EXPECT_EQ(moving.model.kind, ModelKind::kTranslation);
 }
 
-TEST(Background, StillScenesAndOneObjectCostNoFit) {
+TEST(Background, StillScenesWithOneObjectCauseNoFit) {
   TrackSource source(4);
   BackgroundEstimator estimator;
   for (int n = 0; n < 20; ++n) {

@@ -53,7 +53,7 @@ TEST(Cadence, LearnsTheIntervalOfThePictures) {
   }
 }
 
-TEST(Cadence, IsThatOfTheFramesWhereNoneIsRepeated) {
+TEST(Cadence, IsTheFrameIntervalWithoutRepeats) {
   // Frames of any length, as a screen is recorded.
   std::mt19937 random(1);
   Cadence cadence;
@@ -69,7 +69,7 @@ TEST(Cadence, IsThatOfTheFramesWhereNoneIsRepeated) {
   }
 }
 
-TEST(Cadence, AFrameThatWasLostIsToldFromOneThatWasRepeated) {
+TEST(Cadence, DistinguishesALostFrameFromARepeatedOne) {
   constexpr int64_t kFrame_ns = 40'000'000;
   for (const bool lost : {true, false}) {
     SCOPED_TRACE(lost);

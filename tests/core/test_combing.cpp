@@ -50,7 +50,7 @@ TEST(Combing, VectorsGiveTheShareOfTheDefinition) {
   }
 }
 
-TEST(Combing, AFilmIsTakenForInterlacedFromItsFirstCombOn) {
+TEST(Combing, AFilmCountsAsInterlacedFromItsFirstComb) {
   Combing combing;
   const Picture whole = fields(0);
   EXPECT_FALSE(combing.see(whole.view())) << "nothing has moved";
@@ -59,7 +59,7 @@ TEST(Combing, AFilmIsTakenForInterlacedFromItsFirstCombOn) {
   for (int n = 0; n < 100; ++n) EXPECT_TRUE(combing.see(whole.view()));
 }
 
-TEST(Combing, AFilmThatIsNotAnyMoreIsTakenForWhatItIs) {
+TEST(Combing, AFilmThatIsNoLongerInterlacedIsRecognised) {
   Combing combing;
   ASSERT_TRUE(combing.see(fields(6).view()));
   const Picture whole = fields(0);

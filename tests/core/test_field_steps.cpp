@@ -225,7 +225,7 @@ TEST(Salience, ALayerOfTheSceneHasNoneWhileTheCameraMoves) {
   EXPECT_GT(salience(region(25, 8, 5), moving, true), 0) << "an object that leaves the picture";
 }
 
-TEST(Salience, WhatGoesAsTheBackgroundDoesIsNearerAndNoObject) {
+TEST(Salience, ALayerThatMovesWithTheBackgroundIsNoObject) {
   const CameraMotion moving{10, 0.25};
   Region slow = region(25, 0, 1.8);
   EXPECT_GT(salience(slow, moving, false), 0);

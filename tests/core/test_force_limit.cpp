@@ -70,7 +70,7 @@ TEST(ForceLimitHistory, RepeatedFramesCountOnlyWhereThereIsNothingElse) {
   EXPECT_EQ(second.limit(), ForceLimit::kCameraOnly) << "as a film with repeated frames has it";
 }
 
-TEST(ForceLimitHistory, ACutSaysNothingWhereOtherFramesDo) {
+TEST(ForceLimitHistory, ACutCountsOnlyIfNoOtherFrameHasAReason) {
   Second second;
   second.show(3, ForceLimit::kNothingToCompare);
   EXPECT_EQ(second.limit(), ForceLimit::kNothingToCompare);
@@ -86,14 +86,14 @@ TEST(ForceLimitHistory, LooksBackForASecond) {
   EXPECT_EQ(second.limit(), ForceLimit::kNothingMoves) << "a second ago";
 }
 
-TEST(ForceLimitHistory, LooksAtWhatIsShownAndNotAtWhatWaits) {
+TEST(ForceLimitHistory, CountsShownFramesAndNotWaitingOnes) {
   Second second;
   second.show(5, ForceLimit::kNothingMoves).show(5, ForceLimit::kNone, 1);
   EXPECT_EQ(second.history.limit(4 * kFrame_ns), ForceLimit::kNothingMoves);
   EXPECT_EQ(second.history.limit(5 * kFrame_ns), ForceLimit::kNone);
 }
 
-TEST(ForceLimitHistory, ForgetsWhatIsBeforeATimeThatFalls) {
+TEST(ForceLimitHistory, ForgetsEarlierFramesWhenTheTimeFalls) {
   Second second;
   second.show(20, ForceLimit::kNone, 1);
   second.history.add(0, 0, ForceLimit::kNothingMoves);

@@ -83,7 +83,7 @@ TEST(Hjif, WithoutToleranceEverySampleComesBack) {
   EXPECT_LE(largest_error(samples, read), 0.5e-5 + 1e-6);
 }
 
-TEST(Hjif, IsWhatTheFormatAsksFor) {
+TEST(Hjif, IsValidInTheFormat) {
   const nlohmann::json root = nlohmann::json::parse(write_hjif(track(100)));
   EXPECT_EQ(root["profile"], "Main");
   EXPECT_EQ(root["timescale"], 1000);
@@ -99,7 +99,7 @@ TEST(Hjif, IsWhatTheFormatAsksFor) {
   }
 }
 
-TEST(Hjif, ClipsWhatIsBeyondFullScaleAndSilencesWhatIsNoNumber) {
+TEST(Hjif, ClipsAtFullScaleAndReplacesNanBySilence) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<TrackSample> read = read_hjif(write_hjif({{2, -3, nan, 0.5F, 0, 0}}));
   ASSERT_EQ(read.size(), 1u);

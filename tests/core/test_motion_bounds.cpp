@@ -18,7 +18,7 @@ ImageMotion motion_of(double x_px_s, double y_px_s, double growth_1_s = 0, doubl
   return {{x_px_s, y_px_s}, growth_1_s, roll_rad_s, 10, 1.5};
 }
 
-TEST(MotionBounds, WhatCanBeSeenIsLeftAlone) {
+TEST(MotionBounds, VisibleMotionIsUnchanged) {
   const ImageMotion motion = motion_of(-0.6 * kFastest_px_s, 0.79 * kFastest_px_s, -24, 78);
   const ImageMotion bounded = bound_motion(motion, kWidth, kInterval_s);
   EXPECT_EQ(bounded.velocity_px_s, motion.velocity_px_s);
@@ -45,7 +45,7 @@ TEST(MotionBounds, NothingGrowsOrTurnsFasterThanCanBeSeen) {
   EXPECT_NEAR(bounded.roll_rad_s, -std::acos(-1.0) / kInterval_s, 1e-12);
 }
 
-TEST(MotionBounds, WhatIsNotANumberIsNoMotion) {
+TEST(MotionBounds, NanIsNoMotion) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const ImageMotion bounded = bound_motion(motion_of(bad, 1, bad, -bad), kWidth, kInterval_s);

@@ -60,7 +60,7 @@ TEST(OneEuroFilter, FollowsThePaperStepByStep) {
   }
 }
 
-TEST(OneEuroFilter, ARampIsLateByTheCutoffsTimeWhateverTheFrameRate) {
+TEST(OneEuroFilter, ARampIsDelayedEquallyAtEveryFrameRate) {
   for (const double interval_s : {1.0 / 60, 1.0 / 24, 0.1}) {
     Filter1 filter;
     const double slope = 50;
@@ -72,7 +72,7 @@ TEST(OneEuroFilter, ARampIsLateByTheCutoffsTimeWhateverTheFrameRate) {
   }
 }
 
-TEST(OneEuroFilter, DoesNotDependOnHowTheAxesLie) {
+TEST(OneEuroFilter, DoesNotDependOnTheDirectionOfTheAxes) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, 30);
   Filter2 straight, turned;
@@ -125,7 +125,7 @@ TEST(OneEuroFilter, LessJitterAtRestLessDelayInMotion) {
   EXPECT_LT(t_s - kFrame_s - y / 1000, 1 / (kTwoPi * cutoff_Hz));
 }
 
-TEST(OneEuroFilter, ByDefaultItsDelayIsNotFelt) {
+TEST(OneEuroFilter, TheDefaultDelayCannotBeFelt) {
   const FilterSettings defaults;
   for (const double slope_px_s2 : {3.0, 30.0, 300.0, 3000.0}) {
     Filter1 filter;
@@ -186,7 +186,7 @@ TEST(MotionFilter, ComesToRestExactly) {
   EXPECT_EQ(left.roll_rad_s, 0);
 }
 
-TEST(MotionFilter, TheNoiseIsThatOfWhatIsLeft) {
+TEST(MotionFilter, ReportsTheNoiseAfterFiltering) {
   // A steady motion with noise that is independent from frame to frame, many times over.
   constexpr int kRuns = 4000;
   std::mt19937 random(21);

@@ -131,7 +131,7 @@ std::optional<MotionModel> fit_robustly(ModelKind kind, const WeightedDisplaceme
   return fitter.refine(kind, fitter.start(evidence, {}), evidence);
 }
 
-TEST_P(EachModel, IsFoundAmongAsManyStrays) {
+TEST_P(EachModel, IsFoundAmongEquallyManyOutliers) {
   const ModelKind kind = GetParam();
   const MotionModel truth = sample_model(kind);
   constexpr double kSigma_px = 0.1;

@@ -143,7 +143,7 @@ TEST(ObjectMotion, IsTheDiscsInFrontOfATextureWhereTheMeanLosesIt) {
   }
 }
 
-TEST(ObjectMotion, IsAgainstTheBackgroundOfAPan) {
+TEST(ObjectMotion, IsRelativeToTheBackgroundOfAPan) {
   const Eigen::Vector2d pan_px(-3, 1);
   // The mean is that of the pan, and turns the motion round.
   EXPECT_LT(follow_disc(MotionKind::kMean, 56, pan_px, 1).left(), 0);
@@ -197,7 +197,7 @@ TEST(ObjectMotion, TwoDiscsAreTwoObjectsAndTheHandStaysWithOne) {
   }
 }
 
-TEST(ObjectMotion, ADiscThatComesNearerAndTurnsIsFeltSo) {
+TEST(ObjectMotion, ADiscThatGrowsAndTurnsGivesForceAndTorque) {
   for (const double sign : {1.0, -1.0}) {
     MovingScene scene(kWidth, kHeight);
     scene.plain_background();

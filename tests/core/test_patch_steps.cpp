@@ -229,7 +229,7 @@ TEST(PatchSteps, AWindowIsFoundWhateverTheLight) {
   }
 }
 
-TEST(PatchSteps, WindowsThatHaveNothingInCommonAreFarFromAResidualOfNone) {
+TEST(PatchSteps, UnrelatedWindowsHaveALargeResidual) {
   PaddedImage before;
   PaddedImage now;
   plain::reduce_blocks(noise(96, 96, 5).view(), 1, before);
@@ -262,7 +262,7 @@ TEST(PatchSteps, BlocksFindAJumpOfManyPixels) {
   EXPECT_EQ(moved.y_px, -40);
 }
 
-TEST(PatchSteps, OnlyLightIsToldFromMotion) {
+TEST(PatchSteps, AChangeOfLightAloneIsDistinguishedFromMotion) {
   const auto pyramid = [](double dx_px, double gain, double offset) {
     GrayPyramid levels;
     levels.levels[0] = textured(dx_px, 0, gain, offset);
@@ -297,7 +297,7 @@ class Grid : public testing::Test {
   PointGrid grid_;
 };
 
-TEST_F(Grid, WantsAPointInEachCellAndLooksThroughThemInTurns) {
+TEST_F(Grid, RequestsAPointInEachCellAndSearchesThemInTurn) {
   EXPECT_EQ(wanted(true), 60);
   int in_turns = 0;
   for (int n = 0; n < PointGrid::kTurns; ++n) {

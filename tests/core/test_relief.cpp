@@ -89,7 +89,7 @@ TEST(Relief, OfBrightnessIsAsHighAsThePictureIsBright) {
   }
 }
 
-TEST(Relief, LiesAsThePictureDoes) {
+TEST(Relief, HasTheOrientationOfThePicture) {
   // Brighter to the right and to the bottom, at different rates.
   Picture picture(640, 360);
   picture.fill([](double x, double y) { return 0.2 * x + 0.1 * y; });

@@ -63,7 +63,7 @@ TEST(RepeatedPicture, NoiseIsTheSamePictureOnceARhythmIsKnown) {
   }
 }
 
-TEST(RepeatedPicture, WhatSlowsDownAndTurnsRoundIsNoRepeat) {
+TEST(RepeatedPicture, AMotionThatReversesIsNoRepeat) {
   RepeatedPicture repeated;
   Picture before = moved(0, 1);
   double place = 0;
@@ -120,7 +120,7 @@ TEST(RepeatedPicture, TheSameNoiseOutOfRhythmIsAnotherPicture) {
   }
 }
 
-TEST(RepeatedPicture, OneBlockIsAnAccidentAndAFewAreAnObject) {
+TEST(RepeatedPicture, OneBlockIsNoiseAndSeveralAreAnObject) {
   const Picture before = moved(0);
   Picture accident = before;
   for (int x = 32; x < 48; ++x) accident.at(x, 40) = 255;

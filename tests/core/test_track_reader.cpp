@@ -92,7 +92,7 @@ TEST(TrackReader, InTheSlowestMotionNoSampleIsFeltForLongerThanAFrame) {
   EXPECT_EQ(reader.at(500 * kMs).found, Found::kExact);
 }
 
-TEST(TrackReader, LeavesOutWhatIsOlderThanWhatWasFelt) {
+TEST(TrackReader, SkipsSamplesOlderThanTheLastFeltOne) {
   Reader reader;
   reader.blocks = {block_of(20 * kMs, 20, kMs, 20)};
   EXPECT_NEAR(reader.percent(30 * kMs), 30, kFloat);
@@ -100,7 +100,7 @@ TEST(TrackReader, LeavesOutWhatIsOlderThanWhatWasFelt) {
   EXPECT_NEAR(reader.percent(39 * kMs), 39, kFloat) << "the newer of two samples of one time";
 }
 
-TEST(TrackReader, AClockThatGoesBackFarIsAnotherTime) {
+TEST(TrackReader, AClockThatGoesBackFarStartsAgain) {
   Reader reader;
   reader.blocks = {block_of(0, 40, kMs)};
   reader.at(30 * kMs);

@@ -61,7 +61,7 @@ TYPED_TEST(EveryTracker, FindsAKnownTranslationToAPartOfAPixel) {
   }
 }
 
-TEST(PatchTracker, WhatMovesFastIsFoundBesideWhatMovesSlowly) {
+TEST(PatchTracker, FastMotionIsFoundBesideSlowMotion) {
   // As a floor below a moving camera: 2 px a frame at the top, 46 px at the bottom, further than
   // any point is looked for from rest, with details of 5 px that do not show in a coarser picture.
   constexpr int kWidth = 640;

@@ -74,7 +74,7 @@ TEST(WrenchTimeline, IsAStraightLineWhereTheFramesAre) {
   }
 }
 
-TEST(WrenchTimeline, MeetsInTimeWhatIsKnownAnApproachAhead) {
+TEST(WrenchTimeline, ReachesAFrameInTimeIfItIsKnownAnApproachAhead) {
   WrenchTimeline timeline;
   timeline.push(timed(0, 1));
   const int64_t known_ns = kFrame_ns - WrenchTimeline::approach_after(kFrame_ns);
@@ -84,7 +84,7 @@ TEST(WrenchTimeline, MeetsInTimeWhatIsKnownAnApproachAhead) {
   EXPECT_TRUE(same_bits(timeline.at(kFrame_ns).wrench, wrench_of(3)));
 }
 
-TEST(WrenchTimeline, MeetsWhatIsKnownLaterAnApproachAfterwards) {
+TEST(WrenchTimeline, ReachesALaterKnownFrameAnApproachAfterwards) {
   for (const int64_t late_ns :
        {-WrenchTimeline::approach_after(kFrame_ns) + 1, int64_t{0}, kFrame_ns / 4}) {
     SCOPED_TRACE(late_ns);
@@ -102,7 +102,7 @@ TEST(WrenchTimeline, MeetsWhatIsKnownLaterAnApproachAfterwards) {
   }
 }
 
-TEST(WrenchTimeline, TakesLongerWherePicturesChangeSeldomButNotToRest) {
+TEST(WrenchTimeline, TakesLongerWhenPicturesChangeRarelyExceptToRest) {
   constexpr int64_t kInterval_ns = 125'000'000;  // drawn on threes
   for (const double next_N : {3.0, 0.0}) {
     SCOPED_TRACE(next_N);
@@ -120,7 +120,7 @@ TEST(WrenchTimeline, TakesLongerWherePicturesChangeSeldomButNotToRest) {
   }
 }
 
-TEST(WrenchTimeline, WhatComesAfterEverythingHasExpiredIsThereAtOnce) {
+TEST(WrenchTimeline, AFrameAfterEverythingHasExpiredAppliesAtOnce) {
   WrenchTimeline timeline = two_frames();
   const int64_t expired_ns = 2 * kFrame_ns + 1;
   EXPECT_EQ(timeline.at(expired_ns).found, Found::kExpired);
@@ -129,7 +129,7 @@ TEST(WrenchTimeline, WhatComesAfterEverythingHasExpiredIsThereAtOnce) {
   EXPECT_TRUE(same_bits(timeline.at(expired_ns).wrench, Wrench()));
 }
 
-TEST(WrenchTimeline, OfFramesCloseTogetherTheApproachIsAnInterval) {
+TEST(WrenchTimeline, ForFramesCloseTogetherTheApproachIsAnInterval) {
   constexpr int64_t kInterval_ns = 4'000'000;  // 240 frames/s
   WrenchTimeline timeline;
   timeline.push(timed(0, 1));
@@ -138,7 +138,7 @@ TEST(WrenchTimeline, OfFramesCloseTogetherTheApproachIsAnInterval) {
   EXPECT_EQ(timeline.at(kInterval_ns).found, Found::kExact);
 }
 
-TEST(WrenchTimeline, OneThatIsNotANumberSpoilsNoOther) {
+TEST(WrenchTimeline, NanDoesNotAffectOtherFrames) {
   WrenchTimeline timeline;
   for (int i = 0; i < 5; ++i) timeline.push(timed(i * kFrame_ns, i == 2 ? std::nan("") : i));
   for (int64_t time_ns = 0; time_ns <= 4 * kFrame_ns; time_ns += kFrame_ns / 4) {
@@ -254,7 +254,7 @@ TEST(WrenchTimeline, AnIntervalWithoutTimeForRestIsNoGap) {
   }
 }
 
-TEST(WrenchTimeline, WhatIsToBeHeldLongerHasALongerGap) {
+TEST(WrenchTimeline, ALongerHoldNeedsALongerGap) {
   WrenchTimeline timeline;
   timeline.push(timed(0, 1, kGap_ns));
   timeline.push(timed(kGap_ns, 3));
@@ -277,7 +277,7 @@ TEST(WrenchTimeline, TheCurveGoesOnWithoutACornerAfterAGap) {
   EXPECT_LT((slope_N_s - chord_N_s).cwiseAbs().maxCoeff(), bent_N_s);
 }
 
-TEST(WrenchTimeline, CountsWhatIsStillToCome) {
+TEST(WrenchTimeline, CountsFutureFrames) {
   WrenchTimeline timeline = two_frames();
   EXPECT_EQ(timeline.size_after(-1), 2u);
   EXPECT_EQ(timeline.size_after(0), 1u);

@@ -12,7 +12,7 @@ namespace {
 
 class Depth : public DepthHarness {};
 
-TEST_F(Depth, PutsAReferenceToTheImageOnAFrameThatStaysAsItWas) {
+TEST_F(Depth, AttachesAReferenceToTheImageAndLeavesTheFrameUnchanged) {
   GstBuffer* image = depth_image(0);
   gst_buffer_ref(image);
   push_depth({image});
@@ -81,7 +81,7 @@ TEST_F(Depth, SlowerDepthIsOnSeveralFrames) {
   }
 }
 
-TEST_F(Depth, OfFasterDepthEachFrameHasItsOwn) {
+TEST_F(Depth, WithFasterDepthEachFrameHasItsOwn) {
   push_depth(0, kFrame / 4, 200);
   push_video(50);
   const std::vector<Shown> all = shown();
@@ -90,7 +90,7 @@ TEST_F(Depth, OfFasterDepthEachFrameHasItsOwn) {
   }
 }
 
-TEST_F(Depth, WithoutDepthForAWhileFramesPassWithout) {
+TEST_F(Depth, WhileDepthIsMissingFramesPassWithoutIt) {
   open("max-age=80000000");
   push_depth({depth_image(0), depth_image(kFrame), depth_image(20 * kFrame)});
   push_video(25);
@@ -102,14 +102,14 @@ TEST_F(Depth, WithoutDepthForAWhileFramesPassWithout) {
   }
 }
 
-TEST_F(Depth, OneImageServesForEverWhenItMay) {
+TEST_F(Depth, OneImageIsUsedForeverIfAllowed) {
   open("max-age=18446744073709551615");
   push_depth({depth_image(0)});
   push_video(100);
   for (const Shown& one : shown()) EXPECT_TRUE(one.has_depth) << one.pts;
 }
 
-TEST_F(Depth, ItMayBeOfAnotherSizeAndFormatFromOneImageToTheNext) {
+TEST_F(Depth, SizeAndFormatMayChangeBetweenImages) {
   depth_thread = std::thread([this] {
     gst_harness_push(depth, depth_image(0));
     gst_harness_set_src_caps_str(depth,

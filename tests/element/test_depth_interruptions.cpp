@@ -21,7 +21,7 @@ TEST_F(DepthInterruptions, WhenTheVideoEndsTheDepthDoesToo) {
   EXPECT_EQ(next_message(GST_MESSAGE_WARNING), "");
 }
 
-TEST_F(DepthInterruptions, SaysThatItNeverMetAFrame) {
+TEST_F(DepthInterruptions, WarnsWhenNoFrameEverGotDepth) {
   push_depth(100 * kFrame, kFrame, 2);
   push_video(3);
   gst_harness_push_event(video, gst_event_new_eos());
@@ -29,7 +29,7 @@ TEST_F(DepthInterruptions, SaysThatItNeverMetAFrame) {
             std::string::npos);
 }
 
-TEST_F(DepthInterruptions, DepthWithoutTimestampsIsLeftOutWithAWord) {
+TEST_F(DepthInterruptions, DepthWithoutTimestampsIsDroppedWithAWarning) {
   push_depth({depth_image(GST_CLOCK_TIME_NONE), depth_image(GST_CLOCK_TIME_NONE)});
   push_video(2);
   for (const Shown& one : shown()) EXPECT_FALSE(one.has_depth);
@@ -144,7 +144,7 @@ TEST_F(DepthInterruptions, NearAndFarAreOnTheMeta) {
   EXPECT_EQ(all[0].depth.far_sample, 100);
 }
 
-TEST_F(DepthInterruptions, NearBehindFarIsAnErrorThatSaysSo) {
+TEST_F(DepthInterruptions, NearBehindFarIsAnError) {
   open("near=4000 far=400");
   const std::string text = next_message(GST_MESSAGE_ERROR);
   EXPECT_NE(text.find("'near' must be less than 'far', but near is 4000 and far is 400"),

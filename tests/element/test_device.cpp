@@ -84,7 +84,7 @@ TEST_F(DeviceTest, IsAtRestWhileAGapIsShown) {
   EXPECT_GT(force_N(), 0.1) << "there were two frames again to compare";
 }
 
-TEST_F(DeviceTest, ThatIsLostIsAWarningAndTheVideoGoesOn) {
+TEST_F(DeviceTest, ALossIsAWarningAndTheVideoContinues) {
   open("device=sim");
   push_next();
   tick(300);
@@ -109,7 +109,7 @@ TEST_F(DeviceTest, ThatIsLostIsAWarningAndTheVideoGoesOn) {
   EXPECT_EQ(h->warnings().size(), 2u) << "lost a second time";
 }
 
-TEST_F(DeviceTest, ThatIsLostIsAnErrorWhereThatWasAskedFor) {
+TEST_F(DeviceTest, ALossIsAnErrorIfRequested) {
   open("device=sim on-device-error=error");
   push_next();
   tick(300);
@@ -236,7 +236,7 @@ TEST_F(DeviceTest, MuteRampsToRestAndHoldsIt) {
   EXPECT_GT(force_N(), 0.5);
 }
 
-TEST_F(DeviceTest, AFrameALittleLateIsNotMissedAndOneThatDoesNotComeIsGoneIn50ms) {
+TEST_F(DeviceTest, ASlightlyLateFrameLeavesNoDipAndAMissingOneEndsIn50ms) {
   open("device=sim");
   play();
   // Live and without latency: each frame is analysed when it is due, or up to 8 ms later.
@@ -271,7 +271,7 @@ TEST_F(DeviceTest, IsAtRestWhenTheElementIsClosed) {
   EXPECT_EQ(h->engine().output().session(), nullptr);
 }
 
-TEST_F(DeviceTest, StateMayGoUpAndDownAsOftenAsOneLikes) {
+TEST_F(DeviceTest, StatesMayBeRepeatedManyTimes) {
   open("device=sim");
   for (int n = 0; n < 5; ++n) {
     EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_NULL), GST_STATE_CHANGE_SUCCESS);

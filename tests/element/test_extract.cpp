@@ -151,7 +151,7 @@ TEST_F(Extract, PassesTheVideoOnUntouched) {
   gst_caps_unref(caps);
 }
 
-TEST_F(Extract, IsSilentAndSaysSoOnceWhereFramesHaveNoMeta) {
+TEST_F(Extract, IsSilentWithOneWarningWhereFramesHaveNoMeta) {
   for (GstClockTime i = 0; i < 25; ++i) gst_harness_push(h, bare_frame(i * kFrame));
   gst_harness_push_event(h, gst_event_new_eos());
   take_all();
@@ -219,7 +219,7 @@ TEST_F(Extract, BackwardsThereAreGapsOnly) {
   EXPECT_EQ(gaps, 10);
 }
 
-TEST_F(Extract, ReportsHowLongSamplesWait) {
+TEST_F(Extract, ReportsTheLatencyOfSamples) {
   gst_harness_set_upstream_latency(h, 7 * GST_MSECOND);
   EXPECT_EQ(gst_harness_query_latency(h), 7 * GST_MSECOND + TrackStream::latency_ns());
   open("src");
@@ -227,7 +227,7 @@ TEST_F(Extract, ReportsHowLongSamplesWait) {
   EXPECT_EQ(gst_harness_query_latency(h), 7 * GST_MSECOND);
 }
 
-TEST_F(Extract, NoSampleWaitsLongerThanThat) {
+TEST_F(Extract, NoSampleExceedsTheLatency) {
   for (GstClockTime i = 0; i < 50; ++i) {
     gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
     take_all();

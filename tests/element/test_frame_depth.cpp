@@ -46,7 +46,7 @@ GstBuffer* frame_with_depth(const char* format, int near_half, int far_half,
   return frame;
 }
 
-TEST(FrameDepth, OfEveryFormatIsReadAsItIsMeant) {
+TEST(FrameDepth, ReadsEveryFormatCorrectly) {
   struct Case {
     const char* format;
     int near_half, far_half;
@@ -74,7 +74,7 @@ TEST(FrameDepth, OfEveryFormatIsReadAsItIsMeant) {
   }
 }
 
-TEST(FrameDepth, OfAFrameWithoutIsNone) {
+TEST(FrameDepth, AFrameWithoutDepthHasNone) {
   GstBuffer* holes = frame_with_depth("GRAY16_LE", 0, 65535, {});
   GstBuffer* bare = gst_buffer_new();
   DepthPicture picture;

@@ -53,7 +53,7 @@ class Meta : public testing::Test {
   int frames = 0;
 };
 
-TEST_F(Meta, SaysWhatTheMessageSaysAndTheTracks) {
+TEST_F(Meta, HasTheValuesOfTheMessageAndTheTracks) {
   open("attach-meta=true");
   gst_buffer_unref(push_next());
   GstBuffer* out = push_next();
@@ -135,7 +135,7 @@ TEST_F(Meta, IsThereOnlyWhenAskedForAndWithTheOverlayToo) {
   }
 }
 
-TEST_F(Meta, OfAnElementBeforeIsReplaced) {
+TEST_F(Meta, ReplacesTheMetaOfAnEarlierElement) {
   open("attach-meta=true");
   GstBuffer* first = push_next();
   GstBuffer* frame = gst_buffer_copy_deep(first);
@@ -154,7 +154,7 @@ TEST_F(Meta, OfAnElementBeforeIsReplaced) {
   gst_buffer_unref(out);
 }
 
-TEST_F(Meta, GoesAlongWithACopyButNotWithAPartOfOne) {
+TEST_F(Meta, IsCopiedWithAFrameButNotWithAPartOfIt) {
   open("attach-meta=true");
   gst_buffer_unref(push_next());
   GstBuffer* out = push_next();

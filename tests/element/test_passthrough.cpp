@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, Passthrough,
                                          "device=none motion=objects",
                                          "device=none overlay=true overlay=false"));
 
-TEST(Gap, ShowsThePictureBeforeAgainAndIsNotLookedAt) {
+TEST(Gap, RepeatsThePreviousPictureWithoutAnalysis) {
   for (const char* properties : {"device=none", "device=none overlay=true"}) {
     SCOPED_TRACE(properties);
     ElementHarness h(properties);
@@ -137,7 +137,7 @@ TEST(Gap, ShowsThePictureBeforeAgainAndIsNotLookedAt) {
   }
 }
 
-TEST(Gap, ThatIsLongIsNotComparedAcross) {
+TEST(Gap, FramesAroundALongGapAreNotCompared) {
   ElementHarness h;
   h.set_caps(make_caps("GRAY8", 320, 240));
   for (int n = 0; n < 9; ++n) {
@@ -239,7 +239,7 @@ class Allocation : public testing::Test {
   bool offers_ = true;
 };
 
-TEST_F(Allocation, IsTheSinksAsWithIdentity) {
+TEST_F(Allocation, IsAnsweredByTheSinkAsWithIdentity) {
   const std::string offered = ask("identity");
   EXPECT_EQ(offered,
             "the sink's pool 4711 3 7\n"

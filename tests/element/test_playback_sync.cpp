@@ -41,7 +41,7 @@ struct Sync : testing::Test {
   PlaybackSync sync;
 };
 
-TEST_F(Sync, IsNotPlayingUntilSaidSo) {
+TEST_F(Sync, IsNotPlayingUntilTold) {
   EXPECT_FALSE(observe(7 * kSecond).playing);
   sync.set_playing(true);
   EXPECT_TRUE(observe(8 * kSecond).playing);
@@ -181,7 +181,7 @@ TEST_F(Sync, AfterAFlushNothingIsShownUntilThereIsANewBaseTime) {
   EXPECT_EQ(line.running_at(monotonic_ns), 0);
 }
 
-TEST_F(Sync, ASinkThatKeepsItsBaseTimeIsBelievedInTheEnd) {
+TEST_F(Sync, ASinkThatKeepsItsBaseTimeIsAcceptedAfterAWhile) {
   sync.set_playing(true);
   observe(10 * kSecond);
   sync.expect_base_time(element);
@@ -214,14 +214,14 @@ TEST_F(Sync, AClockThatStandsStillIsFollowedForAsLongAsAFrameIsHeld) {
   }
 }
 
-TEST_F(Sync, AClockThatCannotBeReadIsBelievedForAsLongAsAFrameIsHeld) {
+TEST_F(Sync, AClockThatCannotBeReadIsTrustedForAsLongAsAFrameIsHeld) {
   sync.set_playing(true);
   const PlaybackClock line = observe(10 * kSecond);
   EXPECT_TRUE(line.plays_at(monotonic_ns + kLongest - 1));
   EXPECT_FALSE(line.plays_at(monotonic_ns + kLongest));
 }
 
-TEST_F(Sync, AClockOfLessThanHalfTheSpeedIsAsOneThatStandsStill) {
+TEST_F(Sync, AClockBelowHalfTheSpeedCountsAsStopped) {
   for (const int percent : {40, 60}) {
     SCOPED_TRACE(percent);
     sync.set_playing(true);

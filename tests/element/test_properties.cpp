@@ -213,7 +213,7 @@ TEST(Trace, HasAHeaderAndARowAFrame) {
   EXPECT_FALSE(std::getline(in, line));
 }
 
-TEST(Trace, ThatCannotBeWrittenIsAWarningAndTheVideoGoesOn) {
+TEST(Trace, AnUnwritableFileIsAWarningAndTheVideoContinues) {
   ElementHarness h("device=none trace=/nowhere/trace.csv");
   h.set_caps(make_caps("GRAY8", 320, 240));
   EXPECT_EQ(h.push_moved(0, 0, 0), GST_FLOW_OK);
@@ -256,7 +256,7 @@ TEST(Trace, APipeWhoseReaderHasLeftIsAWarningAndTheVideoGoesOn) {
   }
 }
 
-TEST(HapticTrace, ThatCannotBeWrittenIsAWarningAndTheForceGoesOn) {
+TEST(HapticTrace, AnUnwritableFileIsAWarningAndTheForceContinues) {
   ElementHarness h("device=sim haptic-trace=/nowhere/haptic.csv");
   ASSERT_EQ(h.warnings().size(), 1u);
   EXPECT_NE(h.warnings()[0].find("/nowhere/haptic.csv"), std::string::npos);

@@ -107,7 +107,7 @@ TEST_P(UnpackedFormats, HonourACrop) {
   gst_buffer_unref(buffer);
 }
 
-TEST_P(UnpackedFormats, ThatAreTooShortArePassedOnOnly) {
+TEST_P(UnpackedFormats, TooShortFramesAreOnlyPassedOn) {
   ElementHarness h;
   h.set_caps(make_caps(GetParam().c_str(), kWidth, kHeight));
   GstBuffer* const frame = converted(h.info(), 0, 0);
@@ -126,7 +126,7 @@ TEST_P(UnpackedFormats, ThatAreTooShortArePassedOnOnly) {
   EXPECT_EQ(h.warnings().size(), 1u);
 }
 
-TEST_P(UnpackedFormats, AreNotDrawnIntoAndThatIsSaid) {
+TEST_P(UnpackedFormats, TheOverlayWarnsAndDrawsNothing) {
   ElementHarness h("device=none overlay=true");
   h.set_caps(make_caps(GetParam().c_str(), kWidth, kHeight));
   for (int n = 0; n < 3; ++n) {

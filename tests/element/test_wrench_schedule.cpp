@@ -44,7 +44,7 @@ TEST_F(Schedule, KeepsWhatTheLoopHasNoRoomFor) {
   EXPECT_EQ(schedule.refused(), 0u);
 }
 
-TEST_F(Schedule, ForgetsWhatWaitsToo) {
+TEST_F(Schedule, ForgetsWaitingWrenchesToo) {
   for (int64_t n = 0; n < 5000; ++n) add(n);
   schedule.forget();
   for (int64_t n = 0; n < 5; ++n) add(100 * n);

@@ -30,7 +30,7 @@ Film film_of(const std::vector<double>& speeds_px_s, int height = 480) {
   return film;
 }
 
-TEST(RankCorrelation, KnowsOrderOnlyAndSharesRanks) {
+TEST(RankCorrelation, DependsOnOrderOnlyAndSharesRanks) {
   EXPECT_NEAR(rank_correlation({1, 2, 3, 4}, {-5, 0, 1, 1000}), 1, kRounding);
   EXPECT_NEAR(rank_correlation({1, 2, 3, 4}, {9, 7, 5, 3}), -1, kRounding);
   // Ranks 1 2 3 4 and 1.5 1.5 3 4: Σ about 2.5 is 4.5, squares are 5 and 4.5.

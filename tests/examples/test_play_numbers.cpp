@@ -15,7 +15,7 @@
 
 namespace {
 
-TEST(Histogram, KnowsNothingWithoutValues) {
+TEST(Histogram, IsNanWithoutValues) {
   EXPECT_EQ(Histogram().count(), 0u);
   EXPECT_TRUE(std::isnan(Histogram().quantile(0.5)));
 }
@@ -108,7 +108,7 @@ TEST(Unfelt, LeavesOutWhatWasBeforePlaying) {
   EXPECT_EQ(unfelt_text({{"not-playing", 3}, {"none", 100}}, "none"), "");
 }
 
-TEST(Unfelt, HasTheMostFrequentReasonFirstAndThatOfTheEndLast) {
+TEST(Unfelt, ListsTheMostFrequentReasonFirstAndTheLastOneAtTheEnd) {
   EXPECT_EQ(unfelt_text({{"none", 499}, {"muted", 100}, {"nothing-moves", 400}, {"late", 1}},
                         "nothing-moves"),
             "Nothing was felt in 50.1 % of the frames:\n"
@@ -117,7 +117,7 @@ TEST(Unfelt, HasTheMostFrequentReasonFirstAndThatOfTheEndLast) {
             "Nothing was felt in the last second: Nothing moves in the picture.\n");
 }
 
-TEST(Unfelt, PassesOnAReasonThatItDoesNotKnow) {
+TEST(Unfelt, PrintsAnUnknownReasonUnchanged) {
   EXPECT_EQ(unfelt_text({{"new-reason", 2}}, "new-reason"), "Nothing was felt: new-reason\n");
 }
 

@@ -78,7 +78,7 @@ TEST_F(Traces, ACopyThatCannotBeWrittenIsRefused) {
   EXPECT_THROW(read("a,b\n", folder_ / "none" / "copy.csv"), std::runtime_error);
 }
 
-TEST_F(Traces, NobodyNeedsToWrite) {
+TEST_F(Traces, EndsEvenIfNothingIsWritten) {
   TraceReader reader(folder_ / "pipe", "", {"a"}, [](const TraceReader::Fields&) { FAIL(); });
   EXPECT_NO_THROW(reader.finish());
 }
@@ -121,7 +121,7 @@ TEST(SessionRecord, MotionIsSummedUpwards) {
                                          0.5, 15, 20, 30, 40, 0.3, 0.4, 0, -0.01}));
 }
 
-TEST(SessionRecord, OnlyWhatIsPlayedCounts) {
+TEST(SessionRecord, OnlyFramesDuringPlaybackCount) {
   SessionRecord record;
   add_haptic(record, "900,1000,0,-1,0,opening,1,0,9,9");
   add_haptic(record, "1000000,2000,50,40,1,running,0.03,0.04,0,0.001");

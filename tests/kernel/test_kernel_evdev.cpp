@@ -50,7 +50,7 @@ TEST(KernelEvdev, RightIsRightAndUpIsUp) {
   });
 }
 
-TEST(KernelEvdev, WheelsAndPadsAreGivenWhatTheyHave) {
+TEST(KernelEvdev, WheelsAndPadsGetTheEffectsThatTheySupport) {
   {
     UinputDevice wheel(UinputKind::kWheel, "uinput wheel");
     const FeltPlayer player(listed("uinput wheel"));
@@ -96,7 +96,7 @@ TEST(KernelEvdev, UpdatesAreFewAndAPauseIsAtZeroWithin60Ms) {
               1e-6 * static_cast<double>(rest_ns - paused_ns));
 }
 
-TEST(KernelEvdev, TheKernelErasesTheEffectsOfWhoIsKilled) {
+TEST(KernelEvdev, TheKernelErasesTheEffectsOfAKilledProcess) {
   UinputDevice stick(UinputKind::kStick);
   listed();
   for (const int signal : {SIGKILL, SIGSTOP}) {
@@ -122,7 +122,7 @@ TEST(KernelEvdev, IsTakenBackWhenItIsPluggedInAgain) {
   wait_for([&] { return is_level(stick->right(), 1, 1); });
 }
 
-TEST(KernelEvdev, ASlowDeviceHoldsUpNobody) {
+TEST(KernelEvdev, ASlowDeviceDelaysNothing) {
   UinputDevice stick(UinputKind::kStick);
   const FeltPlayer player(listed());
   stick.upload_ms = 50;

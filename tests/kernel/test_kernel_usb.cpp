@@ -209,7 +209,7 @@ TEST_F(KernelGuardian, ZeroesTheMotorsWhenAChildHasTheFilesOfTheHostThatIsKilled
                      [](ChildProcess& host) { host.send(SIGKILL); });
 }
 
-TEST_F(KernelGuardian, IsMissedByItsHost) {
+TEST_F(KernelGuardian, ItsEndIsNoticedByTheHost) {
   expect_zeros_after("guardian killed", "--pull", [](ChildProcess&) { signal_guardian(SIGKILL); });
 }
 

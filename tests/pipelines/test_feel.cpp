@@ -224,7 +224,7 @@ TEST_F(Feel, AFilmOfTenBitsWithFullColourIsConvertedForTheScreen) {
   }
 }
 
-TEST_F(Feel, LookingAtAFilmOpensNoDevice) {
+TEST_F(Feel, InspectingAFilmOpensNoDevice) {
   plug(0, UsbKind::kSh4);
   // As a thumbnailer does.
   Outcome outcome = run_all(felt_player({"preroll", "wait=100", "loaded"}));
@@ -254,7 +254,7 @@ TEST_F(Feel, ADeviceThatCannotBeOpenedStopsNoVideo) {
   EXPECT_NE(outcome.text.find("usb"), std::string::npos) << outcome.text;
 }
 
-TEST_F(Feel, WithoutItNothingOfThisPluginIsThere) {
+TEST_F(Feel, WithoutItThePluginIsNotLoaded) {
   plug(0, UsbKind::kSh4);
   const Outcome outcome = run_all(player({"play", "frames=30", "loaded"}));
   EXPECT_EQ(outcome.status, 0);

@@ -158,7 +158,7 @@ TEST(Semantics, RunningTimesOfSeventyYears) {
   for (size_t n = 1; n < 10; ++n) EXPECT_GT(felt_px_s[n].norm(), kMoves_px_s) << n;
 }
 
-TEST(Semantics, ATimestampTwiceIsOneFrame) {
+TEST(Semantics, TwoFramesOfOneTimestampCountAsOne) {
   SteppedPipeline pipeline(kPlayer);
   pipeline.retime([](int n, GstClockTime pts) { return n == 5 ? pts - kFrame : pts; });
   pipeline.set_state(GST_STATE_PLAYING);

@@ -168,7 +168,7 @@ TEST_F(TrackFidelity, AReplayedTrackIsFeltAsTheFilmIsLive) {
   }
 }
 
-TEST_F(TrackFidelity, AlsoWhereFramesAreAtNoWholeMillisecond) {
+TEST_F(TrackFidelity, HoldsForFramesBetweenMilliseconds) {
   // 41.67 ms: ticks are between samples. Of the cubic that live analysis follows the straight line
   // differs by h²/8 · |f''|, and |f''| <= 6 · change / T² of a monotone one; a force changes
   // by 6 N (max-force twice) at most.

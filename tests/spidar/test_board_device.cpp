@@ -36,7 +36,7 @@ TEST(Mouse, PullsAsTheStringsWouldWithinItsLimit) {
   }
 }
 
-TEST(Uart, TooFewMotorsAreSaid) {
+TEST(Uart, ReportsTooFewMotors) {
   BoardBench bench(Kind::kUart);
   std::vector<std::unique_ptr<Transport>> lines;
   lines.push_back(bench.transport_to(std::make_unique<EmulatedUart>(
@@ -158,7 +158,7 @@ TEST(BoardDevice, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
   EXPECT_GE(device.health().late_replies, 1u);
 }
 
-TEST(DeviceFactory, ListsWhatItKnowsForOtherNames) {
+TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
   const Profile profile = load_profile("spidar-g6x3-v2-r");
   for (const std::string spec : {"foo", "", "usb:", "sim:", "uart", "uart:", "mouse:", "ff:"}) {
     try {

@@ -84,7 +84,7 @@ TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
   }
 }
 
-TEST_F(ForceFeedback, WheelsAreGivenWhatGoesToTheSide) {
+TEST_F(ForceFeedback, WheelsGetTheSidewaysForce) {
   plug_evdev(0, EvdevKind::kWheel).axis[1] = 1000;  // a pedal
   const FeltPlayer player;
   EXPECT_EQ(player.session->device().description(),
@@ -96,7 +96,7 @@ TEST_F(ForceFeedback, WheelsAreGivenWhatGoesToTheSide) {
   EXPECT_EQ(bus().evdev[0].plays, 1u);
 }
 
-TEST_F(ForceFeedback, PadsAreGivenTheStrength) {
+TEST_F(ForceFeedback, PadsGetTheStrengthOfTheForce) {
   plug_evdev(0, EvdevKind::kPad);
   const FeltPlayer player;
   EXPECT_EQ(player.session->device().description(),
@@ -132,7 +132,7 @@ TEST_F(ForceFeedback, TheStickIsTheGripAndRestsAnywhere) {
   wait_for([] { return evdev_levels(0).at_rest(); });
 }
 
-TEST_F(ForceFeedback, UpdatesAreFewAndNoneIsForNothing) {
+TEST_F(ForceFeedback, UpdatesAreRareAndNeverUnnecessary) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
   {
     const FeltPlayer player;
@@ -193,7 +193,7 @@ TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
   EXPECT_TRUE(bench.motors.all_zero());
 }
 
-TEST_F(ForceFeedback, ASlowDriverHoldsUpNobody) {
+TEST_F(ForceFeedback, ASlowDriverDelaysNothing) {
   plug_evdev(0, EvdevKind::kStick);
   const FeltPlayer player;
   bus().evdev[0].upload_ms = 50;

@@ -160,7 +160,7 @@ TEST(Guardian, TakesJoysticksToZeroWhenTheHostIsKilledOrStopped) {
   clear_bus();
 }
 
-TEST(Guardian, IsMissedWhenItIsKilledOrStopped) {
+TEST(Guardian, ItsEndIsNoticedWhenItIsKilledOrStopped) {
   for (const bool threaded : {true, false}) {
     for (const int signal : {SIGKILL, SIGSTOP}) {
       UsbPort& port = plug(0, UsbKind::kSh4);
@@ -269,7 +269,7 @@ TEST(Guardian, IsTriedWhenTheMotorsCannotBeZeroed) {
   clear_bus();
 }
 
-TEST(Guardian, IsNeededUnlessNotWanted) {
+TEST(Guardian, IsRequiredUnlessDisabled) {
   plug(0, UsbKind::kSh4);
   const std::string before = std::getenv("SPIDAR_GUARDIAN");
   setenv("SPIDAR_GUARDIAN", "/nowhere/spidar-guardian", 1);

@@ -39,7 +39,7 @@ void play_for(LoopDriver& driver, TickWatch& watch, int64_t duration_ns, Running
   }
 }
 
-TEST(HapticLoopTime, ALineThatIsNotValidAnyMoreIsNotFollowed) {
+TEST(HapticLoopTime, AnOutdatedClockIsNotFollowed) {
   LoopDriver driver;
   driver.open();
   for (int i = 0; i < 100; ++i) driver.loop->schedule({i * 40 * kMs, kHold, push_right(2)});

@@ -204,7 +204,7 @@ TEST(BrokenString, IsLeftOut) {
 
 // The other strings cannot give every wrench: the delivered wrench is no further from the requested
 // one than the requested one is from the wanted one, plus the pull of the minimum tensions.
-TEST(BrokenString, TheOthersAreAskedOnlyForWhatIsSure) {
+TEST(BrokenString, TheOthersDeliverOnlyWhatIsCertain) {
   RandomMotion random(14);
   for (const std::string name : {"spidar-gcc", "spidar-g6c", "spidar-g6x3-v2-r"}) {
     const Profile profile = load_profile(name);

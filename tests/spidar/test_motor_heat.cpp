@@ -42,7 +42,7 @@ TEST(MotorHeat, RisesWithTheSquareOfTheTension) {
   EXPECT_EQ(heat.limit_N()[0], profile.max_tension_N()[0]);
 }
 
-TEST(MotorHeat, WithinItsLimitNeverAboveOne) {
+TEST(MotorHeat, NeverAboveOneWithinTheLimit) {
   for (const std::string& name : list_profiles()) {
     const Profile profile = load_profile(name);
     MotorHeat heat(profile);
@@ -59,7 +59,7 @@ TEST(MotorHeat, WithinItsLimitNeverAboveOne) {
   }
 }
 
-TEST(MotorHeat, TheLoopGivesLessForceRatherThanHeat) {
+TEST(MotorHeat, TheLoopReducesTheForceInsteadOfOverheating) {
   SafetyLimits limits;
   limits.max_force_N = 20;
   LoopDriver driver(limits);

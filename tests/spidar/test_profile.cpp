@@ -174,7 +174,7 @@ TEST(Profile, UnknownNameListsWhatIsKnownAndWhereItWasSearched) {
   expect_contains(error, folder.path().string());
 }
 
-TEST(Profile, WhatIsNotAFileIsSaid) {
+TEST(Profile, ReportsAPathThatIsNoFile) {
   const Folder folder;
   fs::create_directory(folder.path() / "folder.toml");
   expect_contains(error_of((folder.path() / "folder.toml").string()), "not a regular file");

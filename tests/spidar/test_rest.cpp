@@ -31,7 +31,7 @@ double force_N(const Profile& profile, const Pose& pose, const StringVector& ten
   return (structure_matrix(profile.geometry, pose) * tension_N).head<3>().norm();
 }
 
-TEST(Rest, IsLeastTensionWhereverTheGripIs) {
+TEST(Rest, IsMinimumTensionWhereverTheGripIs) {
   RandomMotion random(kSeed);
   for (const std::string& name : list_profiles()) {
     LoopDriver driver({}, load_profile(name));

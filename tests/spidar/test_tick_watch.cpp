@@ -40,7 +40,7 @@ struct Played {
   }
 };
 
-TEST(TickWatch, TakesWhatIsAllowed) {
+TEST(TickWatch, AcceptsWhatIsAllowed) {
   Played played;
   for (int i = 0; i <= 10; ++i) played.tick(0.3 * i);
   played.tick(2.4, 5 * kTick_ns);
@@ -57,7 +57,7 @@ TEST(TickWatch, SeesAForceAboveTheLimit) {
   EXPECT_NONFATAL_FAILURE(played.tick(3.0 + 1e-12), "force too large");
 }
 
-TEST(TickWatch, SeesAStepAndSaysSoOnce) {
+TEST(TickWatch, ReportsAStepOnce) {
   Played played;
   played.tick(0);
   EXPECT_NONFATAL_FAILURE(played.tick(0.3 + 1e-9), "force changes too fast");

@@ -169,7 +169,7 @@ TEST_F(UartLines, OpenSaysWhatIsWrong) {
             std::string::npos);
 }
 
-TEST(TtyList, IsOfAdaptersAndOfLinesThatAreNamed) {
+TEST(TtyList, ListsAdaptersAndNamedLines) {
   const TemporaryFolder temporary;
   const std::string folder = temporary.path;
   for (const char* name : {"ttyUSB1", "ttyS0", "spidar0", "ttyACM0", "null"})

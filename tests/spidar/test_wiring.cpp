@@ -200,7 +200,7 @@ TEST(Wiring, ReversedAndCutWiresAreFound) {
   EXPECT_EQ(faults_of(test_of(profile, "reverse-motor:0", false)), "motor 0 pulls -1; ");
 }
 
-TEST(Wiring, AHandThatShiftsCertifiesNoFaultyMotor) {
+TEST(Wiring, AShiftingHandNeverMakesAFaultyMotorPass) {
   for (const std::string name : {"spidar-gcc", "spidar-g6x3-v2-r", "spidar-i7"}) {
     const Profile profile = load_profile(name);
     for (unsigned seed = 0; seed < 160; ++seed) {
@@ -214,7 +214,7 @@ TEST(Wiring, AHandThatShiftsCertifiesNoFaultyMotor) {
   }
 }
 
-TEST(Wiring, AHandThatShiftsOnceCondemnsNoMotor) {
+TEST(Wiring, AHandThatShiftsOnceNeverMakesAMotorFail) {
   const Profile profile = load_profile("spidar-gcc");
   for (unsigned seed = 0; seed < 40; ++seed) {
     std::mt19937 random(seed);
@@ -245,7 +245,7 @@ TEST(Wiring, RewiredProfileIsTheDeviceAsItIs) {
   EXPECT_TRUE(again.as_profile()) << faults_of(again);
 }
 
-TEST(Wiring, WhatAProfileCannotSayIsNotWritten) {
+TEST(Wiring, WhatAProfileCannotExpressIsNotWritten) {
   const Profile profile = load_profile("spidar-gcc");
   for (const std::string wiring : {"swap-motors:0,2", "cut-motor:1", "cut-encoder:1"}) {
     const WiringReport report = test_of(profile, wiring);
