@@ -148,7 +148,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
   MotionEngine& engine = *self->engine;
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
-      GST_DEBUG_OBJECT(self, "flush: what was scheduled is cancelled");
+      GST_DEBUG_OBJECT(self, "flush: scheduled wrenches are cancelled");
       engine.flush();
       break;
     case GST_EVENT_FLUSH_STOP: {

@@ -4,7 +4,8 @@
 """Counts the test cases of meson builds: summary.py BUILD... prints failed and skipped tests with the
 reasons, and as its last line `N passed, N failed, N skipped`. Exits with an error when a test failed.
 
-`--failed WHAT` counts a check that is not a meson test and failed, `--passed WHAT` one that passed. `--log NAME` reads what `meson test --logbase NAME` wrote."""
+`--failed WHAT` counts a check that is not a meson test and failed, `--passed WHAT` one that passed.
+`--log NAME` reads what `meson test --logbase NAME` wrote."""
 
 import argparse
 import json

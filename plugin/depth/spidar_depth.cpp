@@ -231,7 +231,7 @@ static gboolean seek(GstSpidarDepth* self, GstEvent* event) {
   const gboolean done = gst_pad_push_event(self->sink, gst_event_ref(event));
   if (done && gst_pad_is_linked(self->depth_sink) &&
       !gst_pad_push_event(self->depth_sink, gst_event_ref(event))) {
-    GST_WARNING_OBJECT(self, "the depth cannot be sought");
+    GST_WARNING_OBJECT(self, "the depth stream refused the seek");
   }
   if (flushes) self->gate->end_seek();
   gst_event_unref(event);
