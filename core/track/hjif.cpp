@@ -25,7 +25,7 @@ constexpr std::array<const char*, kTrackChannels> kChannelNames = {
     "Torque about z: 1 is 1 N m"};
 /// Largest timescale of the format's main profile, ticks a second.
 constexpr int64_t kMostTicks_Hz = 48000;
-/// What the haptic loop can make of a curve.
+/// Types of curves that the haptic loop can follow.
 constexpr int kUpperLimit_Hz = kTrackRate_Hz / 2;
 
 template <typename Number>
@@ -103,7 +103,7 @@ double number(const Json& object, const char* name, const std::string& where, do
   return result;
 }
 
-/// Of ticks, from 0 to 2^31 − 1 as in the format.
+/// A time in ticks, from 0 to 2^31 − 1 as in the format.
 int64_t ticks(const Json& object, const char* name, const std::string& where) {
   const double value = number(object, name, where, INT32_MAX);
   if (value < 0 || value != std::floor(value)) fail(where + "." + name, "is no number of ticks");
@@ -115,7 +115,7 @@ struct Keyframe {
   double amplitude;
 };
 
-/// Adds curves to samples that grow as needed.
+/// Adds curves to samples, whose number grows as needed.
 class Curves {
  public:
   Curves(int64_t ticks_Hz, size_t most_samples) : ticks_Hz_(ticks_Hz), most_(most_samples) {}
@@ -150,7 +150,7 @@ class Curves {
   size_t index_before(int64_t tick) const {
     return static_cast<size_t>(tick * kTrackRate_Hz / ticks_Hz_);
   }
-  /// Where a keyframe is a sample.
+  /// The sample at a keyframe.
   void put(const Keyframe& keyframe, size_t channel, double gain) {
     const size_t i = index_before(keyframe.tick);
     if (static_cast<int64_t>(i) * ticks_Hz_ == keyframe.tick * kTrackRate_Hz) {

@@ -13,26 +13,26 @@
 
 namespace spidar {
 
-/// What was wrong with a file, and where.
+/// Says what was wrong with a file, and where.
 class SPIDAR_API HjifError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// HJIF of a track of 1000 samples a second: one perception of modality Force with six channels, fx
-/// fy fz tx ty tz, 1.0 of which is the full scale. There is no modality for torque: the
-/// descriptions of the channels say which is which. Each channel is one curve of straight lines,
-/// whose keyframes are samples: what lies between differs from the samples by at most `tolerance`
-/// of the full scale, and the keyframes themselves by half of 1e-5. Amplitudes beyond the full
-/// scale are clipped, as the format demands; what is no number is 0.
+/// fy fz tx ty tz, 1.0 of which is the full scale. HJIF has no modality for torque, so the
+/// descriptions of the channels name it. Each channel is one curve of straight lines whose
+/// keyframes are samples. The curve differs from the other samples by at most `tolerance` of the
+/// full scale, and from the keyframes by half of 1e-5. Amplitudes beyond the full scale are
+/// clipped, as the format requires; NaN becomes 0.
 SPIDAR_API std::string write_hjif(const std::vector<TrackSample>& samples, double tolerance = 4e-4);
 
 /// The longest track that read_hjif() takes: 12 h.
 constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
 
-/// Samples, 1000 a second, of the first perception of modality Force, which has to have six
-/// channels. Curves of straight lines are evaluated and summed, times the gain of their channel;
-/// before its first and after its last keyframe an effect is silent. Throws HjifError: no JSON, a
+/// Samples, 1000 a second, of the first perception of modality Force, which must have six channels.
+/// Curves of straight lines are evaluated and summed, multiplied by the gain of their channel; an
+/// effect is silent before its first and after its last keyframe. Throws HjifError: not JSON, a
 /// value that is missing or out of range, other bands or curves, or more than `most_samples`.
 SPIDAR_API std::vector<TrackSample> read_hjif(const std::string& text,
                                               size_t most_samples = kMostHjifSamples);

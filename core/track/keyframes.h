@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Few points of a curve that say nearly all of it.
+/// Approximates a curve by few of its points.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace spidar {
 
-/// Indices of `values`, rising, the first and the last among them, so that the straight lines
-/// between the values there pass all others within `tolerance`. Each line is as long as it can be
-/// from where it begins: the slopes that pass all values so far are a cone, and the last value that
-/// lies in it ends the line. Empty for no values.
+/// Ascending indices of `values`, including the first and the last one, so that straight lines
+/// between the values there pass all others within `tolerance`. Each line is as long as possible:
+/// the slopes that pass all values so far form a cone, and the last value inside the cone ends the
+/// line. Empty for no values.
 SPIDAR_API std::vector<size_t> choose_keyframes(const std::vector<double>& values,
                                                 double tolerance);
 

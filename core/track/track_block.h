@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Samples of a track on their way to the haptic loop.
+/// A block of samples of a track, on its way to the haptic loop.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct TrackBlock {
   size_t count = 0;         ///< 1 … kCapacity
   std::array<TrackSample, kCapacity> samples{};
 
-  /// Running time of sample `i`; of `count`, that of the next block's first one.
+  /// Running time of sample `i`; for `count`, that of the first sample of the next block.
   int64_t time_ns(size_t i) const noexcept {
     return begin_ns + duration_ns * static_cast<int64_t>(i) / static_cast<int64_t>(count);
   }

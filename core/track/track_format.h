@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a haptic track is: the wanted wrench as six channels of samples, like sound.
+/// The format of a haptic track: the wanted wrench as six channels of samples, like sound.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 
 namespace spidar {
 
-/// Samples of a track that this project writes: one a millisecond, as the haptic loop feels them.
+/// Samples of a track that this project writes: one a millisecond, the rate of the haptic loop.
 constexpr int kTrackRate_Hz = 1000;
 constexpr int64_t kTrackPeriod_ns = 1'000'000'000 / kTrackRate_Hz;
 /// fx fy fz tx ty tz, in the device frame D.
 constexpr size_t kTrackChannels = 6;
-/// A sample of 1.0 is this much. What is more is clipped by encodings of integers only.
+/// A sample of 1.0 is this much. Only integer encodings clip larger values.
 constexpr double kTrackForceScale_N = 10;
 constexpr double kTrackTorqueScale_Nm = 1;
 

@@ -7,8 +7,8 @@
 namespace spidar {
 namespace {
 
-/// Samples that are further apart have others between them that are missing; and in the slowest
-/// motion no sample is felt for longer than a frame.
+/// If samples are further apart, some are missing between them. In slow motion, no sample is felt
+/// for longer than a frame.
 int64_t longest_step_ns(int64_t period_ns) {
   return std::min(period_ns + period_ns / 2, WrenchTimeline::kLongestHold_ns);
 }
@@ -17,7 +17,7 @@ int64_t longest_step_ns(int64_t period_ns) {
 
 bool TrackReader::read(const TrackBlock& block, int64_t time_ns) noexcept {
   for (; read_ < block.count && block.time_ns(read_) <= time_ns; ++read_) {
-    // Of samples that come late only those count that are newer than what was felt.
+    // Of late samples, only those that are newer than the last felt one count.
     if (block.time_ns(read_) <= last_ns_) continue;
     last_ = block.samples[read_];
     last_ns_ = block.time_ns(read_);
@@ -35,7 +35,7 @@ TimelineResult TrackReader::at(int64_t time_ns, const TrackBlock* next) const no
   result.wrench = to_wrench(last_);
   const int64_t since_ns = time_ns - last_ns_;
   if (since_ns <= 0) {
-    // A clock may go back a little; further back it is another time.
+    // A clock may go back a little; if it goes back further, time starts again.
     if (since_ns < -kHold_ns) return {};
     result.found = since_ns == 0 ? Found::kExact : Found::kHeld;
     return result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From the wrenches of frames to the samples of a track.
+/// Samples the wrenches of frames as a track.
 #pragma once
 
 #include <algorithm>
@@ -11,21 +11,21 @@
 
 namespace spidar {
 
-/// Samples the curve that the haptic loop feels between frames (WrenchTimeline), every millisecond
-/// of the frames' own time scale. Where the loop would leave a ramp to the safety chain, because no
-/// frame follows, the ramp is part of the samples: a track does not step to rest.
+/// Samples the curve that the haptic loop renders between frames (WrenchTimeline), every
+/// millisecond of the frames' own time scale. Where no frame follows, the loop leaves a ramp to the
+/// safety chain; here the ramp is part of the samples, so that a track does not step to rest.
 class SPIDAR_API TrackSampler {
  public:
   /// The first sample is the first whole millisecond at or after `from_ns` >= 0. Forgets all
   /// frames.
   void begin(int64_t from_ns) noexcept;
 
-  /// Times must rise; false, and nothing is added, when they do not.
+  /// Times must rise; otherwise returns false and adds nothing.
   bool add(const TimedWrench& frame) noexcept;
 
-  /// Up to this time frames to come do not change the curve, unless they are further away than
-  /// `look_ahead_ns` from the frame added last: the time of the last frame but one that shows a
-  /// picture of its own.
+  /// Until this time, future frames do not change the curve, unless they are further than
+  /// `look_ahead_ns` from the last added one: the time of the last but one frame that does not
+  /// repeat a picture.
   int64_t settled_ns(int64_t look_ahead_ns) const noexcept {
     return std::max(before_newest_ns_, latest_ns_ - look_ahead_ns);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Fewer samples a second.
+/// Reduces the number of samples a second.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,21 @@
 
 namespace spidar {
 
-/// Puts the mean of so many samples that follow each other in their place, so that what the haptic
-/// loop cannot follow is not felt as something else.
+/// Replaces groups of successive samples by their mean, so that frequencies that the haptic loop
+/// cannot render do not appear as others.
 class TrackThinner {
  public:
-  /// For tracks of this rate: as many samples become one as bring it to kTrackRate_Hz or below.
+  /// For tracks of this rate: the size of a group brings it to kTrackRate_Hz or below.
   void begin(int rate_Hz) noexcept {
     *this = {};
     group_ = static_cast<size_t>((rate_Hz + kTrackRate_Hz - 1) / kTrackRate_Hz);
   }
-  /// The next sample has nothing to do with the ones before.
+  /// The next sample does not continue the previous ones.
   void restart() noexcept { filled_ = 0; }
 
   size_t group() const noexcept { return group_; }
 
-  /// True when `sample` completes a group, whose mean it then becomes.
+  /// Returns true when `sample` completes a group, and replaces it by the mean.
   bool add(TrackSample& sample) noexcept {
     if (group_ == 1) return true;
     for (size_t i = 0; i < kTrackChannels; ++i) {
