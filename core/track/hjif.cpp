@@ -25,7 +25,7 @@ constexpr std::array<const char*, kTrackChannels> kChannelNames = {
     "Torque about z: 1 is 1 N m"};
 /// Largest timescale of the format's main profile, ticks a second.
 constexpr int64_t kMostTicks_Hz = 48000;
-/// Types of curves that the haptic loop can follow.
+/// The highest frequency that the haptic loop can render.
 constexpr int kUpperLimit_Hz = kTrackRate_Hz / 2;
 
 template <typename Number>

@@ -29,7 +29,7 @@ v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels) {
   return (pairs & cv::v_setall_u16(0xFF)) + (pairs >> 8);
 }
 
-/// Of `rows` rows, `step` bytes apart.
+/// The same for `rows` rows, `step` bytes apart.
 template <typename Reader>
 v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t step, int rows) {
   v_uint16x8 sum = pair_sums(reader, pixels);
@@ -64,18 +64,18 @@ void store_means(const v_uint16x8& sums, unsigned count, uint8_t* to) {
 }
 #endif
 
-/// Rows of blocks whose pixels are called for while those of one are added up: left to itself, the
-/// processor waits for each row of a frame that leaves rows out, three times as long in all.
+/// Number of rows of blocks by which pixels are prefetched. Without prefetching, the processor
+/// waits for each row of a frame of which rows are skipped, and takes three times as long in total.
 constexpr int kRowsAhead = 2;
 
 /// Blocks of one row of blocks.
 struct BlockRow {
-  ptrdiff_t step;  ///< between the rows that count
+  ptrdiff_t step;  ///< between the rows that are used
   int factor;
-  int rows;     ///< that count
+  int rows;     ///< that are used
   int columns;  ///< blocks
   const uint8_t* pixels = nullptr;
-  const uint8_t* ahead = nullptr;  ///< the same of the row that is called for
+  const uint8_t* ahead = nullptr;  ///< the first row to prefetch
 
   unsigned count() const { return static_cast<unsigned>(rows * factor); }
 };
@@ -111,7 +111,7 @@ int reduce_by_power_of_2(const Reader& reader, const BlockRow& row, uint8_t* to)
   return x;
 }
 
-/// Blocks that were done from the left; the rest has no vector code.
+/// Returns the number of blocks that were done from the left; the rest has no vector code.
 template <typename Reader>
 int reduce_with_vectors(const Reader& reader, const BlockRow& row, uint8_t* to) {
   switch (row.factor) {

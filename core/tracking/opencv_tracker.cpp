@@ -18,7 +18,7 @@ namespace {
 
 /// New points are selected when fewer than this share of those selected last are left …
 constexpr double kThinnedOut = 0.7;
-/// … and after this many frames in any case: something may have entered.
+/// … and after this many frames in any case, because something may have entered.
 constexpr int kSelectionInterval = 5;
 
 /// A cut: at least kMinForCut points were looked for and fewer than this share was found. With few
@@ -93,7 +93,7 @@ void OpenCvTracker::Impl::track(const ImageView& frame, Repeats repeats) {
   result.features = static_cast<int>(features.size());
 }
 
-/// Moves the features to the new picture and drops what is lost. False at a cut.
+/// Moves the features to the new picture and drops lost ones. Returns false at a cut.
 bool OpenCvTracker::Impl::follow(int factor) {
   std::vector<PointFlow> flow;
   for (const Feature& feature : features) flow.push_back({feature.at, feature.moved, {}, false});

@@ -21,7 +21,7 @@
 namespace spidar {
 namespace {
 
-/// What a quality pays for.
+/// The work that each quality does.
 struct Budget {
   double grid_share;  ///< see PointChooser::Settings
   bool refines;       ///< with larger windows, in the reduced picture and in the frame
@@ -42,8 +42,8 @@ Budget budget_of(TrackerQuality quality) {
 /// A cut: at least kMinForCut points were looked for and fewer than this share was found.
 constexpr double kFoundAfterCut = 0.1;
 constexpr size_t kMinForCut = 10;
-/// Small windows of which less than this share is found again show what does not last: the ringing
-/// of a JPEG around an edge, which stays with the blocks.
+/// If less than this share of the small windows is found again, they show something that does not
+/// last, such as the ringing of a JPEG around an edge, which stays with the codec's blocks.
 constexpr double kLastingShare = 0.5;
 constexpr size_t kMinForLasting = 4;
 
@@ -182,7 +182,7 @@ bool PatchTracker::Impl::follow(const ImageView& frame) {
   const Tally large = count([](const FollowedPoint& point) { return point.level > 0; });
   small_windows_hold = small.looked_for < kMinForLasting || small.share() >= kLastingShare;
   drop_lost();
-  // What is found by chance does not agree with its neighbours and is not reported.
+  // A point that was found by chance does not agree with its neighbours and is not reported.
   const size_t looked_for = small.looked_for + large.looked_for;
   const bool cut = looked_for >= kMinForCut &&
                    static_cast<double>(result.tracks.size()) <
@@ -195,7 +195,7 @@ bool PatchTracker::Impl::follow(const ImageView& frame) {
   return !cut;
 }
 
-/// In the frame itself where that helps, else as found in the reduced picture.
+/// In the frame itself if that is more accurate, else as found in the reduced picture.
 ImagePoint PatchTracker::Impl::place_in_frame(const FollowedPoint& point, const FineWindow& was,
                                               const ImageView& frame, float gain) {
   const auto scale = static_cast<float>(factor);
@@ -228,8 +228,8 @@ void PatchTracker::Impl::settle(const ImageView& frame, float gain) {
   grid.notice_changes(before.levels[kChangeLevel], now.levels[kChangeLevel], 1 << kChangeLevel);
 }
 
-/// A point that moves like none of its neighbours is followed, but nobody is told: it is an error,
-/// or else an object whose other points come with the next frames.
+/// A point that moves like none of its neighbours is followed but not reported: it is either an
+/// error, or an object whose other points will be found in the next frames.
 void PatchTracker::Impl::report() {
   for (const FollowedPoint& point : points) {
     if (!point.found) continue;

@@ -22,16 +22,16 @@ constexpr double kDenseShare = 0.85;
 
 /// Level of the pyramid: a window there is 32 px of the base.
 constexpr int kCoarsestCorner = 2;
-/// With so many points in the base none of a coarser level is wanted.
+/// With this many points in the base, none is needed at a coarser level.
 constexpr size_t kEnoughFinePoints = 24;
 
 /// (grey / px)²: rounding to grey levels alone gives 0.04.
 constexpr float kLeastStrength = 1;
 constexpr float kKeptShare = 0.5f;
 
-/// Of their windows, at least. Where an edge crosses another one in front of it, it looks like a
-/// corner that nothing in the scene has and that goes its own way. On pairs with true flow, points
-/// that are less round than this are wrong two to four times as often as others.
+/// Least roundness of their windows. Where an edge crosses another one in front of it, the crossing
+/// looks like a corner, but it belongs to nothing in the scene and moves on its own. On pairs with
+/// true flow, points that are less round than this are wrong two to four times as often as others.
 constexpr float kPointRoundness = 0.2f;
 
 /// `box` of the base, in pixels of a coarser level; large enough for a window, inside the image.
@@ -50,7 +50,7 @@ PixelBox at_level(const PixelBox& box, int level, const PaddedImage& image) {
   return scaled;
 }
 
-/// Points up to which dense places are filled.
+/// Number of points up to which dense places are filled.
 size_t dense_limit(const PointChooser::Settings& settings) {
   return static_cast<size_t>(kDenseShare * settings.tracker.max_features);
 }
@@ -95,8 +95,8 @@ void PointChooser::find_corners(const GrayPyramid& picture, int level, const Poi
   });
 }
 
-/// The rim of a disc is an edge in a small window and a corner in a large one, which also sees what
-/// is behind the disc: only pictures with hardly anything else are looked at so.
+/// The rim of a disc is an edge in a small window but a corner in a large one, which also contains
+/// the background. Large windows are therefore used only in pictures with hardly anything else.
 void PointChooser::find_candidates(const GrayPyramid& picture, const PointGrid& grid,
                                    const Search& search, std::vector<FollowedPoint>& points) {
   candidates_.clear();
@@ -146,7 +146,8 @@ void PointChooser::choose(const GrayPyramid& picture, const Settings& settings,
     strongest_next_ = 0;
     frames_in_turn_ = 0;
   }
-  // A cell's first point goes before a second one anywhere, and there is always room for some.
+  // The first point of a cell comes before the second point of any other, and there is always room
+  // for some.
   const auto most = static_cast<size_t>(settings.tracker.max_features);
   add(true, most, settings, grid, points);
   add(false, dense_limit(settings), settings, grid, points);

@@ -26,7 +26,7 @@ constexpr float kMaxReturn_px = 0.2f;
 /// Mean absolute difference of the windows that rounding and resampling leave, grey levels.
 constexpr float kRounding = 1.0f;
 
-/// How a point is looked for.
+/// Settings of one search for points.
 struct Search {
   int level;      ///< coarsest pyramid level
   bool expected;  ///< start at the expected displacement, not at the old place
@@ -35,11 +35,11 @@ struct Search {
   float max_difference;
 };
 
-/// Few points move much differently than before: the two finest levels find them. This also keeps a
-/// periodic texture from jumping a period, which the coarse levels invite. Only a clear match
+/// Few points change their motion much: the two finest levels find them. This also keeps a periodic
+/// texture from jumping by a period, to which the coarse levels are prone. Only a clear match
 /// counts.
 constexpr Search kNear{1, true, 0.15f};
-/// For the others everything is tried.
+/// For the other points all levels are searched.
 constexpr Search kFar{kMaxLevel, false, 0.5f};
 
 /// Mean absolute deviation of the window around `at` from its mean, grey levels.
@@ -84,8 +84,8 @@ Flow lucas_kanade(const FlowPyramid& before, const FlowPyramid& now,
   return flow;
 }
 
-/// Points on the way through a search: index into the caller's points, old place, new place and the
-/// displacement that the search started with.
+/// Points during a search: index into the caller's points, old place, new place, and the
+/// displacement with which the search started.
 struct Candidates {
   std::vector<size_t> index;
   std::vector<cv::Point2f> from;
@@ -99,7 +99,7 @@ struct Candidates {
   }
 };
 
-/// The points that are not found yet.
+/// The points that have not been found yet.
 Candidates missing(const std::vector<PointFlow>& points, const Search& search) {
   Candidates c;
   for (size_t i = 0; i < points.size(); ++i) {
@@ -113,7 +113,7 @@ Candidates missing(const std::vector<PointFlow>& points, const Search& search) {
   return c;
 }
 
-/// Those with a new place in the picture that looks like the old one.
+/// The points whose new place in the picture looks like the old one.
 Candidates forward(const FlowPyramid& before, const FlowPyramid& now, const Candidates& c,
                    const Search& search) {
   const cv::Mat& image = before[0];
@@ -131,7 +131,7 @@ Candidates forward(const FlowPyramid& before, const FlowPyramid& now, const Cand
   return alike;
 }
 
-/// Finds what it can of the missing points: there, and back the same way.
+/// Tries to find the missing points: forwards, and back in the same way.
 void follow_missing(const FlowPyramid& before, const FlowPyramid& now, const Search& search,
                     std::vector<PointFlow>& points) {
   const Candidates tried = missing(points, search);

@@ -9,17 +9,18 @@
 namespace spidar {
 namespace {
 
-/// Where it was not expected more is asked for: smooth windows look like many others.
+/// At an unexpected place the match must be better, because smooth windows look like many others.
 constexpr float kSameThingElsewhere = 0.35f;
-/// The same of a larger window, which a small object does not fill.
+/// The same for a larger window, which a small object does not fill.
 constexpr float kSameSurroundings = 0.5f;
-/// A larger window may see something else beside: then its residual grows by this.
+/// A larger window may also contain something else; its residual may then be larger by this.
 constexpr float kWiderWorse = 0.1f;
-/// Followed back, a point comes to where it was: its distance from there, pixels of its level …
+/// A point that is followed back must return to where it was, up to this distance, pixels of its
+/// level …
 constexpr float kReturn_px = 0.5f;
-/// … and that times the residual. What hardly looks the same must come back the more exactly:
-/// beside something that moves differently both are large at once. On pairs with true flow, of
-/// what is above this every second place is wrong, and one in fifteen of what is below.
+/// … and up to this product of distance and residual. The worse the match, the more exactly it must
+/// return: beside something that moves differently both are large. On pairs with true flow, half of
+/// the places above this limit are wrong, and one in fifteen of those below.
 constexpr float kReturnByResidual_px = 0.06f;
 
 /// Where a point is expected, the search begins at this level; where it is not, at the coarsest.
@@ -28,14 +29,16 @@ constexpr int kAnywhereLevel = GrayPyramid::kLevels - 1;
 /// Blocks are compared at a level where 12 px are a jump; from there it is a pixel or two.
 constexpr int kAfterBlocksLevel = 2;
 
-/// Neighbours whose motion is tried: behind the rim of an object the nearest may be the object.
+/// Number of neighbours whose motion is tried: beside the rim of an object, the nearest one may
+/// belong to the object.
 constexpr int kNeighbours = 3;
 /// Motions that are less than this apart lead a search to the same end, px.
 constexpr float kSameStart_px = 1;
 
-/// Points that blocks are compared for in one frame: enough to find how a picture has jumped.
+/// Number of points in a frame for which blocks are compared: enough to find a jump of the whole
+/// picture.
 constexpr int kMostBlockSearches = 16;
-/// After so many in vain it is another picture.
+/// After this many failures it is a different picture.
 constexpr int kMostInVain = 8;
 
 bool nearer_than(ImagePoint a, ImagePoint b, float px) {
@@ -107,12 +110,12 @@ struct PointFollower::Search {
   const Settings& settings;
   bool has_history;  ///< some points have been followed before
 
-  /// Where it was expected to go.
+  /// Searches where the point was expected.
   bool find_expected(FollowedPoint& point) const {
     return find(point, point.moved, {kExpectedLevel, settings.gain, kSameThing, !has_history});
   }
 
-  /// Where its neighbours went, of which there is at least one: they vouch for it.
+  /// Searches where its neighbours went; with at least one of them this confirms the result.
   bool find_beside(FollowedPoint& point, const Neighbours& neighbours) const {
     for (int k = 0; k < neighbours.count(); ++k) {
       if (neighbours.is_known(k, point.moved)) continue;
@@ -162,9 +165,10 @@ struct PointFollower::Search {
            nearer_than(returned.to, point.at, reach_px);
   }
 
-  /// Refines with a larger window, and, in doubt, asks it: false when it does not see the same
-  /// thing. A small object does not fill it, so that it is asked only about points that were found
-  /// where nothing led to, and about all in the first frame, where none has a history.
+  /// Refines with a larger window and, in case of doubt, compares that window, too: returns false
+  /// when it does not match. A small object does not fill it, so it is only compared for points
+  /// that were found at an unexpected place, and for all points in the first frame, in which none
+  /// has a history.
   bool look_wider(FollowedPoint& point, const SearchSettings& search, bool in_doubt) const {
     if (!in_doubt && !settings.refines) return true;
     PointMatch wide;
@@ -197,7 +201,7 @@ void PointFollower::follow(const GrayPyramid& before, const GrayPyramid& now,
     if (point.found) continue;
     const Neighbours neighbours(points, point.at);
     if (neighbours.count() > 0) {
-      // Where the others go it would leave: what looks like it elsewhere is not it.
+      // If it moved like the others it would leave the picture, so a match elsewhere is wrong.
       if (!has_room(now.levels[0], point.at + neighbours.moved(0))) continue;
       if (search.find_beside(point, neighbours)) continue;
     }

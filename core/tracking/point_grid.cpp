@@ -8,19 +8,20 @@
 namespace spidar {
 namespace {
 
-/// Neighbours that move differently by more than this share of their motion, and this many pixels,
-/// are not one thing: a zoom by 10 % a frame stays below it.
+/// Neighbours whose motions differ by more than this share of the motion, and by more than this
+/// many pixels, do not belong to one thing. A zoom by 10 % a frame stays below the limit.
 constexpr float kDifferent = 0.2f;
 constexpr float kDifferent_px = 0.75f;
 /// Of one pixel; noise is far less after 16 have become one.
 constexpr int kChanged_grey = 8;
-/// Pixels; fewer are a flicker.
+/// With fewer changed pixels it is a flicker.
 constexpr int kLeastChanged = 2;
 constexpr uint8_t kDenseFrames = 12;
-/// Points that came in from next door may stay.
+/// Points that have come in from neighbouring cells may stay.
 constexpr int kMostInCell = 2;
 
-/// What turns or grows by 0.05 a frame is still one thing, whose points a cell apart move so.
+/// Rotation or growth of up to 0.05 a frame still counts as one thing; points a cell apart differ
+/// by this.
 constexpr float kTurn = 0.05f;
 
 bool alike(ImagePoint a, ImagePoint b, float least_px = kDifferent_px) {
@@ -42,7 +43,7 @@ size_t lowest_quarter(unsigned taken) {
   return quarter;
 }
 
-/// So that the larger window that refines a point is inside, too; less where there is no room.
+/// Leaves room for the larger window that refines a point, or less if the picture is small.
 int border_px(int size) {
   return std::clamp((size - kCornerWindow_px) / 4, 2, 5);
 }

@@ -48,7 +48,7 @@ class LargestMean {
     largest_[place] = value;
   }
 
-  /// Of `count` values in all; where these are fewer than kChangedBlocks, of all of them.
+  /// Of `count` values; if these are fewer than kChangedBlocks, the mean of all of them.
   float mean(size_t count) const {
     float sum = 0;
     for (const float value : largest_) sum += value;
