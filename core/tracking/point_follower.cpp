@@ -115,7 +115,8 @@ struct PointFollower::Search {
     return find(point, point.moved, {kExpectedLevel, settings.gain, kSameThing, !has_history});
   }
 
-  /// Searches where its neighbours went; with at least one of them this confirms the result.
+  /// Searches where its neighbours went, of which there must be at least one: their motion confirms
+  /// the result.
   bool find_beside(FollowedPoint& point, const Neighbours& neighbours) const {
     for (int k = 0; k < neighbours.count(); ++k) {
       if (neighbours.is_known(k, point.moved)) continue;

@@ -48,7 +48,7 @@ class LargestMean {
     largest_[place] = value;
   }
 
-  /// Of `count` values; if these are fewer than kChangedBlocks, the mean of all of them.
+  /// Mean of the largest of `count` values; of all of them if they are fewer than kChangedBlocks.
   float mean(size_t count) const {
     float sum = 0;
     for (const float value : largest_) sum += value;
