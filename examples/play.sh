@@ -29,13 +29,13 @@ build() {
     fi
     local targets=(plugin/libgstspidar.so examples/play)
     if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then
-        echo "building; the first time that takes some minutes"
+        echo "building; the first time, this takes some minutes"
         quietly ninja -C "$top/build" "${targets[@]}"
     fi
 }
 
-# Prints the file name of a clip of people walking, out of Debian's package
-# opencv-doc, downloaded once and not installed. Fails when it cannot be had.
+# Prints the file name of a clip of people walking, from Debian's package opencv-doc, which is
+# downloaded once and not installed. Fails when that is not possible.
 street_clip() {
     local cache=${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar
     local clip=$cache/vtest.avi
@@ -43,8 +43,8 @@ street_clip() {
         mkdir -p "$cache"
         local work
         work=$(mktemp -d "$cache/download.XXXXXX")
-        # This function is called in a subshell: the folder goes with it, also after Ctrl-C.
-        # shellcheck disable=SC2064  # the name of now, as the variable is local
+        # This function is called in a subshell: the folder is removed when that exits, also by Ctrl-C.
+        # shellcheck disable=SC2064  # expanded now, because the variable is local
         trap "rm -rf '$work'" EXIT
         # The user _apt may not write here; apt would warn about it when run as root.
         if (cd "$work" && apt-get -qq -o APT::Sandbox::User="$(id -un)" download opencv-doc &&
@@ -86,7 +86,7 @@ done
 
 install_packages build play
 if [[ -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]]; then
-    install_packages display || echo "going on without; there may be no window"
+    install_packages display || echo "continuing without them; there may be no window"
 fi
 build
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Plays a film with its motion in the hand: player.py [--headless] FILE-OR-URI
+"""Plays a film and renders its motion as force: player.py [--headless] FILE-OR-URI
 
 Type and return: space pause, + - speed, < > 5 s, . next frame, l loop, f force on and off,
 d40 force 40 ms later, q quit. Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in

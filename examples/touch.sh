@@ -15,7 +15,7 @@ if [[ ! -f $top/build/build.ninja ]]; then
     meson setup "$top/build" "$top" >/dev/null
 fi
 if [[ $(ninja -C "$top/build" -n examples/touch) != *"no work to do"* ]]; then
-    echo "building; the first time that takes some minutes"
+    echo "building; the first time, this takes some minutes"
     ninja -C "$top/build" examples/touch >/dev/null
 fi
 exec "$top/build/examples/touch" "$@"
