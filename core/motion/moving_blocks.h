@@ -20,6 +20,7 @@ struct RelativeBlock {
   float background_y_px = 0;
   bool has_texture = false;  ///< enough to say how it moves
   bool is_new = false;       ///< most of it was outside of the picture before
+  bool is_covered = false;   ///< something that is burned in hides the film, see BurnedIn::covers()
   bool moves = false;        ///< by itself, its neighbours considered
 };
 

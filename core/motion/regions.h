@@ -17,7 +17,8 @@ namespace spidar {
 /// places from its centre.
 struct Region {
   int blocks = 0;
-  /// Of them at the border of the picture, or of that part of it that was in the picture before.
+  /// Of them at the border of the picture, of that part of it that was in the picture before, or of
+  /// something burned in that covers the film.
   int border_blocks = 0;
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero();       ///< upper left corner of its box

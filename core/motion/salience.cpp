@@ -17,6 +17,9 @@ constexpr double kBorderCost = 0.5;
 /// Speed as a share of the camera's that an object has at least, and twice that when it goes the
 /// same way as the background, as what is nearer does.
 constexpr double kLeastShareOfCamera = 0.2;
+/// What is slower than so many standard deviations of what follows the background is one of the
+/// scene's layers: the further they are apart, the more they differ from any model of all of them.
+constexpr double kNoiseSigmas = 5;
 /// What was followed before may be so much more like a layer.
 constexpr double kTrusted = 1.4;
 /// What is less of an object than this is none.
@@ -34,6 +37,7 @@ double salience(const Region& region, const CameraMotion& camera, bool was_follo
   // Of what is at the border as a whole nobody sees where it ends.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
+  if (speed_px * trust < kNoiseSigmas * camera.noise_px) return 0;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));
   const double along_px = region.relative_px.dot(region.background_px.normalized());
   const double least_px =
