@@ -43,6 +43,7 @@ bool is_same(const StayingPixels& staying, float least_share) {
 void BurnedIn::reset() {
   lasting_.clear();
   holds_.clear();
+  covers_.clear();
 }
 
 void BurnedIn::begin(size_t blocks, bool camera_moves, float noise_grey2) {
@@ -97,11 +98,13 @@ void BurnedIn::end(const BlockGrid& grid) {
     lasting_[i] = static_cast<uint8_t>(std::clamp(lasting_[i] + change, 0, kMost));
   }
   holds_.assign(signs_.size(), 0);
+  covers_.assign(signs_.size(), 0);
   if (!camera_moves_) return;
   for (size_t i = 0; i < signs_.size(); ++i) {
+    const bool beside = is_beside_staying(grid, i);
     holds_[i] = signs_[i] == Sign::kStays || signs_[i] == Sign::kInPlace ||
-                lasting_[i] >= kLasting ||
-                (signs_[i] == Sign::kUnexplained && is_beside_staying(grid, i));
+                lasting_[i] >= kLasting || (signs_[i] == Sign::kUnexplained && beside);
+    covers_[i] = holds_[i] != 0 && beside;
   }
 }
 

@@ -47,6 +47,10 @@ class BurnedIn {
   /// latest pairs.
   bool holds(size_t index) const { return index < holds_.size() && holds_[index] != 0; }
 
+  /// Whether what a block shows has lasted, or is beside what has: it covers the film, and nobody
+  /// knows what is behind it. Rarer than holds(), for a sign in a single pair may be an error.
+  bool covers(size_t index) const { return index < covers_.size() && covers_[index] != 0; }
+
   void reset();
 
  private:
@@ -63,6 +67,7 @@ class BurnedIn {
   std::vector<Sign> signs_;
   std::vector<uint8_t> lasting_;  ///< how much each block has stayed of late, 0 … kMost
   std::vector<uint8_t> holds_;
+  std::vector<uint8_t> covers_;
   bool camera_moves_ = false;
   float unexplained_grey2_ = 0;
 };

@@ -154,6 +154,7 @@ void MovingBlocks::leave_out_burned_in(const BlockField& field,
   burned_in_.end(field.grid());
   for (size_t i = 0; i < judgements_.size(); ++i) {
     if (burned_in_.holds(i)) judgements_[i] = Judgement::kBurnedIn;
+    relative_[i].is_covered = burned_in_.covers(i);
   }
 }
 

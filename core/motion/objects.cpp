@@ -268,7 +268,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   }
   background_ = &background;
   relative_ = &moving_.find(field, background, expected_);
-  camera_ = {0, kCameraStill_px};
+  camera_ = {0, kCameraStill_px, background.sigma_px};
   for (const RelativeBlock& block : *relative_) {
     camera_.speed_px += std::hypot(block.background_x_px, block.background_y_px);
   }

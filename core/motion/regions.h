@@ -17,8 +17,8 @@ namespace spidar {
 /// picture, places relative to its centre.
 struct Region {
   int blocks = 0;
-  /// Number of them at the border of the picture, or of the part of it that was in the previous
-  /// picture.
+  /// Number of them at the border of the picture, of the part of it that was in the previous
+  /// picture, or of something burned in that covers the film.
   int border_blocks = 0;
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero();       ///< upper left corner of its box

@@ -18,6 +18,10 @@ constexpr double kBorderCost = 0.5;
 /// Least speed of an object as a share of the camera's. Twice that is needed in the direction of
 /// the background's motion, because parts of the scene that are nearer move like this.
 constexpr double kLeastShareOfCamera = 0.2;
+/// A region that moves against the background by less than this many standard deviations of the
+/// blocks that follow the background is one of the scene's layers: the further the layers are
+/// apart, the more each differs from a single model of them all.
+constexpr double kNoiseSigmas = 5;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;
 /// A region with a smaller likelihood is not an object.
@@ -35,6 +39,7 @@ double salience(const Region& region, const CameraMotion& camera, bool was_follo
   // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
+  if (speed_px * trust < kNoiseSigmas * camera.noise_px) return 0;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));
   const double along_px = region.relative_px.dot(region.background_px.normalized());
   const double least_px =

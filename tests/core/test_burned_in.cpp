@@ -209,6 +209,27 @@ TEST(BurnedInLines, DoNotSayHowTheCameraMoves) {
   }
 }
 
+const Caption& subtitles() {
+  return captions()[2].caption;
+}
+
+TEST(BurnedInSubtitles, DoNotMakeAnObjectOfANearLayer) {
+  // It reaches beyond the lower border, which the subtitle hides.
+  const auto shown = [](int n, const Vector2d& at) {
+    const double left = 340 - 9.0 * n;
+    if (in_box(at, left, 265, 300, 95)) return foreground().at(at.x() - left, at.y());
+    return background().at(at.x() + 2.0 * n, at.y());
+  };
+  const std::vector<Picture> film = take(shown);
+  for (const bool with : {false, true}) {
+    const std::vector<FrameAnalysis> found = analyze(film, with ? subtitles() : nullptr);
+    for (size_t n = 0; n < kFrames; ++n) {
+      EXPECT_EQ(found[n].motion.velocity_px_s, Vector2d(0, 0))
+          << "frame " << n << (with ? " with the subtitle" : "");
+    }
+  }
+}
+
 /// As strong as without the caption to 10 % and in that direction to 15°, over the film; and always
 /// felt about that way.
 void expect_plain(const std::vector<Picture>& film, const std::vector<FrameAnalysis>& plain,
@@ -249,6 +270,15 @@ TEST_P(BurnedIn, LeavesWhatTheCameraFollowsAsItIs) {
   });
   static const std::vector<FrameAnalysis> plain = analyze(film);
   expect_plain(film, plain, GetParam().caption);
+}
+
+TEST(BurnedInSubtitles, LeaveAnObjectBehindThemAsItIs) {
+  const std::vector<Picture> film = take([](int n, const Vector2d& at) {
+    const Vector2d middle(200.0 + 4 * n, 270);
+    if ((at - middle).norm() < 70) return foreground().at(at.x() - 4.0 * n, at.y());
+    return background().at(at.x() + 4.0 * n, at.y());
+  });
+  expect_plain(film, analyze(film), subtitles());
 }
 
 TEST_P(BurnedIn, LeavesAnObjectBeforeAStillCameraAsItIs) {

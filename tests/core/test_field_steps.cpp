@@ -235,6 +235,14 @@ TEST(Salience, ALayerThatMovesWithTheBackgroundIsNoObject) {
   EXPECT_EQ(salience(slow, moving, false), 0);
 }
 
+TEST(Salience, WhatDiffersLikeTheSceneItselfHasNone) {
+  const CameraMotion noisy{5, 0.25, 0.5};
+  EXPECT_EQ(salience(region(25, 0, 2), noisy, false), 0) << "4 standard deviations";
+  EXPECT_GT(salience(region(25, 0, 2), noisy, true), 0) << "an object that slows down";
+  EXPECT_GT(salience(region(25, 0, 3), noisy, false), 0) << "6 standard deviations";
+  EXPECT_GT(salience(region(25, 0, 2), {0, 0.25, 0.5}, false), 0) << "no camera moves";
+}
+
 TEST(Salience, ASingleEdgeHasNone) {
   Region edge = region(10, 0, 5);
   edge.roundness = 0;

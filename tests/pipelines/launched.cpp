@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/message_inbox.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test {
@@ -73,15 +74,14 @@ void Traces::record(GstElement* element) {
 Outcome run_to_end(GstElement* pipeline, int frames) {
   Outcome outcome;
   const Traces traces(pipeline);
+  MessageInbox inbox(pipeline);
   gst_element_set_state(pipeline, GST_STATE_PLAYING);
-  GstBus* bus = gst_element_get_bus(pipeline);
   while (!outcome.eos && outcome.error.empty() && (frames == 0 || outcome.motions < frames)) {
-    GstMessage* message = gst_bus_timed_pop(bus, GST_CLOCK_TIME_NONE);
+    GstMessage* message = inbox.await();
     take(outcome, message);
     gst_message_unref(message);
   }
   gst_element_set_state(pipeline, GST_STATE_NULL);
-  gst_object_unref(bus);
   gst_object_unref(pipeline);
   return outcome;
 }

@@ -26,7 +26,7 @@ SteppedPipeline::SteppedPipeline(const std::string& launch) {
   gst_pipeline_use_clock(GST_PIPELINE(pipeline_), GST_CLOCK(clock_));
   element_ = gst_bin_get_by_name(GST_BIN(pipeline_), "motion");
   sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
-  bus_ = gst_element_get_bus(pipeline_);
+  inbox_ = std::make_unique<MessageInbox>(pipeline_);
   engine_ = &gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_));
   engine_->output().set_manual(monotonic_ns, this);
   GstPad* pad = gst_element_get_static_pad(sink_, "sink");
@@ -49,7 +49,7 @@ SteppedPipeline::SteppedPipeline(const std::string& launch) {
 
 SteppedPipeline::~SteppedPipeline() {
   gst_element_set_state(pipeline_, GST_STATE_NULL);
-  gst_object_unref(bus_);
+  inbox_.reset();
   gst_object_unref(sink_);
   gst_object_unref(element_);
   gst_object_unref(pipeline_);
@@ -64,9 +64,13 @@ int64_t SteppedPipeline::monotonic_ns(void* self) {
 void SteppedPipeline::wait_for_state() {
   if (gst_element_get_state(pipeline_, nullptr, nullptr, GST_CLOCK_TIME_NONE) ==
       GST_STATE_CHANGE_FAILURE) {
-    GstMessage* message = gst_bus_pop_filtered(bus_, GST_MESSAGE_ERROR);
     GError* error = nullptr;
-    if (message) gst_message_parse_error(message, &error, nullptr);
+    while (GstMessage* message = error ? nullptr : inbox_->pop()) {
+      if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
+        gst_message_parse_error(message, &error, nullptr);
+      }
+      gst_message_unref(message);
+    }
     g_error("the pipeline does not change state: %s", error ? error->message : "no message");
   }
   engine_->output().refresh_clock();
@@ -103,7 +107,7 @@ void SteppedPipeline::seek(double rate, int flags, GstClockTime start, GstClockT
 void SteppedPipeline::step_frames(guint64 count) {
   gst_element_send_event(sink_, gst_event_new_step(GST_FORMAT_BUFFERS, count, 1, TRUE, FALSE));
   await_message(GST_MESSAGE_STEP_DONE);
-  wait_for_state();
+  wait_for_state();  // which follows in the same thread when the element has seen it, too
 }
 
 void SteppedPipeline::replace_clock(GstClockTime start) {
@@ -192,18 +196,16 @@ void SteppedPipeline::take(GstMessage* message) {
 }
 
 void SteppedPipeline::await_message(GstMessageType type) {
-  while (!(messages_ & type)) take(gst_bus_timed_pop(bus_, GST_CLOCK_TIME_NONE));
+  while (!(messages_ & type)) take(inbox_->await());
   messages_ &= ~static_cast<unsigned>(type);
 }
 
 void SteppedPipeline::await_analysed(size_t frames) {
-  while (wrenches().size() < frames) {
-    take(gst_bus_timed_pop_filtered(bus_, GST_CLOCK_TIME_NONE, GST_MESSAGE_ELEMENT));
-  }
+  while (wrenches().size() < frames) take(inbox_->await());
 }
 
 const std::map<GstClockTime, Wrench>& SteppedPipeline::wrenches() {
-  while (GstMessage* message = gst_bus_pop(bus_)) take(message);
+  while (GstMessage* message = inbox_->pop()) take(message);
   return wrenches_;
 }
 

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 #include <gst/check/gsttestclock.h>
@@ -14,6 +15,7 @@
 
 #include "plugin/engine/motion_engine.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/message_inbox.h"
 
 namespace spidar::test {
 
@@ -86,7 +88,7 @@ class SteppedPipeline {
   GstElement* pipeline_;
   GstElement* element_;
   GstElement* sink_;
-  GstBus* bus_;
+  std::unique_ptr<MessageInbox> inbox_;
   MotionEngine* engine_;
   TickWatch watch_;
   std::map<GstClockTime, Wrench> wrenches_;
