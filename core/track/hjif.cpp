@@ -59,8 +59,13 @@ void append_channel(std::string& text, const std::vector<TrackSample>& samples, 
   append(text, kUpperLimit_Hz);
   text += R"(,"effects":[{"effect_type":"Basis","position":0,"phase":0.0,"base_signal":"Sine",)"
           R"("keyframes":[)";
+  std::vector<size_t> keyframes = choose_keyframes(values, tolerance);
+  // The Synthesizer of MPEG's reference software makes silence of a curve with two keyframes.
+  if (keyframes.size() == 2 && keyframes[1] > 1) {
+    keyframes.insert(keyframes.begin() + 1, keyframes[1] / 2);
+  }
   bool first = true;
-  for (const size_t i : choose_keyframes(values, tolerance)) {
+  for (const size_t i : keyframes) {
     text += first ? R"({"relative_position":)" : R"(,{"relative_position":)";
     first = false;
     append(text, i);

@@ -76,6 +76,16 @@ TEST(Hjif, ComesBackWithinAThousandthOfTheFullScale) {
   }
 }
 
+TEST(Hjif, AStraightLineHasThreeKeyframes) {
+  // MPEG's Synthesizer makes silence of two.
+  const std::vector<TrackSample> constant(1000, {0.125F, -0.25F, 0.375F, -0.5F, 0.625F, -0.75F});
+  const nlohmann::json file = nlohmann::json::parse(write_hjif(constant));
+  for (const nlohmann::json& channel : file["perceptions"][0]["channels"]) {
+    EXPECT_EQ(channel["bands"][0]["effects"][0]["keyframes"].size(), 3u);
+  }
+  EXPECT_EQ(read_hjif(write_hjif(constant)), constant);
+}
+
 TEST(Hjif, WithoutToleranceEverySampleComesBack) {
   const std::vector<TrackSample> samples = track(3000);
   const std::vector<TrackSample> read = read_hjif(write_hjif(samples, 0));

@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/bench/cost/decoding.h"
 
+#include <cmath>
+#include <cstdlib>
 #include <ctime>
 
 #include <gst/app/gstappsrc.h>
@@ -17,33 +19,57 @@ double process_time_ms() {
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
-}  // namespace
-
-std::string missing_for_decoding() {
-  for (const char* needed : {"x264enc", "mp4mux", "qtdemux", "avdec_h264"}) {
-    GstElementFactory* factory = gst_element_factory_find(needed);
-    if (!factory) return needed;
-    gst_object_unref(factory);
-  }
-  return "";
+bool is_installed(const char* element) {
+  GstElementFactory* factory = gst_element_factory_find(element);
+  if (factory) gst_object_unref(factory);
+  return factory != nullptr;
 }
 
-void encode(const std::vector<test::Picture>& frames, int rate_Hz, const std::string& file) {
-  const int width = frames.front().width;
-  const int height = frames.front().height;
+/// What encode() has in its launch line.
+std::string h264_encoding(double bit_s) {
+  if (h264_encoder() == "x264enc") {
+    return "x264enc speed-preset=veryfast bitrate=" + std::to_string(std::lround(1e-3 * bit_s));
+  }
+  return "openh264enc complexity=low bitrate=" + std::to_string(std::lround(bit_s)) +
+         " ! h264parse";
+}
+
+}  // namespace
+
+std::string h264_encoder() {
+  for (const char* encoder : {"x264enc", "openh264enc"}) {
+    if (is_installed(encoder)) return encoder;
+  }
+  return {};
+}
+
+std::string missing_for_decoding() {
+  if (h264_encoder().empty()) return kNoEncoder;
+  for (const char* needed : {"mp4mux", "qtdemux", "avdec_h264"}) {
+    if (!is_installed(needed))
+      return std::string("GStreamer element ") + needed + " is not installed";
+  }
+  return {};
+}
+
+void encode(const std::vector<test::Picture>& film, int count, int rate_Hz,
+            const std::string& file) {
+  const int width = film.front().width;
+  const int height = film.front().height;
   constexpr double kBitsPerPixel = 0.06;  // as of a film
-  const double kbit_s = 1e-3 * kBitsPerPixel * rate_Hz * width * height;
   Pipeline pipeline(
       "appsrc name=source format=time block=true caps=video/x-raw,format=I420,width=" +
       std::to_string(width) + ",height=" + std::to_string(height) +
-      ",framerate=" + std::to_string(rate_Hz) + "/1,colorimetry=bt709 ! x264enc " +
-      "speed-preset=veryfast bitrate=" + std::to_string(static_cast<int>(kbit_s)) +
+      ",framerate=" + std::to_string(rate_Hz) + "/1,colorimetry=bt709 ! " +
+      h264_encoding(kBitsPerPixel * rate_Hz * width * height) +
       " ! mp4mux ! filesink location=" + file);
   pipeline.play();
   const Element source = pipeline.by_name("source");
-  for (size_t n = 0; n < frames.size(); ++n) {
-    GstBuffer* buffer = i420_buffer(frames[n]);
-    set_time(buffer, static_cast<int>(n), rate_Hz);
+  const int last = static_cast<int>(film.size()) - 1;
+  for (int n = 0; n < count; ++n) {
+    const int at = last - std::abs(n % (2 * last) - last);  // 0 … last … 0
+    GstBuffer* buffer = i420_buffer(film[static_cast<size_t>(at)]);
+    set_time(buffer, n, rate_Hz);
     gst_app_src_push_buffer(GST_APP_SRC(source.get()), buffer);
   }
   gst_app_src_end_of_stream(GST_APP_SRC(source.get()));

@@ -10,11 +10,20 @@
 
 namespace spidar::bench {
 
-/// A GStreamer element that decoding() needs and that is not installed; empty: none.
+/// The GStreamer element that encode() takes; empty: none is installed.
+std::string h264_encoder();
+/// What to install when there is none.
+constexpr const char* kNoEncoder =
+    "neither x264enc (gstreamer1.0-plugins-ugly) nor openh264enc (gstreamer1.0-plugins-bad) is "
+    "installed";
+
+/// Why decoding_ms() cannot be measured here; empty when it can.
 std::string missing_for_decoding();
 
-/// Writes `frames` to an H.264 file. Throws std::runtime_error as Pipeline does.
-void encode(const std::vector<test::Picture>& frames, int rate_Hz, const std::string& file);
+/// Writes an H.264 file of `count` frames, which are those of `film` to and fro. Throws
+/// std::runtime_error as Pipeline does.
+void encode(const std::vector<test::Picture>& film, int count, int rate_Hz,
+            const std::string& file);
 
 /// Milliseconds of processor time a frame of all threads, whoever else uses the machine, for
 /// playing `file` of so many frames through avdec_h264 in one thread and `filter`. Throws as

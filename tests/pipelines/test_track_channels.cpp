@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Six constants, different on each channel, on the ways of docs/haptic-track.md from a file to the
+// hand and from one file to another. Those of the containers are in test_tracks.cpp, those over a
+// network in test_track_network.cpp, and into a film and out of it in test_track_merge.cpp.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+#include "core/track/track_format.h"
+#include "plugin/tools/track_samples.h"
+#include "tests/pipelines/felt_trace.h"
+#include "tests/pipelines/track_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr int kFrames = 10;
+constexpr int kSamples = 400;  // as long as the film at 25 frames/s
+
+const std::string kVideo = "videotestsrc pattern=ball num-buffers=" + std::to_string(kFrames) +
+                           " ! video/x-raw,width=64,height=48,framerate=25/1 ! ";
+/// kConstant in a track of its own: names of the files that SetUp() makes.
+const std::vector<std::string> kTracks = {"track.wav", "track.flac", "f32.mka", "flac.mka",
+                                          "s24.mov"};
+
+class TrackChannels : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { gst_init(nullptr, nullptr); }
+  void SetUp() override {
+    save_track(path("track.wav"), constant());
+    save_track(path("track.flac"), constant());
+    save_track(path("f32.mka"), constant());
+    const std::string read = "filesrc location=" + quoted(path("track.flac")) + " ! flacparse ! ";
+    const std::string write = " ! filesink location=";
+    run_pipeline(read + "matroskamux" + write + quoted(path("flac.mka")));
+    run_pipeline(
+        read +
+        "flacdec ! capssetter caps=\"audio/x-raw,channel-mask=(bitmask)0x0\" ! "
+        "audioconvert dithering=none noise-shaping=none ! audio/x-raw,format=S24LE ! qtmux" +
+        write + quoted(path("s24.mov")));
+    run_pipeline("avimux name=mux" + write + quoted(path("sound.avi")) + " " + kVideo +
+                 "jpegenc ! mux. audiotestsrc num-buffers=20 samplesperbuffer=960 ! "
+                 "audio/x-raw,format=S16LE,rate=48000,channels=2 ! mux.");
+  }
+
+  std::string path(const std::string& name) const { return (folder.path / name).string(); }
+  static std::vector<TrackSample> constant() {
+    return std::vector<TrackSample>(kSamples, kConstant);
+  }
+  /// Plays what ends with an element that writes the trace. In real time, but nothing depends on
+  /// it: ticks that come late leave samples out, and none is wrong.
+  void expect_felt(const std::string& line) const {
+    SCOPED_TRACE(line);
+    GError* error = nullptr;
+    GstElement* pipeline = gst_parse_launch(line.c_str(), &error);
+    ASSERT_EQ(error, nullptr) << error->message;
+    const Outcome outcome = await_end(pipeline);
+    gst_element_set_state(pipeline, GST_STATE_NULL);
+    gst_object_unref(pipeline);
+    EXPECT_TRUE(outcome.eos) << outcome.error;
+    EXPECT_TRUE(outcome.warnings.empty()) << outcome.warnings.front();
+    const std::vector<Row> rows = felt_constant(path("trace.csv"));
+    EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [](const Row& row) {
+      return row.interpolated;
+    })) << "something was felt";
+  }
+  std::string trace() const { return " haptic-trace=" + quoted(path("trace.csv")); }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(TrackChannels, OfEveryContainerIntoTheSink) {
+  for (const std::string& track : kTracks) {
+    expect_felt("filesrc location=" + quoted(path(track)) + " ! decodebin ! spidarsink" + trace());
+  }
+}
+
+TEST_F(TrackChannels, OfEveryContainerInPlaceOfAnalysis) {
+  for (const std::string& track : kTracks) {
+    expect_felt(kVideo + "spidarmotion track=" + quoted(path(track)) + trace() +
+                " ! fakesink sync=true");
+  }
+}
+
+TEST_F(TrackChannels, OfTheTrackBesideTheFilmAndOfTheOneInIt) {
+  ASSERT_EQ(
+      run("merge " + path("sound.avi") + " " + path("track.flac") + " " + path("felt.mkv")).status,
+      0);
+  for (const char* end : {".flac", ".mka", ".wav"}) {
+    save_track(path("sound.haptic") + end, constant());
+    expect_felt("filesrc location=" + quoted(path("sound.avi")) +
+                " ! avidemux ! jpegdec ! videoconvert ! spidarmotion track=auto" + trace() +
+                " ! fakesink sync=true");
+    std::filesystem::remove(path("sound.haptic") + end);
+  }
+  expect_felt(kVideo + "spidarmotion track=" + quoted(path("felt.mkv")) + trace() +
+              " ! fakesink sync=true");
+}
+
+TEST_F(TrackChannels, OfEveryConversion) {
+  // Half a step of 24 bits and of HJIF's 1e-5, and what a float below 1 is rounded by.
+  const double error = 0.5e-5 + std::ldexp(1.0, -24) + std::ldexp(1.0, -25);
+  for (const char* from : {"track.wav", "track.flac", "f32.mka", "s24.mov", "to.hjif"}) {
+    for (const char* to : {"to.hjif", "to.wav", "to.flac", "to.mka"}) {
+      if (std::string(from) == to) continue;
+      ASSERT_EQ(run("convert " + path(from) + " " + path(to)).status, 0);
+      EXPECT_LE(largest_difference(load_track(path(to)), constant()), error) << from << " " << to;
+    }
+  }
+}
+
+TEST_F(TrackChannels, OfEveryAxisOfAFunscript) {
+  const char* axes[] = {"fx", "fy", "fz", "tx", "ty", "tz"};
+  // The positions of the constants are too near to each other.
+  const std::vector<TrackSample> wide(kSamples, {0.1F, -0.2F, 0.3F, -0.4F, 0.5F, -0.6F});
+  save_track(path("wide.wav"), wide);
+  for (size_t axis = 0; axis < kTrackChannels; ++axis) {
+    ASSERT_EQ(
+        run("convert " + path("wide.wav") + " " + path("to.funscript") + " --axis " + axes[axis])
+            .status,
+        0);
+    std::ifstream file(path("to.funscript"));
+    const nlohmann::json script = nlohmann::json::parse(file);
+    EXPECT_EQ(script["actions"][0]["pos"], std::lround(50 + 50 * wide[0][axis])) << axes[axis];
+  }
+}
+
+TEST_F(TrackChannels, OfTheTraceOfSpidarmotion) {
+  // A real trace, in which the numbers of each wrench are replaced.
+  run_pipeline(kVideo + "spidarmotion device=none trace=" + quoted(path("film.csv")) +
+               " ! fakesink");
+  run_pipeline(kVideo + "spidarmotion device=none trace=" + quoted(path("film.jsonl")) +
+               " ! fakesink");
+  const Wrench wrench = to_wrench(kConstant);
+  const std::vector<std::string> columns = {"force_x_N",   "force_y_N",   "force_z_N",
+                                            "torque_x_Nm", "torque_y_Nm", "torque_z_Nm"};
+  std::ifstream rows(path("film.csv"));
+  std::ofstream csv(path("six.csv"));
+  std::string line, name, cell;
+  std::getline(rows, line);
+  csv << line << '\n';
+  std::vector<std::string> names;
+  for (std::istringstream header(line); std::getline(header, name, ',');) names.push_back(name);
+  while (std::getline(rows, line)) {
+    std::istringstream cells(line);
+    for (size_t i = 0; std::getline(cells, cell, ','); ++i) {
+      const auto column = std::find(columns.begin(), columns.end(), names.at(i));
+      if (i > 0) csv << ',';
+      if (column == columns.end()) {
+        csv << cell;
+      } else {
+        csv << wrench.stacked()[column - columns.begin()];
+      }
+    }
+    csv << '\n';
+  }
+  csv.close();
+  std::ifstream frames(path("film.jsonl"));
+  std::ofstream json(path("six.jsonl"));
+  while (std::getline(frames, line)) {
+    nlohmann::json frame = nlohmann::json::parse(line);
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_EQ(frame["wrench"]["force_N"].size(), 3u);
+      frame["wrench"]["force_N"][static_cast<size_t>(axis)] = wrench.force_N[axis];
+      frame["wrench"]["torque_Nm"][static_cast<size_t>(axis)] = wrench.torque_Nm[axis];
+    }
+    frame["repeated"] = frame["restarted"] = false;
+    json << frame.dump() << '\n';
+  }
+  json.close();
+  for (const char* trace : {"six.csv", "six.jsonl"}) {
+    ASSERT_EQ(run("convert " + path(trace) + " " + path("to.wav")).status, 0) << trace;
+    std::vector<TrackSample> read = load_track(path("to.wav"));
+    ASSERT_EQ(read.size(), static_cast<size_t>(kSamples)) << trace;
+    read.resize(kSamples - 40);  // the last frame is the way to rest
+    EXPECT_LE(largest_difference(read, constant()), 1e-6) << trace;
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test
