@@ -17,15 +17,18 @@ namespace {
 
 constexpr double kFade_s = DelayTestSettings::kFade_s;
 constexpr double kBegin_s = kFade_s + DelayTestSettings::kSettle_s;
-constexpr double kRound_s = kBegin_s + Multisine::kPeriod_s + kFade_s;
+constexpr double kRound_s = DelayTestSettings::kRound_s;
 /// Wrenches are known to the loop so long before they are due, so that none is faded in late.
 constexpr int64_t kAhead_ns = 20 * kTick_ns;
-/// And hold no longer than this: when this program hangs, the force is gone before that of a film.
+/// And hold for this long when the next is late; then the loop ramps to rest.
 constexpr int64_t kHold_ns = 10 * kTick_ns;
 /// In which the pose has to become known and the tensions to be at rest.
 constexpr double kOpening_s = 2;
 /// A longer pause than this leaves a period unusable.
 constexpr double kLongestGap_s = 0.01;
+/// After a pause in which the loop may have lost the pose it has this long to find it again.
+constexpr int64_t kPause_ns = GripWatch::kPoseTimeout_ns;
+constexpr int64_t kRecovery_ns = 500 * kTick_ns;
 
 /// 0 … 1 … 0 in a round, level at both ends.
 double envelope(double time_s) {
@@ -128,9 +131,10 @@ class DelayRun {
   void excite() {
     std::mt19937 random(settings_.seed);
     rounds_.clear();
-    for (int i = 0; i < settings_.periods; ++i) rounds_.emplace_back(random, settings_.peak_N);
-    for (int i = 0; i < settings_.periods; ++i)
-      if (!round(i)) return;
+    for (int i = 0; i < settings_.most_periods(); ++i)
+      rounds_.emplace_back(random, settings_.peak_N);
+    for (int i = 0; i < settings_.most_periods(); ++i)
+      if (static_cast<int>(periods_.size()) == settings_.periods || !round(i)) return;
   }
 
   double wanted_N(double time_s) const {
@@ -153,18 +157,33 @@ class DelayRun {
   bool round(int number) {
     const double end_s = kRound_s * (number + 1);
     const uint64_t errors = loop_->snapshot().counters.exchange_errors;
+    bool whole = true;
     PeriodSums sums(kRound_s * number + kBegin_s);
     for (;;) {
       schedule_ahead(now_ns_() - begin_ns_);
-      if (!tick() || !is_well()) return false;
+      const int64_t last_ns = record_.monotonic_ns;
+      if (!tick()) return false;
+      if (record_.monotonic_ns - last_ns > kPause_ns) paused_ns_ = record_.monotonic_ns;
+      if (recovers()) {
+        whole = false;
+      } else if (!is_well()) {
+        return false;
+      }
       const double time_s = 1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns_);
       sums.add(time_s, record_.delivered.force_N.z(), record_.pose.position_m.z());
       if (time_s >= end_s) break;
     }
-    if (loop_->snapshot().counters.exchange_errors == errors &&
-        sums.longest_gap_s() < kLongestGap_s)
-      periods_.push_back(sums);
+    whole = whole && loop_->snapshot().counters.exchange_errors == errors;
+    if (whole && sums.longest_gap_s() < kLongestGap_s) periods_.push_back(sums);
     return true;
+  }
+
+  /// This machine had no time for the loop, which then takes the force to rest until it knows the
+  /// pose again. That is no fault of the device.
+  bool recovers() const {
+    const PoseTrouble trouble = loop_->snapshot().pose_trouble;
+    return (trouble == PoseTrouble::kNoReading || trouble == PoseTrouble::kNotYet) &&
+           record_.acknowledged && record_.monotonic_ns - paused_ns_ < kRecovery_ns;
   }
 
   /// Stops before anything goes far.
@@ -195,7 +214,8 @@ class DelayRun {
   void judge() {
     result_.periods = static_cast<int>(periods_.size());
     if (result_.periods < DelayTestSettings::kFewestPeriods) {
-      fail("only " + std::to_string(result_.periods) + " of " + std::to_string(settings_.periods) +
+      fail("only " + std::to_string(result_.periods) + " of " +
+           std::to_string(settings_.most_periods()) +
            " seconds were without a pause of 10 ms or an exchange without answer; at least " +
            std::to_string(DelayTestSettings::kFewestPeriods) + " are needed");
       return;
@@ -213,6 +233,7 @@ class DelayRun {
   Eigen::Vector3d start_m_ = Eigen::Vector3d::Zero();
   int64_t begin_ns_ = 0;
   int64_t next_ns_ = 0;
+  int64_t paused_ns_ = INT64_MIN / 2;
   std::vector<Multisine> rounds_;
   std::vector<PeriodSums> periods_;
 };

@@ -28,9 +28,11 @@ struct DelayTestSettings {
   /// Between the rise and what is measured, for the swing of a loosely held grip to fade.
   static constexpr double kSettle_s = 0.4;
 
-  double seconds() const noexcept {
-    return periods * (2 * kFade_s + kSettle_s + Multisine::kPeriod_s);
-  }
+  /// So many may be tried for that many which are whole.
+  int most_periods() const noexcept { return periods + periods / 2; }
+  static constexpr double kRound_s = 2 * kFade_s + kSettle_s + Multisine::kPeriod_s;
+  double seconds() const noexcept { return periods * kRound_s; }
+  double most_seconds() const noexcept { return most_periods() * kRound_s; }
 };
 
 struct DelayTest {

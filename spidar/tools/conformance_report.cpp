@@ -8,6 +8,9 @@
 #include <ostream>
 #include <sys/utsname.h>
 
+#include "spidar/boards/board_device.h"
+#include "spidar/delay/lag_verdict.h"
+#include "spidar/tools/delay_report.h"
 #include "spidar/tools/selftest_report.h"
 
 namespace spidar {
@@ -106,7 +109,14 @@ bool Conformance::link_conforms() const noexcept {
 }
 
 bool Conformance::conforms() const noexcept {
-  return link_conforms() && (!wiring || wiring->as_profile());
+  const bool lag_is_stated =
+      !delay || !delay->measured() ||
+      judge_lag(profile, *delay->fit, answers_are_late()).stated != StatedLag::kTooSmall;
+  return link_conforms() && (!wiring || wiring->as_profile()) && lag_is_stated;
+}
+
+bool Conformance::answers_are_late() const noexcept {
+  return seen.duration.quantile_ns(0.99) > BoardDevice::kReplyWait_ns;
 }
 
 void print_conformance(std::ostream& out, const Conformance& found, const std::string& version) {
@@ -124,6 +134,10 @@ void print_conformance(std::ostream& out, const Conformance& found, const std::s
     print_wiring(out, found.profile, found.answers, *found.wiring);
     out << '\n';
   }
+  if (found.delay) {
+    print_delay(out, found.profile, *found.delay, found.answers_are_late());
+    out << '\n';
+  }
   line(out, "link", found.link_conforms() ? "conforms" : "does not conform");
   if (found.board.has_strings)
     line(out, "counters",
@@ -133,6 +147,9 @@ void print_conformance(std::ostream& out, const Conformance& found, const std::s
        !found.wiring                ? "not tried"
        : found.wiring->as_profile() ? "conform"
                                     : "do not conform");
+  line(out, "lag",
+       found.delay ? delay_summary(found.profile, *found.delay, found.answers_are_late())
+                   : "not tried");
 }
 
 }  // namespace spidar

@@ -12,6 +12,7 @@
 
 #include "spidar/boards/board_list.h"
 #include "spidar/delay/delay_test.h"
+#include "spidar/delay/lag_verdict.h"
 #include "spidar/emulation/wire_simulation.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/touch/stiffness_limit.h"
@@ -240,11 +241,57 @@ TEST(Delay, InterruptedReleasesTheStrings) {
   EXPECT_EQ(watched.sim.felt().tension_N.norm(), 0);
 }
 
-TEST(Delay, SecondsWithAPauseAreLeftOut) {
+// The machine has no time for the loop: 15 ms, and 90 ms, after which the pose is not known for a
+// while and the force rests.
+TEST(Delay, SecondsWithAPauseAreTriedAgain) {
+  for (const int pause_ms : {15, 90}) {
+    SCOPED_TRACE(pause_ms);
+    Watched watched;
+    const DelayTest test = watched.measure(3, [&] { watched.time.now_ns += pause_ms * kTick_ns; });
+    expect_right(test, watched.profile, light_hand());
+    const double took_s = 1e-9 * static_cast<double>(watched.time.now_ns);
+    EXPECT_NEAR(took_s, DelayTestSettings().seconds() + DelayTestSettings::kRound_s, 0.5);
+  }
+}
+
+// A machine that is too busy all the time.
+TEST(Delay, TooFewSecondsGiveNoNumber) {
   Watched watched;
-  const DelayTest test = watched.measure(3, [&] { watched.time.now_ns += 15 * kTick_ns; });
-  EXPECT_TRUE(test.measured()) << test.trouble;
-  EXPECT_EQ(test.periods, DelayTestSettings().periods - 1);
+  const Pace pace = [&, tick = watched.time.pace()] {
+    if (watched.time.now_ns % (700 * kTick_ns) == 0) watched.time.now_ns += 20 * kTick_ns;
+    return tick();
+  };
+  const DelayTest test = measure_delay(watched.sim, watched.profile, pace, watched.time.clock());
+  EXPECT_FALSE(test.measured());
+  EXPECT_NE(test.trouble.find("only 0 of 18 seconds"), std::string::npos) << test.trouble;
+}
+
+TEST(LagVerdict, SaysWhetherTheProfileIsRight) {
+  LagFit fit;
+  fit.least_s = 0.0018;
+  fit.lag_s = 0.0020;
+  fit.most_s = 0.00223;
+  Profile profile;
+  for (const auto& [stated_s, stated] :
+       {std::pair{0.0017, StatedLag::kTooSmall}, std::pair{0.0018, StatedLag::kRight},
+        std::pair{0.0022, StatedLag::kRight}, std::pair{0.0023, StatedLag::kMore}}) {
+    profile.drive_lag_s = stated_s;
+    const LagVerdict verdict = judge_lag(profile, fit, false);
+    EXPECT_EQ(verdict.stated, stated) << stated_s;
+    EXPECT_NEAR(verdict.safe_lag_s, 0.0023, 1e-12);
+    EXPECT_NEAR(verdict.delay_s, 0.0038, 1e-12);
+    EXPECT_NEAR(verdict.stiffness_N_m, 800 * 3.5 / 3.8, 1e-9);
+    EXPECT_NEAR(verdict.damping_N_s_m, 1.5 * 800 * 0.0035, 1e-9);
+  }
+  profile.drive_lag_s = 0.0022;
+  EXPECT_NEAR(judge_lag(profile, fit, true).safe_lag_s, 0.0033, 1e-12);
+  EXPECT_EQ(judge_lag(profile, fit, true).stated, StatedLag::kTooSmall);
+  // A lag below zero is none: what acts before it is told is not to be had.
+  fit.least_s = -0.0004;
+  fit.most_s = -0.0001;
+  profile.drive_lag_s = 0;
+  EXPECT_EQ(judge_lag(profile, fit, false).stated, StatedLag::kRight);
+  EXPECT_EQ(judge_lag(profile, fit, false).safe_lag_s, 0);
 }
 
 TEST(StiffnessLimit, IsThatOfTheDelay) {
