@@ -11,10 +11,10 @@
 
 namespace spidar {
 
-LagVerdict judge_lag(const Profile& profile, const LagFit& fit, bool answers_are_late) {
+LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int late_ticks) {
   LagVerdict verdict;
-  verdict.answers_are_late = answers_are_late;
-  const double late_s = answers_are_late ? 1e-9 * kTick_ns : 0;
+  verdict.late_ticks = late_ticks;
+  const double late_s = 1e-9 * static_cast<double>(late_ticks * kTick_ns);
   const double most_s = std::max(0.0, fit.most_s) + late_s;
   if (profile.drive_lag_s < fit.least_s + late_s) verdict.stated = StatedLag::kTooSmall;
   if (profile.drive_lag_s > most_s) verdict.stated = StatedLag::kMore;

@@ -19,14 +19,14 @@ struct LagVerdict {
   StatedLag stated = StatedLag::kRight;
   /// For drive_lag_s of the profile: the upper end of the interval, rounded up to 0.1 ms.
   double safe_lag_s = 0;
-  double delay_s = 0;             ///< t_d with that lag
-  double stiffness_N_m = 0;       ///< the largest of a surface with that delay
-  double damping_N_s_m = 0;       ///< of that surface, B
-  bool answers_are_late = false;  ///< a tick is added, see judge_lag()
+  double delay_s = 0;        ///< t_d with that lag
+  double stiffness_N_m = 0;  ///< the largest of a surface with that delay
+  double damping_N_s_m = 0;  ///< of that surface, B
+  int late_ticks = 0;        ///< that are part of it, see judge_lag()
 };
 
-/// `answers_are_late`: some exchanges take longer than a tick of the haptic loop waits for them, so
-/// that while playing their answers count from the next tick on: a tick is added to the lag.
-SPIDAR_API LagVerdict judge_lag(const Profile& profile, const LagFit& fit, bool answers_are_late);
+/// `late_ticks`: so many ticks after the next one the answer of an exchange counts while playing,
+/// because the haptic loop does not wait for it any longer; they are added to the lag.
+SPIDAR_API LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int late_ticks);
 
 }  // namespace spidar

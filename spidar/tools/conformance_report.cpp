@@ -10,6 +10,7 @@
 
 #include "spidar/boards/board_device.h"
 #include "spidar/delay/lag_verdict.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/tools/delay_report.h"
 #include "spidar/tools/selftest_report.h"
 
@@ -111,12 +112,13 @@ bool Conformance::link_conforms() const noexcept {
 bool Conformance::conforms() const noexcept {
   const bool lag_is_stated =
       !delay || !delay->measured() ||
-      judge_lag(profile, *delay->fit, answers_are_late()).stated != StatedLag::kTooSmall;
+      judge_lag(profile, *delay->fit, late_ticks()).stated != StatedLag::kTooSmall;
   return link_conforms() && (!wiring || wiring->as_profile()) && lag_is_stated;
 }
 
-bool Conformance::answers_are_late() const noexcept {
-  return seen.duration.quantile_ns(0.99) > BoardDevice::kReplyWait_ns;
+int Conformance::late_ticks() const noexcept {
+  const int64_t beyond_ns = seen.duration.quantile_ns(0.99) - BoardDevice::kReplyWait_ns;
+  return beyond_ns > 0 ? static_cast<int>((beyond_ns + kTick_ns - 1) / kTick_ns) : 0;
 }
 
 void print_conformance(std::ostream& out, const Conformance& found, const std::string& version) {
@@ -135,7 +137,7 @@ void print_conformance(std::ostream& out, const Conformance& found, const std::s
     out << '\n';
   }
   if (found.delay) {
-    print_delay(out, found.profile, *found.delay, found.answers_are_late());
+    print_delay(out, found.profile, *found.delay, found.late_ticks());
     out << '\n';
   }
   line(out, "link", found.link_conforms() ? "conforms" : "does not conform");
@@ -148,8 +150,7 @@ void print_conformance(std::ostream& out, const Conformance& found, const std::s
        : found.wiring->as_profile() ? "conform"
                                     : "do not conform");
   line(out, "lag",
-       found.delay ? delay_summary(found.profile, *found.delay, found.answers_are_late())
-                   : "not tried");
+       found.delay ? delay_summary(found.profile, *found.delay, found.late_ticks()) : "not tried");
 }
 
 }  // namespace spidar

@@ -28,8 +28,8 @@ struct Conformance {
   /// Of a thousand exchanges one may have had no answer in time, as the host's scheduling has it;
   /// nothing else may go wrong.
   bool link_conforms() const noexcept;
-  /// While playing, some answers would count from the next tick on.
-  bool answers_are_late() const noexcept;
+  /// By which the slowest hundredth of the answers would be late while playing, see judge_lag().
+  int late_ticks() const noexcept;
   /// All is as it should be, as far as it was tried.
   bool conforms() const noexcept;
 };

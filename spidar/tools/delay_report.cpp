@@ -34,22 +34,23 @@ const char* of_profile(StatedLag stated) {
 
 }  // namespace
 
-void print_delay(std::ostream& out, const Profile& profile, const DelayTest& test,
-                 bool answers_are_late) {
+void print_delay(std::ostream& out, const Profile& profile, const DelayTest& test, int late_ticks) {
   if (!test.measured()) {
     out << "drive lag   not measured: " << test.trouble << '\n';
     return;
   }
   const LagFit& fit = *test.fit;
-  const LagVerdict verdict = judge_lag(profile, fit, answers_are_late);
+  const LagVerdict verdict = judge_lag(profile, fit, late_ticks);
   out << text("drive lag   %.2f ms, standard error %.2f ms; from %.2f to %.2f ms (99.7 %%)\n",
               1e3 * fit.lag_s, 1e3 * fit.error_s, 1e3 * fit.least_s, 1e3 * fit.most_s)
       << text("moved       %.2f kg, %.1f N s/m, %.0f N/m, by %.1f mm at most; misfit %.1f; %d s\n",
               fit.mass_kg, fit.damping_N_s_m, fit.stiffness_N_m, 1e3 * test.moved_m, fit.misfit,
               test.periods);
-  if (verdict.answers_are_late)
-    out << "answers     some take longer than 0.7 ms, so while playing they are a tick late: 1 ms "
-           "is added below\n";
+  if (late_ticks > 0)
+    out << text(
+        "answers     some take longer than 0.7 ms and count %d ms later while playing, which "
+        "is added below\n",
+        late_ticks);
   out << text("delay       t_d = %.1f ms at most: 1.5 ms of the loop, %.1f ms of the drive\n",
               1e3 * verdict.delay_s, 1e3 * verdict.safe_lag_s)
       << text("profile     drive_lag_s = %.4f; it has %g, %s\n", verdict.safe_lag_s,
@@ -58,10 +59,9 @@ void print_delay(std::ostream& out, const Profile& profile, const DelayTest& tes
               verdict.stiffness_N_m, ContactSettings().damping, verdict.damping_N_s_m);
 }
 
-std::string delay_summary(const Profile& profile, const DelayTest& test, bool answers_are_late) {
+std::string delay_summary(const Profile& profile, const DelayTest& test, int late_ticks) {
   if (!test.measured()) return "not measured";
-  if (judge_lag(profile, *test.fit, answers_are_late).stated != StatedLag::kTooSmall)
-    return "conforms";
+  if (judge_lag(profile, *test.fit, late_ticks).stated != StatedLag::kTooSmall) return "conforms";
   return text("does not conform: drive_lag_s = %g of the profile is too small",
               profile.drive_lag_s);
 }

@@ -12,10 +12,9 @@
 namespace spidar {
 
 /// Lag, t_d, the line for the profile, and the stiffness that is safe; or why there is no number.
-void print_delay(std::ostream& out, const Profile& profile, const DelayTest& test,
-                 bool answers_are_late);
+void print_delay(std::ostream& out, const Profile& profile, const DelayTest& test, int late_ticks);
 
 /// In a word or two: "conforms", "does not conform: …", "not measured".
-std::string delay_summary(const Profile& profile, const DelayTest& test, bool answers_are_late);
+std::string delay_summary(const Profile& profile, const DelayTest& test, int late_ticks);
 
 }  // namespace spidar

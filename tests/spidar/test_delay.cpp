@@ -276,7 +276,7 @@ TEST(LagVerdict, SaysWhetherTheProfileIsRight) {
        {std::pair{0.0017, StatedLag::kTooSmall}, std::pair{0.0018, StatedLag::kRight},
         std::pair{0.0022, StatedLag::kRight}, std::pair{0.0023, StatedLag::kMore}}) {
     profile.drive_lag_s = stated_s;
-    const LagVerdict verdict = judge_lag(profile, fit, false);
+    const LagVerdict verdict = judge_lag(profile, fit, 0);
     EXPECT_EQ(verdict.stated, stated) << stated_s;
     EXPECT_NEAR(verdict.safe_lag_s, 0.0023, 1e-12);
     EXPECT_NEAR(verdict.delay_s, 0.0038, 1e-12);
@@ -284,14 +284,15 @@ TEST(LagVerdict, SaysWhetherTheProfileIsRight) {
     EXPECT_NEAR(verdict.damping_N_s_m, 1.5 * 800 * 0.0035, 1e-9);
   }
   profile.drive_lag_s = 0.0022;
-  EXPECT_NEAR(judge_lag(profile, fit, true).safe_lag_s, 0.0033, 1e-12);
-  EXPECT_EQ(judge_lag(profile, fit, true).stated, StatedLag::kTooSmall);
+  EXPECT_NEAR(judge_lag(profile, fit, 1).safe_lag_s, 0.0033, 1e-12);
+  EXPECT_EQ(judge_lag(profile, fit, 1).stated, StatedLag::kTooSmall);
+  EXPECT_NEAR(judge_lag(profile, fit, 2).delay_s, 0.0058, 1e-12);
   // A lag below zero is none: what acts before it is told is not to be had.
   fit.least_s = -0.0004;
   fit.most_s = -0.0001;
   profile.drive_lag_s = 0;
-  EXPECT_EQ(judge_lag(profile, fit, false).stated, StatedLag::kRight);
-  EXPECT_EQ(judge_lag(profile, fit, false).safe_lag_s, 0);
+  EXPECT_EQ(judge_lag(profile, fit, 0).stated, StatedLag::kRight);
+  EXPECT_EQ(judge_lag(profile, fit, 0).safe_lag_s, 0);
 }
 
 TEST(StiffnessLimit, IsThatOfTheDelay) {
