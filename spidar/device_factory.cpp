@@ -24,7 +24,8 @@ std::unique_ptr<Device> make_simulation(const std::string& spec, const std::stri
                                         const Profile& profile) {
   try {
     if (!board.empty()) return make_wire_simulation(board, profile);
-    return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock);
+    return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock,
+                                             grip_model_of(profile));
   } catch (const std::invalid_argument& error) {
     throw DeviceError(spec + ": cannot simulate profile \"" + profile.name + "\": " + error.what());
   }

@@ -8,13 +8,11 @@
 #include "plugin/depth/frame_depth.h"
 #include "plugin/touch/touched_motion.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/touch/stiffness_limit.h"
 
 namespace spidar {
 namespace {
 
-/// A force is held for a tick, half of it on average; and the pose is that of the last exchange,
-/// one tick ago.
-constexpr double kLoopDelay_s = 1.5e-9 * static_cast<double>(kTick_ns);
 /// Dynamic friction as a share of the static one.
 constexpr double kSliding = 0.8;
 
@@ -44,15 +42,13 @@ int step_of(int samples, int cells) {
 }  // namespace
 
 double most_stiffness_N_m(const Profile& profile) {
-  const ContactSettings measured;
-  const double delay_s = kLoopDelay_s + profile.drive_lag_s;
-  return ContactSettings::kMostStiffness_N_m * std::min(1.0, measured.delay_s / delay_s);
+  return most_stiffness_N_m(profile.drive_lag_s);
 }
 
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile) {
   ContactSettings contact;
   contact.stiffness_N_m = std::min(properties.stiffness_N_m, most_stiffness_N_m(profile));
-  contact.delay_s = kLoopDelay_s + profile.drive_lag_s;
+  contact.delay_s = surface_delay_s(profile.drive_lag_s);
   contact.friction = {properties.friction, kSliding * properties.friction};
   contact.texture = properties.texture;
   validate(contact);

@@ -23,8 +23,10 @@ namespace {
 /// The simulated device's motors and encoders, connected to a board.
 class SimulatedMotors final : public EmulatedMotors {
  public:
-  SimulatedMotors(const Profile& profile, const DacScale& dac)
-      : device_(profile, SimulatedDevice::Time::kClock), dac_(dac) {
+  SimulatedMotors(const Profile& profile, const DacScale& dac, const SimulatedMechanics& mechanics)
+      : device_(profile, SimulatedDevice::Time::kClock,
+                mechanics.model.value_or(grip_model_of(profile)), mechanics.clock),
+        dac_(dac) {
     device_.open();
   }
   ~SimulatedMotors() override { device_.close(); }
@@ -81,7 +83,8 @@ class WireSimulation final : public Device {
 }  // namespace
 
 std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Profile& profile,
-                                             std::shared_ptr<EmulatedWire> wire) {
+                                             std::shared_ptr<EmulatedWire> wire,
+                                             const SimulatedMechanics& mechanics) {
   const std::string name = "sim:" + kind;
   const auto transport_to = [&wire](std::unique_ptr<EmulatedBoard> board) {
     return std::make_unique<EmulatedTransport>(std::move(board), wire);
@@ -89,17 +92,17 @@ std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Prof
   std::unique_ptr<EmulatedMotors> motors;
   std::unique_ptr<Board> board;
   if (kind == "sh4") {
-    motors = std::make_unique<SimulatedMotors>(profile, unipolar_dac(profile));
+    motors = std::make_unique<SimulatedMotors>(profile, unipolar_dac(profile), mechanics);
     board = std::make_unique<Sh4Board>(name, profile,
                                        transport_to(std::make_unique<EmulatedSh4>(*motors)));
   } else if (kind == "simple") {
-    motors = std::make_unique<SimulatedMotors>(profile, unipolar_dac(profile));
+    motors = std::make_unique<SimulatedMotors>(profile, unipolar_dac(profile), mechanics);
     board = std::make_unique<SimpleBoard>(name, profile,
                                           transport_to(std::make_unique<EmulatedSimple>(*motors)));
   } else if (kind == "uart") {
     // Two boards of four motors, like the published pair of a SPIDAR-G.
     constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
-    motors = std::make_unique<SimulatedMotors>(profile, uart_dac());
+    motors = std::make_unique<SimulatedMotors>(profile, uart_dac(), mechanics);
     std::vector<std::unique_ptr<Transport>> lines;
     lines.push_back(transport_to(std::make_unique<EmulatedUart>(
         *motors, std::vector<EmulatedUart::Station>{{0, kB3M}, {1, kB3M}})));

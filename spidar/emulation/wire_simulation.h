@@ -4,14 +4,22 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/api.h"
 #include "spidar/device.h"
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/simulation/simulated_device.h"
 
 namespace spidar {
+
+/// The mechanics that a simulated board drives.
+struct SimulatedMechanics {
+  std::optional<GripModel> model;  ///< none: that of the profile
+  SimulatedClock clock;            ///< none: CLOCK_MONOTONIC
+};
 
 /// `board`: "sh4", "simple", "uart", "mouse" or "ff". Grip, hand and motors are those of
 /// SimulatedDevice. Volts and counts pass through the packets and the code that drives the real
@@ -20,6 +28,7 @@ namespace spidar {
 /// SimulatedDevice does.
 SPIDAR_API std::unique_ptr<Device> make_wire_simulation(
     const std::string& board, const Profile& profile,
-    std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>());
+    std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>(),
+    const SimulatedMechanics& mechanics = {});
 
 }  // namespace spidar

@@ -30,6 +30,11 @@ void check(const GripModel& model) {
   check(model.hand_stiffness_Nm_rad, true, "hand_stiffness_Nm_rad");
   check(model.hand_damping_Nm_s_rad, true, "hand_damping_Nm_s_rad");
   check(model.motor_time_constant_s, true, "motor_time_constant_s");
+  check(model.motor_delay_s, true, "motor_delay_s");
+  if (model.motor_delay_s > GripModel::kMostDelay_s)
+    throw std::invalid_argument("GripModel::motor_delay_s is " +
+                                std::to_string(model.motor_delay_s) + ", must be at most " +
+                                std::to_string(GripModel::kMostDelay_s));
 }
 
 /// Upper bound of the largest eigenvalue of M⁻¹K at the centre, rad²/s².

@@ -10,9 +10,11 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
+#include "spidar/simulation/delayed_tensions.h"
 
 namespace spidar {
 namespace {
@@ -39,29 +41,38 @@ double settled_tension_N(double volt, const StringDrive& drive, const Profile& p
 }  // namespace
 
 struct SimulatedDevice::Impl {
-  Impl(const Profile& of, Time how, const GripModel& model)
+  Impl(const Profile& of, Time how, const GripModel& model, SimulatedClock to_read)
       : profile(of),
         time(how),
+        clock(to_read ? std::move(to_read) : SimulatedClock(monotonic_ns)),
         model_lag_s(model.motor_time_constant_s),
+        delay_ns(std::llround(1e9 * model.motor_delay_s)),
         dynamics(of.geometry, of.max_tension_N(), model),
         zero_length_m(of.zero_count_length_m()) {}
 
   void put_out(const MotorVolts& volts) noexcept {
+    StringVector target_N = StringVector::Zero();
     for (int i = 0; i < profile.geometry.count; ++i) {
       const auto k = static_cast<size_t>(i);
       target_N[i] = settled_tension_N(volts.volt[k], profile.drives[k], profile);
     }
+    delayed.put(time_ns, delay_ns, target_N);
   }
 
   void advance(int64_t elapsed_ns) noexcept {
     hand_shared.try_load(hand);
-    dynamics.advance(target_N, hand, 1e-9 * static_cast<double>(elapsed_ns), state);
-    time_ns += elapsed_ns;
+    const int64_t end_ns = time_ns + elapsed_ns;
+    while (time_ns < end_ns) {
+      const StringVector acting_N = delayed.at(time_ns);
+      const int64_t step_ns = std::min(end_ns, delayed.next_ns()) - time_ns;
+      dynamics.advance(acting_N, hand, 1e-9 * static_cast<double>(step_ns), state);
+      time_ns += step_ns;
+    }
   }
 
   int64_t elapsed_ns() noexcept {
     if (time == Time::kFixedStep) return kStep_ns;
-    const int64_t now_ns = monotonic_ns();
+    const int64_t now_ns = clock();
     const int64_t passed_ns = now_ns - last_ns;
     last_ns = now_ns;
     return std::clamp<int64_t>(passed_ns, 0, kMaxElapsed_ns);
@@ -89,7 +100,8 @@ struct SimulatedDevice::Impl {
   void release() noexcept {
     if (!open) return;
     open = false;
-    target_N.setZero();
+    // Without power nothing is held back any more.
+    delayed.clear();
     // Ten time constants: less than 5e-5 of any tension is left.
     const auto steps = static_cast<int64_t>(std::ceil(10 * model_lag_s * 1e9 / kStep_ns));
     for (int64_t i = 0; i < std::min(steps, kMaxElapsed_ns / kStep_ns); ++i) {
@@ -103,7 +115,9 @@ struct SimulatedDevice::Impl {
   const std::string name = "sim";
   const Profile profile;
   const Time time;
+  const SimulatedClock clock;
   const double model_lag_s;
+  const int64_t delay_ns;
   const GripDynamics dynamics;
   const StringVector zero_length_m;
   // Used only by the thread that exchanges.
@@ -112,7 +126,7 @@ struct SimulatedDevice::Impl {
   int64_t last_ns = 0;
   Pose hand;
   GripState state;
-  StringVector target_N = StringVector::Zero();
+  DelayedTensions delayed;
   // Shared.
   std::mutex hand_writers;
   Seqlock<Pose> hand_shared;
@@ -122,8 +136,15 @@ struct SimulatedDevice::Impl {
   SpscRing<FeltState, 4096> history;
 };
 
-SimulatedDevice::SimulatedDevice(const Profile& profile, Time time, const GripModel& model)
-    : impl_(std::make_unique<Impl>(profile, time, model)) {}
+GripModel grip_model_of(const Profile& profile) {
+  GripModel model;
+  model.motor_time_constant_s = profile.drive_lag_s;
+  return model;
+}
+
+SimulatedDevice::SimulatedDevice(const Profile& profile, Time time, const GripModel& model,
+                                 SimulatedClock clock)
+    : impl_(std::make_unique<Impl>(profile, time, model, std::move(clock))) {}
 
 SimulatedDevice::~SimulatedDevice() = default;
 
@@ -132,9 +153,9 @@ void SimulatedDevice::open() {
   if (fault != ExchangeStatus::kOk)
     throw DeviceError("sim: cannot be opened: a fault is simulated; end it with set_fault(kOk)");
   impl_->time_ns = 0;
-  impl_->last_ns = monotonic_ns();
+  impl_->last_ns = impl_->clock();
   impl_->state = {};
-  impl_->target_N.setZero();
+  impl_->delayed.clear();
   impl_->open = true;
   impl_->publish();
 }

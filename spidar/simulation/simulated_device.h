@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -28,6 +29,12 @@ struct FeltState {
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< in D
 };
 
+/// The model of a device with this profile: its motors lag by drive_lag_s, first order.
+SPIDAR_API GripModel grip_model_of(const Profile& profile);
+
+/// Nanoseconds of a clock that never goes back. Does not throw.
+using SimulatedClock = std::function<int64_t()>;
+
 /// Encoders are quantised, the D/A has its resolution, motors lag and saturate, strings only pull.
 ///
 /// An exchange takes no time; its volts act until the next one. Like a real board, the device keeps
@@ -41,7 +48,9 @@ class SPIDAR_API SimulatedDevice final : public Device {
   };
 
   /// Throws std::invalid_argument when `model` is not physical or too stiff, see GripDynamics.
-  SimulatedDevice(const Profile& profile, Time time, const GripModel& model = {});
+  /// `clock`: for kClock; none: CLOCK_MONOTONIC.
+  SimulatedDevice(const Profile& profile, Time time, const GripModel& model = {},
+                  SimulatedClock clock = {});
   ~SimulatedDevice() override;
 
   /// Puts the grip at rest at the centre, as the user of a real device does. The counters are zero

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <cmath>
 #include <fstream>
+#include <future>
 #include <iostream>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
+#include "spidar/delay/delay_test.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/realtime/monotonic.h"
+#include "spidar/realtime/thread_setup.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/conformance_report.h"
@@ -19,20 +26,27 @@ constexpr const char* kHelp = R"(usage: spidarctl conformance DEVICE [OPTION]...
 
 Tests a board and writes a report that you can send in. The report contains the identification of
 the board, the results of a thousand exchanges a second while you move the grip and press all
-buttons, and, like selftest, the responses of the encoders to small pulls of each motor. It contains
-the board's serial number and the kernel version of this system, but nothing else about you.
+buttons, and, like selftest, the responses of the encoders to small pulls of each motor. If the
+wiring is as in the profile, the grip is then shaken a little, and from how late it answers the
+report says by how much the drives lag and how stiff a surface may be. It contains the board's
+serial number and the kernel version of this system, but nothing else about you.
 
   --report FILE         write the report to FILE instead of standard output
   --seconds S           duration for which you move the grip, 0.1 to 600 (default 10)
   --newton N            tension of a pull above the minimum tension, 0.1 to 2 (default 0.5)
   --no-pull             leave the motors at zero all the time
+  --shake N             largest force that shakes the grip, 0.1 to 1 (default 0.4)
+  --shake-seconds S     seconds that are evaluated, 6 to 60 (default 12); each takes 1.6 s
+  --no-shake            do not measure the lag of the drives
   --yes                 do not ask for confirmation
   --profile NAME        profile of the device, a name or a file
   --sim-wiring FAULTS   simulated device: see selftest
+  --sim-lag MS          simulated device: its drives lag by this, 0 to 30 (default: drive_lag_s
+                        of the profile)
   --help
 
-Exit status: 0 the board conforms in everything that was tested, 1 it does not, or there is no
-device, 2 wrong usage, 130 interrupted.
+Exit status: 0 the board conforms in everything that was tested, 1 it does not, or drive_lag_s of
+the profile is too small, or there is no device, 2 wrong usage, 130 interrupted.
 )";
 
 struct ConformanceOptions {
@@ -41,7 +55,10 @@ struct ConformanceOptions {
   double newton = 0.5;
   std::string report;
   std::string sim_wiring;
+  std::optional<double> sim_lag_ms;
+  DelayTestSettings shaking;
   bool pull = true;
+  bool shake = true;
   bool yes = false;
 };
 
@@ -57,10 +74,27 @@ ConformanceOptions parse(int argc, char** argv) {
       {{"report", true, [&](const std::string& text) { options.report = text; }},
        number("seconds", options.seconds, 0.1, 600, "s"),
        number("newton", options.newton, 0.1, 2, "N"),
+       number("shake", options.shaking.peak_N, 0.1, 1, "N"),
+       {"shake-seconds", true,
+        [&](const std::string& text) {
+          options.shaking.periods = static_cast<int>(
+              parse_number("--shake-seconds", text, DelayTestSettings::kFewestPeriods, 60, "s"));
+        }},
+       {"no-shake", false, [&](const std::string&) { options.shake = false; }},
+       {"sim-lag", true,
+        [&](const std::string& text) {
+          options.sim_lag_ms = parse_number("--sim-lag", text, 0, 30, "ms");
+        }},
        {"no-pull", false, [&](const std::string&) { options.pull = false; }},
        {"yes", false, [&](const std::string&) { options.yes = true; }},
        sim_wiring_option(options.sim_wiring)});
   return options;
+}
+
+std::string shown(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 /// The motors may be energised.
@@ -68,8 +102,12 @@ bool may_pull(const ConformanceOptions& options, const ChosenDevice& chosen) {
   if (!options.pull || !chosen.board.has_strings) return false;
   return options.yes || is_simulated(options.common.device) ||
          confirm("Hold the strings of " + chosen.board.device +
-                 " taut while you move the grip, and then pull one after the other? The grip will "
-                 "move. If you answer no, the motors stay at zero.");
+                 " taut while you move the grip, then pull one after the other" +
+                 (options.shake
+                      ? ", and shake the grip with up to " + shown(options.shaking.peak_N) +
+                            " N for " + shown(std::round(options.shaking.most_seconds())) + " s"
+                      : "") +
+                 "? The grip will move. If you answer no, the motors stay at zero.");
 }
 
 /// False when interrupted.
@@ -94,6 +132,27 @@ bool pull(Device& device, const ConformanceOptions& options, Conformance& found)
   return found.answers.complete;
 }
 
+/// False when interrupted. Forces that a wrong wiring would turn round are not tried.
+bool shake(Device& device, const ConformanceOptions& options, Conformance& found) {
+  if (!options.shake || !found.wiring || !found.wiring->as_profile()) return true;
+  std::cerr
+      << "Hold the grip loosely at the centre, and still. It is shaken along the line of sight "
+         "with up to "
+      << options.shaking.peak_N << " N for " << std::round(options.shaking.seconds())
+      << " s; Ctrl-C ends that.\n";
+  // As the haptic loop runs: pauses of a busy machine cost seconds that are evaluated.
+  std::packaged_task<DelayTest()> task([&] {
+    request_exact_timers();
+    request_real_time();
+    return measure_delay(device, found.profile, every_millisecond(), monotonic_now_ns,
+                         options.shaking);
+  });
+  std::future<DelayTest> result = task.get_future();
+  start_thread("spidar-delay", std::move(task)).join();
+  found.delay = result.get();
+  return found.delay->complete;
+}
+
 void write(const std::string& file, const Conformance& found) {
   if (file.empty()) {
     print_conformance(std::cout, found, SPIDAR_VERSION);
@@ -115,15 +174,16 @@ int conformance_command(int argc, char** argv) {
     return kDone;
   }
   ChosenDevice chosen = choose_device(options.common);
+  if (options.sim_lag_ms) simulate_lag(1e-3 * *options.sim_lag_ms, options.common.device, chosen);
   miswire(options.sim_wiring, options.common.device, chosen);
   if (!options.report.empty()) check_folder_of(options.report);
   const bool pulls = may_pull(options, chosen);
   catch_signals();
   ObservedDevice device(std::move(chosen.device));
-  Conformance found{chosen.board, chosen.profile, device.seen(), {}, {}, {}, {}};
+  Conformance found{chosen.board, chosen.profile, device.seen(), {}, {}, {}, {}, {}};
   try {
     if (!watch(device, chosen.profile, options.seconds, pulls) ||
-        (pulls && !pull(device, options, found))) {
+        (pulls && (!pull(device, options, found) || !shake(device, options, found)))) {
       std::cerr << "interrupted; the strings are released, and no report is written\n";
       return kInterrupted;
     }

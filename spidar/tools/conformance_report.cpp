@@ -8,6 +8,10 @@
 #include <ostream>
 #include <sys/utsname.h>
 
+#include "spidar/boards/board_device.h"
+#include "spidar/delay/lag_verdict.h"
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/tools/delay_report.h"
 #include "spidar/tools/selftest_report.h"
 
 namespace spidar {
@@ -106,7 +110,15 @@ bool Conformance::link_conforms() const noexcept {
 }
 
 bool Conformance::conforms() const noexcept {
-  return link_conforms() && (!wiring || wiring->as_profile());
+  const bool lag_is_stated =
+      !delay || !delay->measured() ||
+      judge_lag(profile, *delay->fit, late_ticks()).stated != StatedLag::kTooSmall;
+  return link_conforms() && (!wiring || wiring->as_profile()) && lag_is_stated;
+}
+
+int Conformance::late_ticks() const noexcept {
+  const int64_t beyond_ns = seen.duration.quantile_ns(0.99) - BoardDevice::kReplyWait_ns;
+  return beyond_ns > 0 ? static_cast<int>((beyond_ns + kTick_ns - 1) / kTick_ns) : 0;
 }
 
 void print_conformance(std::ostream& out, const Conformance& found, const std::string& version) {
@@ -124,6 +136,10 @@ void print_conformance(std::ostream& out, const Conformance& found, const std::s
     print_wiring(out, found.profile, found.answers, *found.wiring);
     out << '\n';
   }
+  if (found.delay) {
+    print_delay(out, found.profile, *found.delay, found.late_ticks());
+    out << '\n';
+  }
   line(out, "link", found.link_conforms() ? "conforms" : "does not conform");
   if (found.board.has_strings)
     line(out, "counters",
@@ -133,6 +149,8 @@ void print_conformance(std::ostream& out, const Conformance& found, const std::s
        !found.wiring                ? "not tried"
        : found.wiring->as_profile() ? "conform"
                                     : "do not conform");
+  line(out, "lag",
+       found.delay ? delay_summary(found.profile, *found.delay, found.late_ticks()) : "not tried");
 }
 
 }  // namespace spidar

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "spidar/boards/board_list.h"
+#include "spidar/delay/delay_test.h"
 #include "spidar/tools/observed_device.h"
 #include "spidar/wiring/wiring_answers.h"
 #include "spidar/wiring/wiring_report.h"
@@ -21,11 +22,14 @@ struct Conformance {
   LinkHealth health;
   WiringAnswers answers;
   std::optional<WiringReport> wiring;  ///< none: no string was pulled
+  std::optional<DelayTest> delay;      ///< none: not tried
   std::string trouble;                 ///< why it ended before its end; may be empty
 
   /// Of a thousand exchanges one may have had no answer in time, as the host's scheduling has it;
   /// nothing else may go wrong.
   bool link_conforms() const noexcept;
+  /// By which the slowest hundredth of the answers would be late while playing, see judge_lag().
+  int late_ticks() const noexcept;
   /// All is as it should be, as far as it was tried.
   bool conforms() const noexcept;
 };

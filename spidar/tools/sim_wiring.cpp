@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "spidar/device_factory.h"
 #include "spidar/tools/miswired_device.h"
 
 namespace spidar {
@@ -27,6 +28,14 @@ void miswire(const std::string& faults, const std::string& device, ChosenDevice&
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--sim-wiring: ") + error.what());
   }
+}
+
+void simulate_lag(double lag_s, const std::string& device, ChosenDevice& chosen) {
+  if (!is_simulated(device))
+    throw UsageError("--sim-lag is for simulated devices only, not for " + device);
+  Profile lagging = chosen.profile;
+  lagging.drive_lag_s = lag_s;
+  chosen.device = make_device(device, lagging);
 }
 
 }  // namespace spidar

@@ -18,4 +18,8 @@ CommandOption sim_wiring_option(std::string& faults);
 /// not simulated.
 void miswire(const std::string& faults, const std::string& device, ChosenDevice& chosen);
 
+/// Makes the drives lag by this, whatever the profile says. Throws UsageError when the device is
+/// not simulated.
+void simulate_lag(double lag_s, const std::string& device, ChosenDevice& chosen);
+
 }  // namespace spidar

@@ -181,6 +181,9 @@ TEST(GripModel, ModelThatIsNotPhysicalIsRefused) {
   model.hand_damping_N_s_m = -1;
   EXPECT_NE(error_of(model).find("hand_damping_N_s_m"), std::string::npos);
   model = {};
+  model.motor_delay_s = 0.06;
+  EXPECT_NE(error_of(model).find("motor_delay_s"), std::string::npos);
+  model = {};
   model.hand_stiffness_N_m = 1e12;
   EXPECT_NE(error_of(model).find("too stiff"), std::string::npos);
   EXPECT_EQ(error_of({}), "");

@@ -76,6 +76,34 @@ TEST_F(SimulatedDeviceTest, TensionsHaveTheStepsOfTheDA) {
   }
 }
 
+TEST_F(SimulatedDeviceTest, ADelayHoldsTensionsBack) {
+  GripModel model = without_lag();
+  model.motor_delay_s = 0.005;
+  SimulatedDevice device(profile, kFixedStep, model);
+  device.open();
+  const double step = step_N(profile, 2);
+  DeviceReading reading;
+  for (int tick = 0; tick <= 100; ++tick) {
+    StringVector tension_N = StringVector::Zero();
+    tension_N[2] = tick * step;
+    device.exchange(volts_for(profile, tension_N), reading);
+    // Until this exchange acted what was put out in the one before, or five ticks before that.
+    EXPECT_NEAR(device.felt().tension_N[2], std::max(0, tick - 6) * step, 1e-9) << tick;
+  }
+  device.close();
+  EXPECT_EQ(device.felt().tension_N[2], 0);
+  device.open();
+  for (int tick = 0; tick < 6; ++tick) device.exchange({}, reading);
+  EXPECT_EQ(device.felt().tension_N[2], 0);
+}
+
+TEST_F(SimulatedDeviceTest, ItsMotorsLagAsTheProfileSays) {
+  EXPECT_EQ(grip_model_of(profile).motor_time_constant_s, GripModel().motor_time_constant_s);
+  Profile slow = profile;
+  slow.drive_lag_s = 0.006;
+  EXPECT_EQ(grip_model_of(slow).motor_time_constant_s, 0.006);
+}
+
 TEST_F(SimulatedDeviceTest, MotorsSaturateAndStringsNeverPush) {
   SimulatedDevice device(profile, kFixedStep, without_lag());
   device.open();

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/delay/lag_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+
+namespace spidar {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+/// A board that reads its counters later in an exchange than it puts out the volts has a pure delay
+/// below zero. So has the simulation, by its steps.
+constexpr double kShortestDelay_s = -0.001;
+constexpr double kScan_s = 0.0005;
+/// Beyond kLongestLag_s, so that what is too long is seen to be.
+constexpr double kScanTo_s = 2 * LagFitter::kLongestLag_s;
+/// First-order parts are tried this far apart or, where that is more, by this share.
+constexpr double kPart_s = 0.00025;
+constexpr double kPartShare = 0.1;
+/// And so many times finer between the two neighbours of the best.
+constexpr int kFiner = 20;
+constexpr int kIterations = 8;
+
+struct Weighed {
+  double rate_rad_s = 0;
+  Complex response;
+  double weight = 0;  ///< one over the standard deviation of its real and imaginary part
+};
+
+/// Mass, damping, stiffness.
+using Grip = Eigen::Vector3d;
+
+struct Candidate {
+  double part_s = 0;  ///< of the lag that is first order
+  double lag_s = 0;
+  Grip grip = Grip::Zero();
+  double cost = kNone;  ///< chi²
+  double error_s = 0;   ///< of the lag, with this part
+};
+
+Complex drive(double rate_rad_s, double part_s, double lag_s) {
+  const Complex j(0, 1);
+  return std::exp(-j * (rate_rad_s * (lag_s - part_s))) / (1.0 + j * (rate_rad_s * part_s));
+}
+
+Complex dynamics(double rate_rad_s, const Grip& grip) {
+  return {grip[2] - grip[0] * rate_rad_s * rate_rad_s, grip[1] * rate_rad_s};
+}
+
+double cost_of(const std::vector<Weighed>& lines, const Candidate& candidate) {
+  double cost = 0;
+  for (const Weighed& line : lines) {
+    const Complex model = drive(line.rate_rad_s, candidate.part_s, candidate.lag_s) /
+                          dynamics(line.rate_rad_s, candidate.grip);
+    cost += std::norm(line.weight * (line.response - model));
+  }
+  return cost;
+}
+
+/// The grip of a given lag: of the inverse response, which is linear in it. A start, because noise
+/// does not stay what it was when it is inverted.
+Grip start_of(const std::vector<Weighed>& lines, double part_s, double lag_s) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Grip right = Grip::Zero();
+  for (const Weighed& line : lines) {
+    const double w = line.rate_rad_s;
+    const Complex inverse = drive(w, part_s, lag_s) / line.response;
+    const double weight = line.weight * std::norm(line.response);
+    const Grip real(-w * w, 0, 1), imaginary(0, w, 0);
+    normal += weight * weight * (real * real.transpose() + imaginary * imaginary.transpose());
+    right += weight * weight * (real * inverse.real() + imaginary * inverse.imag());
+  }
+  return normal.ldlt().solve(right);
+}
+
+/// Gauss and Newton, lag and grip.
+void refine(const std::vector<Weighed>& lines, Candidate& candidate) {
+  const Complex j(0, 1);
+  for (int n = 0; n < kIterations; ++n) {
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    // Of similar size, so that the matrix is well conditioned.
+    const Eigen::Vector4d unit(0.1, 1, 100, 1e-3);
+    for (const Weighed& line : lines) {
+      const double w = line.rate_rad_s;
+      const Complex bottom = dynamics(w, candidate.grip);
+      const Complex model = drive(w, candidate.part_s, candidate.lag_s) / bottom;
+      const std::array<Complex, 4> slope = {model * w * w / bottom, -model * j * w / bottom,
+                                            -model / bottom, -j * w * model};
+      Eigen::Vector4d real, imaginary;
+      for (int i = 0; i < 4; ++i) {
+        real[i] = line.weight * slope[static_cast<size_t>(i)].real() * unit[i];
+        imaginary[i] = line.weight * slope[static_cast<size_t>(i)].imag() * unit[i];
+      }
+      const Complex rest = line.weight * (line.response - model);
+      normal += real * real.transpose() + imaginary * imaginary.transpose();
+      right += real * rest.real() + imaginary * rest.imag();
+    }
+    const Eigen::Matrix4d covariance = normal.inverse();
+    candidate.error_s = unit[3] * std::sqrt(std::max(0.0, covariance(3, 3)));
+    const Eigen::Vector4d step = unit.cwiseProduct(covariance * right);
+    // Half of it, and half of that, as long as it makes things worse.
+    const Candidate before = candidate;
+    for (double share = 1; share > 1e-3; share /= 2) {
+      candidate.grip = before.grip + share * step.head<3>();
+      candidate.lag_s = before.lag_s + share * step[3];
+      candidate.cost = cost_of(lines, candidate);
+      if (candidate.cost <= before.cost) break;
+      candidate = before;
+    }
+    if (std::abs(candidate.lag_s - before.lag_s) < 1e-8) return;
+  }
+}
+
+/// The cost is kNone where there is none.
+Candidate best_with(const std::vector<Weighed>& lines, double part_s) {
+  Candidate best;
+  const double shortest_s = part_s + kShortestDelay_s;
+  for (double lag_s = shortest_s; lag_s <= kScanTo_s; lag_s += kScan_s) {
+    Candidate candidate;
+    candidate.part_s = part_s;
+    candidate.lag_s = lag_s;
+    candidate.grip = start_of(lines, part_s, lag_s);
+    candidate.cost = cost_of(lines, candidate);
+    if (candidate.cost < best.cost && candidate.grip[0] > 0) best = candidate;
+  }
+  best.part_s = part_s;
+  if (std::isfinite(best.cost)) refine(lines, best);
+  if (!(best.lag_s >= shortest_s) || !(best.grip[0] > 0)) best.cost = kNone;
+  return best;
+}
+
+bool is_better(const Candidate& a, const Candidate& b) {
+  return a.cost < b.cost;
+}
+
+std::vector<Candidate> candidates_of(const std::vector<Weighed>& lines) {
+  std::vector<Candidate> found;
+  for (double part_s = 0; part_s <= LagFitter::kLongestLag_s;
+       part_s += std::max(kPart_s, kPartShare * part_s))
+    found.push_back(best_with(lines, part_s));
+  const auto best = std::min_element(found.begin(), found.end(), is_better);
+  const double from_s = (best == found.begin() ? best : best - 1)->part_s;
+  const double to_s = (best + 1 == found.end() ? best : best + 1)->part_s;
+  for (int i = 1; i < kFiner; ++i)
+    found.push_back(best_with(lines, from_s + (to_s - from_s) * i / kFiner));
+  return found;
+}
+
+bool stands_out(const ResponseLine& line) {
+  return std::norm(line.response) > 9 * line.variance;
+}
+
+std::vector<Weighed> weigh(const std::vector<ResponseLine>& lines, int periods) {
+  // The variance is an estimate too, which makes chi² larger by this.
+  const double estimated = static_cast<double>(periods - 1) / (periods - 2);
+  std::vector<Weighed> weighed;
+  for (const ResponseLine& line : lines) {
+    const double systematic =
+        LagFitter::kSystematic * LagFitter::kSystematic * std::norm(line.response);
+    // Half of it is that of the real part.
+    const double variance = 0.5 * (estimated * line.variance + systematic);
+    weighed.push_back({2 * M_PI * line.frequency_Hz, line.response, 1 / std::sqrt(variance)});
+  }
+  return weighed;
+}
+
+}  // namespace
+
+LagFit LagFitter::fit(const std::vector<ResponseLine>& lines, int periods) {
+  LagFit result;
+  result.lines = static_cast<int>(std::count_if(lines.begin(), lines.end(), stands_out));
+  if (result.lines < kFewestLines) {
+    result.missing = NoLag::kNoMotion;
+    return result;
+  }
+  // All lines: to choose those of a large response would make it larger.
+  const std::vector<Candidate> found = candidates_of(weigh(lines, periods));
+  const Candidate best = *std::min_element(found.begin(), found.end(), is_better);
+  if (!std::isfinite(best.cost)) {
+    result.missing = NoLag::kNotAMass;
+    return result;
+  }
+  constexpr int kUnknowns = 5;
+  const double spread = best.cost / static_cast<double>(2 * lines.size() - kUnknowns);
+  result.misfit = std::sqrt(spread);
+  result.lag_s = result.least_s = result.most_s = best.lag_s;
+  result.mass_kg = best.grip[0];
+  result.damping_N_s_m = best.grip[1];
+  result.stiffness_N_m = best.grip[2];
+  // The profile likelihood: of every first-order part those lags that are hardly worse. A misfit
+  // makes all errors larger.
+  const double scale = std::max(1.0, spread);
+  for (const Candidate& candidate : found) {
+    const double left = kDeviations * kDeviations - (candidate.cost - best.cost) / scale;
+    if (!(left >= 0)) continue;
+    const double either_s = std::sqrt(left * scale) * candidate.error_s;
+    result.least_s = std::min(result.least_s, candidate.lag_s - either_s);
+    result.most_s = std::max(result.most_s, candidate.lag_s + either_s);
+  }
+  result.error_s = (result.most_s - result.least_s) / (2 * kDeviations);
+  const double vague_s = std::max(kVague_s, kVagueShare * result.lag_s);
+  if (!(result.misfit <= kMostMisfit)) {
+    result.missing = NoLag::kNotAMass;
+  } else if (!(result.most_s - result.least_s <= 2 * vague_s)) {
+    result.missing = NoLag::kTooVague;
+  } else if (!(result.most_s <= kLongestLag_s)) {
+    result.missing = NoLag::kTooLong;
+  }
+  return result;
+}
+
+}  // namespace spidar

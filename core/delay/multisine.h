@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The force with which a delay is measured.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+
+namespace spidar {
+
+/// Sines of one amplitude and random phases. In a second each of them passes a whole number of
+/// times.
+class Multisine {
+ public:
+  /// Primes, so that no harmonic of one falls on another, and at least two apart, so that a Hann
+  /// window of one second keeps them apart. Below 11 Hz a hand trembles and drifts; above 83 Hz a
+  /// grip hardly moves.
+  static constexpr std::array<double, 19> kFrequency_Hz = {11, 13, 17, 19, 23, 29, 31, 37, 41, 43,
+                                                           47, 53, 59, 61, 67, 71, 73, 79, 83};
+  static constexpr double kPeriod_s = 1;
+
+  /// The largest value of a period is `peak`.
+  template <typename Random>
+  Multisine(Random& random, double peak) {
+    std::uniform_real_distribution<double> turn(0, 2 * M_PI);
+    for (double& phase : phase_rad_) phase = turn(random);
+    double largest = 0;
+    constexpr int kSamples = 1000;
+    for (int i = 0; i < kSamples; ++i)
+      largest = std::max(largest, std::abs(at(kPeriod_s * i / kSamples)));
+    amplitude_ = peak / largest;
+  }
+
+  double at(double time_s) const noexcept {
+    double sum = 0;
+    for (size_t i = 0; i < phase_rad_.size(); ++i)
+      sum += std::sin(2 * M_PI * kFrequency_Hz[i] * time_s + phase_rad_[i]);
+    return amplitude_ * sum;
+  }
+
+  double amplitude() const noexcept { return amplitude_; }
+
+ private:
+  std::array<double, kFrequency_Hz.size()> phase_rad_{};
+  double amplitude_ = 1;
+};
+
+}  // namespace spidar

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/delay/delay_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "spidar/loop/haptic_loop.h"
+
+namespace spidar {
+namespace {
+
+constexpr double kFade_s = DelayTestSettings::kFade_s;
+constexpr double kBegin_s = kFade_s + DelayTestSettings::kSettle_s;
+constexpr double kRound_s = DelayTestSettings::kRound_s;
+/// Wrenches are known to the loop so long before they are due, so that none is faded in late.
+constexpr int64_t kAhead_ns = 20 * kTick_ns;
+/// And hold for this long when the next is late; then the loop ramps to rest.
+constexpr int64_t kHold_ns = 10 * kTick_ns;
+/// In which the pose has to become known and the tensions to be at rest.
+constexpr double kOpening_s = 2;
+/// A longer pause than this leaves a period unusable.
+constexpr double kLongestGap_s = 0.01;
+/// After a pause in which the loop may have lost the pose it has this long to find it again.
+constexpr int64_t kPause_ns = GripWatch::kPoseTimeout_ns;
+constexpr int64_t kRecovery_ns = 500 * kTick_ns;
+
+/// 0 … 1 … 0 in a round, level at both ends.
+double envelope(double time_s) {
+  const double way = std::clamp(std::min(time_s, kRound_s - time_s) / kFade_s, 0.0, 1.0);
+  return way * way * (3 - 2 * way);
+}
+
+std::string sentence_of(NoLag missing, const LagFit& fit) {
+  char text[200] = "";
+  switch (missing) {
+    case NoLag::kNone:
+      break;
+    case NoLag::kNoMotion:
+      return "the grip hardly moved with the force; hold it loosely, so that it can move, or use a "
+             "larger force";
+    case NoLag::kNotAMass:
+      std::snprintf(text, sizeof text,
+                    "the grip did not move as a mass with a spring and a damper (misfit %.1f, at "
+                    "most %.0f); hold it still and loosely, at the centre",
+                    fit.misfit, LagFitter::kMostMisfit);
+      break;
+    case NoLag::kTooVague:
+      std::snprintf(
+          text, sizeof text,
+          "the lag could be told to within %.1f ms only; hold the grip still and loosely, "
+          "or use a larger force",
+          500 * (fit.most_s - fit.least_s));
+      break;
+    case NoLag::kTooLong:
+      std::snprintf(text, sizeof text,
+                    "the drive may lag by more than %.0f ms: no surface should be touched with it",
+                    1e3 * LagFitter::kLongestLag_s);
+      break;
+  }
+  return text;
+}
+
+class DelayRun {
+ public:
+  DelayRun(Device& device, const Profile& profile, const Pace& pace, const MonotonicClock& now_ns,
+           const DelayTestSettings& settings)
+      : loop_(std::make_unique<HapticLoop>(profile, device, limits(settings))),
+        pace_(pace),
+        now_ns_(now_ns),
+        settings_(settings) {}
+
+  DelayTest run() {
+    loop_->open();
+    if (settle()) excite();
+    release();
+    if (result_.complete && result_.trouble.empty()) judge();
+    return result_;
+  }
+
+ private:
+  /// The loop's own limits, and no more force than was announced.
+  static SafetyLimits limits(const DelayTestSettings& settings) {
+    SafetyLimits limits;
+    limits.max_force_N = std::min(limits.max_force_N, settings.peak_N);
+    return limits;
+  }
+
+  /// False when interrupted, or when something is wrong.
+  bool tick() {
+    if (!pace_()) {
+      result_.complete = false;
+      return false;
+    }
+    const int64_t now_ns = now_ns_();
+    loop_->tick(now_ns, now_ns);
+    while (loop_->pop_record(record_)) {
+    }
+    result_.largest_N = std::max(result_.largest_N, record_.commanded.force_N.norm());
+    if (!loop_->lost()) return true;
+    return fail("the device does not answer any more; check cable and power");
+  }
+
+  bool fail(const std::string& trouble) {
+    result_.trouble = trouble;
+    return false;
+  }
+
+  /// Until the tensions are at rest and the pose is known.
+  bool settle() {
+    const int64_t begin_ns = now_ns_();
+    for (;;) {
+      if (!tick()) return false;
+      const LoopSnapshot now = loop_->snapshot();
+      if (record_.device == DeviceState::kRunning && now.pose_trouble == PoseTrouble::kNone) break;
+      if (1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns) > kOpening_s)
+        return fail(std::string("the pose of the grip is not known: ") +
+                    to_string(now.pose_trouble));
+    }
+    start_m_ = record_.pose.position_m;
+    begin_ns_ = record_.monotonic_ns;
+    loop_->set_playback_clock({begin_ns_, 0, 1.0, true});
+    return true;
+  }
+
+  void excite() {
+    std::mt19937 random(settings_.seed);
+    rounds_.clear();
+    for (int i = 0; i < settings_.most_periods(); ++i)
+      rounds_.emplace_back(random, settings_.peak_N);
+    for (int i = 0; i < settings_.most_periods(); ++i)
+      if (static_cast<int>(periods_.size()) == settings_.periods || !round(i)) return;
+  }
+
+  double wanted_N(double time_s) const {
+    const double number = std::floor(time_s / kRound_s);
+    if (number < 0 || number >= static_cast<double>(rounds_.size())) return 0;
+    const double in_round_s = time_s - number * kRound_s;
+    return envelope(in_round_s) * rounds_[static_cast<size_t>(number)].at(in_round_s);
+  }
+
+  void schedule_ahead(int64_t running_ns) {
+    for (; next_ns_ <= running_ns + kAhead_ns; next_ns_ += kTick_ns) {
+      TimedWrench entry;
+      entry.time_ns = next_ns_;
+      entry.hold_ns = kHold_ns;
+      entry.wrench.force_N.z() = wanted_N(1e-9 * static_cast<double>(next_ns_));
+      if (!loop_->schedule(entry)) return;
+    }
+  }
+
+  bool round(int number) {
+    const double end_s = kRound_s * (number + 1);
+    const uint64_t errors = loop_->snapshot().counters.exchange_errors;
+    bool whole = true;
+    PeriodSums sums(kRound_s * number + kBegin_s);
+    for (;;) {
+      schedule_ahead(now_ns_() - begin_ns_);
+      const int64_t last_ns = record_.monotonic_ns;
+      if (!tick()) return false;
+      if (record_.monotonic_ns - last_ns > kPause_ns) paused_ns_ = record_.monotonic_ns;
+      if (recovers()) {
+        whole = false;
+      } else if (!is_well()) {
+        return false;
+      }
+      const double time_s = 1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns_);
+      sums.add(time_s, record_.delivered.force_N.z(), record_.pose.position_m.z());
+      if (time_s >= end_s) break;
+    }
+    whole = whole && loop_->snapshot().counters.exchange_errors == errors;
+    if (whole && sums.longest_gap_s() < kLongestGap_s) periods_.push_back(sums);
+    return true;
+  }
+
+  /// This machine had no time for the loop, which then takes the force to rest until it knows the
+  /// pose again. That is no fault of the device.
+  bool recovers() const {
+    const PoseTrouble trouble = loop_->snapshot().pose_trouble;
+    return (trouble == PoseTrouble::kNoReading || trouble == PoseTrouble::kNotYet) &&
+           record_.acknowledged && record_.monotonic_ns - paused_ns_ < kRecovery_ns;
+  }
+
+  /// Stops before anything goes far.
+  bool is_well() {
+    const LoopSnapshot now = loop_->snapshot();
+    if (now.pose_trouble != PoseTrouble::kNone)
+      return fail(std::string("the pose of the grip was lost: ") + to_string(now.pose_trouble));
+    if (record_.faulty_string >= 0)
+      return fail("the length of string " + std::to_string(record_.faulty_string) +
+                  " does not fit the others: it is slack or broken, or its encoder is dead");
+    const double moved_m = (record_.pose.position_m - start_m_).norm();
+    result_.moved_m = std::max(result_.moved_m, moved_m);
+    if (moved_m <= kFurthest_m) return true;
+    return fail("the grip went further than 20 mm; hold it still and loosely, at the centre");
+  }
+
+  /// Does not end early.
+  void release() {
+    loop_->begin_close();
+    while (!loop_->released()) {
+      pace_();
+      const int64_t now_ns = now_ns_();
+      loop_->tick(now_ns, now_ns);
+    }
+    loop_->close();
+  }
+
+  void judge() {
+    result_.periods = static_cast<int>(periods_.size());
+    if (result_.periods < DelayTestSettings::kFewestPeriods) {
+      fail("only " + std::to_string(result_.periods) + " of " +
+           std::to_string(settings_.most_periods()) +
+           " seconds were without a pause of 10 ms or an exchange without answer; at least " +
+           std::to_string(DelayTestSettings::kFewestPeriods) + " are needed");
+      return;
+    }
+    result_.fit = LagFitter::fit(average(periods_), result_.periods);
+    result_.trouble = sentence_of(result_.fit->missing, *result_.fit);
+  }
+
+  const std::unique_ptr<HapticLoop> loop_;
+  const Pace& pace_;
+  const MonotonicClock& now_ns_;
+  const DelayTestSettings settings_;
+  DelayTest result_;
+  TickRecord record_;
+  Eigen::Vector3d start_m_ = Eigen::Vector3d::Zero();
+  int64_t begin_ns_ = 0;
+  int64_t next_ns_ = 0;
+  int64_t paused_ns_ = INT64_MIN / 2;
+  std::vector<Multisine> rounds_;
+  std::vector<PeriodSums> periods_;
+};
+
+}  // namespace
+
+DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace,
+                        const MonotonicClock& now_ns, const DelayTestSettings& settings) {
+  if (settings.periods < DelayTestSettings::kFewestPeriods)
+    throw std::invalid_argument("measure_delay: " + std::to_string(settings.periods) +
+                                " periods, must be at least " +
+                                std::to_string(DelayTestSettings::kFewestPeriods));
+  return DelayRun(device, profile, pace, now_ns, settings).run();
+}
+
+}  // namespace spidar
