@@ -99,9 +99,8 @@ void FramePainter::fill(const Eigen::Vector2d* corners_px, size_t count, const C
   }
 }
 
-void FramePainter::draw(const Arrow& arrow) {
-  const ArrowShape shape = shape_of(arrow);
-  const Components value = components_of(arrow.color);
+void FramePainter::draw(const ArrowShape& shape, Rgb color) {
+  const Components value = components_of(color);
   fill(shape.shaft_px.data(), shape.shaft_px.size(), value);
   if (shape.has_head) fill(shape.head_px.data(), shape.head_px.size(), value);
 }

@@ -21,7 +21,8 @@ class FramePainter {
  public:
   explicit FramePainter(GstVideoFrame& frame) : frame_(frame) {}
 
-  void draw(const Arrow& arrow);
+  void draw(const Arrow& arrow) { draw(shape_of(arrow), arrow.color); }
+  void draw(const ArrowShape& shape, Rgb color);
   /// A cross of two strokes, each `size_px` long.
   void cross(const Eigen::Vector2d& centre_px, double size_px, double width_px, Rgb color);
 

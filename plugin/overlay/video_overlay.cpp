@@ -22,7 +22,7 @@ void draw_overlay(const SceneView& scene, const VisiblePart& visible, double sca
     painter.cross({lost.x_px, lost.y_px}, cross_px, cross_px / 4, kWhite);
   }
   if (const std::optional<FeltArrow> felt = felt_arrow(scene.wrench, style)) {
-    painter.draw(felt->border);
+    painter.draw(felt->border, kBlack);
     painter.draw(felt->arrow);
   }
 }
