@@ -196,6 +196,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
                                 schedule_.at_sink_ns(running_ns), schedule_.rate_multiplier());
     if (place) player_.play(*place);
     if (touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
+    limit_watch_.set_touching(false);
     reliefs_.end(schedule_.at_sink_ns(running_ns));
     return report;
   }
@@ -228,6 +229,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;
   pacer_.take(time, moved);
   limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis, settings.motion);
+  limit_watch_.set_touching(touch.kind != TouchKind::kOff);
   // Only so much of the film's motion is felt, told and shown beside what is touched.
   motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
   report.analysis.wrench = scaled(report.analysis.wrench, motion_share_);

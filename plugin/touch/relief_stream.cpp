@@ -63,6 +63,7 @@ void ReliefStream::connect(HapticLoop* loop, const Profile& profile,
   profile_ = profile;
   half_size_m_ = half_size_m;
   reliefs_ = reliefs_left_out_ = 0;
+  stiffness_N_m_ = 0;
 }
 
 void ReliefStream::disconnect() {
@@ -173,6 +174,7 @@ bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnal
   frame->displacement_m = {
       moved_px.x() / (shown.x() * analysis.width) * frame->relief.width_m(),
       -moved_px.y() / (shown.y() * analysis.height) * frame->relief.height_m()};
+  stiffness_N_m_ = frame->contact.stiffness_N_m;
   frame->follows = touched_ && !left_out_ && generation == generation_ && !analysis.restarted;
   mailbox_->publish();
   touched_ = true;
@@ -200,7 +202,8 @@ void ReliefStream::end(int64_t shown_ns) {
 void ReliefStream::describe(GstStructure* structure) const {
   gst_structure_set(structure, "reliefs", G_TYPE_UINT64, reliefs_.load(), "reliefs-left-out",
                     G_TYPE_UINT64, reliefs_left_out_.load(), "relief-ms-median", G_TYPE_DOUBLE,
-                    1e-6 * static_cast<double>(took_.quantile_ns(0.5)), nullptr);
+                    1e-6 * static_cast<double>(took_.quantile_ns(0.5)), "touch-stiffness",
+                    G_TYPE_DOUBLE, stiffness_N_m_.load(), nullptr);
 }
 
 }  // namespace spidar

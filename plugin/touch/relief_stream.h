@@ -88,6 +88,7 @@ class ReliefStream {
   bool left_out_ = false;  ///< the newest frame did not get into the mailbox
   uint32_t generation_ = 0;
 
+  std::atomic<double> stiffness_N_m_{0};
   std::atomic<uint64_t> reliefs_{0};
   std::atomic<uint64_t> reliefs_left_out_{0};
   LatencyHistogram took_;
