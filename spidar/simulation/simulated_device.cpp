@@ -13,6 +13,7 @@
 
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
+#include "spidar/simulation/led_hand.h"
 
 namespace spidar {
 namespace {
@@ -54,7 +55,9 @@ struct SimulatedDevice::Impl {
 
   void advance(int64_t elapsed_ns) noexcept {
     hand_shared.try_load(hand);
-    dynamics.advance(target_N, hand, 1e-9 * static_cast<double>(elapsed_ns), state);
+    lead_shared.try_load(lead);
+    const double elapsed_s = 1e-9 * static_cast<double>(elapsed_ns);
+    dynamics.advance(target_N, led_hand.follow(hand, lead, elapsed_s), elapsed_s, state);
     time_ns += elapsed_ns;
   }
 
@@ -110,11 +113,14 @@ struct SimulatedDevice::Impl {
   int64_t time_ns = 0;
   int64_t last_ns = 0;
   Pose hand;
+  HandLead lead;
+  LedHand led_hand;
   GripState state;
   StringVector target_N = StringVector::Zero();
   // Shared.
   std::mutex hand_writers;
   Seqlock<Pose> hand_shared;
+  Seqlock<HandLead> lead_shared;
   std::atomic<ExchangeStatus> fault{ExchangeStatus::kOk};
   std::array<std::atomic<int32_t>, kMaxStrings> count_error{};
   Seqlock<FeltState> felt;
@@ -133,6 +139,7 @@ void SimulatedDevice::open() {
   impl_->time_ns = 0;
   impl_->last_ns = monotonic_ns();
   impl_->state = {};
+  impl_->led_hand = {};
   impl_->target_N.setZero();
   impl_->open = true;
   impl_->publish();
@@ -165,6 +172,17 @@ void SimulatedDevice::set_hand(const Pose& pose) noexcept {
   if (!pose.position_m.allFinite() || !std::isfinite(norm) || !(norm > 0)) return;
   const std::lock_guard<std::mutex> lock(impl_->hand_writers);
   impl_->hand_shared.store({pose.position_m, pose.orientation.normalized()});
+}
+
+void SimulatedDevice::lead_hand(const std::optional<Eigen::Vector3d>& to_m) noexcept {
+  HandLead lead;
+  if (to_m) {
+    if (!to_m->allFinite()) return;
+    const Eigen::Vector3d& limit_m = impl_->dynamics.limit_m();
+    lead = {true, to_m->cwiseMax(-limit_m).cwiseMin(limit_m)};
+  }
+  const std::lock_guard<std::mutex> lock(impl_->hand_writers);
+  impl_->lead_shared.store(lead);
 }
 
 void SimulatedDevice::set_fault(ExchangeStatus fault) noexcept {
