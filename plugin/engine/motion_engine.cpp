@@ -165,6 +165,13 @@ void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
     report.touch_problem = TouchProblem::kNoDevice;
     return;
   }
+  report.touch.on = true;
+  report.touch.map = {grip_pointer_, shown_share(touch)};
+  report.touch.stiffness_N_m = contact_settings(touch, output_.profile()).stiffness_N_m;
+  report.touch.relief = reliefs_.take_copy();
+  if (const std::optional<LoopSnapshot> loop = output_.snapshot()) {
+    report.touch_mark = touch_mark(report.touch, loop->last);
+  }
   report.stiffness_N_m = most_stiffness_N_m(output_.profile());
   if (touch.stiffness_N_m > report.stiffness_N_m) report.touch_problem = TouchProblem::kTooStiff;
   if (!found) report.touch_problem = TouchProblem::kNoDepth;

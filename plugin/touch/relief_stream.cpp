@@ -21,7 +21,18 @@ constexpr double kSliding = 0.8;
 /// sides: two let nothing slip through that the relief can show, and cost does not grow with size.
 constexpr int kReadPerCell = 2;
 
-/// How much of the frame's width and height is picture: the relief covers that part.
+int step_of(int samples, int cells) {
+  return std::max(1, samples / (kReadPerCell * cells));
+}
+
+}  // namespace
+
+double most_stiffness_N_m(const Profile& profile) {
+  const ContactSettings measured;
+  const double delay_s = kLoopDelay_s + profile.drive_lag_s;
+  return ContactSettings::kMostStiffness_N_m * std::min(1.0, measured.delay_s / delay_s);
+}
+
 Eigen::Vector2d shown_share(const TouchProperties& properties) {
   if (properties.kind != TouchKind::kDepth) return {1, 1};
   switch (properties.depth) {
@@ -33,18 +44,6 @@ Eigen::Vector2d shown_share(const TouchProperties& properties) {
       break;
   }
   return {1, 1};
-}
-
-int step_of(int samples, int cells) {
-  return std::max(1, samples / (kReadPerCell * cells));
-}
-
-}  // namespace
-
-double most_stiffness_N_m(const Profile& profile) {
-  const ContactSettings measured;
-  const double delay_s = kLoopDelay_s + profile.drive_lag_s;
-  return ContactSettings::kMostStiffness_N_m * std::min(1.0, measured.delay_s / delay_s);
 }
 
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile) {
@@ -146,6 +145,7 @@ bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown
 bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
                        int64_t shown_ns, const TouchProperties& properties,
                        const Eigen::Vector2d& finger) {
+  copy_.reset();
   if (!loop_) return true;
   if (properties.kind == TouchKind::kOff) {
     end(shown_ns);
@@ -174,6 +174,7 @@ bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnal
   frame->displacement_m = {
       moved_px.x() / (shown.x() * analysis.width) * frame->relief.width_m(),
       -moved_px.y() / (shown.y() * analysis.height) * frame->relief.height_m()};
+  if (copy_wanted_) copy_ = std::make_shared<HeightField>(frame->relief);
   stiffness_N_m_ = frame->contact.stiffness_N_m;
   frame->follows = touched_ && !left_out_ && generation == generation_ && !analysis.restarted;
   mailbox_->publish();

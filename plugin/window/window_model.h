@@ -12,6 +12,7 @@
 #include "core/motion_analyzer.h"
 #include "plugin/engine/device_view.h"
 #include "plugin/overlay/scene_view.h"
+#include "plugin/overlay/touch_view.h"
 
 namespace spidar {
 
@@ -52,6 +53,7 @@ struct FrameFacts {
   VisiblePart visible;
   SceneView scene;
   AnalyzerSettings settings;
+  TouchScene touch;
 };
 
 /// "1 object", "2 objects".

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -44,9 +45,10 @@ class Canvas {
     gst_video_frame_unmap(&frame);
   }
 
-  void draw(const SceneView& scene, double scale = 1, double max_force_N = 3) {
+  void draw(const SceneView& scene, double scale = 1, double max_force_N = 3,
+            const std::optional<TouchMark>& touch = std::nullopt) {
     with_frame([&](GstVideoFrame& frame) {
-      draw_overlay(scene, visible_part(frame), scale, max_force_N, frame);
+      draw_overlay(scene, visible_part(frame), scale, max_force_N, touch, frame);
     });
   }
 
