@@ -63,8 +63,9 @@ std::string count_of(size_t count, const std::string& noun);
 /// kObjects all that are in sight, otherwise none.
 std::vector<uint32_t> felt_objects(const FrameFacts& facts);
 
-/// "felt", or "not felt: " and why, for the last line of the window.
-std::string felt_line(const ElementState& state);
+/// "felt", or "not felt: " and why, for the last line of the window. While the surface is felt also
+/// that the device gets less stiffness than is set.
+std::string felt_line(const ElementState& state, const TouchScene& touch = {});
 
 /// Speed that the gain controller would be given for this motion (see render_motion()), px/s.
 double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height);
