@@ -32,6 +32,7 @@ struct TouchScene {
   bool on = false;  ///< touch is not off and a device is open; else nothing below is known
   TouchMap map;
   double stiffness_N_m = 0;                   ///< that is rendered
+  double motion_share = 0;                    ///< of the film's motion, which is felt besides
   std::shared_ptr<const HeightField> relief;  ///< null unless a window has asked for it
 };
 

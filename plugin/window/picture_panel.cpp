@@ -11,7 +11,7 @@ namespace spidar {
 namespace {
 
 constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of tracks without detail
-constexpr int kReliefOpacity = 150;
+constexpr int kReliefOpacity = 110;
 constexpr ImU32 kNewColor = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
 
@@ -128,29 +128,37 @@ Eigen::Vector2d origin_of_force(const Overlay& over) {
   return {shown.x + shown.width / 2, shown.y + shown.height / 2};
 }
 
-void draw_force(const Overlay& over, const Wrench& wrench, const Eigen::Vector2d& from_px,
-                ArrowStyle style) {
-  style.centre_px = from_px;
-  const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
-  if (!felt) return;
-  draw_border(over.brush, felt->arrow);
-  draw_arrow(over.brush, felt->arrow);
-  if (wrench.force_N.norm() < kFeltForce_N) return;
+/// In newtons, `along` from `beyond`, or where the picture has room.
+void draw_size(const Overlay& over, double force_N, const Eigen::Vector2d& beyond,
+               const Eigen::Vector2d& along) {
+  if (force_N < kFeltForce_N) return;
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f N", wrench.force_N.norm());
+  std::snprintf(text, sizeof text, "%.1f N", force_N);
   const ImFont* font = over.brush.fonts.bold;
-  // Beyond the tip, in the picture.
   const Eigen::Vector2d size(text_size(font, text).x + over.brush.px(10),
                              font->FontSize + over.brush.px(4));
-  const Eigen::Vector2d along = (felt->arrow.tip_px - felt->arrow.tail_px).normalized();
   const Eigen::Vector2d middle =
-      felt->arrow.tip_px + along.cwiseProduct(size / 2 + Eigen::Vector2d(6, 6) * over.brush.scale);
+      beyond + along.cwiseProduct(size / 2 + Eigen::Vector2d(6, 6) * over.brush.scale);
   const Rect& shown = over.map.shown;
   const Eigen::Vector2d low(shown.x, shown.y);
   const Eigen::Vector2d most =
       (low + Eigen::Vector2d(shown.width, shown.height) - size).cwiseMax(low);
   draw_label(over.brush, font, im((middle - size / 2).cwiseMax(low).cwiseMin(most)), kTextColor,
              text);
+}
+
+/// False when it is too short for an arrow.
+bool draw_force(const Overlay& over, const Wrench& wrench, const Eigen::Vector2d& from_px,
+                ArrowStyle style) {
+  style.centre_px = from_px;
+  const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
+  if (!felt) return false;
+  draw_border(over.brush, felt->arrow);
+  draw_arrow(over.brush, felt->arrow);
+  // Beyond the tip.
+  draw_size(over, wrench.force_N.norm(), felt->arrow.tip_px,
+            (felt->arrow.tip_px - felt->arrow.tail_px).normalized());
+  return true;
 }
 
 void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& style) {
@@ -165,7 +173,10 @@ void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& s
   brush.list.AddCircle(finger, ring_px, IM_COL32(255, 255, 255, 255), 0, ring_px / 4);
   if (!touch.touching) return;
   const Eigen::Vector2d proxy_px = at(touch.proxy);
-  draw_force(over, {touch.force_N, {}}, proxy_px, style);
+  if (!draw_force(over, {touch.force_N, {}}, proxy_px, style)) {
+    const Eigen::Vector2d down(0, 1);
+    draw_size(over, touch.force_N.norm(), proxy_px + 2 * ring_px * down, down);
+  }
   const auto radius_px =
       static_cast<float>(proxy_radius_px(touch, style.max_force_N, shown.height));
   brush.list.AddCircleFilled(im(proxy_px), radius_px + ring_px / 8, IM_COL32(0, 0, 0, 255));

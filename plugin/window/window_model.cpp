@@ -28,6 +28,7 @@ std::string count_of(size_t count, const std::string& noun) {
 
 std::vector<uint32_t> felt_objects(const FrameFacts& facts) {
   std::vector<uint32_t> felt;
+  if (facts.touch.on && !(facts.touch.motion_share > 0)) return felt;
   const MotionKind motion = facts.settings.motion;
   for (const MovingObject& object : facts.scene.objects) {
     if (object.tracks == 0) continue;

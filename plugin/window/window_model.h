@@ -60,7 +60,7 @@ struct FrameFacts {
 std::string count_of(size_t count, const std::string& noun);
 
 /// Ids of the objects whose motion is felt: with kObject the one whose velocity was taken, with
-/// kObjects all that are in sight, otherwise none.
+/// kObjects all that are in sight, otherwise none; none either while only the surface is felt.
 std::vector<uint32_t> felt_objects(const FrameFacts& facts);
 
 /// "felt", or "not felt: " and why, for the last line of the window. While the surface is felt also

@@ -18,8 +18,7 @@ constexpr double kMargin_mm = 1;
 
 void draw_section(const Brush& brush, const Rect& panel, const TouchScene& scene,
                   const TickRecord& tick) {
-  const Rect content =
-      draw_panel(brush, panel, "Surface under the finger", depth_line(scene, tick));
+  const Rect content = draw_panel(brush, panel, "Under the finger", depth_line(scene, tick));
   if (!scene.relief) {
     draw_text(brush, brush.fonts.small, im(content.x + brush.px(6), content.y + brush.px(6)),
               kMutedColor, "No relief yet");
