@@ -68,6 +68,18 @@ Wording wording(ForceLimit limit) noexcept {
       return {"too-weak",
               "The force is weaker than a hand feels (0.04 N): the motion is slow, or alpha, "
               "depth-gain, roll-gain or max-force is small."};
+    case ForceLimit::kNoRelief:
+      return {"no-relief",
+              "There is no surface to touch: no frame with a relief is on the screen, or the video "
+              "has ended. With touch=depth, frames need depth."};
+    case ForceLimit::kNotTouching:
+      return {"not-touching",
+              "The grip does not touch the surface: it is in front of it. Push it away from you, "
+              "into the picture."};
+    case ForceLimit::kLightTouch:
+      return {"light-touch",
+              "The grip touches the surface, but the force is weaker than a hand feels (0.04 N): "
+              "press deeper, or touch-stiffness or max-force is small."};
     case ForceLimit::kLate:
       return {"late",
               "The frames come too late: their force is known only after they should have been "

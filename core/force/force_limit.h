@@ -20,7 +20,7 @@ struct FrameAnalysis;
 constexpr double kFeltForce_N = 0.04;
 
 /// What keeps the force below kFeltForce_N. The reasons up to kNoFrames concern the device and the
-/// playback and hold for any video; the others concern the video.
+/// playback and hold for any video; the others concern the video or, while touching, the contact.
 enum class ForceLimit {
   kNone,  ///< the force is not limited
   kDeviceLost,
@@ -36,6 +36,9 @@ enum class ForceLimit {
   kCameraOnly,
   kNothingMoves,
   kTooWeak,
+  kNoRelief,     ///< these three while touching: there is no surface,
+  kNotTouching,  ///< the grip is in front of it,
+  kLightTouch,   ///< or touches it too lightly
   kLate,
   kNoDevice,
 };

@@ -3,8 +3,8 @@
 # Copyright 2026 the gst-spidar authors
 # Makes the pictures of the debug window, without a screen: `meson compile -C build screenshots`, or
 #   docs/figures/screenshots.sh BUILD
-# Writes debug_window.png and debug_window.gif into its own folder. On a busy machine fewer
-# different frames are drawn. Needs ffmpeg, xvfb, python3-numpy, gstreamer1.0-libav or -good (MJPEG)
+# Writes debug_window.png, debug_window.gif and window_touch.png into its own folder. On a busy machine
+# fewer different frames are drawn. Needs ffmpeg, xvfb, python3-numpy, gstreamer1.0-libav or -good (MJPEG)
 # and fonts-dejavu-core.
 set -euo pipefail
 build=$(realpath "${1:?usage: docs/figures/screenshots.sh BUILD}")
@@ -42,9 +42,14 @@ ffmpeg -v error -f x11grab -draw_mouse 0 -framerate "$rate" -video_size "$size" 
     -c:v ffv1 "$work/window.mkv"
 wait "$player" || { cat "$work/play.log" >&2; exit 1; }
 
+"$build/examples/play" --headless --output "$work" --seconds 9 --window-png "$work/touch.png" \
+    "$work/meadow.avi" -- touch=luma touch-relief=20 >"$work/play.log" 2>&1 || { cat "$work/play.log" >&2; exit 1; }
+ffmpeg -v error -y -i "$work/touch.png" -filter_complex \
+    "split[a][b];[a]palettegen=max_colors=256[p];[b][p]paletteuse=dither=none" "$here/window_touch.png"
+
 cp "$work/window.png" "$here/debug_window.png"
 # One palette for all frames; the ordered dither does not flicker, and what rests costs nothing.
 ffmpeg -v error -y -i "$work/window.mkv" -filter_complex \
     "scale=900:-1:flags=lanczos,split[a][b];[a]palettegen=max_colors=128:stats_mode=full[p];[b][p]paletteuse=dither=none:diff_mode=rectangle" \
     "$here/debug_window.gif"
-ls -l "$here/debug_window.png" "$here/debug_window.gif"
+ls -l "$here/debug_window.png" "$here/debug_window.gif" "$here/window_touch.png"

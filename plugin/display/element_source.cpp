@@ -130,6 +130,12 @@ class ElementSource final : public WindowSource {
     }
   }
 
+  void lead_hand(const std::optional<Eigen::Vector3d>& to_m) override {
+    const Held held(element_);
+    if (!held.get()) return;
+    gst_spidar_motion_engine(GST_SPIDAR_MOTION(held.get())).output().lead_hand(to_m);
+  }
+
   void complain(const std::string& what, const std::string& advice) override {
     const Held held(element_);
     if (!held.get()) return;

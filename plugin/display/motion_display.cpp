@@ -29,6 +29,7 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
     facts.visible = visible;
     facts.scene = scene;
     facts.settings = settings;
+    facts.touch = report.touch;
     window_feed->give(frame, facts);
   }
   // Both properties may have been turned on after the buffer was prepared for them.
@@ -39,8 +40,14 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   const bool can_draw =
       (frame.map[0].flags & GST_MAP_WRITE) != 0 && !is_unpacked(*frame.info.finfo);
   if (properties.overlay && can_draw) {
-    draw_overlay(scene, visible, properties.arrow_scale, settings.controller.max_force_N, frame);
+    draw_overlay(scene, visible, properties.arrow_scale, settings.controller.max_force_N,
+                 report.touch_mark, frame);
   }
+}
+
+bool MotionDisplay::wants_relief() const {
+  const std::shared_ptr<FrameFeed> window_feed = feed();
+  return window_feed && window_feed->wanted();
 }
 
 std::shared_ptr<FrameFeed> MotionDisplay::feed() const {

@@ -29,6 +29,9 @@ class MotionDisplay {
   void show(const FrameReport& report, const DisplayProperties& properties,
             const AnalyzerSettings& settings, GstVideoFrame& frame);
 
+  /// Whether show() will have use for the relief of the next frame.
+  bool wants_relief() const;
+
   /// Instead, of a frame that nobody looked at.
   void skip() { viewer_.reset(); }
 

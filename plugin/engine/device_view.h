@@ -12,6 +12,7 @@ namespace spidar {
 
 struct DeviceView {
   std::string name;
+  bool has_hand = false;  ///< it is simulated, and lead_hand() moves its hand
   LoopSnapshot loop;
   StringGeometry geometry;
   StringVector min_tension_N = StringVector::Zero();

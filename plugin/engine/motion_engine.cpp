@@ -165,6 +165,14 @@ void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
     report.touch_problem = TouchProblem::kNoDevice;
     return;
   }
+  report.touch.on = true;
+  report.touch.map = {grip_pointer_, shown_share(touch)};
+  report.touch.stiffness_N_m = contact_settings(touch, output_.profile()).stiffness_N_m;
+  report.touch.motion_share = touch.motion_share;
+  report.touch.relief = reliefs_.take_copy();
+  if (const std::optional<LoopSnapshot> loop = output_.snapshot()) {
+    report.touch_mark = touch_mark(report.touch, loop->last);
+  }
   report.stiffness_N_m = most_stiffness_N_m(output_.profile());
   if (touch.stiffness_N_m > report.stiffness_N_m) report.touch_problem = TouchProblem::kTooStiff;
   if (!found) report.touch_problem = TouchProblem::kNoDepth;
@@ -196,6 +204,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
                                 schedule_.at_sink_ns(running_ns), schedule_.rate_multiplier());
     if (place) player_.play(*place);
     if (touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
+    limit_watch_.set_touching(false);
     reliefs_.end(schedule_.at_sink_ns(running_ns));
     return report;
   }
@@ -228,6 +237,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;
   pacer_.take(time, moved);
   limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis, settings.motion);
+  limit_watch_.set_touching(touch.kind != TouchKind::kOff);
   // This share of the film's motion is felt, reported and shown in addition to touch.
   motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
   report.analysis.wrench = scaled(report.analysis.wrench, motion_share_);

@@ -75,6 +75,8 @@ class MotionEngine {
   void set_track(std::optional<TrackFile> track);
   FrameReport process(const GstVideoFrame& frame, const GstSegment& segment,
                       const AnalyzerSettings& settings, const TouchProperties& touch);
+  /// Whether reports have the relief of their frame from now on.
+  void want_relief(bool wanted) { reliefs_.want_copy(wanted); }
   /// The next frame has nothing to do with the one before.
   void restart();
   /// Running time begins anew: after a flush.

@@ -54,6 +54,30 @@ ArrowShape shape_of(const Arrow& arrow) {
   return shape;
 }
 
+ArrowShape border_of(const Arrow& arrow, double margin_px) {
+  ArrowShape shape = shape_of(arrow);
+  Eigen::Vector2d along = arrow.tip_px - arrow.tail_px;
+  along = shape.has_head ? Eigen::Vector2d(along.normalized()) : Eigen::Vector2d(1, 0);
+  const Eigen::Vector2d side(-along.y(), along.x());
+  const Eigen::Vector2d back_px = margin_px * along, out_px = margin_px * side;
+  // The shaft ends in the head: nothing is added there.
+  const double ahead = shape.has_head ? 0 : 1;
+  shape.shaft_px[0] += -back_px - out_px;
+  shape.shaft_px[1] += ahead * back_px - out_px;
+  shape.shaft_px[2] += ahead * back_px + out_px;
+  shape.shaft_px[3] += -back_px + out_px;
+  if (!shape.has_head) return shape;
+  // All sides of the head are moved out by the margin: a triangle of the same angles.
+  const Eigen::Vector2d neck_px = (shape.head_px[0] + shape.head_px[2]) / 2;
+  const double length_px = (shape.head_px[1] - neck_px).norm();
+  const double half_px = (shape.head_px[2] - neck_px).norm();
+  const double ahead_px = margin_px * std::hypot(length_px, half_px) / half_px;
+  const double grown = (length_px + margin_px + ahead_px) / length_px;
+  shape.head_px = {neck_px - back_px - grown * half_px * side, shape.head_px[1] + ahead_px * along,
+                   neck_px - back_px + grown * half_px * side};
+  return shape;
+}
+
 Rgb direction_color(const Eigen::Vector2d& direction, double saturation) {
   const double turns = std::atan2(-direction.y(), direction.x()) / (2 * M_PI);
   const auto channel = [&](double shift) {
@@ -97,13 +121,7 @@ std::optional<FeltArrow> felt_arrow(const Wrench& wrench, const ArrowStyle& styl
   felt.arrow.tail_px = style.centre_px;
   felt.arrow.tip_px = style.centre_px + along_px;
   felt.arrow.color = kWhite;
-  const double margin_px = felt.arrow.width_px / 4;
-  const Eigen::Vector2d margin_along_px = margin_px * along_px.normalized();
-  felt.border = felt.arrow;
-  felt.border.tail_px -= margin_along_px;
-  felt.border.tip_px += 2 * margin_along_px;
-  felt.border.width_px += 2 * margin_px;
-  felt.border.color = kBlack;
+  felt.border = border_of(felt.arrow, felt.arrow.width_px / 4);
   return felt;
 }
 

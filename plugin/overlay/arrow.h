@@ -38,6 +38,9 @@ struct ArrowShape {
   bool has_head = true;
 };
 ArrowShape shape_of(const Arrow& arrow);
+/// What lies within `margin_px` of that shape, its corners drawn out to points: everywhere as wide
+/// a border, where the shape is drawn over it.
+ArrowShape border_of(const Arrow& arrow, double margin_px);
 
 /// Hue of a direction of the picture (y down): right red, up green-yellow, left cyan, down violet.
 /// `saturation` 0 … 1.
@@ -57,10 +60,11 @@ double felt_width_px(const ArrowStyle& style);
 /// One arrow a track, tail at `from`: objects bold and in full colour, the background pale.
 std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style);
 
-/// The force that is felt, from the centre on, white, with a black one under it as its border; it
+/// The force that is felt, from the centre on, white, with a black border to be drawn first; it
 /// lies in the picture as it pushes the hand. Nothing when it is too short to show a direction.
 struct FeltArrow {
-  Arrow border, arrow;
+  ArrowShape border;
+  Arrow arrow;
 };
 std::optional<FeltArrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style);
 

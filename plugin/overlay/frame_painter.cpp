@@ -19,6 +19,16 @@ int offset_of(const GstVideoFormatInfo* format, guint component) {
   return GST_VIDEO_FORMAT_INFO_DEPTH(format, component) > 8 && offset == 1 ? 2 : offset;
 }
 
+/// The pixels between two coordinates, from 0 to size − 1. Clamped as doubles: they may lie further
+/// off than an int reaches.
+// First and last pixel of a range, clamped as doubles because corners may lie outside the range of int.
+int first_pixel(double low, int size) {
+  return static_cast<int>(std::ceil(std::clamp(low, 0.0, static_cast<double>(size))));
+}
+int last_pixel(double high, int size) {
+  return static_cast<int>(std::floor(std::clamp(high, -1.0, size - 1.0)));
+}
+
 double cross_product(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -77,16 +87,9 @@ void FramePainter::fill(const Eigen::Vector2d* corners_px, size_t count, const C
   const double around = area < 0 ? -1 : 1;
   constexpr double kOnBorder = 1e-9;
   const int width = GST_VIDEO_FRAME_WIDTH(&frame_), height = GST_VIDEO_FRAME_HEIGHT(&frame_);
-  // Clamped as doubles, because corners may lie outside the range of an int.
-  const auto first = [](double low, int size) {
-    return static_cast<int>(std::ceil(std::clamp(low, 0.0, static_cast<double>(size))));
-  };
-  const auto last = [](double high, int size) {
-    return static_cast<int>(std::floor(std::clamp(high, -1.0, size - 1.0)));
-  };
-  const int right = last(high_px.x(), width), bottom = last(high_px.y(), height);
-  for (int y = first(low_px.y(), height); y <= bottom; ++y) {
-    for (int x = first(low_px.x(), width); x <= right; ++x) {
+  const int right = last_pixel(high_px.x(), width), bottom = last_pixel(high_px.y(), height);
+  for (int y = first_pixel(low_px.y(), height); y <= bottom; ++y) {
+    for (int x = first_pixel(low_px.x(), width); x <= right; ++x) {
       const Eigen::Vector2d at_px(x, y);
       bool inside = true;
       for (size_t i = 0; i < count && inside; ++i) {
@@ -99,9 +102,8 @@ void FramePainter::fill(const Eigen::Vector2d* corners_px, size_t count, const C
   }
 }
 
-void FramePainter::draw(const Arrow& arrow) {
-  const ArrowShape shape = shape_of(arrow);
-  const Components value = components_of(arrow.color);
+void FramePainter::draw(const ArrowShape& shape, Rgb color) {
+  const Components value = components_of(color);
   fill(shape.shaft_px.data(), shape.shaft_px.size(), value);
   if (shape.has_head) fill(shape.head_px.data(), shape.head_px.size(), value);
 }
@@ -116,6 +118,21 @@ void FramePainter::cross(const Eigen::Vector2d& centre_px, double size_px, doubl
     const std::array<Eigen::Vector2d, 4> stroke_px{centre_px - a - b, centre_px + a - b,
                                                    centre_px + a + b, centre_px - a + b};
     fill(stroke_px.data(), stroke_px.size(), value);
+  }
+}
+
+void FramePainter::disc(const Eigen::Vector2d& centre_px, double radius_px, Rgb color,
+                        double hole_px) {
+  if (!centre_px.allFinite() || !(radius_px >= 0)) return;
+  const Components value = components_of(color);
+  const int width = GST_VIDEO_FRAME_WIDTH(&frame_), height = GST_VIDEO_FRAME_HEIGHT(&frame_);
+  const int right = last_pixel(centre_px.x() + radius_px, width);
+  const int bottom = last_pixel(centre_px.y() + radius_px, height);
+  for (int y = first_pixel(centre_px.y() - radius_px, height); y <= bottom; ++y) {
+    for (int x = first_pixel(centre_px.x() - radius_px, width); x <= right; ++x) {
+      const double distance_px = (Eigen::Vector2d(x, y) - centre_px).norm();
+      if (distance_px <= radius_px && distance_px > hole_px) set(x, y, value);
+    }
   }
 }
 

@@ -21,9 +21,12 @@ class FramePainter {
  public:
   explicit FramePainter(GstVideoFrame& frame) : frame_(frame) {}
 
-  void draw(const Arrow& arrow);
+  void draw(const Arrow& arrow) { draw(shape_of(arrow), arrow.color); }
+  void draw(const ArrowShape& shape, Rgb color);
   /// A cross of two strokes, each `size_px` long.
   void cross(const Eigen::Vector2d& centre_px, double size_px, double width_px, Rgb color);
+  /// A disc, or a ring whose hole has the radius `hole_px`.
+  void disc(const Eigen::Vector2d& centre_px, double radius_px, Rgb color, double hole_px = -1);
 
  private:
   using Components = std::array<uint16_t, 4>;

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <gst/gst.h>
 
 #include "core/force/force_limit.h"
 #include "core/motion_analyzer.h"
+#include "plugin/overlay/touch_view.h"
 
 namespace spidar {
 
@@ -43,8 +45,10 @@ struct FrameReport {
   int64_t took_ns = 0;                   ///< the analysis
   ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame
   TouchProblem touch_problem = TouchProblem::kNone;
-  double stiffness_N_m = 0;   ///< that is rendered, with TouchProblem::kTooStiff
-  bool trace_failed = false;  ///< the trace could not be written and was closed
+  double stiffness_N_m = 0;  ///< that is rendered, with TouchProblem::kTooStiff
+  TouchScene touch;
+  std::optional<TouchMark> touch_mark;  ///< where the grip is when the frame passes the element
+  bool trace_failed = false;            ///< the trace could not be written and was closed
 };
 
 }  // namespace spidar

@@ -35,6 +35,13 @@ ForceLimit limit_of_device(const LoopSnapshot& loop, bool muted) {
   return loop.last.playing ? ForceLimit::kNone : ForceLimit::kNotPlaying;
 }
 
+ForceLimit limit_of_contact(const LoopSnapshot& loop) {
+  if (loop.unfelt_ns < ForceLimitHistory::kWindow_ns) return ForceLimit::kNone;
+  const Contact& contact = loop.last.contact;
+  if (!contact.has_surface) return ForceLimit::kNoRelief;
+  return contact.touching ? ForceLimit::kLightTouch : ForceLimit::kNotTouching;
+}
+
 void LimitWatch::add(int64_t shown_ns, const FrameAnalysis& frame, MotionKind motion) {
   const ForceLimit limit = limit_of(frame, motion);
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -59,14 +66,21 @@ void LimitWatch::set_muted(bool muted) {
   muted_ = muted;
 }
 
+void LimitWatch::set_touching(bool touching) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  touching_ = touching;
+}
+
 ForceLimit LimitWatch::limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!loop) {
+    if (touching_) return ForceLimit::kNoDevice;
     const ForceLimit of_video = frames_.limit(newest_ns_);
     return of_video == ForceLimit::kNone ? ForceLimit::kNoDevice : of_video;
   }
   const ForceLimit of_device = limit_of_device(*loop, muted_);
   if (of_device != ForceLimit::kNone) return of_device;
+  if (touching_) return limit_of_contact(*loop);
   const int64_t screen_ns = loop->last.running_ns;
   const int64_t now_ns = up_to_screen ? screen_ns : newest_ns_;
   const ForceLimit of_video = frames_.limit(now_ns);

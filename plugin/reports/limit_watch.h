@@ -19,6 +19,10 @@ namespace spidar {
 /// back with the force.
 ForceLimit limit_of_device(const LoopSnapshot& loop, bool muted);
 
+/// The reason in the contact of the last tick, while `touch` is on and nothing has been felt for a
+/// second; kNone before.
+ForceLimit limit_of_contact(const LoopSnapshot& loop);
+
 /// Thread-safe.
 class LimitWatch {
  public:
@@ -29,10 +33,12 @@ class LimitWatch {
   /// Running time begins anew.
   void forget();
   void set_muted(bool muted);
+  /// The picture is touched: from now on the reasons are those of the contact, not of the video.
+  void set_touching(bool touching);
 
   /// Of the last second up to the frame added last, or to the picture on the screen when that is
   /// `up_to_screen`. `loop` is nothing while no device is open: then the reasons of the video come
-  /// first, for the device is missing by choice.
+  /// first, for the device is missing by choice. What is touched is that of the last tick.
   ForceLimit limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const;
 
  private:
@@ -40,6 +46,7 @@ class LimitWatch {
   ForceLimitHistory frames_;
   int64_t newest_ns_ = 0;
   bool muted_ = false;
+  bool touching_ = false;
 };
 
 /// Adds limit (string, see nick()) and, unless that is "none", limit-reason (string: a sentence).

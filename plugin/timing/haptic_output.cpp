@@ -133,10 +133,19 @@ bool HapticOutput::look_at_device(DeviceView& view) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!session_) return false;
   view.name = session_->device().name();
+  view.has_hand = dynamic_cast<const SimulatedDevice*>(&session_->device()) != nullptr;
   view.loop = session_->loop().snapshot();
   view.geometry = profile_.geometry;
   view.min_tension_N = profile_.min_tension_N();
   view.max_tension_N = profile_.max_tension_N();
+  return true;
+}
+
+bool HapticOutput::lead_hand(const std::optional<Eigen::Vector3d>& to_m) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto* const simulated = session_ ? dynamic_cast<SimulatedDevice*>(&session_->device()) : nullptr;
+  if (!simulated) return false;
+  simulated->lead_hand(to_m);
   return true;
 }
 

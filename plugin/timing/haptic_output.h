@@ -62,6 +62,9 @@ class HapticOutput {
   DeviceState device_state() const;
   /// False while closed.
   bool look_at_device(DeviceView& view) const;
+  /// Leads the hand of the device "sim" to a place, see SimulatedDevice::lead_hand(). False for
+  /// other devices, and while closed.
+  bool lead_hand(const std::optional<Eigen::Vector3d>& to_m);
   /// Adds what describe_session() says, while a device is open.
   void describe(GstStructure* structure) const;
 

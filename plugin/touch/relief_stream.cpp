@@ -21,7 +21,15 @@ constexpr double kSliding = 0.8;
 /// the size.
 constexpr int kReadPerCell = 2;
 
-/// Share of the frame's width and height that is picture and gets the relief.
+int step_of(int samples, int cells) {
+  return std::max(1, samples / (kReadPerCell * cells));
+}
+
+}  // namespace
+
+double most_stiffness_N_m(const Profile& profile) {
+  return most_stiffness_N_m(profile.drive_lag_s);
+}
 Eigen::Vector2d shown_share(const TouchProperties& properties) {
   if (properties.kind != TouchKind::kDepth) return {1, 1};
   switch (properties.depth) {
@@ -33,16 +41,6 @@ Eigen::Vector2d shown_share(const TouchProperties& properties) {
       break;
   }
   return {1, 1};
-}
-
-int step_of(int samples, int cells) {
-  return std::max(1, samples / (kReadPerCell * cells));
-}
-
-}  // namespace
-
-double most_stiffness_N_m(const Profile& profile) {
-  return most_stiffness_N_m(profile.drive_lag_s);
 }
 
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile) {
@@ -61,6 +59,7 @@ void ReliefStream::connect(HapticLoop* loop, const Profile& profile,
   profile_ = profile;
   half_size_m_ = half_size_m;
   reliefs_ = reliefs_left_out_ = 0;
+  stiffness_N_m_ = 0;
 }
 
 void ReliefStream::disconnect() {
@@ -143,6 +142,7 @@ bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown
 bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
                        int64_t shown_ns, const TouchProperties& properties,
                        const Eigen::Vector2d& finger) {
+  copy_.reset();
   if (!loop_) return true;
   if (properties.kind == TouchKind::kOff) {
     end(shown_ns);
@@ -171,6 +171,8 @@ bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnal
   frame->displacement_m = {
       moved_px.x() / (shown.x() * analysis.width) * frame->relief.width_m(),
       -moved_px.y() / (shown.y() * analysis.height) * frame->relief.height_m()};
+  if (copy_wanted_) copy_ = std::make_shared<HeightField>(frame->relief);
+  stiffness_N_m_ = frame->contact.stiffness_N_m;
   frame->follows = touched_ && !left_out_ && generation == generation_ && !analysis.restarted;
   mailbox_->publish();
   touched_ = true;
@@ -198,7 +200,8 @@ void ReliefStream::end(int64_t shown_ns) {
 void ReliefStream::describe(GstStructure* structure) const {
   gst_structure_set(structure, "reliefs", G_TYPE_UINT64, reliefs_.load(), "reliefs-left-out",
                     G_TYPE_UINT64, reliefs_left_out_.load(), "relief-ms-median", G_TYPE_DOUBLE,
-                    1e-6 * static_cast<double>(took_.quantile_ns(0.5)), nullptr);
+                    1e-6 * static_cast<double>(took_.quantile_ns(0.5)), "touch-stiffness",
+                    G_TYPE_DOUBLE, stiffness_N_m_.load(), nullptr);
 }
 
 }  // namespace spidar

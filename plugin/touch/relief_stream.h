@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,6 +29,9 @@ namespace spidar {
 /// a light hand is kMostStiffness_N_m at a delay of 3.5 ms (docs/touch.md), and what a surface asks
 /// of the hand grows with stiffness · delay: a longer delay allows as much less.
 double most_stiffness_N_m(const Profile& profile);
+
+/// How much of the frame's width and height is picture: the relief covers that part.
+Eigen::Vector2d shown_share(const TouchProperties& properties);
 
 /// What the properties mean on this device.
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
@@ -64,6 +68,10 @@ class ReliefStream {
   /// heap.
   bool add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
            int64_t shown_ns, const TouchProperties& properties, const Eigen::Vector2d& finger);
+  /// Whether add() makes a copy of the relief, which takes memory from the heap.
+  void want_copy(bool wanted) { copy_wanted_ = wanted; }
+  /// Of the frame that was added last; null when that made none.
+  std::shared_ptr<const HeightField> take_copy() { return std::move(copy_); }
   /// From `shown_ns` on there is nothing to touch.
   void end(int64_t shown_ns);
 
@@ -87,7 +95,10 @@ class ReliefStream {
   bool touched_ = false;   ///< the newest frame has a surface
   bool left_out_ = false;  ///< the newest frame did not get into the mailbox
   uint32_t generation_ = 0;
+  bool copy_wanted_ = false;
+  std::shared_ptr<const HeightField> copy_;
 
+  std::atomic<double> stiffness_N_m_{0};
   std::atomic<uint64_t> reliefs_{0};
   std::atomic<uint64_t> reliefs_left_out_{0};
   LatencyHistogram took_;

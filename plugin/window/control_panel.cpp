@@ -158,16 +158,22 @@ void draw_controls(const Brush& brush, const Rect& panel, const ElementState& st
   ImGui::End();
 }
 
-void draw_detail_switch(const Brush& brush, const Rect& picture, bool& detail) {
+void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool* relief) {
   const float margin = brush.px(8);
   ImGui::SetNextWindowPos(
       {static_cast<float>(picture.right()) - margin, static_cast<float>(picture.y) + margin},
       ImGuiCond_Always, {1, 0});
   ImGui::SetNextWindowBgAlpha(0.8F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {brush.px(8), brush.px(4)});
-  ImGui::Begin("detail", nullptr,
+  ImGui::Begin("switches", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  if (relief) {
+    ImGui::Checkbox("Relief", relief);
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("The surface that is touched, over the picture (R)");
+    ImGui::SameLine();
+  }
   ImGui::Checkbox("Detail", &detail);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("All tracks, new and lost points, all objects (D)");
   ImGui::End();
@@ -184,14 +190,19 @@ void draw_help(double scale) {
       {"Left, right", "shorter or longer arrows"},
       {"Up, down", "more or less force"},
       {"D", "detail in the picture"},
+      {"R", "the relief over the picture, while it is touched"},
       {"P", "pauses the window; the video and the force continue"},
       {", and .", "a tenth of a second back or forward, in a pause"},
       {"S", "saves the window as a PNG file in the current folder"},
       {"H", "this help"},
       {"Q", "closes the window; the video continues"},
       {"", ""},
+      {"Left button", "held in the picture: the hand of the simulated device is there"},
+      {"Wheel, Shift+drag", "the hand goes deeper into the picture, or nearer"},
+      {"", ""},
       {"Outline", "an object; the thick one is felt"},
       {"White arrow", "the force as it pushes the hand"},
+      {"Ring, disc", "the finger, and the point of the surface that it touches"},
       {"Small arrows", "where points went since the frame before; hue is direction"},
       {"Circle, red cross", "a new point, a lost point (detail)"},
       {"Bars", "tension of each string; the line is its smallest one"}};

@@ -12,6 +12,8 @@
 
 #include <GLFW/glfw3.h>
 
+#include "plugin/window/touch/relief_view.h"
+
 namespace spidar {
 namespace {
 
@@ -19,12 +21,6 @@ constexpr int kWidth = 1280, kHeight = 800;
 constexpr double kNote_s = 4;
 /// Of the small pictures of the last minute: 240 of them take some 20 MB.
 constexpr int kStillWidth_px = 256;
-constexpr double kStep_s = 0.1;
-constexpr double kLongerArrows = 1.25, kForceStep_N = 0.1;
-
-DebugWindow& window_of(GLFWwindow* window) {
-  return *static_cast<DebugWindow*>(glfwGetWindowUserPointer(window));
-}
 
 /// Of text, in the coordinates of the window: where a screen has several pixels to one of them, as
 /// with Wayland, the frame buffer has them already.
@@ -41,7 +37,7 @@ double text_scale(GLFWwindow* window) {
 }  // namespace
 
 DebugWindow::DebugWindow(std::shared_ptr<WindowSource> source, std::shared_ptr<FrameFeed> feed)
-    : source_(std::move(source)), feed_(std::move(feed)) {
+    : source_(std::move(source)), feed_(std::move(feed)), hand_(source_) {
   source_->read(state_);
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -70,6 +66,7 @@ DebugWindow::DebugWindow(std::shared_ptr<WindowSource> source, std::shared_ptr<F
   ImGui_ImplOpenGL3_Init("#version 330 core");
   texture_.emplace();
   past_texture_.emplace();
+  relief_texture_.emplace();
   install_callbacks();
   feed_->want();
 }
@@ -78,6 +75,7 @@ DebugWindow::~DebugWindow() {
   make_current();
   texture_.reset();
   past_texture_.reset();
+  relief_texture_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext(context_);
@@ -88,80 +86,6 @@ DebugWindow::~DebugWindow() {
 void DebugWindow::make_current() const {
   glfwMakeContextCurrent(window_);
   ImGui::SetCurrentContext(context_);
-}
-
-/// Dear ImGui's own callbacks would speak to the context that is current, which may be that of
-/// another window.
-void DebugWindow::install_callbacks() {
-  glfwSetWindowUserPointer(window_, this);
-  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-    window_of(w).make_current();
-    ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
-    if (action != GLFW_RELEASE && !ImGui::GetIO().WantTextInput) window_of(w).on_key(key);
-  });
-  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
-    window_of(w).make_current();
-    ImGui_ImplGlfw_CharCallback(w, character);
-  });
-  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
-    window_of(w).make_current();
-    ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
-  });
-  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
-    window_of(w).make_current();
-    ImGui_ImplGlfw_ScrollCallback(w, x, y);
-  });
-  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
-    window_of(w).make_current();
-    ImGui_ImplGlfw_WindowFocusCallback(w, focused);
-  });
-  glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
-    window_of(w).make_current();
-    ImGui_ImplGlfw_CursorEnterCallback(w, entered);
-  });
-}
-
-void DebugWindow::on_key(int key) {
-  switch (key) {
-    case GLFW_KEY_SPACE:
-      change("mute", state_.value("mute", 0) != 0 ? 0 : 1);
-      break;
-    case GLFW_KEY_LEFT:
-      change("arrow-scale", state_.value("arrow-scale", 1) / kLongerArrows);
-      break;
-    case GLFW_KEY_RIGHT:
-      change("arrow-scale", state_.value("arrow-scale", 1) * kLongerArrows);
-      break;
-    case GLFW_KEY_UP:
-      change("max-force", state_.value("max-force", 0) + kForceStep_N);
-      break;
-    case GLFW_KEY_DOWN:
-      change("max-force", state_.value("max-force", 0) - kForceStep_N);
-      break;
-    case GLFW_KEY_D:
-      detail_ = !detail_;
-      break;
-    case GLFW_KEY_P:
-      timeline_.is_paused() ? timeline_.resume() : timeline_.pause();
-      break;
-    case GLFW_KEY_COMMA:
-      timeline_.look_at(timeline_.cursor_s() - kStep_s);
-      break;
-    case GLFW_KEY_PERIOD:
-      timeline_.look_at(timeline_.cursor_s() + kStep_s);
-      break;
-    case GLFW_KEY_S:
-      save_wanted_ = true;
-      break;
-    case GLFW_KEY_H:
-      help_ = !help_;
-      break;
-    case GLFW_KEY_Q:
-      glfwSetWindowShouldClose(window_, GLFW_TRUE);
-      break;
-    default:
-      break;
-  }
 }
 
 bool DebugWindow::is_done() const {
@@ -203,6 +127,7 @@ void DebugWindow::record(bool is_new) {
     now.felt = last.commanded;
     now.tension_N = last.tension_N;
     now.pose = last.pose;
+    now.contact = last.contact;
   }
   timeline_.add(now);
   if (is_new && timeline_.wants_still(now.time_s)) keep_still(now.time_s);
@@ -228,17 +153,29 @@ void DebugWindow::show_past() {
     last.commanded = moments.back().felt;
     last.tension_N = moments.back().tension_N;
     last.pose = moments.back().pose;
+    last.contact = moments.back().contact;
   }
   std::shared_ptr<const Still> still = timeline_.still();
   if (still && still != past_) past_texture_->load(*still);
   past_ = std::move(still);
 }
 
-ShownPicture DebugWindow::shown_picture() const {
+void DebugWindow::show_relief(const TouchScene& touch) {
+  if (touch.relief == relief_) return;
+  relief_ = touch.relief;
+  if (!relief_) return;
+  Still shaded;
+  shade_relief(*relief_, shaded);
+  relief_texture_->load(shaded);
+}
+
+ShownPicture DebugWindow::shown_picture(const FrameFacts& facts) const {
   ShownPicture picture;
   picture.arrow_scale = state_.value("arrow-scale", 1);
   picture.max_force_N = facts_.settings.controller.max_force_N;
   picture.detail = detail_;
+  if (show_relief_ && relief_) picture.relief = (ImTextureID)uintptr_t{relief_texture_->id()};
+  if (state_.device) picture.touch = touch_mark(facts.touch, state_.device->loop.last);
   const PictureTexture& texture = past_ ? *past_texture_ : *texture_;
   if (texture.empty()) return picture;
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
@@ -256,18 +193,27 @@ void DebugWindow::draw_panels(int width, int height) {
   const FrameFacts& facts = past_ ? past_->facts : facts_;
   const ControllerSettings& controller = facts.settings.controller;
   shown_width_ = static_cast<int>(layout.picture.width);
-  draw_picture(brush, layout.picture, shown_picture(), facts);
+  show_relief(facts.touch);
+  const ShownPicture picture = shown_picture(facts);
+  const Rect shown = shown_rect(layout.picture, picture, facts);
+  draw_picture(brush, layout.picture, picture, facts);
+  move_hand(shown, facts);
+  if (explains_hand(facts)) draw_hand_line(brush, shown, hand_line(hand_.hand()));
   draw_grip(brush, layout.grip, state_);
   draw_tensions(brush, layout.tensions, state_);
   draw_timeline(brush, layout.timeline, timeline_, controller.max_force_N);
   draw_force(brush, layout.force, timeline_, controller.max_force_N);
   draw_speed(brush, layout.speed, timeline_);
-  draw_gain(brush, layout.gain, timeline_, controller);
+  if (facts.touch.on && state_.device) {
+    draw_section(brush, layout.gain, facts.touch, state_.device->loop.last);
+  } else {
+    draw_gain(brush, layout.gain, timeline_, controller);
+  }
   if (glfwGetTime() > note_until_s_) note_.clear();
   draw_status(brush, layout.status, state_, facts, note_);
   draw_controls(brush, layout.controls, state_,
                 [this](const std::string& setting, double value) { change(setting, value); });
-  draw_detail_switch(brush, layout.picture, detail_);
+  draw_switches(brush, layout.picture, detail_, relief_ ? &show_relief_ : nullptr);
   if (help_) draw_help(scale_);
 }
 

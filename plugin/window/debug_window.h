@@ -10,6 +10,7 @@
 #include "plugin/window/frame_feed.h"
 #include "plugin/window/panels.h"
 #include "plugin/window/picture_texture.h"
+#include "plugin/window/touch/hand_control.h"
 #include "plugin/window/window.h"
 #include "plugin/window/window_source.h"
 
@@ -37,13 +38,19 @@ class DebugWindow {
 
   void resize(int width, int height);
   void on_key(int key);
+  /// From the next frame on in place of the mouse; for tests.
+  void set_mouse(const Mouse& mouse) { given_mouse_ = mouse; }
 
  private:
   void read();
   void record(bool is_new);
   void keep_still(double time_s);
   void show_past();
-  ShownPicture shown_picture() const;
+  ShownPicture shown_picture(const FrameFacts& facts) const;
+  void show_relief(const TouchScene& touch);
+  bool offers_hand() const;
+  bool explains_hand(const FrameFacts& facts) const;
+  void move_hand(const Rect& picture, const FrameFacts& facts);
   void draw_panels(int width, int height);
   void save();
   void change(const std::string& setting, double value) { source_->set(setting, value); }
@@ -57,18 +64,22 @@ class DebugWindow {
   ImGuiContext* context_ = nullptr;
   double scale_ = 1;
   Fonts fonts_;
-  std::optional<PictureTexture> texture_, past_texture_;
+  std::optional<PictureTexture> texture_, past_texture_, relief_texture_;
   int width_ = 0, height_ = 0;  // of the frame buffer drawn last
 
   ElementState state_;
   PictureCopy picture_;
   FrameFacts facts_;
   Timeline timeline_;
-  std::shared_ptr<const Still> past_;  // what past_texture_ shows
-  int shown_width_ = 0;                // of the picture in the window
+  std::shared_ptr<const Still> past_;          // what past_texture_ shows
+  int shown_width_ = 0;                        // of the picture in the window
+  std::shared_ptr<const HeightField> relief_;  // what relief_texture_ shows
+  HandControl hand_;
+  std::optional<Mouse> given_mouse_;
   bool source_gone_ = false;
   bool help_ = false;
   bool detail_ = false;
+  bool show_relief_ = true;
   bool save_wanted_ = false;
   std::string note_;
   double note_until_s_ = 0;

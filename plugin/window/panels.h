@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <imgui.h>
+#include <optional>
 #include <string>
 
 #include "plugin/window/style.h"
@@ -20,8 +21,12 @@ struct ShownPicture {
   double pixel_aspect = 1;
   double arrow_scale = 1;
   double max_force_N = 0;
+  ImTextureID relief{};  ///< of the touched surface, over the picture; 0: not shown
+  std::optional<TouchMark> touch;
   bool detail = false;  ///< every track, new and lost points, all boxes; else they are faint
 };
+/// The part of the window that shows the visible part of the frame.
+Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameFacts& facts);
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
                   const FrameFacts& facts);
 
@@ -36,6 +41,13 @@ void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline)
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
                const ControllerSettings& controller);
 
+/// Instead of the curve of the controller, while the picture is touched: the surface from the left
+/// to the right through the finger, seen from below, with finger and proxy.
+void draw_section(const Brush& brush, const Rect& panel, const TouchScene& scene,
+                  const TickRecord& tick);
+/// At the lower edge of the picture: how the mouse moves the hand.
+void draw_hand_line(const Brush& brush, const Rect& picture, const std::string& line);
+
 /// The last minute, with a button that pauses it; dragging looks back.
 void draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline, double max_force_N);
 
@@ -43,8 +55,8 @@ void draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline, do
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
                  const FrameFacts& facts, const std::string& note);
 
-/// A switch in the upper right corner of the picture.
-void draw_detail_switch(const Brush& brush, const Rect& picture, bool& detail);
+/// Switches in the upper right corner of the picture; null: there is none for the relief.
+void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool* relief);
 /// Widgets for the settings of the element, the button for rest first.
 void draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
                    const std::function<void(const std::string&, double)>& set);

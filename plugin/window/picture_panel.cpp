@@ -11,6 +11,7 @@ namespace spidar {
 namespace {
 
 constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of tracks without detail
+constexpr int kReliefOpacity = 110;
 constexpr ImU32 kNewColor = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
 
@@ -127,23 +128,17 @@ Eigen::Vector2d origin_of_force(const Overlay& over) {
   return {shown.x + shown.width / 2, shown.y + shown.height / 2};
 }
 
-void draw_force(const Overlay& over, ArrowStyle style) {
-  style.centre_px = origin_of_force(over);
-  const Wrench& wrench = over.facts.scene.wrench;
-  const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
-  if (!felt) return;
-  draw_border(over.brush, felt->arrow);
-  draw_arrow(over.brush, felt->arrow);
-  if (wrench.force_N.norm() < kFeltForce_N) return;
+/// In newtons, `along` from `beyond`, or where the picture has room.
+void draw_size(const Overlay& over, double force_N, const Eigen::Vector2d& beyond,
+               const Eigen::Vector2d& along) {
+  if (force_N < kFeltForce_N) return;
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f N", wrench.force_N.norm());
+  std::snprintf(text, sizeof text, "%.1f N", force_N);
   const ImFont* font = over.brush.fonts.bold;
-  // Beyond the tip, in the picture.
   const Eigen::Vector2d size(text_size(font, text).x + over.brush.px(10),
                              font->FontSize + over.brush.px(4));
-  const Eigen::Vector2d along = (felt->arrow.tip_px - felt->arrow.tail_px).normalized();
   const Eigen::Vector2d middle =
-      felt->arrow.tip_px + along.cwiseProduct(size / 2 + Eigen::Vector2d(6, 6) * over.brush.scale);
+      beyond + along.cwiseProduct(size / 2 + Eigen::Vector2d(6, 6) * over.brush.scale);
   const Rect& shown = over.map.shown;
   const Eigen::Vector2d low(shown.x, shown.y);
   const Eigen::Vector2d most =
@@ -152,24 +147,80 @@ void draw_force(const Overlay& over, ArrowStyle style) {
              text);
 }
 
+/// False when it is too short for an arrow.
+bool draw_force(const Overlay& over, const Wrench& wrench, const Eigen::Vector2d& from_px,
+                ArrowStyle style) {
+  style.centre_px = from_px;
+  const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
+  if (!felt) return false;
+  draw_border(over.brush, felt->arrow);
+  draw_arrow(over.brush, felt->arrow);
+  // Beyond the tip.
+  draw_size(over, wrench.force_N.norm(), felt->arrow.tip_px,
+            (felt->arrow.tip_px - felt->arrow.tail_px).normalized());
+  return true;
+}
+
+void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& style) {
+  const Brush& brush = over.brush;
+  const Rect& shown = over.map.shown;
+  const auto at = [&](const Eigen::Vector2d& place) {
+    return Eigen::Vector2d(shown.x + place.x() * shown.width, shown.y + place.y() * shown.height);
+  };
+  const auto ring_px = static_cast<float>(finger_radius_px(shown.height));
+  const ImVec2 finger = im(at(touch.finger));
+  brush.list.AddCircle(finger, ring_px, IM_COL32(0, 0, 0, 200), 0, ring_px / 2);
+  brush.list.AddCircle(finger, ring_px, IM_COL32(255, 255, 255, 255), 0, ring_px / 4);
+  if (!touch.touching) return;
+  const Eigen::Vector2d proxy_px = at(touch.proxy);
+  if (!draw_force(over, {touch.force_N, {}}, proxy_px, style)) {
+    const Eigen::Vector2d down(0, 1);
+    draw_size(over, touch.force_N.norm(), proxy_px + 2 * ring_px * down, down);
+  }
+  const auto radius_px =
+      static_cast<float>(proxy_radius_px(touch, style.max_force_N, shown.height));
+  brush.list.AddCircleFilled(im(proxy_px), radius_px + ring_px / 8, IM_COL32(0, 0, 0, 255));
+  brush.list.AddCircleFilled(im(proxy_px), radius_px, kFeltColor);
+}
+
+PictureMap map_of(const Rect& panel, const ShownPicture& picture, const FrameFacts& facts) {
+  const VisiblePart& visible = facts.visible;
+  return map_picture(panel, visible.x, visible.y, visible.width, visible.height,
+                     picture.pixel_aspect);
+}
+
+bool has_picture(const ShownPicture& picture, const FrameFacts& facts) {
+  return picture.texture && facts.visible.width > 0 && facts.visible.height > 0;
+}
+
 }  // namespace
+
+Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameFacts& facts) {
+  return has_picture(picture, facts) ? map_of(panel, picture, facts).shown : Rect();
+}
 
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
                   const FrameFacts& facts) {
   brush.list.AddRectFilled(upper_left(panel), lower_right(panel), IM_COL32(10, 11, 14, 255),
                            brush.px(6));
   const VisiblePart& visible = facts.visible;
-  if (!picture.texture || visible.width <= 0 || visible.height <= 0) {
+  if (!has_picture(picture, facts)) {
     draw_text(brush, brush.fonts.body, im(panel.x + 12 * brush.scale, panel.y + 10 * brush.scale),
               kMutedColor, "No frame yet");
     return;
   }
-  const PictureMap map =
-      map_picture(panel, visible.x, visible.y, visible.width, visible.height, picture.pixel_aspect);
+  const PictureMap map = map_of(panel, picture, facts);
   const double w = picture.frame_width, h = picture.frame_height;
   brush.list.AddImage(picture.texture, upper_left(map.shown), lower_right(map.shown),
                       im(visible.x / w, visible.y / h),
                       im((visible.x + visible.width) / w, (visible.y + visible.height) / h));
+  if (picture.relief) {
+    const Eigen::Vector2d& share = facts.touch.map.shown_share;
+    const Rect touched{map.shown.x, map.shown.y, share.x() * map.shown.width,
+                       share.y() * map.shown.height};
+    brush.list.AddImage(picture.relief, upper_left(touched), lower_right(touched), {0, 0}, {1, 1},
+                        IM_COL32(255, 255, 255, kReliefOpacity));
+  }
   brush.list.PushClipRect(upper_left(map.shown), lower_right(map.shown), true);
   ArrowStyle style;
   style.scale = picture.arrow_scale;
@@ -179,7 +230,8 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   draw_tracks(over, style);
   if (picture.detail) draw_points(over);
   draw_objects(over);
-  draw_force(over, style);
+  draw_force(over, facts.scene.wrench, origin_of_force(over), style);
+  if (picture.touch) draw_touch(over, *picture.touch, style);
   brush.list.PopClipRect();
 }
 

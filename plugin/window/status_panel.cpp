@@ -20,7 +20,7 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   ImVec2 at = im(panel.x + 10 * brush.scale, middle);
   brush.list.AddCircleFilled({at.x + radius, at.y}, radius, note.empty() ? color : kAccentColor);
   at.x += 2 * radius + brush.px(7);
-  const std::string said = note.empty() ? felt_line(state) : note;
+  const std::string said = note.empty() ? felt_line(state, facts.touch) : note;
   draw_text(brush, font, {at.x, at.y - font->FontSize / 2}, kTextColor, said);
   const double left = at.x + text_size(font, said).x + 16 * brush.scale;
 

@@ -11,6 +11,7 @@
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "plugin/window/still.h"
+#include "spidar/touch/touch_rendering.h"
 
 namespace spidar {
 
@@ -23,6 +24,7 @@ struct Moment {
   Wrench felt;            ///< commanded by the loop, after safety; zero without a device
   StringVector tension_N = StringVector::Zero();
   Pose pose;
+  Contact contact;
 };
 
 /// Records moments and pictures as they come, whether it is paused or not. While it is paused it

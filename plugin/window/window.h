@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "plugin/window/frame_feed.h"
+#include "plugin/window/touch/mouse_hand.h"
 #include "plugin/window/window_source.h"
 
 namespace spidar {
@@ -48,6 +49,8 @@ class Window {
   void resize(int width, int height);
   /// As if the user had pressed a key of GLFW; for tests.
   void press(int key);
+  /// As if the mouse was so, until the next call; for tests.
+  void set_mouse(const Mouse& mouse);
 
   struct Entry;
 

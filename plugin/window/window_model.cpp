@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "plugin/window/timeline.h"
@@ -27,6 +28,7 @@ std::string count_of(size_t count, const std::string& noun) {
 
 std::vector<uint32_t> felt_objects(const FrameFacts& facts) {
   std::vector<uint32_t> felt;
+  if (facts.touch.on && !(facts.touch.motion_share > 0)) return felt;
   const MotionKind motion = facts.settings.motion;
   for (const MovingObject& object : facts.scene.objects) {
     if (object.tracks == 0) continue;
@@ -39,9 +41,15 @@ std::vector<uint32_t> felt_objects(const FrameFacts& facts) {
   return felt;
 }
 
-std::string felt_line(const ElementState& state) {
-  if (state.limit == ForceLimit::kNone) return "felt";
-  return std::string("not felt: ") + sentence(state.limit);
+std::string felt_line(const ElementState& state, const TouchScene& touch) {
+  if (state.limit != ForceLimit::kNone) return std::string("not felt: ") + sentence(state.limit);
+  const double wanted_N_m = state.value("touch-stiffness", 0);
+  if (!touch.on || touch.stiffness_N_m >= wanted_N_m) return "felt";
+  char text[96];
+  std::snprintf(text, sizeof text,
+                "felt, at %.0f N/m instead of %.0f: the device's drives are slow",
+                touch.stiffness_N_m, wanted_N_m);
+  return text;
 }
 
 double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height) {

@@ -12,6 +12,7 @@
 #include "core/motion_analyzer.h"
 #include "plugin/engine/device_view.h"
 #include "plugin/overlay/scene_view.h"
+#include "plugin/overlay/touch_view.h"
 
 namespace spidar {
 
@@ -52,17 +53,19 @@ struct FrameFacts {
   VisiblePart visible;
   SceneView scene;
   AnalyzerSettings settings;
+  TouchScene touch;
 };
 
 /// "1 object", "2 objects".
 std::string count_of(size_t count, const std::string& noun);
 
 /// Ids of the objects whose motion is felt: with kObject the one whose velocity was taken, with
-/// kObjects all that are in sight, otherwise none.
+/// kObjects all that are in sight, otherwise none; none either while only the surface is felt.
 std::vector<uint32_t> felt_objects(const FrameFacts& facts);
 
-/// "felt", or "not felt: " and why, for the last line of the window.
-std::string felt_line(const ElementState& state);
+/// "felt", or "not felt: " and why, for the last line of the window. While the surface is felt also
+/// that the device gets less stiffness than is set.
+std::string felt_line(const ElementState& state, const TouchScene& touch = {});
 
 /// Speed that the gain controller would be given for this motion (see render_motion()), px/s.
 double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height);

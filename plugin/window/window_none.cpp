@@ -30,4 +30,6 @@ void Window::resize(int, int) {}
 
 void Window::press(int) {}
 
+void Window::set_mouse(const Mouse&) {}
+
 }  // namespace spidar

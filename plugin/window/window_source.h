@@ -3,7 +3,10 @@
 /// What a window looks at.
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include <Eigen/Core>
 
 #include "plugin/window/window_model.h"
 
@@ -18,6 +21,8 @@ class WindowSource {
   virtual bool read(ElementState& state) = 0;
   /// Sets a property; a value that is out of range is brought into it.
   virtual void set(const std::string& setting, double value) = 0;
+  /// Where the hand of the simulated device goes, device frame; nothing: it lets go.
+  virtual void lead_hand(const std::optional<Eigen::Vector3d>& to_m) = 0;
   /// The window cannot be opened or goes on no more: `what` happened, `advice` to do.
   virtual void complain(const std::string& what, const std::string& advice) = 0;
   /// The user has closed the window.

@@ -227,6 +227,10 @@ void Window::resize(int width, int height) {
   WindowThread::instance().request(entry_, [=](DebugWindow& w) { w.resize(width, height); });
 }
 
+void Window::set_mouse(const Mouse& mouse) {
+  WindowThread::instance().request(entry_, [=](DebugWindow& w) { w.set_mouse(mouse); });
+}
+
 void Window::press(int key) {
   WindowThread::instance().request(entry_, [=](DebugWindow& w) { w.on_key(key); });
 }

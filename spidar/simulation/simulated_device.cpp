@@ -15,6 +15,7 @@
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
 #include "spidar/simulation/delayed_tensions.h"
+#include "spidar/simulation/led_hand.h"
 
 namespace spidar {
 namespace {
@@ -61,11 +62,13 @@ struct SimulatedDevice::Impl {
 
   void advance(int64_t elapsed_ns) noexcept {
     hand_shared.try_load(hand);
+    lead_shared.try_load(lead);
     const int64_t end_ns = time_ns + elapsed_ns;
     while (time_ns < end_ns) {
       const StringVector acting_N = delayed.at(time_ns);
       const int64_t step_ns = std::min(end_ns, delayed.next_ns()) - time_ns;
-      dynamics.advance(acting_N, hand, 1e-9 * static_cast<double>(step_ns), state);
+      const double step_s = 1e-9 * static_cast<double>(step_ns);
+      dynamics.advance(acting_N, led_hand.follow(hand, lead, step_s), step_s, state);
       time_ns += step_ns;
     }
   }
@@ -125,11 +128,14 @@ struct SimulatedDevice::Impl {
   int64_t time_ns = 0;
   int64_t last_ns = 0;
   Pose hand;
+  HandLead lead;
+  LedHand led_hand;
   GripState state;
   DelayedTensions delayed;
   // Shared.
   std::mutex hand_writers;
   Seqlock<Pose> hand_shared;
+  Seqlock<HandLead> lead_shared;
   std::atomic<ExchangeStatus> fault{ExchangeStatus::kOk};
   std::array<std::atomic<int32_t>, kMaxStrings> count_error{};
   Seqlock<FeltState> felt;
@@ -155,6 +161,7 @@ void SimulatedDevice::open() {
   impl_->time_ns = 0;
   impl_->last_ns = impl_->clock();
   impl_->state = {};
+  impl_->led_hand = {};
   impl_->delayed.clear();
   impl_->open = true;
   impl_->publish();
@@ -187,6 +194,17 @@ void SimulatedDevice::set_hand(const Pose& pose) noexcept {
   if (!pose.position_m.allFinite() || !std::isfinite(norm) || !(norm > 0)) return;
   const std::lock_guard<std::mutex> lock(impl_->hand_writers);
   impl_->hand_shared.store({pose.position_m, pose.orientation.normalized()});
+}
+
+void SimulatedDevice::lead_hand(const std::optional<Eigen::Vector3d>& to_m) noexcept {
+  HandLead lead;
+  if (to_m) {
+    if (!to_m->allFinite()) return;
+    const Eigen::Vector3d& limit_m = impl_->dynamics.limit_m();
+    lead = {true, to_m->cwiseMax(-limit_m).cwiseMin(limit_m)};
+  }
+  const std::lock_guard<std::mutex> lock(impl_->hand_writers);
+  impl_->lead_shared.store(lead);
 }
 
 void SimulatedDevice::set_fault(ExchangeStatus fault) noexcept {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
@@ -70,6 +71,11 @@ class SPIDAR_API SimulatedDevice final : public Device {
   /// Sets where the hand is; its spring pulls the grip there. A pose that is not finite is ignored.
   /// Any thread.
   void set_hand(const Pose& pose) noexcept;
+
+  /// Leads the hand to a place in the device frame, no faster than LedHand::kFastest_m_s, and no
+  /// further than to the box of the string exits; without one, back to where set_hand() has put it.
+  /// A place that is not finite is ignored. Any thread.
+  void lead_hand(const std::optional<Eigen::Vector3d>& to_m) noexcept;
 
   /// Makes every exchange return this status until it is called with kOk. Time goes on meanwhile.
   /// With kTimeout the volts do not reach the motors, with kBadReply they do; kLost closes the

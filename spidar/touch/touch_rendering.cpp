@@ -61,6 +61,7 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
   const TouchProxy& proxy = contact_.proxy();
   result.touching = proxy.touching();
   if (result.touching) {
+    result.proxy_m = proxy.position_m();
     result.depth_m = std::max(0.0, proxy.normal().dot(proxy.position_m() - grip_m));
   }
   return result;

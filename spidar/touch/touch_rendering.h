@@ -18,6 +18,8 @@ struct Contact {
   bool has_surface = false;  ///< there is something that could be touched
   bool touching = false;
   double depth_m = 0;  ///< of the grip below the surface, along its normal; 0 unless touching
+  /// The point of the surface that is touched, device frame; 0 unless touching.
+  Eigen::Vector3d proxy_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the grip, device frame
 };
 

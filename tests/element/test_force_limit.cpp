@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/force/force_limit.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"
@@ -283,6 +284,47 @@ TEST_F(ForceLimitTest, FramesThatComeTooLate) {
     tick(kFrame_ms);
   }
   EXPECT_EQ(message_limit(), "late");
+}
+
+/// Grey levels below 128 are behind the grip, which a hand holds in the middle.
+GstBuffer* level_frame(const GstVideoInfo& info, int grey) {
+  GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
+  gst_buffer_memset(buffer, 0, static_cast<guint8>(grey), GST_VIDEO_INFO_SIZE(&info));
+  return buffer;
+}
+
+TEST_F(ForceLimitTest, TouchingTheReasonsAreThoseOfTheContact) {
+  open("device=sim touch=luma");
+  play();
+  show(kFrames, [&](int) { return level_frame(h->info(), 20); });
+  expect_everywhere("not-touching");
+  show(kFrames, [&](int) { return level_frame(h->info(), 235); });
+  EXPECT_EQ(stats_field("limit"), "none") << "a picture that never moves is felt";
+  g_object_set(h->element(), "max-force", kFeltForce_N / 2, nullptr);
+  show(kFrames, [&](int) { return level_frame(h->info(), 235); });
+  expect_everywhere("light-touch");
+  g_object_set(h->element(), "max-force", 3.0, nullptr);
+  Pose hand;
+  hand.position_m.z() = 0.02;
+  device().set_hand(hand);
+  show(15, [&](int) { return level_frame(h->info(), 235); });
+  EXPECT_EQ(stats_field("limit"), "none") << "felt until 0.6 s ago at most";
+  show(kFrames, [&](int) { return level_frame(h->info(), 235); });
+  expect_everywhere("not-touching");
+  gst_harness_push_event(h->harness(), gst_event_new_eos());
+  tick(100);
+  EXPECT_EQ(stats_field("limit"), "no-relief") << "the video has ended";
+}
+
+TEST_F(ForceLimitTest, TouchingNeedsADeviceAndARelief) {
+  open("device=none touch=luma motion=object");
+  show_moved(kFrames, 2);
+  expect_everywhere("no-device");
+  open("device=sim touch=depth");
+  frames = 0;
+  play();
+  show_moved(kFrames, 2);
+  expect_everywhere("no-relief");
 }
 
 TEST_F(ForceLimitTest, WithoutADeviceTheVideosReasonsComeFirst) {

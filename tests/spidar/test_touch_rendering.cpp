@@ -57,6 +57,7 @@ TEST(TouchRendering, GoesFromFrameToFrameInTime) {
     const double z_m = (1 - share) * saw_m(n) + share * saw_m(n + 1);
     ASSERT_TRUE(contact.touching);
     ASSERT_NEAR(contact.depth_m, 0.005 + z_m, kRounding_m) << "at " << touched.now_ns;
+    ASSERT_NEAR((contact.proxy_m - Eigen::Vector3d(0, 0, z_m)).norm(), 0, kRounding_m);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,11 @@ class FakeSource final : public WindowSource {
     sets_.emplace_back(setting, value);
     changed_.notify_all();
   }
+  void lead_hand(const std::optional<Eigen::Vector3d>& to_m) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    led_.push_back(to_m);
+    changed_.notify_all();
+  }
   void complain(const std::string& what, const std::string&) override {
     const std::lock_guard<std::mutex> lock(mutex_);
     complaints_.push_back(what);
@@ -47,6 +53,13 @@ class FakeSource final : public WindowSource {
     changed_.wait(lock, [&] { return sets_.size() >= count; });
     return sets_;
   }
+  using Led = std::vector<std::optional<Eigen::Vector3d>>;
+  /// The same of places that the hand was led to.
+  Led wait_for_led(size_t count) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return led_.size() >= count; });
+    return led_;
+  }
   void wait_until_closed() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [&] { return is_closed_; });
@@ -62,6 +75,7 @@ class FakeSource final : public WindowSource {
   std::condition_variable changed_;
   ElementState state_;
   Sets sets_;
+  Led led_;
   std::vector<std::string> complaints_;
   bool is_closed_ = false;
 };

@@ -50,6 +50,10 @@ TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
   EXPECT_EQ(felt_objects(facts), std::vector<uint32_t>{5});
   facts.settings.motion = MotionKind::kObjects;
   EXPECT_EQ(felt_objects(facts), (std::vector<uint32_t>{3, 5}));
+  facts.touch.on = true;
+  EXPECT_TRUE(felt_objects(facts).empty()) << "only the surface is";
+  facts.touch.motion_share = 0.5;
+  EXPECT_EQ(felt_objects(facts), (std::vector<uint32_t>{3, 5}));
   facts.settings.motion = MotionKind::kCamera;
   EXPECT_TRUE(felt_objects(facts).empty());
 }

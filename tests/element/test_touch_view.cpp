@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What of the touched surface leaves the element for the window and `stats`, and how the hand of
+// the simulated device is led through the element.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugin/display/element_source.h"
+#include "plugin/touch/relief_stream.h"
+#include "spidar/simulation/simulated_device.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+int64_t read_time(void* time) {
+  return *static_cast<int64_t*>(time);
+}
+
+TEST(TouchView, AReliefIsCopiedOnlyWhenAWindowAsks) {
+  init_gstreamer();
+  const Profile profile = load_profile(kDefaultProfile);
+  SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
+  const auto loop = std::make_unique<HapticLoop>(profile, device);
+  ReliefStream stream;
+  stream.connect(loop.get(), profile, {0.03, 0.03});
+  const std::vector<uint8_t> white(320 * 240, 255);
+  FrameAnalysis analysis;
+  analysis.width = 320;
+  analysis.height = 240;
+  TouchProperties touch;
+  touch.kind = TouchKind::kLuma;
+  const auto add = [&](int64_t shown_ns) {
+    EXPECT_TRUE(
+        stream.add(nullptr, {white.data(), 320, 240, 320}, analysis, shown_ns, touch, {0.5, 0.5}));
+  };
+  add(0);
+  EXPECT_EQ(stream.take_copy(), nullptr);
+  stream.want_copy(true);
+  add(1'000'000);
+  const std::shared_ptr<const HeightField> copy = stream.take_copy();
+  ASSERT_NE(copy, nullptr);
+  // White is half of the relief of 8 mm above the middle; floats.
+  EXPECT_NEAR(copy->at(0, 0).z_m, 0.004, 1e-8);
+  EXPECT_EQ(stream.take_copy(), nullptr) << "each frame's once";
+  touch.kind = TouchKind::kOff;
+  add(2'000'000);
+  EXPECT_EQ(stream.take_copy(), nullptr);
+}
+
+TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
+  int64_t time_ns = 1'000'000'000;
+  ElementHarness h("device=sim touch=luma touch-stiffness=400", read_time, &time_ns);
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  const auto tick = [&](int count) {
+    for (int i = 0; i < count; ++i) h.tick(time_ns += kTick_ns);
+  };
+  tick(300);
+  PlaybackClock clock;
+  clock.playing = true;
+  clock.monotonic_ns = time_ns;
+  h.engine().output().session()->loop().set_playback_clock(clock);
+  GstBuffer* const grey = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);
+  gst_buffer_memset(grey, 0, 20, 320 * 240);  // 3.4 mm behind the middle
+  ASSERT_EQ(h.push(grey, 0), GST_FLOW_OK);
+  const std::shared_ptr<WindowSource> source = make_element_source(h.element());
+  ElementState state;
+  const auto look = [&] {
+    tick(1500);
+    EXPECT_TRUE(source->read(state) && state.device);
+    return state.device->loop.last;
+  };
+  EXPECT_FALSE(look().contact.touching);
+  ASSERT_TRUE(state.device->has_hand);
+  source->lead_hand(Eigen::Vector3d(0.01, 0, -0.01));
+  const TickRecord held = look();
+  ASSERT_TRUE(held.contact.touching);
+  // The hand's spring (300 N/m) and the surface (400 N/m) share 6.6 mm: 1.14 N, but for the
+  // strings, which stiffen the grip by some hundredths, and the steps of encoders and D/A.
+  EXPECT_NEAR(held.contact.force_N.z(), 6.627e-3 / (1 / 300.0 + 1 / 400.0), 0.1);
+  // Friction of 0.3 holds it back, at a depth of 2.8 mm.
+  EXPECT_NEAR(held.contact.proxy_m.x(), held.pose.position_m.x(), 1e-3);
+  source->lead_hand(std::nullopt);
+  EXPECT_FALSE(look().contact.touching) << "the hand has let go";
+
+  GstStructure* stats = nullptr;
+  g_object_get(h.element(), "stats", &stats, nullptr);
+  double stiffness_N_m = 0;
+  EXPECT_TRUE(gst_structure_get_double(stats, "touch-stiffness", &stiffness_N_m));
+  EXPECT_EQ(stiffness_N_m, 400);
+  gst_structure_free(stats);
+}
+
+TEST(TouchView, OtherDevicesHaveNoHandToLead) {
+  for (const char* properties : {"device=sim:sh4", "device=none"}) {
+    ElementHarness h(properties);
+    const std::shared_ptr<WindowSource> source = make_element_source(h.element());
+    ElementState state;
+    ASSERT_TRUE(source->read(state));
+    EXPECT_FALSE(state.device && state.device->has_hand) << properties;
+    EXPECT_FALSE(h.engine().output().lead_hand(Eigen::Vector3d(0.01, 0, 0))) << properties;
+    source->lead_hand(Eigen::Vector3d(0.01, 0, 0));
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What a debug window shows of a picture that is touched, and what the mouse does there.
+#include <memory>
+
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include "spidar/profiles/profile.h"
+#include "tests/window/fake_source.h"
+#include "tests/window/window_fixture.h"
+
+namespace spidar::test {
+namespace {
+
+bool is_orange(const Color& c) {
+  return c.r > 220 && c.g > 150 && c.g < 220 && c.b < 100;
+}
+
+/// A simulated SPIDAR-GCC whose grip presses on the surface in the left upper quarter; the proxy is
+/// in the right one.
+ElementState touching_state() {
+  ElementState state;
+  state.device.emplace();
+  DeviceView& device = *state.device;
+  device.name = "sim";
+  device.has_hand = true;
+  device.geometry = load_profile("spidar-gcc").geometry;
+  TickRecord& last = device.loop.last;
+  last.device = DeviceState::kRunning;
+  last.pose.position_m = {-0.0295 / 2, 0.032 / 2, -0.002};
+  last.contact.touching = last.contact.has_surface = true;
+  last.contact.proxy_m = {0.0295 / 2, 0.032 / 2, 0};
+  last.contact.force_N = {0, -3, 3};
+  return state;
+}
+
+/// On a surface that slopes up to the right.
+FrameFacts touched_facts(const StringGeometry& geometry) {
+  FrameFacts facts;
+  facts.touch.on = true;
+  facts.touch.map = {GripPointer(geometry)};
+  auto relief = std::make_shared<HeightField>(0.059, 0.064);
+  for (int y = 0; y < HeightField::kRows; ++y) {
+    for (int x = 0; x < HeightField::kColumns; ++x) {
+      relief->row(y)[x] = static_cast<float>(0.1 * relief->x_m(x));
+    }
+  }
+  facts.touch.relief = std::move(relief);
+  return facts;
+}
+
+TEST_F(WindowTest, FingerProxyAndReliefAreInThePicture) {
+  auto feed = std::make_shared<FrameFeed>();
+  const ElementState state = touching_state();
+  Window window(std::make_shared<FakeSource>(state), feed);
+  FrameFacts facts = touched_facts(state.device->geometry);
+  give(*feed, facts, 40);
+  Screenshot shot = look(window);
+  const PictureMap map = map_of(shot);
+  const auto color = [&](double x_px, double y_px) {
+    const Eigen::Vector2d p = map({x_px, y_px});
+    return at(shot, p.x(), p.y());
+  };
+  // In a frame of 320 × 240: the finger at (80, 60), a ring of 11 / 2 px; the proxy at (240, 60),
+  // and its force down, a fifth of 240 lines.
+  EXPECT_TRUE(is_white(color(79.5 + 5.5, 59.5))) << shown(color(79.5 + 5.5, 59.5));
+  EXPECT_TRUE(is_grey(color(79.5, 59.5))) << "within the ring: " << shown(color(79.5, 59.5));
+  EXPECT_TRUE(is_orange(color(239.5, 59.5))) << shown(color(239.5, 59.5));
+  EXPECT_TRUE(is_white(color(239.5, 59.5 + 24)));
+  const Color relief = color(160, 180);
+  EXPECT_GT(relief.r, 60) << "over the dark picture";
+  window.press(GLFW_KEY_R);
+  shot = look(window);
+  EXPECT_NEAR(color(160, 180).r, 40, 1) << "the picture alone";
+  EXPECT_TRUE(is_orange(color(239.5, 59.5)));
+}
+
+TEST_F(WindowTest, TheSectionStandsInPlaceOfTheCurveOfTheController) {
+  ElementState state = touching_state();
+  const FrameFacts touched = touched_facts(state.device->geometry);
+  const auto orange = [&](const FrameFacts& facts) {
+    auto feed = std::make_shared<FrameFeed>();
+    Window window(std::make_shared<FakeSource>(state), feed);
+    give(*feed, facts);
+    const Screenshot shot = look(window);
+    const Rect panel = lay_out(shot.width, shot.height, 1).gain;
+    int count = 0;
+    for (double y = panel.y + 30; y < panel.bottom(); ++y) {
+      for (double x = panel.x; x < panel.right(); ++x) count += is_orange(at(shot, x, y));
+    }
+    return count;
+  };
+  // The proxy is a disc of a radius of 4 px: 50 px², a ring of 25 px of which is soft.
+  EXPECT_GT(orange(touched), 25);
+  state.device->loop.last.contact = {};
+  EXPECT_EQ(orange(touched), 0) << "no proxy while it does not touch";
+  EXPECT_GT(orange({}), 0) << "the dot of the curve";
+}
+
+TEST_F(WindowTest, TheMouseLeadsTheHandOfASimulatedDevice) {
+  auto feed = std::make_shared<FrameFeed>();
+  auto source = std::make_shared<FakeSource>(touching_state());
+  Mouse mouse;
+  {
+    Window window(source, feed);
+    give(*feed, {});
+    const Rect picture = map_of(look(window)).shown;
+    mouse.at_px = {picture.x + 0.75 * picture.width, picture.y + 0.25 * picture.height};
+    mouse.down = true;
+    window.set_mouse(mouse);
+    FakeSource::Led led = source->wait_for_led(1);
+    ASSERT_TRUE(led[0].has_value());
+    EXPECT_LT((*led[0] - Eigen::Vector3d(0.0295 / 2, 0.032 / 2, 0)).norm(), 1e-12);
+    mouse.down = false;
+    window.set_mouse(mouse);
+    led = source->wait_for_led(2);
+    EXPECT_FALSE(led[1].has_value());
+    mouse.down = true;
+    window.set_mouse(mouse);
+    EXPECT_TRUE(source->wait_for_led(3)[2].has_value());
+  }
+  const FakeSource::Led led = source->wait_for_led(4);
+  EXPECT_FALSE(led[3].has_value()) << "the window was closed";
+}
+
+TEST_F(WindowTest, TheMouseLeadsNoOtherHandAndNoneInAPause) {
+  for (const bool paused : {false, true}) {
+    auto feed = std::make_shared<FrameFeed>();
+    ElementState state = touching_state();
+    state.device->has_hand = paused;
+    auto source = std::make_shared<FakeSource>(state);
+    Window window(source, feed);
+    give(*feed, {});
+    const Rect picture = map_of(look(window)).shown;
+    if (paused) window.press(GLFW_KEY_P);
+    Mouse mouse;
+    mouse.at_px = {picture.x + picture.width / 2, picture.y + picture.height / 2};
+    mouse.down = true;
+    window.set_mouse(mouse);
+    look(window);
+    look(window);
+    EXPECT_TRUE(source->wait_for_led(0).empty());
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test
