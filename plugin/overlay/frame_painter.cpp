@@ -19,9 +19,8 @@ int offset_of(const GstVideoFormatInfo* format, guint component) {
   return GST_VIDEO_FORMAT_INFO_DEPTH(format, component) > 8 && offset == 1 ? 2 : offset;
 }
 
-/// The pixels between two coordinates, from 0 to size − 1. Clamped as doubles: they may lie further
-/// off than an int reaches.
-// First and last pixel of a range, clamped as doubles because corners may lie outside the range of int.
+/// First and last pixel between two coordinates, within 0 … size − 1. They are clamped as doubles,
+/// because coordinates may lie outside the range of an int.
 int first_pixel(double low, int size) {
   return static_cast<int>(std::ceil(std::clamp(low, 0.0, static_cast<double>(size))));
 }
