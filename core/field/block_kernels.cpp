@@ -4,6 +4,8 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "core/difference_sum.h"
+
 namespace spidar::vectors {
 
 #if CV_SIMD128
@@ -14,13 +16,8 @@ using cv::v_int32x4;
 using cv::v_uint16x8;
 using cv::v_uint8x16;
 
-unsigned difference_of_rows(BlockPixels a, BlockPixels b, int from, int to) {
-  unsigned sum = 0;
-  for (int y = from; y < to; ++y) {
-    sum +=
-        cv::v_reduce_sad(cv::v_load(a.pixels + y * a.stride), cv::v_load(b.pixels + y * b.stride));
-  }
-  return sum;
+void add_rows(BlockPixels a, BlockPixels b, int from, int to, DifferenceSum& sum) {
+  for (int y = from; y < to; ++y) sum.add(a.pixels + y * a.stride, b.pixels + y * b.stride);
 }
 
 /// Eight pixels, 16 bit each.
@@ -88,19 +85,21 @@ class InterpolatedRows {
 
 int block_difference(BlockPixels a, BlockPixels b, int limit) {
   constexpr int kHalf = kBlock_px / 2;
-  unsigned sum = difference_of_rows(a, b, 0, kHalf);
-  if (static_cast<int>(sum) >= limit) return static_cast<int>(sum);
-  sum += difference_of_rows(a, b, kHalf, kBlock_px);
-  return static_cast<int>(sum);
+  DifferenceSum sum;
+  add_rows(a, b, 0, kHalf, sum);
+  const auto of_half = static_cast<int>(sum.total());
+  if (of_half >= limit) return of_half;
+  add_rows(a, b, kHalf, kBlock_px, sum);
+  return static_cast<int>(sum.total());
 }
 
 int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y) {
   InterpolatedRows moved({before, fraction_x, fraction_y});
-  unsigned sum = 0;
+  DifferenceSum sum;
   for (int y = 0; y < kBlock_px; ++y) {
-    sum += cv::v_reduce_sad(moved.next(), cv::v_load(now.pixels + y * now.stride));
+    sum.add(moved.next(), cv::v_load(now.pixels + y * now.stride));
   }
-  return static_cast<int>(sum);
+  return static_cast<int>(sum.total());
 }
 
 StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
@@ -128,16 +127,16 @@ StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlo
 }
 
 BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
-  const v_int16x8 ones = cv::v_setall_s16(1);
   v_int32x4 xx = cv::v_setzero_s32();
   v_int32x4 xy = xx;
   v_int32x4 yy = xx;
-  v_int32x4 sx = xx;
-  v_int32x4 sy = xx;
   v_int32x4 xd = xx;
   v_int32x4 yd = xx;
-  v_int32x4 sd = xx;
   v_int32x4 dd = xx;
+  // In 16 bits: of the two halves of 16 rows a lane is at most 2 · 16 · 510 = 16320.
+  v_int16x8 sx = cv::v_setzero_s16();
+  v_int16x8 sy = sx;
+  v_int16x8 sd = sx;
   for (int y = 0; y < kBlock_px; ++y) {
     for (int x = 0; x < kBlock_px; x += 8) {
       const uint8_t* p = now.pixels + y * now.stride + x;
@@ -148,18 +147,21 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
       xx = cv::v_dotprod(gx, gx, xx);
       xy = cv::v_dotprod(gx, gy, xy);
       yy = cv::v_dotprod(gy, gy, yy);
-      sx = cv::v_dotprod(gx, ones, sx);
-      sy = cv::v_dotprod(gy, ones, sy);
       xd = cv::v_dotprod(gx, d, xd);
       yd = cv::v_dotprod(gy, d, yd);
-      sd = cv::v_dotprod(d, ones, sd);
       dd = cv::v_dotprod(d, d, dd);
+      sx = sx + gx;
+      sy = sy + gy;
+      sd = sd + d;
     }
   }
-  // Σ gx² is at most 1020² · 256 < 2³¹.
+  // Σ gx² is at most 510² · 256 < 2³¹.
   const auto total = [](const v_int32x4& sums) { return cv::v_reduce_sum(sums); };
-  return {total(xx), total(xy), total(yy), total(sx), total(sy),
-          total(xd), total(yd), total(sd), total(dd)};
+  const auto total_of_lanes = [](const v_int16x8& sums) {
+    return cv::v_reduce_sum(cv::v_dotprod(sums, cv::v_setall_s16(1)));
+  };
+  return {total(xx), total(xy), total(yy),          total_of_lanes(sx), total_of_lanes(sy),
+          total(xd), total(yd), total_of_lanes(sd), total(dd)};
 }
 #else
 int block_difference(BlockPixels a, BlockPixels b, int limit) {

@@ -60,25 +60,27 @@ v_uint8x16 ninth(const v_uint16x8& low, const v_uint16x8& high) {
   return cv::v_pack(cv::v_mul_hi(low + four, factor), cv::v_mul_hi(high + four, factor));
 }
 
-/// Columns of three rows, added in pairs.
+/// The three columns of each third of 48 pixels, 16 bits each.
+struct Thirds {
+  std::array<v_uint16x8, 3> low;
+  std::array<v_uint16x8, 3> high;
+
+  explicit Thirds(const uint8_t* pixels) {
+    std::array<v_uint8x16, 3> columns;
+    cv::v_load_deinterleave(pixels, columns[0], columns[1], columns[2]);
+    for (size_t k = 0; k < 3; ++k) cv::v_expand(columns[k], low[k], high[k]);
+  }
+};
+
+/// Columns of two of three rows, added in pairs.
 struct Columns {
   std::array<v_uint16x8, 3> low;
   std::array<v_uint16x8, 3> high;
 
-  Columns(const uint8_t* outer, const uint8_t* middle) {
-    std::array<v_uint8x16, 3> a;
-    std::array<v_uint8x16, 3> b;
-    cv::v_load_deinterleave(outer, a[0], a[1], a[2]);
-    cv::v_load_deinterleave(middle, b[0], b[1], b[2]);
+  Columns(const Thirds& outer, const Thirds& middle) {
     for (size_t k = 0; k < 3; ++k) {
-      v_uint16x8 a_low;
-      v_uint16x8 a_high;
-      v_uint16x8 b_low;
-      v_uint16x8 b_high;
-      cv::v_expand(a[k], a_low, a_high);
-      cv::v_expand(b[k], b_low, b_high);
-      low[k] = a_low + a_low + b_low;
-      high[k] = a_high + a_high + b_high;
+      low[k] = outer.low[k] + outer.low[k] + middle.low[k];
+      high[k] = outer.high[k] + outer.high[k] + middle.high[k];
     }
   }
 
@@ -94,8 +96,9 @@ int reduce_rows_vectors(const uint8_t* const rows[3], int width, uint8_t* upper,
   int x = 0;
   for (; x + 32 <= width; x += 32) {
     const int from = x / 2 * 3;
-    Columns(rows[0] + from, rows[1] + from).store(upper + x);
-    if (lower) Columns(rows[2] + from, rows[1] + from).store(lower + x);
+    const Thirds middle(rows[1] + from);
+    Columns(Thirds(rows[0] + from), middle).store(upper + x);
+    if (lower) Columns(Thirds(rows[2] + from), middle).store(lower + x);
   }
   return x;
 }

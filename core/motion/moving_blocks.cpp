@@ -76,8 +76,11 @@ size_t origin_of(const BlockField& field, size_t index) {
   const int column = static_cast<int>(index) % grid.columns;
   const int row = static_cast<int>(index) / grid.columns;
   const auto back = [](int place, float moved_px, int count) {
-    const long from = std::lround(static_cast<float>(place) - moved_px / kBlock_px);
-    return static_cast<int>(std::clamp(from, 0L, static_cast<long>(count - 1)));
+    // Clamped first: half a block outside is the first or the last one. std::lround() would be a
+    // call, three times for each block.
+    const float from = static_cast<float>(place) - moved_px / kBlock_px;
+    const double inside = std::clamp(static_cast<double>(from), 0.0, count - 1.0);
+    return static_cast<int>(inside + 0.5);
   };
   return static_cast<size_t>(back(row, block.moved_y_px, grid.rows) * grid.columns +
                              back(column, block.moved_x_px, grid.columns));

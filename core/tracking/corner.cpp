@@ -149,6 +149,39 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box, float least_ro
   return best;
 }
 
+Corner centred_corner(const PaddedImage& image, const PixelBox& box, const Corner& corner,
+                      float least_roundness) {
+  constexpr int kSteps = 2;
+  const ImagePoint half = window_centre(0, 0);
+  int x0 = static_cast<int>(corner.at.x_px - half.x_px);
+  int y0 = static_cast<int>(corner.at.y_px - half.y_px);
+  // Looked at `kSteps` times to be moved, and once more for its strength.
+  for (int step = 0;; ++step) {
+    Tensor window;
+    int columns = 0;
+    int rows = 0;
+    for (int y = 0; y < kCornerWindow_px; ++y) {
+      for (int x = 0; x < kCornerWindow_px; ++x) {
+        const uint8_t* p = image.row(y0 + y) + x0 + x;
+        const int gx = p[1] - p[-1];
+        const int gy = p[image.stride()] - p[-image.stride()];
+        window.add(gx, gy);
+        columns += x * (gx * gx + gy * gy);
+        rows += y * (gx * gx + gy * gy);
+      }
+    }
+    if (step == kSteps) {
+      const float found = strength(window, least_roundness);
+      return found > 0 ? Corner{window_centre(x0, y0), found} : corner;
+    }
+    const int all = window.xx + window.yy;
+    if (all == 0) return corner;
+    constexpr int kMiddle = kCornerWindow_px / 2 - 1;
+    x0 = std::clamp(x0 + columns / all - kMiddle, box.x0, box.x1 - kCornerWindow_px);
+    y0 = std::clamp(y0 + rows / all - kMiddle, box.y0, box.y1 - kCornerWindow_px);
+  }
+}
+
 namespace plain {
 
 Corner best_corner(const PaddedImage& image, const PixelBox& box, float least_roundness) {

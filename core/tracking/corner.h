@@ -42,6 +42,13 @@ constexpr int kMostCornerBox_px = 64;
 Corner best_corner(const PaddedImage& image, const PixelBox& box,
                    float least_roundness = kLeastRoundness);
 
+/// `corner` with its window where the gradients in it are: moved by whole pixels to the centre of
+/// the gradients' squares, in two steps, as far as it lies in `box`; as it was where the window is
+/// then none of `least_roundness`. Beside the rim of an object the centre of a window may show what
+/// is behind it, while all that is found again is the rim.
+Corner centred_corner(const PaddedImage& image, const PixelBox& box, const Corner& corner,
+                      float least_roundness = kLeastRoundness);
+
 namespace plain {
 Corner best_corner(const PaddedImage& image, const PixelBox& box,
                    float least_roundness = kLeastRoundness);

@@ -18,9 +18,11 @@ struct FollowedPoint {
   ImagePoint moved;  ///< since the frame before, in the base; of a new one: expected
   int level = 0;     ///< of the pyramid: where it was chosen and is looked for
   bool is_new = true;
+  bool may_shift = true;  ///< nobody was told where it is: a window beside may stand for it
 
   bool found = false;        ///< in this frame
   bool is_surprise = false;  ///< found where neither its past nor its neighbours led
+  bool is_shifted = false;   ///< in this frame, to a window beside the one that was chosen
   bool has_place = false;    ///< on the grid
   PointMatch match;
 };

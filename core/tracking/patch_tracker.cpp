@@ -153,6 +153,7 @@ void PatchTracker::Impl::stand_still() {
   result.tracks.clear();
   for (FollowedPoint& point : points) {
     point.moved = {0, 0};
+    point.may_shift = false;
     result.tracks.push_back({point.id, point.frame, point.frame});
   }
   result.features = static_cast<int>(points.size());
@@ -202,7 +203,8 @@ ImagePoint PatchTracker::Impl::place_in_frame(const FollowedPoint& point, const 
   const ImagePoint moved = point.match.to - point.at;
   const ImagePoint coarse{point.frame.x_px + scale * moved.x_px,
                           point.frame.y_px + scale * moved.y_px};
-  if (!uses_fine()) return coarse;
+  // Of a window beside the one that was chosen the frame before is no longer there.
+  if (!uses_fine() || point.is_shifted) return coarse;
   return was.place(neighbourhood, frame, factor,
                    {coarse, point.match.variance_px2, point.match.strength, gain});
 }
@@ -215,12 +217,15 @@ void PatchTracker::Impl::settle(const ImageView& frame, float gain) {
       grid.lose(point.at);
       continue;
     }
+    if (point.is_shifted) point.frame = to_frame(point.at, factor);
     point.from = point.frame;
     point.frame = place_in_frame(point, fine[i], frame, gain);
     const ImagePoint at = to_reduced(point.frame, factor);
     point.moved = at - point.at;
     point.at = at;
     point.is_new = false;
+    point.may_shift = false;
+    point.is_shifted = false;
     point.has_place = grid.occupy(point.at, point.moved);
   }
   grid.compare_neighbours();

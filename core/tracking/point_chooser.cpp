@@ -89,8 +89,10 @@ void PointChooser::find_corners(const GrayPyramid& picture, int level, const Poi
                                 bool everywhere) {
   const PaddedImage& image = picture.levels[static_cast<size_t>(level)];
   grid.for_each_wanted(everywhere, [&](const PixelBox& box, bool is_empty) {
-    const Corner found = best_corner(image, at_level(box, level, image), kPointRoundness);
-    if (found.strength <= kLeastStrength) return;
+    const PixelBox there = at_level(box, level, image);
+    const Corner best = best_corner(image, there, kPointRoundness);
+    if (best.strength <= kLeastStrength) return;
+    const Corner found = centred_corner(image, there, best, kPointRoundness);
     candidates_.push_back({{to_frame(found.at, 1 << level), found.strength}, level, is_empty});
   });
 }

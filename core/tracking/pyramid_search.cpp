@@ -18,7 +18,7 @@ using SearchTemplate = WindowTemplate<kSearchWindow_px>;
 
 /// Coarse levels only have to lead into the basin of the next finer one.
 constexpr MatchSettings kCoarse{3, 0.15f, 5, 1};
-constexpr MatchSettings kLast{6, 0.06f, 5, 1};
+constexpr MatchSettings kLast{10, 0.03f, 5, 1};
 constexpr MatchSettings kRefine{3, 0.02f, 1, 1};
 /// A point that is followed may become less of a corner than a new one.
 constexpr float kKeptRoundness = kLeastRoundness / 2;

@@ -8,6 +8,8 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "core/difference_sum.h"
+
 namespace spidar {
 namespace {
 
@@ -26,13 +28,9 @@ unsigned block_change(const ImageView& a, const ImageView& b, int x, int y, int 
 
 unsigned whole_block_change(const ImageView& a, const ImageView& b, int x, int y) {
 #if CV_SIMD128
-  cv::v_uint32x4 sums = cv::v_setzero_u32();
-  for (int j = 0; j < kBlock_px; ++j) {
-    const cv::v_uint8x16 difference =
-        cv::v_absdiff(cv::v_load(a.at(x, y + j)), cv::v_load(b.at(x, y + j)));
-    sums = sums + cv::v_dotprod_expand(difference, cv::v_setall_u8(1));
-  }
-  return cv::v_reduce_sum(sums);
+  DifferenceSum sum;
+  for (int j = 0; j < kBlock_px; ++j) sum.add(a.at(x, y + j), b.at(x, y + j));
+  return sum.total();
 #else
   return block_change(a, b, x, y, kBlock_px, kBlock_px);
 #endif

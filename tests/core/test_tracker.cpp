@@ -139,6 +139,30 @@ TYPED_TEST(EveryTracker, APointKeepsItsIdAndStartsWhereItEnded) {
   }
 }
 
+TYPED_TEST(EveryTracker, APointStartsWhereItEndedAlsoAfterARepeatedFrame) {
+  // New points on a rim may be taken for others beside them, but not once they have been reported.
+  const Texture behind(3, 6);
+  const Texture disc(4, 6);
+  Picture picture(480, 360);
+  const auto frame = [&](double moved_px) {
+    picture.fill([&](double x, double y) {
+      const bool is_disc = std::hypot(x - moved_px - 240, y - 180) < 90;
+      return is_disc ? disc.at(x - moved_px, y) : behind.at(x, y);
+    });
+    return picture.view();
+  };
+  TypeParam tracker;
+  tracker.track(frame(0));
+  std::map<uint32_t, ImagePoint> ended;
+  for (const Track& track : tracker.track(frame(0)).tracks) ended[track.id] = track.to;
+  ASSERT_GE(ended.size(), 50u);
+  for (const Track& track : tracker.track(frame(4)).tracks) {
+    ASSERT_EQ(ended.count(track.id), 1u);
+    EXPECT_EQ(track.from.x_px, ended[track.id].x_px);
+    EXPECT_EQ(track.from.y_px, ended[track.id].y_px);
+  }
+}
+
 TYPED_TEST(EveryTracker, GivesTheSameForTheSameFrames) {
   // Bit for bit, of two trackers and of one that has been restarted.
   MovingTexture scene(640, 360, 2.3, -0.7);
