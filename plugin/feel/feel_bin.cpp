@@ -103,6 +103,25 @@ static GstElement* open_motion(GstSpidarFeelBin* self) {
   return nullptr;
 }
 
+/// The state of the bin, or the one that it is changing to.
+static GstState state_of(GstSpidarFeelBin* self) {
+  GST_OBJECT_LOCK(self);
+  const GstState pending = GST_STATE_PENDING(self);
+  const GstState state = pending == GST_STATE_VOID_PENDING ? GST_STATE(self) : pending;
+  GST_OBJECT_UNLOCK(self);
+  return state;
+}
+
+/// Like gst_element_sync_state_with_parent(), but repeats when the application has changed the state
+/// of the bin meanwhile. Otherwise the element could return to a state that the bin has left.
+static void follow_state(GstSpidarFeelBin* self, GstElement* element) {
+  GstState state;
+  do {
+    state = state_of(self);
+    gst_element_set_state(element, state);
+  } while (state != state_of(self));
+}
+
 /// Replaces `out` by `in` while no data flow between `before` and `after`.
 static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   gst_element_unlink_many(self->before, out, self->after, nullptr);
@@ -110,7 +129,7 @@ static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   gst_bin_remove(GST_BIN(self), out);
   gst_bin_add(GST_BIN(self), in);
   gst_element_link_many(self->before, in, self->after, nullptr);
-  gst_element_sync_state_with_parent(in);
+  follow_state(self, in);
 }
 
 static GstPadProbeReturn put_in(GstPad*, GstPadProbeInfo*, gpointer data) {

@@ -2,14 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 // spidar-feel with players that are separate programs, and an SH4 board on an emulated USB.
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <map>
-#include <sstream>
+#include <memory>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include <gst/gst.h>
@@ -18,6 +16,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
 #include "tests/support/child_process.h"
+#include "tests/support/felt_ticks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
@@ -43,43 +42,6 @@ Outcome run(const std::string& command) {
   const int status = pclose(pipe);
   if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
   return outcome;
-}
-
-/// The columns of a haptic trace that are evaluated here.
-struct Tick {
-  int64_t monotonic_ns = 0;
-  double force_N = 0;
-  bool playing = false;
-};
-
-std::vector<Tick> read_trace(const std::string& path) {
-  std::ifstream file(path);
-  std::string line, field;
-  std::map<std::string, size_t> column;
-  std::getline(file, line);
-  std::istringstream names(line);
-  while (std::getline(names, field, ',')) column.emplace(field, column.size());
-  std::vector<Tick> ticks;
-  while (std::getline(file, line)) {
-    std::vector<std::string> fields;
-    std::istringstream row(line);
-    while (std::getline(row, field, ',')) fields.push_back(field);
-    if (fields.size() < column.size()) break;  // the last one, of a process that was killed
-    const auto number = [&](const std::string& name) { return std::stod(fields[column.at(name)]); };
-    Tick tick;
-    tick.monotonic_ns = std::stoll(fields[column.at("monotonic_ns")]);
-    tick.force_N = std::hypot(number("commanded_force_x_N"), number("commanded_force_y_N"),
-                              number("commanded_force_z_N"));
-    tick.playing = number("playing") != 0;
-    ticks.push_back(tick);
-  }
-  return ticks;
-}
-
-double largest_N(const std::vector<Tick>& ticks) {
-  double largest = 0;
-  for (const Tick& tick : ticks) largest = std::max(largest, tick.force_N);
-  return largest;
 }
 
 class Feel : public testing::Test {
