@@ -112,8 +112,8 @@ static GstState state_of(GstSpidarFeelBin* self) {
   return state;
 }
 
-/// Like gst_element_sync_state_with_parent(), but repeats when the application has changed the state
-/// of the bin meanwhile. Otherwise the element could return to a state that the bin has left.
+/// Like gst_element_sync_state_with_parent(), but repeats when the application has changed the
+/// state of the bin meanwhile. Otherwise the element could return to a state that the bin has left.
 static void follow_state(GstSpidarFeelBin* self, GstElement* element) {
   GstState state;
   do {
