@@ -103,12 +103,17 @@ class DelayRun {
     }
     result_.largest_N = std::max(result_.largest_N, record_.commanded.force_N.norm());
     if (!loop_->lost()) return true;
-    return fail("the device does not answer any more; check cable and power");
+    return fault("the device does not answer any more; check cable and power");
   }
 
   bool fail(const std::string& trouble) {
     result_.trouble = trouble;
     return false;
+  }
+
+  bool fault(const std::string& trouble) {
+    result_.fault = true;
+    return fail(trouble);
   }
 
   /// Until the tensions are at rest and the pose is known.
@@ -119,8 +124,8 @@ class DelayRun {
       const LoopSnapshot now = loop_->snapshot();
       if (record_.device == DeviceState::kRunning && now.pose_trouble == PoseTrouble::kNone) break;
       if (1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns) > kOpening_s)
-        return fail(std::string("the pose of the grip is not known: ") +
-                    to_string(now.pose_trouble));
+        return fault(std::string("the pose of the grip is not known: ") +
+                     to_string(now.pose_trouble));
     }
     start_m_ = record_.pose.position_m;
     begin_ns_ = record_.monotonic_ns;
@@ -189,11 +194,15 @@ class DelayRun {
   /// Stops before anything goes far.
   bool is_well() {
     const LoopSnapshot now = loop_->snapshot();
+    if (now.pose_trouble == PoseTrouble::kFrozen)
+      return fail(
+          "no encoder counted although the force changed: the grip is held too firmly, or clamped; "
+          "hold it loosely, so that it can move");
     if (now.pose_trouble != PoseTrouble::kNone)
-      return fail(std::string("the pose of the grip was lost: ") + to_string(now.pose_trouble));
+      return fault(std::string("the pose of the grip was lost: ") + to_string(now.pose_trouble));
     if (record_.faulty_string >= 0)
-      return fail("the length of string " + std::to_string(record_.faulty_string) +
-                  " does not fit the others: it is slack or broken, or its encoder is dead");
+      return fault("the length of string " + std::to_string(record_.faulty_string) +
+                   " does not fit the others: it is slack or broken, or its encoder is dead");
     const double moved_m = (record_.pose.position_m - start_m_).norm();
     result_.moved_m = std::max(result_.moved_m, moved_m);
     if (moved_m <= kFurthest_m) return true;

@@ -38,6 +38,7 @@ struct DelayTestSettings {
 struct DelayTest {
   bool complete = true;  ///< it was not interrupted
   std::string trouble;   ///< why it was ended or has no number; a sentence, or empty
+  bool fault = false;    ///< of the device: that trouble is more than a number that is missing
   std::optional<LagFit> fit;
   int periods = 0;       ///< that were used
   double moved_m = 0;    ///< furthest from where the grip was at the beginning

@@ -110,6 +110,7 @@ bool Conformance::link_conforms() const noexcept {
 }
 
 bool Conformance::conforms() const noexcept {
+  if (delay && delay->fault) return false;
   const bool lag_is_stated =
       !delay || !delay->measured() ||
       judge_lag(profile, *delay->fit, late_ticks()).stated != StatedLag::kTooSmall;

@@ -60,6 +60,7 @@ void print_delay(std::ostream& out, const Profile& profile, const DelayTest& tes
 }
 
 std::string delay_summary(const Profile& profile, const DelayTest& test, int late_ticks) {
+  if (test.fault) return "does not conform: there was a fault while it was measured";
   if (!test.measured()) return "not measured";
   if (judge_lag(profile, *test.fit, late_ticks).stated != StatedLag::kTooSmall) return "conforms";
   return text("does not conform: drive_lag_s = %g of the profile is too small",

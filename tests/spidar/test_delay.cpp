@@ -158,7 +158,9 @@ TEST(Delay, GivesNoNumberWhenTheGripCannotMove) {
     const DelayTest test = measure("sim", profile, clamped, 1);
     EXPECT_FALSE(test.measured());
     EXPECT_TRUE(test.complete);
-    EXPECT_FALSE(test.trouble.empty());
+    EXPECT_FALSE(test.fault);
+    EXPECT_NE(test.trouble.find("hold it loosely, so that it can move"), std::string::npos)
+        << test.trouble;
   }
 }
 
@@ -227,6 +229,7 @@ TEST(Delay, StopsAtAnyFault) {
     EXPECT_NE(test.trouble.find(fault.says), std::string::npos) << test.trouble;
     EXPECT_LT(watched.time.now_ns, 4000 * kTick_ns);
     EXPECT_EQ(watched.sim.felt().tension_N.norm(), 0);
+    EXPECT_EQ(test.fault, std::string(fault.says) != "further than 20 mm");  // the hand's own
   }
 }
 
