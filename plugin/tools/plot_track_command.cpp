@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
+#include <unistd.h>
 
+#include "plugin/tools/film_stills.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "spidar/tools/command_line.h"
@@ -12,22 +18,29 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidartrack plot TRACK PNG
+constexpr const char* kHelp = R"(usage: spidartrack plot TRACK PNG [--film FILM]
 
 Draws force and torque over time. Needs gnuplot.
+
+  --film FILM  draws stills of the film above, each over the moment it shows, which a dotted line marks
 )";
 
-constexpr const char* kLayout = R"(set terminal pngcairo size 1400,700 font 'sans,12'
-set encoding utf8
+constexpr const char* kStyle = R"(set encoding utf8
 set style data lines
 set grid linecolor rgb '#d8d8d8' linetype 1 linewidth 0.5
 set linetype 1 linecolor rgb '#0b5fa5' linewidth 1.5
 set linetype 2 linecolor rgb '#d9541e' linewidth 1.5
 set linetype 3 linecolor rgb '#009e73' linewidth 1.5
-set multiplot layout 2,1
-set ylabel 'force, N'
-plot '-' using 1:2 title 'x, right', '' using 1:3 title 'y, up', '' using 1:4 title 'z, to the viewer'
+set lmargin at screen 0.06
+set rmargin at screen 0.985
+set key horizontal
+set offsets 0, 0, graph 0.1, 0
 )";
+
+/// Sizes in pixels.
+constexpr int kWidth = 1400, kCurves = 700, kGap = 14;
+constexpr int kStills = 8;
+constexpr int kStillWidth = 160;  // one of eight over the width of the curves
 
 /// The picture cannot show more points than this.
 constexpr size_t kMostPoints = 20000;
@@ -45,12 +58,111 @@ void send(FILE* gnuplot, const std::vector<TrackSample>& samples, bool torque) {
   }
 }
 
+/// Puts a plot between two heights of a picture, in pixels from its top.
+void place(FILE* gnuplot, int top, int bottom, int height) {
+  std::fprintf(gnuplot, "set tmargin at screen %g\nset bmargin at screen %g\n",
+               1 - static_cast<double>(top) / height, 1 - static_cast<double>(bottom) / height);
+}
+
+/// The stills side by side, from a file with all of them, and a dotted line through the middle of
+/// each for the curves that follow.
+void draw_stills(FILE* gnuplot, const FilmStills& stills, const std::string& file,
+                 double length_s) {
+  const double part_s = length_s / kStills;
+  const double pixel_s = 0.98 * part_s / stills.width;  // with a gap
+  std::fputs("set yrange [0:1]\nunset border\nunset tics\nplot ", gnuplot);
+  for (int i = 0; i < kStills; ++i) {
+    std::fprintf(gnuplot,
+                 "%s'%s' binary skip=%d array=(%d,%d) format='%%uchar%%uchar%%uchar' flipy "
+                 "origin=(%g,%g) dx=%g dy=%g with rgbimage notitle",
+                 i == 0 ? "" : ", ", file.c_str(), i * 3 * stills.width * stills.height,
+                 stills.width, stills.height, i * part_s + 0.01 * part_s + pixel_s / 2,
+                 0.5 / stills.height, pixel_s, 1.0 / stills.height);
+  }
+  std::fputs("\nset yrange [*:*]\nset border\nset tics\n", gnuplot);
+  for (int i = 0; i < kStills; ++i) {
+    const double t = (i + 0.5) * part_s;
+    std::fprintf(gnuplot,
+                 "set arrow from first %g, graph 0 to first %g, graph 1 nohead back linecolor rgb "
+                 "'#707070' dashtype 3\n",
+                 t, t);
+  }
+}
+
+/// A file of all stills, gone with the object.
+class StillsFile {
+ public:
+  explicit StillsFile(const FilmStills& stills) {
+    std::string name = (std::filesystem::temp_directory_path() / "spidartrack-XXXXXX").string();
+    const int file = mkstemp(name.data());
+    if (file < 0) throw std::runtime_error(name + ": cannot be made");
+    close(file);
+    path_ = name;
+    std::ofstream out(path_, std::ios::binary);
+    for (const std::vector<uint8_t>& rgb : stills.rgb) {
+      out.write(reinterpret_cast<const char*>(rgb.data()),
+                static_cast<std::streamsize>(rgb.size()));
+    }
+    out.close();
+    if (!out) {
+      unlink(path_.c_str());
+      throw std::runtime_error(path_ + ": cannot be written");
+    }
+  }
+  ~StillsFile() { unlink(path_.c_str()); }
+  StillsFile(const StillsFile&) = delete;
+  StillsFile& operator=(const StillsFile&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+void draw(const std::vector<TrackSample>& samples, const FilmStills& stills,
+          const std::string& png) {
+  std::optional<StillsFile> file;
+  if (!stills.rgb.empty()) file.emplace(stills);
+  const double length_s = static_cast<double>(samples.size()) / kTrackRate_Hz;
+  // As high as its width between the margins makes a still.
+  const int above = stills.rgb.empty() ? 0 : kStillWidth * stills.height / stills.width + kGap;
+  const int height = kCurves + above;
+  FILE* gnuplot = popen("gnuplot", "w");
+  if (!gnuplot) throw std::runtime_error("gnuplot cannot be started");
+  std::fprintf(gnuplot,
+               "set terminal pngcairo size %d,%d font 'sans,12'\nset output '%s'\n%sset xrange "
+               "[0:%g]\nset multiplot\n",
+               kWidth, height, png.c_str(), kStyle, length_s);
+  if (file) {
+    place(gnuplot, kGap, above, height);
+    draw_stills(gnuplot, stills, file->path(), length_s);
+  }
+  const int middle = above + kCurves / 2;
+  place(gnuplot, above + kGap, middle - 2 * kGap, height);
+  std::fputs(
+      "set ylabel 'force, N'\n"
+      "plot '-' using 1:2 title 'x, right', '' using 1:3 title 'y, up', '' using 1:4 title 'z, to "
+      "the viewer'\n",
+      gnuplot);
+  send(gnuplot, samples, false);
+  place(gnuplot, middle + kGap, height - 4 * kGap, height);
+  std::fputs(
+      "set ylabel 'torque, N m'\nset xlabel 'time, s'\n"
+      "plot '-' using 1:2 title 'about x', '' using 1:3 title 'about y', '' using 1:4 title 'about "
+      "z'\n",
+      gnuplot);
+  send(gnuplot, samples, true);
+  if (pclose(gnuplot) != 0) throw std::runtime_error("gnuplot is missing, or cannot draw this");
+}
+
 }  // namespace
 
 int plot_track_command(int argc, char** argv) {
   bool help = false;
+  std::string film;
   const std::vector<std::string> operands =
-      parse_options(argc, argv, {{"help", false, [&](const std::string&) { help = true; }}});
+      parse_options(argc, argv,
+                    {{"film", true, [&](const std::string& text) { film = text; }},
+                     {"help", false, [&](const std::string&) { help = true; }}});
   if (help) {
     std::cout << kHelp;
     return kDone;
@@ -60,17 +172,13 @@ int plot_track_command(int argc, char** argv) {
     throw UsageError(operands[1] + ": gnuplot takes no name with an apostrophe");
   }
   const std::vector<TrackSample> samples = load_track(operands[0]);
-  FILE* gnuplot = popen("gnuplot", "w");
-  if (!gnuplot) throw std::runtime_error("gnuplot cannot be started");
-  std::fprintf(gnuplot, "set output '%s'\n%s", operands[1].c_str(), kLayout);
-  send(gnuplot, samples, false);
-  std::fputs(
-      "set ylabel 'torque, N m'\nset xlabel 'time, s'\n"
-      "plot '-' using 1:2 title 'about x', '' using 1:3 title 'about y', '' using 1:4 title 'about "
-      "z'\n",
-      gnuplot);
-  send(gnuplot, samples, true);
-  if (pclose(gnuplot) != 0) throw std::runtime_error("gnuplot is missing, or cannot draw this");
+  if (samples.empty()) throw std::runtime_error(operands[0] + ": has no samples to draw");
+  FilmStills stills;
+  if (!film.empty()) {
+    stills = film_stills(film, static_cast<int64_t>(samples.size()) * kTrackPeriod_ns, kStills,
+                         kStillWidth);
+  }
+  draw(samples, stills, operands[1]);
   return kDone;
 }
 

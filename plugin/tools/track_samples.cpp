@@ -135,20 +135,39 @@ void run_pipeline(const std::string& line,
     throw std::runtime_error(text);
   }
   if (prepare) prepare(pipeline);
-  GstBus* bus = gst_element_get_bus(pipeline);
   gst_element_set_state(pipeline, GST_STATE_PLAYING);
-  GstMessage* message = gst_bus_timed_pop_filtered(
-      bus, GST_CLOCK_TIME_NONE, static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR));
-  gst_element_set_state(pipeline, GST_STATE_NULL);
   std::string problem;
-  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
+  try {
+    await_message(pipeline, GST_MESSAGE_EOS);
+  } catch (const std::runtime_error& e) {
+    problem = e.what();
+  }
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(pipeline);
+  if (!problem.empty()) throw std::runtime_error(problem);
+}
+
+void await_message(GstElement* pipeline, GstMessageType awaited, GstClockTime limit) {
+  constexpr GstClockTime kLook = 100 * GST_MSECOND;  // for a state change that failed in silence
+  const auto types = static_cast<GstMessageType>(awaited | GST_MESSAGE_ERROR);
+  GstBus* bus = gst_element_get_bus(pipeline);
+  GstMessage* message = nullptr;
+  GstClockTime waited = 0;
+  for (bool failed = false; !message && !failed && waited < limit; waited += kLook) {
+    failed = gst_element_get_state(pipeline, nullptr, nullptr, 0) == GST_STATE_CHANGE_FAILURE;
+    message = gst_bus_timed_pop_filtered(bus, kLook, types);
+  }
+  gst_object_unref(bus);
+  std::string problem;
+  if (!message) {
+    problem = "it cannot be played, and GStreamer does not say why: it may be damaged or cut off";
+  } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
+    GError* error = nullptr;
     gst_message_parse_error(message, &error, nullptr);
     problem = error->message;
     g_error_free(error);
   }
-  gst_message_unref(message);
-  gst_object_unref(bus);
-  gst_object_unref(pipeline);
+  if (message) gst_message_unref(message);
   if (!problem.empty()) throw std::runtime_error(problem);
 }
 

@@ -45,6 +45,12 @@ std::string encoder_of(const std::string& path);
 void run_pipeline(const std::string& line,
                   const std::function<void(GstElement* pipeline)>& prepare = {});
 
+/// Returns when `awaited` was posted. Throws std::runtime_error with what went wrong: an error that
+/// was posted, a change of state that failed, or nothing for as long as `limit`: decodebin keeps an
+/// error of a demuxer to itself when it comes at the wrong moment.
+void await_message(GstElement* pipeline, GstMessageType awaited,
+                   GstClockTime limit = GST_CLOCK_TIME_NONE);
+
 bool ends_with(const std::string& text, const std::string& end);
 /// Quotes a location for a launch line.
 std::string quoted(const std::string& path);

@@ -158,6 +158,7 @@ void print_two_films(const std::vector<std::string>& films) {
 
 int main(int argc, char** argv) {
   gst_init(&argc, &argv);
+  setvbuf(stdout, nullptr, _IOLBF, 0);
   try {
     const std::string missing = missing_for_decoding();
     if (!missing.empty()) {

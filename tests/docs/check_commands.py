@@ -36,6 +36,7 @@ TRACKS = {  # of these films, and what writes them
     "film.haptic.wav": "wavenc",
 }
 OPTIONAL = {"ffmpeg": "ffmpeg", "parallel": "GNU parallel (package parallel)"}  # programs that lines need, and who has them
+ELEMENTS = ("sdpdemux", "srtsink", "srtsrc")  # of gstreamer1.0-plugins-bad, as optional
 WORKERS = 2
 LONGEST_S = 50  # of a line that ends; the test has a limit of its own
 ENDLESS_S = 2
@@ -108,7 +109,10 @@ def not_run_of(comments, command):
 
 
 def missing_program(command):
-    """Why a line that needs an optional program is skipped; empty when it is there."""
+    """Why a line that needs an optional program or element is skipped; empty when it is there."""
+    for element in ELEMENTS:
+        if f" {element} " in command and subprocess.run(["gst-inspect-1.0", "--exists", element]).returncode:
+            return f"skipped: the element {element} is not installed (package gstreamer1.0-plugins-bad)"
     for program, owner in OPTIONAL.items():
         if re.search(rf"(^|[|;&] *){program} ", command) and not shutil.which(program):
             return f"skipped: {owner} is not installed"

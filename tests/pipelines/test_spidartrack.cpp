@@ -218,6 +218,38 @@ TEST_F(Spidartrack, AFunscriptHasMillisecondsAndPositions) {
   EXPECT_EQ(last, 1999);
 }
 
+TEST_F(Spidartrack, APlotShowsStillsOfItsFilmAndOfNoOther) {
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "gnuplot is not installed";
+  }
+  make_film("film.avi");  // two seconds, 4:3
+  save_track(path("a.wav"), samples());
+  const auto height = [](const std::string& png) {
+    std::ifstream file(png, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_EQ(bytes.compare(1, 3, "PNG"), 0);
+    return bytes.size() < 24 ? 0 : GST_READ_UINT32_BE(bytes.data() + 20);
+  };
+  ASSERT_EQ(run("plot " + path("a.wav") + " " + path("plain.png")).status, 0);
+  const Result plotted =
+      run("plot " + path("a.wav") + " " + path("stills.png") + " --film " + path("film.avi"));
+  ASSERT_EQ(plotted.status, 0) << plotted.text;
+  // The stills are 160 pixels wide, and a gap of 14 is below them.
+  EXPECT_EQ(height(path("stills.png")), height(path("plain.png")) + 120 + 14);
+
+  std::vector<TrackSample> longer = samples();
+  longer.resize(3000);
+  save_track(path("longer.wav"), longer);
+  const Result other =
+      run("plot " + path("longer.wav") + " " + path("no.png") + " --film " + path("film.avi"));
+  EXPECT_EQ(other.status, 1);
+  expect_contains(other.text, "another film: the track lasts 3.000 s, the film 2.000 s");
+  const Result none =
+      run("plot " + path("a.wav") + " " + path("no.png") + " --film " + path("none.avi"));
+  EXPECT_EQ(none.status, 1);
+  expect_contains(none.text, "none.avi");
+}
+
 TEST_F(Spidartrack, CheckFindsWhatWouldNotBeFeltAsItIs) {
   save_track(path("good.wav"), samples());
   EXPECT_EQ(run("check " + path("good.wav")).status, 0);

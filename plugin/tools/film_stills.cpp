@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/film_stills.h"
+
+#include <memory>
+#include <stdexcept>
+
+#include "plugin/tools/track_samples.h"
+#include "plugin/track/sidecar.h"
+
+namespace spidar {
+namespace {
+
+/// Until a picture is there: of a long film with few key frames much is decoded first.
+constexpr GstClockTime kLongest = 30 * GST_SECOND;
+constexpr int64_t kFrame_ns = 40'000'000;  // where the film does not say how long one lasts
+
+/// A film in PAUSED, whose sink has a picture.
+class StillFilm {
+ public:
+  StillFilm(const std::string& film, int width) : film_(film) {
+    const std::string line =
+        "filesrc location=" + quoted(film) +
+        " ! decodebin ! video/x-raw ! videoconvert ! videoscale add-borders=false ! "
+        "video/x-raw,format=RGB,pixel-aspect-ratio=1/1,width=" +
+        std::to_string(width) + " ! fakesink name=sink sync=false";
+    GError* error = nullptr;
+    pipeline_ = gst_parse_launch(line.c_str(), &error);
+    if (error) {
+      const std::string text = error->message;
+      g_error_free(error);
+      if (pipeline_) gst_object_unref(pipeline_);
+      throw std::runtime_error(text);
+    }
+    sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
+    gst_element_set_state(pipeline_, GST_STATE_PAUSED);
+  }
+  ~StillFilm() {
+    gst_element_set_state(pipeline_, GST_STATE_NULL);
+    gst_object_unref(sink_);
+    gst_object_unref(pipeline_);
+  }
+  StillFilm(const StillFilm&) = delete;
+  StillFilm& operator=(const StillFilm&) = delete;
+
+  /// Returns when there is a picture.
+  void await() const {
+    try {
+      await_message(pipeline_, GST_MESSAGE_ASYNC_DONE, kLongest);
+    } catch (const std::runtime_error& e) {
+      throw std::runtime_error(film_ + ": " + e.what());
+    }
+  }
+  void refuse_other(int64_t track_ns) const {
+    GstPad* pad = gst_element_get_static_pad(sink_, "sink");
+    const std::string other = other_film(pad, track_ns, kFrame_ns);
+    gst_object_unref(pad);
+    if (!other.empty()) throw std::runtime_error(film_ + " is another film: " + other);
+  }
+  void seek(int64_t time_ns) const {
+    if (!gst_element_seek_simple(
+            pipeline_, GST_FORMAT_TIME,
+            static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE), time_ns)) {
+      throw std::runtime_error(film_ + ": cannot be searched, as is needed for its stills");
+    }
+    await();
+  }
+  /// Adds the picture that is there.
+  void take(FilmStills& stills) const {
+    GstSample* taken = nullptr;
+    g_object_get(sink_, "last-sample", &taken, nullptr);
+    const std::unique_ptr<GstSample, decltype(&gst_sample_unref)> sample(taken, gst_sample_unref);
+    GstMapInfo map;
+    if (!sample || !gst_buffer_map(gst_sample_get_buffer(sample.get()), &map, GST_MAP_READ)) {
+      throw std::runtime_error(film_ + ": has no picture at a time that its track has");
+    }
+    const GstStructure* caps = gst_caps_get_structure(gst_sample_get_caps(sample.get()), 0);
+    gst_structure_get_int(caps, "width", &stills.width);
+    gst_structure_get_int(caps, "height", &stills.height);
+    stills.rgb.emplace_back(map.data, map.data + map.size);
+    gst_buffer_unmap(gst_sample_get_buffer(sample.get()), &map);
+  }
+
+ private:
+  const std::string film_;
+  GstElement* pipeline_ = nullptr;
+  GstElement* sink_ = nullptr;
+};
+
+}  // namespace
+
+FilmStills film_stills(const std::string& film, int64_t track_ns, int count, int width) {
+  FilmStills stills;
+  const StillFilm still(film, width);
+  still.await();
+  still.refuse_other(track_ns);
+  for (int i = 0; i < count; ++i) {
+    still.seek(track_ns / count * i + track_ns / count / 2);
+    still.take(stills);
+  }
+  return stills;
+}
+
+}  // namespace spidar
