@@ -26,6 +26,8 @@ constexpr float kReturnByResidual_px = 0.03f;
 /// of them: the best of these is taken if its residual is below that share of the point's, or,
 /// where the point is not found at all, below the last.
 constexpr float kOneThing = 0.15f;
+/// The same where points are refined in the frame: a shifted one only is from the next frame on.
+constexpr float kOneThingIfFiner = 0.3f;
 constexpr float kClearlyOneThing = 0.8f;
 constexpr float kOneThingBeside = 0.35f;
 /// Half a window: of four of them each has a quarter of the point's window.
@@ -228,7 +230,8 @@ void PointFollower::follow(const GrayPyramid& before, const GrayPyramid& now,
     if (!search.find_expected(point)) continue;
     ++found;
     const float residual = point.match.residual;
-    if (residual > kOneThing) search.find_shifted(point, nullptr, kClearlyOneThing * residual);
+    if (residual > (settings.has_finer ? kOneThingIfFiner : kOneThing))
+      search.find_shifted(point, nullptr, kClearlyOneThing * residual);
   }
   if (found == points.size()) return;
 
