@@ -176,6 +176,7 @@ bool PatchTracker::Impl::follow(const ImageView& frame) {
   settings.least_strength = chooser.least_kept_strength(choice);
   settings.gain = contrast_gain(before, now);
   settings.refines = budget.refines;
+  settings.has_finer = uses_fine();
   follower.follow(before, now, settings, points);
   settle(frame, settings.gain);
   report();

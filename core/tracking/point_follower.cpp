@@ -28,6 +28,8 @@ constexpr float kReturnByResidual_px = 0.03f;
 /// residual is below kClearlyOneThing of the point's own or, where the point is not found at all,
 /// below kOneThingBeside.
 constexpr float kOneThing = 0.15f;
+/// The same where points are refined in the frame: a shifted one only is from the next frame on.
+constexpr float kOneThingIfFiner = 0.3f;
 constexpr float kClearlyOneThing = 0.8f;
 constexpr float kOneThingBeside = 0.35f;
 /// Half a window: each of the four windows beside the point shares a quarter of the point's own.
@@ -234,7 +236,8 @@ void PointFollower::follow(const GrayPyramid& before, const GrayPyramid& now,
     if (!search.find_expected(point)) continue;
     ++found;
     const float residual = point.match.residual;
-    if (residual > kOneThing) search.find_shifted(point, nullptr, kClearlyOneThing * residual);
+    if (residual > (settings.has_finer ? kOneThingIfFiner : kOneThing))
+      search.find_shifted(point, nullptr, kClearlyOneThing * residual);
   }
   if (found == points.size()) return;
 

@@ -21,6 +21,7 @@ class PointFollower {
     float least_strength = 1;  ///< a point that has become weaker is lost, (grey / px)²
     float gain = 1;            ///< of the light, see MatchSettings
     bool refines = true;       ///< with larger windows
+    bool has_finer = false;    ///< the caller refines what is found, unless it is shifted
   };
 
   /// `before` and `now` are of one size.
