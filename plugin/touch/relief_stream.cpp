@@ -21,20 +21,6 @@ constexpr double kSliding = 0.8;
 /// sides: two let nothing slip through that the relief can show, and cost does not grow with size.
 constexpr int kReadPerCell = 2;
 
-/// How much of the frame's width and height is picture: the relief covers that part.
-Eigen::Vector2d shown_share(const TouchProperties& properties) {
-  if (properties.kind != TouchKind::kDepth) return {1, 1};
-  switch (properties.depth) {
-    case DepthSource::kRight:
-      return {0.5, 1};
-    case DepthSource::kBelow:
-      return {1, 0.5};
-    case DepthSource::kMeta:
-      break;
-  }
-  return {1, 1};
-}
-
 int step_of(int samples, int cells) {
   return std::max(1, samples / (kReadPerCell * cells));
 }
@@ -129,7 +115,7 @@ bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown
     const bool follows = depth_ns_ != INT64_MIN && shown_ns > depth_ns_;
     if (!follows) depth_.reset();
     const double dt_s = follows ? 1e-9 * static_cast<double>(shown_ns - depth_ns_) : 0;
-    const std::optional<DepthLayout> layout = packed_layout(properties.depth);
+    const std::optional<DepthLayout> layout = properties.packed();
     const bool has_depth = layout ? depth_.read(depth_half(luma, *layout), {true}, dt_s)
                                   : read_frame_depth(buffer, dt_s, depth_);
     if (!has_depth || !builder_.from_levels(depth_.levels(), settings, frame.relief)) return false;
@@ -168,11 +154,9 @@ bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnal
   frame->time_ns = shown_ns;
   frame->has_surface = true;
   frame->contact = contact_settings(properties, profile_);
-  const Eigen::Vector2d shown = shown_share(properties);
-  const Eigen::Vector2d moved_px = touched_displacement_px(analysis, finger.cwiseProduct(shown));
-  frame->displacement_m = {
-      moved_px.x() / (shown.x() * analysis.width) * frame->relief.width_m(),
-      -moved_px.y() / (shown.y() * analysis.height) * frame->relief.height_m()};
+  const Eigen::Vector2d moved_px = touched_displacement_px(analysis, finger);
+  frame->displacement_m = {moved_px.x() / analysis.width * frame->relief.width_m(),
+                           -moved_px.y() / analysis.height * frame->relief.height_m()};
   frame->follows = touched_ && !left_out_ && generation == generation_ && !analysis.restarted;
   mailbox_->publish();
   touched_ = true;
