@@ -54,8 +54,8 @@ TEST(TouchStrings, NoContactAddsAnyToAFilm) {
   StringTouch touch = touch_of(500);
   touch.film_N = 1;
   EXPECT_LE(explore_all(touch).worst_J, kBound_J);
-  // A film that takes all of max-force. It pushes a light hand 30 mm aside, out of the workspace,
-  // where the strings cannot give what is wanted.
+  // A film that takes all of max-force. In a light hand a few contacts beside it do give some out
+  // (docs/touch.md).
   touch.film_N = 3;
   EXPECT_LE(explore_all(touch, {kFirmHand}).worst_J, kBound_J);
 }
