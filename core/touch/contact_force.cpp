@@ -88,7 +88,8 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
 }
 
 /// Where little energy is left, the bound follows the noise of the velocity. So a force that was
-/// bounded comes back more slowly than it goes.
+/// bounded comes back no faster than the path lets it. More slowly would be calmer, but a force
+/// that is too low takes too little energy on the way in, and stays low.
 double ContactForce::bounded_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
                                    double dt_s) noexcept {
   const double size_N = wanted_N.norm();
@@ -96,7 +97,7 @@ double ContactForce::bounded_share(const Eigen::Vector3d& wanted_N, const ForceP
     bounded_N_ = std::numeric_limits<double>::infinity();
     return 1;
   }
-  const double back_N = bounded_N_ + kComesBack * path.max_slew_N_s * dt_s;
+  const double back_N = bounded_N_ + path.max_slew_N_s * dt_s;
   const double most_N = std::min(back_N, budget_.most_N(wanted_N / size_N, path, dt_s));
   bounded_N_ = most_N < size_N ? most_N : std::numeric_limits<double>::infinity();
   return std::min(1.0, most_N / size_N);

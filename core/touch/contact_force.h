@@ -56,9 +56,6 @@ class SPIDAR_API ContactForce {
   static constexpr double kMostTextureSlope = 0.15;
   static constexpr double kMostTexture_N = 1;
 
-  /// A force that was bounded rises at this share of the slew limit.
-  static constexpr double kComesBack = 0.5;
-
   /// Force on the grip, device frame, `dt_s` > 0 after the last tick. Zero where it does not touch,
   /// and never towards the inside. `texture`: heights whose slope is felt, or null. Settings have
   /// to be valid. Neither allocates nor throws.
