@@ -15,6 +15,7 @@
 
 #include <gst/gst.h>
 
+#include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
 #include "examples/gnuplot.h"
 #include "examples/track/luma_reader.h"
@@ -28,8 +29,9 @@ using namespace spidar;
 namespace {
 
 constexpr const char* kUsage =
-    "usage: touch IMAGE [--output FOLDER]\n"
+    "usage: touch IMAGE [--depth] [--output FOLDER]\n"
     "  IMAGE            a picture or a film, of which the first frame is touched\n"
+    "  --depth          IMAGE is an image of depth of 8 bits: bright is near, black is not known\n"
     "  --output FOLDER  where touch.png, touch-relief.csv and touch-ticks.csv go; else the current "
     "folder\n";
 
@@ -39,13 +41,20 @@ constexpr int kStroke_ticks = 4000;
 constexpr double kPress_m = 0.008;
 constexpr double kStroke = 0.8;  ///< of the picture's width
 
-/// The picture's relief, as touch=luma makes it.
-void publish(const ImageView& picture, TouchMailbox& mailbox) {
+/// The picture's relief, as touch=luma makes it, or that of its depth, as touch=depth does.
+void publish(const ImageView& picture, bool is_depth, TouchMailbox& mailbox) {
   TouchFrame& frame = *mailbox.begin(mailbox.generation());
   ReliefSettings settings;
   settings.floor_z_m = -0.5 * settings.relief_m;
   ReliefBuilder builder;
-  if (!builder.from_brightness(picture, settings, frame.relief)) {
+  if (is_depth) {
+    DepthPicture depth;
+    const DepthView view{picture.data, picture.width, picture.height, picture.stride_bytes};
+    if (!depth.read(view, {true}, 0) ||
+        !builder.from_levels(depth.levels(), settings, frame.relief)) {
+      throw std::runtime_error("the picture is black: it has no depth");
+    }
+  } else if (!builder.from_brightness(picture, settings, frame.relief)) {
     throw std::runtime_error("the picture has no pixels");
   }
   frame.has_surface = true;
@@ -118,7 +127,7 @@ Felt stroke(TouchMailbox& mailbox, const Profile& profile, double half_width_m,
   return felt;
 }
 
-void touch(const std::string& image, const fs::path& folder) {
+void touch(const std::string& image, bool is_depth, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error("--output " + folder.string() + ": " + error.message());
@@ -129,7 +138,7 @@ void touch(const std::string& image, const fs::path& folder) {
   const Profile profile = load_profile(kDefaultProfile);
   const Eigen::Vector2d half_m = GripPointer(profile.geometry).half_size_m();
   TouchMailbox mailbox(2 * half_m.x(), 2 * half_m.y(), TouchMailbox::kLeastSlots);
-  publish(frame.luma, mailbox);
+  publish(frame.luma, is_depth, mailbox);
   const fs::path relief = folder / "touch-relief.csv";
   const fs::path ticks = folder / "touch-ticks.csv";
   const fs::path png = folder / "touch.png";
@@ -152,6 +161,7 @@ void touch(const std::string& image, const fs::path& folder) {
 
 int main(int argc, char** argv) {
   std::string image;
+  bool is_depth = false;
   fs::path folder = ".";
   for (int k = 1; k < argc; ++k) {
     const std::string argument = argv[k];
@@ -159,7 +169,9 @@ int main(int argc, char** argv) {
       std::fputs(kUsage, stdout);
       return 0;
     }
-    if (argument == "--output" && k + 1 < argc) {
+    if (argument == "--depth") {
+      is_depth = true;
+    } else if (argument == "--output" && k + 1 < argc) {
       folder = argv[++k];
     } else if (image.empty() && argument[0] != '-') {
       image = argument;
@@ -175,7 +187,7 @@ int main(int argc, char** argv) {
   }
   gst_init(nullptr, nullptr);
   try {
-    touch(image, folder);
+    touch(image, is_depth, folder);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "touch: %s\n", error.what());
     return 1;

@@ -5,6 +5,7 @@
 # a picture of relief, path and force. First installs missing packages (Debian) and builds.
 #   examples/touch.sh IMAGE
 #   examples/touch.sh IMAGE --output FOLDER
+#   examples/touch.sh DEPTH --depth           # an image of depth: bright is near, black is unknown
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source-path=SCRIPTDIR source=../tests/install.sh

@@ -54,6 +54,7 @@ void validate(const ContactSettings& s) {
   require(s.max_force_N > 0, "max_force_N", "above 0", s.max_force_N);
   require(std::isfinite(s.max_slew_N_s) && s.max_slew_N_s > 0, "max_slew_N_s", "finite and above 0",
           s.max_slew_N_s);
+  require(s.beside_N.allFinite(), "beside_N", "finite", s.beside_N.norm());
   require(std::isfinite(s.least_mass_kg) && s.least_mass_kg > 0, "least_mass_kg",
           "finite and above 0", s.least_mass_kg);
 }
@@ -81,12 +82,25 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
   if (!settings.bounds_energy || !(dt_s > 0)) return force_N;
   follow_energy(settings, way_m, grip_m);
   const ForcePath path = path_of(settings, dt_s);
-  const double size_N = force_N.norm();
-  if (size_N > 0) {
-    force_N *= std::min(1.0, budget_.most_N(force_N / size_N, path, dt_s) / size_N);
-  }
-  budget_.command(force_N, path, dt_s);
+  force_N *= bounded_share(force_N, path, dt_s);
+  budget_.command(force_N, settings.beside_N, path, dt_s);
   return force_N;
+}
+
+/// Where little energy is left, the bound follows the noise of the velocity. So a force that was
+/// bounded comes back no faster than the path lets it. More slowly would be calmer, but a force
+/// that is too low takes too little energy on the way in, and stays low.
+double ContactForce::bounded_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
+                                   double dt_s) noexcept {
+  const double size_N = wanted_N.norm();
+  if (!(size_N > 0)) {
+    bounded_N_ = std::numeric_limits<double>::infinity();
+    return 1;
+  }
+  const double back_N = bounded_N_ + path.max_slew_N_s * dt_s;
+  const double most_N = std::min(back_N, budget_.most_N(wanted_N / size_N, path, dt_s));
+  bounded_N_ = most_N < size_N ? most_N : std::numeric_limits<double>::infinity();
+  return std::min(1.0, most_N / size_N);
 }
 
 /// What a surface that moves puts into the spring may come out again: that is what it is for.
@@ -100,7 +114,10 @@ void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::V
   const double length_m = (proxy_.position_m() - grip_m).norm();
   const double force_N = std::min(settings.stiffness_N_m * length_m, settings.max_force_N);
   const double stored_J = force_N * (length_m - 0.5 * force_N / settings.stiffness_N_m);
-  const double put_in_J = length_m > 0 ? 0.5 * force_N / length_m * proxy_.stretched_m2() : 0;
+  double put_in_J = length_m > 0 ? 0.5 * force_N / length_m * proxy_.stretched_m2() : 0;
+  // A surface that gives way takes energy from the force that there is, which the bound may hold
+  // below that of the spring.
+  if (put_in_J < 0) put_in_J *= std::min(1.0, budget_.force_N().norm() / force_N);
   budget_.follow(way_m, velocity_m_s_, put_in_J, stored_J);
 }
 

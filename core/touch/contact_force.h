@@ -30,6 +30,8 @@ struct ContactSettings {
   /// these are right. Above 0; the force may be infinite.
   double max_force_N = std::numeric_limits<double>::infinity();
   double max_slew_N_s = 300;
+  /// Felt at the same time and not from the contact, as the film's; it shares those two limits.
+  Eigen::Vector3d beside_N = Eigen::Vector3d::Zero();
   /// Of the grip alone. A lighter one can get some energy out of a fast tap. Finite and above 0.
   double least_mass_kg = 0.05;
   bool bounds_energy = true;  ///< false, in measurements: without EnergyBudget
@@ -69,11 +71,14 @@ class SPIDAR_API ContactForce {
   void follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept;
   Eigen::Vector3d wanted_N(const HeightField* texture, const ContactSettings& settings,
                            const Eigen::Vector3d& grip_m) const noexcept;
+  double bounded_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
+                       double dt_s) noexcept;
   void follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
                      const Eigen::Vector3d& grip_m) noexcept;
 
   TouchProxy proxy_;
   EnergyBudget budget_;
+  double bounded_N_ = std::numeric_limits<double>::infinity();  ///< in the last tick, if it was
   bool started_ = false;
   Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();

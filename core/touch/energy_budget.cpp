@@ -37,16 +37,21 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
   return slew_N_s * (std::sqrt(dt_s * dt_s + 2 * impulse_Ns / slew_N_s) - dt_s);
 }
 
-void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const ForcePath& path,
-                           double dt_s) noexcept {
-  const Eigen::Vector3d change_N = bounded(wanted_N, path.max_force_N) - limited_N_;
-  limited_N_ += bounded(change_N, path.max_slew_N_s * dt_s);
+void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3d& beside_N,
+                           const ForcePath& path, double dt_s) noexcept {
+  const auto follow = [&](const Eigen::Vector3d& to_N, Eigen::Vector3d& limited_N) {
+    const Eigen::Vector3d change_N = bounded(to_N, path.max_force_N) - limited_N;
+    limited_N += bounded(change_N, path.max_slew_N_s * dt_s);
+  };
+  follow(wanted_N + beside_N, limited_N_);
+  follow(beside_N, beside_N_);
+  const Eigen::Vector3d own_N = limited_N_ - beside_N_;
   before_N_ = mean_N_;
   // What is held for a tick, through a first-order lag.
-  const Eigen::Vector3d behind_N = force_N_ - limited_N_;
+  const Eigen::Vector3d behind_N = force_N_ - own_N;
   const double fading = path.lag_s > 0 ? std::exp(-dt_s / path.lag_s) : 0;
-  mean_N_ = limited_N_ + behind_N * ((1 - fading) * path.lag_s / dt_s);
-  force_N_ = limited_N_ + behind_N * fading;
+  mean_N_ = own_N + behind_N * ((1 - fading) * path.lag_s / dt_s);
+  force_N_ = own_N + behind_N * fading;
 }
 
 }  // namespace spidar

@@ -43,18 +43,25 @@ class SPIDAR_API EnergyBudget {
   double most_N(const Eigen::Vector3d& direction, const ForcePath& path,
                 double dt_s) const noexcept;
 
-  /// The force of this tick, before the limits of the path.
-  void command(const Eigen::Vector3d& wanted_N, const ForcePath& path, double dt_s) noexcept;
+  /// The force of this tick, before the limits of the path. It shares them with `beside_N`, a force
+  /// that does not come from the contact: the contact's part of what is let through is what is
+  /// more than it would be without the contact.
+  void command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3d& beside_N,
+               const ForcePath& path, double dt_s) noexcept;
 
   /// Taken from the hand in this contact and not given back, as far as it is known.
   double left_J() const noexcept { return left_J_; }
+  /// On the grip, as far as it is known.
+  const Eigen::Vector3d& force_N() const noexcept { return force_N_; }
 
  private:
   static constexpr int kSlope = 3;  // ticks over which the acceleration is measured
 
   double left_J_ = 0;
   std::array<Eigen::Vector3d, kSlope + 1> velocity_m_s_ = zeros();  // the latest first
-  Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();             // by the path's limits
+  Eigen::Vector3d limited_N_ =
+      Eigen::Vector3d::Zero();                          // by the path's limits, with what is beside
+  Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();  // by the same limits, alone
   Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();   // on the grip, at the end of the last tick
   Eigen::Vector3d mean_N_ = Eigen::Vector3d::Zero();    // in the last tick, not yet measured
   Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();  // in the tick before

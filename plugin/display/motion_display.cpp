@@ -18,7 +18,7 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
     viewer_.reset();
     return;
   }
-  const VisiblePart visible = visible_part(frame);
+  const VisiblePart& visible = report.part;
   const SceneView& scene = viewer_.see(report.analysis, visible);
   // Before the overlay draws into the frame, because the window draws arrows of its own.
   if (window_feed && window_feed->wanted()) {

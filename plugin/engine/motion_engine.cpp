@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/engine/motion_engine.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace spidar {
@@ -166,7 +167,7 @@ void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
     return;
   }
   report.touch.on = true;
-  report.touch.map = {grip_pointer_, shown_share(touch)};
+  report.touch.map = {grip_pointer_};
   report.touch.stiffness_N_m = contact_settings(touch, output_.profile()).stiffness_N_m;
   report.touch.motion_share = touch.motion_share;
   report.touch.relief = reliefs_.take_copy();
@@ -222,7 +223,9 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     return report;
   }
   const ImageView luma = luma_.view(frame);
-  if (!luma.data) {
+  const std::optional<DepthLayout> packed = touch.packed();
+  const ImageView picture = packed ? picture_half(luma, *packed) : luma;
+  if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
     restart();
     report.problem = FrameProblem::kNotShown;
     return report;
@@ -230,8 +233,12 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   analyzer_.configure(settings);
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
   const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
-  report.analysis = analyzer_.analyze(luma, time.paced_ns);
+  report.analysis = analyzer_.analyze(picture, time.paced_ns);
   report.analyzed = true;
+  // The picture is the left or the upper half.
+  report.part = visible_part(frame);
+  report.part.width = picture.width;
+  report.part.height = picture.height;
   report.took_ns = HapticSession::monotonic_now_ns() - begin_ns;
 
   const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;

@@ -17,11 +17,9 @@ namespace spidar {
 /// The picture in the hand's space.
 struct TouchMap {
   GripPointer pointer;
-  /// How much of the visible width and height is picture: films with depth have it beside that.
-  Eigen::Vector2d shown_share = Eigen::Vector2d::Ones();
 
-  /// Place in the visible part: (0, 0) is its top left corner and (1, 1) its bottom right one. What
-  /// lies beyond the picture is at its edge.
+  /// Place in the picture, which is the part of the frame that is analysed: (0, 0) is its top left
+  /// corner and (1, 1) its bottom right one. Positions beyond the picture are at its edge.
   Eigen::Vector2d place(const Eigen::Vector3d& position_m) const;
   /// The reverse: x and y in the device frame.
   Eigen::Vector2d position_m(const Eigen::Vector2d& place) const;
@@ -36,7 +34,7 @@ struct TouchScene {
   std::shared_ptr<const HeightField> relief;  ///< null unless a window has asked for it
 };
 
-/// Finger and proxy in one tick, as places in the visible part.
+/// Finger and proxy in one tick, as places in the picture.
 struct TouchMark {
   Eigen::Vector2d finger = Eigen::Vector2d::Zero();
   bool touching = false;

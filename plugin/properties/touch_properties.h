@@ -32,6 +32,11 @@ struct TouchProperties {
   double friction = 0.3;    ///< μs; μd is 0.8 of it
   double texture = 0;       ///< gain of the fine detail's slope
   double motion_share = 0;  ///< of the film's motion, which is felt besides
+
+  /// Where in its frames the film has depth that is touched; nothing where they are all picture.
+  std::optional<DepthLayout> packed() const {
+    return kind == TouchKind::kDepth ? packed_layout(depth) : std::nullopt;
+  }
 };
 
 enum TouchPropertyId : guint {

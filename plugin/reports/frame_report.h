@@ -10,6 +10,7 @@
 
 #include "core/force/force_limit.h"
 #include "core/motion_analyzer.h"
+#include "plugin/engine/frame_luma.h"
 #include "plugin/overlay/touch_view.h"
 
 namespace spidar {
@@ -42,6 +43,7 @@ struct FrameReport {
   GstClockTime running_time = GST_CLOCK_TIME_NONE;
   GstClockTime stream_time = GST_CLOCK_TIME_NONE;
   FrameAnalysis analysis;
+  VisiblePart part;                      ///< of the frame that was analysed
   int64_t took_ns = 0;                   ///< the analysis
   ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame
   TouchProblem touch_problem = TouchProblem::kNone;

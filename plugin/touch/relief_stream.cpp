@@ -30,18 +30,6 @@ int step_of(int samples, int cells) {
 double most_stiffness_N_m(const Profile& profile) {
   return most_stiffness_N_m(profile.drive_lag_s);
 }
-Eigen::Vector2d shown_share(const TouchProperties& properties) {
-  if (properties.kind != TouchKind::kDepth) return {1, 1};
-  switch (properties.depth) {
-    case DepthSource::kRight:
-      return {0.5, 1};
-    case DepthSource::kBelow:
-      return {1, 0.5};
-    case DepthSource::kMeta:
-      break;
-  }
-  return {1, 1};
-}
 
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile) {
   ContactSettings contact;
@@ -126,7 +114,7 @@ bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown
     const bool follows = depth_ns_ != INT64_MIN && shown_ns > depth_ns_;
     if (!follows) depth_.reset();
     const double dt_s = follows ? 1e-9 * static_cast<double>(shown_ns - depth_ns_) : 0;
-    const std::optional<DepthLayout> layout = packed_layout(properties.depth);
+    const std::optional<DepthLayout> layout = properties.packed();
     const bool has_depth = layout ? depth_.read(depth_half(luma, *layout), {true}, dt_s)
                                   : read_frame_depth(buffer, dt_s, depth_);
     if (!has_depth || !builder_.from_levels(depth_.levels(), settings, frame.relief)) return false;
@@ -166,11 +154,9 @@ bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnal
   frame->time_ns = shown_ns;
   frame->has_surface = true;
   frame->contact = contact_settings(properties, profile_);
-  const Eigen::Vector2d shown = shown_share(properties);
-  const Eigen::Vector2d moved_px = touched_displacement_px(analysis, finger.cwiseProduct(shown));
-  frame->displacement_m = {
-      moved_px.x() / (shown.x() * analysis.width) * frame->relief.width_m(),
-      -moved_px.y() / (shown.y() * analysis.height) * frame->relief.height_m()};
+  const Eigen::Vector2d moved_px = touched_displacement_px(analysis, finger);
+  frame->displacement_m = {moved_px.x() / analysis.width * frame->relief.width_m(),
+                           -moved_px.y() / analysis.height * frame->relief.height_m()};
   if (copy_wanted_) copy_ = std::make_shared<HeightField>(frame->relief);
   stiffness_N_m_ = frame->contact.stiffness_N_m;
   frame->follows = touched_ && !left_out_ && generation == generation_ && !analysis.restarted;

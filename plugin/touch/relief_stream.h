@@ -30,9 +30,6 @@ namespace spidar {
 /// of the hand grows with stiffness · delay: a longer delay allows as much less.
 double most_stiffness_N_m(const Profile& profile);
 
-/// How much of the frame's width and height is picture: the relief covers that part.
-Eigen::Vector2d shown_share(const TouchProperties& properties);
-
 /// What the properties mean on this device.
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
 
@@ -61,11 +58,11 @@ class ReliefStream {
 
   // --- streaming thread
 
-  /// A frame that is shown at `shown_ns`, as it comes to the sink. `finger`: see
-  /// touched_displacement_px(). Throws std::invalid_argument when the device has no workspace that
-  /// a picture fits into. Returns false when touch=depth finds no depth in the frame, which then
-  /// leaves the last relief in place. After the first frame of a size nothing is taken from the
-  /// heap.
+  /// A frame that is shown at `shown_ns`, as it comes to the sink. `luma`: of all of it;
+  /// `analysis`: of the part that is picture. `finger`: see touched_displacement_px(). Throws
+  /// std::invalid_argument when the device has no workspace that a picture fits into. Returns false
+  /// when touch=depth finds no depth in the frame, which then leaves the last relief in place.
+  /// After the first frame of a size nothing is taken from the heap.
   bool add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
            int64_t shown_ns, const TouchProperties& properties, const Eigen::Vector2d& finger);
   /// Whether add() makes a copy of the relief, which takes memory from the heap.

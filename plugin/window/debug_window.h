@@ -50,7 +50,7 @@ class DebugWindow {
   void show_relief(const TouchScene& touch);
   bool offers_hand() const;
   bool explains_hand(const FrameFacts& facts) const;
-  void move_hand(const Rect& picture, const FrameFacts& facts);
+  void move_hand(const Rect& picture);
   void draw_panels(int width, int height);
   void save();
   void change(const std::string& setting, double value) { source_->set(setting, value); }

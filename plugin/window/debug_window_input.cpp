@@ -113,13 +113,12 @@ bool DebugWindow::explains_hand(const FrameFacts& facts) const {
   return offers_hand() && (facts.touch.on || hand_.hand().is_over());
 }
 
-void DebugWindow::move_hand(const Rect& picture, const FrameFacts& facts) {
+void DebugWindow::move_hand(const Rect& picture) {
   if (!offers_hand() || picture.width <= 0) {
     hand_.let_go();
     return;
   }
-  TouchMap map{GripPointer(state_.device->geometry)};
-  if (facts.touch.on) map.shown_share = facts.touch.map.shown_share;
+  const TouchMap map{GripPointer(state_.device->geometry)};
   hand_.update(given_mouse_ ? *given_mouse_ : read_mouse(), picture, map);
 }
 

@@ -215,11 +215,8 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
                       im(visible.x / w, visible.y / h),
                       im((visible.x + visible.width) / w, (visible.y + visible.height) / h));
   if (picture.relief) {
-    const Eigen::Vector2d& share = facts.touch.map.shown_share;
-    const Rect touched{map.shown.x, map.shown.y, share.x() * map.shown.width,
-                       share.y() * map.shown.height};
-    brush.list.AddImage(picture.relief, upper_left(touched), lower_right(touched), {0, 0}, {1, 1},
-                        IM_COL32(255, 255, 255, kReliefOpacity));
+    brush.list.AddImage(picture.relief, upper_left(map.shown), lower_right(map.shown), {0, 0},
+                        {1, 1}, IM_COL32(255, 255, 255, kReliefOpacity));
   }
   brush.list.PushClipRect(upper_left(map.shown), lower_right(map.shown), true);
   ArrowStyle style;

@@ -228,12 +228,26 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   // nothing through.
   constexpr double kLeast_N = 1e-3;
   touch_.set_limits(std::max(kLeast_N, limits_.max_force_N), limits_.max_slew_N_s);
+  const bool finite = has_frame(record) && record.wanted.is_finite();
+  touch_.set_beside(finite ? record.wanted.force_N : Eigen::Vector3d::Zero());
   record.contact = touch_.tick(*mailbox, record.running_ns, grip_.pose().position_m,
                                1e-9 * static_cast<double>(passed_ns));
   if (!record.contact.has_surface) return;
   // An expired wrench serves for ramping down and must not be felt.
   if (!has_frame(record)) record.wanted = {};
   record.wanted.force_N += record.contact.force_N;
+}
+
+/// How much of the wrench of the tensions at rest stays beside the force of a contact. A light
+/// touch that took it away would take it away on the way from the centre and give it back on the
+/// way to it, or the other way round, and so give out energy. What stays does not: it is that of a
+/// potential. A film that is felt takes its place.
+double HapticLoop::kept_at_rest(const TickRecord& record) const noexcept {
+  if (!record.contact.has_surface) return 0;
+  constexpr double kFilm_N = 0.2;  // more than the tensions at rest give within 2 cm
+  Wrench film = record.wanted;
+  film.force_N -= record.contact.force_N;
+  return std::max(0.0, 1 - tension_command_.size_N(film) / kFilm_N);
 }
 
 void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
@@ -259,8 +273,9 @@ void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
   // Near the end of the ramp to rest the wrench may still be large. If it were solved for, the
   // tensions would not have enough time left to fall.
   const bool fresh = has_wanted(record) && grip_.trusted() && state_ != DeviceState::kClosing;
-  const StringVector wanted_N = fresh ? tension_command_.solve(W, record.commanded, heat_.limit_N())
-                                      : tension_command_.fade(record.commanded);
+  const StringVector wanted_N =
+      fresh ? tension_command_.solve(W, record.commanded, heat_.limit_N(), kept_at_rest(record))
+            : tension_command_.fade(record.commanded);
   const StringVector limited_N = tension_slew_.apply(energised_ * wanted_N, profile_, dt_s);
   record.tension_N = bound_tensions(limited_N, profile_);
   const Eigen::Matrix<double, 6, 1> delivered = W * record.tension_N;

@@ -132,6 +132,7 @@ class SPIDAR_API HapticLoop {
   TimelineResult read_track(bool playing, int64_t running_ns) noexcept;
   void find_wanted(TickRecord& record) noexcept;
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
+  double kept_at_rest(const TickRecord& record) const noexcept;
   void command(TickRecord& record, double dt_s) noexcept;
   void pull(TickRecord& record, double dt_s) noexcept;
   void exchange(TickRecord& record) noexcept;

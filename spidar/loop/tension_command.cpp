@@ -49,18 +49,22 @@ double TensionCommand::pose_problem(const Wrench& wrench, const StringVector& li
 // direction. The wanted wrench is therefore reduced to the share that can be produced. This share
 // varies continuously with pose, wrench and limits.
 StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrench,
-                                   const StringVector& limit_N) noexcept {
+                                   const StringVector& limit_N, double kept) noexcept {
   share_ = 1;
   const double size = last_size_N_ = size_N(wrench);
   last_N_ = min_N_;
   if (!(size > 0)) return last_N_;
   problem_.W = W;
+  const Eigen::Matrix<double, 6, 1> rest = (left_out_ < 0 ? kept : 0) * (W * min_N_);
+  const Wrench at_rest{rest.head<3>(), rest.tail<3>()};
   // Half of the range counts as all of it: that is at most what a motor may sustain for ever.
   const double denied = std::min(1.0, 2 * pose_problem(wrench, limit_N));
+  problem_.wrench = problem_.wrench + at_rest;
   TensionResult result = solver_.solve(problem_);
   if (denied > 0) {
     share_ = std::max(0.0, 1 - denied * result.residual_N / size);
     pose_problem(share_ * wrench, limit_N);
+    problem_.wrench = problem_.wrench + at_rest;
     result = solver_.solve(problem_);
   }
   last_N_ = result.tension_N;

@@ -27,8 +27,12 @@ class SPIDAR_API TensionCommand {
 
   /// Returns the tensions that approximate `wrench` best, with the structure matrix `W` of a
   /// trusted pose. A wrench of zero is rest. No tension exceeds `limit_N`.
-  StringVector solve(const StructureMatrix& W, const Wrench& wrench,
-                     const StringVector& limit_N) noexcept;
+  ///
+  /// Away from the centre the tensions at rest pull the grip back a little. `kept`, 0 … 1: of that
+  /// wrench at rest, so much is left as it is and comes on top of `wrench`. With 0, it is part of
+  /// `wrench`. None is kept while a string is left out.
+  StringVector solve(const StructureMatrix& W, const Wrench& wrench, const StringVector& limit_N,
+                     double kept = 0) noexcept;
 
   /// For an unknown pose: takes `wrench`, which is ramping to zero, as a share of the wrench of the
   /// last solve(), and returns the tensions to rest by the same share, without W.
@@ -48,8 +52,10 @@ class SPIDAR_API TensionCommand {
   /// Sets the state to rest, with all strings in use.
   void reset() noexcept;
 
- private:
+  /// Of a wrench, with its torque as a force at the grip's radius, N.
   double size_N(const Wrench& wrench) const noexcept;
+
+ private:
   /// Sets the wrench of the problem and the corresponding bounds. Returns the share of their range
   /// that strings may not use, 0 … 1.
   double pose_problem(const Wrench& wrench, const StringVector& limit_N) noexcept;

@@ -54,6 +54,7 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
   settings.stiffness_N_m = stiffness_N_m_;
   settings.max_force_N = max_force_N_;
   settings.max_slew_N_s = max_slew_N_s_;
+  settings.beside_N = beside_N_;
 
   result.has_surface = true;
   result.force_N = contact_.tick(surface, nearest->has_texture ? &nearest->texture : nullptr,

@@ -51,6 +51,8 @@ class SPIDAR_API TouchRendering {
     max_force_N_ = max_force_N;
     max_slew_N_s_ = max_slew_N_s;
   }
+  /// What else is wanted in the next tick, which shares those limits.
+  void set_beside(const Eigen::Vector3d& force_N) noexcept { beside_N_ = force_N; }
 
   /// A tick in which nothing is to be touched: nothing plays, or it is not known where the grip is.
   void rest(TouchMailbox& mailbox) noexcept;
@@ -72,6 +74,7 @@ class SPIDAR_API TouchRendering {
   double stiffness_N_m_ = 0;  ///< 0: none yet
   double max_force_N_ = ContactSettings{}.max_force_N;
   double max_slew_N_s_ = ContactSettings{}.max_slew_N_s;
+  Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();
   ContactForce contact_;
 };
 

@@ -2,15 +2,17 @@
 // Copyright 2026 the gst-spidar authors
 // Counts how often the force of touching a film of depth would exceed the slew limit.
 //
-//     bench_touch_film FILE WIDTH HEIGHT [FRAMES]
+//     bench_touch_film FILE WIDTH HEIGHT [FRAMES [disparity]]
 //
 // FILE has frames of 16 bits, big-endian, 30 a second, as `pngdec ! video/x-raw,format=GRAY16_BE !
-// filesink` writes them.
+// filesink` writes them. With `disparity`, it has one frame of 8 bits (GRAY8) with larger values
+// where the scene is nearer, which is touched for the duration of FRAMES frames.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <vector>
 
 #include "core/touch/contact_force.h"
@@ -28,20 +30,23 @@ constexpr double kDeeper_m = 0.004;  // than a hand that only touches what is ne
 constexpr unsigned kHands = 10;
 
 std::vector<HeightField> reliefs_of(const std::vector<uint8_t>& film, int width, int height,
-                                    size_t frames) {
-  const size_t frame_bytes = 2 * static_cast<size_t>(width) * static_cast<size_t>(height);
+                                    size_t frames, bool disparity) {
+  const int bytes = disparity ? 1 : 2;
+  const size_t frame_bytes =
+      static_cast<size_t>(bytes) * static_cast<size_t>(width) * static_cast<size_t>(height);
   const ReliefSettings settings{-0.006, 0.008, 5e-4};
   std::vector<HeightField> reliefs;
   DepthPicture picture;
   ReliefBuilder builder;
   for (size_t n = 0; n < frames && (n + 1) * frame_bytes <= film.size(); ++n) {
     HeightField relief(0.06, 0.06 * height / width);
-    const DepthView view{film.data() + n * frame_bytes, width, height, 2 * width, 2, true};
-    if (picture.read(view, {}, 1 / 30.0) &&
+    const DepthView view{film.data() + n * frame_bytes, width, height, bytes * width, bytes, true};
+    if (picture.read(view, {disparity}, 1 / 30.0) &&
         builder.from_levels(picture.levels(), settings, relief)) {
       reliefs.push_back(relief);
     }
   }
+  if (disparity && !reliefs.empty()) reliefs.resize(frames, HeightField(reliefs.front()));
   return reliefs;
 }
 
@@ -84,7 +89,7 @@ void touch(const std::vector<HeightField>& reliefs, const test::Hand& hand,
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    std::fputs("usage: bench_touch_film FILE WIDTH HEIGHT [FRAMES]\n", stderr);
+    std::fputs("usage: bench_touch_film FILE WIDTH HEIGHT [FRAMES [disparity]]\n", stderr);
     return 2;
   }
   std::ifstream file(argv[1], std::ios::binary);
@@ -96,7 +101,8 @@ int main(int argc, char** argv) {
     std::fputs("WIDTH and HEIGHT have to be above 0\n", stderr);
     return 2;
   }
-  const std::vector<HeightField> reliefs = reliefs_of(film, width, height, most);
+  const bool disparity = argc > 5 && std::string(argv[5]) == "disparity";
+  const std::vector<HeightField> reliefs = reliefs_of(film, width, height, most, disparity);
   if (reliefs.size() < 2) {
     std::fprintf(stderr, "%s: fewer than two frames of %d×%d with depth\n", argv[1], width, height);
     return 1;

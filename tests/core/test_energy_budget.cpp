@@ -13,13 +13,14 @@ namespace {
 constexpr double kTick_s = 1e-3;
 const Eigen::Vector3d kUp(0, 0, 1);
 const Eigen::Vector3d kStill(0, 0, 0);
+const Eigen::Vector3d kNothing(0, 0, 0);
 
 /// A budget that `left_J` are left of, for a grip of this speed, after a steady force.
 EnergyBudget budget_of(double left_J, double out_m_s, double force_N, const ForcePath& path) {
   EnergyBudget budget;
   for (int n = 0; n < 100; ++n) {
     budget.follow(kStill, out_m_s * kUp, n == 99 ? left_J : 0, left_J);
-    budget.command(force_N * kUp, path, kTick_s);
+    budget.command(force_N * kUp, kNothing, path, kTick_s);
   }
   return budget;
 }
@@ -64,12 +65,12 @@ TEST(EnergyBudget, IsWhatTheHandHasDoneAndNoMoreThanTheSpringHolds) {
   path.lag_s = 0;
   path.max_slew_N_s = 1e9;
   EnergyBudget budget;
-  budget.command(2 * kUp, path, kTick_s);
-  budget.command(3 * kUp, path, kTick_s);
+  budget.command(2 * kUp, kNothing, path, kTick_s);
+  budget.command(3 * kUp, kNothing, path, kTick_s);
   // The way of the tick of 2 N.
   budget.follow(-0.001 * kUp, kStill, 0, 1);
   EXPECT_NEAR(budget.left_J(), 2e-3, 1e-15);
-  budget.command(3 * kUp, path, kTick_s);
+  budget.command(3 * kUp, kNothing, path, kTick_s);
   budget.follow(0.0005 * kUp, kStill, 0, 1);
   EXPECT_NEAR(budget.left_J(), 0.5e-3, 1e-15);
   budget.follow(kStill, kStill, 1e-3, 1);
@@ -86,14 +87,36 @@ TEST(EnergyBudget, KnowsTheLimitsOfThePath) {
   path.max_force_N = 1;
   EnergyBudget budget;
   // 0.3 N in the first tick, and 1 N at most.
-  for (int n = 0; n < 10; ++n) budget.command(50 * kUp, path, kTick_s);
+  for (int n = 0; n < 10; ++n) budget.command(50 * kUp, kNothing, path, kTick_s);
   budget.follow(-0.001 * kUp, kStill, 0, 1);
   EXPECT_NEAR(budget.left_J(), 1e-3, 1e-15);
   EnergyBudget fresh;
-  fresh.command(50 * kUp, path, kTick_s);
-  fresh.command(50 * kUp, path, kTick_s);
+  fresh.command(50 * kUp, kNothing, path, kTick_s);
+  fresh.command(50 * kUp, kNothing, path, kTick_s);
   fresh.follow(-0.001 * kUp, kStill, 0, 1);
   EXPECT_NEAR(fresh.left_J(), 0.3e-3, 1e-15);
+}
+
+TEST(EnergyBudget, CountsWhatTheContactAddsToAForceBesideIt) {
+  ForcePath path;
+  path.lag_s = 0;
+  path.max_slew_N_s = 1e9;
+  path.max_force_N = 3;
+  // 2 N beside it leave 1 N of the contact's 2.5 N.
+  EnergyBudget budget;
+  for (int n = 0; n < 3; ++n) budget.command(2.5 * kUp, 2 * kUp, path, kTick_s);
+  EXPECT_NEAR(budget.force_N().z(), 1, 1e-12);
+  budget.follow(-0.001 * kUp, kStill, 0, 1);
+  EXPECT_NEAR(budget.left_J(), 1e-3, 1e-15);
+  // Against it there is room for all of it.
+  EnergyBudget against;
+  for (int n = 0; n < 3; ++n) against.command(2.5 * kUp, -2 * kUp, path, kTick_s);
+  EXPECT_NEAR(against.force_N().z(), 2.5, 1e-12);
+  // Both share the slew limit.
+  path.max_slew_N_s = 300;
+  EnergyBudget rising;
+  rising.command(1 * kUp, 1 * kUp, path, kTick_s);
+  EXPECT_NEAR(rising.force_N().z(), 0, 1e-12) << "0.3 N are let through with and without it";
 }
 
 TEST(EnergyBudget, AllowsAForceThatPressesOnASpringAtRest) {

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // A surface that stands still gives a hand no more energy than it got from it.
 #include <algorithm>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +68,38 @@ TEST(TouchEnergy, OfFastTapsItIsSeenWithoutTheBudget) {
   settings.stiffness_N_m = ContactSettings::kMostStiffness_N_m;
   EXPECT_GT(worst_tap_J(settings, kFirmHand), kStiffBound_J);
   EXPECT_GT(worst_tap_J(settings, kLightHand), 10 * kStiffBound_J);
+}
+
+/// The force of a grip that goes in by 3 mm in 10 ms and then down with the surface, at the same
+/// depth: before and after 5 mm.
+std::pair<double, double> sink_N(double slew_N_s) {
+  constexpr int kIn_ticks = 10, kRest_ticks = 40, kSink_ticks = 500;
+  const HeightField high = plane_field(0);
+  const HeightField low = plane_field(-0.005);
+  ContactSettings settings;
+  settings.max_slew_N_s = slew_N_s;
+  ContactForce force;
+  double before_N = 0, after_N = 0;
+  for (int n = -1; n < kIn_ticks + kRest_ticks + kSink_ticks; ++n) {
+    const double share =
+        std::clamp((n - kIn_ticks - kRest_ticks) / static_cast<double>(kSink_ticks), 0.0, 1.0);
+    const double depth_m = 0.003 * std::min(1.0, n / static_cast<double>(kIn_ticks));
+    after_N = force
+                  .tick({&high, &low, share}, nullptr, settings, {0, 0, -0.005 * share - depth_m},
+                        TouchedGrip::kTick_s)
+                  .z();
+    if (n == kIn_ticks + kRest_ticks - 1) before_N = after_N;
+  }
+  return {before_N, after_N};
+}
+
+TEST(TouchEnergy, ASurfaceThatSinksTakesNoMoreThanTheForceThatThereIs) {
+  // A force that may rise by 20 N/s has taken far less than the spring holds when the grip is in.
+  const auto [before_N, after_N] = sink_N(20);
+  EXPECT_GT(before_N, 0.05);
+  EXPECT_LT(before_N, 0.5 * 1.5) << "of 500 N/m and 3 mm: the budget does bound it";
+  // What the surface takes the hand gives. Damping of the common speed, 10 mm/s, is what is left.
+  EXPECT_GT(after_N, 0.8 * before_N);
 }
 
 TEST(TouchEnergy, WithoutDampingItIsSeen) {

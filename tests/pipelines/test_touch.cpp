@@ -16,6 +16,7 @@
 #include "spidar/loop/tick_trace.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/pipelines/stepped_pipeline.h"
+#include "tests/support/rest_force.h"
 
 namespace spidar::test {
 namespace {
@@ -138,6 +139,7 @@ TEST(Touch, ThePlaneThatSpidardepthAttachesIsTouched) {
 }
 
 TEST(Touch, APlaneAtMidPictureIsStiffnessTimesDepth) {
+  const Profile profile = load_profile(kDefaultProfile);
   for (const int stiffness_N_m : {300, 500, 800}) {
     Touched touched(film("pattern=solid-color foreground-color=0xff808080",
                          "touch=luma touch-stiffness=" + std::to_string(stiffness_N_m)));
@@ -150,7 +152,7 @@ TEST(Touch, APlaneAtMidPictureIsStiffnessTimesDepth) {
     for (int n = 0; n < kTicks; ++n) {
       touched.wait(1);
       const FeltState felt = touched.felt();
-      force_N += felt.wrench.force_N.z() / kTicks;
+      force_N += (felt.wrench.force_N - rest_force_N(profile, felt.pose)).z() / kTicks;
       depth_m += (z_m - felt.pose.position_m.z()) / kTicks;
     }
     EXPECT_GT(depth_m, 0.002);

@@ -11,6 +11,7 @@
 #include "spidar/simulation/simulated_device.h"
 #include "tests/core/count_allocations.h"
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/rest_force.h"
 #include "tests/support/tick_watch.h"
 #include "tests/support/touch_frames.h"
 
@@ -143,7 +144,8 @@ TEST(TouchLoop, APlaneIsStiffnessTimesDepthInTheHand) {
     constexpr int kTicks = 500;
     for (int n = 0; n < kTicks; ++n) {
       hand.tick();
-      force_N += hand.felt.wrench.force_N.z() / kTicks;
+      force_N +=
+          (hand.felt.wrench.force_N - rest_force_N(hand.profile, hand.felt.pose)).z() / kTicks;
       depth_m += (0.001 - hand.felt.pose.position_m.z()) / kTicks;
     }
     EXPECT_GT(depth_m, 0.002);

@@ -30,7 +30,7 @@ std::optional<Eigen::Vector3d> MouseHand::update(const Mouse& mouse, const Rect&
                 (mouse.at_px.y() - picture.y) / picture.height};
     } else {
       // As far as the same way of the mouse moves the hand in the picture.
-      const double up = (last_px_.y() - mouse.at_px.y()) / (picture.height * map.shown_share.y());
+      const double up = (last_px_.y() - mouse.at_px.y()) / picture.height;
       deeper_m += up * 2 * map.pointer.half_size_m().y();
     }
     last_px_ = mouse.at_px;

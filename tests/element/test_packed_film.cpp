@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// The motion of a film in 2D+Z is that of the half that is picture.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gst-spidar/gstspidarmotionmeta.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+constexpr int kWidth = 640, kHeight = 480;
+constexpr double kPicture_px = 2;  // to the right, from frame to frame
+constexpr double kDepth_px = -3;
+// As in test_frames.cpp: a tenth of a pixel is what the mean of many points must keep.
+constexpr double kTolerance_px = 0.1;
+
+struct Played {
+  double velocity_x = 0;
+  GstSpidarMotion motion{};
+  std::vector<GstSpidarMotionTrack> tracks;
+};
+
+/// Frames whose first half moves by kPicture_px and whose second one, to the right or below, by
+/// kDepth_px. What was found in the last.
+Played play(const std::string& properties, bool right) {
+  ElementHarness h("device=none attach-meta=true " + properties);
+  h.set_caps(make_caps("GRAY8", kWidth, kHeight));
+  Played played;
+  for (int n = 0; n < 3; ++n) {
+    GstBuffer* frame = make_frame(h.info(), kPicture_px * n, 0);
+    GstMapInfo map;
+    gst_buffer_map(frame, &map, GST_MAP_WRITE);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        if (right ? x < kWidth / 2 : y < kHeight / 2) continue;
+        map.data[y * kWidth + x] = static_cast<guint8>(texture(x - kDepth_px * n, y));
+      }
+    }
+    gst_buffer_unmap(frame, &map);
+    EXPECT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    if (n == 2) {
+      EXPECT_TRUE(gst_buffer_get_spidar_motion(out, &played.motion));
+      GArray* tracks = gst_buffer_get_spidar_tracks(out);
+      for (guint i = 0; tracks != nullptr && i < tracks->len; ++i) {
+        played.tracks.push_back(g_array_index(tracks, GstSpidarMotionTrack, i));
+      }
+      g_clear_pointer(&tracks, g_array_unref);
+    }
+    gst_buffer_unref(out);
+  }
+  EXPECT_EQ(h.motions().size(), 3u);
+  if (h.motions().size() == 3) played.velocity_x = h.motions()[2].velocity_x;
+  return played;
+}
+
+TEST(PackedFilm, MotionIsThatOfThePictureAndPlacesAreThoseOfTheFrame) {
+  for (const bool right : {true, false}) {
+    const Played played =
+        play(std::string("touch=depth depth-layout=") + (right ? "right" : "below"), right);
+    EXPECT_NEAR(played.velocity_x, 25 * kPicture_px, 25 * kTolerance_px);
+    EXPECT_EQ(played.motion.width, static_cast<guint>(kWidth));
+    EXPECT_EQ(played.motion.height, static_cast<guint>(kHeight));
+    EXPECT_GT(played.tracks.size(), 20u);
+    double least_x = kWidth, most_x = 0;
+    for (const GstSpidarMotionTrack& track : played.tracks) {
+      EXPECT_NEAR(track.to_x - track.from_x, kPicture_px, 0.5);
+      EXPECT_LT(track.to_x, right ? kWidth / 2 : kWidth);
+      EXPECT_LT(track.to_y, right ? kHeight : kHeight / 2);
+      least_x = std::min(least_x, track.to_x);
+      most_x = std::max(most_x, track.to_x);
+    }
+    // Points are found all over the half, in pixels of the frame.
+    const double width = right ? kWidth / 2 : kWidth;
+    EXPECT_LT(least_x, 0.2 * width);
+    EXPECT_GT(most_x, 0.8 * width);
+  }
+}
+
+TEST(PackedFilm, WithoutTouchingDepthTheWholeFrameIsThePicture) {
+  for (const char* properties : {"touch=off depth-layout=right", "touch=luma depth-layout=right",
+                                 "touch=depth depth-layout=meta"}) {
+    const Played played = play(properties, true);
+    int in_depth = 0;
+    for (const GstSpidarMotionTrack& track : played.tracks) in_depth += track.to_x > kWidth / 2;
+    EXPECT_GT(in_depth, 10) << properties;
+  }
+}
+
+TEST(PackedFilm, AHalfThatIsTooSmallIsNotAnalysed) {
+  ElementHarness h("device=none touch=depth depth-layout=right");
+  h.set_caps(make_caps("GRAY8", 30, 240));
+  for (int n = 0; n < 3; ++n) h.push_moved(n, 0, static_cast<GstClockTime>(n) * kFrame);
+  EXPECT_TRUE(h.motions().empty());
+  EXPECT_TRUE(h.errors().empty());
+}
+
+}  // namespace
+}  // namespace spidar::test

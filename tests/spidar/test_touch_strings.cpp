@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// A surface that stands still gives a hand no more energy than it got from it, through pose solver,
+// safety chain, tension solver, D/A steps and strings, and beside a film.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/touched_strings.h"
+
+namespace spidar::test {
+namespace {
+
+/// For each scene and hand; bench_touch_strings runs a million.
+constexpr long kTicks = 15'000;
+// As in test_touch_energy.cpp.
+constexpr double kBound_J = 5e-6;
+constexpr double kStiffBound_J = 1e-4;
+
+ContactEnergy explore_all(const StringTouch& touch,
+                          const std::vector<Hand>& hands = {kFirmHand, kLightHand}) {
+  ContactEnergy all;
+  for (const TouchScene& scene : touch_scenes()) {
+    for (const Hand& hand : hands) {
+      const ContactEnergy energy = explore_through_strings(scene, touch, hand, kTicks, 7);
+      EXPECT_GE(energy.contacts, 3) << scene.name << ", " << hand.name;
+      all.contacts += energy.contacts;
+      all.generating += energy.generating;
+      all.worst_J = std::max(all.worst_J, energy.worst_J);
+    }
+  }
+  return all;
+}
+
+StringTouch touch_of(double stiffness_N_m) {
+  StringTouch touch;
+  touch.contact.stiffness_N_m = stiffness_N_m;
+  touch.contact.friction = {0.3, 0.24};
+  return touch;
+}
+
+TEST(TouchStrings, NoContactGivesAnyOut) {
+  StringTouch touch = touch_of(500);
+  EXPECT_LE(explore_all(touch).worst_J, kBound_J);
+  touch.texture = true;
+  EXPECT_LE(explore_all(touch).worst_J, kBound_J) << "with texture";
+  touch = touch_of(ContactSettings::kMostStiffness_N_m);
+  EXPECT_LE(explore_all(touch).worst_J, kStiffBound_J) << "where it is stiffest";
+}
+
+TEST(TouchStrings, NoContactAddsAnyToAFilm) {
+  StringTouch touch = touch_of(500);
+  touch.film_N = 1;
+  EXPECT_LE(explore_all(touch).worst_J, kBound_J);
+  // A film that takes all of max-force. In a light hand a few contacts beside it do give some out
+  // (docs/touch.md).
+  touch.film_N = 3;
+  EXPECT_LE(explore_all(touch, {kFirmHand}).worst_J, kBound_J);
+}
+
+/// Away from the centre the tensions at rest pull the grip back. A light touch must not take that
+/// away on the way out.
+TEST(TouchStrings, ALightTouchOnTheWayOutGivesNothing) {
+  const TouchScene plane{"plane", plane_field(-0.002), plane_field(0)};
+  StringTouch touch = touch_of(500);
+  touch.contact.friction = {};
+  constexpr double kRound_s = 3;
+  const ContactEnergy energy =
+      touch_through_strings(plane, touch, kLightHand, 10'000, [](double time_s) {
+        // Out along x in the surface, by 18 mm in 2 s, and back above it. The light hand and 500
+        // N/m make 0.04 N of 0.5 mm.
+        const double part_s = std::fmod(time_s, kRound_s);
+        const bool out = part_s < 2;
+        const double x_m = out ? 0.009 * part_s : 0.018 * (kRound_s - part_s);
+        return Eigen::Vector3d(x_m, 0, out ? -0.0025 : 0.0);
+      });
+  EXPECT_GE(energy.contacts, 2);
+  EXPECT_LE(energy.worst_J, kBound_J);
+}
+
+TEST(TouchStrings, WithoutDampingItIsSeen) {
+  StringTouch touch;
+  touch.contact.stiffness_N_m = 700;
+  touch.contact.damping = 0;  // validate() refuses it
+  touch.contact.bounds_energy = false;
+  const TouchScene plane{"plane", plane_field(-0.002), plane_field(0)};
+  const ContactEnergy energy = explore_through_strings(plane, touch, kLightHand, 30'000, 7);
+  EXPECT_GT(energy.worst_J, kStiffBound_J);
+  EXPECT_GT(energy.generating, energy.contacts / 2);
+}
+
+}  // namespace
+}  // namespace spidar::test

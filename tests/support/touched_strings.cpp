@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "tests/support/touched_strings.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/simulation/simulated_device.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr double kTick_s = 1e-9 * static_cast<double>(kTick_ns);
+constexpr int64_t kFrame_ns = 33 * kTick_ns;
+
+/// How a hand that is not firm holds against turning follows from how it holds against moving.
+GripModel model_of(const Hand& hand) {
+  GripModel model;
+  model.hand_stiffness_Nm_rad *= hand.stiffness_N_m / model.hand_stiffness_N_m;
+  model.hand_damping_Nm_s_rad *= hand.damping_N_s_m / model.hand_damping_N_s_m;
+  model.hand_stiffness_N_m = hand.stiffness_N_m;
+  model.hand_damping_N_s_m = hand.damping_N_s_m;
+  return model;
+}
+
+/// The simulated device, which remembers what its encoders said.
+class ReadDevice final : public Device {
+ public:
+  explicit ReadDevice(SimulatedDevice& device) : device_(device) {}
+  void open() override { device_.open(); }
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    const ExchangeStatus status = device_.exchange(volts, reading);
+    last_ = reading;
+    return status;
+  }
+  void close() noexcept override { device_.close(); }
+  const std::string& name() const noexcept override { return device_.name(); }
+  const DeviceReading& last() const { return last_; }
+
+ private:
+  SimulatedDevice& device_;
+  DeviceReading last_;
+};
+
+/// Drives as those of the simulated device on strings that another loop moves.
+class ShadowDevice final : public Device {
+ public:
+  ShadowDevice(const Profile& profile, const ReadDevice& of, double lag_s)
+      : profile_(profile), of_(of), kept_(std::exp(-kTick_s / lag_s)) {}
+  void open() override {}
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    tension_N_ = target_N_ + kept_ * (tension_N_ - target_N_);
+    const double step_V = profile_.dac_max_V / static_cast<double>((1 << profile_.dac_bits) - 1);
+    for (int i = 0; i < profile_.geometry.count; ++i) {
+      const auto k = static_cast<size_t>(i);
+      const StringDrive& drive = profile_.drives[k];
+      const double pulling_V = std::fmax(0.0, volts.volt[k] * drive.motor_sign);
+      target_N_[i] = std::fmin(step_V * std::round(pulling_V / step_V) * drive.newtons_per_volt,
+                               drive.max_tension_N);
+    }
+    reading = of_.last();
+    return ExchangeStatus::kOk;
+  }
+  void close() noexcept override {}
+  const std::string& name() const noexcept override { return name_; }
+  const StringVector& tension_N() const { return tension_N_; }
+
+ private:
+  const std::string name_ = "shadow";
+  const Profile& profile_;
+  const ReadDevice& of_;
+  const double kept_;
+  StringVector target_N_ = StringVector::Zero();
+  StringVector tension_N_ = StringVector::Zero();
+};
+
+/// Strings at the end of a tick.
+struct Strings {
+  StringVector length_m;
+  StringVector speed_m_s;  // at which they get longer
+  StringVector added_N;    // of their tension, by the contact
+};
+
+/// Work of the added tensions on the grip in a tick. They go exponentially towards what the drives
+/// were told; the lengths are a cubic with the given ends and slopes. Simpson's rule.
+double work_J(const Strings& from, const Strings& to, double lag_s) {
+  const double left = std::exp(-kTick_s / lag_s);
+  const double half_left = std::exp(-0.5 * kTick_s / lag_s);
+  const StringVector target_N = (to.added_N - left * from.added_N) / (1 - left);
+  const StringVector middle_N = target_N + half_left * (from.added_N - target_N);
+  const StringVector middle_m_s =
+      1.5 / kTick_s * (to.length_m - from.length_m) - 0.25 * (from.speed_m_s + to.speed_m_s);
+  return -kTick_s / 6 *
+         (from.added_N.dot(from.speed_m_s) + 4 * middle_N.dot(middle_m_s) +
+          to.added_N.dot(to.speed_m_s));
+}
+
+Wrench film_wrench(double amplitude_N, double time_s) {
+  const double turn = 2 * std::acos(-1.0) * time_s;
+  return {
+      amplitude_N / std::sqrt(3.0) *
+          Eigen::Vector3d(std::sin(0.7 * turn), std::sin(1.1 * turn + 1), std::sin(0.9 * turn + 2)),
+      Eigen::Vector3d::Zero()};
+}
+
+void publish(TouchMailbox& mailbox, const TouchScene& scene, const StringTouch& touch) {
+  TouchFrame& frame = *mailbox.begin(mailbox.generation());
+  frame.has_surface = true;
+  frame.has_texture = touch.texture;
+  frame.contact = touch.contact;
+  frame.relief = scene.relief;
+  frame.texture = scene.texture;
+  mailbox.publish();
+}
+
+/// A loop whose grip touches, and its shadow.
+class Pair {
+ public:
+  Pair(const TouchScene& scene, const StringTouch& touch, const Hand& hand)
+      : model_(model_of(hand)),
+        film_N_(touch.film_N),
+        mailbox_(kPictureWidth_m, kPictureHeight_m, TouchMailbox::kLeastSlots) {
+    publish(mailbox_, scene, touch);
+    loop_->connect_touch(&mailbox_);
+    for (HapticLoop* loop : {loop_.get(), untouched_.get()}) {
+      loop->open();
+      loop->set_playback_clock({kStart_ns, 0, 1.0, true});
+    }
+  }
+
+  void tick(const Eigen::Vector3d& hand_m) {
+    if (film_N_ > 0 && now_ns_ % kFrame_ns == kStart_ns % kFrame_ns) {
+      const int64_t shown_ns = now_ns_ - kStart_ns + 2 * kFrame_ns;
+      const Wrench wrench = film_wrench(film_N_, 1e-9 * static_cast<double>(shown_ns));
+      loop_->schedule({shown_ns, 2 * kFrame_ns, wrench});
+      untouched_->schedule({shown_ns, 2 * kFrame_ns, wrench});
+    }
+    Pose pose;
+    pose.position_m = hand_m;
+    device_.set_hand(pose);
+    now_ns_ += kTick_ns;
+    loop_->tick(now_ns_, now_ns_);
+    untouched_->tick(now_ns_, now_ns_);
+    const Strings now = strings();
+    given_J_ -= work_J(strings_, now, model_.motor_time_constant_s);
+    strings_ = now;
+  }
+
+  bool touching() const { return loop_->snapshot().last.contact.touching; }
+  /// Work that the grip has done on what the contact adds.
+  double given_J() const { return given_J_; }
+
+ private:
+  static constexpr int64_t kStart_ns = 1'000'000'000'000;
+
+  Strings strings() const {
+    const FeltState felt = device_.felt();
+    Eigen::Matrix<double, 6, 1> twist;
+    twist << felt.velocity_m_s, felt.angular_velocity_rad_s;
+    const StringGeometry& geometry = profile_.geometry;
+    return {string_lengths_m(geometry, felt.pose),
+            -structure_matrix(geometry, felt.pose).transpose() * twist,
+            felt.tension_N - shadow_.tension_N()};
+  }
+
+  const GripModel model_;
+  const double film_N_;
+  const Profile profile_ = load_profile(kDefaultProfile);
+  TouchMailbox mailbox_;
+  SimulatedDevice device_{profile_, SimulatedDevice::Time::kFixedStep, model_};
+  ReadDevice read_{device_};
+  ShadowDevice shadow_{profile_, read_, model_.motor_time_constant_s};
+  std::unique_ptr<HapticLoop> loop_ = std::make_unique<HapticLoop>(profile_, read_);
+  std::unique_ptr<HapticLoop> untouched_ = std::make_unique<HapticLoop>(profile_, shadow_);
+  int64_t now_ns_ = kStart_ns;
+  Strings strings_{string_lengths_m(profile_.geometry, {}), StringVector::Zero(),
+                   StringVector::Zero()};
+  double given_J_ = 0;
+};
+
+}  // namespace
+
+ContactEnergy touch_through_strings(const TouchScene& scene, const StringTouch& touch,
+                                    const Hand& hand, long ticks, const HandPath& path_m) {
+  constexpr int kFaded = 20;       // ticks, ten times the drive's lag
+  constexpr long kArrived = 1000;  // the strings are taut, and the hand is there
+  Pair pair(scene, touch, hand);
+  ContactEnergy result;
+  bool in_contact = false;
+  int ticks_away = 0;
+  double begin_J = 0;
+  for (long tick = 0; tick < ticks; ++tick) {
+    const double before_J = pair.given_J();
+    pair.tick(path_m(kTick_s * static_cast<double>(tick)));
+    if (pair.touching()) {
+      if (!in_contact) begin_J = before_J;
+      in_contact = true;
+      ticks_away = 0;
+    } else if (in_contact && ++ticks_away == kFaded) {
+      in_contact = false;
+      if (tick > kArrived) result.add(begin_J - pair.given_J());
+    }
+  }
+  return result;
+}
+
+ContactEnergy explore_through_strings(const TouchScene& scene, const StringTouch& touch,
+                                      const Hand& hand, long ticks, unsigned seed) {
+  const RandomHand random(seed);
+  return touch_through_strings(scene, touch, hand, ticks,
+                               [&](double time_s) { return random.at_m(time_s); });
+}
+
+}  // namespace spidar::test
