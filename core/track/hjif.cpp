@@ -237,7 +237,8 @@ std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples)
     throw HjifError(std::string("HJIF: no JSON: ") + error.what());
   }
   Curves curves(timescale_of(root), most_samples);
-  const Json& perceptions = array(root, "perceptions", "the file");
+  const std::string whole = "the file";  // named: GCC 14 takes a result for a part of a temporary
+  const Json& perceptions = array(root, "perceptions", whole);
   for (size_t p = 0; p < perceptions.size(); ++p) {
     const std::string where = "perceptions[" + std::to_string(p) + "]";
     if (text_of(perceptions[p], "perception_modality", where) != "Force") continue;
