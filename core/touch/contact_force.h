@@ -34,8 +34,8 @@ struct ContactSettings {
   /// Force rendered at the same time that does not come from the contact, such as the film's. It
   /// shares these two limits with the contact.
   Eigen::Vector3d beside_N = Eigen::Vector3d::Zero();
-  /// Mass of the grip alone. A lighter grip can gain some energy from a fast tap. Finite and above
-  /// 0.
+  /// Mass of the grip alone, finite and above 0. A lighter grip can gain some energy from a fast
+  /// tap.
   double least_mass_kg = 0.05;
   bool bounds_energy = true;  ///< false disables EnergyBudget, for measurements
 
@@ -81,8 +81,7 @@ class SPIDAR_API ContactForce {
 
   TouchProxy proxy_;
   EnergyBudget budget_;
-  double bounded_N_ =
-      std::numeric_limits<double>::infinity();  ///< in the last tick; infinite if unbounded
+  double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite if not bounded
   bool started_ = false;
   Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();

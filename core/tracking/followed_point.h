@@ -15,17 +15,15 @@ struct FollowedPoint {
   ImagePoint at;     ///< position in the base of the pyramid
   ImagePoint frame;  ///< position in the frame
   ImagePoint from;   ///< `frame` in the previous frame
-  ImagePoint moved;  ///< displacement since the previous frame, in the base; for a new point, the
-                     ///< expected one
+  ImagePoint moved;  ///< displacement since the previous frame, in the base; expected if new
   int level = 0;     ///< pyramid level at which it was chosen and is searched
   bool is_new = true;
   bool may_shift = true;  ///< not reported yet, so an adjacent window may replace it
 
-  bool found = false;  ///< in this frame
-  bool is_surprise =
-      false;  ///< found at a position that neither its history nor its neighbours predicted
-  bool is_shifted = false;  ///< replaced in this frame by an adjacent window
-  bool has_place = false;   ///< has a cell of the grid
+  bool found = false;        ///< in this frame
+  bool is_surprise = false;  ///< found where neither its history nor its neighbours predicted
+  bool is_shifted = false;   ///< replaced in this frame by an adjacent window
+  bool has_place = false;    ///< has a cell of the grid
   PointMatch match;
 };
 

@@ -20,8 +20,7 @@ class PointChooser {
  public:
   struct Settings {
     TrackerSettings tracker;
-    double grid_share =
-        0.5;  ///< share of the requested points that goes to the grid; the rest goes to dense cells
+    double grid_share = 0.5;     ///< of the requested points; the rest goes to dense cells
     double min_distance_px = 0;  ///< in the base
   };
 

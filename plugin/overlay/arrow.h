@@ -48,10 +48,9 @@ Rgb direction_color(const Eigen::Vector2d& direction, double saturation);
 
 /// Drawing parameters of a scene.
 struct ArrowStyle {
-  double scale = 4;        ///< arrow length / displacement, > 0
-  double height_px = 480;  ///< height of the picture; line widths scale with it
-  double max_force_N =
-      3.0;  ///< force at which the arrow of the felt force is a fifth of height_px long
+  double scale = 4;          ///< arrow length / displacement, > 0
+  double height_px = 480;    ///< height of the picture; line widths scale with it
+  double max_force_N = 3.0;  ///< force whose arrow is a fifth of height_px long
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< tail of the arrow of the felt force
 };
 

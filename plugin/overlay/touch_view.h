@@ -27,8 +27,7 @@ struct TouchMap {
 
 /// The touchable surface of one frame.
 struct TouchScene {
-  bool on =
-      false;  ///< touch is enabled and a device is open; otherwise the other members are not valid
+  bool on = false;  ///< touch is on and a device is open; otherwise the rest is not valid
   TouchMap map;
   double stiffness_N_m = 0;                   ///< rendered stiffness
   double motion_share = 0;                    ///< share of the film's motion that is also rendered
