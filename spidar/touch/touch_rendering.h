@@ -68,8 +68,7 @@ class SPIDAR_API TouchRendering {
   uint32_t generation_ = 0;
   bool reached_ = false;   ///< the oldest frame of the mailbox has become due
   bool leads_on_ = false;  ///< the transition to the next frame, from_ns_ to to_ns_, has begun
-  bool jumped_ = false;  ///< the transition is a jump, so the current surface stays until the next
-                         ///< frame is due
+  bool jumped_ = false;    ///< a jump: the current surface stays until the next frame is due
   int64_t from_ns_ = 0;
   int64_t to_ns_ = 0;
   int64_t reached_ns_ = 0;
