@@ -70,8 +70,8 @@ struct Bench {
   int64_t now_ns = 0;
 };
 
-/// The force changes the work of the tension solver. For comparison, the loop without contact also
-/// runs with a film force of the same size.
+/// The force changes the work of the tension solver. For comparison, a second loop without contact
+/// runs with a film force of similar size.
 void time_ticks() {
   Bench plain;
   Bench pushed;
