@@ -15,34 +15,35 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
-/// A board that reads its counters later in an exchange than it puts out the volts has a pure delay
-/// below zero. So has the simulation, by its steps.
+/// The pure delay is negative if a board reads its counters later in an exchange than it sets its
+/// output voltages. The simulation has a negative delay because of its time steps.
 constexpr double kShortestDelay_s = -0.001;
 constexpr double kScan_s = 0.0005;
-/// Beyond kLongestLag_s, so that what is too long is seen to be.
+/// Beyond kLongestLag_s, so that a lag that is too long is recognized.
 constexpr double kScanTo_s = 2 * LagFitter::kLongestLag_s;
-/// First-order parts are tried this far apart or, where that is more, by this share.
+/// Step between the first-order parts that are tried: the larger of this time and this share of the
+/// part.
 constexpr double kPart_s = 0.00025;
 constexpr double kPartShare = 0.1;
-/// And so many times finer between the two neighbours of the best.
+/// Number of subdivisions between the two neighbours of the best part.
 constexpr int kFiner = 20;
 constexpr int kIterations = 8;
 
 struct Weighed {
   double rate_rad_s = 0;
   Complex response;
-  double weight = 0;  ///< one over the standard deviation of its real and imaginary part
+  double weight = 0;  ///< 1 / standard deviation of the real and of the imaginary part
 };
 
-/// Mass, damping, stiffness.
+/// Mass, damping and stiffness.
 using Grip = Eigen::Vector3d;
 
 struct Candidate {
-  double part_s = 0;  ///< of the lag that is first order
+  double part_s = 0;  ///< first-order part of the lag
   double lag_s = 0;
   Grip grip = Grip::Zero();
   double cost = kNone;  ///< chi²
-  double error_s = 0;   ///< of the lag, with this part
+  double error_s = 0;   ///< standard error of the lag for this part
 };
 
 Complex drive(double rate_rad_s, double part_s, double lag_s) {
@@ -64,8 +65,8 @@ double cost_of(const std::vector<Weighed>& lines, const Candidate& candidate) {
   return cost;
 }
 
-/// The grip of a given lag: of the inverse response, which is linear in it. A start, because noise
-/// does not stay what it was when it is inverted.
+/// Initial estimate of the grip for a given lag, by linear least squares on the inverse response.
+/// It is only a start, because inversion changes the distribution of the noise.
 Grip start_of(const std::vector<Weighed>& lines, double part_s, double lag_s) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Grip right = Grip::Zero();
@@ -80,13 +81,13 @@ Grip start_of(const std::vector<Weighed>& lines, double part_s, double lag_s) {
   return normal.ldlt().solve(right);
 }
 
-/// Gauss and Newton, lag and grip.
+/// Gauss–Newton iteration over lag and grip.
 void refine(const std::vector<Weighed>& lines, Candidate& candidate) {
   const Complex j(0, 1);
   for (int n = 0; n < kIterations; ++n) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    // Of similar size, so that the matrix is well conditioned.
+    // Scales the unknowns to similar size, so that the matrix is well conditioned.
     const Eigen::Vector4d unit(0.1, 1, 100, 1e-3);
     for (const Weighed& line : lines) {
       const double w = line.rate_rad_s;
@@ -106,7 +107,7 @@ void refine(const std::vector<Weighed>& lines, Candidate& candidate) {
     const Eigen::Matrix4d covariance = normal.inverse();
     candidate.error_s = unit[3] * std::sqrt(std::max(0.0, covariance(3, 3)));
     const Eigen::Vector4d step = unit.cwiseProduct(covariance * right);
-    // Half of it, and half of that, as long as it makes things worse.
+    // Halves the step until the cost does not increase.
     const Candidate before = candidate;
     for (double share = 1; share > 1e-3; share /= 2) {
       candidate.grip = before.grip + share * step.head<3>();
@@ -119,7 +120,7 @@ void refine(const std::vector<Weighed>& lines, Candidate& candidate) {
   }
 }
 
-/// The cost is kNone where there is none.
+/// The best fit with this first-order part. Its cost is kNone if there is no valid one.
 Candidate best_with(const std::vector<Weighed>& lines, double part_s) {
   Candidate best;
   const double shortest_s = part_s + kShortestDelay_s;
@@ -159,13 +160,13 @@ bool stands_out(const ResponseLine& line) {
 }
 
 std::vector<Weighed> weigh(const std::vector<ResponseLine>& lines, int periods) {
-  // The variance is an estimate too, which makes chi² larger by this.
+  // The variance is itself an estimate, which increases the expected chi² by this factor.
   const double estimated = static_cast<double>(periods - 1) / (periods - 2);
   std::vector<Weighed> weighed;
   for (const ResponseLine& line : lines) {
     const double systematic =
         LagFitter::kSystematic * LagFitter::kSystematic * std::norm(line.response);
-    // Half of it is that of the real part.
+    // Half of the variance belongs to the real part.
     const double variance = 0.5 * (estimated * line.variance + systematic);
     weighed.push_back({2 * M_PI * line.frequency_Hz, line.response, 1 / std::sqrt(variance)});
   }
@@ -181,7 +182,7 @@ LagFit LagFitter::fit(const std::vector<ResponseLine>& lines, int periods) {
     result.missing = NoLag::kNoMotion;
     return result;
   }
-  // All lines: to choose those of a large response would make it larger.
+  // Uses all lines: selecting those with a large response would bias the result upwards.
   const std::vector<Candidate> found = candidates_of(weigh(lines, periods));
   const Candidate best = *std::min_element(found.begin(), found.end(), is_better);
   if (!std::isfinite(best.cost)) {
@@ -195,8 +196,8 @@ LagFit LagFitter::fit(const std::vector<ResponseLine>& lines, int periods) {
   result.mass_kg = best.grip[0];
   result.damping_N_s_m = best.grip[1];
   result.stiffness_N_m = best.grip[2];
-  // The profile likelihood: of every first-order part those lags that are hardly worse. A misfit
-  // makes all errors larger.
+  // Profile likelihood: for every first-order part, the lags whose cost is within the limit. A
+  // misfit scales all errors up.
   const double scale = std::max(1.0, spread);
   for (const Candidate& candidate : found) {
     const double left = kDeviations * kDeviations - (candidate.cost - best.cost) / scale;

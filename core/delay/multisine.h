@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The force with which a delay is measured.
+/// The test force for a delay measurement.
 #pragma once
 
 #include <algorithm>
@@ -11,18 +11,18 @@
 
 namespace spidar {
 
-/// Sines of one amplitude and random phases. In a second each of them passes a whole number of
-/// times.
+/// A sum of sines with equal amplitudes and random phases. Each completes a whole number of cycles
+/// per second.
 class Multisine {
  public:
-  /// Primes, so that no harmonic of one falls on another, and at least two apart, so that a Hann
-  /// window of one second keeps them apart. Below 11 Hz a hand trembles and drifts; above 83 Hz a
-  /// grip hardly moves.
+  /// Primes, so that no harmonic of one line falls on another, and at least 2 Hz apart, so that a
+  /// Hann window of one second separates them. Below 11 Hz tremor and drift of the hand dominate;
+  /// above 83 Hz a grip hardly moves.
   static constexpr std::array<double, 19> kFrequency_Hz = {11, 13, 17, 19, 23, 29, 31, 37, 41, 43,
                                                            47, 53, 59, 61, 67, 71, 73, 79, 83};
   static constexpr double kPeriod_s = 1;
 
-  /// The largest value of a period is `peak`.
+  /// Scales the signal so that its largest absolute value is `peak`.
   template <typename Random>
   Multisine(Random& random, double peak) {
     std::uniform_real_distribution<double> turn(0, 2 * M_PI);

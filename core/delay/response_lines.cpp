@@ -22,7 +22,7 @@ std::complex<double> held(double rate_rad_s, double from_s, double to_s) {
   return (turned(rate_rad_s * from_s) - turned(rate_rad_s * to_s)) / (j * rate_rad_s);
 }
 
-/// The same under the window 1 − cos(2πs/period).
+/// The same integral with the window 1 − cos(2πs/period).
 std::complex<double> held_in_window(double rate_rad_s, double from_s, double to_s) {
   return held(rate_rad_s, from_s, to_s) - 0.5 * held(rate_rad_s - kTurn, from_s, to_s) -
          0.5 * held(rate_rad_s + kTurn, from_s, to_s);
@@ -34,9 +34,9 @@ double window(double time_s) {
 
 }  // namespace
 
-// The force is held between two calls, so its integral is exact. The place is known at the calls
-// only: with calls a millisecond apart the trapezoidal rule is exact for what is periodic and has
-// no part beyond 500 Hz, and late calls add an error of some thousandths at most.
+// The force is constant between two calls, so its integral is exact. The position is known only at
+// the calls. With calls one millisecond apart the trapezoidal rule is exact for a periodic signal
+// without components above 500 Hz; late calls add an error of a few thousandths at most.
 void PeriodSums::add(double time_s, double force_N, double place_m) noexcept {
   const double at_s = time_s - begin_s_;
   if (!started_) first_m_ = place_m;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How a grip answers to a force at some frequencies.
+/// The frequency response of a grip to a force.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@ constexpr size_t kLines = Multisine::kFrequency_Hz.size();
 struct ResponseLine {
   double frequency_Hz = 0;
   std::complex<double> response;  ///< motion per force, m/N
-  double variance = 0;            ///< of `response`: mean of |error|², (m/N)²
+  double variance = 0;            ///< mean |error|² of `response`, (m/N)²
 };
 
-/// Fourier sums of one period of force and motion under a Hann window. The drift of a hand, which
-/// is not periodic, is large beside the motion that is looked for; the window keeps it away from
-/// the lines.
+/// Fourier sums of the force and the motion over one period with a Hann window. The drift of the
+/// hand is not periodic and is large compared with the response; the window reduces its leakage
+/// into the lines.
 class SPIDAR_API PeriodSums {
  public:
   /// The period begins at `begin_s`.
   explicit PeriodSums(double begin_s) : begin_s_(begin_s) {}
 
-  /// In the order of time: at `time_s` the grip is at `place_m`, and from then on `force_N` is
-  /// wanted until the next call. What is outside the period does not count.
+  /// Call in order of time. At `time_s` the grip is at `place_m`, and `force_N` applies from then
+  /// until the next call. Times outside the period are ignored.
   void add(double time_s, double force_N, double place_m) noexcept;
 
   const std::array<std::complex<double>, kLines>& force() const noexcept { return force_; }
@@ -50,9 +50,10 @@ class SPIDAR_API PeriodSums {
   std::array<std::complex<double>, kLines> place_{};
 };
 
-/// The mean over periods of different phases, and from how they differ its variance: that of the
-/// hand, of the steps of encoder and D/A, and of what is not linear (J. Schoukens, R. Pintelon, Y.
-/// Rolain, "Mastering System Identification in 100 Exercises", chapter 4). At least three periods.
+/// Averages the response over periods with different phases and estimates the variance from their
+/// differences. The variance covers the hand, the quantization of encoder and D/A converter, and
+/// nonlinearity (J. Schoukens, R. Pintelon, Y. Rolain, "Mastering System Identification in 100
+/// Exercises", chapter 4). Needs at least three periods.
 SPIDAR_API std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods);
 
 }  // namespace spidar

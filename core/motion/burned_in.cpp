@@ -8,28 +8,31 @@
 namespace spidar {
 namespace {
 
-/// So many pixels of a block say that something stays.
+/// Minimum number of pixels needed to decide that a block stays constant.
 constexpr int kLeastPixels = 16;
-/// With noise of a grey level after reduction, 0.35 of the pixels that stay are exactly the same;
-/// of what is burned in it is nearly all of them, or 0.6 where an encoder has added something. Half
-/// of them is between the two; the standard deviation of their number is √n / 2. White and black
-/// parts of an object lose their noise, too: where a block is not in its place, more is asked.
+/// Minimum share of pixels that are exactly equal. With noise of one grey level after reduction,
+/// 0.35 of the pixels of a static object are exactly equal. For graphics it is nearly all of them,
+/// or 0.6 if an encoder adds noise. A share of 0.5 separates the two; the standard deviation of the
+/// count is √n / 2. Saturated white and black parts of an object have no noise either, so a block
+/// that has moved needs a higher share.
 constexpr float kExactShare = 0.5f;
 constexpr float kExactShareElsewhere = 0.75f;
-/// A block that is nearer to its place than this has not moved, px of the field's picture.
+/// A block that moved by less than this counts as not moved, px of the field's picture.
 constexpr float kInPlace_px = 0.5f;
-/// The film beside what stays in the same block draws the block's motion along, by up to this.
+/// Largest apparent motion that the film in the same block gives to a block with static graphics.
 constexpr float kDrawnAlong_px = 1;
-/// Mean squared difference that the noise of the film cannot explain: so many times that of the
-/// noise, and so many grey levels squared.
+/// Mean squared difference that the noise of the film cannot explain: the larger of this multiple
+/// of the noise and this number of squared grey levels.
 constexpr float kTimesNoise = 4;
 constexpr float kLeastResidual_grey2 = 6;
-/// What a pair in which a block stays adds, where every other one takes 1 away. From kLasting on,
-/// which takes two of them, the block goes on to count as burned in, for six pairs at most.
+/// Score of a block: a pair in which it stays constant adds kGain, every other pair subtracts 1.
+/// From kLasting on, which needs two such pairs, the block counts as burned in without a new sign,
+/// for at most five further pairs.
 constexpr int kGain = 3;
 constexpr int kLasting = 4;
 constexpr int kMost = 9;
-/// How far beside a block it is looked for what stays: the edge of a bar may be just outside.
+/// Offset at which constant pixels next to a block are searched: the edge of a bar may be just
+/// outside.
 constexpr int kBeside_px = 4;
 
 bool is_same(const StayingPixels& staying, float least_share) {

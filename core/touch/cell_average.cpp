@@ -24,7 +24,7 @@ void CellSpans::set(int samples, int cells) {
 }
 
 void CellSpans::add_mean(double begin, double end, int samples) {
-  // A rounding beyond the border between two samples makes no sample of its own.
+  // Keeps a rounding error at a border between two samples from adding a sample.
   constexpr double kRounding = 1e-9;
   const int first = static_cast<int>(std::floor(begin + kRounding));
   const int last = std::min(static_cast<int>(std::ceil(end - kRounding)), samples) - 1;

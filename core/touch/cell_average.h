@@ -10,9 +10,9 @@
 
 namespace spidar {
 
-/// The samples of a line that make up each cell, with weights that add up to 1. Where there are
-/// more samples than cells it is the mean over the cell, samples on its border in part; where there
-/// are fewer, the value is interpolated between the two nearest ones.
+/// The samples of a line that contribute to each cell, with weights that add up to 1. With at least
+/// as many samples as cells, the weights average over the cell and count samples on its border in
+/// part; with fewer, they interpolate between the two nearest samples.
 class CellSpans {
  public:
   struct Span {
@@ -33,7 +33,7 @@ class CellSpans {
   struct Cell {
     int first = 0;
     int count = 0;
-    size_t weight = 0;  // where its weights begin
+    size_t weight = 0;  // index of its first weight
   };
 
   void add_mean(double begin, double end, int samples);
@@ -44,14 +44,14 @@ class CellSpans {
   std::vector<float> weights_;
 };
 
-/// Averages a picture into the cells of a height field. A sample that is not a number is a hole.
+/// Averages a picture into the cells of a height field. A NaN sample is a hole and is ignored.
 class CellAverage {
  public:
   static constexpr int kColumns = HeightField::kColumns;
   static constexpr int kRows = HeightField::kRows;
 
-  /// The mean of each cell, NaN where it has holes only. `read_row(y, values)` writes the `width`
-  /// samples of row y. Allocates only when the size differs from the last call.
+  /// Computes the mean of each cell, NaN if the cell contains only holes. `read_row(y, values)`
+  /// writes the `width` samples of row y. Allocates only when the size differs from the last call.
   template <typename ReadRow>
   void read(int width, int height, ReadRow&& read_row, float* cells) {
     start(width, height);
@@ -60,7 +60,7 @@ class CellAverage {
       begin_cells();
       for (int k = 0; k < span.count; ++k) {
         const int y = span.first + k;
-        // Neighbouring cells share a row of samples: two are kept.
+        // Neighbouring cells can share a row of samples, so the last two rows are cached.
         Line& line = lines_[y & 1];
         if (line.y != y) {
           read_row(y, samples_.data());
@@ -73,11 +73,11 @@ class CellAverage {
   }
 
  private:
-  /// A row of samples, reduced to the columns of the field.
+  /// A row of samples reduced to the columns of the field.
   struct Line {
     int y = -1;
-    float sum[kColumns];     // weight · value of what is no hole
-    float weight[kColumns];  // of what is no hole
+    float sum[kColumns];     // of weight · value, without holes
+    float weight[kColumns];  // total, without holes
   };
 
   void start(int width, int height);

@@ -16,7 +16,8 @@ void require(bool right, const char* name, const char* rule, double value) {
                               std::to_string(value));
 }
 
-/// Of the texture at the place of the grip, where it is not moved by what holds the proxy.
+/// Slope of the texture at the position of the grip, not of the proxy, which friction can hold
+/// back.
 Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
                               const Eigen::Vector3d& grip_m) noexcept {
   const Eigen::Vector2d slope = gain * texture.at(grip_m.x(), grip_m.y()).slope;
@@ -25,7 +26,8 @@ Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
   return slope * (ContactForce::kMostTextureSlope / steepness);
 }
 
-/// The velocity is behind by its low-pass; the rest of the delay is that of all forces.
+/// The velocity additionally lags by its low-pass filter; the remaining delay applies to all
+/// forces.
 ForcePath path_of(const ContactSettings& settings, double dt_s) noexcept {
   ForcePath path;
   path.max_force_N = settings.max_force_N;
@@ -87,9 +89,10 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
   return force_N;
 }
 
-/// Where little energy is left, the bound follows the noise of the velocity. So a force that was
-/// bounded comes back no faster than the path lets it. More slowly would be calmer, but a force
-/// that is too low takes too little energy on the way in, and stays low.
+/// When little energy is left, the bound follows the noise of the velocity. A bounded force
+/// therefore rises again no faster than the slew limit of the path. A slower rise would be
+/// smoother, but a force that is too low absorbs too little energy while the grip moves in, and
+/// stays low.
 double ContactForce::bounded_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
                                    double dt_s) noexcept {
   const double size_N = wanted_N.norm();
@@ -103,25 +106,25 @@ double ContactForce::bounded_share(const Eigen::Vector3d& wanted_N, const ForceP
   return std::min(1.0, most_N / size_N);
 }
 
-/// What a surface that moves puts into the spring may come out again: that is what it is for.
+/// Energy that a moving surface puts into the spring may be returned to the hand.
 void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
                                  const Eigen::Vector3d& grip_m) noexcept {
   if (!proxy_.touching()) {
     budget_.follow(way_m, velocity_m_s_, 0, 0);
     return;
   }
-  // Beyond max_force_N the spring gives way.
+  // Above max_force_N the spring yields.
   const double length_m = (proxy_.position_m() - grip_m).norm();
   const double force_N = std::min(settings.stiffness_N_m * length_m, settings.max_force_N);
   const double stored_J = force_N * (length_m - 0.5 * force_N / settings.stiffness_N_m);
   double put_in_J = length_m > 0 ? 0.5 * force_N / length_m * proxy_.stretched_m2() : 0;
-  // A surface that gives way takes energy from the force that there is, which the bound may hold
-  // below that of the spring.
+  // A receding surface takes energy out at the actual force, which the bound may keep below the
+  // spring force.
   if (put_in_J < 0) put_in_J *= std::min(1.0, budget_.force_N().norm() / force_N);
   budget_.follow(way_m, velocity_m_s_, put_in_J, stored_J);
 }
 
-/// Without the bound.
+/// The force before the energy bound is applied.
 Eigen::Vector3d ContactForce::wanted_N(const HeightField* texture, const ContactSettings& settings,
                                        const Eigen::Vector3d& grip_m) const noexcept {
   if (!proxy_.touching()) return Eigen::Vector3d::Zero();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The force of a grip that touches a relief.
+/// The contact force on a grip that touches a relief.
 #pragma once
 
 #include <limits>
@@ -14,57 +14,60 @@
 
 namespace spidar {
 
-/// See docs/touch.md for why these are stable.
+/// docs/touch.md explains why these values are stable.
 struct ContactSettings {
   double stiffness_N_m = 500;  ///< above 0, at most kMostStiffness_N_m
-  /// From a motion of the grip to the force that answers it: half a tick of holding, a tick because
-  /// the pose is that of the last exchange, and the lag of the drive (2 ms where it is not known).
+  /// Delay from a motion of the grip to the resulting force: half a tick for the zero-order hold,
+  /// one tick because the pose comes from the last exchange, and the lag of the drive (2 ms if
+  /// unknown).
   double delay_s = 0.0035;  ///< finite and ≥ 0
-  /// The damping B, in units of stiffness · delay. Finite and ≥ 1: below, the delay puts out more
-  /// energy than the damping takes, at every frequency.
+  /// The damping B, in units of stiffness · delay. Finite and ≥ 1: below 1 the delay generates more
+  /// energy than the damping dissipates, at every frequency.
   double damping = 1.5;
   double lateral_damping = 0.5;  ///< along the surface, in units of B; finite and ≥ 0.5
   Friction friction;
-  double texture = 1;  ///< of the slope of the texture that is felt; finite and ≥ 0
-  /// What the safety chain lets through: a contact gives no more energy back than it took only if
-  /// these are right. Above 0; the force may be infinite.
+  double texture = 1;  ///< gain of the texture's slope; finite and ≥ 0
+  /// Limits of the safety chain. The contact stays passive only if they are correct. Above 0;
+  /// max_force_N may be infinite.
   double max_force_N = std::numeric_limits<double>::infinity();
   double max_slew_N_s = 300;
-  /// Felt at the same time and not from the contact, as the film's; it shares those two limits.
+  /// Force rendered at the same time that does not come from the contact, such as the film's. It
+  /// shares these two limits with the contact.
   Eigen::Vector3d beside_N = Eigen::Vector3d::Zero();
-  /// Of the grip alone. A lighter one can get some energy out of a fast tap. Finite and above 0.
+  /// Mass of the grip alone, finite and above 0. A lighter grip can gain some energy from a fast
+  /// tap.
   double least_mass_kg = 0.05;
-  bool bounds_energy = true;  ///< false, in measurements: without EnergyBudget
+  bool bounds_energy = true;  ///< false disables EnergyBudget, for measurements
 
   static constexpr double kMostStiffness_N_m = 800;
 
   double damping_N_s_m() const noexcept { return damping * stiffness_N_m * delay_s; }
 };
 
-/// Throws std::invalid_argument that names the setting which is out of range.
+/// Throws std::invalid_argument naming the setting that is out of range.
 SPIDAR_API void validate(const ContactSettings& settings);
 
-/// A spring to the proxy, a damper, and the texture as a force along the surface, together no more
-/// than what EnergyBudget allows. Fine texture as part of the relief would let the proxy snap from
-/// valley to valley.
+/// The sum of a spring to the proxy, a damper, and the texture as a force along the surface,
+/// bounded by EnergyBudget. The texture is not part of the relief because the proxy would then snap
+/// from valley to valley.
 class SPIDAR_API ContactForce {
  public:
-  /// Cutoff of the velocity, a first-order low-pass.
+  /// Cutoff frequency of the first-order low-pass on the velocity.
   static constexpr double kVelocityCutoff_Hz = 60;
-  /// The texture's force is at most this share of the force across the surface, of which no more
-  /// than kMostTexture_N counts: it is a spring along the surface, and this bounds its stiffness.
+  /// The texture force is at most this share of the normal force, of which at most kMostTexture_N
+  /// counts. The texture acts as a spring along the surface, and this limit bounds its stiffness.
   static constexpr double kMostTextureSlope = 0.15;
   static constexpr double kMostTexture_N = 1;
 
-  /// Force on the grip, device frame, `dt_s` > 0 after the last tick. Zero where it does not touch,
-  /// and never towards the inside. `texture`: heights whose slope is felt, or null. Settings have
-  /// to be valid. Neither allocates nor throws.
+  /// Returns the force on the grip in the device frame, `dt_s` > 0 after the last tick. It is zero
+  /// without contact and never pulls the grip into the surface. `texture` holds heights whose slope
+  /// is rendered, or is null. The settings must be valid. Neither allocates nor throws.
   Eigen::Vector3d tick(const MovingRelief& surface, const HeightField* texture,
                        const ContactSettings& settings, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept;
 
   const TouchProxy& proxy() const noexcept { return proxy_; }
-  /// The pose was lost: nothing is known about how the grip moves.
+  /// Discards all state, for example after the pose was lost.
   void reset() noexcept { *this = {}; }
 
  private:
@@ -78,7 +81,7 @@ class SPIDAR_API ContactForce {
 
   TouchProxy proxy_;
   EnergyBudget budget_;
-  double bounded_N_ = std::numeric_limits<double>::infinity();  ///< in the last tick, if it was
+  double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite if not bounded
   bool started_ = false;
   Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();

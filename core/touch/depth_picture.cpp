@@ -21,7 +21,7 @@ void require(bool right, const std::string& name, const char* rule, double value
                               std::to_string(value));
 }
 
-/// Of `count` lines the one that stands for the n-th of `wanted`.
+/// Index of the n-th of `wanted` evenly spaced lines out of `count`.
 int chosen(int n, int wanted, int count) noexcept {
   return static_cast<int>((2LL * n + 1) * count / (2LL * wanted));
 }
@@ -89,13 +89,13 @@ bool DepthPicture::read(const DepthView& depth, const DepthSettings& settings, d
   const auto scale = static_cast<float>(1 / (near_ - far_));
   for (size_t i = 0; i < kCells; ++i) {
     const float level = (cells_[i] - far) * scale;
-    // The order matters: a NaN stays one.
+    // These comparisons keep NaN.
     levels_[i] = level < 0 ? 0 : level > 1 ? 1 : level;
   }
   return true;
 }
 
-/// False when there are holes only.
+/// Returns false if all cells are holes.
 bool DepthPicture::average(const DepthView& depth) {
   const int width = std::min(depth.width, kSamplesAcross * HeightField::kColumns);
   const int height = std::min(depth.height, kSamplesAcross * HeightField::kRows);
@@ -131,7 +131,7 @@ void DepthPicture::read_row(const DepthView& depth, int y, float* values) const 
   }
 }
 
-/// Of the cells; at least one is no hole.
+/// At least one cell must not be a hole.
 DepthPicture::Ends DepthPicture::percentiles() noexcept {
   std::fill(count_.begin(), count_.end(), uint16_t{0});  // a count is at most kCells
   int cells = 0;
@@ -151,7 +151,7 @@ DepthPicture::Ends DepthPicture::percentiles() noexcept {
   return {static_cast<double>(low), static_cast<double>(high)};
 }
 
-/// More cells than a film without a cut has are beyond an end that was found.
+/// Whether more than kCut of the cells lie beyond the ends that are estimated.
 bool DepthPicture::is_cut(const DepthSettings& settings) const noexcept {
   const double sign = settings.disparity ? -1 : 1;
   const double nearest = settings.near_sample < 0 ? sign * near_ : -HUGE_VAL;
@@ -175,7 +175,7 @@ void DepthPicture::follow(const DepthSettings& settings, double dt_s) noexcept {
     const Ends ends = percentiles();
     if (finds_near) near = settings.disparity ? ends.high : ends.low;
     if (finds_far) far = settings.disparity ? ends.low : ends.high;
-    // Made wide enough around its middle, or away from the end that is set.
+    // Widens a narrow range about its middle, or away from the end that is set.
     const double sign = settings.disparity ? -1 : 1;
     const double least = std::max(kLeastSpan, kLeastShare * std::max(near, far));
     const double lacking = least - sign * (far - near);

@@ -47,7 +47,7 @@ void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3
   follow(beside_N, beside_N_);
   const Eigen::Vector3d own_N = limited_N_ - beside_N_;
   before_N_ = mean_N_;
-  // What is held for a tick, through a first-order lag.
+  // Response of a first-order lag to a force that is held for one tick.
   const Eigen::Vector3d behind_N = force_N_ - own_N;
   const double fading = path.lag_s > 0 ? std::exp(-dt_s / path.lag_s) : 0;
   mean_N_ = own_N + behind_N * ((1 - fading) * path.lag_s / dt_s);

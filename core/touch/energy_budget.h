@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a contact may give back to the hand.
+/// Limits the energy that a contact returns to the hand.
 #pragma once
 
 #include <array>
@@ -12,56 +12,56 @@
 
 namespace spidar {
 
-/// What is known of the way from a wanted force to how it moves the grip.
+/// Properties of the path from a requested force to the motion of the grip.
 struct ForcePath {
-  double max_force_N = std::numeric_limits<double>::infinity();  ///< that is let through
-  double max_slew_N_s = 300;                                     ///< that is let through
-  double lag_s = 0.002;             ///< of the drive, first order; ≥ 0
-  double velocity_lag_s = 0.00615;  ///< from a velocity that is told to when a force acts
-  double least_mass_kg = 0.05;      ///< of the grip with what moves along with it
+  double max_force_N = std::numeric_limits<double>::infinity();  ///< of the safety chain
+  double max_slew_N_s = 300;                                     ///< of the safety chain
+  double lag_s = 0.002;             ///< first-order lag of the drive; ≥ 0
+  double velocity_lag_s = 0.00615;  ///< from a measured velocity to the resulting force
+  double least_mass_kg = 0.05;      ///< of the grip and what moves with it
 };
 
-/// Follows the energy that a contact has taken from the hand, and bounds the force so that the
-/// contact does not give more than that back: a passivity observer and controller (B. Hannaford and
+/// Tracks the energy that a contact has absorbed from the hand, and bounds the force so that the
+/// contact returns no more than that. It is a passivity observer and controller (B. Hannaford and
 /// J.-H. Ryu, Time-domain passivity control of haptic interfaces, IEEE Transactions on Robotics and
-/// Automation 18, 2002) that looks ahead. Looking back is not enough: a force that may change only
-/// so fast, and that lags behind, still pushes when the energy is spent.
+/// Automation 18, 2002) that predicts. Observing the past is not enough: a force with limited slew
+/// and a lag still pushes after the energy is spent.
 ///
-/// A force F that is taken back from now on as fast as it may be still has the impulse
-/// J = lag · (force on the grip) + F · tick + F² / (2 · slew). On a mass m that moves outwards at v
-/// it does the work v J + J² / (2 m). The bound is the F for which this is what is left.
+/// A force F that is reduced from now on at the slew limit still delivers the impulse J = lag ·
+/// (force on the grip) + F · tick + F² / (2 · slew). On a mass m that moves outwards at v, this
+/// impulse does the work v J + J² / (2 m). The bound is the F for which this work equals the energy
+/// that is left.
 class SPIDAR_API EnergyBudget {
  public:
-  /// Once a tick, before its force is chosen. `way_m`: how the grip has moved since the last tick,
-  /// by its places before the last exchange and the one before that. `put_in_J`: by the surface's
-  /// own move. `stored_J`: what the spring holds, 0 where nothing is touched; no more than that is
-  /// ever left.
+  /// Call once per tick, before choosing the force. `way_m` is the displacement of the grip since
+  /// the last tick, from the poses of the last two exchanges. `put_in_J` is the energy added by the
+  /// motion of the surface. `stored_J` is the energy stored in the spring, 0 without contact; the
+  /// energy left never exceeds it.
   void follow(const Eigen::Vector3d& way_m, const Eigen::Vector3d& velocity_m_s, double put_in_J,
               double stored_J) noexcept;
 
-  /// The largest force in a direction of length 1.
+  /// The largest allowed force along the unit vector `direction`.
   double most_N(const Eigen::Vector3d& direction, const ForcePath& path,
                 double dt_s) const noexcept;
 
-  /// The force of this tick, before the limits of the path. It shares them with `beside_N`, a force
-  /// that does not come from the contact: the contact's part of what is let through is what is
-  /// more than it would be without the contact.
+  /// Sets the force of this tick, before the limits of the path. `beside_N`, a force that does not
+  /// come from the contact, shares these limits. The contact's part is the limited sum minus what
+  /// would pass without the contact.
   void command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3d& beside_N,
                const ForcePath& path, double dt_s) noexcept;
 
-  /// Taken from the hand in this contact and not given back, as far as it is known.
+  /// Estimated energy absorbed from the hand in this contact and not yet returned.
   double left_J() const noexcept { return left_J_; }
-  /// On the grip, as far as it is known.
+  /// Estimated contact force on the grip.
   const Eigen::Vector3d& force_N() const noexcept { return force_N_; }
 
  private:
   static constexpr int kSlope = 3;  // ticks over which the acceleration is measured
 
   double left_J_ = 0;
-  std::array<Eigen::Vector3d, kSlope + 1> velocity_m_s_ = zeros();  // the latest first
-  Eigen::Vector3d limited_N_ =
-      Eigen::Vector3d::Zero();                          // by the path's limits, with what is beside
-  Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();  // by the same limits, alone
+  std::array<Eigen::Vector3d, kSlope + 1> velocity_m_s_ = zeros();  // latest first
+  Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();             // contact + beside, limited
+  Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();              // alone, with the same limits
   Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();   // on the grip, at the end of the last tick
   Eigen::Vector3d mean_N_ = Eigen::Vector3d::Zero();    // in the last tick, not yet measured
   Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();  // in the tick before

@@ -26,14 +26,15 @@ struct Basis {
   }
 };
 
-/// A place along an axis: the samples around it, and how far it is from the second of them.
+/// A position along an axis: the four surrounding samples and the distance from the second one.
 struct Place {
   std::array<int, kTaps> sample;
   double t;
 
-  /// `u`: in samples, 0 is the first of `count`. The border's sample stands for those outside.
+  /// `u` is in samples, with 0 at the first of `count`. Samples outside repeat the border sample.
   Place(double u, int count) noexcept {
-    // Two samples outside all four are the border's. Written so that NaN is bounded too.
+    // Two samples outside, all four equal the border sample. The negated comparisons also catch
+    // NaN.
     if (!(u > -2)) u = -2;
     if (!(u < count + 1)) u = count + 1;
     const double below = std::floor(u);

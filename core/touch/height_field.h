@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A relief over the picture, smooth enough to be touched.
+/// A smooth height field over the picture.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct SurfacePoint {
   /// dz/dx and dz/dy, without a unit.
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
 
-  /// Towards the viewer, of length 1.
+  /// Unit normal, towards the viewer.
   Eigen::Vector3d normal() const noexcept {
     return Eigen::Vector3d(-slope.x(), -slope.y(), 1) / std::sqrt(1 + slope.squaredNorm());
   }
@@ -27,21 +27,22 @@ struct SurfacePoint {
 /// Heights z in the device frame, over a picture whose centre is the device's origin: columns from
 /// left (−x) to right, rows from the top (+y) down. A sample lies at the centre of its cell.
 ///
-/// Between the samples runs the uniform cubic B-spline that has them as its coefficients (C. de
-/// Boor, A Practical Guide to Splines). Its height, slope and curvature are continuous. It does not
-/// pass through the samples but smooths them, so that it is never above the highest or below the
-/// lowest of them, and dz/dx is never steeper than the steepest step between two neighbours of a
-/// row (dz/dy: of a column). A plane is reproduced exactly; elsewhere the surface differs from the
-/// samples by cell²/6 · d²z/dx², and likewise in y. Outside the picture the heights of the border
-/// go on, without a slope across it.
+/// The surface is the uniform cubic B-spline with the samples as its coefficients (C. de Boor, A
+/// Practical Guide to Splines). Its height, slope and curvature are continuous. It does not pass
+/// through the samples but smooths them, so that it is never above the highest or below the lowest
+/// of them, and dz/dx is never steeper than the steepest step between two neighbours of a row
+/// (dz/dy: of a column). A plane is reproduced exactly; elsewhere the surface differs from the
+/// samples by cell²/6 · d²z/dx², and likewise in y. Outside the picture the border heights continue
+/// with zero slope across the border.
 class SPIDAR_API HeightField {
  public:
   static constexpr int kColumns = 256;
   static constexpr int kRows = 144;
   static constexpr int kCells = kColumns * kRows;
 
-  /// Level at 0. The picture is `width_m` × `height_m` in the hand's space. Throws
-  /// std::invalid_argument unless both are finite and above 0. Allocates; nothing else does.
+  /// All heights start at 0. The picture measures `width_m` × `height_m` in the device frame.
+  /// Throws std::invalid_argument unless both are finite and above 0. Only this constructor
+  /// allocates.
   HeightField(double width_m, double height_m);
 
   float* row(int y) noexcept { return z_m_.data() + y * kColumns; }
@@ -51,11 +52,12 @@ class SPIDAR_API HeightField {
   double height_m() const noexcept { return kRows * cell_y_m_; }
   double cell_x_m() const noexcept { return cell_x_m_; }
   double cell_y_m() const noexcept { return cell_y_m_; }
-  /// Where the sample of column `x` and row `y` lies.
+  /// Coordinates of the sample in column `x` and row `y`.
   double x_m(int x) const noexcept { return (x + 0.5 - 0.5 * kColumns) * cell_x_m_; }
   double y_m(int y) const noexcept { return (0.5 * kRows - 0.5 - y) * cell_y_m_; }
 
-  /// At a place in the device frame. Not a number counts as the left or upper border.
+  /// Evaluates the surface at a position in the device frame. NaN counts as the left or upper
+  /// border.
   SurfacePoint at(double x_m, double y_m) const noexcept;
 
  private:

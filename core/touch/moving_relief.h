@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A relief on its way from one frame to the next.
+/// A relief interpolated between two frames.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +11,13 @@
 
 namespace spidar {
 
-/// Two reliefs and the place between them: with share s and displacement u,
-/// h(p) = (1 − s) before(p − s u) + s after(p + (1 − s) u). What moved by u from one frame to the
-/// next keeps its shape on the way; mere cross-fading would show it twice. Never owns the fields.
+/// Interpolates between two reliefs with share s and displacement u: h(p) = (1 − s) before(p − s u)
+/// + s after(p + (1 − s) u). An object that moves by u from one frame to the next keeps its shape;
+/// plain cross-fading would show it twice. Does not own the fields.
 struct MovingRelief {
   const HeightField* before = nullptr;  ///< must not be null
-  const HeightField* after = nullptr;   ///< null: only `before`, which stands still
-  double share = 0;                     ///< 0 … 1: of `after`
+  const HeightField* after = nullptr;   ///< null: only `before`, which is static
+  double share = 0;                     ///< of `after`, 0 … 1
   Eigen::Vector2d displacement_m = Eigen::Vector2d::Zero();
 
   SurfacePoint at(const Eigen::Vector2d& place_m) const noexcept {

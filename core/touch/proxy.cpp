@@ -10,11 +10,12 @@
 namespace spidar {
 namespace {
 
-/// No relief is steeper than this in any direction: kMaxSlope along both axes.
+/// Largest slope of a relief in any direction: kMaxSlope along both axes.
 const double kSteepest = ReliefBuilder::kMaxSlope * std::sqrt(2.0);
-/// What slides sticks again when it has come back so far: the hand has turned.
+/// A sliding proxy sticks again when its tangential distance falls below this share of the dynamic
+/// limit, as happens when the hand reverses.
 constexpr double kSticksAgain = 0.6;
-/// Shorter ways are not worth a step: 1 nm is 0.5 µN.
+/// Shorter steps are skipped: at 500 N/m, 1 nm corresponds to 0.5 µN.
 constexpr double kLeastStep_m = 1e-9;
 constexpr int kMostHalvings = 3;
 
@@ -31,7 +32,7 @@ void TouchProxy::move(const MovingRelief& surface, const Friction& friction,
   if (touching_) {
     carry(surface, shift_m, grip_m, dt_s);
   } else {
-    // Where nobody touches it the surface may fall at once.
+    // Without contact a raised surface may fall immediately.
     enter(surface, std::min(shift_m, 0.0), grip_m, dt_s);
   }
   if (touching_) walk(surface, friction, grip_m);
@@ -39,8 +40,8 @@ void TouchProxy::move(const MovingRelief& surface, const Friction& friction,
   started_ = true;
 }
 
-/// A shifted surface a little nearer to its place. It falls faster than it rises: falling gives
-/// nothing to the hand.
+/// Reduces the shift of the surface. It falls faster than it rises because falling gives no energy
+/// to the hand.
 double TouchProxy::settled_m(double dt_s) noexcept {
   if (shift_m_ >= 0) {
     rise_m_s_ = 0;
@@ -50,7 +51,7 @@ double TouchProxy::settled_m(double dt_s) noexcept {
   return std::min(0.0, shift_m_ + rise_m_s_ * dt_s);
 }
 
-/// Moves with the surface, not faster than kFastest_m_s.
+/// Moves the proxy with the surface, at most at kFastest_m_s.
 void TouchProxy::carry(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept {
   const SurfacePoint at = surface.at(position_m_.head<2>());
@@ -63,8 +64,8 @@ void TouchProxy::carry(const MovingRelief& surface, double shift_m, const Eigen:
   normal_ = at.normal();
 }
 
-/// Begins to touch where the grip is below the surface. What its own way since the last tick does
-/// not explain is a surface that has jumped.
+/// Starts contact if the grip is below the surface. Depth that the grip's motion since the last
+/// tick does not explain counts as a jump of the surface.
 void TouchProxy::enter(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept {
   const SurfacePoint at = surface.at(grip_m.head<2>());
@@ -90,7 +91,7 @@ void TouchProxy::walk(const MovingRelief& surface, const Friction& friction,
   for (int n = 0; n < kMostSteps; ++n) {
     const Eigen::Vector3d to_grip_m = grip_m - position_m_;
     const double depth_m = -normal_.dot(to_grip_m);
-    // Above the tangent plane it may still be below a surface that is hollow.
+    // A grip above the tangent plane may still be below a concave surface.
     if (depth_m <= 0 && grip_m.z() >= surface.at(grip_m.head<2>()).z_m + shift_m_) {
       leave(grip_m);
       return;
@@ -110,8 +111,8 @@ void TouchProxy::walk(const MovingRelief& surface, const Friction& friction,
   }
 }
 
-/// Goes `way_m` along the tangent plane and then back to the surface, or less of it. False: no way
-/// leads nearer to the grip.
+/// Moves by `way_m`, or a fraction of it, along the tangent plane and back onto the surface.
+/// Returns false if no such step ends closer to the grip.
 bool TouchProxy::step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
                       const Eigen::Vector3d& grip_m) noexcept {
   const double now_m2 = (position_m_ - grip_m).squaredNorm();

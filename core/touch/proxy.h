@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The point of a surface that a grip touches.
+/// The surface point (proxy) that follows a grip in contact.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,50 +10,50 @@
 
 namespace spidar {
 
-/// Coulomb friction: what holds before it slides, and then. 0 ≤ dynamic ≤ fixed.
+/// Coefficients of static and dynamic Coulomb friction, 0 ≤ dynamic ≤ fixed.
 struct Friction {
   double fixed = 0;    ///< μs
   double dynamic = 0;  ///< μd
 };
 
-/// A point that stays on the surface while the grip is inside, as near to it as friction lets it
-/// come (after D. Ruspini, K. Kolarov and O. Khatib, The haptic display of complex graphical
-/// environments, SIGGRAPH 1997). A spring between the two is the force of the contact.
+/// A point that stays on the surface while the grip is below it, as close to the grip as friction
+/// allows (after D. Ruspini, K. Kolarov and O. Khatib, The haptic display of complex graphical
+/// environments, SIGGRAPH 1997). A spring between the two generates the contact force.
 ///
-/// The proxy's own move never makes that spring longer: a step along the tangent plane is taken
-/// only when it ends nearer to the grip, else half of it is tried. So the move stores no energy.
-/// Walks that only follow the tangent do, where they climb on a crease.
+/// A step of the proxy never lengthens that spring: a step along the tangent plane is accepted only
+/// if it ends closer to the grip, otherwise half of it is tried. Steps therefore store no energy,
+/// unlike methods that only follow the tangent plane and climb at creases.
 ///
-/// A surface that jumps, because the film cuts, because playing starts with the grip inside of it,
-/// or because it moves faster than kFastest_m_s, is shifted to where the grip is and comes to its
-/// place at kRise_m_s. So nothing has to be told of a cut.
+/// A surface can jump because of a cut, because playback starts with the grip below it, or because
+/// it moves faster than kFastest_m_s. It is then shifted to the grip and moves to its true height
+/// at kRise_m_s, so cuts need not be signalled.
 class SPIDAR_API TouchProxy {
  public:
-  static constexpr double kFastest_m_s = 0.2;  ///< of a surface that is touched
+  static constexpr double kFastest_m_s = 0.2;  ///< of a surface in contact
   static constexpr double kRise_m_s = 0.04;
-  /// A rise gets as fast as that within 0.1 s. Begun at full speed, it would throw a lightly held
+  /// The rise reaches kRise_m_s within 0.1 s. Starting at full speed would throw a lightly held
   /// grip up 40 % faster.
   static constexpr double kRise_m_s2 = 0.4;
   static constexpr int kMostSteps = 8;  ///< of half a cell each, in a tick
 
   /// One tick, `dt_s` > 0 after the last. `grip_m` in the device frame. Neither allocates nor
-  /// throws. A grip that is not finite touches nothing.
+  /// throws. A non-finite grip position ends the contact.
   void move(const MovingRelief& surface, const Friction& friction, const Eigen::Vector3d& grip_m,
             double dt_s) noexcept;
 
   bool touching() const noexcept { return touching_; }
   bool sliding() const noexcept { return sliding_; }
-  /// On the surface; the grip itself where it does not touch.
+  /// On the surface while touching; otherwise the grip position.
   const Eigen::Vector3d& position_m() const noexcept { return position_m_; }
-  /// Of the surface at the proxy, towards the viewer. Only while touching.
+  /// Surface normal at the proxy, towards the viewer. Valid only while touching.
   const Eigen::Vector3d& normal() const noexcept { return normal_; }
-  /// How much higher (> 0) or lower the surface is held than it is.
+  /// Height by which the surface is currently shifted: > 0 above its true height, < 0 below it.
   double shift_m() const noexcept { return shift_m_; }
-  /// By how much the surface's own move has changed the squared distance between proxy and grip in
-  /// this tick: 2 / stiffness times the energy that it has put into the spring.
+  /// Change of the squared distance between proxy and grip in this tick that is due to the motion
+  /// of the surface: 2 / stiffness times the energy which that motion put into the spring.
   double stretched_m2() const noexcept { return stretched_m2_; }
 
-  /// The pose was lost or a new grip taken: its next place says nothing about how it moved.
+  /// Discards all state after the pose was lost: the next position says nothing about the motion.
   void reset() noexcept { *this = {}; }
 
  private:

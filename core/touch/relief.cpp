@@ -27,7 +27,7 @@ bool finite_and_not_negative(double value) {
   return std::isfinite(value) && value >= 0;
 }
 
-/// The Gaussian up to three standard deviations, its sum 1.
+/// Gaussian kernel truncated at three standard deviations and normalized to a sum of 1.
 class Kernel {
  public:
   static constexpr int kMostRadius = 3 * ReliefBuilder::kMostSmoothing_cells;
@@ -52,12 +52,12 @@ class Kernel {
   }
 };
 
-/// Of two neighbours or edges, the lower one; a NaN is none.
+/// The lower of two levels; NaN is ignored.
 float farther(float a, float b) noexcept {
   return std::fmin(a, b);
 }
 
-/// Fills what is NaN in `count` samples `step` apart from the nearest valid ones before and after.
+/// Fills NaN among `count` samples, `step` apart, from the nearest valid samples before and after.
 void fill_line(float* line, int count, int step) noexcept {
   float before = std::numeric_limits<float>::quiet_NaN();
   for (int i = 0; i < count;) {
@@ -73,8 +73,8 @@ void fill_line(float* line, int count, int step) noexcept {
   }
 }
 
-/// One of the two passes: raises row `y` to what the neighbour row `from` and the cells before it
-/// in the direction `step` ask for.
+/// One row of one of the two passes: raises row `y` to the envelope of the neighbour row `from` and
+/// of the preceding cells in the direction `step`.
 struct Envelope {
   float across_m, down_m, diagonal_m;
 
@@ -97,9 +97,9 @@ struct Envelope {
 };
 
 void limit_slope(HeightField& field) noexcept {
-  // Eight neighbours make an octagon of a circle. Its flanks are steeper than the step along an
-  // axis by 1 / cos(22.5°) where a cell is square; along an axis they are then a little flatter
-  // than allowed.
+  // Distances over eight neighbours turn a circle into an octagon. With square cells its flanks are
+  // steeper than along an axis by 1 / cos(22.5°). The slope is reduced by that factor, so along an
+  // axis it is slightly flatter than allowed.
   const double slope = ReliefBuilder::kMaxSlope * std::cos(std::acos(-1.0) / 8);
   const double across_m = slope * field.cell_x_m();
   const double down_m = slope * field.cell_y_m();
@@ -151,7 +151,7 @@ bool ReliefBuilder::from_levels(const float* levels, const ReliefSettings& setti
 
 bool ReliefBuilder::fill_holes() noexcept {
   for (int y = 0; y < kRows; ++y) fill_line(level_.data() + y * kColumns, kColumns, 1);
-  // What is still open are whole rows.
+  // Only rows without any valid sample are still NaN.
   for (int x = 0; x < kColumns; ++x) fill_line(level_.data() + x, kRows, kColumns);
   return !std::isnan(level_[0]);
 }

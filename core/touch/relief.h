@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From a picture or a depth image to a relief that can be touched.
+/// Builds a relief from a picture or a depth image.
 #pragma once
 
 #include <cstdint>
@@ -14,43 +14,42 @@
 namespace spidar {
 
 struct ReliefSettings {
-  double floor_z_m = 0;       ///< z of what is black or far; finite
-  double relief_m = 0.008;    ///< from there to what is white or near; finite and ≥ 0
-  double smoothing_m = 5e-4;  ///< standard deviation of the Gaussian; finite and ≥ 0
+  double floor_z_m = 0;       ///< z of black or far; finite
+  double relief_m = 0.008;    ///< height of white or near above it; finite and ≥ 0
+  double smoothing_m = 5e-4;  ///< standard deviation of the Gaussian filter; finite and ≥ 0
 };
 
-/// Throws std::invalid_argument that names the value which is out of range.
+/// Throws std::invalid_argument naming the value that is out of range.
 SPIDAR_API void validate(const ReliefSettings& settings);
 
-/// Builds reliefs. After the first picture of a size nothing is taken from the heap.
+/// Builds reliefs. Allocates only when the size of the picture changes.
 ///
-/// The surface is not steeper than kMaxSlope: along a row or a column never, across a straight edge
-/// of another direction to one part in a thousand. What is steeper in the picture keeps its top and
-/// gets a slope at its foot: each height becomes the largest of (height of any cell − slope ·
+/// The slope of the surface is limited to kMaxSlope: exactly along rows and columns, and within one
+/// part in a thousand across a straight edge in any other direction. A steeper edge keeps its top
+/// and gets a ramp at its foot: each height becomes the maximum of (height of any cell − slope ·
 /// distance to it), found in two passes over the picture with the distances of the eight neighbours
 /// (G. Borgefors, Distance transformations in digital images, CVGIP 34, 1986).
 class SPIDAR_API ReliefBuilder {
  public:
   static constexpr double kMaxSlope = 1.5;
-  /// Wider smoothing than this many cells (standard deviation) is bounded to it.
+  /// The standard deviation of the smoothing is limited to this many cells.
   static constexpr int kMostSmoothing_cells = 5;
 
   ReliefBuilder();
 
-  /// Bright is near. Returns false, and leaves `field` as it is, when the picture has no pixels.
-  /// The settings have to be valid. Cost is that of reading every pixel: hand over a reduced
-  /// picture where there is one.
+  /// Bright is near. Returns false, and leaves `field` unchanged, when the picture has no pixels.
+  /// The settings must be valid. Reads every pixel, so pass a reduced picture if one is available.
   bool from_brightness(const ImageView& picture, const ReliefSettings& settings,
                        HeightField& field);
 
-  /// From `levels` of HeightField::kCells cells, 0 (far) … 1 (near), as DepthPicture has them. A
-  /// hole (NaN) becomes as far as the farther of what is left and right of it, an empty row that of
-  /// what is above and below. Returns false, and leaves `field` as it is, when there is nothing but
-  /// holes. The settings have to be valid.
+  /// From `levels` of HeightField::kCells cells, 0 (far) … 1 (near), as DepthPicture provides them.
+  /// A hole (NaN) takes the farther of the values to its left and right; an empty row takes the
+  /// farther of the values above and below. Returns false, and leaves `field` unchanged, when all
+  /// cells are holes. The settings must be valid.
   bool from_levels(const float* levels, const ReliefSettings& settings, HeightField& field);
 
-  /// What the smoothing took out of the last picture or depth, as heights about 0: a texture. With
-  /// the settings of that picture. Level before the first one.
+  /// Writes the detail that smoothing removed from the last picture or depth, as heights about 0 (a
+  /// texture). Expects the settings used for that picture. All 0 before the first one.
   void fine_detail(const ReliefSettings& settings, HeightField& field) const noexcept;
 
  private:

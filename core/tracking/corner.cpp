@@ -11,8 +11,8 @@
 namespace spidar {
 namespace {
 
-/// Σ of derivatives and of their products; each derivative is twice the true one, for a central
-/// difference is not halved.
+/// Sums of the derivatives and of their products. Each derivative is twice the true value, because
+/// the central differences are not halved.
 struct Tensor {
   int xx = 0;
   int xy = 0;
@@ -37,10 +37,11 @@ struct Tensor {
   }
 };
 
-/// Smaller eigenvalue of the window's mean tensor about its mean, (grey / px)²; 0 for an edge.
-/// About its mean, because windows are compared without their mean: a slope alone shows nothing.
+/// Smaller eigenvalue of the window's mean structure tensor, (grey / px)²; 0 for an edge. The mean
+/// gradient is subtracted: windows are compared without their mean, so a constant slope alone
+/// cannot be located.
 float strength(const Tensor& t, float least_roundness) {
-  constexpr float kTwice = 4;  // both derivatives
+  constexpr float kTwice = 4;  // both derivatives are doubled
   constexpr float kPixels = kCornerWindow_px * kCornerWindow_px;
   const auto x = static_cast<float>(t.x);
   const auto y = static_cast<float>(t.y);
@@ -78,7 +79,7 @@ void two_blocks(const uint8_t* pixels, ptrdiff_t stride, Tensor* to) {
     sx = cv::v_dotprod(gx, ones, sx);
     sy = cv::v_dotprod(gy, ones, sy);
   }
-  // Of four lanes the first two are those of the left block.
+  // The first two of the four lanes belong to the left block.
   std::array<int, 4> lanes;
   const auto split = [&](const cv::v_int32x4& sums, int Tensor::*part) {
     cv::v_store(lanes.data(), sums);
@@ -116,7 +117,7 @@ void row_of_blocks(const uint8_t* pixels, ptrdiff_t stride, int blocks, BlockRow
   }
 }
 
-/// Between its first and last pixel: half a pixel beside the middle one.
+/// The midpoint between the first and the last pixel, which lies between two pixels.
 ImagePoint window_centre(int x0, int y0) {
   constexpr float kHalf_px = (kCornerWindow_px - 1) / 2.0f;
   return {static_cast<float>(x0) + kHalf_px, static_cast<float>(y0) + kHalf_px};
@@ -155,7 +156,7 @@ Corner centred_corner(const PaddedImage& image, const PixelBox& box, const Corne
   const ImagePoint half = window_centre(0, 0);
   int x0 = static_cast<int>(corner.at.x_px - half.x_px);
   int y0 = static_cast<int>(corner.at.y_px - half.y_px);
-  // Looked at `kSteps` times to be moved, and once more for its strength.
+  // Moves the window `kSteps` times, then evaluates its strength once more.
   for (int step = 0;; ++step) {
     Tensor window;
     int columns = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The place of a piece of picture that is best to follow (Shi–Tomasi, eq. 1).
+/// Finds the strongest corner in part of a picture (Shi–Tomasi, eq. 1).
 #pragma once
 
 #include "core/tracking/gray_pyramid.h"
@@ -8,24 +8,24 @@
 
 namespace spidar {
 
-/// Centre of a window of kCornerWindow_px and how well it can be followed.
+/// Centre of a window of kCornerWindow_px and its corner strength.
 struct Corner {
   ImagePoint at;
-  /// Smaller eigenvalue of the mean structure tensor of the window about its mean, (grey / px)²; 0
-  /// when there is nothing or but an edge.
+  /// Smaller eigenvalue of the mean structure tensor of the window, with the mean gradient
+  /// subtracted, (grey / px)²; 0 if the window is flat or contains only an edge.
   float strength = 0;
 };
 
-/// Side of the window that eq. 1 sums over: that of the windows that are followed.
+/// Side of the window in eq. 1, equal to that of the tracked windows.
 constexpr int kCornerWindow_px = 8;
-/// Windows are looked at this many pixels apart.
+/// Spacing of the candidate windows.
 constexpr int kCornerStep_px = 4;
 
-/// Smaller eigenvalue over the larger one, at least: what looks less round is an edge, along which
-/// only its noise would be followed.
+/// Minimum ratio of the smaller to the larger eigenvalue. A window with a lower ratio shows an
+/// edge, and a match along the edge would only follow noise.
 constexpr float kLeastRoundness = 0.05f;
 
-/// A piece of an image, in pixels; x1, y1 are the first outside.
+/// A rectangle of an image in pixels; x1, y1 are exclusive.
 struct PixelBox {
   int x0 = 0;
   int y0 = 0;
@@ -33,19 +33,19 @@ struct PixelBox {
   int y1 = 0;
 };
 
-/// Largest piece that best_corner() looks at, px a side.
+/// Largest side of the rectangle that best_corner() searches, px.
 constexpr int kMostCornerBox_px = 64;
 
-/// The strongest of the windows that begin at the upper left corner of `box`, lie in it, and are
-/// kCornerStep_px apart, and at least `least_roundness`. Derivatives are central differences. `box`
-/// must lie in the image. A box smaller than a window has no corner.
+/// Returns the strongest window inside `box` on a grid of kCornerStep_px that starts at its upper
+/// left corner, among those with at least `least_roundness`. Derivatives are central differences.
+/// `box` must lie inside the image. A box smaller than a window has no corner.
 Corner best_corner(const PaddedImage& image, const PixelBox& box,
                    float least_roundness = kLeastRoundness);
 
-/// `corner` with its window where the gradients in it are: moved by whole pixels to the centre of
-/// the gradients' squares, in two steps, as far as it lies in `box`; as it was where the window is
-/// then none of `least_roundness`. Beside the rim of an object the centre of a window may show what
-/// is behind it, while all that is found again is the rim.
+/// Centres the window of `corner` on its gradients: moves it in two steps, by whole pixels and
+/// within `box`, to the centroid of the squared gradients. Returns `corner` unchanged if the moved
+/// window does not reach `least_roundness`. At the rim of an object, the centre of an uncentred
+/// window may lie on the background, although the match is determined by the rim.
 Corner centred_corner(const PaddedImage& image, const PixelBox& box, const Corner& corner,
                       float least_roundness = kLeastRoundness);
 

@@ -5,8 +5,8 @@
 namespace spidar {
 namespace {
 
-/// Refinement in the frame is worth it from this share of the reduced picture's structure on, both
-/// over the same piece of picture: a window there has more than twice the pixels.
+/// Refinement in the frame pays off from this share of the strength in the reduced picture on, both
+/// measured over the same area, because a window in the frame has more than twice the pixels.
 constexpr float kFineStrength = 0.25f;
 
 }  // namespace

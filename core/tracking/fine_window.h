@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The last fraction of a pixel, found in the frame itself.
+/// Sub-pixel refinement of a point in the full-resolution frame.
 #pragma once
 
 #include "core/image_view.h"
@@ -10,28 +10,28 @@
 
 namespace spidar {
 
-/// What a point was found to be in the reduced picture.
+/// Result of the search for a point in the reduced picture.
 struct CoarsePlace {
   ImagePoint at;           ///< px of the frame
   float variance_px2 = 0;  ///< px of the reduced picture
   float strength = 0;      ///< of the window in the reduced picture, (grey / px)²
-  float gain = 1;          ///< of the light, see MatchSettings
+  float gain = 1;          ///< contrast gain, see MatchSettings
 };
 
-/// What the surroundings of a point looked like in the frame before. The frame itself is not kept.
+/// Templates of a point's surroundings from the previous frame, which itself is not kept.
 class FineWindow {
  public:
   void read(LumaNeighbourhood& neighbourhood, const ImageView& frame, ImagePoint at) {
     window_.read(neighbourhood.around(frame, at, 0), at);
   }
 
-  /// The place in the frame, from that in a picture reduced by `factor`: the mean of both, each
-  /// weighted by the inverse of its variance, where the frame's own structure is worth it; else the
-  /// coarse one.
+  /// Returns the refined position in the frame, given the position in a picture reduced by
+  /// `factor`. If the frame has enough structure, this is the mean of both positions, weighted by
+  /// their inverse variances; otherwise it is the coarse position.
   ImagePoint place(LumaNeighbourhood& neighbourhood, const ImageView& frame, int factor,
                    const CoarsePlace& coarse) const;
 
-  /// What passes for the same thing has a residual below this, see WindowMatch.
+  /// Upper limit of the residual of an accepted match, see WindowMatch.
   static constexpr float kSameThing = 0.5f;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A point of the patch tracker.
+/// A point followed by the patch tracker.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@ namespace spidar {
 
 struct FollowedPoint {
   uint32_t id = 0;
-  ImagePoint at;     ///< in the base of the pyramid
-  ImagePoint frame;  ///< in the frame
-  ImagePoint from;   ///< where that was in the frame before
-  ImagePoint moved;  ///< since the frame before, in the base; of a new one: expected
-  int level = 0;     ///< of the pyramid: where it was chosen and is looked for
+  ImagePoint at;     ///< position in the base of the pyramid
+  ImagePoint frame;  ///< position in the frame
+  ImagePoint from;   ///< `frame` in the previous frame
+  ImagePoint moved;  ///< displacement since the previous frame, in the base; expected if new
+  int level = 0;     ///< pyramid level at which it was chosen and is searched
   bool is_new = true;
-  bool may_shift = true;  ///< nobody was told where it is: a window beside may stand for it
+  bool may_shift = true;  ///< not reported yet, so an adjacent window may replace it
 
   bool found = false;        ///< in this frame
-  bool is_surprise = false;  ///< found where neither its past nor its neighbours led
-  bool is_shifted = false;   ///< in this frame, to a window beside the one that was chosen
-  bool has_place = false;    ///< on the grid
+  bool is_surprise = false;  ///< found where neither its history nor its neighbours predicted
+  bool is_shifted = false;   ///< replaced in this frame by an adjacent window
+  bool has_place = false;    ///< has a cell of the grid
   PointMatch match;
 };
 

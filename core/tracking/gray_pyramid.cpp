@@ -37,7 +37,7 @@ v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t step
   return sum;
 }
 
-/// 16 values to the 8 sums of neighbours. Values below 2¹⁵ and sums too.
+/// Adds neighbours: 16 values to 8 sums. Values and sums must be below 2¹⁵.
 v_uint16x8 add_neighbours(const v_uint16x8& a, const v_uint16x8& b) {
   const v_int16x8 ones = cv::v_setall_s16(1);
   return cv::v_reinterpret_as_u16(cv::v_pack(cv::v_dotprod(cv::v_reinterpret_as_s16(a), ones),
@@ -56,7 +56,7 @@ v_uint16x8 block_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t ste
   }
 }
 
-/// Σ / count, rounded, of 8 sums; `count` is a power of 2.
+/// Stores 8 rounded means, sum / count; `count` is a power of 2.
 void store_means(const v_uint16x8& sums, unsigned count, uint8_t* to) {
   const auto half = static_cast<uint16_t>(count / 2);
   const auto inverse = static_cast<uint16_t>(65536 / count);
@@ -65,14 +65,14 @@ void store_means(const v_uint16x8& sums, unsigned count, uint8_t* to) {
 #endif
 
 /// Number of rows of blocks by which pixels are prefetched. Without prefetching, the processor
-/// waits for each row of a frame of which rows are skipped, and takes three times as long in total.
+/// stalls at each row of a frame with skipped rows, and takes three times as long in total.
 constexpr int kRowsAhead = 2;
 
-/// Blocks of one row of blocks.
+/// One row of blocks.
 struct BlockRow {
   ptrdiff_t step;  ///< between the rows that are used
   int factor;
-  int rows;     ///< that are used
+  int rows;     ///< number of rows used per block
   int columns;  ///< blocks
   const uint8_t* pixels = nullptr;
   const uint8_t* ahead = nullptr;  ///< the first row to prefetch
@@ -111,7 +111,7 @@ int reduce_by_power_of_2(const Reader& reader, const BlockRow& row, uint8_t* to)
   return x;
 }
 
-/// Returns the number of blocks that were done from the left; the rest has no vector code.
+/// Returns the number of blocks processed, from the left; the caller processes the rest.
 template <typename Reader>
 int reduce_with_vectors(const Reader& reader, const BlockRow& row, uint8_t* to) {
   switch (row.factor) {
@@ -134,7 +134,8 @@ int reduce_with_vectors(const Reader& reader, const BlockRow& row, uint8_t* to) 
 int halving_factor(int width, int height) {
   const int side = std::max(width, height);
   int factor = 1;
-  // Nearest on a logarithmic scale: the factor doubles at √2 times the next one's side.
+  // Rounds on a logarithmic scale: the factor doubles when the reduced side reaches √2 ·
+  // kBaseSide_px.
   while (side * side >= 2 * (factor * kBaseSide_px) * (factor * kBaseSide_px) &&
          std::min(width, height) / (2 * factor) >= kMinSide_px) {
     factor *= 2;
@@ -146,7 +147,7 @@ void PaddedImage::resize(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width;
   height_ = height;
-  // Vector loads may reach 16 bytes further than they use.
+  // Vector loads may read up to 16 bytes beyond the bytes they use.
   stride_ = (width + 2 * kPad_px + 15) / 16 * 16;
   offset_ = kPad_px * stride_ + kPad_px;
   memory_.assign(static_cast<size_t>(stride_) * static_cast<size_t>(height + 2 * kPad_px) + 16, 0);

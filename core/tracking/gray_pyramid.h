@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A small copy of the picture at several scales.
+/// Image pyramid of a reduced picture.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace spidar {
 
-/// 8-bit picture whose border pixels go on for kPad_px on each side, so that a window may reach
-/// over the edge without being asked.
+/// 8-bit picture whose border pixels are replicated for kPad_px on each side, so that windows may
+/// cross the edge without a check.
 class PaddedImage {
  public:
   static constexpr int kPad_px = 32;
@@ -38,12 +38,12 @@ class PaddedImage {
   std::vector<uint8_t> memory_;
 };
 
-/// Power of 2 that makes the longer side of a picture about 480 px (340 … 680), or smaller, so that
-/// the shorter one keeps kMinSide_px.
+/// Power of 2 that reduces the longer side of a picture to about 480 px (340 … 680). It is smaller
+/// if the shorter side would otherwise fall below kMinSide_px.
 int halving_factor(int width, int height);
 
-/// Rows of a block of `factor` rows that reduce_rows() looks at: all of them up to 3, every second
-/// from 4 on, which halves what is fetched from memory at no loss that tracking would notice.
+/// Row step within a block of `factor` rows for reduce_blocks(): every row up to 3, every second
+/// row from 4 on. This halves the memory traffic without a noticeable loss in tracking.
 constexpr int row_step(int factor) {
   return factor >= 4 ? 2 : 1;
 }
@@ -51,24 +51,25 @@ constexpr int rows_used(int factor) {
   return (factor + row_step(factor) - 1) / row_step(factor);
 }
 
-/// `reduced`, always of 8 bits, becomes the mean of each block of `factor` × `factor` pixels,
-/// rounded; of the rows of a block row_step() says which count. Columns and rows that do not fill a
-/// block are left out. Powers of 2 up to 16 are fast.
+/// Sets `reduced` (8 bits) to the rounded mean of each block of `factor` × `factor` pixels, using
+/// the rows of a block that row_step() selects. Incomplete blocks at the right and bottom are left
+/// out. Powers of 2 up to 16 are fast.
 void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced);
 
 /// Mean of each 2 × 2 block, rounded.
 void halve(const PaddedImage& image, PaddedImage& half);
 
-/// The picture that points are followed in and three times its half: 8 px of the last one are 64.
+/// The base picture in which points are followed, and three halvings: 8 px of the last level are 64
+/// px of the base.
 struct GrayPyramid {
   static constexpr int kLevels = 4;
   std::array<PaddedImage, kLevels> levels;
 
-  /// Of a picture that is already in levels[0], whose border is not.
+  /// Builds the levels from the picture in levels[0], including the border of levels[0].
   void build_from_base();
 };
 
-/// The same, pixel by pixel as defined: what the fast versions are compared with.
+/// Reference implementations, pixel by pixel, for tests of the fast versions.
 namespace plain {
 void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced);
 void halve(const PaddedImage& image, PaddedImage& half);

@@ -9,7 +9,7 @@
 namespace spidar {
 namespace {
 
-/// Grey levels; of two pictures of one size.
+/// Statistics of two pictures of the same size, in grey levels.
 struct Statistics {
   double mean_before = 0;
   double mean_now = 0;
@@ -18,7 +18,7 @@ struct Statistics {
   double covariance = 0;
 
   double gain() const { return std::sqrt(variance_now / variance_before); }
-  /// Below a grey level there is nothing but rounding to compare.
+  /// Below a variance of 1 only rounding errors would be compared.
   bool has_contrast() const { return variance_before >= 1 && variance_now >= 1; }
 };
 
@@ -70,7 +70,7 @@ bool only_light_changed(const GrayPyramid& before, const GrayPyramid& now) {
   if (!s.has_contrast()) return false;
   const double slope = s.covariance / s.variance_before;
   const double left = s.variance_now - slope * s.covariance;
-  // Each picture is rounded three times at most: in the frame, reduced, and halved.
+  // Each picture is rounded at most three times: in the frame, by reduction, and by halving.
   constexpr double kRounding = 3.0 / 12;
   return left <= kRounding * (1 + slope * slope);
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Changes of light from one picture to the next.
+/// Detects changes of brightness and contrast between two pictures.
 #pragma once
 
 #include "core/tracking/gray_pyramid.h"
 
 namespace spidar {
 
-/// Contrast of `now` over that of `before`; 1 when they differ by less than what things that come
-/// and go change.
+/// Ratio of the contrast of `now` to that of `before`; 1 if the difference is small enough to come
+/// from objects that appear or disappear.
 float contrast_gain(const GrayPyramid& before, const GrayPyramid& now);
 
-/// Whether one gain and one offset explain `now` by `before` up to rounding: then nothing moved.
-/// False when the light is the same, which costs next to nothing.
+/// Whether `now` equals `before` up to a gain, an offset and rounding, which means that nothing
+/// moved. Returns false, at little cost, if brightness and contrast are unchanged.
 bool only_light_changed(const GrayPyramid& before, const GrayPyramid& now);
 
 }  // namespace spidar

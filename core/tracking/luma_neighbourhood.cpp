@@ -13,7 +13,7 @@ ReadablePixels LumaNeighbourhood::around(const ImageView& frame, ImagePoint cent
                                          float reach_px) {
   if (frame.sample.bytes == 1) return ReadablePixels(frame);
   ReadablePixels found{pixels_.data(), kWidest_px, 0, 0, 0, 0};
-  // Written so that NaN is outside, before it becomes an integer.
+  // Treats NaN as outside, before the conversion to an integer.
   const bool inside = centre.x_px >= 0 && centre.x_px <= static_cast<float>(frame.width) &&
                       centre.y_px >= 0 && centre.y_px <= static_cast<float>(frame.height);
   if (!inside) return found;

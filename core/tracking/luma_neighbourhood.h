@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A piece of a frame around one point.
+/// Access to the pixels of a frame around one point.
 #pragma once
 
 #include <array>
@@ -12,20 +12,20 @@
 
 namespace spidar {
 
-/// Where a window of up to kWindow_px around a point is read: in the frame itself when that has 8
-/// bits, else in a copy of the piece.
+/// Provides the pixels for a window of up to kWindow_px around a point: those of the frame itself
+/// if it has 8 bits, otherwise a converted copy.
 class LumaNeighbourhood {
  public:
   static constexpr int kWindow_px = 24;
   static constexpr float kMostReach_px = 8.5f;
 
-  /// All that WindowTemplate::read() at `centre` reads, and find() with a reach of `reach_px`, not
-  /// more than kMostReach_px, as far as the frame goes. Valid until the next call.
+  /// Returns all pixels, within the frame, that WindowTemplate::read() needs at `centre` and find()
+  /// needs with a reach of `reach_px` ≤ kMostReach_px. Valid until the next call.
   ReadablePixels around(const ImageView& frame, ImagePoint centre, float reach_px);
 
  private:
-  // From the pixel that the centre lies in. A template begins half its side and a pixel before the
-  // centre, so within these two bounds wherever in the pixel the centre is.
+  // Distances from the pixel that contains the centre. A template begins half its side and one
+  // pixel before the centre, so these bounds hold for every sub-pixel position of the centre.
   static constexpr int kBefore_px = kWindow_px / 2 + 1;
   static constexpr int kRight_px = template_columns(kWindow_px) - kBefore_px + 2;
   static constexpr int kBelow_px = template_rows(kWindow_px) - kBefore_px + 2;

@@ -19,12 +19,12 @@ int reduction_factor(int width, int height) {
 }
 
 void reduce_luma(const ImageView& frame, int factor, cv::Mat& reduced) {
-  // OpenCV has no constant view; nothing writes through this one.
+  // cv::Mat has no const view; nothing writes through this one.
   const cv::Mat whole_blocks(frame.height / factor * factor, frame.width / factor * factor, CV_8UC1,
                              const_cast<uint8_t*>(frame.data),
                              static_cast<size_t>(frame.stride_bytes));
   reduced = whole_blocks;
-  // By halves as far as it goes: OpenCV has vector code for blocks of 2 × 2 only.
+  // Halves as often as possible, because OpenCV has vector code only for 2 × 2 blocks.
   for (int rest = factor; rest > 1;) {
     const int step = rest % 2 == 0 ? 2 : rest;
     cv::Mat smaller;

@@ -20,7 +20,7 @@ void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to) {
     with_reader(frame.sample, [&](const auto& reader) {
       const auto copy = [&](int k) { cv::v_store(to + k, reader.load(from + k * reader.kBytes)); };
       for (int k = 0; k + kLanes <= columns; k += kLanes) copy(k);
-      copy(columns - kLanes);  // the rest, and again what is left of it
+      copy(columns - kLanes);  // the rest, overlapping pixels already copied
     });
     return;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Rows of a frame in 8 bits, whatever it is stored in.
+/// Converts rows of a frame of any supported depth to 8 bits.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace spidar {
 
-/// `columns` pixels of row `y` from column `x` on, all of them inside the frame.
+/// Copies `columns` pixels of row `y` from column `x` on, all inside the frame.
 SPIDAR_API void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to);
 
-/// The whole frame in `buffer`, or the frame itself when it has 8 bits.
+/// Returns the frame itself if it has 8 bits, otherwise a converted copy in `buffer`.
 ImageView in_8_bits(const ImageView& frame, std::vector<uint8_t>& buffer);
 
-/// The same, pixel by pixel as defined: what the fast version is compared with.
+/// Reference implementation, pixel by pixel, for tests of the fast version.
 namespace plain {
 void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to);
 }  // namespace plain

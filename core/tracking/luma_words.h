@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Luma of more than 8 bits, read as 8 bits.
+/// Readers that convert luma of more than 8 bits to 8 bits.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct LumaBytes {
 #endif
 };
 
-/// Pixels of one word, whose bytes are swapped or not with respect to little endian.
+/// Pixels of one 16-bit word, big or little endian.
 template <bool kBigEndian>
 struct LumaWords {
   static constexpr int kBytes = 2;
@@ -53,7 +53,7 @@ struct LumaWords {
   int shift;
 };
 
-/// Calls `work` with the reader of such pixels: a LumaBytes or LumaWords.
+/// Calls `work` with the matching reader, a LumaBytes or a LumaWords.
 template <typename Work>
 void with_reader(const LumaSample& sample, Work&& work) {
   if (sample.bytes == 1) {

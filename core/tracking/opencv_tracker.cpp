@@ -21,8 +21,8 @@ constexpr double kThinnedOut = 0.7;
 /// … and after this many frames in any case, because something may have entered.
 constexpr int kSelectionInterval = 5;
 
-/// A cut: at least kMinForCut points were looked for and fewer than this share was found. With few
-/// points it is rather a small object that was lost.
+/// A cut is detected when at least kMinForCut points were searched and less than this share was
+/// found. With fewer points, the loss of a small object is more likely.
 constexpr double kFoundAfterCut = 0.1;
 constexpr size_t kMinForCut = 10;
 
@@ -32,7 +32,7 @@ struct OpenCvTracker::Impl {
   TrackerSettings settings;
   bool settings_changed = false;
 
-  int width = 0;  // of the frame before; 0: there is none
+  int width = 0;  // of the previous frame; 0 if there is none
   int height = 0;
   FlowPyramid before;
   FlowPyramid now;
@@ -93,7 +93,7 @@ void OpenCvTracker::Impl::track(const ImageView& frame, Repeats repeats) {
   result.features = static_cast<int>(features.size());
 }
 
-/// Moves the features to the new picture and drops lost ones. Returns false at a cut.
+/// Moves the features to the new picture and drops the lost ones. Returns false at a cut.
 bool OpenCvTracker::Impl::follow(int factor) {
   std::vector<PointFlow> flow;
   for (const Feature& feature : features) flow.push_back({feature.at, feature.moved, {}, false});

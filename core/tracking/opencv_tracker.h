@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The tracker of the paper: Shi–Tomasi points, pyramidal Lucas–Kanade.
+/// The tracker of the paper: Shi–Tomasi points and pyramidal Lucas–Kanade.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@
 
 namespace spidar {
 
-/// Follows points in a picture reduced to about 480 px, with one pyramid a frame that is kept for
-/// the next one. Points that leave the picture, are not found, do not come back when followed
-/// backwards, or look different are dropped. New ones are selected when points thin out and every
-/// few frames, so that an object that enters is found.
+/// Follows points in a picture reduced to about 480 px, and builds one pyramid per frame, which is
+/// reused for the next frame. Drops points that leave the picture, are not found, fail the
+/// forward–backward check, or look different. Selects new points when few are left and every few
+/// frames, so that objects that enter are found.
 class SPIDAR_API OpenCvTracker final : public Tracker {
  public:
   /// Throws as validate() does.

@@ -27,7 +27,7 @@ ImageView luma_of_packed(const uint8_t* data, int width, int height, ptrdiff_t s
                          PackedOrder order, std::vector<uint8_t>& buffer) {
   const bool padded = order == PackedOrder::kRgbx || order == PackedOrder::kBgrx;
   buffer.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
-  // OpenCV has no const view; it only reads from here.
+  // cv::Mat has no const view; nothing writes through this one.
   const cv::Mat source(height, width, padded ? CV_8UC4 : CV_8UC3, const_cast<uint8_t*>(data),
                        static_cast<size_t>(stride_bytes));
   cv::Mat luma(height, width, CV_8UC1, buffer.data());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Grey of packed RGB.
+/// Luma of packed RGB.
 #pragma once
 
 #include <cstddef>

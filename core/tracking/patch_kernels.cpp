@@ -60,7 +60,7 @@ v_int16x8 quarter(const v_int16x8& value) {
   return (value + cv::v_setall_s16(2)) >> 2;
 }
 
-/// No lane overflows with a side of up to 24; their sum may.
+/// With a side of up to 24 no lane overflows, but the sum of the lanes may.
 int64_t total(const v_int32x4& sums) {
   cv::v_int64x2 low;
   cv::v_int64x2 high;
@@ -72,7 +72,7 @@ int64_t total(const v_int32x4& sums) {
 
 template <int kSide>
 TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to) {
-  constexpr int kStride = kSide + 8;  // one more on each side, in whole vectors
+  constexpr int kStride = kSide + 8;  // one more pixel on each side, rounded up to whole vectors
   std::array<int16_t, static_cast<size_t>((kSide + 2) * kStride)> wide;
   interpolate<kSide + 2, kStride>(from, wide.data());
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The arithmetic of following a small window: all that is done once a pixel.
+/// The per-pixel arithmetic of tracking a small window.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,19 @@
 
 namespace spidar {
 
-// Fixed point, so that vectors and plain code give the same bits: a pixel has 5 bits below the
-// point (a 16-bit lane holds 255 with two to spare), a derivative 4, a difference 3.
+// Fixed point, so that vector and plain code give identical results. A pixel has 5 fractional bits
+// (a 16-bit lane holds 255 with two bits to spare), a derivative 4, a difference 3.
 constexpr int kPixelOne = 32;
 constexpr int kDerivativeOne = 16;
 constexpr int kDifferenceOne = 8;
-/// Of a gain; the largest that a 16-bit lane holds is just below 2.
+/// Unit of a gain; the largest gain that fits into a 16-bit lane is just below 2.
 constexpr int kGainOne = 1 << 14;
 
-/// Shares of the four neighbours in a bilinear interpolation, of 256.
+/// Weights of the four neighbours in a bilinear interpolation, in 1/256.
 struct BilinearWeights {
   int w00, w01, w10, w11;  ///< upper left, upper right, lower left, lower right
 
-  /// Of a point `fx`, `fy` (0 … 1) to the right of and below a pixel.
+  /// Weights for a point `fx`, `fy` (0 … 1) to the right of and below a pixel.
   static BilinearWeights at(float fx, float fy) {
     const int x = static_cast<int>(fx * 256 + 0.5f);
     const int y = static_cast<int>(fy * 256 + 0.5f);
@@ -29,14 +29,14 @@ struct BilinearWeights {
   }
 };
 
-/// Where a window is read: its upper left pixel and how far beyond that it begins.
+/// Source of a window: its upper left pixel and the sub-pixel offset from it.
 struct WindowSource {
   const uint8_t* pixels;
   ptrdiff_t stride;
   BilinearWeights weights;
 };
 
-/// Σ over a template of its derivatives' products and of the derivatives, in derivative units.
+/// Sums over a template: products of its derivatives and the derivatives, in derivative units.
 struct TemplateSums {
   int64_t xx = 0;
   int64_t xy = 0;
@@ -76,7 +76,7 @@ struct TemplatePixels {
   alignas(16) int16_t dy[kSide * kSide];
 };
 
-/// Columns and rows that read_template() reads from its source on, whole vectors included.
+/// Number of columns and rows that read_template() reads from its source, including whole vectors.
 constexpr int template_columns(int side) {
   return side + 9;
 }
@@ -85,13 +85,13 @@ constexpr int template_rows(int side) {
 }
 
 namespace vectors {
-/// Reads a template whose upper left pixel is one right of and below `from`: derivatives are
+/// Reads a template whose upper left pixel is one pixel right of and below `from`. Derivatives are
 /// central differences.
 template <int kSide>
 TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to);
 
-/// Compares a window with a template. Reads kSide + 1 rows and columns. `gain` of kGainOne: what
-/// the template's contrast is multiplied by.
+/// Compares a window with a template. Reads kSide + 1 rows and columns. `gain`, in units of
+/// 1/kGainOne, multiplies the contrast of the template.
 template <int kSide>
 DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& with, int gain);
 
@@ -99,7 +99,7 @@ DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& 
 int absolute_difference(const uint8_t* a, ptrdiff_t stride_a, const uint8_t* b, ptrdiff_t stride_b);
 }  // namespace vectors
 
-/// The same by their definition.
+/// Reference implementations.
 namespace plain {
 template <int kSide>
 TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to);

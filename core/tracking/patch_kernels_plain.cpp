@@ -7,7 +7,7 @@
 namespace spidar::plain {
 namespace {
 
-/// In pixel units; `x`, `y` whole pixels from the source's.
+/// Interpolated pixel in pixel units, `x`, `y` whole pixels from the source.
 int interpolated(const WindowSource& from, int x, int y) {
   const uint8_t* p = from.pixels + y * from.stride + x;
   const uint8_t* q = p + from.stride;

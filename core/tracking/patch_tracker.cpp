@@ -21,10 +21,10 @@
 namespace spidar {
 namespace {
 
-/// The work that each quality does.
+/// Work per quality setting.
 struct Budget {
   double grid_share;  ///< see PointChooser::Settings
-  bool refines;       ///< with larger windows, in the reduced picture and in the frame
+  bool refines;       ///< also with larger windows, in the reduced picture and in the frame
 };
 
 Budget budget_of(TrackerQuality quality) {
@@ -39,11 +39,12 @@ Budget budget_of(TrackerQuality quality) {
   return {0.5, true};
 }
 
-/// A cut: at least kMinForCut points were looked for and fewer than this share was found.
+/// A cut is detected when at least kMinForCut points were searched and less than this share was
+/// found.
 constexpr double kFoundAfterCut = 0.1;
 constexpr size_t kMinForCut = 10;
-/// If less than this share of the small windows is found again, they show something that does not
-/// last, such as the ringing of a JPEG around an edge, which stays with the codec's blocks.
+/// If less than this share of the small windows is found again, their content does not persist, for
+/// example JPEG ringing around an edge, which stays with the codec's blocks.
 constexpr double kLastingShare = 0.5;
 constexpr size_t kMinForLasting = 4;
 
@@ -53,15 +54,16 @@ struct PatchTracker::Impl {
   PointChooser::Settings choice;
   Budget budget = budget_of(TrackerQuality::kBalanced);
 
-  int width = 0;  // of the frame before; 0: there is none
+  int width = 0;  // of the previous frame; 0 if there is none
   int height = 0;
   int factor = 1;
   GrayPyramid before;
   GrayPyramid now;
   RepeatedPicture repeated_picture;
 
-  std::vector<FollowedPoint> points;  // the oldest first
-  std::vector<FineWindow> fine;       // of the points, in the frame before; may be longer
+  std::vector<FollowedPoint> points;  // oldest first
+  std::vector<FineWindow>
+      fine;  // of the points, in the previous frame; may be longer than `points`
   PointGrid grid;
   PointChooser chooser;
   PointFollower follower;
@@ -92,7 +94,8 @@ struct PatchTracker::Impl {
   void drop_lost();
   void choose(const ImageView& frame);
   void read_fine_templates(const ImageView& frame);
-  /// With factor 1 the reduced picture is the frame, and the search has refined it there.
+  /// With factor 1 the reduced picture is the frame, so the search has already refined the points
+  /// in it.
   bool uses_fine() const { return budget.refines && factor > 1; }
 };
 
@@ -170,7 +173,7 @@ PatchTracker::Impl::Tally PatchTracker::Impl::count(Which&& which) const {
   return tally;
 }
 
-/// False at a cut.
+/// Returns false at a cut.
 bool PatchTracker::Impl::follow(const ImageView& frame) {
   PointFollower::Settings settings;
   settings.least_strength = chooser.least_kept_strength(choice);
@@ -197,14 +200,15 @@ bool PatchTracker::Impl::follow(const ImageView& frame) {
   return !cut;
 }
 
-/// In the frame itself if that is more accurate, else as found in the reduced picture.
+/// The position refined in the frame if that is more accurate, otherwise the position from the
+/// reduced picture.
 ImagePoint PatchTracker::Impl::place_in_frame(const FollowedPoint& point, const FineWindow& was,
                                               const ImageView& frame, float gain) {
   const auto scale = static_cast<float>(factor);
   const ImagePoint moved = point.match.to - point.at;
   const ImagePoint coarse{point.frame.x_px + scale * moved.x_px,
                           point.frame.y_px + scale * moved.y_px};
-  // Of a window beside the one that was chosen the frame before is no longer there.
+  // A shifted window has no template from the previous frame.
   if (!uses_fine() || point.is_shifted) return coarse;
   return was.place(neighbourhood, frame, factor,
                    {coarse, point.match.variance_px2, point.match.strength, gain});

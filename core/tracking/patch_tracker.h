@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The tracker of this project: small windows, few pixels touched.
+/// The default tracker, with small windows and few memory accesses.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@
 
 namespace spidar {
 
-/// Follows points in a picture reduced to about 480 px, on windows of 8 × 8 px from coarse to fine,
-/// beginning where the point was expected; checks each by following it back; retries those that
-/// were lost from where their neighbours went and by comparing blocks; and refines the rest in the
-/// frame itself where its structure is worth it. Points are chosen cell by cell, a quarter of the
-/// empty cells a frame, and denser where neighbours move differently.
-/// A frame that is the same as the one before costs one comparison.
+/// Follows points in a picture reduced to about 480 px, with windows of 8 × 8 px from coarse to
+/// fine, starting at the expected position. A forward–backward check verifies each point. Lost
+/// points are searched again with the motion of their neighbours and by block matching. Found
+/// points are refined in the frame if it has enough structure. New points are chosen cell by cell,
+/// in a quarter of the empty cells per frame, and more densely where neighbours move differently. A
+/// frame identical to the previous one costs one comparison.
 class SPIDAR_API PatchTracker final : public Tracker {
  public:
   /// Throws as validate() does.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Coordinates in a frame and in a picture that is smaller by a whole number. Both count from the
-/// centre of the first pixel, which is why the scale alone is not enough.
+/// Converts coordinates between a frame and a picture reduced by an integer factor. Both have their
+/// origin at the centre of the first pixel, so the conversion includes an offset.
 #pragma once
 
 #include "core/tracking/tracker.h"

@@ -84,7 +84,7 @@ float PointChooser::least_kept_strength(const Settings& settings) const {
   return kKeptShare * least_strength(settings);
 }
 
-/// Candidates of a level in all places that want a point.
+/// Finds candidates of a level wherever the grid needs a point.
 void PointChooser::find_corners(const GrayPyramid& picture, int level, const PointGrid& grid,
                                 bool everywhere) {
   const PaddedImage& image = picture.levels[static_cast<size_t>(level)];
@@ -117,7 +117,8 @@ void PointChooser::find_candidates(const GrayPyramid& picture, const PointGrid& 
   }
 }
 
-/// The strongest corner is that of the last turn through the cells, so that it can fall, too.
+/// Takes the strongest corner from the last turn through the cells, so that the value can also
+/// decrease.
 void PointChooser::learn_strength(const std::vector<FollowedPoint>& points, bool everywhere) {
   for (const Candidate& candidate : candidates_) {
     strongest_next_ = std::max(strongest_next_, candidate.corner.strength);
@@ -148,8 +149,8 @@ void PointChooser::choose(const GrayPyramid& picture, const Settings& settings,
     strongest_next_ = 0;
     frames_in_turn_ = 0;
   }
-  // The first point of a cell comes before the second point of any other, and there is always room
-  // for some.
+  // The first point of any cell has priority over further points of other cells, and there is
+  // always room for some first points.
   const auto most = static_cast<size_t>(settings.tracker.max_features);
   add(true, most, settings, grid, points);
   add(false, dense_limit(settings), settings, grid, points);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which points of a picture are followed from now on.
+/// Chooses new points to follow.
 #pragma once
 
 #include <cstdint>
@@ -14,44 +14,44 @@
 
 namespace spidar {
 
-/// Fills a grid with the strongest corners of its cells. Cells become smaller where most of the
-/// picture shows nothing to follow, so that the rest may have more of the points.
+/// Fills a grid with the strongest corners of its cells. All cells become smaller when most of the
+/// picture has no corners, so that the rest gets more points.
 class PointChooser {
  public:
   struct Settings {
     TrackerSettings tracker;
-    double grid_share = 0.5;     ///< of the points asked for, on the grid; the rest: denser places
+    double grid_share = 0.5;     ///< of the requested points; the rest goes to dense cells
     double min_distance_px = 0;  ///< in the base
   };
 
-  /// A picture that has nothing to do with those before.
+  /// Call when the next picture is unrelated to the previous ones.
   void reset();
 
   /// Lays out `grid` over `base`.
   void lay_out(const PaddedImage& base, const Settings& settings, PointGrid& grid) const;
 
-  /// Whether so many points are in use that dense cells have taken what they may.
+  /// Whether the number of points has reached the limit for dense cells.
   bool is_scarce(const Settings& settings, size_t points) const;
 
-  /// A point that is followed may become weaker than a new one, down to this, (grey / px)².
+  /// Minimum strength of an existing point, lower than that of a new one, (grey / px)².
   float least_kept_strength(const Settings& settings) const;
 
-  /// What of the picture is searched.
+  /// The extent of the search.
   struct Search {
-    bool everywhere = false;  ///< else only the cells whose turn it is
-    bool coarser = false;     ///< with larger windows, too: what small ones find does not last
+    bool everywhere = false;  ///< otherwise only the cells whose turn it is
+    bool coarser = false;  ///< also with larger windows, because points from small ones do not last
   };
 
-  /// Adds points of `picture` where the grid wants them.
+  /// Adds points of `picture` wherever the grid needs them.
   void choose(const GrayPyramid& picture, const Settings& settings, const PointGrid& grid,
               const Search& search, std::vector<FollowedPoint>& points);
 
  private:
-  /// A corner, in pixels of the base, and the level of the pyramid that it is one of.
+  /// A corner, in pixels of the base, and its pyramid level.
   struct Candidate {
     Corner corner;
     int level = 0;
-    bool is_first = true;  ///< of its cell
+    bool is_first = true;  ///< first point of its cell
   };
 
   float least_strength(const Settings& settings) const;
@@ -65,8 +65,8 @@ class PointChooser {
 
   std::vector<Candidate> candidates_;
   double cell_scale_ = 1;
-  float strongest_ = 0;       ///< corner of late
-  float strongest_next_ = 0;  ///< since the turn began
+  float strongest_ = 0;       ///< strength of the strongest recent corner
+  float strongest_next_ = 0;  ///< the same since the turn began
   int frames_in_turn_ = 0;
   uint32_t next_id_ = 0;
 };

@@ -19,19 +19,20 @@ constexpr int kMaxLevel = 3;  // a level reaches about half a window: 7 px · 2�
 constexpr double kMinGradient = 1.0;
 constexpr double kMinEigenvalue = kMinGradient * kMinGradient / 1024;
 
-/// Distance between a point and where its new place leads back to, px. Right places come back
-/// within some hundredths, wrong ones anywhere.
+/// Largest forward–backward error, px. Correct matches return to within a few hundredths of a
+/// pixel, wrong ones to anywhere.
 constexpr float kMaxReturn_px = 0.2f;
 
-/// Mean absolute difference of the windows that rounding and resampling leave, grey levels.
+/// Mean absolute difference of the windows due to rounding and resampling, grey levels.
 constexpr float kRounding = 1.0f;
 
 /// Settings of one search for points.
 struct Search {
   int level;      ///< coarsest pyramid level
   bool expected;  ///< start at the expected displacement, not at the old place
-  /// Largest difference of the windows, as a share of the contrast in them. A share because a fixed
-  /// limit would refuse textured points in a noisy film and accept any place of a flat one.
+  /// Largest difference of the windows, as a share of the contrast in them. The limit is relative
+  /// because a fixed one would reject textured points in a noisy film and accept any position in a
+  /// flat one.
   float max_difference;
 };
 
@@ -151,7 +152,7 @@ void follow_missing(const FlowPyramid& before, const FlowPyramid& now, const Sea
 }  // namespace
 
 int follow_border_px(const cv::Mat& image) {
-  // A quarter leaves half of a tiny picture.
+  // The limit of a quarter keeps half of a tiny picture usable.
   return std::min({kWindow_px / 2, image.cols / 4, image.rows / 4});
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where points of one picture are in the next (pyramidal Lucas–Kanade, eq. 2–8).
+/// Finds points of one picture in the next (pyramidal Lucas–Kanade, eq. 2–8).
 #pragma once
 
 #include <vector>
@@ -13,27 +13,28 @@ class Mat;
 
 namespace spidar {
 
-/// What Lucas–Kanade needs of one picture: its levels and their derivatives. Built once a frame,
-/// used as the picture that points go to, then as the one they come from.
+/// The pyramid levels of a picture and their derivatives. Built once per frame and used first as
+/// the target, then as the source of the search.
 using FlowPyramid = std::vector<cv::Mat>;
 
 /// `image`: 8-bit, one channel. Reuses the memory of `pyramid` when the size is the same.
 void build_pyramid(const cv::Mat& image, FlowPyramid& pyramid);
 
-/// Points nearer to the border of `image` than this are not followed, pixels: their window would
-/// reach over it, to mirrored pixels that move the other way.
+/// Margin in pixels at the border of `image` in which points are not followed: their windows would
+/// contain mirrored pixels, which move in the opposite direction.
 int follow_border_px(const cv::Mat& image);
 
-/// A point of one picture that is looked for in the next; lengths in pixels of the pictures.
+/// A point of one picture that is searched in the next; lengths in pixels of the pictures.
 struct PointFlow {
   ImagePoint from;
-  ImagePoint expected;  ///< displacement to try first, the last one for example
-  ImagePoint to;        ///< where it is, if found
+  ImagePoint expected;  ///< displacement to try first, for example the last one
+  ImagePoint to;        ///< new position, if found
   bool found = false;
 };
 
-/// Looks for `points` of `before` in `now`, pictures of one size. A point is found if its place is
-/// inside the border, shows the same surroundings, and leads back to where it came from.
+/// Searches `points` of `before` in `now`; both pictures have the same size. A point counts as
+/// found if its new position is inside the border, the surroundings match, and the backward search
+/// returns to its origin.
 void follow_points(const FlowPyramid& before, const FlowPyramid& now,
                    std::vector<PointFlow>& points);
 

@@ -28,7 +28,8 @@ constexpr float kReturnByResidual_px = 0.03f;
 /// residual is below kClearlyOneThing of the point's own or, where the point is not found at all,
 /// below kOneThingBeside.
 constexpr float kOneThing = 0.15f;
-/// The same where points are refined in the frame: a shifted one only is from the next frame on.
+/// The same limit if points are refined in the frame. It is higher because a shifted point can be
+/// refined only from the next frame on.
 constexpr float kOneThingIfFiner = 0.3f;
 constexpr float kClearlyOneThing = 0.8f;
 constexpr float kOneThingBeside = 0.35f;
@@ -41,7 +42,8 @@ constexpr int kMostShiftSearches = 32;
 /// Where a point is expected, the search begins at this level; where it is not, at the coarsest.
 constexpr int kExpectedLevel = 1;
 constexpr int kAnywhereLevel = GrayPyramid::kLevels - 1;
-/// Blocks are compared at a level where 12 px are a jump; from there it is a pixel or two.
+/// Blocks are compared at a level where 12 px are a jump; from there the error is one or two
+/// pixels.
 constexpr int kAfterBlocksLevel = 2;
 
 /// Number of neighbours whose motion is tried: beside the rim of an object, the nearest one may
@@ -85,7 +87,7 @@ class Neighbours {
   int count() const { return count_; }
   ImagePoint moved(int k) const { return nearest_[static_cast<size_t>(k)].moved; }
 
-  /// Whether one before the k-th, or `tried`, moved the same way.
+  /// Whether `tried` or a neighbour before the k-th has the same motion.
   bool is_known(int k, ImagePoint tried) const {
     if (nearer_than(moved(k), tried, kSameStart_px)) return true;
     for (int i = 0; i < k; ++i) {
@@ -145,8 +147,8 @@ struct PointFollower::Search {
     return false;
   }
 
-  /// A window beside that of a new point, where it was expected or, if there are any, where its
-  /// neighbours went; the best of those whose residual is below `most_residual`.
+  /// Searches the windows next to that of a new point, at the expected displacement and, if there
+  /// are neighbours, at theirs. Takes the best one with a residual below `most_residual`.
   bool find_shifted(FollowedPoint& point, const Neighbours* neighbours, float most_residual) const {
     if (!point.may_shift || point.level > 0) return false;
     FollowedPoint best;
@@ -175,7 +177,7 @@ struct PointFollower::Search {
  private:
   struct Attempt {
     int first_level;
-    float gain;  ///< 0: of each window its own
+    float gain;  ///< 0: estimated per window
     float most_residual;
     bool in_doubt;
   };

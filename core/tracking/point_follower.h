@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Points of one picture, found in the next.
+/// Finds points of one picture in the next.
 #pragma once
 
 #include <vector>
@@ -11,28 +11,28 @@
 
 namespace spidar {
 
-/// Sets found, is_surprise and match of points. Each is looked for where it was expected, then
-/// where its neighbours went, then at rest, and at last by comparing blocks. It is found if it
-/// looks the same, comes back to where it was when it is followed backwards, and, in doubt, if its
-/// surroundings agree.
+/// Sets `found`, `is_surprise` and `match` of the points. Searches each point at its expected
+/// position, then with the motion of its neighbours, then at rest, and finally by block matching. A
+/// point is found if its window matches, the backward search returns to its origin, and, in case of
+/// doubt, its surroundings match as well.
 class PointFollower {
  public:
   struct Settings {
-    float least_strength = 1;  ///< a point that has become weaker is lost, (grey / px)²
-    float gain = 1;            ///< of the light, see MatchSettings
+    float least_strength = 1;  ///< a weaker point is lost, (grey / px)²
+    float gain = 1;            ///< contrast gain, see MatchSettings
     bool refines = true;       ///< with larger windows
-    bool has_finer = false;    ///< the caller refines what is found, unless it is shifted
+    bool has_finer = false;    ///< the caller refines the found points, except shifted ones
   };
 
-  /// `before` and `now` are of one size.
+  /// `before` and `now` must have the same size.
   void follow(const GrayPyramid& before, const GrayPyramid& now, const Settings& settings,
               std::vector<FollowedPoint>& points);
 
-  /// What passes for the same thing has a residual below this, see WindowMatch.
+  /// Upper limit of the residual of an accepted match, see WindowMatch.
   static constexpr float kSameThing = 0.6f;
 
  private:
-  struct Search;  // one frame's
+  struct Search;  // state of the search in one frame
 };
 
 }  // namespace spidar

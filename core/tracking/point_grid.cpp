@@ -9,19 +9,19 @@ namespace spidar {
 namespace {
 
 /// Neighbours whose motions differ by more than this share of the motion, and by more than this
-/// many pixels, do not belong to one thing. A zoom by 10 % a frame stays below the limit.
+/// many pixels, do not belong to the same object. A zoom by 10 % a frame stays below the limit.
 constexpr float kDifferent = 0.2f;
 constexpr float kDifferent_px = 0.75f;
-/// Of one pixel; noise is far less after 16 have become one.
+/// Change of one pixel that counts; the noise is much smaller after 16 pixels are averaged.
 constexpr int kChanged_grey = 8;
-/// With fewer changed pixels it is a flicker.
+/// Fewer changed pixels count as flicker.
 constexpr int kLeastChanged = 2;
 constexpr uint8_t kDenseFrames = 12;
 /// Points that have come in from neighbouring cells may stay.
 constexpr int kMostInCell = 2;
 
-/// Rotation or growth of up to 0.05 a frame still counts as one thing; points a cell apart differ
-/// by this.
+/// Rotation (rad) or scaling of up to 0.05 per frame still counts as one motion; points one cell
+/// apart may differ by this share of their distance.
 constexpr float kTurn = 0.05f;
 
 bool alike(ImagePoint a, ImagePoint b, float least_px = kDifferent_px) {
@@ -156,7 +156,7 @@ bool PointGrid::find_change(const PaddedImage& before, const PaddedImage& now, i
     }
   }
   if (changed < kLeastChanged) return false;
-  // Room for a window whose middle has changed.
+  // Leaves room for a window centred on the change.
   part.x0 = std::max(x0 - kCornerWindow_px / 2, quarter.x0);
   part.y0 = std::max(y0 - kCornerWindow_px / 2, quarter.y0);
   part.x1 = std::min(std::max(x1 + kCornerWindow_px / 2, part.x0 + kCornerWindow_px), quarter.x1);
@@ -211,7 +211,7 @@ ImagePoint PointGrid::motion_near(ImagePoint at) const {
 
 PixelBox PointGrid::box(int quarter_x, int quarter_y, int quarters) const {
   const int half_px = cell_px_ / 2;
-  // Of a window of 8 px the middle is 3.5 px from its first.
+  // The centre of an 8 px window is 3.5 px from its first pixel.
   constexpr int kBefore_px = kCornerWindow_px / 2 - 1;
   constexpr int kAfter_px = kCornerWindow_px / 2;
   const auto first = [&](int quarter, int size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where in the picture points are wanted.
+/// Decides where in the picture points are needed.
 #pragma once
 
 #include <array>
@@ -14,51 +14,52 @@
 
 namespace spidar {
 
-/// Cells over the picture, one point each; four each, a quarter of the cell apart, where
-/// neighbouring points move differently: at the border of an object, which may be smaller than a
-/// cell. Cells are searched in turn, those that lost a point at once.
+/// Divides the picture into cells with one point each. Dense cells have four points, one per
+/// quarter. A cell becomes dense where neighbouring points move differently, as at the border of an
+/// object, which may be smaller than a cell. Cells are searched in turn; those that lost a point
+/// are searched at once.
 class PointGrid {
  public:
-  /// A picture of `width` × `height` px, cells of `cell_px`, made even and no less than a window.
-  /// Forgets everything when one of them has changed.
+  /// Lays out a picture of `width` × `height` px with cells of `cell_px`, rounded to an even number
+  /// that is at least the window size. Resets the grid if one of these values has changed.
   void lay_out(int width, int height, int cell_px);
 
-  /// Nothing is known of the picture any more.
+  /// Discards all knowledge of the picture.
   void reset();
 
-  /// A new frame: no cell has a point. `scarce`: there are hardly points left, and cells that are
-  /// not dense keep one only.
+  /// Begins a frame in which no cell has a point yet. With `scarce`, when hardly any points are
+  /// left to assign, cells that are not dense keep only one point.
   void begin_frame(bool scarce = false);
 
-  /// False when the place is taken and the point should go.
+  /// Returns false if the place is taken and the point should be dropped.
   bool occupy(ImagePoint at, ImagePoint moved);
 
-  /// A point was lost there: something may have come over it. The cell is searched in this frame
-  /// and will be dense.
+  /// Reports a lost point, which something may have covered. Its cell is searched in this frame and
+  /// becomes dense.
   void lose(ImagePoint at);
 
-  /// Compares neighbours after the last occupy(): where they differ, or where something moves and
-  /// most cells around have no point, points will be dense for some frames.
+  /// Call after the last occupy(). Makes cells dense for some frames where neighbours move
+  /// differently, or where a point moves and most surrounding cells have none.
   void compare_neighbours();
 
-  /// Makes cells dense that look different from before though their points stand still: something
-  /// moves there that has none. Points are then wanted where the change is. The two pictures are
-  /// `scale` times as small as that of lay_out().
+  /// Makes cells dense whose pixels change although their points are at rest, because something
+  /// without points moves there. Points are then requested at the change. The two pictures are
+  /// smaller than that of lay_out() by the factor `scale`.
   void notice_changes(const PaddedImage& before, const PaddedImage& now, int scale);
 
-  /// Points in the cell of a point and around it, and those of them that move as it does.
+  /// Number of points in and around the cell of a point, and of those with the same motion.
   struct Support {
     int beside = 0;
     int alike = 0;
   };
   Support support(ImagePoint at, ImagePoint moved) const;
 
-  /// What a new point there may be expected to do: what one next to it did; (0, 0) without any.
+  /// Expected motion of a new point: that of a nearby point, or (0, 0) if there is none.
   ImagePoint motion_near(ImagePoint at) const;
 
-  /// Calls `found(PixelBox, bool is_empty)` for each place that wants a point and is searched in
-  /// this frame; `everywhere`: in all cells. `is_empty`: the cell has none yet. Boxes are such that
-  /// windows in them are inside the picture and their centres inside the place.
+  /// Calls `found(PixelBox, bool is_empty)` for each place that needs a point and is searched in
+  /// this frame, in all cells if `everywhere`. `is_empty` means that the cell has no point yet.
+  /// Windows in a box lie inside the picture, with their centres inside the place.
   template <typename Found>
   void for_each_wanted(bool everywhere, Found&& found) const {
     for (int row = 0; row < rows_; ++row) {
@@ -80,19 +81,19 @@ class PointGrid {
     }
   }
 
-  /// Frames until every cell has had its turn.
+  /// Number of frames in which every cell is searched once.
   static constexpr int kTurns = 4;
 
  private:
   static constexpr int kQuarters = 4;
   struct Cell {
-    std::array<ImagePoint, kQuarters> moved;  ///< of the points, where taken
-    uint8_t taken = 0;                        ///< quarters, a bit each
+    std::array<ImagePoint, kQuarters> moved;  ///< motion of the points in occupied quarters
+    uint8_t taken = 0;                        ///< occupied quarters, one bit each
     bool search = false;
-    uint8_t dense_frames = 0;  ///< for how long
+    uint8_t dense_frames = 0;  ///< remaining frames in which it is dense
 
-    uint8_t changing = 0;                       ///< quarters that show a change, a bit each
-    std::array<PixelBox, kQuarters> changed{};  ///< where
+    uint8_t changing = 0;                       ///< quarters with a change, one bit each
+    std::array<PixelBox, kQuarters> changed{};  ///< area of the change
 
     bool changes(int quarter) const { return (changing & (1 << quarter)) != 0; }
     bool has(int quarter) const { return (taken & (1 << quarter)) != 0; }
@@ -109,7 +110,7 @@ class PointGrid {
   /// Calls `each(cell)` for a cell and the eight around it.
   template <typename Each>
   void around(int column, int row, Each&& each) const;
-  /// The part of `quarter` that has changed; false when hardly anything has.
+  /// Finds the part of `quarter` that has changed; returns false if there is hardly any change.
   static bool find_change(const PaddedImage& before, const PaddedImage& now, int scale,
                           const PixelBox& quarter, PixelBox& part);
   PixelBox box(int quarter_x, int quarter_y, int quarters) const;
@@ -120,7 +121,7 @@ class PointGrid {
   int columns_ = 0;
   int rows_ = 0;
   int turn_ = 0;
-  int most_in_cell_ = 0;  ///< that is not dense
+  int most_in_cell_ = 0;  ///< limit for cells that are not dense
   std::vector<Cell> cells_;
 };
 

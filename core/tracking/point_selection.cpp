@@ -13,8 +13,8 @@ namespace {
 constexpr int kBlock_px = 3;  // neighbourhood of eq. 1
 constexpr int kSobel_px = 3;
 
-/// Below this root mean square gradient in the weakest direction, grey levels per pixel, there is
-/// nothing but noise and rounding, however it compares with the rest of the picture.
+/// Minimum RMS gradient in the weakest direction, grey levels per pixel. Weaker structure is noise
+/// and rounding, whatever the rest of the picture contains.
 constexpr double kMinGradient = 1.0;
 
 /// cornerMinEigenVal() scales the Sobel sums by 1 / (4 · block · 255) before it adds block²
@@ -24,23 +24,23 @@ constexpr double kMinResponse = (2 * kMinGradient / 255) * (2 * kMinGradient / 2
 struct Candidate {
   Feature feature;
   float response = 0;
-  bool known = false;  ///< followed already: the id is valid
+  bool known = false;  ///< already followed: the id is valid
 };
 
 bool stronger(const Candidate& a, const Candidate& b) {
   if (a.response != b.response) return a.response > b.response;
-  // Any fixed order: the same picture gives the same points.
+  // Any fixed order makes the selection deterministic.
   if (a.feature.at.y_px != b.feature.at.y_px) return a.feature.at.y_px < b.feature.at.y_px;
   return a.feature.at.x_px < b.feature.at.x_px;
 }
 
-/// Pixels that are taken by a point already selected.
+/// Pixels that are too close to a point already selected.
 class Occupancy {
  public:
   Occupancy(cv::Size size, double min_distance_px)
       : taken_(cv::Mat::zeros(size, CV_8U)), radius_px_(min_distance_px) {}
 
-  /// False when a point is too near; else the place is taken.
+  /// Returns false if another point is too close; otherwise marks the place as taken.
   bool take(const ImagePoint& at) {
     const int x = static_cast<int>(std::lround(at.x_px));
     const int y = static_cast<int>(std::lround(at.y_px));
@@ -48,7 +48,7 @@ class Occupancy {
     const int reach = std::max(0, static_cast<int>(std::ceil(radius_px_)) - 1);
     for (int dy = -reach; dy <= reach; ++dy) {
       if (y + dy < 0 || y + dy >= taken_.rows) continue;
-      // Pixels strictly nearer than the minimum distance.
+      // Marks the pixels strictly closer than the minimum distance.
       const double half_squared = radius_px_ * radius_px_ - dy * dy;
       int half = static_cast<int>(std::ceil(std::sqrt(std::max(0.0, half_squared)))) - 1;
       half = std::max(half, 0);
@@ -64,7 +64,8 @@ class Occupancy {
   double radius_px_;
 };
 
-/// No neighbour of pixel `x` is stronger; `above`, `row` and `below` are rows of the response.
+/// Whether no neighbour of pixel `x` is stronger; `above`, `row` and `below` are rows of the
+/// response.
 bool is_local_maximum(const float* above, const float* row, const float* below, int x) {
   const float value = row[x];
   // Most pixels fail within their own row.
@@ -90,7 +91,7 @@ std::vector<Candidate> find_corners(const cv::Mat& response, double threshold, i
   return corners;
 }
 
-/// The points followed already that are still above the threshold, strongest first.
+/// The followed points that are still above the threshold, strongest first.
 std::vector<Candidate> rate(const std::vector<Feature>& features, const cv::Mat& response,
                             double threshold) {
   std::vector<Candidate> rated;
@@ -113,11 +114,12 @@ void select_features(const cv::Mat& image, const SelectionSettings& settings, cv
   cv::minMaxLoc(response, nullptr, &strongest);
   const double threshold = std::max(kMinResponse, settings.quality_level * strongest);
 
-  // Nearer to the border the eigenvalues see mirrored pixels.
+  // Closer to the border the eigenvalues include mirrored pixels.
   const int border_px = std::max(settings.border_px, kBlock_px / 2 + kSobel_px / 2);
 
   const auto limit = static_cast<size_t>(settings.max_features);
-  // More than the picture is the same as the picture, and fits into an int.
+  // A distance beyond the picture's diagonal has no further effect; the bound keeps it within an
+  // int.
   const double min_distance_px =
       std::min(settings.min_distance_px, std::hypot(image.cols, image.rows));
   Occupancy occupancy(image.size(), min_distance_px);

@@ -16,16 +16,16 @@ namespace {
 
 using SearchTemplate = WindowTemplate<kSearchWindow_px>;
 
-/// Coarse levels only have to lead into the basin of the next finer one.
+/// Coarse levels only have to reach the basin of convergence of the next finer level.
 constexpr MatchSettings kCoarse{3, 0.15f, 5, 1};
 constexpr MatchSettings kLast{10, 0.03f, 5, 1};
 constexpr MatchSettings kRefine{3, 0.02f, 1, 1};
-/// A point that is followed may become less of a corner than a new one.
+/// The limit for a followed point is lower than for a new one.
 constexpr float kKeptRoundness = kLeastRoundness / 2;
-/// Of the strength asked for, at coarse levels.
+/// Share of the required strength that applies at coarse levels.
 constexpr float kCoarseStrength = 0.25f;
 
-/// The whole window of `side` px, so that no repeated border takes part in what is measured.
+/// Whether the whole window of `side` px is inside the image, without replicated border pixels.
 bool is_inside(const PaddedImage& image, ImagePoint centre, int side) {
   const float kHalf = static_cast<float>(side) / 2;
   return centre.x_px >= kHalf && centre.y_px >= kHalf &&

@@ -46,7 +46,7 @@ class LargestMean {
     largest_[place] = value;
   }
 
-  /// Mean of the largest of `count` values; of all of them if they are fewer than kChangedBlocks.
+  /// Mean of the largest of `count` values; of all if there are fewer than kChangedBlocks.
   float mean(size_t count) const {
     float sum = 0;
     for (const float value : largest_) sum += value;
@@ -91,8 +91,8 @@ float plain::largest_change(const ImageView& before, const ImageView& now) {
 
 RepeatedPicture::Rhythm RepeatedPicture::rhythm(float share) const {
   Rhythm rhythm;
-  float largest = 0;  // of a run
-  size_t begin = 0;   // of a run, frames ago
+  float largest = 0;  // change of a run
+  size_t begin = 0;   // of a run, in frames ago
   bool in_run = false;
   for (size_t i = count_; i-- > 0;) {
     const float change = latest(i);
@@ -113,7 +113,7 @@ RepeatedPicture::Rhythm RepeatedPicture::rhythm(float share) const {
   return rhythm;
 }
 
-/// Whether the changes were small one period and two periods ago, and not all the time since then.
+/// Whether the changes one and two periods ago were in dips, and not every change since then was.
 bool RepeatedPicture::is_due(const Rhythm& rhythm) const {
   for (size_t period = 2; 2 * period <= count_; ++period) {
     if (!rhythm.is_dip[period - 1] || !rhythm.is_dip[2 * period - 1]) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether a frame shows the picture before once more.
+/// Detects frames that repeat the previous picture.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace spidar {
 
-/// Compares pictures of one size. The same pixels are the same picture. Coding adds to that: the
-/// encoder spends its bits on the picture that is shown again, too. What it changes is little
-/// beside what changes from one picture to the next: in 24 pictures a second that were coded as 60
-/// frames, by x264, x265, VP9 and MPEG-4 from good to poor quality, the block of 16 × 16 px that
-/// changed most changed by 8 grey levels at most where a picture was repeated, and by 28 at least
-/// where not. A single block may be an accident of the encoder, so the mean of some of those that
-/// changed most is looked at; and not more of them, so that a small object counts.
+/// Compares pictures of the same size. Identical pixels are always a repetition, but a lossy
+/// encoder also changes a repeated picture slightly. These changes are small compared with those
+/// between different pictures. In 24 pictures per second coded as 60 frames, by x264, x265, VP9 and
+/// MPEG-4 from good to poor quality, the 16 × 16 px block with the largest change differed by at
+/// most 8 grey levels in repeated pictures, and by at least 28 in others. A single block may be an
+/// artefact of the encoder, so the mean over several of the most changed blocks is used. Their
+/// number is small so that a small object still counts.
 ///
-/// In a telecined film the encoder has more to do: what it changes in a repeated field is up to
-/// 0.41 of the change before, where different pictures change by 0.6 of it and more. So where the
-/// rhythm of the film says that a picture is repeated, less is asked.
+/// In a telecined film the encoder changes a repeated field by up to 0.41 of the change before it,
+/// while different pictures change by at least 0.6 of it. The limit is therefore higher when the
+/// cadence of the film predicts a repetition.
 class RepeatedPicture {
  public:
   enum class Kind {
@@ -29,28 +29,28 @@ class RepeatedPicture {
     kDifferent,  ///< another picture
   };
 
-  /// Of `now`, with respect to `before`; both of 8 bits. Each frame is to be shown to it, in order.
+  /// Classifies `now` relative to `before`; both have 8 bits. Call for every frame, in order.
   Kind look(const ImageView& before, const ImageView& now);
 
-  /// The next pictures have nothing to do with those before.
+  /// Call when the next pictures are unrelated to the previous ones.
   void restart() { count_ = 0; }
 
-  /// The noise of coding is at most this share of the change before it and of the one after it.
+  /// Largest coding noise, as a share of the change before and after it.
   static constexpr float kShare = 0.3f;
-  /// Among so many frames there must have been kDips changes like that: something that slows down
-  /// and turns round is one, too. 24 pictures a second in 30 frames have two in ten.
+  /// At least kDips such dips must have occurred within kFrames frames, because an object that
+  /// slows down and reverses also causes one. 24 pictures per second in 30 frames have two in ten.
   static constexpr size_t kFrames = 12;
   static constexpr int kDips = 2;
-  /// The noise may be this share where the changes one period and two periods of the rhythm ago, of
-  /// two frames or more, were as small beside those around them.
+  /// The limit for the noise if the changes one and two periods ago were as small relative to their
+  /// neighbours. A period has at least two frames.
   static constexpr float kShareWhenDue = 0.5f;
 
  private:
   /// Dips: runs of small changes between two large ones.
   struct Rhythm {
     int dips = 0;
-    float large = 0;                     ///< the latest large change
-    std::array<bool, kFrames> is_dip{};  ///< whether the change so many frames ago was in a dip
+    float large = 0;                     ///< latest large change
+    std::array<bool, kFrames> is_dip{};  ///< by age in frames: whether the change was in a dip
   };
   Rhythm rhythm(float share) const;
   bool is_due(const Rhythm& rhythm) const;
@@ -62,11 +62,12 @@ class RepeatedPicture {
   size_t next_ = 0;
 };
 
-/// So many blocks say how much has changed.
+/// Number of blocks that are averaged.
 constexpr size_t kChangedBlocks = 8;
 
-/// Mean absolute difference of the kChangedBlocks blocks of 16 × 16 px, or less at the right and
-/// the bottom, in which it is largest, grey levels; 0 exactly when all pixels are the same.
+/// Mean absolute difference over the kChangedBlocks blocks with the largest difference, in grey
+/// levels; 0 exactly when all pixels are equal. Blocks have 16 × 16 px, or less at the right and
+/// bottom.
 float largest_change(const ImageView& before, const ImageView& now);
 
 namespace plain {

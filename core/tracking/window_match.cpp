@@ -8,9 +8,9 @@
 namespace spidar {
 namespace {
 
-/// Contrast changes by less than this are left to the residual: the estimate is no better.
+/// Smaller changes of contrast are ignored, because the estimate is no more accurate.
 constexpr float kGainNoticed = 0.1f;
-/// compare() goes no further.
+/// Upper limit of compare().
 constexpr float kMostGain = 1.99f;
 constexpr float kLeastGain = 0.25f;
 
@@ -35,7 +35,7 @@ ReadablePixels::ReadablePixels(const ImageView& image)
     : ReadablePixels(image.data, image.stride_bytes, 0, 0, image.width, image.height) {}
 
 bool ReadablePixels::source(float x, float y, int columns, int rows, WindowSource& found) const {
-  // Written so that NaN is outside, before it becomes an integer.
+  // Treats NaN as outside, before the conversion to an integer.
   if (!(x >= static_cast<float>(x0) && y >= static_cast<float>(y0) &&
         x + static_cast<float>(columns) <= static_cast<float>(x1) &&
         y + static_cast<float>(rows) <= static_cast<float>(y1))) {
@@ -67,7 +67,7 @@ bool WindowTemplate<kSide>::read(const ReadablePixels& image, ImagePoint centre)
   xy_ = static_cast<float>(sums.xy) - mean_x_ * static_cast<float>(sums.y);
   yy_ = static_cast<float>(sums.yy) - mean_y_ * static_cast<float>(sums.y);
   const float determinant = xx_ * yy_ - xy_ * xy_;
-  // One derivative unit in one pixel: nothing to divide by below that.
+  // 1 corresponds to one derivative unit in one pixel; a smaller determinant cannot be inverted.
   if (!(determinant > 1)) return false;
   inverse_determinant_ = 1 / determinant;
   const float difference = xx_ - yy_;
@@ -92,7 +92,7 @@ bool WindowTemplate<kSide>::find(const ReadablePixels& image, const MatchSetting
   constexpr float kPixels = kSide * kSide;
   const ImagePoint start = match.centre;
   ImagePoint at = start;
-  float left = 0;  // variance that the template does not explain
+  float left = 0;  // residual variance
   float gain = settings.gain > 0 ? std::clamp(settings.gain, kLeastGain, kMostGain) : 1.0f;
   for (int i = 0; i < settings.iterations; ++i) {
     const ImagePoint begin = upper_left(at, kSide);

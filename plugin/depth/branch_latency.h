@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The latency of several branches that meet in one element.
+/// Combines the latency of several branches that meet in one element.
 #pragma once
 
 #include <initializer_list>
@@ -9,9 +9,10 @@
 
 namespace spidar {
 
-/// Answers the latency query for the branches upstream of these sink pads: live when one of them
-/// is; min is the largest of the live ones, max the smallest. A pad that is not linked counts for
-/// nothing. FALSE when a branch does not answer.
+/// Answers the latency query from the branches upstream of these sink pads. The result is live if
+/// any branch is live; its minimum is the largest of the live branches' minima and its maximum the
+/// smallest of their maxima. Unlinked pads are ignored. Returns FALSE when a branch does not
+/// answer.
 gboolean query_latency(std::initializer_list<GstPad*> sink_pads, GstQuery* query);
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The stream of depth, from its pad to the gate.
+/// Handles the depth stream from its pad to the gate.
 #pragma once
 
 #include <atomic>
@@ -13,28 +13,29 @@
 
 namespace spidar {
 
-/// What a streaming thread knows of its frames.
+/// Segment and format of a video stream.
 struct VideoStream {
   GstSegment segment;
   GstVideoInfo info;
 
-  /// Length of a frame by the frame rate, 0 where there is none.
+  /// Duration of a frame at the frame rate, 0 if the rate is unknown.
   GstClockTime frame_ns() const;
   void reset();
 };
 
-/// Posts warnings and errors for `element`. All but images() belongs to the streaming thread.
+/// Posts warnings and errors for `element`. Only images() may be called outside the streaming
+/// thread.
 class DepthBranch {
  public:
   DepthBranch(GstElement* element, DepthGate& gate) : element_(element), gate_(gate) { reset(); }
 
-  /// Takes the buffer. Waits until there is room for it.
+  /// Takes ownership of the buffer. Blocks until there is room for it.
   GstFlowReturn add(GstBuffer* buffer);
-  /// Leaves the event alone. FALSE for caps that cannot be used.
+  /// Handles an event without taking ownership. Returns FALSE for unusable caps.
   gboolean take(GstEvent* event, const DepthProperties& properties);
   void reset();
 
-  /// That have come.
+  /// Number of images received.
   int images() const { return images_; }
 
  private:
@@ -45,7 +46,7 @@ class DepthBranch {
   DepthGate& gate_;
   VideoStream stream_;
   std::unique_ptr<GstCaps, Unref> caps_;
-  bool complained_ = false;  // that images have no timestamps
+  bool complained_ = false;  // about images without timestamps
   std::atomic<int> images_{0};
 };
 

@@ -95,7 +95,7 @@ DepthGate::Found DepthGate::find(const ShownTime& frame, guint64 max_age_ns, Gst
       return linked_ && !closed_ && !video_flushing_ && (seeking_ || !match_.settled(frame));
     };
     while (waits()) {
-      g_cond_broadcast(&changed_);  // an image has been used, so there is room for another
+      g_cond_broadcast(&changed_);  // an image was consumed, so there is room for another
       if (clock) {
         if (gst_clock_get_time(clock) >= deadline_ns) break;
         if (!timer) {

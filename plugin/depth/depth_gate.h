@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where the thread of the video and the thread of the depth meet.
+/// Synchronizes the video thread and the depth thread.
 #pragma once
 
 #include <gst/gst.h>
@@ -9,43 +9,43 @@
 
 namespace spidar {
 
-/// Depth images wait here for the video, one at a time, and the video waits for them: as long as it
-/// takes, or, where a live pipeline has a deadline, until then. Every function may be called from
-/// any thread.
+/// Depth images wait here for the video, one at a time, and video frames wait for their depth
+/// image: without limit, or until the deadline in a live pipeline. All functions are thread-safe.
 class DepthGate {
  public:
-  /// `owner` holds the gate, and lives for as long as a timer may ring.
+  /// `owner` contains the gate, and must outlive every pending clock callback.
   explicit DepthGate(GstObject* owner);
   ~DepthGate();
   DepthGate(const DepthGate&) = delete;
   DepthGate& operator=(const DepthGate&) = delete;
 
-  /// Nothing has come, nobody has to wait for long.
+  /// Resets the gate to an empty state and allows waiting.
   void open();
-  /// Releases whoever waits and lets nobody wait again, until open().
+  /// Wakes all waiting threads and prevents further waiting until open().
   void close();
 
-  // The thread of the depth.
+  // Depth thread.
   void set_linked(bool linked);
-  /// Waits for room. OK, FLUSHING, or EOS when the video has ended.
+  /// Waits for room. Returns OK, FLUSHING, or EOS when the video has ended.
   GstFlowReturn add(DepthImage image);
   void reach(gint64 running_ns);
   void finish_depth();
-  void begin_depth();  ///< a stream or segment, after the end of another
+  void begin_depth();  ///< a new stream or segment begins after the end of another
   void flush_depth(bool begin);
 
-  // The thread of the video.
+  // Video thread.
   struct Found {
     GstFlowReturn flow = GST_FLOW_OK;  ///< or FLUSHING
-    DepthImage image;                  ///< without a buffer when nothing belongs to the frame
+    DepthImage image;                  ///< without a buffer if no image belongs to the frame
   };
-  /// `clock` may be null: then it waits as long as it takes. `deadline_ns` is a time of the clock.
+  /// Waits for the depth image of a frame until `deadline_ns`, a time of `clock`; without limit if
+  /// `clock` is null.
   Found find(const ShownTime& frame, guint64 max_age_ns, GstClock* clock, GstClockTime deadline_ns);
   void finish_video();
   void begin_video();
   void flush_video(bool begin);
 
-  /// A seek is under way that flushes both: what has come belongs to the time before.
+  /// Begins a seek that flushes both streams. Images received so far are from before the seek.
   void begin_seek();
   void end_seek();
 
@@ -60,7 +60,7 @@ class DepthGate {
   GstObject* owner_;
   GMutex mutex_;
   GCond changed_;
-  // Below: the mutex.
+  // Guarded by the mutex.
   DepthMatch match_;
   bool closed_ = true;
   bool linked_ = false;

@@ -29,7 +29,7 @@ std::optional<ShownTime> shown_time(const GstSegment& segment, GstBuffer* buffer
   const gint64 end = is_time(length)
                          ? running_time(segment, GST_BUFFER_PTS(buffer) + length).value_or(*begin)
                          : *begin;
-  // In reverse playback the end of a frame is shown first.
+  // In reverse playback the end of a frame has the smaller running time.
   return ShownTime{std::min(*begin, end), std::max(*begin, end)};
 }
 
@@ -49,8 +49,8 @@ bool DepthMatch::settled(const ShownTime& frame) {
 const DepthImage* DepthMatch::find(const ShownTime& frame, guint64 max_age_ns) const {
   if (!held_) return nullptr;
   const ShownTime& time = held_->time;
-  // Only images whose time matches that of the frame: an image from before a seek may be far off in
-  // either direction.
+  // Rejects images whose time does not match the frame: an image from before a seek may be far off
+  // in either direction.
   if (time.start_ns > frame.start_ns + frame.length_ns() / 2) return nullptr;
   const gint64 age_ns = frame.start_ns - time.end_ns;
   if (age_ns >= 0 && static_cast<guint64>(age_ns) > max_age_ns) return nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which depth image belongs to a frame of video.
+/// Matches depth images to video frames.
 #pragma once
 
 #include <memory>
@@ -10,16 +10,16 @@
 
 namespace spidar {
 
-/// When something is on the screen: running times, which are below 0 before the segment begins.
+/// Time interval on the screen, in running time; negative before the segment begins.
 struct ShownTime {
   gint64 start_ns = 0;
-  gint64 end_ns = 0;  ///< = start_ns where it is not known
+  gint64 end_ns = 0;  ///< equal to start_ns if unknown
 
   gint64 length_ns() const { return end_ns - start_ns; }
 };
 
-/// Of `buffer` in `segment`, whichever way it is played. `frame_ns` is the length of a frame that
-/// has no duration, 0 where it is not known. Empty when it has no running time.
+/// The interval of `buffer` in `segment`, for either playback direction. `frame_ns` is the duration
+/// to use for a buffer without one, 0 if unknown. Empty when the buffer has no running time.
 std::optional<ShownTime> shown_time(const GstSegment& segment, GstBuffer* buffer,
                                     GstClockTime frame_ns);
 
@@ -34,27 +34,29 @@ struct DepthImage {
   ShownTime time;
 };
 
-/// Holds the latest depth image, and the one after it. A frame of video gets the latest image that
-/// begins at most half the shorter of the two lengths after the frame: the nearest one when both
-/// streams have the same rate but begin at different times. Times of frames should not decrease.
+/// Holds the current depth image and the next one. A video frame gets the latest image that begins
+/// no later than the start of the frame plus half the shorter of the two durations. This is the
+/// nearest image when both streams have the same rate but a different offset. The times of frames
+/// should not decrease.
 class DepthMatch {
  public:
-  /// There is room for a depth image again when settled() has used the one that waited.
+  /// Whether a depth image can be added. settled() makes room by consuming the waiting one.
   bool has_room() const { return !next_; }
   void add(DepthImage image) { next_ = std::move(image); }
-  /// No depth image begins before `running_ns`.
+  /// Announces that no further depth image begins before `running_ns`.
   void reach(gint64 running_ns) { known_until_ns_ = running_ns; }
-  /// There will be no more images.
+  /// Announces that no more images will come.
   void finish() { finished_ = true; }
-  /// There will be after all.
+  /// Revokes finish().
   void resume() { finished_ = false; }
   /// Forgets everything.
   void flush() { *this = {}; }
 
-  /// Uses what has come. True when nothing that comes later can belong to this frame.
+  /// Consumes a waiting image if it is due. Returns true if no later image can belong to this
+  /// frame.
   bool settled(const ShownTime& frame);
-  /// After settled(): what belongs to the frame, or null. An image is used until its end, and
-  /// `max_age_ns` longer where the next one is missing.
+  /// Call after settled(). Returns the image for the frame, or null. An image is valid until its
+  /// end, and `max_age_ns` longer if the next one is missing.
   const DepthImage* find(const ShownTime& frame, guint64 max_age_ns) const;
 
  private:

@@ -7,18 +7,18 @@
 
 namespace spidar {
 
-/// What the samples of depth mean.
+/// Meaning of the depth samples.
 struct DepthMeaning {
   bool disparity = false;   ///< larger samples are nearer
   double near_sample = -1;  ///< below 0: to be found by percentiles
   double far_sample = -1;   ///< below 0: to be found by percentiles
 };
 
-/// Once a process, before the first of the others.
+/// Call once per process before the other functions.
 void register_depth_meta();
 
-/// `frame` has to be writable; a depth image that it had is replaced. References are taken to
-/// `depth` and `caps`; no sample is copied.
+/// Attaches `depth` to `frame`, which must be writable, and replaces any earlier depth image. Takes
+/// references to `depth` and `caps`; copies no samples.
 void attach_depth_meta(GstBuffer* frame, GstBuffer* depth, GstCaps* caps, gint64 running_time_ns,
                        const DepthMeaning& meaning);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What an application can set on spidardepth.
+/// Properties of the element spidardepth.
 #pragma once
 
 #include <string>
@@ -20,15 +20,15 @@ struct DepthProperties {
   double far_sample = -1;
   guint64 max_age_ns = 250 * GST_MSECOND;
 
-  /// Of an image of this format.
+  /// The meaning of the samples for an image of this format.
   DepthMeaning meaning(GstVideoFormat format) const;
-  /// What is wrong with near and far for samples of this format, and what would be right; empty
-  /// when nothing is.
+  /// Describes what is wrong with near and far for this format and how to correct it; empty if they
+  /// are valid.
   std::string trouble(GstVideoFormat format) const;
 };
 
 void install_depth_properties(GObjectClass* object_class);
-/// False for an unknown id.
+/// Returns false for an unknown id.
 bool set_depth_property(DepthProperties& properties, guint id, const GValue* value);
 bool get_depth_property(const DepthProperties& properties, guint id, GValue* value);
 

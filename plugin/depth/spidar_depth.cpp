@@ -55,7 +55,7 @@ struct _GstSpidarDepth {
   DepthGate* gate;
   DepthProperties* properties;  // object lock
   gint latency_unknown;         // atomic
-  // Thread of the video.
+  // Video thread.
   spidar::VideoStream video;
   gboolean live;
   GstClockTime latency;
@@ -97,7 +97,7 @@ static void update_latency(GstSpidarDepth* self) {
   gst_query_unref(query);
 }
 
-/// Waits for the depth of the frame and returns it.
+/// Waits for the depth image of the frame and returns it.
 static DepthGate::Found find_depth(GstSpidarDepth* self, const spidar::ShownTime& time,
                                    guint64 max_age) {
   update_latency(self);
@@ -156,7 +156,7 @@ static gboolean gst_spidar_depth_sink_event(GstPad*, GstObject* parent, GstEvent
     case GST_EVENT_CAPS: {
       GstCaps* caps;
       gst_event_parse_caps(event, &caps);
-      // Caps that GstVideoInfo cannot describe pass as well.
+      // Caps that GstVideoInfo cannot describe are passed on as well.
       if (!gst_video_info_from_caps(&self->video.info, caps))
         gst_video_info_init(&self->video.info);
       break;
@@ -221,7 +221,7 @@ static void gst_spidar_depth_depth_unlink(GstPad*, GstObject* parent) {
 
 // --- from downstream ---------------------------------------------------------------------------
 
-/// The result is that of seeking in the video.
+/// Returns the result of the seek on the video pad.
 static gboolean seek(GstSpidarDepth* self, GstEvent* event) {
   GstSeekFlags flags;
   gst_event_parse_seek(event, nullptr, nullptr, &flags, nullptr, nullptr, nullptr, nullptr);

@@ -10,7 +10,7 @@ namespace {
 
 /// Shorter arrows are drawn as squares.
 constexpr double kShortest_px = 1.0;
-/// Length of the head: this share of a short arrow, this many shaft widths of a long one.
+/// Length of the head: the smaller of this share of the arrow and this many shaft widths.
 constexpr double kHeadShare = 0.5;
 constexpr double kHeadWidths = 4.0;
 
@@ -60,14 +60,14 @@ ArrowShape border_of(const Arrow& arrow, double margin_px) {
   along = shape.has_head ? Eigen::Vector2d(along.normalized()) : Eigen::Vector2d(1, 0);
   const Eigen::Vector2d side(-along.y(), along.x());
   const Eigen::Vector2d back_px = margin_px * along, out_px = margin_px * side;
-  // The shaft ends in the head: nothing is added there.
+  // The front end of the shaft lies inside the head and needs no margin.
   const double ahead = shape.has_head ? 0 : 1;
   shape.shaft_px[0] += -back_px - out_px;
   shape.shaft_px[1] += ahead * back_px - out_px;
   shape.shaft_px[2] += ahead * back_px + out_px;
   shape.shaft_px[3] += -back_px + out_px;
   if (!shape.has_head) return shape;
-  // All sides of the head are moved out by the margin: a triangle of the same angles.
+  // Offsets all sides of the head outwards by the margin, which preserves its angles.
   const Eigen::Vector2d neck_px = (shape.head_px[0] + shape.head_px[2]) / 2;
   const double length_px = (shape.head_px[1] - neck_px).norm();
   const double half_px = (shape.head_px[2] - neck_px).norm();
@@ -81,8 +81,8 @@ ArrowShape border_of(const Arrow& arrow, double margin_px) {
 Rgb direction_color(const Eigen::Vector2d& direction, double saturation) {
   const double turns = std::atan2(-direction.y(), direction.x()) / (2 * M_PI);
   const auto channel = [&](double shift) {
-    // HSV with V = 1: a channel is full within a sixth of the circle around its own hue, and falls
-    // linearly beyond.
+    // HSV with V = 1: a channel is full within a sixth of the circle to either side of its hue, and
+    // falls linearly to zero over the next sixth.
     double distance = std::fabs(turns - shift);
     distance = std::fabs(distance - std::round(distance));
     const double pure = std::clamp(2 - 6 * distance, 0.0, 1.0);
@@ -113,7 +113,7 @@ double felt_width_px(const ArrowStyle& style) {
 std::optional<FeltArrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style) {
   if (!(style.max_force_N > 0)) return std::nullopt;
   const double px_N = kFeltLength * style.height_px / style.max_force_N;
-  // Upwards is y > 0 in the device and y < 0 in the picture.
+  // Up is +y in the device frame and −y in the picture.
   const Eigen::Vector2d along_px = px_N * Eigen::Vector2d(wrench.force_N.x(), -wrench.force_N.y());
   FeltArrow felt;
   felt.arrow.width_px = felt_width_px(style);

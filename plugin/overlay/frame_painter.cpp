@@ -37,7 +37,7 @@ double cross_product(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 FramePainter::Components FramePainter::components_of(Rgb color) const {
   const GstVideoInfo& info = frame_.info;
   if (GST_VIDEO_INFO_IS_RGB(&info)) return {color.r, color.g, color.b, 255};
-  // Luma and colour differences by ITU-R BT.601, or by the colorimetry of the caps.
+  // Y'CbCr by the colorimetry of the caps, or by ITU-R BT.601 if that is unknown.
   double kr = 0.299, kb = 0.114;
   gst_video_color_matrix_get_Kr_Kb(GST_VIDEO_INFO_COLORIMETRY(&info).matrix, &kr, &kb);
   gint offset[GST_VIDEO_MAX_COMPONENTS], scale[GST_VIDEO_MAX_COMPONENTS];
@@ -66,7 +66,7 @@ void FramePainter::set(int x, int y, const Components& value) {
       *sample = static_cast<uint8_t>(value[c]);
       continue;
     }
-    // A word may lie at an odd address, because the frame's memory may begin anywhere.
+    // Written byte by byte because the frame's memory need not be aligned.
     const auto word = static_cast<uint16_t>(value[c] << GST_VIDEO_FORMAT_INFO_SHIFT(format, c));
     const bool low_first = GST_VIDEO_FORMAT_INFO_IS_LE(format);
     sample[low_first ? 0 : 1] = static_cast<uint8_t>(word & 0xFF);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Shapes drawn into video frames.
+/// Draws shapes into video frames.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace spidar {
 
-/// Draws into a frame mapped for writing, of any format whose components have a byte or a word
-/// each: grey, planar and semi-planar YUV, packed RGB. YUV follows the frame's colorimetry; of
-/// subsampled chroma a sample is set when a pixel of it is. What is outside the frame is not drawn.
-/// Coordinates are pixels, the centre of the first one is (0, 0).
+/// Draws into a frame mapped for writing. Supports every format whose components have one or two
+/// bytes each: grey, planar and semi-planar YUV, packed RGB. YUV follows the frame's colorimetry; a
+/// subsampled chroma sample is set when any of its pixels is. Shapes are clipped to the frame.
+/// Coordinates are in pixels, with (0, 0) at the centre of the first one.
 class FramePainter {
  public:
   explicit FramePainter(GstVideoFrame& frame) : frame_(frame) {}
@@ -32,7 +32,8 @@ class FramePainter {
   using Components = std::array<uint16_t, 4>;
 
   Components components_of(Rgb color) const;
-  /// Corners in order around a convex shape; pixels whose centre is inside or on the border.
+  /// Fills a convex polygon with corners in order: all pixels whose centre is inside or on its
+  /// border.
   void fill(const Eigen::Vector2d* corners_px, size_t count, const Components& value);
   void set(int x, int y, const Components& value);
 

@@ -8,7 +8,7 @@
 namespace spidar {
 namespace {
 
-/// A track that deviates from the background by more moves by itself.
+/// A track that deviates more than this from the background moves independently.
 constexpr double kMovingSigmas = 3;
 
 bool by_id(const SceneTrack& a, const SceneTrack& b) {
@@ -64,8 +64,8 @@ const SceneView& SceneViewer::see(const FrameAnalysis& analysis, const VisiblePa
   return scene_;
 }
 
-/// The background if the track follows it; else, of the objects whose box contains the track, the
-/// one with the most similar velocity.
+/// Assigns the track to the background if it follows it, otherwise to the object with the most
+/// similar velocity among those whose box contains the track.
 void SceneViewer::find_owner(const FrameAnalysis& analysis, const VisiblePart& visible,
                              SceneTrack& track) {
   // Relative to the centre of the picture, as in displacements().

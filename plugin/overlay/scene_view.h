@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is seen moving in one frame, as data: for the overlay, the window and the meta.
+/// The motion in one frame, as data for the overlay, the window and the meta.
 #pragma once
 
 #include <cstdint>
@@ -13,37 +13,37 @@
 namespace spidar {
 
 enum class TrackOwner {
-  kUnknown,     ///< no model looked at it, or none explains it
-  kBackground,  ///< moves as the background does
+  kUnknown,     ///< no model was applied, or none explains it
+  kBackground,  ///< moves with the background
   kObject,
 };
 
-/// Pixels of the frame, crop and all; the centre of its first pixel is (0, 0).
+/// Coordinates are pixels of the uncropped frame, with (0, 0) at the centre of the first one.
 struct SceneTrack {
   uint32_t id = 0;
   ImagePoint from, to;
   TrackOwner owner = TrackOwner::kUnknown;
-  uint32_t object = 0;  ///< id of the object it is on; 0 for the others
-  bool is_new = false;  ///< not followed to the frame before
+  uint32_t object = 0;  ///< id of the object it belongs to; 0 if none
+  bool is_new = false;  ///< not in the previous frame
 };
 
 struct SceneView {
   std::vector<SceneTrack> tracks;
-  std::vector<ImagePoint> lost;       ///< where points were that are not found any more
-  std::vector<MovingObject> objects;  ///< about the centre of what is visible
-  ImageMotion motion;                 ///< the one that is felt
+  std::vector<ImagePoint> lost;       ///< last positions of the lost points
+  std::vector<MovingObject> objects;  ///< relative to the centre of the visible part
+  ImageMotion motion;                 ///< the motion that is rendered
   Wrench wrench;
 };
 
-/// Which of the tracks belongs to what, from frame to frame.
+/// Assigns tracks to the background or to objects, and tracks their appearance from frame to frame.
 class SceneViewer {
  public:
-  /// `analysis` as analyze() just gave it, of the part `visible` of the frame. The result is valid
-  /// until the next call.
+  /// Updates the scene with the result of analyze() for the part `visible` of the frame. The
+  /// reference is valid until the next call.
   const SceneView& see(const FrameAnalysis& analysis, const VisiblePart& visible);
   const SceneView& scene() const { return scene_; }
 
-  /// Nothing is known: before frames that are not analysed.
+  /// Clears the scene. Call before frames that are not analysed.
   void reset();
 
  private:
@@ -51,7 +51,7 @@ class SceneViewer {
   void compare(const std::vector<SceneTrack>& before);
 
   SceneView scene_;
-  bool compares_ = false;  ///< the frame before had tracks to compare with
+  bool compares_ = false;  ///< the previous frame was analysed for tracks
 };
 
 }  // namespace spidar

@@ -20,7 +20,7 @@ void draw_felt(const Wrench& wrench, const ArrowStyle& style, FramePainter& pain
 
 void draw_touch(const TouchMark& touch, const VisiblePart& visible, ArrowStyle style,
                 FramePainter& painter) {
-  // A place of 0 is the left edge of the first pixel, half a pixel from its centre.
+  // Place 0 is the left edge of the first pixel, half a pixel from its centre.
   const auto at_px = [&](const Eigen::Vector2d& place) {
     return Eigen::Vector2d(visible.x + place.x() * visible.width - 0.5,
                            visible.y + place.y() * visible.height - 0.5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is felt, drawn into the video itself.
+/// Draws motion, force and contact into the video.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@
 
 namespace spidar {
 
-/// Draws one arrow a track, a cross where a point was lost, and the felt force as a white arrow
-/// with a black border from the middle of `visible` on. With a `touch`, also the finger as a ring,
-/// the touched point as a disc that grows with the force, and the force of the contact from there.
-/// `frame` is mapped for writing and of one of SPIDAR_VIDEO_FORMATS.
+/// Draws one arrow per track, a cross at each lost point, and the felt force as a white arrow with
+/// a black border from the centre of `visible`. With `touch`, also draws the finger as a ring, the
+/// touched point as a disc that grows with the force, and the contact force from that point.
+/// `frame` must be mapped for writing and have one of SPIDAR_VIDEO_FORMATS.
 void draw_overlay(const SceneView& scene, const VisiblePart& visible, double scale,
                   double max_force_N, const std::optional<TouchMark>& touch, GstVideoFrame& frame);
 

@@ -16,9 +16,8 @@ namespace {
 /// Dynamic friction as a share of the static one.
 constexpr double kSliding = 0.8;
 
-/// At least this many samples of the picture are read for each sample of the relief, in both
-/// directions. With two nothing is missed that the relief can show, and the cost does not grow with
-/// the size.
+/// Minimum number of picture samples that are read per relief sample in each direction. Two samples
+/// capture everything that the relief can show, and keep the cost independent of the picture size.
 constexpr int kReadPerCell = 2;
 
 int step_of(int samples, int cells) {
@@ -79,7 +78,7 @@ void ReliefStream::start() {
   mailbox_ = std::move(mailbox);
 }
 
-/// Skips rows and pixels when the picture is larger than the relief needs.
+/// Subsamples a picture that is larger than the relief needs.
 ImageView ReliefStream::thinned(const ImageView& luma) {
   const int down = step_of(luma.height, HeightField::kRows);
   const int across = step_of(luma.width, HeightField::kColumns);
@@ -110,7 +109,7 @@ bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown
   settings.floor_z_m = -0.5 * settings.relief_m;
   validate(settings);
   if (properties.kind == TouchKind::kDepth) {
-    // After a seek, and at the beginning, the range of depth is that of this frame.
+    // At the beginning and after a seek, the depth range is estimated from this frame alone.
     const bool follows = depth_ns_ != INT64_MIN && shown_ns > depth_ns_;
     if (!follows) depth_.reset();
     const double dt_s = follows ? 1e-9 * static_cast<double>(shown_ns - depth_ns_) : 0;

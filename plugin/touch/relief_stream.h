@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From frames to what the grip touches.
+/// Builds the touchable surface of every frame.
 #pragma once
 
 #include <atomic>
@@ -25,51 +25,52 @@
 
 namespace spidar {
 
-/// The largest stiffness for a device with such drives, N/m. What has been measured to be stable in
-/// a light hand is kMostStiffness_N_m at a delay of 3.5 ms (docs/touch.md), and what a surface asks
-/// of the hand grows with stiffness · delay: a longer delay allows as much less.
+/// The largest stiffness for a device with these drives, N/m. Measurements with a light hand were
+/// stable up to kMostStiffness_N_m at a delay of 3.5 ms (docs/touch.md). The damping that the hand
+/// must contribute grows with stiffness · delay, so a longer delay lowers the limit in proportion.
 double most_stiffness_N_m(const Profile& profile);
 
-/// What the properties mean on this device.
+/// The contact settings that the properties yield on this device.
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
 
-/// The relief of every frame, on its way to the haptic loop. As long as nothing is touched it takes
-/// no memory and the loop knows nothing of it. Methods are grouped by the thread they belong to.
+/// Builds the relief of every frame and passes it to the haptic loop. Until touch is first enabled,
+/// it allocates nothing and is not connected to the loop. Methods are grouped by the thread that
+/// calls them.
 class ReliefStream {
  public:
-  /// So many frames can be between the element and the screen; reliefs of more are left out.
+  /// Largest number of frames between the element and the screen; reliefs of further frames are
+  /// left out.
   static constexpr size_t kSlots = 32;
 
   // --- state changes
 
-  /// A device was opened. The picture is as wide and as high as `half_size_m` says, see
+  /// Call after a device was opened. `half_size_m` is half the width and height of the picture, see
   /// GripPointer.
   void connect(HapticLoop* loop, const Profile& profile, const Eigen::Vector2d& half_size_m);
-  /// It was closed, and its loop is gone.
+  /// Call after the device was closed and its loop destroyed.
   void disconnect();
 
   // --- any thread
 
-  /// There is nothing to touch from now on, until the next frame.
+  /// Removes the surface until the next frame.
   void forget();
-  /// The same, but no frame is touched until set_muted(false).
+  /// Removes the surface until set_muted(false).
   void set_muted(bool muted);
   void describe(GstStructure* structure) const;
 
   // --- streaming thread
 
-  /// A frame that is shown at `shown_ns`, as it comes to the sink. `luma`: of all of it;
-  /// `analysis`: of the part that is picture. `finger`: see touched_displacement_px(). Throws
-  /// std::invalid_argument when the device has no workspace that a picture fits into. Returns false
-  /// when touch=depth finds no depth in the frame, which then leaves the last relief in place.
-  /// After the first frame of a size nothing is taken from the heap.
+  /// Adds a frame that is shown at `shown_ns`. `luma` covers the whole frame, `analysis` the part
+  /// that is picture. For `finger` see touched_displacement_px(). Throws std::invalid_argument when
+  /// the device has no workspace for a picture. Returns false when touch=depth finds no depth in
+  /// the frame; the last relief then remains. Allocates only when the frame size changes.
   bool add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
            int64_t shown_ns, const TouchProperties& properties, const Eigen::Vector2d& finger);
-  /// Whether add() makes a copy of the relief, which takes memory from the heap.
+  /// Sets whether add() copies the relief, which allocates.
   void want_copy(bool wanted) { copy_wanted_ = wanted; }
-  /// Of the frame that was added last; null when that made none.
+  /// Returns the copy of the last added frame; null if there is none.
   std::shared_ptr<const HeightField> take_copy() { return std::move(copy_); }
-  /// From `shown_ns` on there is nothing to touch.
+  /// Removes the surface from `shown_ns` on.
   void end(int64_t shown_ns);
 
  private:
@@ -81,16 +82,16 @@ class ReliefStream {
   HapticLoop* loop_ = nullptr;
   Profile profile_;
   Eigen::Vector2d half_size_m_ = Eigen::Vector2d::Zero();
-  std::mutex mutex_;  // that there is a mailbox, against forget()
+  std::mutex mutex_;  // guards mailbox_ against forget()
   std::unique_ptr<TouchMailbox> mailbox_;
   std::atomic<bool> muted_{false};
   // Streaming thread.
   ReliefBuilder builder_;
   DepthPicture depth_;
-  int64_t depth_ns_ = INT64_MIN;  ///< of the last frame that had depth
+  int64_t depth_ns_ = INT64_MIN;  ///< time of the last frame that had depth
   std::vector<uint8_t> thinned_;
   bool touched_ = false;   ///< the newest frame has a surface
-  bool left_out_ = false;  ///< the newest frame did not get into the mailbox
+  bool left_out_ = false;  ///< the newest frame was not published
   uint32_t generation_ = 0;
   bool copy_wanted_ = false;
   std::shared_ptr<const HeightField> copy_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How what is under the finger has moved.
+/// The motion of the picture content under the finger.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,11 +9,12 @@
 
 namespace spidar {
 
-/// From the frame before to this one, in pixels of the frame: x right, y down. `place`: of the
-/// finger, (0, 0) is the top left corner of the picture and (1, 1) its bottom right one. It is the
-/// motion of the object whose box the finger is in (of several the one of the least area), else
-/// that of the background there; with motion=mean, which looks for neither, that of the whole
-/// picture. Zero where nothing is known, and for a frame that shows the picture before again.
+/// Returns the displacement from the previous frame to this one, in pixels of the frame: x right, y
+/// down. `place` is the position of the finger, with (0, 0) at the top left corner of the picture
+/// and (1, 1) at the bottom right. The result is the motion of the object whose box contains the
+/// finger (of several, the one with the smallest area), otherwise that of the background at this
+/// point. With motion=mean, which detects neither, it is the motion of the whole picture. Zero if
+/// the motion is unknown, or if the frame repeats the previous picture.
 Eigen::Vector2d touched_displacement_px(const FrameAnalysis& frame, const Eigen::Vector2d& place);
 
 }  // namespace spidar

@@ -18,19 +18,20 @@ namespace {
 constexpr double kFade_s = DelayTestSettings::kFade_s;
 constexpr double kBegin_s = kFade_s + DelayTestSettings::kSettle_s;
 constexpr double kRound_s = DelayTestSettings::kRound_s;
-/// Wrenches are known to the loop so long before they are due, so that none is faded in late.
+/// Wrenches are scheduled this long before they are due, so that none is late and faded in.
 constexpr int64_t kAhead_ns = 20 * kTick_ns;
-/// And hold for this long when the next is late; then the loop ramps to rest.
+/// A wrench holds for this long if the next one is late; then the loop ramps to rest.
 constexpr int64_t kHold_ns = 10 * kTick_ns;
-/// In which the pose has to become known and the tensions to be at rest.
+/// Time limit for the pose to become known and the tensions to settle.
 constexpr double kOpening_s = 2;
-/// A longer pause than this leaves a period unusable.
+/// A longer pause makes a period unusable.
 constexpr double kLongestGap_s = 0.01;
-/// After a pause in which the loop may have lost the pose it has this long to find it again.
+/// After a pause longer than kPause_ns the loop may have lost the pose, and has kRecovery_ns to
+/// recover it.
 constexpr int64_t kPause_ns = GripWatch::kPoseTimeout_ns;
 constexpr int64_t kRecovery_ns = 500 * kTick_ns;
 
-/// 0 … 1 … 0 in a round, level at both ends.
+/// Fades from 0 to 1 and back to 0 in a round, with zero slope at both ends.
 double envelope(double time_s) {
   const double way = std::clamp(std::min(time_s, kRound_s - time_s) / kFade_s, 0.0, 1.0);
   return way * way * (3 - 2 * way);
@@ -84,14 +85,14 @@ class DelayRun {
   }
 
  private:
-  /// The loop's own limits, and no more force than was announced.
+  /// The loop's default limits, with the force limited to the configured peak.
   static SafetyLimits limits(const DelayTestSettings& settings) {
     SafetyLimits limits;
     limits.max_force_N = std::min(limits.max_force_N, settings.peak_N);
     return limits;
   }
 
-  /// False when interrupted, or when something is wrong.
+  /// Returns false when interrupted, or when the device is lost.
   bool tick() {
     if (!pace_()) {
       result_.complete = false;
@@ -116,7 +117,7 @@ class DelayRun {
     return fail(trouble);
   }
 
-  /// Until the tensions are at rest and the pose is known.
+  /// Runs until the tensions are at rest and the pose is known.
   bool settle() {
     const int64_t begin_ns = now_ns_();
     for (;;) {
@@ -183,15 +184,16 @@ class DelayRun {
     return true;
   }
 
-  /// This machine had no time for the loop, which then takes the force to rest until it knows the
-  /// pose again. That is no fault of the device.
+  /// Whether the loop is recovering after the scheduler delayed it. The loop then ramps the force
+  /// to rest until the pose is known again. This is not a fault of the device.
   bool recovers() const {
     const PoseTrouble trouble = loop_->snapshot().pose_trouble;
     return (trouble == PoseTrouble::kNoReading || trouble == PoseTrouble::kNotYet) &&
            record_.acknowledged && record_.monotonic_ns - paused_ns_ < kRecovery_ns;
   }
 
-  /// Stops before anything goes far.
+  /// Returns false, to end the test, if the pose is lost, a string is faulty, or the grip has moved
+  /// too far.
   bool is_well() {
     const LoopSnapshot now = loop_->snapshot();
     if (now.pose_trouble == PoseTrouble::kFrozen)
@@ -209,7 +211,7 @@ class DelayRun {
     return fail("the grip went further than 20 mm; hold it still and loosely, at the centre");
   }
 
-  /// Does not end early.
+  /// Ignores an interruption, so that the release always completes.
   void release() {
     loop_->begin_close();
     while (!loop_->released()) {

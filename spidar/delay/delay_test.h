@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Measures how late the drives of a device answer, with a hand on its grip.
+/// Measures the lag of a device's drives while a hand holds the grip.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,19 @@
 namespace spidar {
 
 struct DelayTestSettings {
-  double peak_N = 0.4;  ///< largest force
-  int periods = 12;     ///< of a second each, at least kFewestPeriods
-  uint32_t seed = 1;    ///< of the phases
+  double peak_N = 0.4;  ///< peak force
+  int periods = 12;     ///< number of one-second periods, at least kFewestPeriods
+  uint32_t seed = 1;    ///< of the random phases
 
-  /// Fewer tell too little about how much they differ.
+  /// Fewer periods give too poor an estimate of the variance.
   static constexpr int kFewestPeriods = 6;
-  /// Force rises and falls in this time at both ends of a period, so that nothing knocks.
+  /// Fade time of the force at both ends of a period, so that it causes no knock.
   static constexpr double kFade_s = 0.1;
-  /// Between the rise and what is measured, for the swing of a loosely held grip to fade.
+  /// Time between the fade-in and the measured period, in which the swing of a loosely held grip
+  /// decays.
   static constexpr double kSettle_s = 0.4;
 
-  /// So many may be tried for that many which are whole.
+  /// Largest number of periods tried in order to obtain `periods` usable ones.
   int most_periods() const noexcept { return periods + periods / 2; }
   static constexpr double kRound_s = 2 * kFade_s + kSettle_s + Multisine::kPeriod_s;
   double seconds() const noexcept { return periods * kRound_s; }
@@ -36,31 +37,32 @@ struct DelayTestSettings {
 };
 
 struct DelayTest {
-  bool complete = true;  ///< it was not interrupted
-  std::string trouble;   ///< why it was ended or has no number; a sentence, or empty
-  bool fault = false;    ///< of the device: that trouble is more than a number that is missing
+  bool complete = true;  ///< false if it was interrupted
+  std::string trouble;   ///< why the test ended or has no result: a sentence, or empty
+  bool fault = false;    ///< `trouble` is a fault of the device, not only a missing result
   std::optional<LagFit> fit;
-  int periods = 0;       ///< that were used
-  double moved_m = 0;    ///< furthest from where the grip was at the beginning
-  double largest_N = 0;  ///< force that was commanded
+  int periods = 0;       ///< number of periods used
+  double moved_m = 0;    ///< largest distance of the grip from its start position
+  double largest_N = 0;  ///< largest commanded force
 
-  /// There is a number.
+  /// Whether the test has a result.
   bool measured() const noexcept { return trouble.empty() && fit && fit->missing == NoLag::kNone; }
 };
 
-/// CLOCK_MONOTONIC, or that of a simulation.
+/// CLOCK_MONOTONIC, or the clock of a simulation, in ns.
 using MonotonicClock = std::function<int64_t()>;
 
-/// The grip has to be at rest near the centre, held loosely. Pushes it along z, towards and away
-/// from the viewer, as surfaces do and with every string: a sum of sines of 11 to 83 Hz about zero,
-/// through a HapticLoop and so through the whole safety chain, above the least tensions. Ends with
-/// a ramp to zero, at once when the pose is lost, a string is faulty, the device is lost, or the
-/// grip is kFurthest_m away. Throws DeviceError when the device cannot be opened.
+/// Expects a loosely held grip at rest near the centre. Pushes it along z, the direction in which
+/// surfaces push, which uses every string. The force is a zero-mean sum of sines of 11 to 83 Hz on
+/// top of the minimum tensions, and passes through a HapticLoop with its whole safety chain. The
+/// test ends with a ramp to zero. It ends early when the pose is lost, a string is faulty, the
+/// device is lost, or the grip has moved by kFurthest_m. Throws DeviceError when the device cannot
+/// be opened.
 SPIDAR_API DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace,
                                    const MonotonicClock& now_ns,
                                    const DelayTestSettings& settings = {});
 
-/// So far may the grip go, by the sum of its hand's drift and the force.
+/// Largest displacement of the grip by drift of the hand and the force together.
 constexpr double kFurthest_m = 0.02;
 
 }  // namespace spidar

@@ -18,7 +18,7 @@ LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int late_ticks) 
   const double most_s = std::max(0.0, fit.most_s) + late_s;
   if (profile.drive_lag_s < fit.least_s + late_s) verdict.stated = StatedLag::kTooSmall;
   if (profile.drive_lag_s > most_s) verdict.stated = StatedLag::kMore;
-  // What is a whole number of steps but for rounding stays that.
+  // The tolerance keeps rounding errors from adding a step.
   constexpr double kStep_s = 1e-4;
   verdict.safe_lag_s = kStep_s * std::ceil(most_s / kStep_s - 1e-6);
   verdict.delay_s = surface_delay_s(verdict.safe_lag_s);

@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kMaxRate = 10;
 
-/// Whether the film has a wrench to be felt now.
+/// Whether the film currently provides a wrench to render.
 bool has_frame(const TickRecord& record) noexcept {
   return record.playing && (record.found == Found::kExact || record.found == Found::kInterpolated ||
                             record.found == Found::kHeld);
 }
 
-/// Whether there is a wrench to be felt now, from the film or from a surface.
+/// Whether the film or a surface currently provides a wrench to render.
 bool has_wanted(const TickRecord& record) noexcept {
   return has_frame(record) || record.contact.has_surface;
 }
@@ -68,7 +68,7 @@ bool HapticLoop::reopen() noexcept {
   return true;
 }
 
-/// Starts from zero after the device was opened: of the grip only the home position is known.
+/// Starts from zero after the device was opened, when only the home position of the grip is known.
 void HapticLoop::energise() noexcept {
   state_ = DeviceState::kOpening;
   energised_ = acknowledged_energised_ = 0;
@@ -156,7 +156,7 @@ void HapticLoop::forget_timeline(uint32_t generation) noexcept {
 /// Whether an entry was scheduled after a flush that has just taken place, and so is for the next
 /// tick.
 bool HapticLoop::is_of_the_future(uint32_t generation) const noexcept {
-  return static_cast<int32_t>(generation - timeline_generation_) > 0;  // the number wraps round
+  return static_cast<int32_t>(generation - timeline_generation_) > 0;  // the number wraps around
 }
 
 void HapticLoop::take_scheduled(bool playing, int64_t running_ns) noexcept {
@@ -233,18 +233,18 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   record.contact = touch_.tick(*mailbox, record.running_ns, grip_.pose().position_m,
                                1e-9 * static_cast<double>(passed_ns));
   if (!record.contact.has_surface) return;
-  // An expired wrench serves for ramping down and must not be felt.
+  // An expired wrench is kept only for ramping down and must not be rendered.
   if (!has_frame(record)) record.wanted = {};
   record.wanted.force_N += record.contact.force_N;
 }
 
-/// How much of the wrench of the tensions at rest stays beside the force of a contact. A light
-/// touch that took it away would take it away on the way from the centre and give it back on the
-/// way to it, or the other way round, and so give out energy. What stays does not: it is that of a
-/// potential. A film that is felt takes its place.
+/// Share of the wrench of the rest tensions that is kept during contact. That wrench derives from a
+/// potential and generates no energy while it is kept unchanged. If a light contact removed it, it
+/// could be removed while the grip moves away from the centre and restored on the way back, or vice
+/// versa, which would generate energy. A wrench of the film replaces it gradually.
 double HapticLoop::kept_at_rest(const TickRecord& record) const noexcept {
   if (!record.contact.has_surface) return 0;
-  constexpr double kFilm_N = 0.2;  // more than the tensions at rest give within 2 cm
+  constexpr double kFilm_N = 0.2;  // more than the force of the rest tensions within 2 cm
   Wrench film = record.wanted;
   film.force_N -= record.contact.force_N;
   return std::max(0.0, 1 - tension_command_.size_N(film) / kFilm_N);

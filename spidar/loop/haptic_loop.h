@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The cycle of each millisecond: time → wrench → safety → tensions → device → pose.
+/// The 1 ms cycle: time → wrench → safety → tensions → device → pose.
 #pragma once
 
 #include <atomic>
@@ -170,12 +170,12 @@ class SPIDAR_API HapticLoop {
   IdleWatch idle_;
   DeviceState state_ = DeviceState::kClosed;
   double energised_ = 0;  // share of the tensions that is output
-  // What the device has acknowledged; the next tick continues from there.
+  // The last acknowledged command, from which the next tick continues.
   StringVector acknowledged_N_ = StringVector::Zero();
   double acknowledged_energised_ = 0;
   int errors_in_a_row_ = 0;
-  int64_t untrusted_ns_ = 0;  // for how long the pose has not been trusted
-  int64_t unfelt_ns_ = 0;     // how long no force has been wanted
+  int64_t untrusted_ns_ = 0;  // time for which the pose has not been trusted
+  int64_t unfelt_ns_ = 0;     // time for which no force has been requested
   bool ticked_ = false;
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;

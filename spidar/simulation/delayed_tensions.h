@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Tensions that reach the motors some time after they were commanded.
+/// Delays commanded tensions before they reach the motors.
 #pragma once
 
 #include <array>
@@ -11,30 +11,29 @@
 
 namespace spidar {
 
-/// A pure delay: what is held back in a board, its amplifiers and its packets. Fixed size, no
-/// allocation.
+/// A pure delay, as caused by a board, its amplifiers and its packets. Fixed size, no allocation.
 class DelayedTensions {
  public:
-  /// Of one command a millisecond, a delay of 50 ms holds 50.
+  /// At one command per millisecond, a delay of 50 ms holds 50 commands.
   static constexpr size_t kCapacity = 64;
 
-  /// Commanded at `time_ns`, which never falls, to act from `time_ns` + `delay_ns` on. When it is
-  /// full, the oldest acts early.
+  /// Adds a command at `time_ns`, which must not decrease, that takes effect at `time_ns` +
+  /// `delay_ns`. When the queue is full, the oldest command takes effect early.
   void put(int64_t time_ns, int64_t delay_ns, const StringVector& tension_N) noexcept {
     if (count_ == kCapacity) drop();
     waiting_[(first_ + count_++) % kCapacity] = {time_ns + delay_ns, tension_N};
   }
 
-  /// What acts at `now_ns`.
+  /// The tensions in effect at `now_ns`.
   const StringVector& at(int64_t now_ns) noexcept {
     while (count_ > 0 && waiting_[first_].from_ns <= now_ns) drop();
     return acting_N_;
   }
 
-  /// When that changes after at(); INT64_MAX when nothing is waiting.
+  /// Time of the next change after at(); INT64_MAX when no command is pending.
   int64_t next_ns() const noexcept { return count_ > 0 ? waiting_[first_].from_ns : INT64_MAX; }
 
-  /// Nothing waits, and zero acts.
+  /// Discards all commands and sets the tensions to zero.
   void clear() noexcept { *this = {}; }
 
  private:

@@ -42,7 +42,7 @@ void check(const GripModel& model) {
 /// A string of constant tension t, length L and arm r has the stiffness (t/L) Jᵀ(I − uuᵀ)J plus at
 /// most t·r about the grip's origin (the arm turns), J = [I, −[r]×]. Scaled by mass m and inertia
 /// I, JᵀJ is at most 1/m + r²/I, so a string adds t ((1/m + r²/I)/L + r/I). The hand's springs act
-/// on translation and rotation apart: the larger of K/m and K_r/I.
+/// on translation and rotation separately and add the larger of K/m and K_r/I.
 double max_frequency_squared(const StringGeometry& geometry, const StringVector& max_tension_N,
                              const GripModel& model) {
   const double per_mass = 1 / model.mass_kg;
@@ -60,7 +60,7 @@ double max_frequency_squared(const StringGeometry& geometry, const StringVector&
 
 Eigen::Quaterniond rotation_by(const Eigen::Vector3d& vector_rad) {
   const double angle = vector_rad.norm();
-  // sin(a/2)/a; its limit where a² vanishes beside 1.
+  // sin(a/2)/a; the limit for small a.
   const double scale = angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5;
   Eigen::Quaterniond rotation;
   rotation.w() = std::cos(angle / 2);
@@ -73,7 +73,7 @@ Eigen::Quaterniond rotation_by(const Eigen::Vector3d& vector_rad) {
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept {
   const double sine = rotation.vec().norm();
   const double sign = rotation.w() < 0 ? -1.0 : 1.0;
-  // angle / sin(angle/2); its limit where there is no rotation.
+  // angle / sin(angle/2); the limit for zero rotation.
   const double scale = sine > 1e-8 ? 2 * std::atan2(sine, sign * rotation.w()) / sine : 2.0;
   return sign * scale * rotation.vec();
 }
@@ -93,9 +93,9 @@ GripDynamics::GripDynamics(const StringGeometry& geometry, const StringVector& m
         "; use softer springs or a heavier grip");
 }
 
-// With β = h b/m and κ = h² k/m one step of a mode is x⁺ = x + y⁺, y⁺ = (y − κ x)/(1 + β) where
-// y = h v. Its eigenvalues are inside the unit circle when κ < 4 + 2β (Jury): dampers of any
-// strength only help, and h ω < 2 suffices.
+// With β = h b/m and κ = h² k/m one step of a mode is x⁺ = x + y⁺, y⁺ = (y − κ x)/(1 + β) where y =
+// h v. Its eigenvalues are inside the unit circle when κ < 4 + 2β (Jury): damping always improves
+// stability, and h ω < 2 is sufficient.
 void GripDynamics::substep(const StringVector& target_N, const Pose& hand, double h_s,
                            double lag_decay, GripState& state) const noexcept {
   state.tension_N = target_N + lag_decay * (state.tension_N - target_N);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The physics of a simulated SPIDAR: a rigid grip that strings and a hand pull at.
+/// The physics of a simulated SPIDAR: a rigid grip pulled by strings and a hand.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,9 +33,8 @@ struct GripState {
   StringVector tension_N = StringVector::Zero();
 };
 
-/// Newton and Euler for the grip, integrated by the semi-implicit Euler method with the dampers
-/// taken implicitly. All forces are in D; the inertia is a sphere's, so there is no gyroscopic
-/// term.
+/// Newton–Euler equations of the grip, integrated by the semi-implicit Euler method with implicit
+/// dampers. All forces are in D; the inertia is a sphere's, so there is no gyroscopic term.
 class SPIDAR_API GripDynamics {
  public:
   /// `max_tension_N` bounds the tensions that advance() will be given; the step follows from it.
@@ -72,7 +71,7 @@ class SPIDAR_API GripDynamics {
   double max_step_s_ = 0;
 };
 
-/// Rotation vector of `rotation`, the shorter way round, radians.
+/// Rotation vector of `rotation`, in radians, with an angle of at most π.
 SPIDAR_API Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept;
 
 }  // namespace spidar

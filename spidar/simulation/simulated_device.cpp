@@ -21,7 +21,7 @@ namespace spidar {
 namespace {
 
 constexpr int64_t kStep_ns = 1'000'000;
-constexpr int64_t kMaxElapsed_ns = 50'000'000;  // a stopped process must not leap when it continues
+constexpr int64_t kMaxElapsed_ns = 50'000'000;  // limits the step after the process was suspended
 
 int64_t monotonic_ns() noexcept {
   timespec now{};
@@ -29,8 +29,8 @@ int64_t monotonic_ns() noexcept {
   return static_cast<int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
 }
 
-/// Tension at which the motor of `drive` settles: range of the D/A, its steps, then the motor's own
-/// limit.
+/// Steady-state tension of the motor of `drive`, after the range and the steps of the D/A converter
+/// and the limit of the motor.
 double settled_tension_N(double volt, const StringDrive& drive, const Profile& profile) noexcept {
   const double pulling_V = volt * drive.motor_sign;
   if (!(pulling_V > 0) || !std::isfinite(pulling_V)) return 0;
@@ -103,9 +103,9 @@ struct SimulatedDevice::Impl {
   void release() noexcept {
     if (!open) return;
     open = false;
-    // Without power nothing is held back any more.
+    // Without power, pending commands are lost.
     delayed.clear();
-    // Ten time constants: less than 5e-5 of any tension is left.
+    // After ten time constants less than 5e-5 of any tension is left.
     const auto steps = static_cast<int64_t>(std::ceil(10 * model_lag_s * 1e9 / kStep_ns));
     for (int64_t i = 0; i < std::min(steps, kMaxElapsed_ns / kStep_ns); ++i) {
       advance(kStep_ns);
@@ -123,7 +123,7 @@ struct SimulatedDevice::Impl {
   const int64_t delay_ns;
   const GripDynamics dynamics;
   const StringVector zero_length_m;
-  // Used only by the thread that exchanges.
+  // Used only by the thread that calls exchange().
   bool open = false;
   int64_t time_ns = 0;
   int64_t last_ns = 0;

@@ -36,11 +36,12 @@ SPIDAR_API GripModel grip_model_of(const Profile& profile);
 /// Nanoseconds of a clock that never goes back. Does not throw.
 using SimulatedClock = std::function<int64_t()>;
 
-/// Encoders are quantised, the D/A has its resolution, motors lag and saturate, strings only pull.
+/// Simulates quantised encoders and D/A converters, motors with lag and saturation, and strings
+/// that only pull.
 ///
-/// An exchange takes no time; its volts act until the next one. Like a real board, the device keeps
-/// the volts when the host stops sending: with kClock the strings go on pulling while time passes,
-/// with kFixedStep time stands still between exchanges.
+/// An exchange takes no time, and its voltages act until the next one. Like a real board, the
+/// device holds the voltages when the host stops sending: with kClock the strings keep pulling
+/// while time passes, with kFixedStep time stands still between exchanges.
 class SPIDAR_API SimulatedDevice final : public Device {
  public:
   enum class Time {
@@ -49,7 +50,7 @@ class SPIDAR_API SimulatedDevice final : public Device {
   };
 
   /// Throws std::invalid_argument when `model` is not physical or too stiff, see GripDynamics.
-  /// `clock`: for kClock; none: CLOCK_MONOTONIC.
+  /// `clock` is used with kClock; the default is CLOCK_MONOTONIC.
   SimulatedDevice(const Profile& profile, Time time, const GripModel& model = {},
                   SimulatedClock clock = {});
   ~SimulatedDevice() override;
@@ -59,22 +60,22 @@ class SPIDAR_API SimulatedDevice final : public Device {
   /// set.
   void open() override;
 
-  /// kLost when not open. Volts that are not finite or point the wrong way count as zero.
+  /// kLost when not open. Voltages that are not finite or have the wrong sign count as zero.
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
 
-  /// Continues the simulation with zero volts until the motors' lag has passed, at most 50 ms; then
-  /// the power is off and the tensions are zero.
+  /// Continues the simulation at zero volts until the motor lag has decayed, for at most 50 ms.
+  /// Then the power is off and the tensions are zero.
   void close() noexcept override;
 
   const std::string& name() const noexcept override;
 
-  /// Sets where the hand is; its spring pulls the grip there. A pose that is not finite is ignored.
-  /// Any thread.
+  /// Sets the pose of the hand, whose springs pull the grip there. A pose that is not finite is
+  /// ignored. Any thread.
   void set_hand(const Pose& pose) noexcept;
 
-  /// Leads the hand to a place in the device frame, no faster than LedHand::kFastest_m_s, and no
-  /// further than to the box of the string exits; without one, back to where set_hand() has put it.
-  /// A place that is not finite is ignored. Any thread.
+  /// Moves the hand to a position in the device frame, at most at LedHand::kFastest_m_s and within
+  /// the box of the string exits. Without a position, the hand returns to the pose of set_hand(). A
+  /// position that is not finite is ignored. Any thread.
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) noexcept;
 
   /// Makes every exchange return this status until it is called with kOk. Time goes on meanwhile.

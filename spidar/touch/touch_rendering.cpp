@@ -13,7 +13,7 @@ bool leads_to(const TouchFrame& before, const TouchFrame& after) noexcept {
          after.time_ns > before.time_ns && after.displacement_m.allFinite();
 }
 
-/// The number of a generation wraps round.
+/// Compares generation numbers, which wrap around.
 bool is_older(uint32_t generation, uint32_t than) noexcept {
   return static_cast<int32_t>(than - generation) > 0;
 }
@@ -86,7 +86,7 @@ void TouchRendering::drop_forgotten(TouchMailbox& mailbox) noexcept {
   }
 }
 
-/// Null also if the frame is of a generation that began after this tick.
+/// Also null if the frame belongs to a generation that began after this tick.
 const TouchFrame* TouchRendering::frame(const TouchMailbox& mailbox, size_t nth) const noexcept {
   const TouchFrame* const found = mailbox.front(nth);
   return found != nullptr && found->generation == generation_ ? found : nullptr;
@@ -109,8 +109,8 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
     if (!leads_on_) {
       leads_on_ = true;
       jumped_ = false;
-      // If the frame is known already, the transition begins where the last one ended, so that the
-      // surface does not wait for the next tick.
+      // If the next frame is already known, the transition begins when the last one ended, so that
+      // the surface does not pause until the next tick.
       from_ns_ = just_reached ? reached_ns_ : running_ns;
       const int64_t interval_ns = next->time_ns - now->time_ns;
       to_ns_ = leads_to(*now, *next)
@@ -128,7 +128,7 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
   }
 }
 
-/// Whether the surface rises faster at this place than a new surface is allowed to.
+/// Whether the surface rises faster at this position than kRise_m_s.
 bool TouchRendering::jumps(const MovingRelief& surface,
                            const Eigen::Vector2d& place_m) const noexcept {
   const Eigen::Vector2d before_m = place_m - surface.share * surface.displacement_m;

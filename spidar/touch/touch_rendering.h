@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the grip touches in the frame that is on the screen.
+/// Renders the contact of the grip with the frame that is on the screen.
 #pragma once
 
 #include <cstdint>
@@ -13,48 +13,49 @@
 
 namespace spidar {
 
-/// The contact in one tick.
+/// State of the contact in one tick.
 struct Contact {
-  bool has_surface = false;  ///< there is something that could be touched
+  bool has_surface = false;  ///< the current frame can be touched
   bool touching = false;
-  double depth_m = 0;  ///< of the grip below the surface, along its normal; 0 unless touching
-  /// The point of the surface that is touched, device frame; 0 unless touching.
+  double depth_m = 0;  ///< penetration of the grip along the surface normal; 0 unless touching
+  /// The touched point of the surface, device frame; 0 unless touching.
   Eigen::Vector3d proxy_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the grip, device frame
 };
 
-/// Follows the frames of a mailbox by running time and renders the contact with what is between
-/// two of them. One thread; neither allocates nor throws.
+/// Follows the frames of a mailbox by running time and renders the contact with the surface
+/// interpolated between two frames. For one thread; neither allocates nor throws.
 ///
-/// From the moment when the next frame is known the surface goes to it along its displacement, and
-/// is there when that frame is due; a frame that is known late or too late is met kShortest_ns
-/// later (or after the interval between the two, where that is shorter). The last frame holds for
-/// as long as nothing follows. What does not follow the frame before it appears when it is due;
-/// TouchProxy raises it slowly from where the grip is. The same is done with a frame that rises
-/// under the grip faster than that, its displacement allowed for: a flash, a cut that nobody has
-/// noticed, or a motion that was not found.
+/// As soon as the next frame is known, the surface moves to it along its displacement and reaches
+/// it when that frame is due. If the frame arrives late, the transition takes at least
+/// kShortest_ns, or the interval between the two frames if that is shorter. The last frame stays
+/// until another one follows. A frame that does not continue the previous one (`follows` is false)
+/// appears when it is due, and TouchProxy raises it slowly from the grip. The same applies to a
+/// frame that rises under the grip faster than kRise_m_s after compensation of its displacement, as
+/// with a flash, an undetected cut, or an undetected motion.
 class SPIDAR_API TouchRendering {
  public:
   static constexpr int64_t kShortest_ns = 15'000'000;
-  /// After a longer pause between two ticks the grip counts as a new one.
+  /// A longer pause between two ticks resets the contact.
   static constexpr double kLongestTick_s = 0.01;
-  /// Another stiffness is reached at this speed, so that setting it is no knock.
+  /// Rate at which the stiffness approaches a new setting, so that a change causes no knock.
   static constexpr double kStiffening_N_m_s = 1000;
 
-  /// A tick `dt_s` after the last. `running_ns`: what is on the screen; `grip_m`: device frame.
+  /// Renders a tick `dt_s` after the last. `running_ns` is the running time of the frame on the
+  /// screen; `grip_m` is in the device frame.
   Contact tick(TouchMailbox& mailbox, int64_t running_ns, const Eigen::Vector3d& grip_m,
                double dt_s) noexcept;
 
-  /// What the safety chain lets through of the force, both above 0; unlimited at first. The contact
-  /// gives no more energy back than it took only if it knows these limits.
+  /// Sets the limits of the safety chain, both above 0. Initially the defaults of ContactSettings
+  /// apply. The contact stays passive only if these limits are correct.
   void set_limits(double max_force_N, double max_slew_N_s) noexcept {
     max_force_N_ = max_force_N;
     max_slew_N_s_ = max_slew_N_s;
   }
-  /// What else is wanted in the next tick, which shares those limits.
+  /// Sets the other force of the next tick, which shares these limits.
   void set_beside(const Eigen::Vector3d& force_N) noexcept { beside_N_ = force_N; }
 
-  /// A tick in which nothing is to be touched: nothing plays, or it is not known where the grip is.
+  /// A tick without contact, because nothing is playing or the pose of the grip is unknown.
   void rest(TouchMailbox& mailbox) noexcept;
 
  private:
@@ -65,13 +66,13 @@ class SPIDAR_API TouchRendering {
   bool jumps(const MovingRelief& surface, const Eigen::Vector2d& place_m) const noexcept;
 
   uint32_t generation_ = 0;
-  bool reached_ = false;   ///< the oldest frame of the mailbox was due
-  bool leads_on_ = false;  ///< the way to the frame after it has begun, by the two times below
-  bool jumped_ = false;    ///< but does not lead the surface: the next frame has to be waited for
+  bool reached_ = false;   ///< the oldest frame of the mailbox has become due
+  bool leads_on_ = false;  ///< the transition to the next frame, from_ns_ to to_ns_, has begun
+  bool jumped_ = false;    ///< a jump: the current surface stays until the next frame is due
   int64_t from_ns_ = 0;
   int64_t to_ns_ = 0;
   int64_t reached_ns_ = 0;
-  double stiffness_N_m_ = 0;  ///< 0: none yet
+  double stiffness_N_m_ = 0;  ///< 0: not yet set
   double max_force_N_ = ContactSettings{}.max_force_N;
   double max_slew_N_s_ = ContactSettings{}.max_slew_N_s;
   Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();

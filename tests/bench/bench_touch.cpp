@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Cost of touching a picture for a frame and for a tick, and the energy that a surface gives off.
-// The optional argument is the number of ticks for each scene and hand.
+// Measures the cost of touch per frame and per tick, and the energy that a surface generates. The
+// optional argument is the number of ticks for each scene and hand.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -39,7 +39,7 @@ void time_reliefs() {
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
     ReliefBuilder builder;
     char name[64];
-    if (width <= 1920) {  // what is larger is reduced before
+    if (width <= 1920) {  // larger pictures are reduced first
       std::snprintf(name, sizeof name, "brightness, %d×%d", width, height);
       const ImageView picture{bytes.data(), width, height, width};
       print_times(name,
@@ -66,7 +66,7 @@ void time_ticks(const std::vector<test::TouchScene>& scenes) {
   std::puts("\nA tick, microseconds:");
   constexpr size_t kTicks = 20000;
   constexpr int kPasses = 5;
-  // 4 mm lower than the other measurements, so that it is nearly always in contact.
+  // 4 mm lower than in the other measurements, so that the hand is nearly always in contact.
   const test::RandomHand hand(7);
   std::vector<Eigen::Vector3d> grips_m;
   for (size_t n = 0; n < kTicks; ++n) {
@@ -158,8 +158,7 @@ void tap() {
   }
 }
 
-/// Of the real part of the impedance (K / jω + B / (1 + jω / ω60)) exp(−jω t_d), in units of
-/// K t_d.
+/// Real part of the impedance (K / jω + B / (1 + jω / ω60)) exp(−jω t_d), in units of K t_d.
 double resistance(double frequency_Hz, double damping) {
   constexpr double kDelay_s = 0.0035;
   const double w = 2 * std::acos(-1.0) * frequency_Hz;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Counts how often the force of touching a film of depth would exceed the slew limit.
+// Counts how often the contact force of a depth film would exceed the slew limit.
 //
 //     bench_touch_film FILE WIDTH HEIGHT [FRAMES [disparity]]
 //
-// FILE has frames of 16 bits, big-endian, 30 a second, as `pngdec ! video/x-raw,format=GRAY16_BE !
-// filesink` writes them. With `disparity`, it has one frame of 8 bits (GRAY8) with larger values
-// where the scene is nearer, which is touched for the duration of FRAMES frames.
+// FILE contains 16-bit big-endian frames at 30 frames per second, as written by `pngdec !
+// video/x-raw,format=GRAY16_BE ! filesink`. With `disparity`, it contains a single 8-bit frame
+// (GRAY8) in which larger values are nearer; the hand touches it for the duration of FRAMES frames.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -26,7 +26,7 @@ using namespace spidar;
 
 constexpr int kFrame_ticks = 33;
 constexpr double kMaxForce_N = 3;
-constexpr double kDeeper_m = 0.004;  // than a hand that only touches what is nearest
+constexpr double kDeeper_m = 0.004;  // below a hand that touches only the nearest parts
 constexpr unsigned kHands = 10;
 
 std::vector<HeightField> reliefs_of(const std::vector<uint8_t>& film, int width, int height,

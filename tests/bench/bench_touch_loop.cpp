@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Cost of touching for a tick of the haptic loop and for a frame. Measures whole ticks on the
+// Measures the cost of touch per tick of the haptic loop and per frame. Times whole ticks on the
 // simulated device, alternately with and without a moving relief under the grip.
 #include <algorithm>
 #include <cstdint>
@@ -34,7 +34,7 @@ FrameAnalysis analysis_of(int width, int height) {
   return analysis;
 }
 
-/// A loop in which the hand presses and strokes; frames as they come.
+/// A haptic loop whose hand presses and strokes the surface while new frames arrive.
 struct Bench {
   Bench() : loop(std::make_unique<HapticLoop>(profile, device)) {
     stream.connect(loop.get(), profile, {0.0295, 0.032});
@@ -43,7 +43,7 @@ struct Bench {
     loop->set_playback_clock({now_ns, 0, 1.0, true});
   }
 
-  /// A tick, and what it took.
+  /// Runs a tick and returns its duration.
   double tick(int n, bool touches) {
     if (touches && now_ns % kFrame_ns == 0) {
       TouchProperties touch;
@@ -70,8 +70,8 @@ struct Bench {
   int64_t now_ns = 0;
 };
 
-/// The force changes what the tension solver has to do, so that it is said beside: with a force of
-/// the film of the same size in the loop that does not touch.
+/// The force changes the work of the tension solver. For comparison, a second loop without contact
+/// runs with a film force of similar size.
 void time_ticks() {
   Bench plain;
   Bench pushed;
@@ -110,7 +110,7 @@ void time_frames() {
     std::vector<double> times_ns;
     for (int n = 0; n < 300; ++n) {
       bench.stream.forget();
-      bench.tick(n, false);  // so that there is room
+      bench.tick(n, false);  // frees slots in the mailbox
       const double begin = bench::now_ns();
       bench.stream.add(nullptr, {picture.data(), width, height, width}, analysis_of(width, height),
                        n, touch, {0.5, 0.5});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Touching a picture: what energy a contact adds, through the strings of the simulated device. An
-// argument sets the number of ticks for each scene and hand, a second one the case.
+// Measures the energy that a contact adds through the strings of the simulated device. The first
+// argument sets the number of ticks for each scene and hand, the second one selects the case.
 #include <cstdio>
 #include <cstdlib>
 #include <string>

@@ -15,7 +15,7 @@ namespace {
 constexpr double kTick_s = 1e-9 * static_cast<double>(kTick_ns);
 constexpr int64_t kFrame_ns = 33 * kTick_ns;
 
-/// How a hand that is not firm holds against turning follows from how it holds against moving.
+/// Scales the rotational stiffness and damping of the hand like the translational ones.
 GripModel model_of(const Hand& hand) {
   GripModel model;
   model.hand_stiffness_Nm_rad *= hand.stiffness_N_m / model.hand_stiffness_N_m;
@@ -25,7 +25,7 @@ GripModel model_of(const Hand& hand) {
   return model;
 }
 
-/// The simulated device, which remembers what its encoders said.
+/// The simulated device; records its encoder readings.
 class ReadDevice final : public Device {
  public:
   explicit ReadDevice(SimulatedDevice& device) : device_(device) {}
@@ -44,7 +44,7 @@ class ReadDevice final : public Device {
   DeviceReading last_;
 };
 
-/// Drives as those of the simulated device on strings that another loop moves.
+/// Simulates only the drives; the encoder readings come from the device of another loop.
 class ShadowDevice final : public Device {
  public:
   ShadowDevice(const Profile& profile, const ReadDevice& of, double lag_s)
@@ -76,15 +76,15 @@ class ShadowDevice final : public Device {
   StringVector tension_N_ = StringVector::Zero();
 };
 
-/// Strings at the end of a tick.
+/// State of the strings at the end of a tick.
 struct Strings {
   StringVector length_m;
-  StringVector speed_m_s;  // at which they get longer
-  StringVector added_N;    // of their tension, by the contact
+  StringVector speed_m_s;  // rate of lengthening
+  StringVector added_N;    // tension added by the contact
 };
 
-/// Work of the added tensions on the grip in a tick. They go exponentially towards what the drives
-/// were told; the lengths are a cubic with the given ends and slopes. Simpson's rule.
+/// Work of the added tensions on the grip in a tick, by Simpson's rule. The tensions approach their
+/// commanded values exponentially; the lengths follow a cubic with the given end values and slopes.
 double work_J(const Strings& from, const Strings& to, double lag_s) {
   const double left = std::exp(-kTick_s / lag_s);
   const double half_left = std::exp(-0.5 * kTick_s / lag_s);
@@ -115,7 +115,7 @@ void publish(TouchMailbox& mailbox, const TouchScene& scene, const StringTouch& 
   mailbox.publish();
 }
 
-/// A loop whose grip touches, and its shadow.
+/// A loop with contact and its reference loop without contact.
 class Pair {
  public:
   Pair(const TouchScene& scene, const StringTouch& touch, const Hand& hand)
@@ -149,7 +149,7 @@ class Pair {
   }
 
   bool touching() const { return loop_->snapshot().last.contact.touching; }
-  /// Work that the grip has done on what the contact adds.
+  /// Work that the grip has done against the added tensions.
   double given_J() const { return given_J_; }
 
  private:
@@ -185,7 +185,7 @@ class Pair {
 ContactEnergy touch_through_strings(const TouchScene& scene, const StringTouch& touch,
                                     const Hand& hand, long ticks, const HandPath& path_m) {
   constexpr int kFaded = 20;       // ticks, ten times the drive's lag
-  constexpr long kArrived = 1000;  // the strings are taut, and the hand is there
+  constexpr long kArrived = 1000;  // ticks until the strings are taut and the hand has arrived
   Pair pair(scene, touch, hand);
   ContactEnergy result;
   bool in_contact = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The energy that a contact adds to the grip of the simulated device: through pose solver, safety
-/// chain, tension solver, D/A steps, drives and strings.
+/// Measures the energy that a contact adds to the grip of the simulated device, through pose
+/// solver, safety chain, tension solver, D/A steps, drives and strings.
 #pragma once
 
 #include <functional>
@@ -14,27 +14,27 @@
 
 namespace spidar::test {
 
-/// What is touched, and what is felt beside it.
+/// Contact settings and the simultaneous force of the film.
 struct StringTouch {
   ContactSettings contact;
   bool texture = false;
-  /// Amplitude of a force of the film, which varies as that of a film with a moving object does.
+  /// Amplitude of the film's force, which varies as in a film with a moving object.
   double film_N = 0;
 };
 
-/// Where the hand wants to be at a time in seconds.
+/// Target position of the hand at a time in seconds.
 using HandPath = std::function<Eigen::Vector3d(double)>;
 
-/// Lets the hand touch a scene for so many ticks of the haptic loop.
+/// Moves the hand along `path_m` in contact with a scene for `ticks` ticks of the haptic loop.
 ///
-/// What a contact adds is counted: a second loop has the same film, the same clock and the same
-/// encoder counts, but nothing to touch. The work of a contact is that of the difference between
-/// the tensions of the two, on the strings of the grip that is touched. So neither the film's work
-/// nor that of the tensions at rest is part of it. A contact is over when its force has faded.
+/// A second loop runs with the same film, clock and encoder counts, but without a surface. The work
+/// of a contact is that of the difference between the tensions of the two loops on the strings of
+/// the grip in contact, so it includes neither the work of the film nor that of the rest tensions.
+/// A contact ends when its force has faded.
 ContactEnergy touch_through_strings(const TouchScene& scene, const StringTouch& touch,
                                     const Hand& hand, long ticks, const HandPath& path_m);
 
-/// The same of a hand that explores at random.
+/// The same for a hand that explores at random.
 ContactEnergy explore_through_strings(const TouchScene& scene, const StringTouch& touch,
                                       const Hand& hand, long ticks, unsigned seed);
 

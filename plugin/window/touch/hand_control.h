@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The hand of the simulated device, led by the mouse of one window.
+/// Controls the hand of the simulated device with the mouse of one window.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,10 @@
 
 namespace spidar {
 
-/// The mouse as Dear ImGui has it in this frame of the window.
+/// Reads the mouse state of the current window frame from Dear ImGui.
 Mouse read_mouse();
 
-/// Tells the source where the hand goes, and that it lets go when the window closes.
+/// Passes the target of the hand to the source, and releases the hand when the window closes.
 class HandControl {
  public:
   explicit HandControl(std::shared_ptr<WindowSource> source) : source_(std::move(source)) {}
@@ -22,11 +22,12 @@ class HandControl {
   HandControl(const HandControl&) = delete;
   HandControl& operator=(const HandControl&) = delete;
 
-  /// Once a frame. `picture`: the part of the window that shows the visible part of the frame.
+  /// Call once per frame. `picture` is the part of the window that shows the visible part of the
+  /// frame.
   void update(const Mouse& mouse, const Rect& picture, const TouchMap& map) {
     lead(hand_.update(mouse, picture, map));
   }
-  /// Instead, when there is nothing that a mouse could move.
+  /// Call instead of update() when there is no hand to control.
   void let_go() {
     hand_.let_go();
     lead(std::nullopt);

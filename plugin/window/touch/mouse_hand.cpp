@@ -23,13 +23,13 @@ std::optional<Eigen::Vector3d> MouseHand::update(const Mouse& mouse, const Rect&
   was_down_ = mouse.down;
   holds_ = mouse.down && (holds_ || begins);
   double deeper_m = over_ || holds_ ? kNotch_m * mouse.wheel : 0;
-  // Not finite where the window system has lost sight of the mouse: the hand stays where it is.
+  // The position is not finite if the window system has lost the mouse; the hand then stays.
   if (holds_ && mouse.at_px.allFinite()) {
     if (begins || !mouse.shift) {
       place_ = {(mouse.at_px.x() - picture.x) / picture.width,
                 (mouse.at_px.y() - picture.y) / picture.height};
     } else {
-      // As far as the same way of the mouse moves the hand in the picture.
+      // The same mouse travel moves the hand as far in depth as it would in the picture.
       const double up = (last_px_.y() - mouse.at_px.y()) / picture.height;
       deeper_m += up * 2 * map.pointer.half_size_m().y();
     }

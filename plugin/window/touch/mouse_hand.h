@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The mouse over the picture as the hand of a simulated device.
+/// Converts mouse input over the picture to the hand of a simulated device.
 #pragma once
 
 #include <optional>
@@ -13,33 +13,33 @@
 
 namespace spidar {
 
-/// The mouse in one frame of the window.
+/// Mouse state in one frame of the window.
 struct Mouse {
   Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  ///< in the window
-  bool down = false;                                ///< its left button
-  bool shift = false;                               ///< the key
-  double wheel = 0;    ///< notches since the frame before, > 0 away from the user
-  bool taken = false;  ///< it is over a widget
+  bool down = false;                                ///< left button
+  bool shift = false;                               ///< Shift key
+  double wheel = 0;    ///< notches since the last frame, > 0 away from the user
+  bool taken = false;  ///< a widget uses the mouse
 };
 
-/// Pressed in the picture it holds the grip there; the wheel, or moving up and down with Shift,
-/// moves the hand deeper into the picture (away from the viewer, z < 0) or nearer. The depth stays
-/// when the button is released.
+/// Pressing the left button in the picture moves the grip there and holds it. The wheel, or
+/// dragging up and down with Shift, moves the hand deeper into the picture (away from the viewer, z
+/// < 0) or nearer. The depth is kept when the button is released.
 class MouseHand {
  public:
   MouseHand() = default;
 
-  static constexpr double kNotch_m = 0.5e-3;    ///< of the wheel
-  static constexpr double kFurthest_m = 25e-3;  ///< from the middle, either way
+  static constexpr double kNotch_m = 0.5e-3;    ///< depth per notch of the wheel
+  static constexpr double kFurthest_m = 25e-3;  ///< largest depth in either direction
 
-  /// Where the hand goes, device frame; nothing while it lets go. `picture` is the part of the
-  /// window that shows the visible part of the frame.
+  /// Returns the target of the hand in the device frame, or nothing while the hand is released.
+  /// `picture` is the part of the window that shows the visible part of the frame.
   std::optional<Eigen::Vector3d> update(const Mouse& mouse, const Rect& picture,
                                         const TouchMap& map);
   void let_go() { *this = MouseHand(z_m_); }
 
   bool holds() const { return holds_; }
-  /// The mouse is in the picture.
+  /// Whether the mouse is over the picture.
   bool is_over() const { return over_; }
   double z_m() const { return z_m_; }
 
@@ -54,7 +54,7 @@ class MouseHand {
   Eigen::Vector2d place_ = Eigen::Vector2d::Zero();
 };
 
-/// The line that explains it: what can be done, or while it holds, where the hand is.
+/// The status line: instructions, preceded by the depth of the hand while it is held.
 std::string hand_line(const MouseHand& hand);
 
 }  // namespace spidar

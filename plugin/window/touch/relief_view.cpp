@@ -9,7 +9,7 @@
 namespace spidar {
 namespace {
 
-/// Towards the light.
+/// Unit vector towards the light.
 const Eigen::Vector3d kLight = Eigen::Vector3d(-1, 1, 1.6).normalized();
 constexpr double kAmbient = 0.15;
 
@@ -26,7 +26,7 @@ void shade_relief(const HeightField& relief, Still& picture) {
   picture.rgba.resize(4 * static_cast<size_t>(HeightField::kCells));
   uint8_t* pixel = picture.rgba.data();
   for (int y = 0; y < HeightField::kRows; ++y) {
-    // Differences of neighbours, inwards at the border.
+    // Central differences, one-sided at the border.
     const int above = std::max(y - 1, 0), below = std::min(y + 1, HeightField::kRows - 1);
     const double down_m = (below - above) * relief.cell_y_m();
     for (int x = 0; x < HeightField::kColumns; ++x) {
@@ -65,7 +65,7 @@ std::string depth_line(const TouchScene& scene, const TickRecord& tick) {
   if (!scene.relief) return {};
   const Eigen::Vector3d& grip_m = tick.pose.position_m;
   const double front_m = grip_m.z() - scene.relief->at(grip_m.x(), grip_m.y()).z_m;
-  // Of the newest frame, which may not be on the screen yet.
+  // Relative to the newest frame, which may not be on the screen yet.
   std::snprintf(text, sizeof text, "%.1f mm in front", 1e3 * std::max(front_m, 0.0));
   return text;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Pictures of a relief, as data.
+/// Views of a relief, as data.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@
 
 namespace spidar {
 
-/// The relief as the viewer would see it in plain grey, lit from the upper left: a pixel a sample.
+/// Renders the relief as a grey surface lit from the upper left, one pixel per sample.
 void shade_relief(const HeightField& relief, Still& picture);
 
-/// Heights along the line through `y_m` from the left to the right edge: x and z, metres.
+/// Cross-section at `y_m` from the left to the right edge: x and z in metres.
 std::vector<Eigen::Vector2d> relief_section(const HeightField& relief, double y_m, int points);
 
-/// How far the grip is in front of the surface, or how deep in it: "3.2 mm in front". Empty without
-/// a relief.
+/// Distance of the grip in front of the surface or its depth below it, e.g. "3.2 mm in front".
+/// Empty without contact and relief.
 std::string depth_line(const TouchScene& scene, const TickRecord& tick);
 
 }  // namespace spidar

@@ -11,7 +11,7 @@ namespace spidar {
 namespace {
 
 constexpr int kSectionPoints = 200;
-/// Of the axis of heights, beyond relief and grip.
+/// Margin of the height axis beyond relief and grip.
 constexpr double kMargin_mm = 1;
 
 }  // namespace
