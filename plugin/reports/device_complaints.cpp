@@ -64,8 +64,7 @@ void DeviceComplaints::look_at_pose(const HapticSession& session) {
          to_string(loop.pose_trouble)),
         ("The strings have their minimum tension. Possible causes: slack strings, dead encoders, "
          "or a grip that was not at the centre when the device was opened: start again with the "
-         "grip "
-         "there, or calibrate the device (spidarctl calibrate)."));
+         "grip there, or calibrate the device (spidarctl calibrate)."));
   }
   if (loop.held_back && loop.motor_heat > MotorHeat::kLimitFrom && !held_back_) {
     held_back_ = true;
