@@ -3,7 +3,6 @@
 // spidar-feel with players that are separate programs, and an SH4 board on an emulated USB.
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <thread>
@@ -17,6 +16,7 @@
 #include "tests/emulated_bus/shared_bus.h"
 #include "tests/support/child_process.h"
 #include "tests/support/felt_ticks.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
@@ -26,22 +26,6 @@ namespace {
 template <typename Condition>
 void wait_for(const Condition& condition) {
   while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
-
-struct Outcome {
-  int status = -1;
-  std::string text;  ///< both outputs
-};
-
-Outcome run(const std::string& command) {
-  Outcome outcome;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) return outcome;
-  char part[4096];
-  while (std::fgets(part, sizeof part, pipe)) outcome.text += part;
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
-  return outcome;
 }
 
 class Feel : public testing::Test {
@@ -56,7 +40,7 @@ class Feel : public testing::Test {
   /// A picture that moves as a whole, 25 frames/s.
   static std::string make_film(const char* name, int frames) {
     const std::string path = (folder->path / name).string();
-    const Outcome made =
+    const CommandResult made =
         run("gst-launch-1.0 -q videotestsrc pattern=smpte horizontal-speed=2 num-buffers=" +
             std::to_string(frames) +
             " ! video/x-raw,width=160,height=120,framerate=25/1 ! jpegenc ! avimux ! filesink "
@@ -93,7 +77,7 @@ class Feel : public testing::Test {
                                        const std::string& playbin = "playbin") const {
     return joined(felt(), player(steps, playbin));
   }
-  static Outcome run_all(const std::vector<std::string>& arguments) {
+  static CommandResult run_all(const std::vector<std::string>& arguments) {
     std::string command;
     for (const std::string& argument : arguments) command += "'" + argument + "' ";
     return run(command);
@@ -112,7 +96,7 @@ TEST_F(Feel, APlayerIsFeltWhileItPlaysAndAtRestWhilePaused) {
   UsbPort& port = plug(0, UsbKind::kSh4);
   for (const std::string playbin : {"playbin", "playbin3"}) {
     SCOPED_TRACE(playbin);
-    const Outcome outcome =
+    const CommandResult outcome =
         run_all(felt_player({"play", "frames=40", "pause", "wait=300", "stop"}, playbin));
     EXPECT_EQ(outcome.status, 0) << outcome.text;
     EXPECT_EQ(outcome.text, "");
@@ -134,7 +118,7 @@ TEST_F(Feel, APlayerIsFeltWhileItPlaysAndAtRestWhilePaused) {
 TEST_F(Feel, TheDeviceIsAtRestHoweverThePlayerEnds) {
   UsbPort& port = plug(0, UsbKind::kSh4);
   for (const std::string end : {"stop", "exit"}) {
-    const Outcome outcome = run_all(felt_player({"play", "frames=30", end}));
+    const CommandResult outcome = run_all(felt_player({"play", "frames=30", end}));
     EXPECT_EQ(outcome.status, 0) << end << ": " << outcome.text;
     EXPECT_GT(port.updates, 0u) << end;
     wait_for([&] { return port.at_rest(); });
@@ -151,7 +135,7 @@ TEST_F(Feel, TheDeviceIsAtRestHoweverThePlayerEnds) {
 
 TEST_F(Feel, TheNextFilmIsFeltToo) {
   UsbPort& port = plug(0, UsbKind::kSh4);
-  const Outcome outcome = run_all(
+  const CommandResult outcome = run_all(
       felt_player({"play", "frames=10", "stop", "preroll", "wait=20", "play", "frames=40"}));
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_EQ(opened(), 2u);
@@ -161,7 +145,7 @@ TEST_F(Feel, TheNextFilmIsFeltToo) {
 
 TEST_F(Feel, AFilmOfTenBitsWithFullColourIsConvertedForTheScreen) {
   const std::string deep = (folder->path / "deep.webm").string();
-  Outcome outcome =
+  CommandResult outcome =
       run("gst-launch-1.0 -q videotestsrc pattern=smpte horizontal-speed=2 num-buffers=50 ! "
           "video/x-raw,format=Y444_10LE,width=160,height=120,framerate=25/1 ! "
           "vp9enc deadline=1 cpu-used=8 ! webmmux ! filesink location=" +
@@ -189,7 +173,7 @@ TEST_F(Feel, AFilmOfTenBitsWithFullColourIsConvertedForTheScreen) {
 TEST_F(Feel, InspectingAFilmOpensNoDevice) {
   plug(0, UsbKind::kSh4);
   // As a thumbnailer does.
-  Outcome outcome = run_all(felt_player({"preroll", "wait=100", "loaded"}));
+  CommandResult outcome = run_all(felt_player({"preroll", "wait=100", "loaded"}));
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.text, "loaded\n");
   outcome = run_all(felt_player({"own-filter", "play", "frames=30"}));
@@ -201,7 +185,7 @@ TEST_F(Feel, InspectingAFilmOpensNoDevice) {
 
 TEST_F(Feel, OfTwoPlayersInAProcessTheFirstHasTheDevice) {
   UsbPort& port = plug(0, UsbKind::kSh4);
-  const Outcome outcome =
+  const CommandResult outcome =
       run_all(felt_player({"play", "frames=30", "other", "play", "frames=60", "stop"}));
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.text, "");
@@ -210,7 +194,7 @@ TEST_F(Feel, OfTwoPlayersInAProcessTheFirstHasTheDevice) {
 }
 
 TEST_F(Feel, ADeviceThatCannotBeOpenedStopsNoVideo) {
-  const Outcome outcome = run_all(felt_player({"play", "frames=30", "stop"}));
+  const CommandResult outcome = run_all(felt_player({"play", "frames=30", "stop"}));
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.text.find("spidar-feel: "), 0u) << outcome.text;
   EXPECT_NE(outcome.text.find("usb"), std::string::npos) << outcome.text;
@@ -218,7 +202,7 @@ TEST_F(Feel, ADeviceThatCannotBeOpenedStopsNoVideo) {
 
 TEST_F(Feel, WithoutItThePluginIsNotLoaded) {
   plug(0, UsbKind::kSh4);
-  const Outcome outcome = run_all(player({"play", "frames=30", "loaded"}));
+  const CommandResult outcome = run_all(player({"play", "frames=30", "loaded"}));
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.text, "not loaded\n");
   EXPECT_EQ(opened(), 0u);
@@ -245,7 +229,7 @@ TEST_F(Feel, WrongUsageIsNamed) {
       {"--version", 0, "spidar-feel "},
   };
   for (const auto& [arguments, status, text] : cases) {
-    const Outcome outcome = run(feel + " " + arguments);
+    const CommandResult outcome = run(feel + " " + arguments);
     EXPECT_EQ(outcome.status, status) << arguments << ": " << outcome.text;
     EXPECT_NE(outcome.text.find(text), std::string::npos) << arguments << ": " << outcome.text;
   }

@@ -3,11 +3,9 @@
 #include "tests/players/session.h"
 
 #include <cctype>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <sys/wait.h>
 
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -39,17 +37,6 @@ void make_home(const std::filesystem::path& folder) {
 }
 
 }  // namespace
-
-Outcome run(const std::string& command) {
-  Outcome outcome;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) return outcome;
-  char part[4096];
-  while (std::fgets(part, sizeof part, pipe)) outcome.text += part;
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
-  return outcome;
-}
 
 bool is_installed(const std::string& program) {
   return run("command -v '" + program + "'").status == 0;

@@ -10,15 +10,9 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/shell.h"
+
 namespace spidar::test {
-
-struct Outcome {
-  int status = -1;   ///< −1: not ended by itself
-  std::string text;  ///< both outputs
-};
-
-/// In a shell.
-Outcome run(const std::string& command);
 
 /// In $PATH.
 bool is_installed(const std::string& program);

@@ -106,7 +106,7 @@ class PlayerTest : public testing::TestWithParam<Player> {
     EXPECT_EQ(run("gst-inspect-1.0 spidarmotion").status, 0);
     folder_ = std::make_unique<TemporaryFolder>();
     // 40 s of a picture that moves as a whole.
-    const Outcome made =
+    const CommandResult made =
         run("gst-launch-1.0 -q videotestsrc pattern=smpte horizontal-speed=2 num-buffers=1000 ! "
             "video/x-raw,width=160,height=120,framerate=25/1 ! vp8enc deadline=1 cpu-used=16 "
             "keyframe-max-dist=25 ! webmmux ! filesink location=" +
@@ -133,7 +133,7 @@ class PlayerTest : public testing::TestWithParam<Player> {
     if (!player.toggle.empty() && !is_installed("xdotool"))
       GTEST_SKIP() << "xdotool, which presses keys, is not installed";
     if (player.check.empty()) return;
-    const Outcome checked = run(player.check);
+    const CommandResult checked = run(player.check);
     if (checked.status != 0) GTEST_SKIP() << checked.text;
   }
   void TearDown() override {

@@ -4,40 +4,26 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "spidar/profiles/profile.h"
+#include "tests/support/shell.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-struct Outcome {
-  int status = -1;
-  std::string text;  ///< both outputs
-};
+using spidar::test::CommandResult;
+using spidar::test::run_shell;
 
-Outcome run_shell(const std::string& command) {
-  Outcome outcome;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) return outcome;
-  char part[4096];
-  while (std::fgets(part, sizeof part, pipe)) outcome.text += part;
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
-  return outcome;
-}
-
-Outcome run(const std::string& arguments) {
+CommandResult run(const std::string& arguments) {
   return run_shell(std::string(SPIDARCTL) + " " + arguments + " 2>&1");
 }
 
@@ -62,7 +48,7 @@ class OutputFile {
 TEST(Spidarctl, HelpAndListSucceed) {
   expect_contains(run("--help").text, "usage: spidarctl COMMAND");
   expect_contains(run("calibrate --help").text, "--sim-start");
-  const Outcome list = run("list");
+  const CommandResult list = run("list");
   EXPECT_EQ(list.status, 0);
   expect_contains(list.text, "sim ");
   expect_contains(list.text, "spidar-gcc ");
@@ -118,7 +104,7 @@ TEST(Spidarctl, WrongUsageIsNamed) {
   };
   for (const auto& [arguments, message] : cases) {
     SCOPED_TRACE(arguments);
-    const Outcome outcome = run(arguments);
+    const CommandResult outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2);
     expect_contains(outcome.text, message);
   }
@@ -139,7 +125,7 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
   };
   for (const auto& [arguments, message] : cases) {
     SCOPED_TRACE(arguments);
-    const Outcome outcome = run(arguments);
+    const CommandResult outcome = run(arguments);
     EXPECT_EQ(outcome.status, 1);
     expect_contains(outcome.text, message);
     EXPECT_EQ(outcome.text.find("Move and turn"), std::string::npos);
@@ -149,7 +135,7 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
 // The counters of the simulated device are cleared 20, -30, 10 mm off and turned by 40 degrees.
 TEST(Spidarctl, MotionFindsWhereTheCountersWereCleared) {
   const OutputFile file;
-  const Outcome outcome =
+  const CommandResult outcome =
       run("calibrate sim --move 4 --sim-start 20,-30,10,0,40,0 --output " + file.path());
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "solved");
@@ -165,7 +151,7 @@ TEST(Spidarctl, MotionFindsWhereTheCountersWereCleared) {
 }
 
 TEST(Spidarctl, SelftestOfADeviceThatIsRightSucceeds) {
-  const Outcome outcome =
+  const CommandResult outcome =
       run_shell(std::string(SPIDARCTL) + " selftest sim:sh4 --json 2>/dev/null");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "\"wiring\" : \"as in the profile\"");
@@ -174,13 +160,13 @@ TEST(Spidarctl, SelftestOfADeviceThatIsRightSucceeds) {
 TEST(Spidarctl, SelftestSaysWhenTheMotorsHaveNoSupply) {
   std::string cut = "cut-motor:0";
   for (int i = 1; i < 8; ++i) cut += ";cut-motor:" + std::to_string(i);
-  const Outcome outcome = run("selftest sim:simple --sim-wiring '" + cut + "'");
+  const CommandResult outcome = run("selftest sim:simple --sim-wiring '" + cut + "'");
   EXPECT_EQ(outcome.status, 1);
   expect_contains(outcome.text, "Switch on the supply of the motors");
 }
 
 TEST(Spidarctl, JsonIsOneObject) {
-  const Outcome outcome =
+  const CommandResult outcome =
       run_shell(std::string(SPIDARCTL) + " calibrate sim --centre --json 2>/dev/null");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.text.find("Hold"), std::string::npos);
@@ -189,10 +175,10 @@ TEST(Spidarctl, JsonIsOneObject) {
 }
 
 TEST(Spidarctl, ListTellsDevicesApart) {
-  const Outcome list = run("list");
+  const CommandResult list = run("list");
   expect_contains(list.text, "sim:sh4 ");
   expect_contains(list.text, "; emulated");
-  const Outcome json = run("list --json");
+  const CommandResult json = run("list --json");
   EXPECT_EQ(json.status, 0);
   expect_contains(json.text, "\"device\" : \"sim:uart\"");
   expect_contains(json.text, "\"evidence\" : \"emulated\"");
@@ -202,7 +188,7 @@ TEST(Spidarctl, InfoReadsEachBoard) {
   for (const std::string device :
        {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff"}) {
     SCOPED_TRACE(device);
-    const Outcome outcome = run("info " + device);
+    const CommandResult outcome = run("info " + device);
     EXPECT_EQ(outcome.status, 0);
     expect_contains(outcome.text, "device    " + device + "\n");
     expect_contains(outcome.text, "inputs    0x0000");
@@ -212,11 +198,11 @@ TEST(Spidarctl, InfoReadsEachBoard) {
 }
 
 TEST(Spidarctl, MonitorShowsTheGrip) {
-  const Outcome text = run("monitor sim:uart --taut --seconds 0.15");
+  const CommandResult text = run("monitor sim:uart --taut --seconds 0.15");
   EXPECT_EQ(text.status, 0);
   expect_contains(text.text, "inputs");
   expect_contains(text.text, "   0.1 ");
-  const Outcome json = run("monitor sim --seconds 0.15 --json");
+  const CommandResult json = run("monitor sim --seconds 0.15 --json");
   EXPECT_EQ(json.status, 0);
   EXPECT_EQ(std::count(json.text.begin(), json.text.end(), '\n'), 2) << json.text;
   // The motors are at zero, so that the simulated hand holds the grip at the centre.
@@ -224,17 +210,17 @@ TEST(Spidarctl, MonitorShowsTheGrip) {
 }
 
 TEST(Spidarctl, RestAndZeroLeaveTheMotorsAtZero) {
-  const Outcome rest = run("rest sim:simple --seconds 0.05");
+  const CommandResult rest = run("rest sim:simple --seconds 0.05");
   EXPECT_EQ(rest.status, 0);
   expect_contains(rest.text, "at rest\n");
   expect_contains(rest.text, "the strings are released\n");
-  const Outcome zero = run("zero sim:sh4");
+  const CommandResult zero = run("zero sim:sh4");
   EXPECT_EQ(zero.status, 0);
   expect_contains(zero.text, "sim:sh4: the motors are at zero");
 }
 
 TEST(Spidarctl, PullShortensItsString) {
-  const Outcome outcome =
+  const CommandResult outcome =
       run_shell(std::string(SPIDARCTL) + " pull sim:sh4 2 1 0.2 --yes --json 2>&1");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   const std::string key = "\"length_change_m\" : [";
@@ -250,7 +236,7 @@ TEST(Spidarctl, PullShortensItsString) {
 
 TEST(Spidarctl, SelftestWritesHowTheDeviceIsWired) {
   const OutputFile file;
-  const Outcome outcome =
+  const CommandResult outcome =
       run("selftest sim:uart --sim-wiring 'swap-strings:1,6;reverse-motor:0;reverse-encoder:3' "
           "--write-profile " +
           file.path());
@@ -269,7 +255,7 @@ TEST(Spidarctl, SelftestWritesHowTheDeviceIsWired) {
 
 TEST(Spidarctl, ConformanceWritesAReportToSendIn) {
   const OutputFile file;
-  const Outcome outcome =
+  const CommandResult outcome =
       run("conformance sim:sh4 --seconds 0.1 --no-shake --report " + file.path());
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "conforms; written: " + file.path());
@@ -286,7 +272,8 @@ TEST(Spidarctl, ConformanceWritesAReportToSendIn) {
 // How well depends on what else this machine does; a busy one may be too busy. test_delay has the
 // figures, in simulated time.
 TEST(Spidarctl, ConformanceMeasuresTheLagOfTheDrives) {
-  const Outcome outcome = run("conformance sim:sh4 --seconds 0.1 --shake-seconds 6 --sim-lag 4");
+  const CommandResult outcome =
+      run("conformance sim:sh4 --seconds 0.1 --shake-seconds 6 --sim-lag 4");
   expect_contains(outcome.text, "\ndrive lag   ");
   if (outcome.text.find("not measured: ") != std::string::npos) {
     expect_contains(outcome.text, "lag         not measured\n");
@@ -301,12 +288,13 @@ TEST(Spidarctl, ConformanceMeasuresTheLagOfTheDrives) {
 }
 
 TEST(Spidarctl, ConformanceReportsWhatIsNotRight) {
-  const Outcome wired = run("conformance sim:uart --seconds 0.1 --sim-wiring 'reverse-encoder:3'");
+  const CommandResult wired =
+      run("conformance sim:uart --seconds 0.1 --sim-wiring 'reverse-encoder:3'");
   EXPECT_EQ(wired.status, 1);
   expect_contains(wired.text, "encoder 3 is reversed\n");
   expect_contains(wired.text, "motors      do not conform\nlag         not tried\n");
   // Whether this machine has no USB or only no board: nothing is plugged in.
-  const Outcome gone = run("conformance usb:no-such-board --no-pull");
+  const CommandResult gone = run("conformance usb:no-such-board --no-pull");
   EXPECT_EQ(gone.status, 1);
   expect_contains(gone.text, "ended by    usb");
   expect_contains(gone.text, "link        does not conform\n");
@@ -314,7 +302,7 @@ TEST(Spidarctl, ConformanceReportsWhatIsNotRight) {
 
 // The motors stay at zero: nothing moves, which is no fault.
 TEST(Spidarctl, ConformanceWithoutPullsLeavesTheMotorsAtZero) {
-  const Outcome outcome = run("conformance sim:simple --no-pull --seconds 0.1");
+  const CommandResult outcome = run("conformance sim:simple --no-pull --seconds 0.1");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "counters    0 of 8 moved\nmotors      not tried\n");
   EXPECT_EQ(run("conformance sim:mouse --seconds 0.1").status, 0);
@@ -323,7 +311,7 @@ TEST(Spidarctl, ConformanceWithoutPullsLeavesTheMotorsAtZero) {
 // Interrupted when it has begun, however long that takes.
 TEST(Spidarctl, InterruptReleasesTheStrings) {
   const OutputFile log;
-  const Outcome outcome =
+  const CommandResult outcome =
       run_shell(std::string(SPIDARCTL) + " calibrate sim --move 600 >" + log.path() +
                 " 2>&1 & until grep -q Move " + log.path() +
                 "; do sleep 0.05; done; kill -INT $!; wait $!; status=$?; cat " + log.path() +

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Runs shell commands and keeps their output.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <sys/wait.h>
+
+namespace spidar::test {
+
+struct CommandResult {
+  int status = -1;  ///< exit status; −1 if the shell was killed or could not be started
+  std::string text;
+};
+
+/// `text` is the standard output.
+inline CommandResult run_shell(const std::string& command) {
+  CommandResult outcome;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) return outcome;
+  char part[4096];
+  while (std::fgets(part, sizeof part, pipe)) outcome.text += part;
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
+  return outcome;
+}
+
+/// `text` also has the standard error of the last command.
+inline CommandResult run(const std::string& command) {
+  return run_shell(command + " 2>&1");
+}
+
+}  // namespace spidar::test
