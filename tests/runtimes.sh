@@ -4,6 +4,7 @@
 # Runs the tests with newer releases than this machine's, on Debian, as root, without asking. The
 # last line is `N passed, N failed, N skipped`; the exit status is 0 when nothing failed.
 #   tests/runtimes.sh debian-13       builds and tests everything with the packages of Debian 13
+#   tests/runtimes.sh debian-13-players  runs the suite `players` with the players of Debian 13
 #   tests/runtimes.sh gstreamer-1.28  tests what is built in build/ with GStreamer 1.28 and GLib, those
 #                                     of Debian 14: element, pipelines, examples
 # Each keeps a small Debian of its own, of 2 GB and 1 GB, in ${XDG_CACHE_HOME:-~/.cache}/gst-spidar/ for
@@ -17,15 +18,15 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 runtime=${1-}
 case $runtime in
-debian-13) suite=trixie ;;
+debian-13 | debian-13-players) suite=trixie ;;
 gstreamer-1.28) suite=forky ;;
 *)
-    echo "error: unknown runtime '$runtime'; usage: tests/runtimes.sh debian-13|gstreamer-1.28" >&2
+    echo "error: unknown runtime '$runtime'; usage: tests/runtimes.sh debian-13|debian-13-players|gstreamer-1.28" >&2
     exit 2
     ;;
 esac
 need_own_mounts tests/runtimes.sh "$runtime"
-root=$debian_cache/$runtime
+root=$debian_cache/${runtime%-players}
 
 # mount_in_root OPTION: also this folder, at the same place; OPTION is ro or rw.
 mount_in_root() {
@@ -39,16 +40,21 @@ mount_in_root() {
 # in_root COMMAND...: there, in this folder.
 in_root() { chroot "$root" env -C "$PWD" "$@"; }
 
+# test_with_other_packages [SUITE]: everything that is tested every day, or this suite.
 test_with_other_packages() {
-    local build=/build
-    in_root bash -euc '. tests/install.sh; install_packages build test play'
+    local build=/build only=() groups=(build test play)
+    if (($#)); then
+        only=(--suite "$1")
+        groups+=("$1" "newer-$1")
+    fi
+    in_root bash -euc '. tests/install.sh; install_packages "$@"' - "${groups[@]}"
     say "building in $root$build: $(in_root g++ --version | head -n 1)"
     [[ -f $root$build/build.ninja ]] || in_root meson setup "$build" --werror
     # Results of an earlier run would stand for a test program that crashes in this one.
     rm -f "$root$build"/*.xml "$root$build"/meson-logs/testlog*
     in_root ninja -C "$build" -j"$(nproc)"
     say "testing there"
-    in_root meson test -C "$build" --print-errorlogs || true
+    in_root meson test -C "$build" --print-errorlogs "${only[@]}" || true
     say "summary: $(in_root gst-inspect-1.0 --version | tail -n +2 | head -n 1), Debian $suite"
     in_root python3 tests/summary.py "$build"
 }
@@ -93,6 +99,10 @@ case $runtime in
 debian-13)
     mount_in_root ro
     test_with_other_packages
+    ;;
+debian-13-players)
+    mount_in_root ro
+    test_with_other_packages players
     ;;
 gstreamer-1.28)
     mount_in_root rw

@@ -29,7 +29,11 @@ void make_home(const std::filesystem::path& folder) {
   for (const char* name : {"XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME",
                            "DBUS_SESSION_BUS_ADDRESS", "G_DEBUG"})
     unsetenv(name);
-  setenv("GSETTINGS_BACKEND", "memory", 1);
+  // Settings of its own; GNOME Web's question would take the keyboard.
+  setenv("GSETTINGS_BACKEND", "keyfile", 1);
+  const std::filesystem::path settings = folder / "home/.config/glib-2.0/settings";
+  std::filesystem::create_directories(settings);
+  std::ofstream(settings / "keyfile") << "[org/gnome/epiphany]\nask-for-default=false\n";
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   // Reading aloud would need a bus of its own.
   setenv("NO_AT_BRIDGE", "1", 1);

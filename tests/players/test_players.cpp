@@ -50,12 +50,7 @@ const Player kPlayers[] = {
     {"Totem", {"totem", "FILM"}, "space", "totem --quit", ""},
     {"Parole", {"parole", "FILM"}, "space", "ctrl+q", ""},
     {"Showtime", {"showtime", "FILM"}, "space", "ctrl+q", ""},
-    {"Clapper",
-     {"clapper", "FILM"},
-     "space",
-     "ctrl+q",
-     "! clapper --help-all | grep -e --video-filter || { echo 'it has --video-filter of its own'; "
-     "exit 1; }"},
+    {"Clapper", {"clapper", "FILM"}, "space", "ctrl+q", ""},
     {"GtkVideo",
      {"/usr/bin/python3", kScripts + "/gtk_video.py", "FILM"},
      "",
