@@ -33,8 +33,6 @@ since 0.1, the first version.
 def value_text(value):
     if isinstance(value, bool):
         return "true" if value else "false"
-    if hasattr(value, "value_nick"):
-        return value.value_nick
     if isinstance(value, float):
         return f"{value:g}"
     if value is None or value == "":
@@ -42,11 +40,23 @@ def value_text(value):
     return str(value)
 
 
+def enum_values(spec):
+    """The values of an enum property, by number. PyGObject knows them once it has read such a property."""
+    return spec.value_type.pytype.__enum_values__
+
+
+def default_text(spec):
+    if not spec.flags & GObject.ParamFlags.WRITABLE:
+        return ""
+    if spec.value_type.is_a(GObject.TYPE_ENUM):
+        return enum_values(spec)[int(spec.default_value)].value_nick
+    return value_text(spec.default_value)
+
+
 def range_text(spec):
     """The values that a property takes."""
     if spec.value_type.is_a(GObject.TYPE_ENUM):
-        values = spec.enum_class.__enum_values__.values()
-        return ", ".join(value.value_nick for value in values)
+        return ", ".join(value.value_nick for value in enum_values(spec).values())
     if spec.value_type == GObject.TYPE_BOOLEAN:
         return "true, false"
     if hasattr(spec, "minimum"):
@@ -97,14 +107,15 @@ def describe(name):
     if own:
         lines += ["", "### Properties", "", "| property | default | values | access | meaning |", "|---|---|---|---|---|"]
     for spec in sorted(own, key=lambda spec: spec.name):
-        default = "" if not spec.flags & GObject.ParamFlags.WRITABLE else value_text(spec.default_value)
+        if spec.value_type.is_a(GObject.TYPE_ENUM):
+            element.get_property(spec.name)
         blurb = " ".join(spec.blurb.split()).replace("|", "\\|")
-        lines.append(f"| `{spec.name}` | {default} | {range_text(spec)} | {flags_text(spec)} | {blurb} |")
+        lines.append(f"| `{spec.name}` | {default_text(spec)} | {range_text(spec)} | {flags_text(spec)} | {blurb} |")
     for spec in sorted(own, key=lambda spec: spec.name):
         if spec.value_type.is_a(GObject.TYPE_ENUM):
             lines += ["", f"Values of `{spec.name}`:", ""]
             lines += [f"- `{value.value_nick}`: {value.value_name}"
-                      for value in spec.enum_class.__enum_values__.values()]
+                      for value in enum_values(spec).values()]
     return lines + [""]
 
 
