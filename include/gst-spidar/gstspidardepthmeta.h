@@ -2,9 +2,8 @@
 /* Copyright 2026 the gst-spidar authors */
 /*! \file
  * Reads in C the depth image that spidardepth attaches to a frame. A program has to link
- * gstreamer-video, not the plugin. docs/meta.md lists the fields.
- *
- * Comments begin with an exclamation mark for Doxygen, because the tools of GObject introspection
+ * gstreamer-video, not the plugin. docs/meta.md lists the fields. */
+/* Comments for Doxygen begin with an exclamation mark, because the tools of GObject introspection
  * take two asterisks for comments of their own. */
 #ifndef GST_SPIDAR_DEPTH_META_H
 #define GST_SPIDAR_DEPTH_META_H

@@ -3,9 +3,8 @@
 /*! \file
  * Reads in C the data that spidarmotion with attach-meta=true attaches to a frame. A program has to
  * link GStreamer, not the plugin. docs/meta.md lists the fields and shows how other languages read
- * them.
- *
- * Comments begin with an exclamation mark for Doxygen, because the tools of GObject introspection
+ * them. */
+/* Comments for Doxygen begin with an exclamation mark, because the tools of GObject introspection
  * take two asterisks for comments of their own. */
 #ifndef GST_SPIDAR_MOTION_META_H
 #define GST_SPIDAR_MOTION_META_H
