@@ -29,6 +29,7 @@ stats frames using 1 nooutput name "time"
 set xrange [time_min : time_max > time_min ? time_max : time_min + 1]
 set format x ""
 
+set yrange [*<-1 : 1<*]  # not empty if nothing moves
 set ylabel "position, px\n(integral of velocity)"
 plot frames using 1:2 title "x, right", frames using 1:3 title "y, up"
 

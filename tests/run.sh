@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Installs missing packages (Debian), builds, and runs every test. The last line is `N passed, N
-# failed, N skipped`; the exit status is 0 when nothing failed.
+# Installs missing packages (Debian), builds, and runs the tests, except for suites that take long or
+# need more than Debian's packages. The last line is `N passed, N failed, N skipped`; the exit status is
+# 0 when nothing failed.
 #   tests/run.sh        as a user builds it, in build/
 #   tests/run.sh --ci   the same on a bare Debian 12 where warnings are errors, as root; layout; and
 #                       again under the sanitizers, in build-ci*/
@@ -104,7 +105,9 @@ case ${1-} in
         "GLib and GStreamer are not built with it: their locks are told to it (tests/support/tsan_glib.cpp)," \
         "what they do between themselves it does not see"
     echo "left out of all three: suite kernel, a virtual machine that needs QEMU and a kernel image; suite" \
-        "soak, which takes an hour; suite valgrind. Each by meson test -C build --suite NAME"
+        "mpeg, which needs MPEG's reference software; suite packages, which builds the Debian packages in a" \
+        "clean Debian; suite players, which needs desktop players; suite soak, which takes an hour; suite" \
+        "validate, which needs gst-validate; suite valgrind. Each by meson test -C build --suite NAME"
     threaded=(haptic_session shared_memory simulated_faults tick_trace touch_mailbox boards usb_boards force_feedback
         uart_line guardian)
     targets=("${threaded[@]/#/tests/spidar/test_}" tests/examples/test_play_{numbers,traces}

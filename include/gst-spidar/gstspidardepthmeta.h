@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Copyright 2026 the gst-spidar authors */
-/* The depth image that spidardepth attaches to a frame: how to read it in C. The plugin need not be
- * linked, gstreamer-video has to be. docs/meta.md has the fields. */
+/*! \file
+ * Reads in C the depth image that spidardepth attaches to a frame. A program has to link
+ * gstreamer-video, not the plugin. docs/meta.md lists the fields. */
+/* Comments for Doxygen begin with an exclamation mark, because the tools of GObject introspection
+ * take two asterisks for comments of their own. */
 #ifndef GST_SPIDAR_DEPTH_META_H
 #define GST_SPIDAR_DEPTH_META_H
 
@@ -12,19 +15,28 @@
 
 G_BEGIN_DECLS
 
-/* Name of the custom meta (gst_buffer_get_custom_meta()) and of its structure. */
+/*! Name of the custom meta (gst_buffer_get_custom_meta()) and of its structure. */
 #define GST_SPIDAR_DEPTH_META_NAME "GstSpidarDepthMeta"
 
+/*! The depth of one frame. */
 typedef struct {
-  GstBuffer* buffer;   /* belongs to the frame's meta: to be referenced if it is kept for longer */
-  GstVideoInfo info;   /* GRAY8, GRAY16_LE or GRAY16_BE, of a size of its own */
-  gint64 running_time; /* ns, of the depth image; that of the frame may be another */
-  gboolean disparity;  /* TRUE: larger samples are nearer, FALSE: they are farther */
-  gdouble near_sample; /* sample that is nearest; below 0: find it by percentiles */
-  gdouble far_sample;  /* sample that is farthest; below 0: find it by percentiles */
+  /*! The depth image. The meta of the frame owns it: take a reference of your own, with
+   * gst_buffer_ref(), to use it longer than the frame. */
+  GstBuffer* buffer;
+  /*! Format of the depth image, which is GRAY8, GRAY16_LE or GRAY16_BE, and its size in pixels,
+   * which may differ from that of the frame. Both cover the same picture. */
+  GstVideoInfo info;
+  /*! Running time of the depth image, ns. The frame's own may differ. */
+  gint64 running_time;
+  gboolean disparity;  /*!< TRUE if larger samples are nearer, FALSE if they are farther. */
+  gdouble near_sample; /*!< Sample of the nearest point; negative: find it by percentiles. */
+  gdouble far_sample;  /*!< Sample of the farthest point; negative: find it by percentiles. */
 } GstSpidarDepthImage;
 
-/* FALSE when the frame has no such meta: no depth belongs to it. Map it with
+/*! Reads the depth image of `frame` into `image`.
+ *
+ * Returns FALSE if no depth belongs to the frame, or if the meta lacks a field; `image` is then not
+ * to be used. Map the depth image with
  * gst_video_frame_map (&mapped, &image.info, image.buffer, GST_MAP_READ). */
 static inline gboolean gst_buffer_get_spidar_depth(GstBuffer* frame, GstSpidarDepthImage* image) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(frame, GST_SPIDAR_DEPTH_META_NAME);

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Copyright 2026 the gst-spidar authors */
-/* What spidarmotion with attach-meta=true says of a frame: how to read it in C. The plugin need not
- * be linked. docs/meta.md has the fields, and how other languages read them. */
+/*! \file
+ * Reads in C the data that spidarmotion with attach-meta=true attaches to a frame. A program has to
+ * link GStreamer, not the plugin. docs/meta.md lists the fields and shows how other languages read
+ * them. */
+/* Comments for Doxygen begin with an exclamation mark, because the tools of GObject introspection
+ * take two asterisks for comments of their own. */
 #ifndef GST_SPIDAR_MOTION_META_H
 #define GST_SPIDAR_MOTION_META_H
 
@@ -11,32 +15,46 @@
 
 G_BEGIN_DECLS
 
-/* Name of the custom meta (gst_buffer_get_custom_meta()) and of its structure. */
+/*! Name of the custom meta (gst_buffer_get_custom_meta()) and of its structure. */
 #define GST_SPIDAR_MOTION_META_NAME "GstSpidarMotionMeta"
-/* Field "tracks": array of (id, from x, from y, to x, to y, object). */
+/*! Type of the field "tracks": array of (id, from x, from y, to x, to y, object), the members of
+ * GstSpidarMotionTrack. */
 #define GST_SPIDAR_MOTION_TRACKS_TYPE "a(uddddu)"
 
-/* One point in the frame before and in this one; pixels of this frame, x right, y down, the centre
- * of the first pixel is (0, 0). */
+/*! One point in the previous frame and in this one. Positions are in pixels of this frame, x right,
+ * y down; (0, 0) is the centre of the first pixel. */
 typedef struct {
-  guint id; /* the same for as long as the point is followed */
-  gdouble from_x, from_y;
-  gdouble to_x, to_y;
-  guint object; /* 0: none */
+  guint id;       /*!< Stays the same as long as the point is followed. */
+  gdouble from_x; /*!< Position in the previous frame, x, px. */
+  gdouble from_y; /*!< Position in the previous frame, y, px. */
+  gdouble to_x;   /*!< Position in this frame, x, px. */
+  gdouble to_y;   /*!< Position in this frame, y, px. */
+  guint object;   /*!< Id of the object that the point belongs to; 0: none. */
 } GstSpidarMotionTrack;
 
+/*! Motion of one frame, and the wrench that the controller computed from it, before any safety
+ * limit. Directions of the wrench are those of the device: x right, y up, z towards the viewer. */
 typedef struct {
-  guint width, height;                  /* of the frame that lengths are pixels of */
-  guint64 running_time;                 /* ns */
-  guint64 interval;                     /* ns since the frame before; 0: nothing to compare with */
-  gdouble velocity_x, velocity_y;       /* of the motion that is felt, px/s */
-  gdouble growth;                       /* 1/s */
-  gdouble roll;                         /* rad/s, clockwise as seen */
-  gdouble force_x, force_y, force_z;    /* wanted, N: x right, y up, z towards the viewer */
-  gdouble torque_x, torque_y, torque_z; /* N m */
+  guint width;          /*!< Width of the frame that lengths in pixels refer to, px. */
+  guint height;         /*!< Height of that frame, px. */
+  guint64 running_time; /*!< Running time at which the frame is shown, ns. */
+  guint64 interval;     /*!< Time since the frame that it was compared with, ns; 0: none. */
+  gdouble velocity_x;   /*!< Velocity of the motion that is felt, to the right, px/s. */
+  gdouble velocity_y;   /*!< Velocity of the motion that is felt, downwards, px/s. */
+  gdouble growth;       /*!< Relative change of lengths, 1/s; positive when it comes nearer. */
+  gdouble roll;         /*!< Rotation of the picture, rad/s; positive is clockwise as seen. */
+  gdouble force_x;      /*!< Wanted force to the right, N. */
+  gdouble force_y;      /*!< Wanted force upwards, N. */
+  gdouble force_z;      /*!< Wanted force towards the viewer, N. */
+  gdouble torque_x;     /*!< Wanted torque about the x axis, N m, right-handed. */
+  gdouble torque_y;     /*!< Wanted torque about the y axis, N m, right-handed. */
+  gdouble torque_z;     /*!< Wanted torque about the z axis, N m, right-handed. */
 } GstSpidarMotion;
 
-/* FALSE when the buffer has no such meta: not analysed, or nothing set attach-meta. */
+/*! Reads the motion of the frame in `buffer` into `motion`.
+ *
+ * Returns FALSE if the buffer has no such meta, because it was not analysed or attach-meta is not
+ * set, or if the meta lacks a field; `motion` is then not to be used. */
 static inline gboolean gst_buffer_get_spidar_motion(GstBuffer* buffer, GstSpidarMotion* motion) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   memset(motion, 0, sizeof *motion);
@@ -52,7 +70,8 @@ static inline gboolean gst_buffer_get_spidar_motion(GstBuffer* buffer, GstSpidar
       G_TYPE_DOUBLE, &motion->torque_y, "torque-z", G_TYPE_DOUBLE, &motion->torque_z, NULL);
 }
 
-/* Whether the frame shows the picture before again, so that the wrench of that one holds on. */
+/*! Returns whether the frame shows the previous picture again, so that the previous wrench remains
+ * valid. FALSE if the buffer has no such meta. */
 static inline gboolean gst_buffer_repeats_spidar_motion(GstBuffer* buffer) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   gboolean repeated = FALSE;
@@ -61,8 +80,8 @@ static inline gboolean gst_buffer_repeats_spidar_motion(GstBuffer* buffer) {
          repeated;
 }
 
-/* The tracks of a frame as GstSpidarMotionTrack; NULL without the meta, else to be freed with
- * g_array_unref(). */
+/*! Returns the tracks of a frame, an array of GstSpidarMotionTrack, which the caller frees with
+ * g_array_unref(). NULL if the buffer has no such meta; an empty array if nothing was tracked. */
 static inline GArray* gst_buffer_get_spidar_tracks(GstBuffer* buffer) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   GVariant* tracks = NULL;

@@ -15,13 +15,13 @@
 namespace gst_spidar {
 inline namespace v0 {
 
-/// A grey picture that belongs to the caller: `height` rows of `width` bytes, 0 black and 255
-/// white, `stride` bytes from one row to the next. At least 16 pixels wide and high.
+/// A grey picture: `height` rows of `width` bytes, 0 black and 255 white. It refers to memory of
+/// the caller, which is only read, and only during the call that it is passed to.
 struct GreyPicture {
-  const std::uint8_t* data = nullptr;
-  int width = 0;
-  int height = 0;
-  std::ptrdiff_t stride = 0;
+  const std::uint8_t* data = nullptr;  ///< first pixel of the top row
+  int width = 0;                       ///< px, at least 16
+  int height = 0;                      ///< px, at least 16
+  std::ptrdiff_t stride = 0;           ///< bytes from one row to the next, at least `width`
 };
 
 /// How speed becomes force: the element's property `controller`.

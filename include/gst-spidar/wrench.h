@@ -10,19 +10,19 @@ namespace gst_spidar {
 /// Version 0 of the binary interface, that of libgst-spidar.so.0.
 inline namespace v0 {
 
-/// Three coordinates.
+/// Three coordinates, in the unit that the name of the variable ends in.
 struct Vector3 {
-  double x = 0;
-  double y = 0;
-  double z = 0;
+  double x = 0;  ///< to the right; for a torque, about this axis, right-handed
+  double y = 0;  ///< upwards
+  double z = 0;  ///< towards the viewer
 };
 
-/// A turn, as a quaternion of length 1.
+/// A rotation by an angle about an axis, as a quaternion of length 1. The default is no rotation.
 struct Quaternion {
-  double w = 1;
-  double x = 0;
-  double y = 0;
-  double z = 0;
+  double w = 1;  ///< cosine of half the angle
+  double x = 0;  ///< x of the axis, a vector of length 1, times the sine of half the angle
+  double y = 0;  ///< y of the axis times the same sine
+  double z = 0;  ///< z of the axis times the same sine
 };
 
 /// Force on the grip, and torque about the grip's origin.

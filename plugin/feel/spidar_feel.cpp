@@ -14,6 +14,7 @@
 #include <gst/gst.h>
 
 #include "plugin/feel/feel_tracer.h"
+#include "plugin/feel/property_check.h"
 #include "spidar/install_folder.h"
 
 namespace {
@@ -103,31 +104,15 @@ void find_plugin() {
          "GStreamer does not find the plugin of gst-spidar; name its folder in GST_PLUGIN_PATH");
 }
 
-/// Exits with a message when `text`, of the form NAME=VALUE, is invalid.
-void check(GObjectClass* element, const std::string& text) {
-  const size_t equals = text.find('=');
-  const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
-  GParamSpec* property = g_object_class_find_property(element, name.c_str());
-  if (!property || !(property->flags & G_PARAM_WRITABLE))
-    fail(kUsage, "spidarmotion has no property \"" + name +
-                     "\" that can be set; gst-inspect-1.0 spidarmotion lists them");
-  if (value.find('\n') != std::string::npos) fail(kUsage, name + ": a value is one line");
-  GValue parsed = G_VALUE_INIT;
-  g_value_init(&parsed, property->value_type);
-  const bool understood = gst_value_deserialize_with_pspec(&parsed, value.c_str(), property);
-  // Clamps values that are out of range.
-  const bool wrong = !understood || g_param_value_validate(property, &parsed);
-  g_value_unset(&parsed);
-  if (wrong)
-    fail(kUsage, name + ": \"" + value +
-                     "\" is not among its values; gst-inspect-1.0 spidarmotion lists them");
-}
-
-void check_all(const std::vector<std::string>& properties) {
+void check(const std::vector<std::string>& properties) {
   GstElement* element = gst_element_factory_make("spidarmotion", nullptr);
   if (!element) fail(kCannotRun, "the plugin of gst-spidar cannot be loaded");
   gst_object_ref_sink(element);
-  for (const std::string& property : properties) check(G_OBJECT_GET_CLASS(element), property);
+  try {
+    spidar::check_properties(element, properties);
+  } catch (const spidar::PropertyError& error) {
+    fail(kUsage, error.what());
+  }
   gst_object_unref(element);
 }
 
@@ -145,7 +130,7 @@ void set_environment(const std::vector<std::string>& properties) {
 int main(int argc, char** argv) {
   const Wish wish = parse(argc, argv);
   find_plugin();
-  check_all(wish.properties);
+  check(wish.properties);
   set_environment(wish.properties);
   execvp(wish.program[0], wish.program);
   const int error = errno;

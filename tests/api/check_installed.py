@@ -132,8 +132,8 @@ def check_tools(it):
     listed = run([it.program("spidarctl"), "list"], it.plain)
     require(PROFILE in listed, "spidarctl does not look for profiles in the folder", listed)
     require("usage: spidar-feel" in run([it.program("spidar-feel"), "--help"], it.plain), "no help")
-    # Finds the plugin by itself, or could not check the property.
-    run([it.program("spidar-feel"), "max-force=2", "--", "true"], it.plain)
+    # Finds the plugin and the profile by itself, or could not check the properties.
+    run([it.program("spidar-feel"), "max-force=2", f"profile={PROFILE}", "--", "true"], it.plain)
     run([it.program("spidartrack"), "--help"], it.plain)
 
 

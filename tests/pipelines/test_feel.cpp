@@ -218,9 +218,18 @@ TEST_F(Feel, WrongUsageIsNamed) {
       {"--dance", 2, "--dance is no option"},
       {"max-farce=2 -- true", 2, "spidarmotion has no property \"max-farce\""},
       {"stats=2 -- true", 2, "spidarmotion has no property \"stats\" that can be set"},
-      {"max-force=much -- true", 2, "max-force: \"much\" is not among its values"},
-      {"max-force=1e9 -- true", 2, "max-force: \"1e9\" is not among its values"},
-      {"controller=wild -- true", 2, "controller: \"wild\" is not among its values"},
+      {"max-force=much -- true", 2,
+       "max-force: \"much\" is not a number from 0 to 20. Largest force on the grip, in newtons"},
+      {"max-force=1e9 -- true", 2, "max-force: \"1e9\" is not a number from 0 to 20"},
+      {"max-force=nan -- true", 2, "max-force: \"nan\" is not a number from 0 to 20"},
+      {"alpha=0 -- true", 2, "alpha: \"0\" is not a number from 1e-06 to 10"},
+      {"max-features=1.5 -- true", 2, "\"1.5\" is not a whole number from 1 to 10000"},
+      {"ts-offset=late -- true", 2,
+       "\"late\" is not a whole number from -10000000000 to 10000000000"},
+      {"ts-offset=late -- true", 2, "in nanoseconds"},
+      {"controller=wild -- true", 2,
+       "controller: \"wild\" is not one of linear, nonlinear, adaptive\n"},
+      {"mute=perhaps -- true", 2, "mute: \"perhaps\" is neither true nor false"},
       {"no-such-program", 127, "no-such-program: No such file or directory"},
       {"/", 126, "/: Permission denied"},
       {"controller=linear max-force=2 -- true", 0, ""},
@@ -236,6 +245,35 @@ TEST_F(Feel, WrongUsageIsNamed) {
   EXPECT_EQ(run(feel + " device=none -- printenv SPIDAR_FEEL GST_TRACERS").text,
             "device=none\n\nspidarfeel\n");
   EXPECT_EQ(run("GST_TRACERS=stats " + feel + " printenv GST_TRACERS").text, "stats;spidarfeel\n");
+}
+
+TEST_F(Feel, ADeviceThatCannotExistOrBeDrivenIsNamedBeforeThePlayerStarts) {
+  const std::tuple<std::string, std::string> wrong[] = {
+      {"device=zzz", "unknown device \"zzz\"; known are: sim, "},
+      {"device=", "unknown device \"\""},
+      {"device=sim:zzz", "unknown simulated board \"zzz\"; known are: sim:sh4, "},
+      {"device=uart:,/dev/ttyUSB0", "a path is empty"},
+      {"profile=nope", "unknown profile \"nope\"; known are spidar-g, "},
+      {"profile=nope.toml", "nope.toml: cannot be read: No such file or directory"},
+      {"device=none profile=nope", "unknown profile \"nope\""},
+      // The board puts out positive volts only.
+      {"device=usb profile=spidar-gcc", "usb: profile \"spidar-gcc\" wants negative volts"},
+  };
+  for (const auto& [properties, text] : wrong) {
+    const CommandResult outcome =
+        run(std::string(SPIDAR_FEEL) + " " + properties + " -- echo plays");
+    EXPECT_EQ(outcome.status, 2) << properties << ": " << outcome.text;
+    EXPECT_EQ(outcome.text.find("spidar-feel: "), 0u) << properties << ": " << outcome.text;
+    EXPECT_NE(outcome.text.find(text), std::string::npos) << properties << ": " << outcome.text;
+    EXPECT_EQ(outcome.text.find("plays"), std::string::npos) << properties << ": " << outcome.text;
+  }
+  // Whether these are plugged in is seen when the video plays.
+  for (const std::string properties :
+       {"device=usb", "device=usb:7", "device=mouse:7", "device=uart:/dev/no-such-line",
+        "device=ff:/dev/no-such-joystick", "device=none", "device=usb profile=spidar-g6x3-v2-l",
+        "device=zzz device=sim", "'device=\"sim\"'"})
+    EXPECT_EQ(run(std::string(SPIDAR_FEEL) + " " + properties + " -- echo plays").text, "plays\n")
+        << properties;
 }
 
 #ifdef EMULATED_BUS_LIBRARY
