@@ -17,6 +17,8 @@ constexpr int64_t kUpdate_ns = ForceFeedbackBoard::kUpdate_ms * kSecond_ns / 100
 constexpr std::array<ff::Direction, 2> kDirections{ff::Direction::kRight, ff::Direction::kUp};
 /// Full deflection of the stick, as a share of the distance from the centre to the strings' exits.
 constexpr double kReach = 0.5;
+/// The centring spring of a stick returns within this time, because a jump could hurt a hand.
+constexpr int kCentring_ms = 100;
 
 template <typename Structure>
 MutableBytes bytes_of(Structure& structure) noexcept {
@@ -60,6 +62,7 @@ void ForceFeedbackBoard::open() {
   fault_ = LinkFault::kNone;
   for (auto& force_N : force_N_) force_N = 0;
   for (auto& place : place_) place = 0;
+  pulled_ = has_settings_ = false;
   if (updates_ == Updates::kInCycle) return;
   stop_ = false;
   thread_ = start_thread("spidar-ff", [this] { run(); });
@@ -76,9 +79,6 @@ void ForceFeedbackBoard::begin_effects() {
   const bool both = description_.constant && description_.axes > 1 && description_.effects > 1;
   effect_count_ = both ? 2 : 1;
   effects_ = {};
-  // Settings left by earlier programs would scale the force or add to it.
-  if (description_.gain) send(ff::encode_gain(ff::kFullGain));
-  if (description_.autocentre) send(ff::encode_autocentre(0));
   for (size_t i = 0; i < effect_count_; ++i) {
     LinkFault fault = upload(i, 0);
     if (fault == LinkFault::kNone) fault = send(ff::encode_play(effects_[i].number, true));
@@ -90,6 +90,23 @@ void ForceFeedbackBoard::begin_effects() {
 
 LinkFault ForceFeedbackBoard::send(ByteView event) noexcept {
   return transport_->exchange({event}, {}, soon_ns()).fault;
+}
+
+void ForceFeedbackBoard::take_settings() noexcept {
+  if (has_settings_ || !pulled_) return;
+  has_settings_ = true;
+  if (description_.gain) send(ff::encode_gain(ff::kFullGain));
+  if (description_.autocentre) send(ff::encode_autocentre(0));
+}
+
+void ForceFeedbackBoard::return_settings() noexcept {
+  if (!has_settings_) return;
+  has_settings_ = false;
+  if (!centres_at_end()) return;
+  for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms) {
+    if (send(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms)) != LinkFault::kNone) return;
+    if (updates_ == Updates::kOwnThread) sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
+  }
 }
 
 LinkFault ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
@@ -121,6 +138,7 @@ LinkFault ForceFeedbackBoard::update() noexcept {
   if (fault == LinkFault::kNone) {
     place_[0] = position.right;
     place_[1] = position.up;
+    take_settings();
     for (size_t i = 0; i < effect_count_; ++i) {
       const size_t effect = (turn_ + i) % effect_count_;
       const int level = wanted_level(effect);
@@ -173,6 +191,8 @@ LinkFault ForceFeedbackBoard::cycle(const MotorVolts& volts, DeviceReading& read
   const Eigen::Vector2d force_N = force_at(stick_pose(), volts);
   force_N_[0] = force_N.x();
   force_N_[1] = force_N.y();
+  if (std::any_of(volts.volt.begin(), volts.volt.end(), [](double volt) { return volt != 0; }))
+    pulled_ = true;
   LinkFault fault = fault_;
   if (updates_ == Updates::kInCycle)
     fault = cycle_++ % kUpdate_ms == 0 ? update() : LinkFault::kNone;
@@ -193,7 +213,7 @@ void ForceFeedbackBoard::close() noexcept {
     if (effects_[i].level != 0 || !effects_[i].known) upload(i, 0);
     send(ff::encode_play(effects_[i].number, false));
   }
-  if (effect_count_ > 0 && description_.autocentre) send(ff::encode_autocentre(ff::kFullGain));
+  return_settings();
   effect_count_ = 0;
   transport_->close();
 }
@@ -201,8 +221,8 @@ void ForceFeedbackBoard::close() noexcept {
 std::vector<LastWill> ForceFeedbackBoard::last_wills() const {
   const ff::EventBytes first = ff::encode_play(effects_[0].number, false);
   const ff::EventBytes last = ff::encode_play(effects_[effect_count_ - 1].number, false);
-  if (!description_.autocentre) return wills(*transport_, {first, last});
-  return wills(*transport_, {first, last, ff::encode_autocentre(ff::kFullGain)});
+  if (!centres_at_end()) return wills(*transport_, {first, last});
+  return wills(*transport_, {first, last, ff::encode_autocentre(ff::kFullGain)}, 1);
 }
 
 std::string ForceFeedbackBoard::description() const {

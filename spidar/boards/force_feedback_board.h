@@ -28,6 +28,8 @@ namespace spidar {
 /// Drivers may need a long time for an update, or lose updates that come too fast. One effect for
 /// each axis therefore plays all the time. Its level is set at most every kUpdate_ms, for one
 /// effect at a time, and only if it has changed.
+///
+/// A device that is only opened and read keeps its gain and its autocentre.
 class SPIDAR_API ForceFeedbackBoard final : public Board {
  public:
   static constexpr int kUpdate_ms = 5;
@@ -62,8 +64,16 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   };
 
   void begin_effects();
+  bool centres_at_end() const noexcept {
+    return description_.autocentre && description_.starts_centred;
+  }
   LinkFault upload(size_t effect, int level) noexcept;
   LinkFault send(ByteView event) noexcept;
+  /// Once the strings pull: sets gain to full and autocentre to off, which earlier programs or the
+  /// driver may have left otherwise, and which would scale the force or add to it.
+  void take_settings() noexcept;
+  /// Turns autocentre on again, by a ramp, if the driver had turned it on.
+  void return_settings() noexcept;
   int wanted_level(size_t effect) const noexcept;
   /// Reads the position, sets one level.
   LinkFault update() noexcept;
@@ -86,6 +96,8 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   int cycle_ = 0;
   std::thread thread_;
   std::atomic<bool> stop_{false};
+  std::atomic<bool> pulled_{false};                 ///< since it was opened
+  bool has_settings_ = false;                       ///< take_settings() was done
   std::atomic<LinkFault> fault_{LinkFault::kNone};  ///< of the newest update
   std::array<std::atomic<double>, 2> force_N_{};
   std::array<std::atomic<int>, 2> place_{};  ///< of the stick, of ff::Position::kFull

@@ -14,6 +14,7 @@
 #include "spidar/device_factory.h"
 #include "spidar/haptic_session.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/transports/evdev_list.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/board_bench.h"
 #include "tests/support/felt_player.h"
@@ -154,19 +155,85 @@ TEST_F(ForceFeedback, UpdatesAreRareAndNeverUnnecessary) {
   EXPECT_EQ(port.plays, 2u);
 }
 
-TEST_F(ForceFeedback, GainAndAutocentreAreSetAndRestored) {
-  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  port.gain = 100;
-  port.autocentre = 0x4000;
+/// A device whose spring was off before must not be left with a spring that pushes the hand.
+TEST_F(ForceFeedback, TheCentringSpringReturnsOnlyWhereTheDriverHadTurnedItOn) {
+  struct Case {
+    const char* driver;
+    int before, after;
+  };
+  for (const auto& [driver, before, after] : {Case{"logitech", 0, 0},
+                                              {"logitech", 0x4000, 0},
+                                              {"iforce", 0, 0},
+                                              {"unheard-of", 0x4000, 0},
+                                              {"", 0xFFFF, 0},
+                                              {"hid-generic-like", 0xFFFF, 0},
+                                              {"hid-generic", 0xFFFF, 0xFFFF},
+                                              {"hid-universal-pidff", 0xFFFF, 0xFFFF}}) {
+    SCOPED_TRACE(driver);
+    EvdevPort& port = plug_evdev(0, EvdevKind::kStick, driver);
+    port.gain = 100;
+    port.autocentre = before;
+    {
+      const FeltPlayer player;
+      player.push(1, 0);
+      wait_for([&] { return port.gain == 0xFFFF && port.autocentre == 0; });
+    }
+    EXPECT_EQ(port.autocentre, after);
+    EXPECT_TRUE(evdev_levels(0).at_rest());
+    for (const EvdevPort::Effect& effect : port.effect) EXPECT_FALSE(effect.used);
+  }
+}
+
+TEST_F(ForceFeedback, TheCentringSpringReturnsByARamp) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
   {
     const FeltPlayer player;
-    EXPECT_EQ(port.gain, 0xFFFF);
-    EXPECT_EQ(port.autocentre, 0);
-    player.push(1, 0);
+    wait_for([&] { return port.autocentre == 0; });
+    EXPECT_EQ(port.settings, 2u);
   }
   EXPECT_EQ(port.autocentre, 0xFFFF);
-  EXPECT_TRUE(evdev_levels(0).at_rest());
-  for (const EvdevPort::Effect& effect : port.effect) EXPECT_FALSE(effect.used);
+  // Every 5 ms for 100 ms.
+  EXPECT_EQ(port.settings, 2u + 20u);
+}
+
+/// As spidarctl info and zero do.
+TEST_F(ForceFeedback, AnExchangeOfZerosChangesNoSetting) {
+  for (const char* driver : {"logitech", "hid-generic"}) {
+    EvdevPort& port = plug_evdev(0, EvdevKind::kStick, driver);
+    const int before = port.autocentre;
+    BoardSettings settings;
+    settings.guardian = false;
+    const auto device = make_device("ff", load_profile(kDefaultProfile), settings);
+    device->open();
+    // Until the thread that sets levels has shown the position twice, so it has done an update.
+    DeviceReading reading, first;
+    const auto exchange = [&](DeviceReading& into) {
+      wait_for([&] { return device->exchange({}, into) == ExchangeStatus::kOk; });
+    };
+    for (const int at : {1000, -1000}) {
+      exchange(first);
+      port.axis[0] = at;
+      wait_for([&] {
+        exchange(reading);
+        return reading.count != first.count;
+      });
+    }
+    device->close();
+    EXPECT_EQ(port.settings, 0u) << driver;
+    EXPECT_EQ(port.autocentre, before) << driver;
+  }
+}
+
+TEST_F(ForceFeedback, TheDriverIsFoundThroughALink) {
+  plug_evdev(2, EvdevKind::kWheel);
+  EXPECT_EQ(evdev_driver("/dev/input/event2"), "logitech");
+  EXPECT_EQ(evdev_driver("/dev/input/event3"), "");
+  const TemporaryFolder folder;
+  const std::string file = (folder.path / "event2").string(),
+                    link = (folder.path / "by-id").string();
+  fclose(fopen(file.c_str(), "w"));
+  std::filesystem::create_symlink(file, link);
+  EXPECT_EQ(evdev_driver(link), "logitech");
 }
 
 /// The loop's own ramp, and one update for each axis, in ticks.
