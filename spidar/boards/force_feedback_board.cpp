@@ -79,7 +79,8 @@ void ForceFeedbackBoard::open() {
   fault_ = LinkFault::kNone;
   for (auto& force_N : force_N_) force_N = 0;
   for (auto& place : place_) place = 0;
-  pulled_ = has_settings_ = false;
+  pulled_ = false;
+  has_settings_ = reopening_ = false;
   if (updates_ == Updates::kInCycle) return;
   stop_ = false;
   thread_ = start_thread("spidar-ff", [this] { run(); });
@@ -232,7 +233,7 @@ void ForceFeedbackBoard::close() noexcept {
     if (effects_[i].level != 0 || !effects_[i].known) upload(i, 0);
     send(ff::encode_play(effects_[i].number, false));
   }
-  return_settings();
+  if (!reopening_) return_settings();
   effect_count_ = 0;
   transport_->close();
 }

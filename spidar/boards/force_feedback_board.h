@@ -50,6 +50,8 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   void recover() noexcept override {}
   /// Does nothing: the position has its own zero.
   void zero_counts() noexcept override {}
+  /// The centring spring stays off in the next close(), for a hand that still holds the stick.
+  void expect_reopening() noexcept override { reopening_ = true; }
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   /// Includes one sentence on what the device lacks.
@@ -98,8 +100,9 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   std::thread thread_;
   std::atomic<int> felt_axes_{2};  ///< 1: only x; 0: it only rumbles
   std::atomic<bool> stop_{false};
-  std::atomic<bool> pulled_{false};                 ///< since it was opened
-  bool has_settings_ = false;                       ///< take_settings() was done
+  std::atomic<bool> pulled_{false};  ///< since it was opened
+  bool has_settings_ = false;        ///< take_settings() was done
+  bool reopening_ = false;
   std::atomic<LinkFault> fault_{LinkFault::kNone};  ///< of the newest update
   std::array<std::atomic<double>, 2> force_N_{};
   std::array<std::atomic<int>, 2> place_{};  ///< of the stick, of ff::Position::kFull
