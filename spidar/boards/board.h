@@ -39,12 +39,19 @@ class SPIDAR_API Board {
   /// zero_counts().
   virtual bool counts_restarted() const noexcept { return false; }
 
+  /// The guardian has failed or has zeroed the motors, and close() follows, most likely with
+  /// another open(): the board is not to be left as other programs expect it.
+  virtual void expect_reopening() noexcept {}
+
   /// Releases the board; its motors keep their last value.
   virtual void close() noexcept = 0;
 
   /// Packets that set the motors to zero when this process can no longer do it, one set for each
   /// connection. To be called after open().
   virtual std::vector<LastWill> last_wills() const = 0;
+
+  /// See Device::felt_parts(). Any thread.
+  virtual FeltParts felt_parts() const noexcept { return {}; }
 
   /// Describes for people what open() found.
   virtual std::string description() const = 0;

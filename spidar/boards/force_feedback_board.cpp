@@ -3,6 +3,7 @@
 #include "spidar/boards/force_feedback_board.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -17,6 +18,8 @@ constexpr int64_t kUpdate_ns = ForceFeedbackBoard::kUpdate_ms * kSecond_ns / 100
 constexpr std::array<ff::Direction, 2> kDirections{ff::Direction::kRight, ff::Direction::kUp};
 /// Full deflection of the stick, as a share of the distance from the centre to the strings' exits.
 constexpr double kReach = 0.5;
+/// The centring spring of a stick returns within this time, because a jump could hurt a hand.
+constexpr int kCentring_ms = 100;
 
 template <typename Structure>
 MutableBytes bytes_of(Structure& structure) noexcept {
@@ -25,6 +28,22 @@ MutableBytes bytes_of(Structure& structure) noexcept {
 
 int64_t soon_ns() noexcept {
   return monotonic_now_ns() + kSecond_ns / 10;
+}
+
+/// Why the driver has not accepted an effect, and what to do.
+std::string reason(const Transfer& transfer) {
+  const std::string why =
+      transfer.error != 0 ? std::strerror(transfer.error) : to_string(transfer.fault);
+  switch (transfer.error) {
+    case ENOMEM:
+    case ENOSPC:
+      return why + "; close other programs that use its force feedback";
+    case EINVAL:
+    case ENOSYS:
+      return why + "; its driver does not support this effect, a newer kernel may";
+    default:
+      return why + "; plug the device in again, and look for messages of its driver in dmesg";
+  }
 }
 
 }  // namespace
@@ -60,6 +79,8 @@ void ForceFeedbackBoard::open() {
   fault_ = LinkFault::kNone;
   for (auto& force_N : force_N_) force_N = 0;
   for (auto& place : place_) place = 0;
+  pulled_ = false;
+  has_settings_ = reopening_ = false;
   if (updates_ == Updates::kInCycle) return;
   stop_ = false;
   thread_ = start_thread("spidar-ff", [this] { run(); });
@@ -75,24 +96,40 @@ void ForceFeedbackBoard::begin_effects() {
     throw DeviceError(device + "has no room for an effect; another driver may help");
   const bool both = description_.constant && description_.axes > 1 && description_.effects > 1;
   effect_count_ = both ? 2 : 1;
+  felt_axes_ = both ? 2 : description_.constant;
   effects_ = {};
-  // Settings left by earlier programs would scale the force or add to it.
-  if (description_.gain) send(ff::encode_gain(ff::kFullGain));
-  if (description_.autocentre) send(ff::encode_autocentre(0));
   for (size_t i = 0; i < effect_count_; ++i) {
-    LinkFault fault = upload(i, 0);
-    if (fault == LinkFault::kNone) fault = send(ff::encode_play(effects_[i].number, true));
-    if (fault != LinkFault::kNone)
-      throw DeviceError(device + "does not take an effect: " + to_string(fault) +
-                        "; close other programs that use its force feedback");
+    Transfer transfer = upload(i, 0);
+    if (transfer.fault == LinkFault::kNone)
+      transfer = send(ff::encode_play(effects_[i].number, true));
+    if (transfer.fault != LinkFault::kNone)
+      throw DeviceError(device + "does not take an effect: " + reason(transfer));
   }
 }
 
-LinkFault ForceFeedbackBoard::send(ByteView event) noexcept {
-  return transport_->exchange({event}, {}, soon_ns()).fault;
+Transfer ForceFeedbackBoard::send(ByteView event) noexcept {
+  return transport_->exchange({event}, {}, soon_ns());
 }
 
-LinkFault ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
+void ForceFeedbackBoard::take_settings() noexcept {
+  if (has_settings_ || !pulled_) return;
+  has_settings_ = true;
+  if (description_.gain) send(ff::encode_gain(ff::kFullGain));
+  if (description_.autocentre) send(ff::encode_autocentre(0));
+}
+
+void ForceFeedbackBoard::return_settings() noexcept {
+  if (!has_settings_) return;
+  has_settings_ = false;
+  if (!centres_at_end()) return;
+  for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms) {
+    if (send(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms)).fault != LinkFault::kNone)
+      return;
+    if (updates_ == Updates::kOwnThread) sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
+  }
+}
+
+Transfer ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
   Effect& of = effects_[effect];
   const ff::EffectBytes bytes = description_.constant
                                     ? ff::encode_constant(of.number, kDirections[effect], level)
@@ -100,7 +137,7 @@ LinkFault ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
   const Transfer transfer = transport_->exchange({bytes}, bytes_of(of.number), soon_ns());
   of.known = transfer.fault == LinkFault::kNone;
   if (of.known) of.level = level;
-  return transfer.fault;
+  return transfer;
 }
 
 int ForceFeedbackBoard::wanted_level(size_t effect) const noexcept {
@@ -121,11 +158,12 @@ LinkFault ForceFeedbackBoard::update() noexcept {
   if (fault == LinkFault::kNone) {
     place_[0] = position.right;
     place_[1] = position.up;
+    take_settings();
     for (size_t i = 0; i < effect_count_; ++i) {
       const size_t effect = (turn_ + i) % effect_count_;
       const int level = wanted_level(effect);
       if (effects_[effect].known && effects_[effect].level == level) continue;
-      fault = upload(effect, level);
+      fault = upload(effect, level).fault;
       turn_ = effect + 1;
       break;
     }
@@ -173,6 +211,8 @@ LinkFault ForceFeedbackBoard::cycle(const MotorVolts& volts, DeviceReading& read
   const Eigen::Vector2d force_N = force_at(stick_pose(), volts);
   force_N_[0] = force_N.x();
   force_N_[1] = force_N.y();
+  if (std::any_of(volts.volt.begin(), volts.volt.end(), [](double volt) { return volt != 0; }))
+    pulled_ = true;
   LinkFault fault = fault_;
   if (updates_ == Updates::kInCycle)
     fault = cycle_++ % kUpdate_ms == 0 ? update() : LinkFault::kNone;
@@ -193,7 +233,7 @@ void ForceFeedbackBoard::close() noexcept {
     if (effects_[i].level != 0 || !effects_[i].known) upload(i, 0);
     send(ff::encode_play(effects_[i].number, false));
   }
-  if (effect_count_ > 0 && description_.autocentre) send(ff::encode_autocentre(ff::kFullGain));
+  if (!reopening_) return_settings();
   effect_count_ = 0;
   transport_->close();
 }
@@ -201,8 +241,13 @@ void ForceFeedbackBoard::close() noexcept {
 std::vector<LastWill> ForceFeedbackBoard::last_wills() const {
   const ff::EventBytes first = ff::encode_play(effects_[0].number, false);
   const ff::EventBytes last = ff::encode_play(effects_[effect_count_ - 1].number, false);
-  if (!description_.autocentre) return wills(*transport_, {first, last});
-  return wills(*transport_, {first, last, ff::encode_autocentre(ff::kFullGain)});
+  if (!centres_at_end()) return wills(*transport_, {first, last});
+  return wills(*transport_, {first, last, ff::encode_autocentre(ff::kFullGain)}, 1);
+}
+
+FeltParts ForceFeedbackBoard::felt_parts() const noexcept {
+  const int axes = felt_axes_;
+  return {true, axes != 1, false, false, axes != 0};
 }
 
 std::string ForceFeedbackBoard::description() const {

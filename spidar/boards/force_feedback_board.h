@@ -28,6 +28,8 @@ namespace spidar {
 /// Drivers may need a long time for an update, or lose updates that come too fast. One effect for
 /// each axis therefore plays all the time. Its level is set at most every kUpdate_ms, for one
 /// effect at a time, and only if it has changed.
+///
+/// A device that is only opened and read keeps its gain and its autocentre.
 class SPIDAR_API ForceFeedbackBoard final : public Board {
  public:
   static constexpr int kUpdate_ms = 5;
@@ -48,10 +50,13 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   void recover() noexcept override {}
   /// Does nothing: the position has its own zero.
   void zero_counts() noexcept override {}
+  /// The centring spring stays off in the next close(), for a hand that still holds the stick.
+  void expect_reopening() noexcept override { reopening_ = true; }
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   /// Includes one sentence on what the device lacks.
   std::string description() const override;
+  FeltParts felt_parts() const noexcept override;
   const std::string& name() const noexcept override { return name_; }
 
  private:
@@ -62,8 +67,16 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   };
 
   void begin_effects();
-  LinkFault upload(size_t effect, int level) noexcept;
-  LinkFault send(ByteView event) noexcept;
+  bool centres_at_end() const noexcept {
+    return description_.autocentre && description_.starts_centred;
+  }
+  Transfer upload(size_t effect, int level) noexcept;
+  Transfer send(ByteView event) noexcept;
+  /// Once the strings pull: sets gain to full and autocentre to off, which earlier programs or the
+  /// driver may have left otherwise, and which would scale the force or add to it.
+  void take_settings() noexcept;
+  /// Turns autocentre on again, by a ramp, if the driver had turned it on.
+  void return_settings() noexcept;
   int wanted_level(size_t effect) const noexcept;
   /// Reads the position, sets one level.
   LinkFault update() noexcept;
@@ -85,7 +98,11 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   size_t turn_ = 0;  ///< the effect that is checked first
   int cycle_ = 0;
   std::thread thread_;
+  std::atomic<int> felt_axes_{2};  ///< 1: only x; 0: it only rumbles
   std::atomic<bool> stop_{false};
+  std::atomic<bool> pulled_{false};  ///< since it was opened
+  bool has_settings_ = false;        ///< take_settings() was done
+  bool reopening_ = false;
   std::atomic<LinkFault> fault_{LinkFault::kNone};  ///< of the newest update
   std::array<std::atomic<double>, 2> force_N_{};
   std::array<std::atomic<int>, 2> place_{};  ///< of the stick, of ff::Position::kFull

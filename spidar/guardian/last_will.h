@@ -19,13 +19,16 @@ struct LastWill {
   };
   static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
   static constexpr size_t kMaxLength = 512;
-  static constexpr uint32_t kMagic = 0x53504732;  // "SPG2": this layout
+  static constexpr uint32_t kMagic = 0x53504733;  // "SPG3": this layout
 
   uint32_t magic = kMagic;
   Wire wire = Wire::kUsb;
   uint32_t interface_number = 0;
   uint32_t endpoint = 0;
   uint32_t packets = 0;
+  /// The last of the packets, which do not stop anything, but leave the device as other programs
+  /// expect it. They are sent only when the host has ended, and only if its motors pulled.
+  uint32_t parting = 0;
   std::array<uint32_t, kMaxPackets> length{};
   std::array<std::array<uint8_t, kMaxLength>, kMaxPackets> packet{};
   /// The device's file, open, and claimed or locked. The guardian receives a descriptor of the same

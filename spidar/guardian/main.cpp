@@ -39,11 +39,11 @@ void pause_10ms() {
 }
 
 /// Returns true when all packets have been sent, or can never be sent.
-bool send_usb(LastWill& will) {
+bool send_usb(LastWill& will, uint32_t packets) {
   // Does nothing if it is claimed already; a host that has closed the board has released it.
   unsigned interface = will.interface_number;
   if (ioctl(will.file, USBDEVFS_CLAIMINTERFACE, &interface) != 0) return errno == ENODEV;
-  for (uint32_t i = 0; i < will.packets; ++i) {
+  for (uint32_t i = 0; i < packets; ++i) {
     usbdevfs_bulktransfer transfer{};
     transfer.ep = will.endpoint;
     transfer.len = will.length[i];
@@ -59,8 +59,8 @@ bool send_usb(LastWill& will) {
 }
 
 /// Like send_usb(). The file is non-blocking.
-bool send_terminal(const LastWill& will) {
-  for (uint32_t i = 0; i < will.packets; ++i) {
+bool send_terminal(const LastWill& will, uint32_t packets) {
+  for (uint32_t i = 0; i < packets; ++i) {
     for (size_t sent = 0; sent < will.length[i];) {
       const ssize_t more = write(will.file, will.packet[i].data() + sent, will.length[i] - sent);
       if (more < 0 && errno != EAGAIN && errno != EINTR)
@@ -73,9 +73,11 @@ bool send_terminal(const LastWill& will) {
   return true;
 }
 
-bool carry_out(LastWill& will) {
+/// Sends the first packets of the will.
+bool carry_out(LastWill& will, uint32_t packets) {
   for (int i = 0; i < kTries; ++i) {
-    if (will.wire == LastWill::Wire::kUsb ? send_usb(will) : send_terminal(will)) return true;
+    if (will.wire == LastWill::Wire::kUsb ? send_usb(will, packets) : send_terminal(will, packets))
+      return true;
     pause_10ms();
   }
   return false;
@@ -99,7 +101,9 @@ bool receive(LastWill& will, int& host) {
   std::memcpy(files.data(), CMSG_DATA(rights), sizeof files);
   will.file = files[0];
   host = files[1];
-  if (will.magic != LastWill::kMagic || will.packets > LastWill::kMaxPackets) return false;
+  if (will.magic != LastWill::kMagic || will.packets > LastWill::kMaxPackets ||
+      will.parting > will.packets)
+    return false;
   for (uint32_t i = 0; i < will.packets; ++i)
     if (will.length[i] > LastWill::kMaxLength) return false;
   return true;
@@ -110,9 +114,10 @@ bool say(GuardianWord word) {
 }
 
 /// Carries out the will whenever the host is silent while its motors pull. Returns true when the
-/// host has ended, and false when it has dismissed its guardian.
-bool watch(int host, LastWill& will) {
+/// host has ended, and false when it has dismissed its guardian. `pulled`: its motors have pulled.
+bool watch(int host, LastWill& will, bool& pulled) {
   bool pulling = false, zeroed = false;
+  pulled = false;
   for (;;) {
     std::array<pollfd, 2> events{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{host, POLLIN, 0}};
     const int ready =
@@ -120,7 +125,7 @@ bool watch(int host, LastWill& will) {
     if (ready < 0 && errno == EINTR) continue;
     if (ready < 0) return true;
     if (ready == 0) {
-      carry_out(will);
+      carry_out(will, will.packets - will.parting);
       zeroed = true;
     } else if (events[0].revents == 0) {
       // There may be a last message: a host that dismissed its guardian may have ended since.
@@ -130,6 +135,7 @@ bool watch(int host, LastWill& will) {
       if (recv(STDIN_FILENO, &word, 1, 0) != 1) return true;
       if (word == HostWord::kDismissed) return false;
       pulling = word == HostWord::kPulling;
+      pulled |= pulling;
     }
     say(zeroed ? GuardianWord::kZeroed : GuardianWord::kWatching);
   }
@@ -161,6 +167,7 @@ int main() {
   if (chdir("/") != 0) return 1;
   ask_for_promptness();
   if (!say(GuardianWord::kWatching)) return 1;
-  if (!watch(host, will)) return 0;
-  return carry_out(will) ? 0 : 1;
+  bool pulled = false;
+  if (!watch(host, will, pulled)) return 0;
+  return carry_out(will, will.packets - (pulled ? 0 : will.parting)) ? 0 : 1;
 }

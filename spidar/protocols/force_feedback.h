@@ -35,6 +35,8 @@ struct Description {
   uint8_t autocentre = 0;  ///< FF_AUTOCENTER
   uint8_t effects = 0;     ///< how many effects it holds at once, at most 255
   uint8_t axes = 0;        ///< of its position: 0, 1 (a wheel) or 2
+  /// The driver turns autocentre on when the device is plugged in; other drivers turn it off.
+  uint8_t starts_centred = 0;
   std::array<char, 80> name{};
 };
 

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <dirent.h>
 #include <fcntl.h>
+#include <filesystem>
 #include <linux/input.h>
 #include <memory>
+#include <system_error>
 #include <unistd.h>
 
 namespace spidar {
@@ -16,15 +19,20 @@ namespace {
 
 constexpr const char* kSysfs = "/sys/class/input";
 
-/// The first line of an attribute; empty when it cannot be read.
-std::string attribute(const std::string& path) {
+/// The beginning of a file; empty when it cannot be read.
+std::string beginning(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return {};
   std::array<char, 256> text{};
   const ssize_t length = ::read(file, text.data(), text.size());
   ::close(file);
-  std::string line(text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0)));
-  return line.substr(0, line.find('\n'));
+  return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
+}
+
+/// The first line of an attribute; empty when it cannot be read.
+std::string attribute(const std::string& path) {
+  const std::string text = beginning(path);
+  return text.substr(0, text.find('\n'));
 }
 
 /// Bits as sysfs prints them: hexadecimal words of the size of a long, the highest first.
@@ -74,6 +82,21 @@ std::vector<EvdevInfo> list_force_feedback() {
   std::stable_partition(devices.begin(), devices.end(),
                         [](const EvdevInfo& info) { return info.constant; });
   return devices;
+}
+
+std::string evdev_driver(const std::string& path) {
+  std::error_code error;
+  std::filesystem::path file = std::filesystem::canonical(path, error);
+  if (error) file = path;
+  // The parent of an input device is the device that the driver is bound to, for example on the HID
+  // bus. Drivers are the first line of its uevent file (drivers/base/core.c of the kernel).
+  const std::string of_parent = file.filename().string() + "/device/device/uevent";
+  const std::string uevent = "\n" + beginning(std::string(kSysfs) + "/" + of_parent);
+  constexpr const char* kKey = "\nDRIVER=";
+  const size_t key = uevent.find(kKey);
+  if (key == std::string::npos) return {};
+  const size_t begin = key + std::strlen(kKey);
+  return uevent.substr(begin, uevent.find('\n', begin) - begin);
 }
 
 }  // namespace spidar

@@ -23,4 +23,8 @@ struct EvdevInfo {
 /// the kernel's description in /sys/class/input; opens no device.
 SPIDAR_API std::vector<EvdevInfo> list_force_feedback();
 
+/// Returns the name of the kernel driver of an input device ("/dev/input/event5", or a link to it):
+/// "logitech", "iforce", "hid-generic", …; empty when sysfs does not name one.
+SPIDAR_API std::string evdev_driver(const std::string& path);
+
 }  // namespace spidar

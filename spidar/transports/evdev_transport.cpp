@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <linux/input.h>
+#include <string_view>
 #include <sys/ioctl.h>
 #include <unistd.h>
 #include <utility>
@@ -20,6 +21,12 @@
 
 namespace spidar {
 namespace {
+
+/// Drivers by which hid-pidff drives USB PID devices: the only one in the kernel that sets
+/// autocentre, to its full strength, when the device is plugged in (pidff_check_autocenter() in
+/// drivers/hid/usbhid/hid-pidff.c, unchanged up to Linux 6.15). hid-lg4ff and iforce set it to
+/// zero, the others leave it alone. Linux provides no way to read it.
+constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
 
 template <size_t Bits>
 using BitSet = std::array<uint8_t, Bits / 8 + 1>;
@@ -45,10 +52,12 @@ LinkFault fault_of(int error) noexcept {
       return LinkFault::kGone;
     case ETIMEDOUT:
       return LinkFault::kTimeout;
+    case EACCES:
     case EINVAL:
-    case ENOSYS:
+    case ENOMEM:
     case ENOSPC:
-      return LinkFault::kStall;
+    case ENOSYS:
+      return LinkFault::kRefused;
     default:
       return LinkFault::kBusError;
   }
@@ -101,8 +110,8 @@ void EvdevTransport::open() {
     const std::vector<EvdevInfo> devices = list_force_feedback();
     if (devices.empty())
       throw DeviceError(name_ +
-                        ": no device with force feedback is plugged in that the kernel has a "
-                        "driver for");
+                        ": no joystick, wheel or gamepad with force feedback is plugged in, or the "
+                        "kernel has no driver for it");
     path = devices.front().path;
   }
   file_ = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
@@ -110,6 +119,9 @@ void EvdevTransport::open() {
   int version = 0;
   if (ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
   if (!lock_device(file_)) fail(path, "cannot be locked");
+  const std::string driver = evdev_driver(path);
+  starts_centred_ =
+      std::find(kCentringDrivers.begin(), kCentringDrivers.end(), driver) != kCentringDrivers.end();
   find_axes();
 }
 
@@ -133,6 +145,7 @@ ff::Description EvdevTransport::describe() const noexcept {
   description.rumble = has(bits, FF_RUMBLE);
   description.gain = has(bits, FF_GAIN);
   description.autocentre = has(bits, FF_AUTOCENTER);
+  description.starts_centred = starts_centred_;
   int effects = 0;
   ioctl(file_, EVIOCGEFFECTS, &effects);
   description.effects = static_cast<uint8_t>(std::clamp(effects, 0, 255));
@@ -182,8 +195,9 @@ Transfer EvdevTransport::exchange(std::initializer_list<ByteView> packets, Mutab
   if (file_ < 0) return {LinkFault::kGone, 0};
   size_t received = 0;
   for (const ByteView packet : packets) {
+    errno = 0;
     const LinkFault fault = send(packet, reply, received);
-    if (fault != LinkFault::kNone) return {fault, 0};
+    if (fault != LinkFault::kNone) return {fault, 0, errno};
   }
   return {received < reply.size ? LinkFault::kShort : LinkFault::kNone, received};
 }

@@ -39,6 +39,7 @@ class SPIDAR_API EvdevTransport final : public Transport {
   const std::string name_;
   const std::string path_;
   int file_ = -1;
+  bool starts_centred_ = false;
   int right_axis_ = -1;  ///< ABS_…; −1: none
   int up_axis_ = -1;
 };

@@ -60,7 +60,7 @@ BusState* map_state() {
   set_lock_file(file);
   auto* state = static_cast<BusState*>(memory);
   if (kind != UsbKind::kNone) plug_into(*state, 0, kind, "");
-  if (input != EvdevKind::kNone) plug_evdev_into(*state, 0, input);
+  if (input != EvdevKind::kNone) plug_evdev_into(*state, 0, input, nullptr);
   return state;
 }
 

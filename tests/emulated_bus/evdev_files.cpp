@@ -95,7 +95,7 @@ void erase(EvdevPort::Effect& effect) {
 
 void forget(EvdevPort& port) {
   for (EvdevPort::Effect& effect : port.effect) erase(effect);
-  port.uploads = port.unchanged = port.plays = 0;
+  port.uploads = port.unchanged = port.plays = port.settings = 0;
   port.shortest_ns = 0;
   for (auto& axis : port.axis) axis = 0;
   port.gain = port.autocentre = 0;
@@ -205,8 +205,10 @@ int EvdevCalls::query(unsigned long request, void* argument) {
 int EvdevCalls::event(const ff::Event& event) {
   if (event.code == FF_GAIN) {
     port.gain = event.value;
+    ++port.settings;
   } else if (event.code == FF_AUTOCENTER) {
     port.autocentre = event.value;
+    ++port.settings;
   } else if (event.code < port.effect.size() && port.effect[event.code].used) {
     port.effect[event.code].plays = event.value > 0;
     if (event.value > 0) ++port.plays;
@@ -258,14 +260,21 @@ bool evdev_write(int file, const void* bytes, size_t length, long& result) {
   return true;
 }
 
-EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind) {
+EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const char* driver) {
   unplug_from(state, number);
   EvdevPort& port = state.evdev[number];
   forget(port);
+  const std::string driven_by = driver ? driver : driver_of(kind);
+  // hid-pidff starts with the centring spring at its full strength.
+  if (driven_by == "hid-generic" || driven_by == "hid-universal-pidff") port.autocentre = 0xFFFF;
   const std::string sysfs = sysfs_folder(number) + "/device";
   std::filesystem::create_directories(folder() + "/dev");
   std::filesystem::create_directories(sysfs + "/capabilities");
   std::filesystem::create_directories(sysfs + "/id");
+  std::filesystem::create_directories(sysfs + "/device");
+  // As of a device on the HID bus.
+  put_file(sysfs + "/device/uevent",
+           "DRIVER=" + driven_by + "\nHID_ID=0003:00001209:00000001\nMODALIAS=hid:b0003g0001\n");
   put_file(sysfs + "/capabilities/ff", sysfs_bits(ff_bits(kind)));
   put_file(sysfs + "/name", std::string(name_of(kind)) + "\n");
   put_file(sysfs + "/uniq", "\n");
@@ -279,8 +288,8 @@ EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind) {
   return port;
 }
 
-EvdevPort& plug_evdev(size_t number, EvdevKind kind) {
-  return plug_evdev_into(bus(), number, kind);
+EvdevPort& plug_evdev(size_t number, EvdevKind kind, const char* driver) {
+  return plug_evdev_into(bus(), number, kind, driver);
 }
 
 void unplug_evdev(size_t number) {

@@ -14,7 +14,7 @@ namespace spidar::test {
 struct BusState;
 
 /// plug_evdev() for use while the bus is being created.
-EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind);
+EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const char* driver);
 
 /// Location of `path` of /dev/input or /sys/class/input; other paths are returned unchanged.
 std::string evdev_path(const char* path);

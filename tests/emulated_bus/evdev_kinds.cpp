@@ -46,6 +46,19 @@ const char* name_of(EvdevKind kind) {
   }
 }
 
+const char* driver_of(EvdevKind kind) {
+  switch (kind) {
+    case EvdevKind::kStick:
+      return "iforce";
+    case EvdevKind::kWheel:
+      return "logitech";
+    case EvdevKind::kPad:
+      return "xpad";
+    default:
+      return "hid-generic";
+  }
+}
+
 std::string sysfs_bits(const std::vector<unsigned>& bits) {
   unsigned long words[2] = {};
   for (const unsigned bit : bits) words[bit / 64] |= 1UL << bit % 64;

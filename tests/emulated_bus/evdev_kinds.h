@@ -20,6 +20,9 @@ std::vector<unsigned> abs_bits(EvdevKind kind);
 
 const char* name_of(EvdevKind kind);
 
+/// Kernel driver that such a device usually has.
+const char* driver_of(EvdevKind kind);
+
 /// As the kernel prints them in sysfs: words, the highest first.
 std::string sysfs_bits(const std::vector<unsigned>& bits);
 

@@ -38,6 +38,7 @@ struct EvdevPort {
   std::array<Effect, 4> effect{};
   std::atomic<int> gain{0};
   std::atomic<int> autocentre{0};
+  std::atomic<uint64_t> settings{0};  ///< how often gain or autocentre was set
 
   std::atomic<uint64_t> uploads{0};
   std::atomic<uint64_t> unchanged{0};  ///< uploads that did not change an effect
@@ -54,8 +55,9 @@ struct EvdevPort {
 
 constexpr size_t kEvdevPorts = 4;
 
-/// Lists the device so that it can be opened, with fresh effects and counters.
-BUS_API EvdevPort& plug_evdev(size_t number, EvdevKind kind);
+/// Lists the device so that it can be opened, with fresh effects and counters. Sysfs names `driver`
+/// as its kernel driver, by default the one of driver_of(); the driver determines `autocentre`.
+BUS_API EvdevPort& plug_evdev(size_t number, EvdevKind kind, const char* driver = nullptr);
 
 /// From now on its open files return ENODEV.
 BUS_API void unplug_evdev(size_t number);

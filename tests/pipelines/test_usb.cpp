@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Pipelines with boards on an emulated USB that are pulled out and put back while a film plays.
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 
@@ -13,6 +16,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
 #include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
 namespace {
@@ -147,6 +151,45 @@ TEST(ForceFeedbackPipeline, PlaysOnWhenTheStickIsPulledOutAndTakesItBack) {
   clear_bus();
 }
 
+TEST(ForceFeedbackPipeline, SaysOnceWhatIsNotFelt) {
+  struct Case {
+    EvdevKind kind;
+    const char* said;  // nullptr: nothing
+  };
+  for (const auto& [kind, said] :
+       {Case{EvdevKind::kPad,
+             "Emulated Pad, rumble only: the strength of the force is felt, not its direction."},
+        {EvdevKind::kWheel,
+         "Emulated Racing Wheel, force feedback on one axis: forces up and down are not felt."},
+        {EvdevKind::kStick, nullptr}}) {
+    for (const char* element : {"spidarmotion", "spidarsink"}) {
+      plug_evdev(0, kind);
+      GstElement* opened = gst_element_factory_make(element, nullptr);
+      ASSERT_NE(opened, nullptr);
+      gst_object_ref_sink(opened);
+      g_object_set(opened, "device", "ff", nullptr);
+      GstBus* bus = gst_bus_new();
+      gst_element_set_bus(opened, bus);
+      ASSERT_EQ(gst_element_set_state(opened, GST_STATE_READY), GST_STATE_CHANGE_SUCCESS);
+      gst_element_set_state(opened, GST_STATE_NULL);
+      GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_INFO);
+      EXPECT_EQ(message != nullptr, said != nullptr) << element;
+      if (message) {
+        GError* info = nullptr;
+        gst_message_parse_info(message, &info, nullptr);
+        EXPECT_STREQ(info->message, said) << element;
+        g_clear_error(&info);
+        gst_message_unref(message);
+      }
+      EXPECT_EQ(gst_bus_pop_filtered(bus, GST_MESSAGE_INFO), nullptr) << element;
+      gst_element_set_bus(opened, nullptr);
+      gst_object_unref(bus);
+      gst_object_unref(opened);
+      clear_bus();
+    }
+  }
+}
+
 #ifdef EMULATED_BUS_LIBRARY
 
 /// gst-launch-1.0, which knows nothing of an emulated bus.
@@ -157,6 +200,40 @@ class Launch : public ChildProcess {
                       "profile=spidar-g6x3-v2-r", "!", "fakesink", "sync=true"},
                      {"LD_PRELOAD=" EMULATED_BUS_LIBRARY}) {}
 };
+
+TEST(ForceFeedbackPipeline, SaysThatThePlayerStoodStill) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const TemporaryFolder folder;
+  const std::string log = (folder.path / "log").string();
+  ChildProcess launch({"sh", "-c",
+                       "exec gst-launch-1.0 videotestsrc pattern=ball motion=sweep ! spidarmotion "
+                       "device=ff ! fakesink sync=true >" +
+                           log + " 2>&1"},
+                      {"LD_PRELOAD=" EMULATED_BUS_LIBRARY});
+  const auto plays = [&] {
+    evdev_levels(0);  // erases the effects of a player that has closed the device
+    return std::any_of(port.effect.begin(), port.effect.end(),
+                       [](const EvdevPort::Effect& effect) { return effect.plays.load(); });
+  };
+  std::string text;
+  // Again if the device was back before a frame was due, which a busy machine can delay.
+  while (text.find("WARNING") == std::string::npos) {
+    wait_for([&] { return !evdev_levels(0).at_rest() || !launch.lives(); });
+    ASSERT_TRUE(launch.lives());
+    launch.send(SIGSTOP);
+    wait_for([&] { return !plays(); });  // stopped by the guardian
+    launch.send(SIGCONT);
+    wait_for([&] { return plays() || !launch.lives(); });
+    std::ifstream file(log);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  launch.end(SIGINT);
+  EXPECT_NE(text.find("The guardian has set the haptic device to rest, because the player stood "
+                      "still. The video continues without it."),
+            std::string::npos)
+      << text;
+  clear_bus();
+}
 
 TEST_P(UsbPipeline, GstLaunchRestsTheMotorsHoweverItEnds) {
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 #include "spidar/device_factory.h"
 #include "spidar/haptic_session.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/transports/evdev_list.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/board_bench.h"
 #include "tests/support/felt_player.h"
@@ -68,7 +70,10 @@ TEST_F(ForceFeedback, IsListedWithoutBeingOpened) {
 TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
   plug_evdev(0, EvdevKind::kStick);
   const FeltPlayer player;
-  EXPECT_EQ(player.session->device().description(), "Emulated Stick, force feedback on two axes");
+  EXPECT_EQ(player.session->opened(), "Emulated Stick, force feedback on two axes");
+  const FeltParts felt = player.session->device().felt_parts();
+  EXPECT_TRUE(felt.x && felt.y && felt.direction);
+  EXPECT_FALSE(felt.z || felt.torque);
   for (const auto& [x_N, y_N] :
        {std::pair{1.5, 0.0}, {-0.7, 0.0}, {0.0, 2.0}, {0.0, -0.2}, {1.0, -1.2}, {0.0, 0.0}}) {
     player.push(x_N, y_N);
@@ -92,6 +97,9 @@ TEST_F(ForceFeedback, WheelsGetTheSidewaysForce) {
   player.push(-1, 1);
   wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
   EXPECT_EQ(evdev_levels(0).up, 0);
+  EXPECT_TRUE(player.session->device().felt_parts().x);
+  EXPECT_FALSE(player.session->device().felt_parts().y);
+  EXPECT_TRUE(player.session->device().felt_parts().direction);
   EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
   EXPECT_EQ(bus().evdev[0].plays, 1u);
 }
@@ -101,6 +109,8 @@ TEST_F(ForceFeedback, PadsGetTheStrengthOfTheForce) {
   const FeltPlayer player;
   EXPECT_EQ(player.session->device().description(),
             "Emulated Pad, rumble only: the strength of the force is felt, not its direction");
+  EXPECT_TRUE(player.session->device().felt_parts().y);
+  EXPECT_FALSE(player.session->device().felt_parts().direction);
   player.push(-0.9, 1.2);
   wait_for([] {
     const EvdevLevels levels = evdev_levels(0);
@@ -154,19 +164,85 @@ TEST_F(ForceFeedback, UpdatesAreRareAndNeverUnnecessary) {
   EXPECT_EQ(port.plays, 2u);
 }
 
-TEST_F(ForceFeedback, GainAndAutocentreAreSetAndRestored) {
-  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  port.gain = 100;
-  port.autocentre = 0x4000;
+/// A device whose spring was off before must not be left with a spring that pushes the hand.
+TEST_F(ForceFeedback, TheCentringSpringReturnsOnlyWhereTheDriverHadTurnedItOn) {
+  struct Case {
+    const char* driver;
+    int before, after;
+  };
+  for (const auto& [driver, before, after] : {Case{"logitech", 0, 0},
+                                              {"logitech", 0x4000, 0},
+                                              {"iforce", 0, 0},
+                                              {"unheard-of", 0x4000, 0},
+                                              {"", 0xFFFF, 0},
+                                              {"hid-generic-like", 0xFFFF, 0},
+                                              {"hid-generic", 0xFFFF, 0xFFFF},
+                                              {"hid-universal-pidff", 0xFFFF, 0xFFFF}}) {
+    SCOPED_TRACE(driver);
+    EvdevPort& port = plug_evdev(0, EvdevKind::kStick, driver);
+    port.gain = 100;
+    port.autocentre = before;
+    {
+      const FeltPlayer player;
+      player.push(1, 0);
+      wait_for([&] { return port.gain == 0xFFFF && port.autocentre == 0; });
+    }
+    EXPECT_EQ(port.autocentre, after);
+    EXPECT_TRUE(evdev_levels(0).at_rest());
+    for (const EvdevPort::Effect& effect : port.effect) EXPECT_FALSE(effect.used);
+  }
+}
+
+TEST_F(ForceFeedback, TheCentringSpringReturnsByARamp) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
   {
     const FeltPlayer player;
-    EXPECT_EQ(port.gain, 0xFFFF);
-    EXPECT_EQ(port.autocentre, 0);
-    player.push(1, 0);
+    wait_for([&] { return port.autocentre == 0; });
+    EXPECT_EQ(port.settings, 2u);
   }
   EXPECT_EQ(port.autocentre, 0xFFFF);
-  EXPECT_TRUE(evdev_levels(0).at_rest());
-  for (const EvdevPort::Effect& effect : port.effect) EXPECT_FALSE(effect.used);
+  // Every 5 ms for 100 ms.
+  EXPECT_EQ(port.settings, 2u + 20u);
+}
+
+/// As spidarctl info and zero do.
+TEST_F(ForceFeedback, AnExchangeOfZerosChangesNoSetting) {
+  for (const char* driver : {"logitech", "hid-generic"}) {
+    EvdevPort& port = plug_evdev(0, EvdevKind::kStick, driver);
+    const int before = port.autocentre;
+    BoardSettings settings;
+    settings.guardian = false;
+    const auto device = make_device("ff", load_profile(kDefaultProfile), settings);
+    device->open();
+    // Until the thread that sets levels has shown the position twice, so it has done an update.
+    DeviceReading reading, first;
+    const auto exchange = [&](DeviceReading& into) {
+      wait_for([&] { return device->exchange({}, into) == ExchangeStatus::kOk; });
+    };
+    for (const int at : {1000, -1000}) {
+      exchange(first);
+      port.axis[0] = at;
+      wait_for([&] {
+        exchange(reading);
+        return reading.count != first.count;
+      });
+    }
+    device->close();
+    EXPECT_EQ(port.settings, 0u) << driver;
+    EXPECT_EQ(port.autocentre, before) << driver;
+  }
+}
+
+TEST_F(ForceFeedback, TheDriverIsFoundThroughALink) {
+  plug_evdev(2, EvdevKind::kWheel);
+  EXPECT_EQ(evdev_driver("/dev/input/event2"), "logitech");
+  EXPECT_EQ(evdev_driver("/dev/input/event3"), "");
+  const TemporaryFolder folder;
+  const std::string file = (folder.path / "event2").string(),
+                    link = (folder.path / "by-id").string();
+  fclose(fopen(file.c_str(), "w"));
+  std::filesystem::create_symlink(file, link);
+  EXPECT_EQ(evdev_driver(link), "logitech");
 }
 
 /// The loop's own ramp, and one update for each axis, in ticks.
@@ -219,12 +295,16 @@ TEST_F(ForceFeedback, IsTakenBackWhereverItIsPluggedIn) {
 TEST_F(ForceFeedback, ADriverThatFailsIsNamed) {
   plug_evdev(0, EvdevKind::kStick);
   const FeltPlayer player;
-  bus().evdev[0].upload_error = EIO;
-  ASSERT_TRUE(player.loop().schedule(lasting({1, 0, 0})));
-  wait_for([&] { return player.now().last.device == DeviceState::kLost; });
-  EXPECT_EQ(player.session->device().health().last_fault, LinkFault::kBusError);
-  bus().evdev[0].upload_error = 0;
-  wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+  for (const auto& [error, fault, force_N] :
+       {std::tuple{EIO, LinkFault::kBusError, 1.0}, {ENOSPC, LinkFault::kRefused, -1.0}}) {
+    bus().evdev[0].upload_error = error;
+    player.loop().cancel_scheduled();
+    ASSERT_TRUE(player.loop().schedule(lasting({force_N, 0, 0})));
+    wait_for([&] { return player.now().last.device == DeviceState::kLost; });
+    EXPECT_EQ(player.session->device().health().last_fault, fault);
+    bus().evdev[0].upload_error = 0;
+    wait_for([force_N = force_N] { return is_level(evdev_levels(0).right, force_N, 1); });
+  }
 }
 
 TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
@@ -232,18 +312,25 @@ TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
     const std::string said = opening(spec);
     EXPECT_NE(said.find(what), std::string::npos) << said;
   };
-  says("ff", "no device with force feedback is plugged in");
+  says("ff", "no joystick, wheel or gamepad with force feedback is plugged in");
   says("ff:/dev/input/event7", "spidarctl list names");
   const TemporaryFolder folder;
   const std::string file = (folder.path / "file").string();
   fclose(fopen(file.c_str(), "w"));
   says("ff:" + file, "it is no input device");
   plug_evdev(0, EvdevKind::kKeyboard);
-  says("ff", "no device with force feedback is plugged in");
+  says("ff", "the kernel has no driver for it");
   says("ff:/dev/input/event0", "\"Emulated Keyboard\" has no force feedback");
   EvdevPort& port = plug_evdev(1, EvdevKind::kStick);
   port.upload_error = ENOSPC;
-  says("ff", "\"Emulated Stick\" does not take an effect: stall; close other programs");
+  says("ff",
+       "\"Emulated Stick\" does not take an effect: No space left on device; close other programs");
+  port.upload_error = EINVAL;
+  says("ff", "does not take an effect: Invalid argument; its driver does not support this effect");
+  port.upload_error = ENOSYS;
+  says("ff", "Function not implemented; its driver does not support this effect");
+  port.upload_error = EIO;
+  says("ff", "does not take an effect: Input/output error; plug the device in again");
   port.upload_error = 0;
   EXPECT_EQ(opening("ff"), "");
   const FeltPlayer first;

@@ -67,6 +67,17 @@ void leave_files_to_a_child() {
   }
 }
 
+/// Reads until it is killed. Moves the stick once it has its guardian and has read it.
+[[noreturn]] void read_for_ever(const char* spec, const char* profile) {
+  const auto device = make_device(spec, load_profile(profile));
+  device->open();
+  DeviceReading reading;
+  for (int count = 0;; count += device->exchange({}, reading) == ExchangeStatus::kOk) {
+    if (count == 10) bus().evdev[0].axis[1] = 1;
+    sleep_1ms();
+  }
+}
+
 /// This program, pulling.
 class Victim : public ChildProcess {
  public:
@@ -136,8 +147,10 @@ TEST(Guardian, ZeroesUsbBoardsWhoseFilesAForkedChildHasToo) {
   clear_bus();
 }
 
-TEST(Guardian, TakesJoysticksToZeroWhenTheHostIsKilledOrStopped) {
-  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+/// The centring spring stays off while the host is stopped. At the end it returns only where the
+/// driver had turned it on.
+void joysticks_go_to_zero(const char* driver, int after) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, driver);
   for (const int signal : {SIGKILL, SIGTERM, SIGSTOP}) {
     Victim victim("ff", "spidar-g6x3-v2-r");
     wait_for([&] { return !evdev_levels(0).at_rest() || !victim.lives(); });
@@ -146,17 +159,43 @@ TEST(Guardian, TakesJoysticksToZeroWhenTheHostIsKilledOrStopped) {
     if (signal == SIGSTOP) {
       victim.send(signal);
       wait_for([&] { return evdev_levels(0).at_rest(); });
+      // The guardian repeats its packets, so it would have sent one for the spring.
+      std::this_thread::sleep_for(std::chrono::milliseconds(3 * kSilence_ms));
+      EXPECT_EQ(port.autocentre, 0);
+      const uint64_t settings = port.settings;
       victim.send(SIGCONT);
       wait_for([&] { return !evdev_levels(0).at_rest() || !victim.lives(); });
       ASSERT_TRUE(victim.lives());
+      EXPECT_EQ(port.settings, settings + 2) << "gain and autocentre of the second opening";
       victim.end(SIGKILL);
     } else {
       victim.end(signal);
     }
-    wait_for([&] { return evdev_levels(0).at_rest() && port.autocentre == 0xFFFF; });
+    wait_for([&] { return evdev_levels(0).at_rest() && port.autocentre == after; });
     // When no process has the file any more, its effects are erased.
     wait_for([&] { return evdev_levels(0).at_rest() && !port.effect[0].used; });
+    EXPECT_EQ(port.autocentre, after);
   }
+  clear_bus();
+}
+
+TEST(Guardian, TakesJoysticksToZeroWhenTheHostIsKilledOrStopped) {
+  joysticks_go_to_zero("iforce", 0);
+  joysticks_go_to_zero("hid-generic", 0xFFFF);
+}
+
+TEST(Guardian, ChangesNoSettingOfAJoystickThatNeverPulled) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  port.autocentre = 0x4000;  // by another program
+  Victim victim("ff", "spidar-g6x3-v2-r", "--read");
+  wait_for([&] { return port.plays == 2 || !victim.lives(); });
+  wait_for([&] { return port.axis[1] != 0 || !victim.lives(); });
+  ASSERT_TRUE(victim.lives());
+  victim.end(SIGKILL);
+  // The guardian has ended, too, when nobody holds the device any more.
+  wait_for([&] { return evdev_levels(0).at_rest() && !port.effect[0].used; });
+  EXPECT_EQ(port.autocentre, 0x4000);
+  EXPECT_EQ(port.settings, 0u);
   clear_bus();
 }
 
@@ -298,6 +337,8 @@ int main(int argc, char** argv) {
     spidar::test::pull_for_ever(argv[2], argv[3], false);
   if (argc == 4 && std::strcmp(argv[1], "--pull-and-fork") == 0)
     spidar::test::pull_for_ever(argv[2], argv[3], true);
+  if (argc == 4 && std::strcmp(argv[1], "--read") == 0)
+    spidar::test::read_for_ever(argv[2], argv[3]);
   // This process, its victims and their guardians have one bus.
   const spidar::test::SharedBus shared;
   testing::InitGoogleTest(&argc, argv);
