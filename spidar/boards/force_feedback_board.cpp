@@ -14,7 +14,6 @@ namespace spidar {
 namespace {
 
 constexpr int64_t kUpdate_ns = ForceFeedbackBoard::kUpdate_ms * kSecond_ns / 1000;
-constexpr std::array<ff::Direction, 2> kDirections{ff::Direction::kRight, ff::Direction::kUp};
 /// Full deflection of the stick, as a share of the distance from the centre to the strings' exits.
 constexpr double kReach = 0.5;
 /// The centring spring of a stick returns within this time, because a jump could hurt a hand.
@@ -111,9 +110,10 @@ void ForceFeedbackBoard::return_settings() noexcept {
 
 LinkFault ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
   Effect& of = effects_[effect];
-  const ff::EffectBytes bytes = description_.constant
-                                    ? ff::encode_constant(of.number, kDirections[effect], level)
-                                    : ff::encode_rumble(of.number, level);
+  const ff::EffectBytes bytes = !description_.constant ? ff::encode_rumble(of.number, level)
+                                : effect == 0
+                                    ? ff::encode_constant(of.number, ff::Direction::kLeft, -level)
+                                    : ff::encode_constant(of.number, ff::Direction::kUp, level);
   const Transfer transfer = transport_->exchange({bytes}, bytes_of(of.number), soon_ns());
   of.known = transfer.fault == LinkFault::kNone;
   if (of.known) of.level = level;

@@ -88,6 +88,12 @@ void put_file(const std::string& path, const std::string& text) {
   syscall(SYS_close, file);
 }
 
+std::string hex(uint16_t id) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "%04x\n", static_cast<unsigned>(id));
+  return text.data();
+}
+
 void erase(EvdevPort::Effect& effect) {
   effect.plays = effect.used = false;
   effect.right = effect.up = effect.rumble = 0;
@@ -148,6 +154,8 @@ int EvdevCalls::upload(ff_effect& wanted) {
   }
   if (at >= port.effect.size() || (wanted.id != -1 && !port.effect[at].used)) return -EINVAL;
   wanted.id = static_cast<int16_t>(at);
+  if (port.kind == EvdevKind::kWheelBase)
+    wanted.direction = static_cast<uint16_t>(ff::Direction::kLeft);
   const auto effect = ff::decode_effect({reinterpret_cast<const uint8_t*>(&wanted), sizeof wanted});
   EvdevPort::Effect& kept = port.effect[at];
   const auto rounded = [](double share, int full) {
@@ -180,6 +188,11 @@ int EvdevCalls::query(unsigned long request, void* argument) {
   }
   if (request == EVIOCGEFFECTS) {
     *static_cast<int*>(argument) = static_cast<int>(port.effect.size());
+    return 0;
+  }
+  if (request == EVIOCGID) {
+    const UsbId id = usb_id_of(port.kind);
+    *static_cast<input_id*>(argument) = {BUS_USB, id.vendor, id.product, 1};
     return 0;
   }
   if (number == _IOC_NR(EVIOCGNAME(0))) {
@@ -278,8 +291,9 @@ EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const
   put_file(sysfs + "/capabilities/ff", sysfs_bits(ff_bits(kind)));
   put_file(sysfs + "/name", std::string(name_of(kind)) + "\n");
   put_file(sysfs + "/uniq", "\n");
-  put_file(sysfs + "/id/vendor", "1209\n");
-  put_file(sysfs + "/id/product", "000" + std::to_string(static_cast<int>(kind)) + "\n");
+  const UsbId id = usb_id_of(kind);
+  put_file(sysfs + "/id/vendor", hex(id.vendor));
+  put_file(sysfs + "/id/product", hex(id.product));
   put_file(device_file(number), "");
   struct stat status {};
   if (stat(device_file(number).c_str(), &status) != 0) std::abort();

@@ -18,6 +18,10 @@ enum class EvdevKind : int {
   kWheel,     ///< one axis, FF_CONSTANT, autocentre
   kPad,       ///< two axes, FF_RUMBLE only
   kKeyboard,  ///< neither
+  /// A wheel base that only its USB ID gives away. Like hid-pidff for these, it plays every effect
+  /// in the direction 0x4000.
+  kWheelBase,
+  kPedalBase,  ///< a wheel that only its pedals give away
 };
 
 /// An input device, as /dev/input/eventN with its number. Any process may change any member at any

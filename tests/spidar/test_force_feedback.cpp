@@ -97,6 +97,16 @@ TEST_F(ForceFeedback, WheelsGetTheSidewaysForce) {
   EXPECT_EQ(bus().evdev[0].plays, 1u);
 }
 
+/// hid-pidff plays every effect of such a wheel to the left if its level is positive.
+TEST_F(ForceFeedback, RightIsRightOnWheelsThatIgnoreTheDirection) {
+  plug_evdev(0, EvdevKind::kWheelBase);
+  const FeltPlayer player;
+  for (const double x_N : {1.5, -0.7}) {
+    player.push(x_N, 0);
+    wait_for([x = x_N] { return is_level(evdev_levels(0).right, x, std::abs(x)); });
+  }
+}
+
 TEST_F(ForceFeedback, PadsGetTheStrengthOfTheForce) {
   plug_evdev(0, EvdevKind::kPad);
   const FeltPlayer player;
