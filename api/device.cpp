@@ -95,7 +95,13 @@ std::optional<Pose> Device::pose() const {
 Wrench Device::felt() const {
   const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
   if (tick.device != spidar::DeviceState::kRunning) return {};
-  return to_api(tick.delivered);
+  const spidar::FeltParts parts = impl_->session.device().felt_parts();
+  Wrench felt = to_api(tick.delivered);
+  if (!parts.x) felt.force_N.x = 0;
+  if (!parts.y) felt.force_N.y = 0;
+  if (!parts.z) felt.force_N.z = 0;
+  if (!parts.torque) felt.torque_Nm = {};
+  return felt;
 }
 
 DeviceState Device::state() const {

@@ -88,7 +88,7 @@ void end(Session& session) {
 
 gboolean on_message(GstBus*, GstMessage* message, gpointer user) {
   auto& session = *static_cast<Session*>(user);
-  GError* warning = nullptr;
+  GError* told = nullptr;
   switch (GST_MESSAGE_TYPE(message)) {
     case GST_MESSAGE_ASYNC_DONE:
       if (has_no_video(session.player.pipeline())) fail(session, kNoVideo);
@@ -100,9 +100,14 @@ gboolean on_message(GstBus*, GstMessage* message, gpointer user) {
       end(session);
       break;
     case GST_MESSAGE_WARNING:
-      gst_message_parse_warning(message, &warning, nullptr);
-      tell(session, warning->message);
-      g_error_free(warning);
+      gst_message_parse_warning(message, &told, nullptr);
+      tell(session, told->message);
+      g_error_free(told);
+      break;
+    case GST_MESSAGE_INFO:
+      gst_message_parse_info(message, &told, nullptr);
+      tell(session, told->message);
+      g_error_free(told);
       break;
     case GST_MESSAGE_ERROR:
       fail(session, failure_text(message, session.uri));

@@ -32,6 +32,16 @@ struct DeviceReading {
   bool encoders = true;
 };
 
+/// What a hand feels of a wrench on the grip.
+struct FeltParts {
+  bool x = true;  ///< of the force
+  bool y = true;
+  bool z = true;
+  bool torque = true;
+  /// Otherwise only the size of the force is felt, in the axes that are felt.
+  bool direction = true;
+};
+
 enum class ExchangeStatus {
   kOk,
   kTimeout,   ///< no answer in time; may come back
@@ -58,6 +68,10 @@ class SPIDAR_API Device {
   /// A description for people of what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".
   /// Empty while closed, and for devices whose name says everything.
   virtual std::string description() const { return {}; }
+
+  /// What a hand feels on this device. Until open(), what most devices of its kind have. Any
+  /// thread.
+  virtual FeltParts felt_parts() const noexcept { return {}; }
 
   /// Statistics of the link to the board; all zero for a device without one. Any thread.
   virtual LinkHealth health() const noexcept { return {}; }

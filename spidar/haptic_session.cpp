@@ -17,6 +17,7 @@ struct HapticSession::Impl {
       : device(std::move(owned)), loop(profile, *device, settings.limits) {
     if (!settings.trace_path.empty()) trace.emplace(settings.trace_path, loop, settings.threaded);
     loop.open();
+    opened = device->description();
     if (settings.threaded) thread.emplace(loop, settings.real_time);
   }
   ~Impl() {
@@ -36,6 +37,7 @@ struct HapticSession::Impl {
   std::unique_ptr<Device> device;
   HapticLoop loop;
   std::optional<TraceThread> trace;
+  std::string opened;
   Scheduling manual{false, "no thread: the owner calls tick()"};
   LoopTiming no_timing;
   std::optional<LoopThread> thread;
@@ -59,6 +61,10 @@ const Device& HapticSession::device() const noexcept {
 
 Device& HapticSession::device() noexcept {
   return *impl_->device;
+}
+
+const std::string& HapticSession::opened() const noexcept {
+  return impl_->opened;
 }
 
 const Scheduling& HapticSession::scheduling() const noexcept {

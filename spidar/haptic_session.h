@@ -40,6 +40,8 @@ class SPIDAR_API HapticSession {
   const HapticLoop& loop() const noexcept;
   Device& device() noexcept;
   const Device& device() const noexcept;
+  /// Device::description() when this session opened the device.
+  const std::string& opened() const noexcept;
   const Scheduling& scheduling() const noexcept;
 
   /// Lateness and duration of the thread's ticks; empty without a thread.

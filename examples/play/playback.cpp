@@ -80,6 +80,15 @@ void report_warning(Playback& playback, GstMessage* message) {
   std::fprintf(stderr, "warning: %s\n", text.c_str());
 }
 
+/// For example what a device cannot render.
+void report_information(const Playback& playback, GstMessage* message) {
+  GError* information = nullptr;
+  gst_message_parse_info(message, &information, nullptr);
+  playback.clear_line();
+  std::fprintf(stderr, "note: %s\n", information->message);
+  g_error_free(information);
+}
+
 void report_missing_plugin(const Playback& playback, GstMessage* message) {
   char* const what = gst_missing_plugin_message_get_description(message);
   playback.clear_line();
@@ -105,6 +114,9 @@ gboolean on_message(GstBus*, GstMessage* message, void* data) {
       break;
     case GST_MESSAGE_WARNING:
       report_warning(playback, message);
+      break;
+    case GST_MESSAGE_INFO:
+      report_information(playback, message);
       break;
     case GST_MESSAGE_EOS:
       end_by_end(playback);

@@ -64,17 +64,22 @@ static void set_properties(GstElement* motion, const char* properties) {
 }
 
 /// The video continues: an error of the device becomes a warning in the player. Players may hide
-/// warnings, so it is also printed on standard error.
-static void warn(GstSpidarFeelBin* self, GstMessage* message) {
+/// warnings and information, so they are also printed on standard error.
+static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
   GError* error = nullptr;
   gchar* details = nullptr;
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR)
     gst_message_parse_error(message, &error, &details);
-  else
+  else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING)
     gst_message_parse_warning(message, &error, &details);
+  else
+    gst_message_parse_info(message, &error, &details);
   g_printerr("spidar-feel: %s\n", error->message);
-  GST_ELEMENT_WARNING(self, RESOURCE, OPEN_READ_WRITE, ("%s", error->message),
-                      ("%s", details ? details : ""));
+  const char* text = details ? details : "";
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_INFO)
+    GST_ELEMENT_INFO(self, RESOURCE, SETTINGS, ("%s", error->message), ("%s", text));
+  else
+    GST_ELEMENT_WARNING(self, RESOURCE, OPEN_READ_WRITE, ("%s", error->message), ("%s", text));
   g_clear_error(&error);
   g_free(details);
 }
@@ -89,9 +94,10 @@ static GstElement* open_motion(GstSpidarFeelBin* self) {
   GstBus* bus = gst_bus_new();
   gst_element_set_bus(motion, bus);
   const bool opened = gst_element_set_state(motion, GST_STATE_READY) != GST_STATE_CHANGE_FAILURE;
-  const auto kinds = static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_WARNING);
+  const auto kinds =
+      static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_WARNING | GST_MESSAGE_INFO);
   while (GstMessage* message = gst_bus_pop_filtered(bus, kinds)) {
-    warn(self, message);
+    pass_on(self, message);
     gst_message_unref(message);
   }
   gst_element_set_bus(motion, nullptr);

@@ -21,6 +21,14 @@ std::string last_fault(const HapticSession& session) {
 
 }  // namespace
 
+void tell_what_is_not_felt(GstElement* element, const HapticSession& session) {
+  const FeltParts felt = session.device().felt_parts();
+  // Most devices have no torque or no force towards the viewer: their pages say so.
+  if (felt.x && felt.y && felt.direction) return;
+  GST_ELEMENT_INFO(element, RESOURCE, SETTINGS, ("%s.", session.opened().c_str()),
+                   ("The device works, but renders nothing else of the force and the torque."));
+}
+
 void DeviceComplaints::start() {
   strings_ = 0;
   pose_lost_ = held_back_ = false;

@@ -12,6 +12,10 @@
 
 namespace spidar {
 
+/// Posts an information message if a device that was just opened renders only a part of what is to
+/// be seen in the picture.
+void tell_what_is_not_felt(GstElement* element, const HapticSession& session);
+
 /// Says each thing once a stream. Streaming thread, and start() before it. Sessions are null while
 /// the element has no device.
 class DeviceComplaints {

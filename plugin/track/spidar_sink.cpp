@@ -219,6 +219,7 @@ static bool open_device(GstSpidarSink* self) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The force continues without it."));
     }
+    spidar::tell_what_is_not_felt(GST_ELEMENT(self), *self->output->session());
     self->schedule->connect(&self->output->session()->loop());
   });
 }

@@ -46,6 +46,9 @@ class SPIDAR_API Board {
   /// connection. To be called after open().
   virtual std::vector<LastWill> last_wills() const = 0;
 
+  /// See Device::felt_parts(). Any thread.
+  virtual FeltParts felt_parts() const noexcept { return {}; }
+
   /// Describes for people what open() found.
   virtual std::string description() const = 0;
 

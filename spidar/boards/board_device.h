@@ -47,6 +47,7 @@ class SPIDAR_API BoardDevice final : public Device {
   /// answer.
   void close() noexcept override;
   std::string description() const override { return open_ ? board_->description() : ""; }
+  FeltParts felt_parts() const noexcept override { return board_->felt_parts(); }
   const std::string& name() const noexcept override { return board_->name(); }
   LinkHealth health() const noexcept override;
 

@@ -77,6 +77,7 @@ void ForceFeedbackBoard::begin_effects() {
     throw DeviceError(device + "has no room for an effect; another driver may help");
   const bool both = description_.constant && description_.axes > 1 && description_.effects > 1;
   effect_count_ = both ? 2 : 1;
+  felt_axes_ = both ? 2 : description_.constant;
   effects_ = {};
   for (size_t i = 0; i < effect_count_; ++i) {
     LinkFault fault = upload(i, 0);
@@ -223,6 +224,11 @@ std::vector<LastWill> ForceFeedbackBoard::last_wills() const {
   const ff::EventBytes last = ff::encode_play(effects_[effect_count_ - 1].number, false);
   if (!centres_at_end()) return wills(*transport_, {first, last});
   return wills(*transport_, {first, last, ff::encode_autocentre(ff::kFullGain)}, 1);
+}
+
+FeltParts ForceFeedbackBoard::felt_parts() const noexcept {
+  const int axes = felt_axes_;
+  return {true, axes != 1, false, false, axes != 0};
 }
 
 std::string ForceFeedbackBoard::description() const {

@@ -54,6 +54,7 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   std::vector<LastWill> last_wills() const override;
   /// Includes one sentence on what the device lacks.
   std::string description() const override;
+  FeltParts felt_parts() const noexcept override;
   const std::string& name() const noexcept override { return name_; }
 
  private:
@@ -95,6 +96,7 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   size_t turn_ = 0;  ///< the effect that is checked first
   int cycle_ = 0;
   std::thread thread_;
+  std::atomic<int> felt_axes_{2};  ///< 1: only x; 0: it only rumbles
   std::atomic<bool> stop_{false};
   std::atomic<bool> pulled_{false};                 ///< since it was opened
   bool has_settings_ = false;                       ///< take_settings() was done

@@ -20,6 +20,8 @@ namespace spidar {
 /// centre, the position that this board always reports; only its x and y are felt.
 class SPIDAR_API MouseBoard final : public Board {
  public:
+  static constexpr FeltParts kFelt{true, true, false, false, true};
+
   MouseBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
 
   void open() override;
@@ -31,6 +33,7 @@ class SPIDAR_API MouseBoard final : public Board {
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   std::string description() const override { return "SPIDAR-mouse"; }
+  FeltParts felt_parts() const noexcept override { return kFelt; }
   const std::string& name() const noexcept override { return name_; }
 
  private:

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "spidar/boards/mouse_board.h"
+
 namespace spidar {
 namespace {
 
@@ -91,6 +93,10 @@ void UsbBoard::open_matching(const std::vector<Candidate>& found) {
 
 std::string UsbBoard::description() const {
   return used_ ? "at " + used_path_ + ": " + used_->board->description() : "";
+}
+
+FeltParts UsbBoard::felt_parts() const noexcept {
+  return family_ == UsbFamily::kMouse ? MouseBoard::kFelt : FeltParts{};
 }
 
 LinkFault UsbBoard::cycle(const MotorVolts& volts, DeviceReading& reading,

@@ -33,6 +33,7 @@ class SPIDAR_API UsbBoard final : public Board {
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   std::string description() const override;
+  FeltParts felt_parts() const noexcept override;
   int rotary() const noexcept override { return used_ ? used_->board->rotary() : -1; }
   const std::string& name() const noexcept override { return name_; }
 

@@ -63,6 +63,7 @@ class WireSimulation final : public Device {
   }
   void close() noexcept override { device_.close(); }
   std::string description() const override { return device_.description(); }
+  FeltParts felt_parts() const noexcept override { return device_.felt_parts(); }
   const std::string& name() const noexcept override { return device_.name(); }
   LinkHealth health() const noexcept override { return device_.health(); }
 

@@ -78,6 +78,27 @@ TEST(Device, APushIsFeltUntilRest) {
   }
 }
 
+TEST(Device, NothingIsFeltThatADeviceCannotExert) {
+  Wrench wrench;
+  wrench.force_N = {0.5, 0.5, 1};
+  wrench.torque_Nm = {0.01, 0.01, 0.01};
+  for (const char* name : {"sim:ff", "sim:mouse", "sim"}) {
+    SCOPED_TRACE(name);
+    const bool whole = std::string(name) == "sim";
+    Device device(name);
+    Wrench felt;
+    EXPECT_TRUE(comes_true([&] {
+      device.push(wrench);
+      felt = device.felt();
+      return felt.force_N.x > 0.4 && felt.force_N.y > 0.4;
+    }));
+    EXPECT_EQ(felt.force_N.z != 0, whole);
+    EXPECT_EQ(felt.torque_Nm.x != 0, whole);
+    EXPECT_EQ(felt.torque_Nm.y != 0, whole);
+    EXPECT_EQ(felt.torque_Nm.z != 0, whole);
+  }
+}
+
 TEST(Device, AWrenchThatIsNotRenewedRunsOut) {
   Device device("sim");
   ASSERT_TRUE(comes_true([&] {

@@ -200,6 +200,16 @@ TEST_F(Feel, ADeviceThatCannotBeOpenedStopsNoVideo) {
   EXPECT_NE(outcome.text.find("usb"), std::string::npos) << outcome.text;
 }
 
+TEST_F(Feel, WhatADeviceCannotRenderIsPrinted) {
+  plug_evdev(0, EvdevKind::kPad);
+  const CommandResult outcome =
+      run_all(joined({SPIDAR_FEEL, "device=ff", "--"}, player({"play", "frames=10", "stop"})));
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.text,
+            "spidar-feel: Emulated Pad, rumble only: the strength of the force is felt, not its "
+            "direction.\n");
+}
+
 TEST_F(Feel, WithoutItThePluginIsNotLoaded) {
   plug(0, UsbKind::kSh4);
   const CommandResult outcome = run_all(player({"play", "frames=30", "loaded"}));

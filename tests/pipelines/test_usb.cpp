@@ -147,6 +147,45 @@ TEST(ForceFeedbackPipeline, PlaysOnWhenTheStickIsPulledOutAndTakesItBack) {
   clear_bus();
 }
 
+TEST(ForceFeedbackPipeline, SaysOnceWhatIsNotFelt) {
+  struct Case {
+    EvdevKind kind;
+    const char* said;  // nullptr: nothing
+  };
+  for (const auto& [kind, said] :
+       {Case{EvdevKind::kPad,
+             "Emulated Pad, rumble only: the strength of the force is felt, not its direction."},
+        {EvdevKind::kWheel,
+         "Emulated Racing Wheel, force feedback on one axis: forces up and down are not felt."},
+        {EvdevKind::kStick, nullptr}}) {
+    for (const char* element : {"spidarmotion", "spidarsink"}) {
+      plug_evdev(0, kind);
+      GstElement* opened = gst_element_factory_make(element, nullptr);
+      ASSERT_NE(opened, nullptr);
+      gst_object_ref_sink(opened);
+      g_object_set(opened, "device", "ff", nullptr);
+      GstBus* bus = gst_bus_new();
+      gst_element_set_bus(opened, bus);
+      ASSERT_EQ(gst_element_set_state(opened, GST_STATE_READY), GST_STATE_CHANGE_SUCCESS);
+      gst_element_set_state(opened, GST_STATE_NULL);
+      GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_INFO);
+      EXPECT_EQ(message != nullptr, said != nullptr) << element;
+      if (message) {
+        GError* info = nullptr;
+        gst_message_parse_info(message, &info, nullptr);
+        EXPECT_STREQ(info->message, said) << element;
+        g_clear_error(&info);
+        gst_message_unref(message);
+      }
+      EXPECT_EQ(gst_bus_pop_filtered(bus, GST_MESSAGE_INFO), nullptr) << element;
+      gst_element_set_bus(opened, nullptr);
+      gst_object_unref(bus);
+      gst_object_unref(opened);
+      clear_bus();
+    }
+  }
+}
+
 #ifdef EMULATED_BUS_LIBRARY
 
 /// gst-launch-1.0, which knows nothing of an emulated bus.

@@ -69,7 +69,10 @@ TEST_F(ForceFeedback, IsListedWithoutBeingOpened) {
 TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
   plug_evdev(0, EvdevKind::kStick);
   const FeltPlayer player;
-  EXPECT_EQ(player.session->device().description(), "Emulated Stick, force feedback on two axes");
+  EXPECT_EQ(player.session->opened(), "Emulated Stick, force feedback on two axes");
+  const FeltParts felt = player.session->device().felt_parts();
+  EXPECT_TRUE(felt.x && felt.y && felt.direction);
+  EXPECT_FALSE(felt.z || felt.torque);
   for (const auto& [x_N, y_N] :
        {std::pair{1.5, 0.0}, {-0.7, 0.0}, {0.0, 2.0}, {0.0, -0.2}, {1.0, -1.2}, {0.0, 0.0}}) {
     player.push(x_N, y_N);
@@ -93,6 +96,9 @@ TEST_F(ForceFeedback, WheelsGetTheSidewaysForce) {
   player.push(-1, 1);
   wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
   EXPECT_EQ(evdev_levels(0).up, 0);
+  EXPECT_TRUE(player.session->device().felt_parts().x);
+  EXPECT_FALSE(player.session->device().felt_parts().y);
+  EXPECT_TRUE(player.session->device().felt_parts().direction);
   EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
   EXPECT_EQ(bus().evdev[0].plays, 1u);
 }
@@ -112,6 +118,8 @@ TEST_F(ForceFeedback, PadsGetTheStrengthOfTheForce) {
   const FeltPlayer player;
   EXPECT_EQ(player.session->device().description(),
             "Emulated Pad, rumble only: the strength of the force is felt, not its direction");
+  EXPECT_TRUE(player.session->device().felt_parts().y);
+  EXPECT_FALSE(player.session->device().felt_parts().direction);
   player.push(-0.9, 1.2);
   wait_for([] {
     const EvdevLevels levels = evdev_levels(0);
