@@ -53,18 +53,31 @@ void ForceFeedbackBoard::open() {
         *transport_);
     if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
     begin_effects();
+    start_updates();
   } catch (...) {
+    effect_count_ = 0;
     transport_->close();
     throw;
   }
+}
+
+void ForceFeedbackBoard::start_updates() {
   cycle_ = 0;
-  fault_ = LinkFault::kNone;
   for (auto& force_N : force_N_) force_N = 0;
-  for (auto& place : place_) place = 0;
   pulled_ = has_settings_ = false;
+  ff::Position position;
+  const LinkFault fault =
+      transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
+  if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+  place_.start(position, now_ns());
+  updated_.start(now_ns());
   if (updates_ == Updates::kInCycle) return;
   stop_ = false;
-  thread_ = start_thread("spidar-ff", [this] { run(); });
+  thread_ = start_thread("spidar-ff", [this] {
+    request_exact_timers();
+    request_real_time();
+    run();
+  });
 }
 
 void ForceFeedbackBoard::begin_effects() {
@@ -133,29 +146,36 @@ int ForceFeedbackBoard::wanted_level(size_t effect) const noexcept {
   return static_cast<int>(std::lround(ff::kFullLevel * share));
 }
 
-LinkFault ForceFeedbackBoard::update() noexcept {
+int64_t ForceFeedbackBoard::now_ns() const noexcept {
+  return updates_ == Updates::kInCycle ? cycle_ * kSecond_ns / 1000 : monotonic_now_ns();
+}
+
+LinkFault ForceFeedbackBoard::read_and_set() noexcept {
   ff::Position position;
-  LinkFault fault = transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
-  if (fault == LinkFault::kNone) {
-    place_[0] = position.right;
-    place_[1] = position.up;
-    take_settings();
-    for (size_t i = 0; i < effect_count_; ++i) {
-      const size_t effect = (turn_ + i) % effect_count_;
-      const int level = wanted_level(effect);
-      if (effects_[effect].known && effects_[effect].level == level) continue;
-      fault = upload(effect, level);
-      turn_ = effect + 1;
-      break;
-    }
+  const LinkFault fault =
+      transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
+  if (fault != LinkFault::kNone) return fault;
+  place_.see(position, now_ns());
+  take_settings();
+  for (size_t i = 0; i < effect_count_; ++i) {
+    const size_t effect = (turn_ + i) % effect_count_;
+    const int level = wanted_level(effect);
+    if (effects_[effect].known && effects_[effect].level == level) continue;
+    turn_ = effect + 1;
+    return upload(effect, level);
   }
+  return LinkFault::kNone;
+}
+
+void ForceFeedbackBoard::update() noexcept {
+  const LinkFault fault = read_and_set();
   if (fault != LinkFault::kNone && fault != LinkFault::kGone) transport_->recover();
-  return fault;
+  updated_.finish(fault, now_ns());
 }
 
 void ForceFeedbackBoard::run() noexcept {
   while (!stop_) {
-    fault_ = update();
+    update();
     // Counted from the end of the update, so that a slow driver is not called more often.
     sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
   }
@@ -163,9 +183,7 @@ void ForceFeedbackBoard::run() noexcept {
 
 Pose ForceFeedbackBoard::stick_pose() const noexcept {
   Pose pose;
-  for (int axis = 0; axis < 2; ++axis)
-    pose.position_m[axis] =
-        reach_m_[axis] * place_[static_cast<size_t>(axis)] / ff::Position::kFull;
+  pose.position_m.head<2>() = reach_m_.cwiseProduct(place_.share());
   return pose;
 }
 
@@ -194,10 +212,11 @@ LinkFault ForceFeedbackBoard::cycle(const MotorVolts& volts, DeviceReading& read
   force_N_[1] = force_N.y();
   if (std::any_of(volts.volt.begin(), volts.volt.end(), [](double volt) { return volt != 0; }))
     pulled_ = true;
-  LinkFault fault = fault_;
-  if (updates_ == Updates::kInCycle)
-    fault = cycle_++ % kUpdate_ms == 0 ? update() : LinkFault::kNone;
+  if (updates_ == Updates::kInCycle && cycle_++ % kUpdate_ms == 0) update();
+  const int64_t now = now_ns();
+  const LinkFault fault = updated_.report(now);
   if (fault != LinkFault::kNone) return fault;
+  place_.advance(now);
   encoders_.to_counts(string_lengths_m(profile_.geometry, stick_pose()), reading.count);
   reading.inputs = 0;
   reading.encoders = false;

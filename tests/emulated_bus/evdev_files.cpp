@@ -39,6 +39,8 @@ struct EvdevCalls {
   int erase(size_t number);
   int query(unsigned long request, void* argument);
   int event(const ff::Event& event);
+  /// Whether a signal interrupts this call.
+  bool is_interrupted() { return port.signals && !port.interrupted.exchange(!port.interrupted); }
 };
 
 namespace {
@@ -105,7 +107,9 @@ void forget(EvdevPort& port) {
   port.shortest_ns = 0;
   for (auto& axis : port.axis) axis = 0;
   port.gain = port.autocentre = 0;
-  port.upload_ms = port.upload_error = 0;
+  port.upload_ms = port.upload_error = port.event_error = 0;
+  port.failing = -1;
+  port.signals = false;
 }
 
 void unplug_from(BusState& state, size_t number) {
@@ -142,8 +146,12 @@ int EvdevCalls::upload(ff_effect& wanted) {
   const int64_t now_ns = monotonic_now_ns();
   const int64_t passed_ns = now_ns - port.last_upload_ns.exchange(now_ns);
   if (port.shortest_ns == 0 || passed_ns < port.shortest_ns) port.shortest_ns = passed_ns;
-  if (port.upload_ms > 0) sleep_until_ns(now_ns + port.upload_ms * kSecond_ns / 1000);
-  if (port.upload_error != 0) return -port.upload_error;
+  while (monotonic_now_ns() < now_ns + port.upload_ms * kSecond_ns / 1000)
+    sleep_until_ns(monotonic_now_ns() + kSecond_ns / 1000);
+  if (port.upload_error != 0 && port.failing != 0) {
+    if (port.failing > 0) --port.failing;
+    return -port.upload_error;
+  }
   const bool fits = is_constant(port.kind) ? wanted.type == FF_CONSTANT : wanted.type == FF_RUMBLE;
   if (!fits) return -EINVAL;
   auto at = static_cast<size_t>(wanted.id);
@@ -216,6 +224,7 @@ int EvdevCalls::query(unsigned long request, void* argument) {
 }
 
 int EvdevCalls::event(const ff::Event& event) {
+  if (port.event_error != 0) return -port.event_error;
   if (event.code == FF_GAIN) {
     port.gain = event.value;
     ++port.settings;
@@ -247,7 +256,8 @@ bool evdev_ioctl(int file, unsigned long request, void* argument, int& result) {
   result = -ENODEV;
   if (port) {
     EvdevCalls calls{*port};
-    result = request == EVIOCSFF    ? calls.upload(*static_cast<ff_effect*>(argument))
+    result = calls.is_interrupted() ? -EINTR
+             : request == EVIOCSFF  ? calls.upload(*static_cast<ff_effect*>(argument))
              : request == EVIOCRMFF ? calls.erase(reinterpret_cast<size_t>(argument))
                                     : calls.query(request, argument);
   }
@@ -263,13 +273,15 @@ bool evdev_write(int file, const void* bytes, size_t length, long& result) {
   bool is_evdev = false;
   EvdevPort* port = port_of(file, is_evdev);
   if (!is_evdev) return false;
-  result = static_cast<long>(length);
+  int error = -ENODEV;
   if (port) {
-    EvdevCalls{*port}.event(*event);
-  } else {
-    errno = ENODEV;
-    result = -1;
+    EvdevCalls calls{*port};
+    error = calls.is_interrupted() ? -EINTR : calls.event(*event);
   }
+  result = static_cast<long>(length);
+  if (error >= 0) return true;
+  errno = -error;
+  result = -1;
   return true;
 }
 

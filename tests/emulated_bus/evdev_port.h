@@ -49,12 +49,17 @@ struct EvdevPort {
   std::atomic<uint64_t> plays{0};
   std::atomic<int64_t> shortest_ns{0};  ///< least time between two uploads since it was set to 0
 
-  std::atomic<int> upload_ms{0};     ///< time that the driver takes for an upload
-  std::atomic<int> upload_error{0};  ///< errno of every upload; 0: none
+  /// Time that the driver takes for an upload. A smaller value ends one that is under way.
+  std::atomic<int> upload_ms{0};
+  std::atomic<int> upload_error{0};  ///< errno of uploads; 0: none
+  std::atomic<int> failing{-1};      ///< uploads that fail with it; −1: all
+  std::atomic<int> event_error{0};   ///< errno of every event; 0: none
+  std::atomic<bool> signals{false};  ///< a signal interrupts every other call
 
  private:
   friend struct EvdevCalls;
   std::atomic<int64_t> last_upload_ns{0};
+  std::atomic<bool> interrupted{false};  ///< the last call was
 };
 
 constexpr size_t kEvdevPorts = 4;
