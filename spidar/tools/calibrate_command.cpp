@@ -16,6 +16,7 @@
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/calibrate_options.h"
 #include "spidar/tools/calibrate_report.h"
+#include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/hand_motion.h"
 #include "spidar/tools/terminal.h"
@@ -84,14 +85,18 @@ class Progress {
 
 CountSamples record(const CalibrateOptions& options, const Profile& profile) {
   Bench bench(options, profile);
-  std::cerr << (options.centre ? "Hold the grip still at the centre, without turning it.\n"
-                               : "Move and turn the grip in every direction, as far as it goes.\n");
   const RecordingSettings settings{options.centre ? kHoldSeconds : options.seconds,
                                    kSamplePeriod_s};
   Progress progress(settings.seconds);
   std::optional<double> begin_s;
   const auto next_tick = [&](double time_s) {
-    if (!begin_s) begin_s = 1e-9 * static_cast<double>(monotonic_now_ns()) - time_s;
+    if (!begin_s) {
+      // Only now is the device open.
+      std::cerr << (options.centre
+                        ? "Hold the grip still at the centre, without turning it.\n"
+                        : "Move and turn the grip in every direction, as far as it goes.\n");
+      begin_s = 1e-9 * static_cast<double>(monotonic_now_ns()) - time_s;
+    }
     sleep_until_ns(static_cast<int64_t>(1e9 * (*begin_s + time_s)));
     if (!options.centre) bench.move_hand(time_s);
     progress.show(time_s);
@@ -115,6 +120,7 @@ int calibrate_command(int argc, char** argv) {
     return kDone;
   }
   const Profile profile = load_profile(options.profile);
+  require_strings(board_info(options.device), "calibrate");
   if (!options.output.empty()) check_folder_of(options.output);
   catch_signals();
   const CountSamples counts = record(options, profile);

@@ -116,6 +116,11 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
       {"info nothing", "unknown device \"nothing\""},
       {"rest sim:mouse", "is for devices with strings"},
       {"rest sim:ff", "is for devices with strings"},
+      {"calibrate sim:ff", "sim:ff: calibrate is for devices with strings"},
+      {"calibrate ff", "ff: calibrate is for devices with strings"},
+      {"calibrate mouse", "mouse: calibrate is for devices with strings"},
+      {"calibrate uart:/no/such/line", "/no/such/line"},
+      {"calibrate uart:/no/such/line --centre", "/no/such/line"},
       {"monitor sim:sh4 --profile spidar-gcc", "wants negative volts"},
       {"zero uart:/no/such/line", "/no/such/line"},
       {"selftest sim --write-profile /no/such/folder/a.toml", "cannot be written"},
@@ -129,6 +134,7 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
     EXPECT_EQ(outcome.status, 1);
     expect_contains(outcome.text, message);
     EXPECT_EQ(outcome.text.find("Move and turn"), std::string::npos);
+    EXPECT_EQ(outcome.text.find("Hold the grip"), std::string::npos);
   }
 }
 
