@@ -64,7 +64,7 @@ void ForceFeedbackBoard::open() {
 void ForceFeedbackBoard::start_updates() {
   cycle_ = 0;
   for (auto& force_N : force_N_) force_N = 0;
-  pulled_ = has_settings_ = false;
+  pulled_ = has_settings_ = centring_off_ = false;
   ff::Position position;
   const LinkFault fault =
       transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
@@ -105,17 +105,22 @@ LinkFault ForceFeedbackBoard::send(ByteView event) noexcept {
   return transport_->exchange({event}, {}, soon_ns()).fault;
 }
 
-void ForceFeedbackBoard::take_settings() noexcept {
-  if (has_settings_ || !pulled_) return;
-  has_settings_ = true;
-  if (description_.gain) send(ff::encode_gain(ff::kFullGain));
-  if (description_.autocentre) send(ff::encode_autocentre(0));
+LinkFault ForceFeedbackBoard::take_settings() noexcept {
+  if (has_settings_ || !pulled_) return LinkFault::kNone;
+  LinkFault fault = LinkFault::kNone;
+  if (description_.gain) fault = send(ff::encode_gain(ff::kFullGain));
+  if (fault == LinkFault::kNone && description_.autocentre) {
+    // Also when it fails, because it may have arrived nevertheless.
+    centring_off_ = true;
+    fault = send(ff::encode_autocentre(0));
+  }
+  has_settings_ = fault == LinkFault::kNone;
+  return fault;
 }
 
 void ForceFeedbackBoard::return_settings() noexcept {
-  if (!has_settings_) return;
-  has_settings_ = false;
-  if (!centres_at_end()) return;
+  if (!centring_off_ || !centres_at_end()) return;
+  centring_off_ = false;
   for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms) {
     if (send(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms)) != LinkFault::kNone) return;
     if (updates_ == Updates::kOwnThread) sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
@@ -152,11 +157,11 @@ int64_t ForceFeedbackBoard::now_ns() const noexcept {
 
 LinkFault ForceFeedbackBoard::read_and_set() noexcept {
   ff::Position position;
-  const LinkFault fault =
-      transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
+  LinkFault fault = transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
   if (fault != LinkFault::kNone) return fault;
   place_.see(position, now_ns());
-  take_settings();
+  fault = take_settings();
+  if (fault != LinkFault::kNone) return fault;
   for (size_t i = 0; i < effect_count_; ++i) {
     const size_t effect = (turn_ + i) % effect_count_;
     const int level = wanted_level(effect);

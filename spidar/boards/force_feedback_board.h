@@ -77,7 +77,8 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   LinkFault send(ByteView event) noexcept;
   /// Once the strings pull: sets gain to full and autocentre to off, which earlier programs or the
   /// driver may have left otherwise, and which would scale the force or add to it.
-  void take_settings() noexcept;
+  /// Until both have been accepted, no level is set.
+  LinkFault take_settings() noexcept;
   /// Turns autocentre on again, by a ramp, if the driver had turned it on.
   void return_settings() noexcept;
   int wanted_level(size_t effect) const noexcept;
@@ -107,7 +108,8 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   std::atomic<int> felt_axes_{2};  ///< 1: only x; 0: it only rumbles
   std::atomic<bool> stop_{false};
   std::atomic<bool> pulled_{false};  ///< since it was opened
-  bool has_settings_ = false;        ///< take_settings() was done
+  bool has_settings_ = false;        ///< take_settings() has succeeded
+  bool centring_off_ = false;        ///< autocentre may be off
   UpdateWatch updated_;
   std::array<std::atomic<double>, 2> force_N_{};
   StickPlace place_;

@@ -28,6 +28,19 @@ namespace {
 /// zero, the others leave it alone. Linux provides no way to read it.
 constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
 
+/// Makes a call again that a signal has interrupted.
+template <typename Call>
+auto uninterrupted(const Call& call) noexcept {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
+template <typename Argument>
+int call_ioctl(int file, unsigned long request, Argument* argument) noexcept {
+  return uninterrupted([&] { return ioctl(file, request, argument); });
+}
+
 template <size_t Bits>
 using BitSet = std::array<uint8_t, Bits / 8 + 1>;
 
@@ -40,7 +53,7 @@ bool has(const std::array<uint8_t, N>& bits, unsigned bit) noexcept {
 template <size_t Bits>
 BitSet<Bits> codes(int file, unsigned type) noexcept {
   BitSet<Bits> bits{};
-  if (ioctl(file, EVIOCGBIT(type, sizeof bits), bits.data()) < 0) bits.fill(0);
+  if (call_ioctl(file, EVIOCGBIT(type, sizeof bits), bits.data()) < 0) bits.fill(0);
   return bits;
 }
 
@@ -64,7 +77,7 @@ LinkFault fault_of(int error) noexcept {
 /// Position on an axis, −kFull … kFull; false when the device is gone.
 bool place_on(int file, int axis, int16_t& place) noexcept {
   input_absinfo info{};
-  if (ioctl(file, EVIOCGABS(static_cast<unsigned>(axis)), &info) < 0) return false;
+  if (call_ioctl(file, EVIOCGABS(static_cast<unsigned>(axis)), &info) < 0) return false;
   const double range = double{1} * info.maximum - info.minimum;
   const double share =
       range > 0 ? (double{2} * info.value - info.maximum - info.minimum) / range : 0;
@@ -112,10 +125,10 @@ void EvdevTransport::open() {
                         "driver for");
     path = devices.front().path;
   }
-  file_ = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  file_ = uninterrupted([&] { return ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); });
   if (file_ < 0) fail(path, "cannot be opened");
   int version = 0;
-  if (ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
+  if (call_ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
   if (!lock_device(file_)) fail(path, "cannot be locked");
   const std::string driver = evdev_driver(path);
   starts_centred_ =
@@ -129,7 +142,7 @@ void EvdevTransport::find_axes() noexcept {
   const auto axes = codes<ABS_CNT>(file_, EV_ABS);
   const auto keys = codes<KEY_CNT>(file_, EV_KEY);
   std::array<char, 128> name{};
-  ioctl(file_, EVIOCGNAME(name.size() - 1), name.data());
+  call_ioctl(file_, EVIOCGNAME(name.size() - 1), name.data());
   const bool is_wheel =
       has(axes, ABS_WHEEL) || has(keys, BTN_WHEEL) || strcasestr(name.data(), "wheel");
   right_axis_ = has(axes, ABS_X) ? ABS_X : has(axes, ABS_WHEEL) ? ABS_WHEEL : -1;
@@ -145,17 +158,17 @@ ff::Description EvdevTransport::describe() const noexcept {
   description.autocentre = has(bits, FF_AUTOCENTER);
   description.starts_centred = starts_centred_;
   int effects = 0;
-  ioctl(file_, EVIOCGEFFECTS, &effects);
+  call_ioctl(file_, EVIOCGEFFECTS, &effects);
   description.effects = static_cast<uint8_t>(std::clamp(effects, 0, 255));
   description.axes = static_cast<uint8_t>((right_axis_ >= 0) + (up_axis_ >= 0));
-  ioctl(file_, EVIOCGNAME(description.name.size() - 1), description.name.data());
+  call_ioctl(file_, EVIOCGNAME(description.name.size() - 1), description.name.data());
   return description;
 }
 
 bool EvdevTransport::read_position(ff::Position& position) const noexcept {
   int effects = 0;
   // A device without axes is queried as well, because the answer shows that it is still connected.
-  if (ioctl(file_, EVIOCGEFFECTS, &effects) < 0) return false;
+  if (call_ioctl(file_, EVIOCGEFFECTS, &effects) < 0) return false;
   if (right_axis_ >= 0 && !place_on(file_, right_axis_, position.right)) return false;
   if (up_axis_ >= 0 && !place_on(file_, up_axis_, position.up)) return false;
   position.up = static_cast<int16_t>(-position.up);  // y of a stick points down
@@ -176,16 +189,13 @@ LinkFault EvdevTransport::send(ByteView packet, MutableBytes reply, size_t& rece
   if (packet.size == ff::kEffectSize) {
     ff_effect effect{};
     std::memcpy(&effect, packet.data, sizeof effect);
-    int result = 0;
-    do {
-      result = ioctl(file_, EVIOCSFF, &effect);
-    } while (result < 0 && errno == EINTR);
-    if (result < 0) return fault_of(errno);
+    if (call_ioctl(file_, EVIOCSFF, &effect) < 0) return fault_of(errno);
     received = put(effect.id, reply);
     return LinkFault::kNone;
   }
-  const ssize_t written = ::write(file_, packet.data, packet.size);
-  return written == static_cast<ssize_t>(packet.size) ? LinkFault::kNone : fault_of(errno);
+  const ssize_t written = uninterrupted([&] { return ::write(file_, packet.data, packet.size); });
+  if (written < 0) return fault_of(errno);
+  return written == static_cast<ssize_t>(packet.size) ? LinkFault::kNone : LinkFault::kShort;
 }
 
 Transfer EvdevTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,

@@ -107,7 +107,7 @@ void forget(EvdevPort& port) {
   port.shortest_ns = 0;
   for (auto& axis : port.axis) axis = 0;
   port.gain = port.autocentre = 0;
-  port.upload_ms = port.upload_error = port.event_error = 0;
+  port.upload_ms = port.upload_error = port.setting_error = 0;
   port.failing = -1;
   port.signals = false;
 }
@@ -224,7 +224,8 @@ int EvdevCalls::query(unsigned long request, void* argument) {
 }
 
 int EvdevCalls::event(const ff::Event& event) {
-  if (port.event_error != 0) return -port.event_error;
+  if (port.setting_error != 0 && (event.code == FF_GAIN || event.code == FF_AUTOCENTER))
+    return -port.setting_error;
   if (event.code == FF_GAIN) {
     port.gain = event.value;
     ++port.settings;

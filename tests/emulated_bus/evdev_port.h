@@ -51,10 +51,10 @@ struct EvdevPort {
 
   /// Time that the driver takes for an upload. A smaller value ends one that is under way.
   std::atomic<int> upload_ms{0};
-  std::atomic<int> upload_error{0};  ///< errno of uploads; 0: none
-  std::atomic<int> failing{-1};      ///< uploads that fail with it; −1: all
-  std::atomic<int> event_error{0};   ///< errno of every event; 0: none
-  std::atomic<bool> signals{false};  ///< a signal interrupts every other call
+  std::atomic<int> upload_error{0};   ///< errno of uploads; 0: none
+  std::atomic<int> failing{-1};       ///< uploads that fail with it; −1: all
+  std::atomic<int> setting_error{0};  ///< errno of gain and autocentre; 0: none
+  std::atomic<bool> signals{false};   ///< a signal interrupts every other call
 
  private:
   friend struct EvdevCalls;

@@ -173,6 +173,47 @@ TEST_F(ForceFeedbackFaults, OneFailedUpdateOfASlowDriverIsNoLoss) {
   }
 }
 
+TEST_F(ForceFeedbackFaults, CallsThatASignalInterruptsAreRepeated) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  port.signals = true;
+  {
+    const FeltPlayer player;
+    EXPECT_EQ(player.session->device().description(), "Emulated Stick, force feedback on two axes");
+    player.push(1, -1);
+    wait_for([] {
+      const EvdevLevels levels = evdev_levels(0);
+      return is_level(levels.right, 1, 1) && is_level(levels.up, -1, 1);
+    });
+    EXPECT_EQ(port.gain, 0xFFFF);
+    EXPECT_EQ(port.autocentre, 0);
+    port.axis[0] = 500;
+    wait_for([&] { return player.now().last.pose.position_m.x() > 0.014; });
+    EXPECT_EQ(player.session->device().health().errors(), 0u);
+  }
+  EXPECT_EQ(port.autocentre, 0xFFFF);
+}
+
+/// Another gain would scale the force, and a centring spring would add to it.
+TEST_F(ForceFeedbackFaults, NoLevelIsSetUntilGainAndAutocentreAre) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  port.setting_error = EIO;
+  const FeltPlayer player;
+  ASSERT_TRUE(player.loop().schedule(lasting({1, 0, 0})));
+  wait_for([&] { return player.session->device().health().count(LinkFault::kBusError) > 20; });
+  EXPECT_TRUE(evdev_levels(0).at_rest());
+  port.setting_error = 0;
+  wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+  EXPECT_EQ(port.gain, 0xFFFF);
+}
+
+TEST_F(ForceFeedbackFaults, AnOpeningThatFailsChangesNoSetting) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  port.upload_error = ENOSPC;
+  EXPECT_THROW(FeltPlayer(), DeviceError);
+  EXPECT_EQ(port.settings, 0u);
+  EXPECT_EQ(port.autocentre, 0xFFFF);
+}
+
 /// The scheduling policy of a thread with this name.
 int policy_of(const std::string& name) {
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
