@@ -13,10 +13,19 @@ namespace {
 /// A hand that swings a slack string loses the pose for a moment, which is not reported.
 constexpr int64_t kPoseLost_ns = 500'000'000;
 
-/// ": unplugged", ": time-out", …: the last fault of the link; empty when there is no link.
-std::string last_fault(const HapticSession& session) {
+/// Why the device was lost, with the last fault of the link, if there is a link.
+std::string why_lost(const HapticSession& session) {
   const LinkFault fault = session.device().health().last_fault;
-  return fault == LinkFault::kNone ? "" : std::string(": ") + to_string(fault);
+  switch (fault) {
+    case LinkFault::kNone:
+      return "The haptic device does not answer.";
+    case LinkFault::kStoodStill:
+      return "The guardian has set the haptic device to rest, because the player stood still.";
+    case LinkFault::kUnguarded:
+      return "The haptic device was set to rest, because its guardian has ended.";
+    default:
+      return std::string("The haptic device does not answer: ") + to_string(fault) + ".";
+  }
 }
 
 }  // namespace
@@ -90,16 +99,20 @@ bool DeviceComplaints::look_at(const HapticSession* session, OnDeviceError polic
     look_at_pose(*session);
     look_at_haptic_trace(session);
   }
-  const DeviceState state = session ? session->loop().snapshot().last.device : DeviceState::kClosed;
+  const LoopSnapshot loop = session ? session->loop().snapshot() : LoopSnapshot{};
+  const DeviceState state = session ? loop.last.device : DeviceState::kClosed;
   const DeviceState before = state_;
+  // A device may be lost and back between two frames.
+  const bool lost_since = before != DeviceState::kClosed && loop.counters.times_lost > times_lost_;
   state_ = state;
-  if (state == before) return true;
-  if (state != DeviceState::kLost) {
+  times_lost_ = loop.counters.times_lost;
+  if (state == before && !lost_since) return true;
+  if (state != DeviceState::kLost && !lost_since) {
     if (before == DeviceState::kLost) GST_INFO_OBJECT(element_, "the device is back");
     return true;
   }
-  GST_INFO_OBJECT(element_, "the device is lost%s", last_fault(*session).c_str());
-  const std::string text = "The haptic device does not answer" + last_fault(*session) + ".";
+  const std::string text = why_lost(*session);
+  GST_INFO_OBJECT(element_, "the device is lost: %s", text.c_str());
   if (policy == OnDeviceError::kError) {
     GST_ELEMENT_ERROR(element_, RESOURCE, WRITE, ("%s", text.c_str()), ("on-device-error=error"));
     return false;

@@ -42,6 +42,7 @@ class DeviceComplaints {
   bool held_back_ = false;  // said
   bool haptic_trace_ = false;
   DeviceState state_ = DeviceState::kClosed;
+  uint64_t times_lost_ = 0;
 };
 
 }  // namespace spidar

@@ -38,6 +38,7 @@ ExchangeStatus status_of(LinkFault fault) noexcept {
       return ExchangeStatus::kTimeout;
     case LinkFault::kGone:
     case LinkFault::kUnguarded:
+    case LinkFault::kStoodStill:
       return ExchangeStatus::kLost;
     default:
       return ExchangeStatus::kBadReply;
@@ -78,7 +79,8 @@ void BoardDevice::open() {
     }
     last_ = {};
     errors_in_a_row_ = 0;
-    pulling_ = unguarded_ = false;
+    pulling_ = false;
+    unguarded_ = LinkFault::kNone;
     if (settings_.threaded) start();
   } catch (...) {
     guardians_.clear();
@@ -133,11 +135,18 @@ bool BoardDevice::guarded(bool pulling) noexcept {
   return all;
 }
 
+LinkFault BoardDevice::why_unguarded() const noexcept {
+  const bool zeroed = std::any_of(guardians_.begin(), guardians_.end(),
+                                  [](const auto& guardian) { return guardian->zeroed(); });
+  return zeroed ? LinkFault::kStoodStill : LinkFault::kUnguarded;
+}
+
 BoardDevice::Reply BoardDevice::answer(const Request& request) noexcept {
   Reply reply;
   reply.number = request.number;
+  reply.fault = unguarded_;
+  if (unguarded_ != LinkFault::kNone) return reply;
   reply.fault = LinkFault::kUnguarded;
-  if (unguarded_) return reply;
   const bool pulls = std::any_of(request.volts.volt.begin(), request.volts.volt.end(),
                                  [](double volt) { return volt != 0; });
   pulling_ |= pulls;
@@ -146,10 +155,9 @@ BoardDevice::Reply BoardDevice::answer(const Request& request) noexcept {
   // Checked again, because these volts may have gone out after a guardian sent zeros while this
   // process was stopped.
   if (guarded(pulling_)) return reply;
-  unguarded_ = true;
+  unguarded_ = reply.fault = why_unguarded();
   put_out_zero();
-  count(LinkFault::kUnguarded);
-  reply.fault = LinkFault::kUnguarded;
+  count(unguarded_);
   return reply;
 }
 
@@ -201,7 +209,7 @@ std::optional<BoardDevice::Reply> BoardDevice::ask(const Request& request) noexc
 
 bool BoardDevice::bring_to_zero() noexcept {
   // Volts that a guardian has set to zero must not be restored.
-  const MotorVolts from = unguarded_ ? MotorVolts{} : last_;
+  const MotorVolts from = unguarded_ == LinkFault::kNone ? last_ : MotorVolts{};
   double largest_V = 0;
   for (const double volt : from.volt) largest_V = std::fmax(largest_V, std::fabs(volt));
   DeviceReading reading;

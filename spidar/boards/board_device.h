@@ -69,6 +69,7 @@ class SPIDAR_API BoardDevice final : public Device {
   Reply answer(const Request& request) noexcept;
   void exchange_now(const Request& request, Reply& reply) noexcept;
   bool guarded(bool pulling) noexcept;
+  LinkFault why_unguarded() const noexcept;
   /// Both return true if the motors have received their zeros; bring_to_zero() uses a ramp.
   bool put_out_zero() noexcept;
   bool bring_to_zero() noexcept;
@@ -83,8 +84,9 @@ class SPIDAR_API BoardDevice final : public Device {
   uint32_t number_ = 0;
   // Used by the thread that exchanges.
   int errors_in_a_row_ = 0;
-  bool pulling_ = false;    // the volts of the board may differ from zero
-  bool unguarded_ = false;  // its motors are at zero until it is opened again
+  bool pulling_ = false;  // the volts of the board may differ from zero
+  // Not kNone: a guardian failed, or zeroed the motors, which stay at zero until open().
+  LinkFault unguarded_ = LinkFault::kNone;
 
   std::thread thread_;
   std::atomic<bool> stop_{false};

@@ -3,6 +3,7 @@
 #include "spidar/boards/force_feedback_board.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -26,6 +27,22 @@ MutableBytes bytes_of(Structure& structure) noexcept {
 
 int64_t soon_ns() noexcept {
   return monotonic_now_ns() + kSecond_ns / 10;
+}
+
+/// Why the driver has not accepted an effect, and what to do.
+std::string reason(const Transfer& transfer) {
+  const std::string why =
+      transfer.error != 0 ? std::strerror(transfer.error) : to_string(transfer.fault);
+  switch (transfer.error) {
+    case ENOMEM:
+    case ENOSPC:
+      return why + "; close other programs that use its force feedback";
+    case EINVAL:
+    case ENOSYS:
+      return why + "; its driver does not support this effect, a newer kernel may";
+    default:
+      return why + "; plug the device in again, and look for messages of its driver in dmesg";
+  }
 }
 
 }  // namespace
@@ -93,26 +110,26 @@ void ForceFeedbackBoard::begin_effects() {
   felt_axes_ = both ? 2 : description_.constant;
   effects_ = {};
   for (size_t i = 0; i < effect_count_; ++i) {
-    LinkFault fault = upload(i, 0);
-    if (fault == LinkFault::kNone) fault = send(ff::encode_play(effects_[i].number, true));
-    if (fault != LinkFault::kNone)
-      throw DeviceError(device + "does not take an effect: " + to_string(fault) +
-                        "; close other programs that use its force feedback");
+    Transfer transfer = upload(i, 0);
+    if (transfer.fault == LinkFault::kNone)
+      transfer = send(ff::encode_play(effects_[i].number, true));
+    if (transfer.fault != LinkFault::kNone)
+      throw DeviceError(device + "does not take an effect: " + reason(transfer));
   }
 }
 
-LinkFault ForceFeedbackBoard::send(ByteView event) noexcept {
-  return transport_->exchange({event}, {}, soon_ns()).fault;
+Transfer ForceFeedbackBoard::send(ByteView event) noexcept {
+  return transport_->exchange({event}, {}, soon_ns());
 }
 
 LinkFault ForceFeedbackBoard::take_settings() noexcept {
   if (has_settings_ || !pulled_) return LinkFault::kNone;
   LinkFault fault = LinkFault::kNone;
-  if (description_.gain) fault = send(ff::encode_gain(ff::kFullGain));
+  if (description_.gain) fault = send(ff::encode_gain(ff::kFullGain)).fault;
   if (fault == LinkFault::kNone && description_.autocentre) {
     // Also when it fails, because it may have arrived nevertheless.
     centring_off_ = true;
-    fault = send(ff::encode_autocentre(0));
+    fault = send(ff::encode_autocentre(0)).fault;
   }
   has_settings_ = fault == LinkFault::kNone;
   return fault;
@@ -122,12 +139,13 @@ void ForceFeedbackBoard::return_settings() noexcept {
   if (!centring_off_ || !centres_at_end()) return;
   centring_off_ = false;
   for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms) {
-    if (send(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms)) != LinkFault::kNone) return;
+    if (send(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms)).fault != LinkFault::kNone)
+      return;
     if (updates_ == Updates::kOwnThread) sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
   }
 }
 
-LinkFault ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
+Transfer ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
   Effect& of = effects_[effect];
   const ff::EffectBytes bytes = !description_.constant ? ff::encode_rumble(of.number, level)
                                 : effect == 0
@@ -136,7 +154,7 @@ LinkFault ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
   const Transfer transfer = transport_->exchange({bytes}, bytes_of(of.number), soon_ns());
   of.known = transfer.fault == LinkFault::kNone;
   if (of.known) of.level = level;
-  return transfer.fault;
+  return transfer;
 }
 
 int ForceFeedbackBoard::wanted_level(size_t effect) const noexcept {
@@ -167,7 +185,7 @@ LinkFault ForceFeedbackBoard::read_and_set() noexcept {
     const int level = wanted_level(effect);
     if (effects_[effect].known && effects_[effect].level == level) continue;
     turn_ = effect + 1;
-    return upload(effect, level);
+    return upload(effect, level).fault;
   }
   return LinkFault::kNone;
 }

@@ -73,8 +73,8 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   bool centres_at_end() const noexcept {
     return description_.autocentre && description_.starts_centred;
   }
-  LinkFault upload(size_t effect, int level) noexcept;
-  LinkFault send(ByteView event) noexcept;
+  Transfer upload(size_t effect, int level) noexcept;
+  Transfer send(ByteView event) noexcept;
   /// Once the strings pull: sets gain to full and autocentre to off, which earlier programs or the
   /// driver may have left otherwise, and which would scale the force or add to it.
   /// Until both have been accepted, no level is set.

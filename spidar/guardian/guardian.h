@@ -37,6 +37,9 @@ class SPIDAR_API Guardian {
   /// another guardian.
   bool watch(bool pulling) noexcept;
 
+  /// The guardian has zeroed the motors because this process did not call watch() in time.
+  bool zeroed() const noexcept { return zeroed_; }
+
   /// Makes the guardian zero the motors now, for the case that the board is released but the motors
   /// could not be zeroed.
   void carry_out() noexcept;

@@ -65,10 +65,12 @@ LinkFault fault_of(int error) noexcept {
       return LinkFault::kGone;
     case ETIMEDOUT:
       return LinkFault::kTimeout;
+    case EACCES:
     case EINVAL:
-    case ENOSYS:
+    case ENOMEM:
     case ENOSPC:
-      return LinkFault::kStall;
+    case ENOSYS:
+      return LinkFault::kRefused;
     default:
       return LinkFault::kBusError;
   }
@@ -121,8 +123,8 @@ void EvdevTransport::open() {
     const std::vector<EvdevInfo> devices = list_force_feedback();
     if (devices.empty())
       throw DeviceError(name_ +
-                        ": no device with force feedback is plugged in that the kernel has a "
-                        "driver for");
+                        ": no joystick, wheel or gamepad with force feedback is plugged in, or the "
+                        "kernel has no driver for it");
     path = devices.front().path;
   }
   file_ = uninterrupted([&] { return ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); });
@@ -203,8 +205,9 @@ Transfer EvdevTransport::exchange(std::initializer_list<ByteView> packets, Mutab
   if (file_ < 0) return {LinkFault::kGone, 0};
   size_t received = 0;
   for (const ByteView packet : packets) {
+    errno = 0;
     const LinkFault fault = send(packet, reply, received);
-    if (fault != LinkFault::kNone) return {fault, 0};
+    if (fault != LinkFault::kNone) return {fault, 0, errno};
   }
   return {received < reply.size ? LinkFault::kShort : LinkFault::kNone, received};
 }

@@ -20,9 +20,11 @@ enum class LinkFault : uint8_t {
   kWrongReply,   ///< of the right length, but not the expected answer
   kWrongEcho,    ///< the board echoes D/A values that were not sent
   kCounterJump,  ///< a counter changed by more than a hand can cause
-  kUnguarded,    ///< the guardian has ended: killed, or this process was stopped for too long
+  kUnguarded,    ///< the guardian has ended, for example because it was killed
+  kStoodStill,   ///< this process stood still, so that the guardian set the motors to zero
+  kRefused,      ///< the kernel's driver refuses what it is asked for
 };
-constexpr size_t kLinkFaults = 11;
+constexpr size_t kLinkFaults = 13;
 
 /// "none", "time-out", "stall", "short packet", …
 constexpr const char* to_string(LinkFault fault) noexcept {
@@ -49,6 +51,10 @@ constexpr const char* to_string(LinkFault fault) noexcept {
       return "counter jump";
     case LinkFault::kUnguarded:
       return "guardian ended";
+    case LinkFault::kStoodStill:
+      return "player stood still";
+    case LinkFault::kRefused:
+      return "refused by the driver";
   }
   return "unknown";
 }

@@ -18,6 +18,7 @@ namespace spidar {
 struct Transfer {
   LinkFault fault = LinkFault::kNone;
   size_t received = 0;  ///< bytes
+  int error = 0;        ///< errno of the kernel's driver; 0: not known
 };
 
 /// One connection, to be used by one thread at a time.

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Pipelines with boards on an emulated USB that are pulled out and put back while a film plays.
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 
@@ -13,6 +16,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
 #include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
 namespace {
@@ -196,6 +200,40 @@ class Launch : public ChildProcess {
                       "profile=spidar-g6x3-v2-r", "!", "fakesink", "sync=true"},
                      {"LD_PRELOAD=" EMULATED_BUS_LIBRARY}) {}
 };
+
+TEST(ForceFeedbackPipeline, SaysThatThePlayerStoodStill) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const TemporaryFolder folder;
+  const std::string log = (folder.path / "log").string();
+  ChildProcess launch({"sh", "-c",
+                       "exec gst-launch-1.0 videotestsrc pattern=ball motion=sweep ! spidarmotion "
+                       "device=ff ! fakesink sync=true >" +
+                           log + " 2>&1"},
+                      {"LD_PRELOAD=" EMULATED_BUS_LIBRARY});
+  const auto plays = [&] {
+    evdev_levels(0);  // erases the effects of a player that has closed the device
+    return std::any_of(port.effect.begin(), port.effect.end(),
+                       [](const EvdevPort::Effect& effect) { return effect.plays.load(); });
+  };
+  std::string text;
+  // Again if the device was back before a frame was due, which a busy machine can delay.
+  while (text.find("WARNING") == std::string::npos) {
+    wait_for([&] { return !evdev_levels(0).at_rest() || !launch.lives(); });
+    ASSERT_TRUE(launch.lives());
+    launch.send(SIGSTOP);
+    wait_for([&] { return !plays(); });  // stopped by the guardian
+    launch.send(SIGCONT);
+    wait_for([&] { return plays() || !launch.lives(); });
+    std::ifstream file(log);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  launch.end(SIGINT);
+  EXPECT_NE(text.find("The guardian has set the haptic device to rest, because the player stood "
+                      "still. The video continues without it."),
+            std::string::npos)
+      << text;
+  clear_bus();
+}
 
 TEST_P(UsbPipeline, GstLaunchRestsTheMotorsHoweverItEnds) {
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {

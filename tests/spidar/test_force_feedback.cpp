@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -304,12 +305,16 @@ TEST_F(ForceFeedback, IsTakenBackWhereverItIsPluggedIn) {
 TEST_F(ForceFeedback, ADriverThatFailsIsNamed) {
   plug_evdev(0, EvdevKind::kStick);
   const FeltPlayer player;
-  bus().evdev[0].upload_error = EIO;
-  ASSERT_TRUE(player.loop().schedule(lasting({1, 0, 0})));
-  wait_for([&] { return player.now().last.device == DeviceState::kLost; });
-  EXPECT_EQ(player.session->device().health().last_fault, LinkFault::kBusError);
-  bus().evdev[0].upload_error = 0;
-  wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+  for (const auto& [error, fault, force_N] :
+       {std::tuple{EIO, LinkFault::kBusError, 1.0}, {ENOSPC, LinkFault::kRefused, -1.0}}) {
+    bus().evdev[0].upload_error = error;
+    player.loop().cancel_scheduled();
+    ASSERT_TRUE(player.loop().schedule(lasting({force_N, 0, 0})));
+    wait_for([&] { return player.now().last.device == DeviceState::kLost; });
+    EXPECT_EQ(player.session->device().health().last_fault, fault);
+    bus().evdev[0].upload_error = 0;
+    wait_for([force_N = force_N] { return is_level(evdev_levels(0).right, force_N, 1); });
+  }
 }
 
 TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
@@ -317,18 +322,25 @@ TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
     const std::string said = opening(spec);
     EXPECT_NE(said.find(what), std::string::npos) << said;
   };
-  says("ff", "no device with force feedback is plugged in");
+  says("ff", "no joystick, wheel or gamepad with force feedback is plugged in");
   says("ff:/dev/input/event7", "spidarctl list names");
   const TemporaryFolder folder;
   const std::string file = (folder.path / "file").string();
   fclose(fopen(file.c_str(), "w"));
   says("ff:" + file, "it is no input device");
   plug_evdev(0, EvdevKind::kKeyboard);
-  says("ff", "no device with force feedback is plugged in");
+  says("ff", "the kernel has no driver for it");
   says("ff:/dev/input/event0", "\"Emulated Keyboard\" has no force feedback");
   EvdevPort& port = plug_evdev(1, EvdevKind::kStick);
   port.upload_error = ENOSPC;
-  says("ff", "\"Emulated Stick\" does not take an effect: stall; close other programs");
+  says("ff",
+       "\"Emulated Stick\" does not take an effect: No space left on device; close other programs");
+  port.upload_error = EINVAL;
+  says("ff", "does not take an effect: Invalid argument; its driver does not support this effect");
+  port.upload_error = ENOSYS;
+  says("ff", "Function not implemented; its driver does not support this effect");
+  port.upload_error = EIO;
+  says("ff", "does not take an effect: Input/output error; plug the device in again");
   port.upload_error = 0;
   EXPECT_EQ(opening("ff"), "");
   const FeltPlayer first;
