@@ -10,14 +10,15 @@
 #include <fcntl.h>
 #include <linux/input.h>
 #include <string_view>
-#include <sys/ioctl.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
 
 #include "spidar/device.h"
 #include "spidar/transports/device_lock.h"
+#include "spidar/transports/evdev_calls.h"
 #include "spidar/transports/evdev_list.h"
+#include "spidar/transports/wheel.h"
 
 namespace spidar {
 namespace {
@@ -27,35 +28,6 @@ namespace {
 /// drivers/hid/usbhid/hid-pidff.c, unchanged up to Linux 6.15). hid-lg4ff and iforce set it to
 /// zero, the others leave it alone. Linux provides no way to read it.
 constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
-
-/// Makes a call again that a signal has interrupted.
-template <typename Call>
-auto uninterrupted(const Call& call) noexcept {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
-
-template <typename Argument>
-int call_ioctl(int file, unsigned long request, Argument* argument) noexcept {
-  return uninterrupted([&] { return ioctl(file, request, argument); });
-}
-
-template <size_t Bits>
-using BitSet = std::array<uint8_t, Bits / 8 + 1>;
-
-template <size_t N>
-bool has(const std::array<uint8_t, N>& bits, unsigned bit) noexcept {
-  return bits[bit / 8] >> bit % 8 & 1;
-}
-
-/// Codes of an event type that the device supports; none when it does not tell.
-template <size_t Bits>
-BitSet<Bits> codes(int file, unsigned type) noexcept {
-  BitSet<Bits> bits{};
-  if (call_ioctl(file, EVIOCGBIT(type, sizeof bits), bits.data()) < 0) bits.fill(0);
-  return bits;
-}
 
 LinkFault fault_of(int error) noexcept {
   switch (error) {
@@ -96,8 +68,8 @@ size_t put(const Structure& structure, MutableBytes reply) noexcept {
 
 }  // namespace
 
-EvdevTransport::EvdevTransport(std::string name, std::string path)
-    : name_(std::move(name)), path_(std::move(path)) {}
+EvdevTransport::EvdevTransport(std::string name, std::string path, int axes)
+    : name_(std::move(name)), path_(std::move(path)), axes_(axes) {}
 
 EvdevTransport::~EvdevTransport() {
   close();
@@ -135,20 +107,18 @@ void EvdevTransport::open() {
   const std::string driver = evdev_driver(path);
   starts_centred_ =
       std::find(kCentringDrivers.begin(), kCentringDrivers.end(), driver) != kCentringDrivers.end();
-  find_axes();
+  find_axes(path);
 }
 
-/// The other axes of a wheel are its pedals. Drivers identify a wheel by an axis or a button that
-/// only wheels have, or only by its name.
-void EvdevTransport::find_axes() noexcept {
-  const auto axes = codes<ABS_CNT>(file_, EV_ABS);
-  const auto keys = codes<KEY_CNT>(file_, EV_KEY);
-  std::array<char, 128> name{};
-  call_ioctl(file_, EVIOCGNAME(name.size() - 1), name.data());
-  const bool is_wheel =
-      has(axes, ABS_WHEEL) || has(keys, BTN_WHEEL) || strcasestr(name.data(), "wheel");
-  right_axis_ = has(axes, ABS_X) ? ABS_X : has(axes, ABS_WHEEL) ? ABS_WHEEL : -1;
-  up_axis_ = has(axes, ABS_Y) && !is_wheel ? ABS_Y : -1;
+void EvdevTransport::find_axes(const std::string& path) {
+  const EvdevTraits traits = evdev_traits(file_);
+  right_axis_ = has(traits.axes, ABS_X) ? ABS_X : has(traits.axes, ABS_WHEEL) ? ABS_WHEEL : -1;
+  const bool two = axes_ == 0 ? !is_wheel(traits) : axes_ == 2;
+  up_axis_ = has(traits.axes, ABS_Y) && two ? ABS_Y : -1;
+  if (axes_ != 2 || (right_axis_ >= 0 && up_axis_ >= 0)) return;
+  close();
+  throw DeviceError(name_ + ": \"" + traits.name.data() +
+                    "\" does not have two axes (ABS_X and ABS_Y); write ff:" + path + ",axes=1");
 }
 
 ff::Description EvdevTransport::describe() const noexcept {

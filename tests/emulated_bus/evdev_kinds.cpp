@@ -12,7 +12,7 @@ namespace spidar::test {
 
 bool is_constant(EvdevKind kind) {
   return kind == EvdevKind::kStick || kind == EvdevKind::kWheel || kind == EvdevKind::kWheelBase ||
-         kind == EvdevKind::kPedalBase;
+         kind == EvdevKind::kPedalBase || kind == EvdevKind::kOneAxis;
 }
 
 std::vector<unsigned> ff_bits(EvdevKind kind) {
@@ -22,6 +22,7 @@ std::vector<unsigned> ff_bits(EvdevKind kind) {
     case EvdevKind::kWheel:
     case EvdevKind::kWheelBase:
     case EvdevKind::kPedalBase:
+    case EvdevKind::kOneAxis:
       return {FF_CONSTANT, FF_AUTOCENTER};
     case EvdevKind::kPad:
       return {FF_RUMBLE};
@@ -33,6 +34,7 @@ std::vector<unsigned> ff_bits(EvdevKind kind) {
 std::vector<unsigned> abs_bits(EvdevKind kind) {
   if (kind == EvdevKind::kWheel) return {ABS_X, ABS_Y};  // the second is a pedal
   if (kind == EvdevKind::kKeyboard) return {};
+  if (kind == EvdevKind::kOneAxis) return {ABS_X};
   if (kind == EvdevKind::kPedalBase) return {ABS_X, ABS_Y, ABS_Z, ABS_RZ};
   if (kind == EvdevKind::kStick) return {ABS_X, ABS_Y, ABS_RZ, ABS_THROTTLE};  // it can be twisted
   return {ABS_X, ABS_Y};
@@ -50,6 +52,8 @@ const char* name_of(EvdevKind kind) {
       return "MOZA R5 Base";
     case EvdevKind::kPedalBase:
       return "Emulated Base";
+    case EvdevKind::kOneAxis:
+      return "Emulated Dial";
     default:
       return "Emulated Keyboard";
   }

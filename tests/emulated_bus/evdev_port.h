@@ -22,6 +22,7 @@ enum class EvdevKind : int {
   /// in the direction 0x4000.
   kWheelBase,
   kPedalBase,  ///< a wheel that only its pedals give away
+  kOneAxis,    ///< FF_CONSTANT, and only ABS_X
 };
 
 /// An input device, as /dev/input/eventN with its number. Any process may change any member at any

@@ -89,31 +89,6 @@ TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
   }
 }
 
-TEST_F(ForceFeedback, WheelsGetTheSidewaysForce) {
-  plug_evdev(0, EvdevKind::kWheel).axis[1] = 1000;  // a pedal
-  const FeltPlayer player;
-  EXPECT_EQ(player.session->device().description(),
-            "Emulated Racing Wheel, force feedback on one axis: forces up and down are not felt");
-  player.push(-1, 1);
-  wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
-  EXPECT_EQ(evdev_levels(0).up, 0);
-  EXPECT_TRUE(player.session->device().felt_parts().x);
-  EXPECT_FALSE(player.session->device().felt_parts().y);
-  EXPECT_TRUE(player.session->device().felt_parts().direction);
-  EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
-  EXPECT_EQ(bus().evdev[0].plays, 1u);
-}
-
-/// hid-pidff plays every effect of such a wheel to the left if its level is positive.
-TEST_F(ForceFeedback, RightIsRightOnWheelsThatIgnoreTheDirection) {
-  plug_evdev(0, EvdevKind::kWheelBase);
-  const FeltPlayer player;
-  for (const double x_N : {1.5, -0.7}) {
-    player.push(x_N, 0);
-    wait_for([x = x_N] { return is_level(evdev_levels(0).right, x, std::abs(x)); });
-  }
-}
-
 TEST_F(ForceFeedback, PadsGetTheStrengthOfTheForce) {
   plug_evdev(0, EvdevKind::kPad);
   const FeltPlayer player;
