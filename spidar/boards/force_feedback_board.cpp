@@ -25,6 +25,14 @@ MutableBytes bytes_of(Structure& structure) noexcept {
   return {reinterpret_cast<uint8_t*>(&structure), sizeof structure};
 }
 
+std::array<uint8_t, sizeof(LastWill::InputEvent)> in_will(const ff::EventBytes& bytes) noexcept {
+  const std::optional<ff::Event> event = ff::decode_event(bytes);
+  const LastWill::InputEvent kept{event->code, event->value};
+  std::array<uint8_t, sizeof kept> packet{};
+  std::memcpy(packet.data(), &kept, sizeof kept);
+  return packet;
+}
+
 int64_t soon_ns() noexcept {
   return monotonic_now_ns() + kSecond_ns / 10;
 }
@@ -262,10 +270,11 @@ void ForceFeedbackBoard::close() noexcept {
 }
 
 std::vector<LastWill> ForceFeedbackBoard::last_wills() const {
-  const ff::EventBytes first = ff::encode_play(effects_[0].number, false);
-  const ff::EventBytes last = ff::encode_play(effects_[effect_count_ - 1].number, false);
+  const auto first = in_will(ff::encode_play(effects_[0].number, false));
+  const auto last = in_will(ff::encode_play(effects_[effect_count_ - 1].number, false));
+  const auto centre = in_will(ff::encode_autocentre(ff::kFullGain));
   if (!centres_at_end()) return wills(*transport_, {first, last});
-  return wills(*transport_, {first, last, ff::encode_autocentre(ff::kFullGain)}, 1);
+  return wills(*transport_, {first, last, centre}, 1);
 }
 
 FeltParts ForceFeedbackBoard::felt_parts() const noexcept {

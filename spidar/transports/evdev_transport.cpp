@@ -184,7 +184,7 @@ Transfer EvdevTransport::exchange(std::initializer_list<ByteView> packets, Mutab
 
 std::optional<LastWill> EvdevTransport::last_will() const {
   LastWill will;
-  will.wire = LastWill::Wire::kTerminal;
+  will.wire = LastWill::Wire::kInput;
   will.file = file_;
   return will;
 }

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <pthread.h>
+#include <linux/input.h>
+#include <memory>
 #include <sched.h>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -18,6 +21,7 @@
 #include "spidar/boards/update_watch.h"
 #include "spidar/loop/grip_watch.h"
 #include "spidar/realtime/thread_setup.h"
+#include "spidar/transports/evdev_transport.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/board_bench.h"
 #include "tests/support/felt_player.h"
@@ -212,6 +216,33 @@ TEST_F(ForceFeedbackFaults, AnOpeningThatFailsChangesNoSetting) {
   EXPECT_THROW(FeltPlayer(), DeviceError);
   EXPECT_EQ(port.settings, 0u);
   EXPECT_EQ(port.autocentre, 0xFFFF);
+}
+
+/// A host and its guardian may be a 32-bit and a 64-bit program, which have different input events.
+TEST_F(ForceFeedbackFaults, ItsWillIsTheSameForPrograms32And64BitsWide) {
+  plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  ForceFeedbackBoard board("ff", load_profile(kDefaultProfile),
+                           std::make_unique<EvdevTransport>("ff", ""),
+                           ForceFeedbackBoard::Updates::kInCycle);
+  board.open();
+  const std::vector<LastWill> wills = board.last_wills();
+  ASSERT_EQ(wills.size(), 1u);
+  const LastWill& will = wills[0];
+  EXPECT_EQ(will.wire, LastWill::Wire::kInput);
+  ASSERT_EQ(will.packets, 3u);
+  EXPECT_EQ(will.parting, 1u);
+  struct Case {
+    uint32_t code;
+    int32_t value;
+  };
+  const Case expected[] = {{0, 0}, {1, 0}, {FF_AUTOCENTER, 0xFFFF}};
+  for (size_t i = 0; i < 3; ++i) {
+    LastWill::InputEvent event;
+    ASSERT_EQ(will.length[i], 8u);
+    std::memcpy(&event, will.packet[i].data(), sizeof event);
+    EXPECT_EQ(event.code, expected[i].code);
+    EXPECT_EQ(event.value, expected[i].value);
+  }
 }
 
 /// The scheduling policy of a thread with this name.
