@@ -39,6 +39,10 @@ class SPIDAR_API Board {
   /// zero_counts().
   virtual bool counts_restarted() const noexcept { return false; }
 
+  /// The guardian has failed or has zeroed the motors, and close() follows, most likely with
+  /// another open(): the board is not to be left as other programs expect it.
+  virtual void expect_reopening() noexcept {}
+
   /// Releases the board; its motors keep their last value.
   virtual void close() noexcept = 0;
 

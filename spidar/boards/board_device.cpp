@@ -243,6 +243,7 @@ void BoardDevice::close() noexcept {
   open_ = false;
   stop();
   const bool zero = bring_to_zero();
+  if (unguarded_ != LinkFault::kNone) board_->expect_reopening();
   board_->close();
   // The guardians keep trying for a while, and stop at once when the board is gone.
   if (!zero)

@@ -89,7 +89,8 @@ void ForceFeedbackBoard::open() {
 void ForceFeedbackBoard::start_updates() {
   cycle_ = 0;
   for (auto& force_N : force_N_) force_N = 0;
-  pulled_ = has_settings_ = centring_off_ = false;
+  pulled_ = false;
+  has_settings_ = centring_off_ = reopening_ = false;
   ff::Position position;
   const LinkFault fault =
       transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
@@ -264,7 +265,7 @@ void ForceFeedbackBoard::close() noexcept {
     if (effects_[i].level != 0 || !effects_[i].known) upload(i, 0);
     send(ff::encode_play(effects_[i].number, false));
   }
-  return_settings();
+  if (!reopening_) return_settings();
   effect_count_ = 0;
   transport_->close();
 }

@@ -54,6 +54,8 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   void recover() noexcept override {}
   /// Does nothing: the position has its own zero.
   void zero_counts() noexcept override {}
+  /// The centring spring stays off in the next close(), for a hand that still holds the stick.
+  void expect_reopening() noexcept override { reopening_ = true; }
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   /// Includes one sentence on what the device lacks.
@@ -110,6 +112,7 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   std::atomic<bool> pulled_{false};  ///< since it was opened
   bool has_settings_ = false;        ///< take_settings() has succeeded
   bool centring_off_ = false;        ///< autocentre may be off
+  bool reopening_ = false;
   UpdateWatch updated_;
   std::array<std::atomic<double>, 2> force_N_{};
   StickPlace place_;

@@ -107,6 +107,22 @@ TEST_F(DeviceTest, ALossIsAWarningAndTheVideoContinues) {
   tick(2);
   EXPECT_EQ(push_next(), GST_FLOW_OK);
   EXPECT_EQ(h->warnings().size(), 2u) << "lost a second time";
+
+  const auto reopen = [&] {
+    device().set_fault(ExchangeStatus::kOk);
+    EXPECT_TRUE(loop().reopen());
+    tick(300);
+  };
+  reopen();
+  EXPECT_EQ(push_next(), GST_FLOW_OK);
+  EXPECT_EQ(h->warnings().size(), 2u);
+  device().set_fault(ExchangeStatus::kLost);
+  tick(2);
+  reopen();
+  EXPECT_EQ(push_next(), GST_FLOW_OK);
+  EXPECT_EQ(h->warnings().size(), 3u) << "lost and back between two frames";
+  EXPECT_EQ(push_next(), GST_FLOW_OK);
+  EXPECT_EQ(h->warnings().size(), 3u);
 }
 
 TEST_F(DeviceTest, ALossIsAnErrorIfRequested) {

@@ -119,6 +119,43 @@ TEST_F(DeviceProvider, ListsBoardsAndTheSimulatedOne) {
   forget(found);
 }
 
+TEST_F(DeviceProvider, ListsForceFeedbackDevices) {
+  plug_evdev(0, EvdevKind::kKeyboard);
+  plug_evdev(1, EvdevKind::kPad);
+  plug_evdev(2, EvdevKind::kStick);
+  Devices found = devices();
+  EXPECT_EQ(found.size(), 3u);
+  ASSERT_EQ(found.count("ff:/dev/input/event1"), 1u);
+  ASSERT_EQ(found.count("ff:/dev/input/event2"), 1u);
+  GstDevice* stick = found["ff:/dev/input/event2"];
+  EXPECT_EQ(text_in(stick, "board"), "Emulated Stick");
+  EXPECT_EQ(text_in(stick, "evidence"), "emulated");
+  EXPECT_EQ(text_in(stick, "bus-path"), "/dev/input/event2");
+  EXPECT_EQ(text_in(stick, "usb-id"), "1209:0001");
+  EXPECT_EQ(text_in(found["ff:/dev/input/event1"], "note"),
+            "rumble only: strength without direction");
+  EXPECT_TRUE(gst_device_has_classes(stick, "Haptic/SPIDAR"));
+  GstElement* element = gst_device_create_element(stick, nullptr);
+  ASSERT_NE(element, nullptr);
+  gst_object_ref_sink(element);
+  EXPECT_EQ(property_of(element, "device"), "ff:/dev/input/event2");
+  EXPECT_NO_THROW(
+      make_device("ff:/dev/input/event2", load_profile(property_of(element, "profile"))));
+  gst_object_unref(element);
+  for (const EvdevPort& port : bus().evdev) EXPECT_EQ(port.uploads, 0u);
+  forget(found);
+
+  ASSERT_TRUE(gst_device_monitor_start(monitor_));
+  EXPECT_EQ(next_change(), "+ff:/dev/input/event2");
+  EXPECT_EQ(next_change(), "+ff:/dev/input/event1");
+  EXPECT_EQ(next_change(), "+sim");
+  plug_evdev(3, EvdevKind::kWheel);
+  EXPECT_EQ(next_change(), "+ff:/dev/input/event3");
+  unplug_evdev(2);
+  EXPECT_EQ(next_change(), "-ff:/dev/input/event2");
+  gst_device_monitor_stop(monitor_);
+}
+
 TEST_F(DeviceProvider, MakesAnElementThatOpensTheDevice) {
   plug(0, UsbKind::kSh4);
   Devices found = devices();

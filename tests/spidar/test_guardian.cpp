@@ -162,9 +162,11 @@ void joysticks_go_to_zero(const char* driver, int after) {
       // The guardian repeats its packets, so it would have sent one for the spring.
       std::this_thread::sleep_for(std::chrono::milliseconds(3 * kSilence_ms));
       EXPECT_EQ(port.autocentre, 0);
+      const uint64_t settings = port.settings;
       victim.send(SIGCONT);
       wait_for([&] { return !evdev_levels(0).at_rest() || !victim.lives(); });
       ASSERT_TRUE(victim.lives());
+      EXPECT_EQ(port.settings, settings + 2) << "gain and autocentre of the second opening";
       victim.end(SIGKILL);
     } else {
       victim.end(signal);
