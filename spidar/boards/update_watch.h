@@ -35,27 +35,31 @@ class UpdateWatch {
   }
 
   void finish(LinkFault fault, int64_t now_ns) noexcept {
-    updates_.fault = fault;
-    ++updates_.number;
-    updates_.failures = fault == LinkFault::kNone ? 0 : updates_.failures + 1;
     updates_.finished_ns = now_ns;
+    ++updates_.in_a_row;
+    if (fault == LinkFault::kNone) {
+      updates_.in_a_row = 0;
+    } else {
+      updates_.fault = fault;
+      ++updates_.failed;
+    }
     newest_.store(updates_);
   }
 
   /// For one exchange.
   LinkFault report(int64_t now_ns) noexcept {
     newest_.try_load(last_);  // keeps the previous one while a new one is being written
-    const bool is_new = last_.number != reported_;
-    reported_ = last_.number;
+    const bool is_new = last_.failed != reported_;
+    reported_ = last_.failed;
     if (now_ns - last_.finished_ns > kPatience_ns) return LinkFault::kTimeout;
-    return is_new || last_.failures >= kFailures ? last_.fault : LinkFault::kNone;
+    return is_new || last_.in_a_row >= kFailures ? last_.fault : LinkFault::kNone;
   }
 
  private:
   struct Updates {
-    LinkFault fault = LinkFault::kNone;  ///< of the last one
-    uint32_t number = 0;
-    uint32_t failures = 0;  ///< in a row
+    LinkFault fault = LinkFault::kNone;  ///< of the last one that failed
+    uint32_t failed = 0;
+    uint32_t in_a_row = 0;  ///< failed since the last one that succeeded
     int64_t finished_ns = 0;
   };
 

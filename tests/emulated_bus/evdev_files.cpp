@@ -140,6 +140,16 @@ EvdevPort* port_of(int file, bool& is_evdev) {
   return nullptr;
 }
 
+/// Like the kernel when the last process closes the device.
+void erase_if_abandoned(EvdevPort& port) {
+  const auto number = static_cast<size_t>(&port - bus().evdev.data());
+  const int file = real_open(device_file(number).c_str(), O_RDWR | O_CLOEXEC, 0);
+  const bool abandoned = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
+  if (abandoned)
+    for (EvdevPort::Effect& effect : port.effect) erase(effect);
+  if (file >= 0) syscall(SYS_close, file);
+}
+
 }  // namespace
 
 int EvdevCalls::upload(ff_effect& wanted) {
@@ -191,6 +201,7 @@ int EvdevCalls::query(unsigned long request, void* argument) {
   const unsigned number = _IOC_NR(request);
   const size_t size = _IOC_SIZE(request);
   if (request == EVIOCGVERSION) {
+    erase_if_abandoned(port);  // the first call of a program, before it locks the device
     *static_cast<int*>(argument) = EV_VERSION;
     return 0;
   }
@@ -325,11 +336,7 @@ void unplug_evdev(size_t number) {
 
 EvdevLevels evdev_levels(size_t number) {
   EvdevPort& port = bus().evdev[number];
-  const int file = real_open(device_file(number).c_str(), O_RDWR | O_CLOEXEC, 0);
-  const bool abandoned = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
-  if (abandoned)
-    for (EvdevPort::Effect& effect : port.effect) erase(effect);
-  if (file >= 0) syscall(SYS_close, file);
+  erase_if_abandoned(port);
   EvdevLevels levels;
   for (const EvdevPort::Effect& effect : port.effect) {
     if (!effect.plays) continue;
