@@ -45,6 +45,23 @@ std::unique_ptr<Board> make_uart(const std::string& spec, const std::string& pat
   return std::make_unique<UartBoard>(spec, profile, std::move(lines));
 }
 
+/// `rest` is empty, PATH, or PATH,axes=N.
+std::unique_ptr<Board> make_force_feedback(const std::string& spec, const std::string& rest,
+                                           const Profile& profile) {
+  const size_t comma = rest.find(',');
+  const std::string path = rest.substr(0, comma);
+  const std::string option = comma == std::string::npos ? "" : rest.substr(comma + 1);
+  const int axes = option == "axes=1" ? 1 : option == "axes=2" ? 2 : 0;
+  if (comma != std::string::npos && path.empty())
+    throw DeviceError(spec + ": the path is empty; write ff:/dev/input/eventN," + option);
+  if (comma != std::string::npos && axes == 0)
+    throw DeviceError(spec + ": \"" + option + "\" is not known; write ff:" + path +
+                      ",axes=1 for a wheel or ff:" + path + ",axes=2 for a joystick");
+  return std::make_unique<ForceFeedbackBoard>(spec, profile,
+                                              std::make_unique<EvdevTransport>(spec, path, axes),
+                                              ForceFeedbackBoard::Updates::kOwnThread);
+}
+
 BoardSettings resolved(BoardSettings settings, const Profile& profile) {
   if (settings.count_zero != CountZero::kByProfile) return settings;
   const bool calibrated =
@@ -68,15 +85,13 @@ std::unique_ptr<Device> make_device(const std::string& spec, const Profile& prof
     board = std::make_unique<UsbBoard>(UsbFamily::kCyverse, spec, rest, profile);
   if (kind == "mouse" && named)
     board = std::make_unique<UsbBoard>(UsbFamily::kMouse, spec, rest, profile);
-  if (kind == "ff" && named)
-    board = std::make_unique<ForceFeedbackBoard>(spec, profile,
-                                                 std::make_unique<EvdevTransport>(spec, rest),
-                                                 ForceFeedbackBoard::Updates::kOwnThread);
+  if (kind == "ff" && named) board = make_force_feedback(spec, rest, profile);
   if (kind == "uart" && !rest.empty()) board = make_uart(spec, rest, profile);
   if (!board)
     throw DeviceError(
         "unknown device \"" + spec +
-        "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse, ff, ff:PATH");
+        "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse, ff, ff:PATH, "
+        "ff:PATH,axes=N");
   return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
 }
 

@@ -144,6 +144,11 @@ std::string default_profile(const std::string& device) {
 }
 
 BoardInfo board_info(const std::string& device) {
+  if (const size_t comma = device.find(','); begins(device, "ff:") && comma != std::string::npos) {
+    BoardInfo board = board_info(device.substr(0, comma));
+    board.device = device;
+    return board;
+  }
   const std::vector<BoardInfo> boards = list_boards();
   const size_t colon = device.find(':');
   const std::string kind = device.substr(0, colon);

@@ -15,7 +15,6 @@ namespace spidar {
 namespace {
 
 constexpr int64_t kUpdate_ns = ForceFeedbackBoard::kUpdate_ms * kSecond_ns / 1000;
-constexpr std::array<ff::Direction, 2> kDirections{ff::Direction::kRight, ff::Direction::kUp};
 /// Full deflection of the stick, as a share of the distance from the centre to the strings' exits.
 constexpr double kReach = 0.5;
 /// The centring spring of a stick returns within this time, because a jump could hurt a hand.
@@ -24,6 +23,14 @@ constexpr int kCentring_ms = 100;
 template <typename Structure>
 MutableBytes bytes_of(Structure& structure) noexcept {
   return {reinterpret_cast<uint8_t*>(&structure), sizeof structure};
+}
+
+std::array<uint8_t, sizeof(LastWill::InputEvent)> in_will(const ff::EventBytes& bytes) noexcept {
+  const std::optional<ff::Event> event = ff::decode_event(bytes);
+  const LastWill::InputEvent kept{event->code, event->value};
+  std::array<uint8_t, sizeof kept> packet{};
+  std::memcpy(packet.data(), &kept, sizeof kept);
+  return packet;
 }
 
 int64_t soon_ns() noexcept {
@@ -71,19 +78,32 @@ void ForceFeedbackBoard::open() {
         *transport_);
     if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
     begin_effects();
+    start_updates();
   } catch (...) {
+    effect_count_ = 0;
     transport_->close();
     throw;
   }
+}
+
+void ForceFeedbackBoard::start_updates() {
   cycle_ = 0;
-  fault_ = LinkFault::kNone;
   for (auto& force_N : force_N_) force_N = 0;
-  for (auto& place : place_) place = 0;
   pulled_ = false;
-  has_settings_ = reopening_ = false;
+  has_settings_ = centring_off_ = reopening_ = false;
+  ff::Position position;
+  const LinkFault fault =
+      transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
+  if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+  place_.start(position, now_ns());
+  updated_.start(now_ns());
   if (updates_ == Updates::kInCycle) return;
   stop_ = false;
-  thread_ = start_thread("spidar-ff", [this] { run(); });
+  thread_ = start_thread("spidar-ff", [this] {
+    request_exact_timers();
+    request_real_time();
+    run();
+  });
 }
 
 void ForceFeedbackBoard::begin_effects() {
@@ -111,17 +131,22 @@ Transfer ForceFeedbackBoard::send(ByteView event) noexcept {
   return transport_->exchange({event}, {}, soon_ns());
 }
 
-void ForceFeedbackBoard::take_settings() noexcept {
-  if (has_settings_ || !pulled_) return;
-  has_settings_ = true;
-  if (description_.gain) send(ff::encode_gain(ff::kFullGain));
-  if (description_.autocentre) send(ff::encode_autocentre(0));
+LinkFault ForceFeedbackBoard::take_settings() noexcept {
+  if (has_settings_ || !pulled_) return LinkFault::kNone;
+  LinkFault fault = LinkFault::kNone;
+  if (description_.gain) fault = send(ff::encode_gain(ff::kFullGain)).fault;
+  if (fault == LinkFault::kNone && description_.autocentre) {
+    // Also when it fails, because it may have arrived nevertheless.
+    centring_off_ = true;
+    fault = send(ff::encode_autocentre(0)).fault;
+  }
+  has_settings_ = fault == LinkFault::kNone;
+  return fault;
 }
 
 void ForceFeedbackBoard::return_settings() noexcept {
-  if (!has_settings_) return;
-  has_settings_ = false;
-  if (!centres_at_end()) return;
+  if (!centring_off_ || !centres_at_end()) return;
+  centring_off_ = false;
   for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms) {
     if (send(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms)).fault != LinkFault::kNone)
       return;
@@ -131,9 +156,10 @@ void ForceFeedbackBoard::return_settings() noexcept {
 
 Transfer ForceFeedbackBoard::upload(size_t effect, int level) noexcept {
   Effect& of = effects_[effect];
-  const ff::EffectBytes bytes = description_.constant
-                                    ? ff::encode_constant(of.number, kDirections[effect], level)
-                                    : ff::encode_rumble(of.number, level);
+  const ff::EffectBytes bytes = !description_.constant ? ff::encode_rumble(of.number, level)
+                                : effect == 0
+                                    ? ff::encode_constant(of.number, ff::Direction::kLeft, -level)
+                                    : ff::encode_constant(of.number, ff::Direction::kUp, level);
   const Transfer transfer = transport_->exchange({bytes}, bytes_of(of.number), soon_ns());
   of.known = transfer.fault == LinkFault::kNone;
   if (of.known) of.level = level;
@@ -152,29 +178,36 @@ int ForceFeedbackBoard::wanted_level(size_t effect) const noexcept {
   return static_cast<int>(std::lround(ff::kFullLevel * share));
 }
 
-LinkFault ForceFeedbackBoard::update() noexcept {
+int64_t ForceFeedbackBoard::now_ns() const noexcept {
+  return updates_ == Updates::kInCycle ? cycle_ * kSecond_ns / 1000 : monotonic_now_ns();
+}
+
+LinkFault ForceFeedbackBoard::read_and_set() noexcept {
   ff::Position position;
   LinkFault fault = transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
-  if (fault == LinkFault::kNone) {
-    place_[0] = position.right;
-    place_[1] = position.up;
-    take_settings();
-    for (size_t i = 0; i < effect_count_; ++i) {
-      const size_t effect = (turn_ + i) % effect_count_;
-      const int level = wanted_level(effect);
-      if (effects_[effect].known && effects_[effect].level == level) continue;
-      fault = upload(effect, level).fault;
-      turn_ = effect + 1;
-      break;
-    }
+  if (fault != LinkFault::kNone) return fault;
+  place_.see(position, now_ns());
+  fault = take_settings();
+  if (fault != LinkFault::kNone) return fault;
+  for (size_t i = 0; i < effect_count_; ++i) {
+    const size_t effect = (turn_ + i) % effect_count_;
+    const int level = wanted_level(effect);
+    if (effects_[effect].known && effects_[effect].level == level) continue;
+    turn_ = effect + 1;
+    return upload(effect, level).fault;
   }
+  return LinkFault::kNone;
+}
+
+void ForceFeedbackBoard::update() noexcept {
+  const LinkFault fault = read_and_set();
   if (fault != LinkFault::kNone && fault != LinkFault::kGone) transport_->recover();
-  return fault;
+  updated_.finish(fault, now_ns());
 }
 
 void ForceFeedbackBoard::run() noexcept {
   while (!stop_) {
-    fault_ = update();
+    update();
     // Counted from the end of the update, so that a slow driver is not called more often.
     sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
   }
@@ -182,9 +215,7 @@ void ForceFeedbackBoard::run() noexcept {
 
 Pose ForceFeedbackBoard::stick_pose() const noexcept {
   Pose pose;
-  for (int axis = 0; axis < 2; ++axis)
-    pose.position_m[axis] =
-        reach_m_[axis] * place_[static_cast<size_t>(axis)] / ff::Position::kFull;
+  pose.position_m.head<2>() = reach_m_.cwiseProduct(place_.share());
   return pose;
 }
 
@@ -213,10 +244,11 @@ LinkFault ForceFeedbackBoard::cycle(const MotorVolts& volts, DeviceReading& read
   force_N_[1] = force_N.y();
   if (std::any_of(volts.volt.begin(), volts.volt.end(), [](double volt) { return volt != 0; }))
     pulled_ = true;
-  LinkFault fault = fault_;
-  if (updates_ == Updates::kInCycle)
-    fault = cycle_++ % kUpdate_ms == 0 ? update() : LinkFault::kNone;
+  if (updates_ == Updates::kInCycle && cycle_++ % kUpdate_ms == 0) update();
+  const int64_t now = now_ns();
+  const LinkFault fault = updated_.report(now);
   if (fault != LinkFault::kNone) return fault;
+  place_.advance(now);
   encoders_.to_counts(string_lengths_m(profile_.geometry, stick_pose()), reading.count);
   reading.inputs = 0;
   reading.encoders = false;
@@ -239,10 +271,11 @@ void ForceFeedbackBoard::close() noexcept {
 }
 
 std::vector<LastWill> ForceFeedbackBoard::last_wills() const {
-  const ff::EventBytes first = ff::encode_play(effects_[0].number, false);
-  const ff::EventBytes last = ff::encode_play(effects_[effect_count_ - 1].number, false);
+  const auto first = in_will(ff::encode_play(effects_[0].number, false));
+  const auto last = in_will(ff::encode_play(effects_[effect_count_ - 1].number, false));
+  const auto centre = in_will(ff::encode_autocentre(ff::kFullGain));
   if (!centres_at_end()) return wills(*transport_, {first, last});
-  return wills(*transport_, {first, last, ff::encode_autocentre(ff::kFullGain)}, 1);
+  return wills(*transport_, {first, last, centre}, 1);
 }
 
 FeltParts ForceFeedbackBoard::felt_parts() const noexcept {

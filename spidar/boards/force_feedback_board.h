@@ -13,6 +13,8 @@
 
 #include "core/api.h"
 #include "spidar/boards/board.h"
+#include "spidar/boards/stick_place.h"
+#include "spidar/boards/update_watch.h"
 #include "spidar/profiles/encoder_scale.h"
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/transports/transport.h"
@@ -27,7 +29,9 @@ namespace spidar {
 ///
 /// Drivers may need a long time for an update, or lose updates that come too fast. One effect for
 /// each axis therefore plays all the time. Its level is set at most every kUpdate_ms, for one
-/// effect at a time, and only if it has changed.
+/// effect at a time, and only if it has changed. A call of a driver that hangs cannot be ended:
+/// the kernel lets no other call to the device pass until it returns, not even the guardian's.
+/// cycle() then reports a time-out, see UpdateWatch.
 ///
 /// A device that is only opened and read keeps its gain and its autocentre.
 class SPIDAR_API ForceFeedbackBoard final : public Board {
@@ -67,6 +71,7 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   };
 
   void begin_effects();
+  void start_updates();
   bool centres_at_end() const noexcept {
     return description_.autocentre && description_.starts_centred;
   }
@@ -74,12 +79,16 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   Transfer send(ByteView event) noexcept;
   /// Once the strings pull: sets gain to full and autocentre to off, which earlier programs or the
   /// driver may have left otherwise, and which would scale the force or add to it.
-  void take_settings() noexcept;
+  /// Until both have been accepted, no level is set.
+  LinkFault take_settings() noexcept;
   /// Turns autocentre on again, by a ramp, if the driver had turned it on.
   void return_settings() noexcept;
   int wanted_level(size_t effect) const noexcept;
-  /// Reads the position, sets one level.
-  LinkFault update() noexcept;
+  /// Reads the position, sets one level, and notes how it ended.
+  void update() noexcept;
+  LinkFault read_and_set() noexcept;
+  /// Of cycles in emulations, which need not take a millisecond.
+  int64_t now_ns() const noexcept;
   void run() noexcept;
   Pose stick_pose() const noexcept;
   Eigen::Vector2d force_at(const Pose& pose, const MotorVolts& volts) const noexcept;
@@ -96,16 +105,17 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
   std::array<Effect, 2> effects_{};  ///< right and up; a rumble effect uses the first
   size_t effect_count_ = 0;
   size_t turn_ = 0;  ///< the effect that is checked first
-  int cycle_ = 0;
+  int64_t cycle_ = 0;
   std::thread thread_;
   std::atomic<int> felt_axes_{2};  ///< 1: only x; 0: it only rumbles
   std::atomic<bool> stop_{false};
   std::atomic<bool> pulled_{false};  ///< since it was opened
-  bool has_settings_ = false;        ///< take_settings() was done
+  bool has_settings_ = false;        ///< take_settings() has succeeded
+  bool centring_off_ = false;        ///< autocentre may be off
   bool reopening_ = false;
-  std::atomic<LinkFault> fault_{LinkFault::kNone};  ///< of the newest update
+  UpdateWatch updated_;
   std::array<std::atomic<double>, 2> force_N_{};
-  std::array<std::atomic<int>, 2> place_{};  ///< of the stick, of ff::Position::kFull
+  StickPlace place_;
 };
 
 }  // namespace spidar

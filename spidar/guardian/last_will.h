@@ -15,11 +15,19 @@ namespace spidar {
 struct LastWill {
   enum class Wire : uint32_t {
     kUsb,       ///< usbfs: bulk or interrupt packets to one endpoint
-    kTerminal,  ///< a file to which packets are written: a tty, or an input device
+    kTerminal,  ///< a tty, to which packets are written
+    kInput,     ///< an input device: each packet is an InputEvent
+  };
+  /// An event of the type EV_FF. The guardian makes the kernel's structure of it, which has another
+  /// size in a 32-bit program than in a 64-bit one, while a host and its guardian may differ in
+  /// that (Multi-Arch).
+  struct InputEvent {
+    uint32_t code = 0;
+    int32_t value = 0;
   };
   static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
   static constexpr size_t kMaxLength = 512;
-  static constexpr uint32_t kMagic = 0x53504733;  // "SPG3": this layout
+  static constexpr uint32_t kMagic = 0x53504734;  // "SPG4": this layout
 
   uint32_t magic = kMagic;
   Wire wire = Wire::kUsb;
@@ -36,6 +44,8 @@ struct LastWill {
   /// descriptor is different in each process.
   int file = -1;
 };
+static_assert(sizeof(LastWill) == 7 * 4 + LastWill::kMaxPackets * (4 + LastWill::kMaxLength),
+              "the layout must be the same in 32-bit and 64-bit programs");
 
 /// A host whose motors pull sends a message at least every kBeat_ms. If none arrives for
 /// kSilence_ms, the guardian assumes that the host is stopped, by a signal, a debugger, or a fault

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <linux/input.h>
 #include <linux/usbdevice_fs.h>
 #include <poll.h>
 #include <sched.h>
@@ -59,25 +60,53 @@ bool send_usb(LastWill& will, uint32_t packets) {
 }
 
 /// Like send_usb(). The file is non-blocking.
-bool send_terminal(const LastWill& will, uint32_t packets) {
-  for (uint32_t i = 0; i < packets; ++i) {
-    for (size_t sent = 0; sent < will.length[i];) {
-      const ssize_t more = write(will.file, will.packet[i].data() + sent, will.length[i] - sent);
-      if (more < 0 && errno != EAGAIN && errno != EINTR)
-        return errno == EIO || errno == ENXIO || errno == ENODEV;
-      if (more > 0) sent += static_cast<size_t>(more);
-      pollfd room{will.file, POLLOUT, 0};
-      if (more <= 0 && poll(&room, 1, kTransfer_ms) == 0) return false;
-    }
+bool write_all(int file, const uint8_t* bytes, size_t length) {
+  for (size_t sent = 0; sent < length;) {
+    const ssize_t more = write(file, bytes + sent, length - sent);
+    if (more < 0 && errno != EAGAIN && errno != EINTR)
+      return errno == EIO || errno == ENXIO || errno == ENODEV;
+    if (more > 0) sent += static_cast<size_t>(more);
+    pollfd room{file, POLLOUT, 0};
+    if (more <= 0 && poll(&room, 1, kTransfer_ms) == 0) return false;
   }
   return true;
+}
+
+bool send_terminal(const LastWill& will, uint32_t packets) {
+  for (uint32_t i = 0; i < packets; ++i)
+    if (!write_all(will.file, will.packet[i].data(), will.length[i])) return false;
+  return true;
+}
+
+bool send_input(const LastWill& will, uint32_t packets) {
+  for (uint32_t i = 0; i < packets; ++i) {
+    LastWill::InputEvent wanted;
+    std::memcpy(&wanted, will.packet[i].data(), sizeof wanted);
+    input_event event{};
+    event.type = EV_FF;
+    event.code = static_cast<uint16_t>(wanted.code);
+    event.value = wanted.value;
+    if (!write_all(will.file, reinterpret_cast<const uint8_t*>(&event), sizeof event)) return false;
+  }
+  return true;
+}
+
+bool send_packets(LastWill& will, uint32_t packets) {
+  switch (will.wire) {
+    case LastWill::Wire::kUsb:
+      return send_usb(will, packets);
+    case LastWill::Wire::kTerminal:
+      return send_terminal(will, packets);
+    case LastWill::Wire::kInput:
+      return send_input(will, packets);
+  }
+  return true;  // receive() has refused others
 }
 
 /// Sends the first packets of the will.
 bool carry_out(LastWill& will, uint32_t packets) {
   for (int i = 0; i < kTries; ++i) {
-    if (will.wire == LastWill::Wire::kUsb ? send_usb(will, packets) : send_terminal(will, packets))
-      return true;
+    if (send_packets(will, packets)) return true;
     pause_10ms();
   }
   return false;
@@ -102,7 +131,7 @@ bool receive(LastWill& will, int& host) {
   will.file = files[0];
   host = files[1];
   if (will.magic != LastWill::kMagic || will.packets > LastWill::kMaxPackets ||
-      will.parting > will.packets)
+      will.parting > will.packets || will.wire > LastWill::Wire::kInput)
     return false;
   for (uint32_t i = 0; i < will.packets; ++i)
     if (will.length[i] > LastWill::kMaxLength) return false;

@@ -25,7 +25,14 @@ constexpr int kFullGain = 0xFFFF;
 /// Number in a new effect; the answer contains the number that the device has given it.
 constexpr int16_t kNewEffect = -1;
 
-enum class Direction : uint16_t { kRight = 0xC000, kUp = 0x8000 };
+/// Directions as the kernel counts them (Documentation/input/ff.rst): 0 is down, then clockwise. A
+/// force to the right is a negative level to the left, not 0xC000: hid-pidff plays every effect of
+/// a wheel base with HID_PIDFF_QUIRK_FIX_WHEEL_DIRECTION to the left, 0x4000, whatever its
+/// direction is, and many wheels do not have the field at all, so that forces to the right would be
+/// reversed. Where the direction is used, both are the same force, because drivers multiply its
+/// sine by the level (ml_combine_effects() in drivers/input/ff-memless.c). SDL, and so most games,
+/// uses 0x4000 for steering wheels, too (SDL_SYS_ToDirection() in SDL_syshaptic.c).
+enum class Direction : uint16_t { kLeft = 0x4000, kUp = 0x8000 };
 
 /// Capabilities of the device: the answer to encode_describe(). Plain bytes.
 struct Description {

@@ -10,14 +10,15 @@
 #include <fcntl.h>
 #include <linux/input.h>
 #include <string_view>
-#include <sys/ioctl.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
 
 #include "spidar/device.h"
 #include "spidar/transports/device_lock.h"
+#include "spidar/transports/evdev_calls.h"
 #include "spidar/transports/evdev_list.h"
+#include "spidar/transports/wheel.h"
 
 namespace spidar {
 namespace {
@@ -27,22 +28,6 @@ namespace {
 /// drivers/hid/usbhid/hid-pidff.c, unchanged up to Linux 6.15). hid-lg4ff and iforce set it to
 /// zero, the others leave it alone. Linux provides no way to read it.
 constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
-
-template <size_t Bits>
-using BitSet = std::array<uint8_t, Bits / 8 + 1>;
-
-template <size_t N>
-bool has(const std::array<uint8_t, N>& bits, unsigned bit) noexcept {
-  return bits[bit / 8] >> bit % 8 & 1;
-}
-
-/// Codes of an event type that the device supports; none when it does not tell.
-template <size_t Bits>
-BitSet<Bits> codes(int file, unsigned type) noexcept {
-  BitSet<Bits> bits{};
-  if (ioctl(file, EVIOCGBIT(type, sizeof bits), bits.data()) < 0) bits.fill(0);
-  return bits;
-}
 
 LinkFault fault_of(int error) noexcept {
   switch (error) {
@@ -66,7 +51,7 @@ LinkFault fault_of(int error) noexcept {
 /// Position on an axis, −kFull … kFull; false when the device is gone.
 bool place_on(int file, int axis, int16_t& place) noexcept {
   input_absinfo info{};
-  if (ioctl(file, EVIOCGABS(static_cast<unsigned>(axis)), &info) < 0) return false;
+  if (call_ioctl(file, EVIOCGABS(static_cast<unsigned>(axis)), &info) < 0) return false;
   const double range = double{1} * info.maximum - info.minimum;
   const double share =
       range > 0 ? (double{2} * info.value - info.maximum - info.minimum) / range : 0;
@@ -83,8 +68,8 @@ size_t put(const Structure& structure, MutableBytes reply) noexcept {
 
 }  // namespace
 
-EvdevTransport::EvdevTransport(std::string name, std::string path)
-    : name_(std::move(name)), path_(std::move(path)) {}
+EvdevTransport::EvdevTransport(std::string name, std::string path, int axes)
+    : name_(std::move(name)), path_(std::move(path)), axes_(axes) {}
 
 EvdevTransport::~EvdevTransport() {
   close();
@@ -114,28 +99,26 @@ void EvdevTransport::open() {
                         "kernel has no driver for it");
     path = devices.front().path;
   }
-  file_ = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  file_ = uninterrupted([&] { return ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); });
   if (file_ < 0) fail(path, "cannot be opened");
   int version = 0;
-  if (ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
+  if (call_ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
   if (!lock_device(file_)) fail(path, "cannot be locked");
   const std::string driver = evdev_driver(path);
   starts_centred_ =
       std::find(kCentringDrivers.begin(), kCentringDrivers.end(), driver) != kCentringDrivers.end();
-  find_axes();
+  find_axes(path);
 }
 
-/// The other axes of a wheel are its pedals. Drivers identify a wheel by an axis or a button that
-/// only wheels have, or only by its name.
-void EvdevTransport::find_axes() noexcept {
-  const auto axes = codes<ABS_CNT>(file_, EV_ABS);
-  const auto keys = codes<KEY_CNT>(file_, EV_KEY);
-  std::array<char, 128> name{};
-  ioctl(file_, EVIOCGNAME(name.size() - 1), name.data());
-  const bool is_wheel =
-      has(axes, ABS_WHEEL) || has(keys, BTN_WHEEL) || strcasestr(name.data(), "wheel");
-  right_axis_ = has(axes, ABS_X) ? ABS_X : has(axes, ABS_WHEEL) ? ABS_WHEEL : -1;
-  up_axis_ = has(axes, ABS_Y) && !is_wheel ? ABS_Y : -1;
+void EvdevTransport::find_axes(const std::string& path) {
+  const EvdevTraits traits = evdev_traits(file_);
+  right_axis_ = has(traits.axes, ABS_X) ? ABS_X : has(traits.axes, ABS_WHEEL) ? ABS_WHEEL : -1;
+  const bool two = axes_ == 0 ? !is_wheel(traits) : axes_ == 2;
+  up_axis_ = has(traits.axes, ABS_Y) && two ? ABS_Y : -1;
+  if (axes_ != 2 || (right_axis_ >= 0 && up_axis_ >= 0)) return;
+  close();
+  throw DeviceError(name_ + ": \"" + traits.name.data() +
+                    "\" does not have two axes (ABS_X and ABS_Y); write ff:" + path + ",axes=1");
 }
 
 ff::Description EvdevTransport::describe() const noexcept {
@@ -147,17 +130,17 @@ ff::Description EvdevTransport::describe() const noexcept {
   description.autocentre = has(bits, FF_AUTOCENTER);
   description.starts_centred = starts_centred_;
   int effects = 0;
-  ioctl(file_, EVIOCGEFFECTS, &effects);
+  call_ioctl(file_, EVIOCGEFFECTS, &effects);
   description.effects = static_cast<uint8_t>(std::clamp(effects, 0, 255));
   description.axes = static_cast<uint8_t>((right_axis_ >= 0) + (up_axis_ >= 0));
-  ioctl(file_, EVIOCGNAME(description.name.size() - 1), description.name.data());
+  call_ioctl(file_, EVIOCGNAME(description.name.size() - 1), description.name.data());
   return description;
 }
 
 bool EvdevTransport::read_position(ff::Position& position) const noexcept {
   int effects = 0;
   // A device without axes is queried as well, because the answer shows that it is still connected.
-  if (ioctl(file_, EVIOCGEFFECTS, &effects) < 0) return false;
+  if (call_ioctl(file_, EVIOCGEFFECTS, &effects) < 0) return false;
   if (right_axis_ >= 0 && !place_on(file_, right_axis_, position.right)) return false;
   if (up_axis_ >= 0 && !place_on(file_, up_axis_, position.up)) return false;
   position.up = static_cast<int16_t>(-position.up);  // y of a stick points down
@@ -178,16 +161,13 @@ LinkFault EvdevTransport::send(ByteView packet, MutableBytes reply, size_t& rece
   if (packet.size == ff::kEffectSize) {
     ff_effect effect{};
     std::memcpy(&effect, packet.data, sizeof effect);
-    int result = 0;
-    do {
-      result = ioctl(file_, EVIOCSFF, &effect);
-    } while (result < 0 && errno == EINTR);
-    if (result < 0) return fault_of(errno);
+    if (call_ioctl(file_, EVIOCSFF, &effect) < 0) return fault_of(errno);
     received = put(effect.id, reply);
     return LinkFault::kNone;
   }
-  const ssize_t written = ::write(file_, packet.data, packet.size);
-  return written == static_cast<ssize_t>(packet.size) ? LinkFault::kNone : fault_of(errno);
+  const ssize_t written = uninterrupted([&] { return ::write(file_, packet.data, packet.size); });
+  if (written < 0) return fault_of(errno);
+  return written == static_cast<ssize_t>(packet.size) ? LinkFault::kNone : LinkFault::kShort;
 }
 
 Transfer EvdevTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
@@ -204,7 +184,7 @@ Transfer EvdevTransport::exchange(std::initializer_list<ByteView> packets, Mutab
 
 std::optional<LastWill> EvdevTransport::last_will() const {
   LastWill will;
-  will.wire = LastWill::Wire::kTerminal;
+  will.wire = LastWill::Wire::kInput;
   will.file = file_;
   return will;
 }

@@ -17,8 +17,9 @@ namespace spidar {
 class SPIDAR_API EvdevTransport final : public Transport {
  public:
   /// `name` is for messages. An empty `path` means the first device of list_force_feedback(),
-  /// determined in every open().
-  EvdevTransport(std::string name, std::string path);
+  /// determined in every open(). `axes` is 1 for a wheel, 2 for a joystick, and 0 if is_wheel() is
+  /// to tell.
+  EvdevTransport(std::string name, std::string path, int axes = 0);
   ~EvdevTransport() override;
 
   void open() override;
@@ -31,13 +32,14 @@ class SPIDAR_API EvdevTransport final : public Transport {
 
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& what);
-  void find_axes() noexcept;
+  void find_axes(const std::string& path);
   LinkFault send(ByteView packet, MutableBytes reply, size_t& received) noexcept;
   ff::Description describe() const noexcept;
   bool read_position(ff::Position& position) const noexcept;
 
   const std::string name_;
   const std::string path_;
+  const int axes_;
   int file_ = -1;
   bool starts_centred_ = false;
   int right_axis_ = -1;  ///< ABS_…; −1: none

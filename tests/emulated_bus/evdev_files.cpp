@@ -39,6 +39,8 @@ struct EvdevCalls {
   int erase(size_t number);
   int query(unsigned long request, void* argument);
   int event(const ff::Event& event);
+  /// Whether a signal interrupts this call.
+  bool is_interrupted() { return port.signals && !port.interrupted.exchange(!port.interrupted); }
 };
 
 namespace {
@@ -88,6 +90,12 @@ void put_file(const std::string& path, const std::string& text) {
   syscall(SYS_close, file);
 }
 
+std::string hex(uint16_t id) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "%04x\n", static_cast<unsigned>(id));
+  return text.data();
+}
+
 void erase(EvdevPort::Effect& effect) {
   effect.plays = effect.used = false;
   effect.right = effect.up = effect.rumble = 0;
@@ -99,7 +107,9 @@ void forget(EvdevPort& port) {
   port.shortest_ns = 0;
   for (auto& axis : port.axis) axis = 0;
   port.gain = port.autocentre = 0;
-  port.upload_ms = port.upload_error = 0;
+  port.upload_ms = port.upload_error = port.setting_error = 0;
+  port.failing = -1;
+  port.signals = false;
 }
 
 void unplug_from(BusState& state, size_t number) {
@@ -130,14 +140,28 @@ EvdevPort* port_of(int file, bool& is_evdev) {
   return nullptr;
 }
 
+/// Like the kernel when the last process closes the device.
+void erase_if_abandoned(EvdevPort& port) {
+  const auto number = static_cast<size_t>(&port - bus().evdev.data());
+  const int file = real_open(device_file(number).c_str(), O_RDWR | O_CLOEXEC, 0);
+  const bool abandoned = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
+  if (abandoned)
+    for (EvdevPort::Effect& effect : port.effect) erase(effect);
+  if (file >= 0) syscall(SYS_close, file);
+}
+
 }  // namespace
 
 int EvdevCalls::upload(ff_effect& wanted) {
   const int64_t now_ns = monotonic_now_ns();
   const int64_t passed_ns = now_ns - port.last_upload_ns.exchange(now_ns);
   if (port.shortest_ns == 0 || passed_ns < port.shortest_ns) port.shortest_ns = passed_ns;
-  if (port.upload_ms > 0) sleep_until_ns(now_ns + port.upload_ms * kSecond_ns / 1000);
-  if (port.upload_error != 0) return -port.upload_error;
+  while (monotonic_now_ns() < now_ns + port.upload_ms * kSecond_ns / 1000)
+    sleep_until_ns(monotonic_now_ns() + kSecond_ns / 1000);
+  if (port.upload_error != 0 && port.failing != 0) {
+    if (port.failing > 0) --port.failing;
+    return -port.upload_error;
+  }
   const bool fits = is_constant(port.kind) ? wanted.type == FF_CONSTANT : wanted.type == FF_RUMBLE;
   if (!fits) return -EINVAL;
   auto at = static_cast<size_t>(wanted.id);
@@ -148,6 +172,8 @@ int EvdevCalls::upload(ff_effect& wanted) {
   }
   if (at >= port.effect.size() || (wanted.id != -1 && !port.effect[at].used)) return -EINVAL;
   wanted.id = static_cast<int16_t>(at);
+  if (port.kind == EvdevKind::kWheelBase)
+    wanted.direction = static_cast<uint16_t>(ff::Direction::kLeft);
   const auto effect = ff::decode_effect({reinterpret_cast<const uint8_t*>(&wanted), sizeof wanted});
   EvdevPort::Effect& kept = port.effect[at];
   const auto rounded = [](double share, int full) {
@@ -175,11 +201,17 @@ int EvdevCalls::query(unsigned long request, void* argument) {
   const unsigned number = _IOC_NR(request);
   const size_t size = _IOC_SIZE(request);
   if (request == EVIOCGVERSION) {
+    erase_if_abandoned(port);  // the first call of a program, before it locks the device
     *static_cast<int*>(argument) = EV_VERSION;
     return 0;
   }
   if (request == EVIOCGEFFECTS) {
     *static_cast<int*>(argument) = static_cast<int>(port.effect.size());
+    return 0;
+  }
+  if (request == EVIOCGID) {
+    const UsbId id = usb_id_of(port.kind);
+    *static_cast<input_id*>(argument) = {BUS_USB, id.vendor, id.product, 1};
     return 0;
   }
   if (number == _IOC_NR(EVIOCGNAME(0))) {
@@ -203,6 +235,8 @@ int EvdevCalls::query(unsigned long request, void* argument) {
 }
 
 int EvdevCalls::event(const ff::Event& event) {
+  if (port.setting_error != 0 && (event.code == FF_GAIN || event.code == FF_AUTOCENTER))
+    return -port.setting_error;
   if (event.code == FF_GAIN) {
     port.gain = event.value;
     ++port.settings;
@@ -234,7 +268,8 @@ bool evdev_ioctl(int file, unsigned long request, void* argument, int& result) {
   result = -ENODEV;
   if (port) {
     EvdevCalls calls{*port};
-    result = request == EVIOCSFF    ? calls.upload(*static_cast<ff_effect*>(argument))
+    result = calls.is_interrupted() ? -EINTR
+             : request == EVIOCSFF  ? calls.upload(*static_cast<ff_effect*>(argument))
              : request == EVIOCRMFF ? calls.erase(reinterpret_cast<size_t>(argument))
                                     : calls.query(request, argument);
   }
@@ -250,13 +285,15 @@ bool evdev_write(int file, const void* bytes, size_t length, long& result) {
   bool is_evdev = false;
   EvdevPort* port = port_of(file, is_evdev);
   if (!is_evdev) return false;
-  result = static_cast<long>(length);
+  int error = -ENODEV;
   if (port) {
-    EvdevCalls{*port}.event(*event);
-  } else {
-    errno = ENODEV;
-    result = -1;
+    EvdevCalls calls{*port};
+    error = calls.is_interrupted() ? -EINTR : calls.event(*event);
   }
+  result = static_cast<long>(length);
+  if (error >= 0) return true;
+  errno = -error;
+  result = -1;
   return true;
 }
 
@@ -278,8 +315,9 @@ EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const
   put_file(sysfs + "/capabilities/ff", sysfs_bits(ff_bits(kind)));
   put_file(sysfs + "/name", std::string(name_of(kind)) + "\n");
   put_file(sysfs + "/uniq", "\n");
-  put_file(sysfs + "/id/vendor", "1209\n");
-  put_file(sysfs + "/id/product", "000" + std::to_string(static_cast<int>(kind)) + "\n");
+  const UsbId id = usb_id_of(kind);
+  put_file(sysfs + "/id/vendor", hex(id.vendor));
+  put_file(sysfs + "/id/product", hex(id.product));
   put_file(device_file(number), "");
   struct stat status {};
   if (stat(device_file(number).c_str(), &status) != 0) std::abort();
@@ -298,11 +336,7 @@ void unplug_evdev(size_t number) {
 
 EvdevLevels evdev_levels(size_t number) {
   EvdevPort& port = bus().evdev[number];
-  const int file = real_open(device_file(number).c_str(), O_RDWR | O_CLOEXEC, 0);
-  const bool abandoned = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
-  if (abandoned)
-    for (EvdevPort::Effect& effect : port.effect) erase(effect);
-  if (file >= 0) syscall(SYS_close, file);
+  erase_if_abandoned(port);
   EvdevLevels levels;
   for (const EvdevPort::Effect& effect : port.effect) {
     if (!effect.plays) continue;

@@ -11,7 +11,8 @@
 namespace spidar::test {
 
 bool is_constant(EvdevKind kind) {
-  return kind == EvdevKind::kStick || kind == EvdevKind::kWheel;
+  return kind == EvdevKind::kStick || kind == EvdevKind::kWheel || kind == EvdevKind::kWheelBase ||
+         kind == EvdevKind::kPedalBase || kind == EvdevKind::kOneAxis;
 }
 
 std::vector<unsigned> ff_bits(EvdevKind kind) {
@@ -19,6 +20,9 @@ std::vector<unsigned> ff_bits(EvdevKind kind) {
     case EvdevKind::kStick:
       return {FF_CONSTANT, FF_RUMBLE, FF_GAIN, FF_AUTOCENTER};
     case EvdevKind::kWheel:
+    case EvdevKind::kWheelBase:
+    case EvdevKind::kPedalBase:
+    case EvdevKind::kOneAxis:
       return {FF_CONSTANT, FF_AUTOCENTER};
     case EvdevKind::kPad:
       return {FF_RUMBLE};
@@ -30,6 +34,9 @@ std::vector<unsigned> ff_bits(EvdevKind kind) {
 std::vector<unsigned> abs_bits(EvdevKind kind) {
   if (kind == EvdevKind::kWheel) return {ABS_X, ABS_Y};  // the second is a pedal
   if (kind == EvdevKind::kKeyboard) return {};
+  if (kind == EvdevKind::kOneAxis) return {ABS_X};
+  if (kind == EvdevKind::kPedalBase) return {ABS_X, ABS_Y, ABS_Z, ABS_RZ};
+  if (kind == EvdevKind::kStick) return {ABS_X, ABS_Y, ABS_RZ, ABS_THROTTLE};  // it can be twisted
   return {ABS_X, ABS_Y};
 }
 
@@ -41,9 +48,20 @@ const char* name_of(EvdevKind kind) {
       return "Emulated Racing Wheel";
     case EvdevKind::kPad:
       return "Emulated Pad";
+    case EvdevKind::kWheelBase:
+      return "MOZA R5 Base";
+    case EvdevKind::kPedalBase:
+      return "Emulated Base";
+    case EvdevKind::kOneAxis:
+      return "Emulated Dial";
     default:
       return "Emulated Keyboard";
   }
+}
+
+UsbId usb_id_of(EvdevKind kind) {
+  if (kind == EvdevKind::kWheelBase) return {0x346e, 0x0004};
+  return {0x1209, static_cast<uint16_t>(kind)};
 }
 
 const char* driver_of(EvdevKind kind) {
@@ -54,6 +72,8 @@ const char* driver_of(EvdevKind kind) {
       return "logitech";
     case EvdevKind::kPad:
       return "xpad";
+    case EvdevKind::kWheelBase:
+      return "hid-universal-pidff";
     default:
       return "hid-generic";
   }

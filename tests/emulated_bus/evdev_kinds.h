@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ std::vector<unsigned> ff_bits(EvdevKind kind);
 std::vector<unsigned> abs_bits(EvdevKind kind);
 
 const char* name_of(EvdevKind kind);
+
+struct UsbId {
+  uint16_t vendor = 0;
+  uint16_t product = 0;
+};
+UsbId usb_id_of(EvdevKind kind);
 
 /// Kernel driver that such a device usually has.
 const char* driver_of(EvdevKind kind);

@@ -18,6 +18,11 @@ enum class EvdevKind : int {
   kWheel,     ///< one axis, FF_CONSTANT, autocentre
   kPad,       ///< two axes, FF_RUMBLE only
   kKeyboard,  ///< neither
+  /// A wheel base that only its USB ID gives away. Like hid-pidff for these, it plays every effect
+  /// in the direction 0x4000.
+  kWheelBase,
+  kPedalBase,  ///< a wheel that only its pedals give away
+  kOneAxis,    ///< FF_CONSTANT, and only ABS_X
 };
 
 /// An input device, as /dev/input/eventN with its number. Any process may change any member at any
@@ -45,12 +50,17 @@ struct EvdevPort {
   std::atomic<uint64_t> plays{0};
   std::atomic<int64_t> shortest_ns{0};  ///< least time between two uploads since it was set to 0
 
-  std::atomic<int> upload_ms{0};     ///< time that the driver takes for an upload
-  std::atomic<int> upload_error{0};  ///< errno of every upload; 0: none
+  /// Time that the driver takes for an upload. A smaller value ends one that is under way.
+  std::atomic<int> upload_ms{0};
+  std::atomic<int> upload_error{0};   ///< errno of uploads; 0: none
+  std::atomic<int> failing{-1};       ///< uploads that fail with it; −1: all
+  std::atomic<int> setting_error{0};  ///< errno of gain and autocentre; 0: none
+  std::atomic<bool> signals{false};   ///< a signal interrupts every other call
 
  private:
   friend struct EvdevCalls;
   std::atomic<int64_t> last_upload_ns{0};
+  std::atomic<bool> interrupted{false};  ///< the last call was
 };
 
 constexpr size_t kEvdevPorts = 4;

@@ -40,7 +40,7 @@ int rounded(double share, int full) {
 
 }  // namespace
 
-UinputDevice::UinputDevice(UinputKind kind, const std::string& name) {
+UinputDevice::UinputDevice(UinputKind kind, const std::string& name) : kind_(kind) {
   file_ = open("/dev/uinput", O_RDWR | O_NONBLOCK | O_CLOEXEC);
   check(file_, "/dev/uinput");
   for (const int type : {EV_ABS, EV_KEY, EV_FF}) check(ioctl(file_, UI_SET_EVBIT, type), "type");
@@ -105,6 +105,9 @@ void UinputDevice::take_upload(uint32_t request) {
   uinput_ff_upload upload{};
   upload.request_id = request;
   if (ioctl(file_, UI_BEGIN_FF_UPLOAD, &upload) < 0) return;
+  // Like hid-pidff for wheel bases with HID_PIDFF_QUIRK_FIX_WHEEL_DIRECTION.
+  if (kind_ == UinputKind::kWheel)
+    upload.effect.direction = static_cast<uint16_t>(ff::Direction::kLeft);
   if (upload_ms > 0) usleep(static_cast<unsigned>(1000 * upload_ms));
   const auto effect =
       ff::decode_effect({reinterpret_cast<const uint8_t*>(&upload.effect), sizeof upload.effect});

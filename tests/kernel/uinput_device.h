@@ -54,6 +54,7 @@ class UinputDevice {
   void take_erase(uint32_t request);
   int sum(std::atomic<int> Effect::*part) const;
 
+  const UinputKind kind_;
   int file_ = -1;
   std::array<Effect, 16> effect_;
   std::atomic<bool> stop_{false};

@@ -89,21 +89,6 @@ TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
   }
 }
 
-TEST_F(ForceFeedback, WheelsGetTheSidewaysForce) {
-  plug_evdev(0, EvdevKind::kWheel).axis[1] = 1000;  // a pedal
-  const FeltPlayer player;
-  EXPECT_EQ(player.session->device().description(),
-            "Emulated Racing Wheel, force feedback on one axis: forces up and down are not felt");
-  player.push(-1, 1);
-  wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
-  EXPECT_EQ(evdev_levels(0).up, 0);
-  EXPECT_TRUE(player.session->device().felt_parts().x);
-  EXPECT_FALSE(player.session->device().felt_parts().y);
-  EXPECT_TRUE(player.session->device().felt_parts().direction);
-  EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
-  EXPECT_EQ(bus().evdev[0].plays, 1u);
-}
-
 TEST_F(ForceFeedback, PadsGetTheStrengthOfTheForce) {
   plug_evdev(0, EvdevKind::kPad);
   const FeltPlayer player;

@@ -206,11 +206,11 @@ TEST(UartMotor, ReplyHasPositionsThenVelocities) {
 
 TEST(ForceFeedbackPackets, AreTheKernelsStructures) {
   // struct ff_effect: type, id, direction, trigger, replay, then what is of the type from 16 on.
-  std::vector<uint8_t> right = {0x52, 0, 0x03, 0, 0x00, 0xC0};
+  std::vector<uint8_t> right = {0x52, 0, 0x03, 0, 0x00, 0x40};
   right = padded(right, 48);
   right[16] = 0xFE;  // −2
   right[17] = 0xFF;
-  EXPECT_EQ(bytes_of(ff::encode_constant(3, ff::Direction::kRight, -2)), right);
+  EXPECT_EQ(bytes_of(ff::encode_constant(3, ff::Direction::kLeft, -2)), right);
   std::vector<uint8_t> rumble = padded({0x50, 0, 0xFF, 0xFF}, 48);
   rumble[16] = 0x34;
   rumble[17] = 0x12;
@@ -249,7 +249,7 @@ TEST(ForceFeedbackPackets, DirectionsAreThoseOfTheKernel) {
 
 TEST(ForceFeedbackPackets, LevelsAreClamped) {
   const auto level = [](int wanted) {
-    return ff::decode_effect(ff::encode_constant(0, ff::Direction::kRight, wanted))->right;
+    return ff::decode_effect(ff::encode_constant(0, ff::Direction::kUp, wanted))->up;
   };
   EXPECT_NEAR(level(100'000), 1, 1e-9);
   EXPECT_NEAR(level(-100'000), -1, 1e-9);

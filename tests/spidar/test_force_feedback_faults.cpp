@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Drivers of force-feedback devices that are slow, hang, or fail now and then.
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <linux/input.h>
+#include <memory>
+#include <sched.h>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/stick_place.h"
+#include "spidar/boards/update_watch.h"
+#include "spidar/loop/grip_watch.h"
+#include "spidar/realtime/thread_setup.h"
+#include "spidar/transports/evdev_transport.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/board_bench.h"
+#include "tests/support/felt_player.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr int64_t kMs = kSecond_ns / 1000;
+constexpr double kPi = 3.14159265358979323846;
+
+/// A stick that is moved from stop to stop, 118 mm apart, in `half_ms`.
+ff::Position swinging(int64_t now_ns, int half_ms) {
+  const double phase = kPi * static_cast<double>(now_ns) / static_cast<double>(half_ms * kMs);
+  return {static_cast<int16_t>(std::lround(ff::Position::kFull * std::sin(phase))), 0};
+}
+
+TEST(UpdateWatch, AFailedUpdateIsReportedOnce) {
+  UpdateWatch watch;
+  watch.start(0);
+  int64_t now_ns = 0;
+  for (int i = 0; i < 10; ++i) {
+    now_ns += 55 * kMs;
+    watch.finish(i % 2 ? LinkFault::kNone : LinkFault::kBusError, now_ns);
+    int reports = 0;
+    for (int ms = 0; ms < 40; ++ms)
+      reports += watch.report(now_ns + ms * kMs) == LinkFault::kBusError;
+    EXPECT_EQ(reports, i % 2 ? 0 : 1) << i;
+  }
+}
+
+TEST(UpdateWatch, FailuresInARowAreReportedUntilAnUpdateSucceeds) {
+  UpdateWatch watch;
+  watch.start(0);
+  for (uint32_t failure = 1; failure <= UpdateWatch::kFailures; ++failure) {
+    watch.finish(LinkFault::kStall, failure * 5 * kMs);
+    EXPECT_EQ(watch.report(failure * 5 * kMs), LinkFault::kStall);
+    EXPECT_EQ(watch.report((failure * 5 + 1) * kMs),
+              failure < UpdateWatch::kFailures ? LinkFault::kNone : LinkFault::kStall);
+  }
+  watch.finish(LinkFault::kNone, 20 * kMs);
+  EXPECT_EQ(watch.report(20 * kMs), LinkFault::kNone);
+  // An exchange that is late does not miss it.
+  watch.finish(LinkFault::kStall, 25 * kMs);
+  watch.finish(LinkFault::kNone, 30 * kMs);
+  EXPECT_EQ(watch.report(30 * kMs), LinkFault::kStall);
+  EXPECT_EQ(watch.report(31 * kMs), LinkFault::kNone);
+}
+
+TEST(UpdateWatch, ADriverThatDoesNotReturnInTimeIsReported) {
+  UpdateWatch watch;
+  watch.start(0);
+  EXPECT_EQ(watch.report(UpdateWatch::kPatience_ns), LinkFault::kNone);
+  EXPECT_EQ(watch.report(UpdateWatch::kPatience_ns + 1), LinkFault::kTimeout);
+  const int64_t again_ns = 3 * kSecond_ns;
+  watch.finish(LinkFault::kNone, again_ns);
+  EXPECT_EQ(watch.report(again_ns), LinkFault::kNone);
+}
+
+/// Of the speed that GripWatch allows, without its margin. Steps of the readings are 20, 15 and
+/// 13 mm.
+TEST(StickPlace, MovesAtTheSpeedOfTheHand) {
+  const double reach_m = 0.059 / 2;
+  for (const auto& [update_ms, half_ms] : {std::pair{55, 250}, {25, 150}, {5, 35}}) {
+    StickPlace place;
+    place.start(swinging(0, half_ms), 0);
+    double largest_m = 0, read_m = 0, largest_read_m = 0;
+    for (int64_t ms = 1; ms < 1000; ++ms) {
+      const double before_m = reach_m * place.share().x();
+      if (ms % update_ms == 0) {
+        // The previous reading has arrived when the next one is taken.
+        place.advance(ms * kMs);
+        EXPECT_NEAR(reach_m * place.share().x(), read_m, 1e-12);
+        const ff::Position position = swinging(ms * kMs, half_ms);
+        place.see(position, ms * kMs);
+        const double now_m = reach_m * position.right / ff::Position::kFull;
+        largest_read_m = std::max(largest_read_m, std::abs(now_m - read_m));
+        read_m = now_m;
+      }
+      place.advance(ms * kMs);
+      largest_m = std::max(largest_m, std::abs(reach_m * place.share().x() - before_m));
+    }
+    EXPECT_GT(largest_read_m, GripWatch::kMaxSpeed_m_s * 1e-3);
+    // The fastest hand: pi / 35 ms x 29.5 mm = 2.6 m/s; a reading is rounded to 3 um.
+    const double fastest_m = reach_m * kPi / half_ms + reach_m / ff::Position::kFull;
+    EXPECT_LE(largest_m, fastest_m);
+  }
+}
+
+TEST(StickPlace, IsReachedSoonAfterALongUpdateAndWhenExchangesAreLate) {
+  StickPlace place;
+  place.start({100, 200}, 0);
+  EXPECT_EQ(place.share(), Eigen::Vector2d(0.01, 0.02));
+  place.see({10'000, -10'000}, 3 * kSecond_ns);
+  place.advance(3 * kSecond_ns);
+  EXPECT_LT(place.share().x(), 1);
+  place.advance(3 * kSecond_ns + StickPlace::kLongest_ns);
+  EXPECT_EQ(place.share(), Eigen::Vector2d(1, -1));
+  place.see({0, 0}, 4 * kSecond_ns);
+  place.advance(5 * kSecond_ns);
+  EXPECT_EQ(place.share(), Eigen::Vector2d(0, 0));
+}
+
+class ForceFeedbackFaults : public testing::Test {
+ protected:
+  ForceFeedbackFaults() { clear_bus(); }
+  ~ForceFeedbackFaults() override { clear_bus(); }
+};
+
+/// 13 mm between two updates of a fast driver.
+TEST_F(ForceFeedbackFaults, AFastHandIsNoJumpOfACounter) {
+  BoardBench bench(Kind::kForceFeedback);
+  SessionSettings by_hand;
+  by_hand.threaded = false;
+  HapticSession session(bench.profile, bench.device(), by_hand);
+  for (int64_t now_ns = kTick_ns; now_ns < 2 * kSecond_ns; now_ns += kTick_ns) {
+    if (now_ns > kSecond_ns / 2) bench.motors.count[0] = swinging(now_ns, 35).right;
+    session.loop().tick(now_ns, now_ns);
+  }
+  EXPECT_EQ(session.loop().snapshot().counters.pose_errors, 0u);
+  EXPECT_EQ(session.loop().snapshot().last.device, DeviceState::kRunning);
+}
+
+/// Its last force stays, which neither this process nor a guardian can change; but nobody is told
+/// that all is well. The test makes the ticks, so that no other thread can be too late for them.
+TEST_F(ForceFeedbackFaults, ADriverThatHangsIsATimeOut) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  BoardSettings settings;
+  settings.guardian = settings.threaded = false;
+  SessionSettings by_hand;
+  by_hand.threaded = false;
+  const Profile profile = load_profile(kDefaultProfile);
+  {
+    HapticSession session(profile, make_device("ff", profile, settings), by_hand);
+    const auto tick = [&loop = session.loop()] {
+      const int64_t now_ns = monotonic_now_ns() + kTick_ns;
+      sleep_until_ns(now_ns);
+      loop.tick(now_ns, now_ns);
+    };
+    session.loop().set_playback_clock({monotonic_now_ns(), kSecond_ns, 1.0, true});
+    ASSERT_TRUE(session.loop().schedule(lasting({2, 0, 0})));
+    while (!is_level(evdev_levels(0).right, 2, 2)) {
+      tick();
+      if (session.loop().lost()) session.loop().reopen();
+    }
+    port.upload_ms = 1'000'000;
+    session.loop().cancel_scheduled();
+    ASSERT_TRUE(session.loop().schedule(lasting({2.2, 0, 0})));
+    while (!session.loop().lost()) tick();
+    EXPECT_EQ(session.device().health().last_fault, LinkFault::kTimeout);
+    port.upload_ms = 0;
+  }
+  EXPECT_TRUE(evdev_levels(0).at_rest());
+}
+
+TEST_F(ForceFeedbackFaults, OneFailedUpdateOfASlowDriverIsNoLoss) {
+  for (const int upload_ms : {0, 50}) {
+    EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+    const FeltPlayer player;
+    player.push(1, 0);
+    wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+    port.upload_ms = upload_ms;
+    port.failing = 1;
+    port.upload_error = EIO;
+    player.loop().cancel_scheduled();
+    ASSERT_TRUE(player.loop().schedule(lasting({1.5, 0, 0})));
+    wait_for([] { return is_level(evdev_levels(0).right, 1.5, 1.5); });
+    EXPECT_EQ(port.failing, 0);
+    // The loop loses a device after 20 in a row.
+    EXPECT_EQ(player.session->device().health().count(LinkFault::kBusError), 1u);
+  }
+}
+
+TEST_F(ForceFeedbackFaults, CallsThatASignalInterruptsAreRepeated) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  port.signals = true;
+  {
+    const FeltPlayer player;
+    EXPECT_EQ(player.session->device().description(), "Emulated Stick, force feedback on two axes");
+    player.push(1, -1);
+    wait_for([] {
+      const EvdevLevels levels = evdev_levels(0);
+      return is_level(levels.right, 1, 1) && is_level(levels.up, -1, 1);
+    });
+    EXPECT_EQ(port.gain, 0xFFFF);
+    EXPECT_EQ(port.autocentre, 0);
+    port.axis[0] = 500;
+    wait_for([&] { return player.now().last.pose.position_m.x() > 0.014; });
+    EXPECT_EQ(player.session->device().health().errors(), 0u);
+  }
+  EXPECT_EQ(port.autocentre, 0xFFFF);
+}
+
+/// Another gain would scale the force, and a centring spring would add to it.
+TEST_F(ForceFeedbackFaults, NoLevelIsSetUntilGainAndAutocentreAre) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  port.setting_error = EIO;
+  const FeltPlayer player;
+  ASSERT_TRUE(player.loop().schedule(lasting({1, 0, 0})));
+  wait_for([&] { return player.session->device().health().count(LinkFault::kBusError) > 20; });
+  EXPECT_TRUE(evdev_levels(0).at_rest());
+  port.setting_error = 0;
+  wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+  EXPECT_EQ(port.gain, 0xFFFF);
+}
+
+TEST_F(ForceFeedbackFaults, AnOpeningThatFailsChangesNoSetting) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  port.upload_error = ENOSPC;
+  EXPECT_THROW(FeltPlayer(), DeviceError);
+  EXPECT_EQ(port.settings, 0u);
+  EXPECT_EQ(port.autocentre, 0xFFFF);
+}
+
+/// A host and its guardian may be a 32-bit and a 64-bit program, which have different input events.
+TEST_F(ForceFeedbackFaults, ItsWillIsTheSameForPrograms32And64BitsWide) {
+  plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  ForceFeedbackBoard board("ff", load_profile(kDefaultProfile),
+                           std::make_unique<EvdevTransport>("ff", ""),
+                           ForceFeedbackBoard::Updates::kInCycle);
+  board.open();
+  const std::vector<LastWill> wills = board.last_wills();
+  ASSERT_EQ(wills.size(), 1u);
+  const LastWill& will = wills[0];
+  EXPECT_EQ(will.wire, LastWill::Wire::kInput);
+  ASSERT_EQ(will.packets, 3u);
+  EXPECT_EQ(will.parting, 1u);
+  struct Case {
+    uint32_t code;
+    int32_t value;
+  };
+  const Case expected[] = {{0, 0}, {1, 0}, {FF_AUTOCENTER, 0xFFFF}};
+  for (size_t i = 0; i < 3; ++i) {
+    LastWill::InputEvent event;
+    ASSERT_EQ(will.length[i], 8u);
+    std::memcpy(&event, will.packet[i].data(), sizeof event);
+    EXPECT_EQ(event.code, expected[i].code);
+    EXPECT_EQ(event.value, expected[i].value);
+  }
+}
+
+/// The scheduling policy of a thread with this name.
+int policy_of(const std::string& name) {
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::string comm;
+    std::getline(std::ifstream(task.path() / "comm"), comm);
+    if (comm == name) return sched_getscheduler(std::stoi(task.path().filename()));
+  }
+  return -1;
+}
+
+TEST_F(ForceFeedbackFaults, UpdatesHaveRealTimePriorityWhereItIsAllowed) {
+  bool allowed = false;
+  std::thread([&] { allowed = request_real_time().real_time; }).join();
+  if (!allowed) GTEST_SKIP() << "this process may not use real-time priority";
+  plug_evdev(0, EvdevKind::kStick);
+  const FeltPlayer player;
+  wait_for([] { return policy_of("spidar-ff") == SCHED_FIFO; });
+}
+
+}  // namespace
+}  // namespace spidar::test

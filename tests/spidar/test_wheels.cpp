@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Wheels are not taken for joysticks, nor joysticks for wheels.
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/board_list.h"
+#include "spidar/device_factory.h"
+#include "spidar/transports/wheel.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/support/felt_player.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr const char* kOneAxis = ", force feedback on one axis: forces up and down are not felt";
+constexpr const char* kTwoAxes = ", force feedback on two axes";
+
+class Wheels : public testing::Test {
+ protected:
+  Wheels() { clear_bus(); }
+  ~Wheels() override { clear_bus(); }
+};
+
+EvdevTraits traits(const std::string& name, std::initializer_list<unsigned> axes,
+                   std::initializer_list<unsigned> keys = {}) {
+  EvdevTraits device;
+  name.copy(device.name.data(), device.name.size() - 1);
+  const auto set = [](auto& bits, unsigned bit) {
+    bits[bit / 8] = static_cast<uint8_t>(bits[bit / 8] | 1 << bit % 8);
+  };
+  for (const unsigned axis : axes) set(device.axes, axis);
+  for (const unsigned key : keys) set(device.keys, key);
+  return device;
+}
+
+TEST(IsWheel, KnowsAxesButtonsNamesAndIds) {
+  EXPECT_TRUE(is_wheel(traits("Base", {ABS_WHEEL})));
+  EXPECT_TRUE(is_wheel(traits("Base", {ABS_X, ABS_Y, ABS_GAS})));
+  EXPECT_TRUE(is_wheel(traits("Base", {ABS_X, ABS_Y, ABS_BRAKE})));
+  EXPECT_TRUE(is_wheel(traits("Base", {ABS_X, ABS_Y, ABS_Z, ABS_RZ})));
+  EXPECT_TRUE(is_wheel(traits("Base", {ABS_X, ABS_Y}, {BTN_GEAR_UP})));
+  EXPECT_TRUE(is_wheel(traits("Base", {ABS_X, ABS_Y}, {BTN_WHEEL})));
+  EXPECT_TRUE(is_wheel(traits("A Racing WHEEL", {ABS_X, ABS_Y})));
+  EvdevTraits wingman = traits("Logitech Inc. WingMan Formula Force", {ABS_X, ABS_Y});
+  EXPECT_FALSE(is_wheel(wingman));
+  wingman.vendor = 0x046d;
+  wingman.product = 0xc293;
+  EXPECT_TRUE(is_wheel(wingman));
+}
+
+TEST(IsWheel, JoysticksAreNone) {
+  EvdevTraits force_3d =
+      traits("Logitech Inc. Logitech Force 3D Pro", {ABS_X, ABS_Y, ABS_RZ, ABS_THROTTLE},
+             {BTN_TRIGGER, BTN_THUMB, BTN_TOP});
+  force_3d.vendor = 0x046d;
+  force_3d.product = 0xc286;
+  EXPECT_FALSE(is_wheel(force_3d));
+  EXPECT_FALSE(is_wheel(traits("FFB Joystick", {ABS_X, ABS_Y, ABS_Z, ABS_RX, ABS_RY, ABS_RZ})));
+}
+
+TEST_F(Wheels, GetTheSidewaysForce) {
+  plug_evdev(0, EvdevKind::kWheel).axis[1] = 1000;  // a pedal
+  const FeltPlayer player;
+  EXPECT_EQ(player.session->device().description(),
+            "Emulated Racing Wheel, force feedback on one axis: forces up and down are not felt");
+  player.push(-1, 1);
+  wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
+  EXPECT_EQ(evdev_levels(0).up, 0);
+  EXPECT_TRUE(player.session->device().felt_parts().x);
+  EXPECT_FALSE(player.session->device().felt_parts().y);
+  EXPECT_TRUE(player.session->device().felt_parts().direction);
+  EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
+  EXPECT_EQ(bus().evdev[0].plays, 1u);
+}
+
+/// hid-pidff plays every effect of such a wheel to the left if its level is positive.
+TEST_F(Wheels, RightIsRightOnWheelsThatIgnoreTheDirection) {
+  plug_evdev(0, EvdevKind::kWheelBase);
+  const FeltPlayer player;
+  for (const double x_N : {1.5, -0.7}) {
+    player.push(x_N, 0);
+    wait_for([x = x_N] { return is_level(evdev_levels(0).right, x, std::abs(x)); });
+  }
+}
+
+/// The second effect would turn them: a force upwards to the left.
+TEST_F(Wheels, AreKnownByTheirIdOrTheirPedals) {
+  for (const EvdevKind kind : {EvdevKind::kWheelBase, EvdevKind::kPedalBase}) {
+    EvdevPort& port = plug_evdev(0, kind);
+    port.axis[1] = 1000;  // a pedal
+    const FeltPlayer player;
+    player.push(1, 1);
+    wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+    EXPECT_EQ(port.plays, 1u);
+    EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
+  }
+}
+
+TEST_F(Wheels, TheNumberOfAxesCanBeNamed) {
+  const auto described = [](const std::string& device) {
+    plug_evdev(0, EvdevKind::kStick);
+    plug_evdev(1, EvdevKind::kPedalBase);
+    return FeltPlayer(device).session->device().description();
+  };
+  EXPECT_EQ(described("ff:/dev/input/event0"), std::string("Emulated Stick") + kTwoAxes);
+  EXPECT_EQ(described("ff:/dev/input/event0,axes=2"), std::string("Emulated Stick") + kTwoAxes);
+  EXPECT_EQ(described("ff:/dev/input/event0,axes=1"), std::string("Emulated Stick") + kOneAxis);
+  EXPECT_EQ(described("ff:/dev/input/event1"), std::string("Emulated Base") + kOneAxis);
+  EXPECT_EQ(described("ff:/dev/input/event1,axes=2"), std::string("Emulated Base") + kTwoAxes);
+  const BoardInfo board = board_info("ff:/dev/input/event1,axes=2");
+  EXPECT_EQ(board.device, "ff:/dev/input/event1,axes=2");
+  EXPECT_EQ(board.name, "Emulated Base");
+}
+
+TEST_F(Wheels, BadNumbersOfAxesAreRefused) {
+  const auto says = [](const std::string& device) -> std::string {
+    try {
+      const FeltPlayer player(device);
+    } catch (const DeviceError& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  for (const char* bad : {"axes=3", "axes=0", "axes=", "axes", "axes=1,axes=1", "wheel", ""})
+    EXPECT_EQ(says(std::string("ff:/dev/input/event0,") + bad),
+              std::string("ff:/dev/input/event0,") + bad + ": \"" + bad +
+                  "\" is not known; write ff:/dev/input/event0,axes=1 for a wheel or "
+                  "ff:/dev/input/event0,axes=2 for a joystick");
+  EXPECT_EQ(says("ff:,axes=1"), "ff:,axes=1: the path is empty; write ff:/dev/input/eventN,axes=1");
+  plug_evdev(0, EvdevKind::kOneAxis);
+  EXPECT_EQ(says("ff:/dev/input/event0,axes=2"),
+            "ff:/dev/input/event0,axes=2: \"Emulated Dial\" does not have two axes (ABS_X and "
+            "ABS_Y); write ff:/dev/input/event0,axes=1");
+}
+
+}  // namespace
+}  // namespace spidar::test
