@@ -25,6 +25,7 @@
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/evdev_faults.h"
 #include "tests/emulated_bus/evdev_kinds.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/usb_files.h"
@@ -100,6 +101,9 @@ void forget(EvdevPort& port) {
   for (auto& axis : port.axis) axis = 0;
   port.gain = port.autocentre = 0;
   port.upload_ms = port.upload_error = 0;
+  port.query_error = port.event_error = port.interruptions = port.interrupted = 0;
+  port.cuts_events = port.hangs = false;
+  port.axis_end = 1000;
 }
 
 void unplug_from(BusState& state, size_t number) {
@@ -136,8 +140,7 @@ int EvdevCalls::upload(ff_effect& wanted) {
   const int64_t now_ns = monotonic_now_ns();
   const int64_t passed_ns = now_ns - port.last_upload_ns.exchange(now_ns);
   if (port.shortest_ns == 0 || passed_ns < port.shortest_ns) port.shortest_ns = passed_ns;
-  if (port.upload_ms > 0) sleep_until_ns(now_ns + port.upload_ms * kSecond_ns / 1000);
-  if (port.upload_error != 0) return -port.upload_error;
+  if (const int error = upload_fault(port)) return error;
   const bool fits = is_constant(port.kind) ? wanted.type == FF_CONSTANT : wanted.type == FF_RUMBLE;
   if (!fits) return -EINVAL;
   auto at = static_cast<size_t>(wanted.id);
@@ -172,6 +175,7 @@ int EvdevCalls::erase(size_t number) {
 }
 
 int EvdevCalls::query(unsigned long request, void* argument) {
+  if (const int error = query_fault(port, request)) return error;
   const unsigned number = _IOC_NR(request);
   const size_t size = _IOC_SIZE(request);
   if (request == EVIOCGVERSION) {
@@ -195,8 +199,8 @@ int EvdevCalls::query(unsigned long request, void* argument) {
     auto& info = *static_cast<input_absinfo*>(argument);
     info = {};
     info.value = port.axis[axis];
-    info.minimum = -1000;
-    info.maximum = 1000;
+    info.minimum = -port.axis_end;
+    info.maximum = port.axis_end;
     return 0;
   }
   return -EINVAL;
@@ -248,13 +252,8 @@ bool evdev_write(int file, const void* bytes, size_t length, long& result) {
   bool is_evdev = false;
   EvdevPort* port = port_of(file, is_evdev);
   if (!is_evdev) return false;
-  result = static_cast<long>(length);
-  if (port) {
-    EvdevCalls{*port}.event(*event);
-  } else {
-    errno = ENODEV;
-    result = -1;
-  }
+  result = written(port, length);
+  if (result == static_cast<long>(length)) EvdevCalls{*port}.event(*event);
   return true;
 }
 

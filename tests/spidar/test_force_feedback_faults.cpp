@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Drivers of force-feedback devices that fail, hang or report nonsense, and forces that no device
+/// can give: on emulated input devices, through the same calls as real ones.
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/board_device.h"
+#include "spidar/boards/force_feedback_board.h"
+#include "spidar/transports/evdev_transport.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/support/felt_player.h"
+
+namespace spidar::test {
+namespace {
+
+class ForceFeedbackFaults : public testing::Test {
+ protected:
+  ForceFeedbackFaults() { clear_bus(); }
+  ~ForceFeedbackFaults() override { clear_bus(); }
+
+  /// The board without threads: it communicates with the driver once in kUpdate_ms exchanges.
+  std::unique_ptr<BoardDevice> stepped() const {
+    BoardSettings settings;
+    settings.threaded = settings.guardian = false;
+    auto transport = std::make_unique<EvdevTransport>("ff", "");
+    return std::make_unique<BoardDevice>(
+        std::make_unique<ForceFeedbackBoard>("ff", profile, std::move(transport),
+                                             ForceFeedbackBoard::Updates::kInCycle),
+        settings);
+  }
+
+  /// Volts for these tensions: of the strings that go to the right, those of them that also go up,
+  /// and all others.
+  MotorVolts volts(double right_N, double right_up_N = 0, double others_N = 0) const {
+    MotorVolts volts;
+    for (size_t i = 0; i < static_cast<size_t>(profile.geometry.count); ++i) {
+      const Eigen::Vector3d& exit_m = profile.geometry.exit_m[i];
+      const double tension_N =
+          exit_m.x() < 0 ? others_N : right_N + (exit_m.y() > 0 ? right_up_N : 0);
+      volts.volt[i] = tension_N * profile.drives[i].motor_sign / profile.drives[i].newtons_per_volt;
+    }
+    return volts;
+  }
+
+  const Profile profile = load_profile(kDefaultProfile);
+  DeviceReading reading;
+};
+
+/// Exchanges until every effect could be set once, and returns the worst status.
+ExchangeStatus exchange(BoardDevice& device, const MotorVolts& volts, DeviceReading& reading,
+                        int updates = 2) {
+  ExchangeStatus worst = ExchangeStatus::kOk;
+  for (int i = 0; i < updates * ForceFeedbackBoard::kUpdate_ms; ++i) {
+    const ExchangeStatus status = device.exchange(volts, reading);
+    if (status != ExchangeStatus::kOk) worst = status;
+  }
+  return worst;
+}
+
+TEST_F(ForceFeedbackFaults, EveryErrorIsNamedCountedAndForgotten) {
+  struct Case {
+    std::atomic<int> EvdevPort::*call;
+    int error;
+    LinkFault fault;
+    ExchangeStatus status;
+  };
+  constexpr auto kUpload = &EvdevPort::upload_error;
+  constexpr auto kQuery = &EvdevPort::query_error;
+  constexpr ExchangeStatus kBad = ExchangeStatus::kBadReply;
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  device->open();
+  double right_N = 0;
+  for (const Case& c : {Case{kUpload, EIO, LinkFault::kBusError, kBad},
+                        {kUpload, ENOMEM, LinkFault::kBusError, kBad},
+                        {kUpload, EINVAL, LinkFault::kStall, kBad},
+                        {kUpload, ENOSPC, LinkFault::kStall, kBad},
+                        {kUpload, ETIMEDOUT, LinkFault::kTimeout, ExchangeStatus::kTimeout},
+                        {kUpload, ENODEV, LinkFault::kGone, ExchangeStatus::kLost},
+                        {kQuery, EIO, LinkFault::kBusError, kBad},
+                        {kQuery, EINVAL, LinkFault::kStall, kBad},
+                        {kQuery, ETIMEDOUT, LinkFault::kTimeout, ExchangeStatus::kTimeout},
+                        {kQuery, ENODEV, LinkFault::kGone, ExchangeStatus::kLost}}) {
+    SCOPED_TRACE(std::string(c.call == kUpload ? "upload: " : "position: ") +
+                 std::strerror(c.error));
+    ASSERT_EQ(exchange(*device, volts(right_N), reading), ExchangeStatus::kOk);
+    const EvdevLevels before = evdev_levels(0);
+    const uint64_t count = device->health().count(c.fault);
+    const uint64_t uploads = port.uploads;
+    right_N += 0.1;  // so that there is something to upload
+    port.*c.call = c.error;
+    EXPECT_EQ(exchange(*device, volts(right_N), reading, 1), c.status);
+    EXPECT_EQ(device->health().count(c.fault), count + 1);
+    EXPECT_EQ(device->health().last_fault, c.fault);
+    EXPECT_EQ(port.uploads, uploads);
+    EXPECT_EQ(evdev_levels(0).right, before.right);
+    port.*c.call = 0;
+    if (c.fault == LinkFault::kGone) {
+      device->close();
+      EXPECT_TRUE(evdev_levels(0).at_rest());
+      device->open();
+    }
+    EXPECT_EQ(exchange(*device, volts(right_N), reading), ExchangeStatus::kOk);
+    EXPECT_GT(evdev_levels(0).right, before.right);
+    EXPECT_EQ(device->health().count(c.fault), count + 1);
+  }
+}
+
+TEST_F(ForceFeedbackFaults, AnUpdateThatASignalInterruptsIsRepeated) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  device->open();
+  port.interruptions = 3;
+  EXPECT_EQ(exchange(*device, volts(1), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(port.interrupted, 3);
+  EXPECT_GT(evdev_levels(0).right, 0);
+  EXPECT_EQ(evdev_levels(0).up, 0);
+  EXPECT_EQ(device->health().errors(), 0u);
+}
+
+TEST_F(ForceFeedbackFaults, ForcesBeyondFullLevelAreCutAndKeepTheirDirection) {
+  plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  device->open();
+  ASSERT_EQ(exchange(*device, volts(1e9), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(evdev_levels(0).right, ff::kFullLevel);
+  EXPECT_EQ(evdev_levels(0).up, 0);
+  // To the right and less upwards, within the range and far beyond it.
+  ASSERT_EQ(exchange(*device, volts(0.2, 0.2), reading), ExchangeStatus::kOk);
+  const EvdevLevels within = evdev_levels(0);
+  ASSERT_GT(within.right, within.up);
+  ASSERT_GT(within.up, 0);
+  ASSERT_LT(within.right, ff::kFullLevel);
+  ASSERT_EQ(exchange(*device, volts(2e8, 2e8), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(evdev_levels(0).right, ff::kFullLevel);
+  // All three levels are rounded by half a step.
+  const double scale = 1.0 * ff::kFullLevel / within.right;
+  EXPECT_NEAR(evdev_levels(0).up, scale * within.up, 0.5 + scale);
+  ASSERT_EQ(exchange(*device, volts(-1e9), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(evdev_levels(0).right, -ff::kFullLevel);
+}
+
+TEST_F(ForceFeedbackFaults, WheelsAndPadsCutForcesToo) {
+  for (const EvdevKind kind : {EvdevKind::kWheel, EvdevKind::kPad}) {
+    plug_evdev(0, kind);
+    const auto device = stepped();
+    device->open();
+    ASSERT_EQ(exchange(*device, volts(1e9, 1e9), reading), ExchangeStatus::kOk);
+    const EvdevLevels levels = evdev_levels(0);
+    EXPECT_EQ(levels.right, kind == EvdevKind::kWheel ? ff::kFullLevel : 0);
+    EXPECT_EQ(levels.rumble, kind == EvdevKind::kPad ? ff::kFullStrength : 0);
+    EXPECT_EQ(levels.up, 0);
+  }
+}
+
+TEST_F(ForceFeedbackFaults, VoltsThatAreNoNumbersPushNowhere) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const EvdevKind kind : {EvdevKind::kStick, EvdevKind::kWheel, EvdevKind::kPad}) {
+    plug_evdev(0, kind);
+    const auto device = stepped();
+    device->open();
+    for (const double value : {kNan, kInfinity, -kInfinity}) {
+      // In one string, and in all.
+      MotorVolts one = volts(1, 0.5), all;
+      one.volt[6] = value;
+      all.volt.fill(value);
+      for (const MotorVolts& bad : {one, all}) {
+        ASSERT_EQ(exchange(*device, volts(1), reading), ExchangeStatus::kOk);
+        ASSERT_FALSE(evdev_levels(0).at_rest());
+        ASSERT_EQ(exchange(*device, bad, reading), ExchangeStatus::kOk);
+        EXPECT_TRUE(evdev_levels(0).at_rest()) << value;
+      }
+    }
+  }
+}
+
+TEST_F(ForceFeedbackFaults, APositionBeyondItsAxisIsTheEndOfTheAxis) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  device->open();
+  const auto counts_at = [&](int right, int down) {
+    port.axis[0] = right;
+    port.axis[1] = down;
+    EXPECT_EQ(exchange(*device, {}, reading), ExchangeStatus::kOk);
+    return reading.count;
+  };
+  const auto centre = counts_at(0, 0);
+  const auto corner = counts_at(1000, -1000);
+  EXPECT_NE(corner, centre);
+  EXPECT_EQ(counts_at(32767, -32768), corner);
+  EXPECT_EQ(counts_at(1001, std::numeric_limits<int>::min()), corner);
+  // An axis whose ends are the same is at rest.
+  port.axis_end = 0;
+  EXPECT_EQ(counts_at(1000, -1000), centre);
+}
+
+TEST_F(ForceFeedbackFaults, AfterItFailedToOpenNothingIsLeftAndItOpensAgain) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  const auto refuses = [&](const char* what) {
+    try {
+      device->open();
+      ADD_FAILURE() << what;
+    } catch (const DeviceError& error) {
+      const std::string said = error.what();
+      EXPECT_EQ(said.find("ff: \"Emulated Stick\" does not take an effect: "), 0u) << said;
+    }
+    EXPECT_TRUE(evdev_levels(0).at_rest());
+    for (const EvdevPort::Effect& effect : port.effect) EXPECT_FALSE(effect.used) << what;
+  };
+  for (const int error : {EIO, EINVAL, ENOSPC, ENODEV}) {
+    port.upload_error = error;
+    refuses("upload");
+    port.upload_error = 0;
+    port.event_error = error;
+    refuses("play");
+    port.event_error = 0;
+  }
+  port.cuts_events = true;
+  refuses("half of an event");
+  port.cuts_events = false;
+  device->open();
+  EXPECT_EQ(exchange(*device, volts(1), reading), ExchangeStatus::kOk);
+  EXPECT_GT(evdev_levels(0).right, 0);
+}
+
+/// A driver that takes no more levels must not keep the last one.
+TEST_F(ForceFeedbackFaults, ADriverThatFailsComesToRest) {
+  for (const auto call : {&EvdevPort::upload_error, &EvdevPort::query_error}) {
+    for (const int error : {EIO, ENODEV}) {
+      SCOPED_TRACE(std::string(call == &EvdevPort::upload_error ? "upload: " : "position: ") +
+                   std::strerror(error));
+      EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+      const FeltPlayer player;
+      player.push(1, 0);
+      wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+      port.*call = error;
+      player.loop().cancel_scheduled();
+      ASSERT_TRUE(player.loop().schedule(lasting({0, 1, 0})));
+      wait_for([&] { return player.now().last.device == DeviceState::kLost; });
+      wait_for([] { return evdev_levels(0).at_rest(); });
+      port.*call = 0;
+      wait_for([] { return is_level(evdev_levels(0).up, 1, 1) && evdev_levels(0).right == 0; });
+    }
+  }
+}
+
+/// The level stays as it is, which nothing can change; the loop goes on.
+TEST_F(ForceFeedbackFaults, ADriverThatHangsDelaysNothing) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const FeltPlayer player;
+  port.hangs = true;
+  player.push(1, 0);
+  wait_for([&] { return port.hanging == 1; });
+  const uint64_t uploads = port.uploads;
+  const uint64_t ticks = player.now().counters.ticks;
+  wait_for([&] { return player.now().counters.ticks > ticks + 300; });
+  EXPECT_EQ(player.now().last.device, DeviceState::kRunning);
+  EXPECT_EQ(player.now().last.commanded.force_N.x(), 1);
+  EXPECT_EQ(port.uploads, uploads);
+  port.hangs = false;
+  wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+}
+
+}  // namespace
+}  // namespace spidar::test
