@@ -13,6 +13,7 @@
 
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/force_feedback_board.h"
+#include "spidar/haptic_session.h"
 #include "spidar/transports/evdev_transport.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
@@ -25,15 +26,19 @@ class ForceFeedbackFaults : public testing::Test {
   ForceFeedbackFaults() { clear_bus(); }
   ~ForceFeedbackFaults() override { clear_bus(); }
 
-  /// The board without threads: it communicates with the driver once in kUpdate_ms exchanges.
-  std::unique_ptr<BoardDevice> stepped() const {
+  /// A device without a thread for its exchanges.
+  std::unique_ptr<BoardDevice> board(ForceFeedbackBoard::Updates updates) const {
     BoardSettings settings;
     settings.threaded = settings.guardian = false;
     auto transport = std::make_unique<EvdevTransport>("ff", "");
     return std::make_unique<BoardDevice>(
-        std::make_unique<ForceFeedbackBoard>("ff", profile, std::move(transport),
-                                             ForceFeedbackBoard::Updates::kInCycle),
+        std::make_unique<ForceFeedbackBoard>("ff", profile, std::move(transport), updates),
         settings);
+  }
+
+  /// Without any thread: it communicates with the driver once in kUpdate_ms exchanges.
+  std::unique_ptr<BoardDevice> stepped() const {
+    return board(ForceFeedbackBoard::Updates::kInCycle);
   }
 
   /// Volts for these tensions: of the strings that go to the right, those of them that also go up,
@@ -253,21 +258,40 @@ TEST_F(ForceFeedbackFaults, ADriverThatFailsComesToRest) {
   }
 }
 
-/// The level stays as it is, which nothing can change; the loop goes on.
-TEST_F(ForceFeedbackFaults, ADriverThatHangsDelaysNothing) {
+/// With the board's own thread, as in make_device(), and ticks by hand: if a tick waited for the
+/// driver, it would never end.
+TEST_F(ForceFeedbackFaults, NoTickWaitsForADriverThatHangs) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  const FeltPlayer player;
+  SessionSettings by_hand;
+  by_hand.threaded = false;
+  HapticSession session(profile, board(ForceFeedbackBoard::Updates::kOwnThread), by_hand);
+  int64_t now_ns = 0;
+  const auto tick = [&] {
+    now_ns += kTick_ns;
+    session.loop().tick(now_ns, now_ns);
+    return session.loop().snapshot().last;
+  };
+  const auto tick_until_commanded = [&](double x_N) {
+    session.loop().cancel_scheduled();
+    ASSERT_TRUE(session.loop().schedule(lasting({x_N, 0, 0})));
+    while (tick().commanded.force_N.x() != x_N) {
+    }
+  };
+  session.loop().set_playback_clock({0, 0, 1.0, true});
+  while (tick().device != DeviceState::kRunning) {
+  }
   port.hangs = true;
-  player.push(1, 0);
+  tick_until_commanded(1);
   wait_for([&] { return port.hanging == 1; });
   const uint64_t uploads = port.uploads;
-  const uint64_t ticks = player.now().counters.ticks;
-  wait_for([&] { return player.now().counters.ticks > ticks + 300; });
-  EXPECT_EQ(player.now().last.device, DeviceState::kRunning);
-  EXPECT_EQ(player.now().last.commanded.force_N.x(), 1);
+  for (const double x_N : {-1.0, 0.5, 0.25}) tick_until_commanded(x_N);
+  EXPECT_EQ(tick().device, DeviceState::kRunning);
+  EXPECT_EQ(session.loop().snapshot().counters.exchange_errors, 0u);
+  EXPECT_EQ(port.hanging, 1);
   EXPECT_EQ(port.uploads, uploads);
+  // Then it is given the newest force.
   port.hangs = false;
-  wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+  wait_for([] { return is_level(evdev_levels(0).right, 0.25, 0.25); });
 }
 
 }  // namespace
