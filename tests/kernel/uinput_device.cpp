@@ -13,7 +13,9 @@
 #include <unistd.h>
 #include <vector>
 
+#include "spidar/boards/board_list.h"
 #include "spidar/protocols/force_feedback.h"
+#include "tests/support/felt_player.h"
 
 namespace spidar::test {
 namespace {
@@ -105,11 +107,12 @@ void UinputDevice::take_upload(uint32_t request) {
   uinput_ff_upload upload{};
   upload.request_id = request;
   if (ioctl(file_, UI_BEGIN_FF_UPLOAD, &upload) < 0) return;
+  uploading = true;
   if (upload_ms > 0) usleep(static_cast<unsigned>(1000 * upload_ms));
   const auto effect =
       ff::decode_effect({reinterpret_cast<const uint8_t*>(&upload.effect), sizeof upload.effect});
-  upload.retval = effect ? 0 : -EINVAL;
-  if (effect) {
+  upload.retval = effect ? -upload_error : -EINVAL;
+  if (upload.retval == 0) {
     Effect& kept = effect_[static_cast<size_t>(effect->number)];
     const int right = rounded(effect->right, ff::kFullLevel);
     const int up = rounded(effect->up, ff::kFullLevel);
@@ -122,6 +125,7 @@ void UinputDevice::take_upload(uint32_t request) {
     ++uploads;
   }
   ioctl(file_, UI_END_FF_UPLOAD, &upload);
+  uploading = false;
 }
 
 void UinputDevice::take_erase(uint32_t request) {
@@ -156,6 +160,16 @@ bool UinputDevice::has_effects() const {
   for (const Effect& effect : effect_)
     if (effect.used) return true;
   return false;
+}
+
+std::string listed(const std::string& name) {
+  std::string device;
+  wait_for([&] {
+    for (const BoardInfo& board : list_boards())
+      if (board.name == name) device = board.device;
+    return !device.empty();
+  });
+  return device;
 }
 
 }  // namespace spidar::test
