@@ -13,23 +13,24 @@
 
 namespace spidar::test {
 
-/// Takes as long as the driver does for an upload. Returns its error, −errno, or 0.
+inline void forget_faults(EvdevPort& port) {
+  port.query_error = port.event_error = port.interruptions = 0;
+  port.cuts_events = port.hangs = false;
+  port.axis_end = 1000;
+}
+
+/// Returns when the driver no longer hangs. Returns the error of an upload, −errno, or 0.
 inline int upload_fault(EvdevPort& port) {
-  constexpr int64_t kMs = kSecond_ns / 1000;
-  const int64_t now_ns = monotonic_now_ns();
-  if (port.upload_ms > 0) sleep_until_ns(now_ns + port.upload_ms * kMs);
   if (port.hangs) {
     ++port.hanging;
-    while (port.hangs && port.kind != EvdevKind::kNone) sleep_until_ns(monotonic_now_ns() + kMs);
+    while (port.hangs && port.kind != EvdevKind::kNone)
+      sleep_until_ns(monotonic_now_ns() + kSecond_ns / 1000);
     --port.hanging;
   }
   if (port.kind == EvdevKind::kNone) return -ENODEV;
-  if (port.interruptions > 0) {
-    --port.interruptions;
-    ++port.interrupted;
-    return -EINTR;
-  }
-  return -port.upload_error;
+  if (port.interruptions == 0) return 0;
+  --port.interruptions;
+  return -EINTR;
 }
 
 /// The error of an ioctl() other than an upload, −errno, or 0.
@@ -38,12 +39,14 @@ inline int query_fault(const EvdevPort& port, unsigned long request) {
   return of_position ? -port.query_error : 0;
 }
 
-/// What write() of an event of `length` bytes returns; sets errno if that is not `length`.
-inline long written(const EvdevPort* port, size_t length) {
-  const int error = port ? port->event_error.load() : ENODEV;
-  if (error == 0 && !port->cuts_events) return static_cast<long>(length);
+/// Whether the driver does not take all of an event of `length` bytes; then `result` is that of
+/// write().
+inline bool write_fault(const EvdevPort& port, size_t length, long& result) {
+  const int error = port.event_error;
+  if (error == 0 && !port.cuts_events) return false;
   errno = error;
-  return error == 0 ? static_cast<long>(length / 2) : -1;
+  result = error == 0 ? static_cast<long>(length / 2) : -1;
+  return true;
 }
 
 }  // namespace spidar::test

@@ -95,15 +95,13 @@ void erase(EvdevPort::Effect& effect) {
 }
 
 void forget(EvdevPort& port) {
+  forget_faults(port);
   for (EvdevPort::Effect& effect : port.effect) erase(effect);
   port.uploads = port.unchanged = port.plays = 0;
   port.shortest_ns = 0;
   for (auto& axis : port.axis) axis = 0;
   port.gain = port.autocentre = 0;
   port.upload_ms = port.upload_error = 0;
-  port.query_error = port.event_error = port.interruptions = port.interrupted = 0;
-  port.cuts_events = port.hangs = false;
-  port.axis_end = 1000;
 }
 
 void unplug_from(BusState& state, size_t number) {
@@ -137,10 +135,12 @@ EvdevPort* port_of(int file, bool& is_evdev) {
 }  // namespace
 
 int EvdevCalls::upload(ff_effect& wanted) {
+  if (const int error = upload_fault(port)) return error;
   const int64_t now_ns = monotonic_now_ns();
   const int64_t passed_ns = now_ns - port.last_upload_ns.exchange(now_ns);
   if (port.shortest_ns == 0 || passed_ns < port.shortest_ns) port.shortest_ns = passed_ns;
-  if (const int error = upload_fault(port)) return error;
+  if (port.upload_ms > 0) sleep_until_ns(now_ns + port.upload_ms * kSecond_ns / 1000);
+  if (port.upload_error != 0) return -port.upload_error;
   const bool fits = is_constant(port.kind) ? wanted.type == FF_CONSTANT : wanted.type == FF_RUMBLE;
   if (!fits) return -EINVAL;
   auto at = static_cast<size_t>(wanted.id);
@@ -246,14 +246,26 @@ bool evdev_ioctl(int file, unsigned long request, void* argument, int& result) {
   return true;
 }
 
+bool evdev_write_fails(int file, const void* bytes, size_t length, long& result) {
+  if (!ff::decode_event({static_cast<const uint8_t*>(bytes), length})) return false;
+  bool is_evdev = false;
+  const EvdevPort* port = port_of(file, is_evdev);
+  return port && write_fault(*port, length, result);
+}
+
 bool evdev_write(int file, const void* bytes, size_t length, long& result) {
   const auto event = ff::decode_event({static_cast<const uint8_t*>(bytes), length});
   if (!event) return false;  // by far the most frequent case
   bool is_evdev = false;
   EvdevPort* port = port_of(file, is_evdev);
   if (!is_evdev) return false;
-  result = written(port, length);
-  if (result == static_cast<long>(length)) EvdevCalls{*port}.event(*event);
+  result = static_cast<long>(length);
+  if (port) {
+    EvdevCalls{*port}.event(*event);
+  } else {
+    errno = ENODEV;
+    result = -1;
+  }
   return true;
 }
 

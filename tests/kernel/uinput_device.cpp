@@ -93,7 +93,11 @@ void UinputDevice::run() {
     input_event event{};
     while (read(file_, &event, sizeof event) == sizeof event) {
       const auto value = static_cast<uint32_t>(event.value);
-      if (event.type == EV_UINPUT && event.code == UI_FF_UPLOAD) take_upload(value);
+      if (event.type == EV_UINPUT && event.code == UI_FF_UPLOAD) {
+        uploading = true;
+        take_upload(value);
+        uploading = false;
+      }
       if (event.type == EV_UINPUT && event.code == UI_FF_ERASE) take_erase(value);
       if (event.type != EV_FF) continue;
       if (event.code == FF_GAIN) gain = event.value;
@@ -107,7 +111,6 @@ void UinputDevice::take_upload(uint32_t request) {
   uinput_ff_upload upload{};
   upload.request_id = request;
   if (ioctl(file_, UI_BEGIN_FF_UPLOAD, &upload) < 0) return;
-  uploading = true;
   if (upload_ms > 0) usleep(static_cast<unsigned>(1000 * upload_ms));
   const auto effect =
       ff::decode_effect({reinterpret_cast<const uint8_t*>(&upload.effect), sizeof upload.effect});
@@ -125,7 +128,6 @@ void UinputDevice::take_upload(uint32_t request) {
     ++uploads;
   }
   ioctl(file_, UI_END_FF_UPLOAD, &upload);
-  uploading = false;
 }
 
 void UinputDevice::take_erase(uint32_t request) {

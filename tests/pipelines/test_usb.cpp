@@ -118,35 +118,6 @@ TEST_P(UsbPipeline, TheSecondToAskForABoardGetsAnErrorAndTheFirstPlaysOn) {
   gst_object_unref(first);
 }
 
-TEST(ForceFeedbackPipeline, PlaysOnWhenTheStickIsPulledOutAndTakesItBack) {
-  plug_evdev(0, EvdevKind::kStick);
-  GstElement* pipeline = gst_parse_launch(
-      "videotestsrc pattern=ball motion=sweep ! video/x-raw,width=160,height=120 ! "
-      "spidarmotion device=ff ! fakesink sync=true",
-      nullptr);
-  ASSERT_NE(pipeline, nullptr);
-  GstBus* bus = gst_element_get_bus(pipeline);
-  ASSERT_NE(gst_element_set_state(pipeline, GST_STATE_PLAYING), GST_STATE_CHANGE_FAILURE);
-  wait_for([&] { return !evdev_levels(0).at_rest(); });
-
-  unplug_evdev(0);
-  EXPECT_EQ(next_warning(bus),
-            "The haptic device does not answer: unplugged. The video continues without it.");
-  wait_for_frames(bus, 5);
-  plug_evdev(1, EvdevKind::kStick).upload_ms = 50;
-  wait_for([&] { return !evdev_levels(1).at_rest(); });
-  wait_for_frames(bus, 5);
-
-  gst_element_set_state(pipeline, GST_STATE_PAUSED);
-  wait_for([&] { return evdev_levels(1).at_rest(); });
-  gst_element_set_state(pipeline, GST_STATE_NULL);
-  EXPECT_TRUE(evdev_levels(1).at_rest());
-  EXPECT_FALSE(spidar::test::bus().evdev[1].effect[0].used);
-  gst_object_unref(bus);
-  gst_object_unref(pipeline);
-  clear_bus();
-}
-
 /// No limit of time: if the streaming thread waited for the device, no frame would pass until the
 /// driver returns, which is after 30 frames have passed. Lateness is measured in the suite
 /// `kernel`, whose time does not depend on the machine.
@@ -175,6 +146,35 @@ TEST(ForceFeedbackPipeline, NoFrameWaitsForADriverThatHangs) {
   port.hangs = false;
   wait_for([] { return evdev_levels(0).at_rest(); });
   gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(bus);
+  gst_object_unref(pipeline);
+  clear_bus();
+}
+
+TEST(ForceFeedbackPipeline, PlaysOnWhenTheStickIsPulledOutAndTakesItBack) {
+  plug_evdev(0, EvdevKind::kStick);
+  GstElement* pipeline = gst_parse_launch(
+      "videotestsrc pattern=ball motion=sweep ! video/x-raw,width=160,height=120 ! "
+      "spidarmotion device=ff ! fakesink sync=true",
+      nullptr);
+  ASSERT_NE(pipeline, nullptr);
+  GstBus* bus = gst_element_get_bus(pipeline);
+  ASSERT_NE(gst_element_set_state(pipeline, GST_STATE_PLAYING), GST_STATE_CHANGE_FAILURE);
+  wait_for([&] { return !evdev_levels(0).at_rest(); });
+
+  unplug_evdev(0);
+  EXPECT_EQ(next_warning(bus),
+            "The haptic device does not answer: unplugged. The video continues without it.");
+  wait_for_frames(bus, 5);
+  plug_evdev(1, EvdevKind::kStick).upload_ms = 50;
+  wait_for([&] { return !evdev_levels(1).at_rest(); });
+  wait_for_frames(bus, 5);
+
+  gst_element_set_state(pipeline, GST_STATE_PAUSED);
+  wait_for([&] { return evdev_levels(1).at_rest(); });
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  EXPECT_TRUE(evdev_levels(1).at_rest());
+  EXPECT_FALSE(spidar::test::bus().evdev[1].effect[0].used);
   gst_object_unref(bus);
   gst_object_unref(pipeline);
   clear_bus();
