@@ -41,14 +41,13 @@ class EvdevFaults : public testing::Test {
     return board(ForceFeedbackBoard::Updates::kInCycle);
   }
 
-  /// Volts for these tensions: of the strings that go to the right, those of them that also go up,
-  /// and all others.
-  MotorVolts volts(double right_N, double right_up_N = 0, double others_N = 0) const {
+  /// Volts for a tension of the strings that go to the right, and an additional one of those among
+  /// them that go up.
+  MotorVolts volts(double right_N, double up_N = 0) const {
     MotorVolts volts;
     for (size_t i = 0; i < static_cast<size_t>(profile.geometry.count); ++i) {
       const Eigen::Vector3d& exit_m = profile.geometry.exit_m[i];
-      const double tension_N =
-          exit_m.x() < 0 ? others_N : right_N + (exit_m.y() > 0 ? right_up_N : 0);
+      const double tension_N = exit_m.x() < 0 ? 0 : right_N + (exit_m.y() > 0 ? up_N : 0);
       volts.volt[i] = tension_N * profile.drives[i].motor_sign / profile.drives[i].newtons_per_volt;
     }
     return volts;
