@@ -18,10 +18,10 @@
 namespace spidar::test {
 namespace {
 
-std::unique_ptr<Device> board(const Profile& profile) {
+std::unique_ptr<Device> board(const Profile& profile, const std::string& name = "uinput device") {
   BoardSettings settings;
   settings.guardian = false;
-  return make_device(listed(), profile, settings);
+  return make_device(listed(name), profile, settings);
 }
 
 /// Volts that pull to the right: the same in all strings on that side.
@@ -55,19 +55,25 @@ TEST_F(KernelEvdevFaults, OpenLeavesItAtRestAndCloseErasesItsEffects) {
 }
 
 TEST_F(KernelEvdevFaults, ForcesBeyondFullLevelAreCutAndWhatIsNoNumberPushesNowhere) {
-  const auto device = board(profile);
-  device->open();
+  UinputDevice pad(UinputKind::kPad, "uinput pad");
+  const auto of_stick = board(profile);
+  const auto of_pad = board(profile, "uinput pad");
+  of_stick->open();
+  of_pad->open();
+  const auto until = [&](double volt, const auto& reached) {
+    wait_for([&] {
+      for (const auto& device : {of_stick.get(), of_pad.get()}) {
+        EXPECT_EQ(device->exchange(to_the_right(profile, volt), reading), ExchangeStatus::kOk);
+      }
+      return reached();
+    });
+  };
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    wait_for([&] {
-      EXPECT_EQ(device->exchange(to_the_right(profile, 1e9), reading), ExchangeStatus::kOk);
-      return stick.right() == ff::kFullLevel;
-    });
+    until(1e9,
+          [&] { return stick.right() == ff::kFullLevel && pad.rumble() == ff::kFullStrength; });
     EXPECT_EQ(stick.up(), 0);
-    wait_for([&] {
-      EXPECT_EQ(device->exchange(to_the_right(profile, bad), reading), ExchangeStatus::kOk);
-      return stick.at_rest();
-    });
+    until(bad, [&] { return stick.at_rest() && pad.at_rest(); });
   }
 }
 
