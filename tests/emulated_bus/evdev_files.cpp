@@ -25,6 +25,7 @@
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/evdev_faults.h"
 #include "tests/emulated_bus/evdev_kinds.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/usb_files.h"
@@ -102,6 +103,7 @@ void erase(EvdevPort::Effect& effect) {
 }
 
 void forget(EvdevPort& port) {
+  forget_faults(port);
   for (EvdevPort::Effect& effect : port.effect) erase(effect);
   port.uploads = port.unchanged = port.plays = port.settings = 0;
   port.shortest_ns = 0;
@@ -153,6 +155,7 @@ void erase_if_abandoned(EvdevPort& port) {
 }  // namespace
 
 int EvdevCalls::upload(ff_effect& wanted) {
+  if (const int error = upload_fault(port)) return error;
   const int64_t now_ns = monotonic_now_ns();
   const int64_t passed_ns = now_ns - port.last_upload_ns.exchange(now_ns);
   if (port.shortest_ns == 0 || passed_ns < port.shortest_ns) port.shortest_ns = passed_ns;
@@ -198,6 +201,7 @@ int EvdevCalls::erase(size_t number) {
 }
 
 int EvdevCalls::query(unsigned long request, void* argument) {
+  if (const int error = query_fault(port, request)) return error;
   const unsigned number = _IOC_NR(request);
   const size_t size = _IOC_SIZE(request);
   if (request == EVIOCGVERSION) {
@@ -227,8 +231,8 @@ int EvdevCalls::query(unsigned long request, void* argument) {
     auto& info = *static_cast<input_absinfo*>(argument);
     info = {};
     info.value = port.axis[axis];
-    info.minimum = -1000;
-    info.maximum = 1000;
+    info.minimum = -port.axis_end;
+    info.maximum = port.axis_end;
     return 0;
   }
   return -EINVAL;
@@ -277,6 +281,13 @@ bool evdev_ioctl(int file, unsigned long request, void* argument, int& result) {
   errno = -result;
   result = -1;
   return true;
+}
+
+bool evdev_write_fails(int file, const void* bytes, size_t length, long& result) {
+  if (!ff::decode_event({static_cast<const uint8_t*>(bytes), length})) return false;
+  bool is_evdev = false;
+  const EvdevPort* port = port_of(file, is_evdev);
+  return port && write_fault(*port, length, result);
 }
 
 bool evdev_write(int file, const void* bytes, size_t length, long& result) {

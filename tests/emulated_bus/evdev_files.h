@@ -22,6 +22,10 @@ std::string evdev_path(const char* path);
 /// Like ioctl(2), for a file of an input device; false when it is not one.
 bool evdev_ioctl(int file, unsigned long request, void* argument, int& result);
 
+/// Whether the driver fails to take all of an event that is written; then `result` is that of
+/// write(2).
+bool evdev_write_fails(int file, const void* bytes, size_t length, long& result);
+
 /// Like write(2), for a file of an input device; false when it is not one.
 bool evdev_write(int file, const void* bytes, size_t length, long& result);
 

@@ -40,6 +40,14 @@ struct EvdevPort {
   std::atomic<uint64_t> inode{0};  ///< of its file; a new one each time it is plugged in
   /// Position of the stick, −1000 … 1000: to the right, and towards the user, like ABS_X and ABS_Y.
   std::array<std::atomic<int>, 2> axis{};
+  std::atomic<int> axis_end{0};  ///< largest value that the axes announce; 1000 when plugged in
+  // Faults of the driver. Errors are values of errno; 0: none.
+  std::atomic<int> query_error{0};       ///< of every question for the position
+  std::atomic<int> event_error{0};       ///< of every event: play, gain, autocentre
+  std::atomic<bool> cuts_events{false};  ///< accepts only half of every event
+  std::atomic<int> interruptions{0};     ///< how many of the next uploads a signal interrupts
+  std::atomic<bool> hangs{false};        ///< uploads do not return until this is false
+  std::atomic<int> hanging{0};           ///< uploads that do not return
   std::array<Effect, 4> effect{};
   std::atomic<int> gain{0};
   std::atomic<int> autocentre{0};

@@ -161,6 +161,7 @@ DIR* opendir(const char* path) {
 
 ssize_t write(int file, const void* bytes, size_t length) {
   long result = 0;
+  if (evdev_write_fails(file, bytes, length, result)) return result;
   if (evdev_write(file, bytes, length, result)) return result;
   return syscall(SYS_write, file, bytes, length);
 }

@@ -20,17 +20,6 @@ namespace {
 
 constexpr int64_t kMs = kSecond_ns / 1000;
 
-/// The device's file, once the kernel has made it.
-std::string listed(const std::string& name = "uinput device") {
-  std::string device;
-  wait_for([&] {
-    for (const BoardInfo& board : list_boards())
-      if (board.name == name) device = board.device;
-    return !device.empty();
-  });
-  return device;
-}
-
 TEST(KernelEvdev, RightIsRightAndUpIsUp) {
   UinputDevice stick(UinputKind::kStick);
   const FeltPlayer player(listed());

@@ -13,7 +13,9 @@
 #include <unistd.h>
 #include <vector>
 
+#include "spidar/boards/board_list.h"
 #include "spidar/protocols/force_feedback.h"
+#include "tests/support/felt_player.h"
 
 namespace spidar::test {
 namespace {
@@ -91,7 +93,11 @@ void UinputDevice::run() {
     input_event event{};
     while (read(file_, &event, sizeof event) == sizeof event) {
       const auto value = static_cast<uint32_t>(event.value);
-      if (event.type == EV_UINPUT && event.code == UI_FF_UPLOAD) take_upload(value);
+      if (event.type == EV_UINPUT && event.code == UI_FF_UPLOAD) {
+        uploading = true;
+        take_upload(value);
+        uploading = false;
+      }
       if (event.type == EV_UINPUT && event.code == UI_FF_ERASE) take_erase(value);
       if (event.type != EV_FF) continue;
       if (event.code == FF_GAIN) gain = event.value;
@@ -111,8 +117,8 @@ void UinputDevice::take_upload(uint32_t request) {
   if (upload_ms > 0) usleep(static_cast<unsigned>(1000 * upload_ms));
   const auto effect =
       ff::decode_effect({reinterpret_cast<const uint8_t*>(&upload.effect), sizeof upload.effect});
-  upload.retval = effect ? 0 : -EINVAL;
-  if (effect) {
+  upload.retval = effect ? -upload_error : -EINVAL;
+  if (upload.retval == 0) {
     Effect& kept = effect_[static_cast<size_t>(effect->number)];
     const int right = rounded(effect->right, ff::kFullLevel);
     const int up = rounded(effect->up, ff::kFullLevel);
@@ -159,6 +165,16 @@ bool UinputDevice::has_effects() const {
   for (const Effect& effect : effect_)
     if (effect.used) return true;
   return false;
+}
+
+std::string listed(const std::string& name) {
+  std::string device;
+  wait_for([&] {
+    for (const BoardInfo& board : list_boards())
+      if (board.name == name) device = board.device;
+    return !device.empty();
+  });
+  return device;
 }
 
 }  // namespace spidar::test

@@ -46,7 +46,9 @@ class UinputDevice {
   std::atomic<int> autocentre{-1};  ///< the same
   std::atomic<int> uploads{0};
   std::atomic<int> unchanged{0};
-  std::atomic<int> upload_ms{0};  ///< that it takes for an upload
+  std::atomic<int> upload_ms{0};       ///< that it takes for an upload
+  std::atomic<int> upload_error{0};    ///< errno of every upload; 0: none
+  std::atomic<bool> uploading{false};  ///< an upload has begun and not ended
 
  private:
   void run();
@@ -60,5 +62,8 @@ class UinputDevice {
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
+
+/// Waits until the driver lists a device of that name, and returns its "ff:…".
+std::string listed(const std::string& name = "uinput device");
 
 }  // namespace spidar::test

@@ -122,6 +122,39 @@ TEST_P(UsbPipeline, TheSecondToAskForABoardGetsAnErrorAndTheFirstPlaysOn) {
   gst_object_unref(first);
 }
 
+/// No limit of time: if the streaming thread waited for the device, no frame would pass until the
+/// driver returns, which is after 30 frames have passed. Lateness is measured in the suite
+/// `kernel`, whose time does not depend on the machine.
+TEST(ForceFeedbackPipeline, NoFrameWaitsForADriverThatHangs) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  GstElement* pipeline = gst_parse_launch(
+      "videotestsrc pattern=ball motion=sweep ! video/x-raw,width=160,height=120 ! "
+      "spidarmotion device=ff ! fakesink sync=true",
+      nullptr);
+  ASSERT_NE(pipeline, nullptr);
+  GstBus* bus = gst_element_get_bus(pipeline);
+  ASSERT_NE(gst_element_set_state(pipeline, GST_STATE_PLAYING), GST_STATE_CHANGE_FAILURE);
+  wait_for([&] { return !evdev_levels(0).at_rest(); });
+
+  port.hangs = true;
+  wait_for([&] { return port.hanging == 1; });
+  const uint64_t uploads = port.uploads;
+  wait_for_frames(bus, 30);
+  // Nor does the application wait when it pauses the film.
+  EXPECT_NE(gst_element_set_state(pipeline, GST_STATE_PAUSED), GST_STATE_CHANGE_FAILURE);
+  EXPECT_EQ(gst_element_get_state(pipeline, nullptr, nullptr, GST_CLOCK_TIME_NONE),
+            GST_STATE_CHANGE_SUCCESS);
+  EXPECT_EQ(port.hanging, 1);  // all that time, one upload
+  EXPECT_EQ(port.uploads, uploads);
+
+  port.hangs = false;
+  wait_for([] { return evdev_levels(0).at_rest(); });
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(bus);
+  gst_object_unref(pipeline);
+  clear_bus();
+}
+
 TEST(ForceFeedbackPipeline, PlaysOnWhenTheStickIsPulledOutAndTakesItBack) {
   plug_evdev(0, EvdevKind::kStick);
   GstElement* pipeline = gst_parse_launch(

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Drivers of force-feedback devices that fail, hang or report nonsense, and forces that no device
+/// can give: on emulated input devices, through the same calls as real ones.
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/board_device.h"
+#include "spidar/boards/force_feedback_board.h"
+#include "spidar/haptic_session.h"
+#include "spidar/transports/evdev_transport.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/support/felt_player.h"
+
+namespace spidar::test {
+namespace {
+
+class EvdevFaults : public testing::Test {
+ protected:
+  EvdevFaults() { clear_bus(); }
+  ~EvdevFaults() override { clear_bus(); }
+
+  /// A device without a thread for its exchanges.
+  std::unique_ptr<BoardDevice> board(ForceFeedbackBoard::Updates updates) const {
+    BoardSettings settings;
+    settings.threaded = settings.guardian = false;
+    auto transport = std::make_unique<EvdevTransport>("ff", "");
+    return std::make_unique<BoardDevice>(
+        std::make_unique<ForceFeedbackBoard>("ff", profile, std::move(transport), updates),
+        settings);
+  }
+
+  /// Without any thread: it communicates with the driver once in kUpdate_ms exchanges.
+  std::unique_ptr<BoardDevice> stepped() const {
+    return board(ForceFeedbackBoard::Updates::kInCycle);
+  }
+
+  /// Volts for a tension of the strings that go to the right, and an additional one of those among
+  /// them that go up.
+  MotorVolts volts(double right_N, double up_N = 0) const {
+    MotorVolts volts;
+    for (size_t i = 0; i < static_cast<size_t>(profile.geometry.count); ++i) {
+      const Eigen::Vector3d& exit_m = profile.geometry.exit_m[i];
+      const double tension_N = exit_m.x() < 0 ? 0 : right_N + (exit_m.y() > 0 ? up_N : 0);
+      volts.volt[i] = tension_N * profile.drives[i].motor_sign / profile.drives[i].newtons_per_volt;
+    }
+    return volts;
+  }
+
+  const Profile profile = load_profile(kDefaultProfile);
+  DeviceReading reading;
+};
+
+/// Exchanges until every effect could be set once, and returns the worst status.
+ExchangeStatus exchange(BoardDevice& device, const MotorVolts& volts, DeviceReading& reading,
+                        int updates = 2) {
+  ExchangeStatus worst = ExchangeStatus::kOk;
+  for (int i = 0; i < updates * ForceFeedbackBoard::kUpdate_ms; ++i) {
+    const ExchangeStatus status = device.exchange(volts, reading);
+    if (status != ExchangeStatus::kOk) worst = status;
+  }
+  return worst;
+}
+
+TEST_F(EvdevFaults, EveryErrorIsNamedCountedAndForgotten) {
+  struct Case {
+    std::atomic<int> EvdevPort::*call;
+    int error;
+    ExchangeStatus status;
+    LinkFault fault = LinkFault::kNone;  // kNone: any but those of the other cases
+  };
+  constexpr auto kUpload = &EvdevPort::upload_error;
+  constexpr auto kQuery = &EvdevPort::query_error;
+  constexpr ExchangeStatus kBad = ExchangeStatus::kBadReply;
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  device->open();
+  const auto faults = [&] {
+    return device->health().errors() + device->health().count(LinkFault::kTimeout);
+  };
+  double right_N = 0;
+  for (const Case& c : {Case{kUpload, EIO, kBad, LinkFault::kBusError},
+                        {kUpload, EINVAL, kBad},
+                        {kUpload, ENOSPC, kBad},
+                        {kUpload, ETIMEDOUT, ExchangeStatus::kTimeout, LinkFault::kTimeout},
+                        {kUpload, ENODEV, ExchangeStatus::kLost, LinkFault::kGone},
+                        {kQuery, EIO, kBad, LinkFault::kBusError},
+                        {kQuery, EINVAL, kBad},
+                        {kQuery, ETIMEDOUT, ExchangeStatus::kTimeout, LinkFault::kTimeout},
+                        {kQuery, ENODEV, ExchangeStatus::kLost, LinkFault::kGone}}) {
+    SCOPED_TRACE(std::string(c.call == kUpload ? "upload: " : "position: ") +
+                 std::strerror(c.error));
+    ASSERT_EQ(exchange(*device, volts(right_N), reading), ExchangeStatus::kOk);
+    const EvdevLevels before = evdev_levels(0);
+    const uint64_t count = faults();
+    const uint64_t uploads = port.uploads;
+    right_N += 0.1;  // so that there is something to upload
+    port.*c.call = c.error;
+    EXPECT_EQ(exchange(*device, volts(right_N), reading, 1), c.status);
+    EXPECT_EQ(faults(), count + 1);
+    const LinkFault fault = device->health().last_fault;
+    if (c.fault != LinkFault::kNone)
+      EXPECT_EQ(fault, c.fault);
+    else
+      EXPECT_TRUE(fault != LinkFault::kBusError && fault != LinkFault::kTimeout &&
+                  fault != LinkFault::kGone)
+          << to_string(fault);
+    EXPECT_EQ(port.uploads, uploads);
+    EXPECT_EQ(evdev_levels(0).right, before.right);
+    port.*c.call = 0;
+    if (fault == LinkFault::kGone) {
+      device->close();
+      EXPECT_TRUE(evdev_levels(0).at_rest());
+      device->open();
+    }
+    EXPECT_EQ(exchange(*device, volts(right_N), reading), ExchangeStatus::kOk);
+    EXPECT_GT(evdev_levels(0).right, before.right);
+    EXPECT_EQ(faults(), count + 1);
+  }
+}
+
+TEST_F(EvdevFaults, AnUpdateThatASignalInterruptsIsRepeated) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  device->open();
+  port.interruptions = 3;
+  EXPECT_EQ(exchange(*device, volts(1), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(port.interruptions, 0);
+  EXPECT_GT(evdev_levels(0).right, 0);
+  EXPECT_EQ(evdev_levels(0).up, 0);
+  EXPECT_EQ(device->health().errors(), 0u);
+}
+
+TEST_F(EvdevFaults, ForcesBeyondFullLevelAreCutAndKeepTheirDirection) {
+  plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  device->open();
+  ASSERT_EQ(exchange(*device, volts(1e9), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(evdev_levels(0).right, ff::kFullLevel);
+  EXPECT_EQ(evdev_levels(0).up, 0);
+  // To the right and less upwards, within the range and far beyond it.
+  ASSERT_EQ(exchange(*device, volts(0.2, 0.2), reading), ExchangeStatus::kOk);
+  const EvdevLevels within = evdev_levels(0);
+  ASSERT_GT(within.right, within.up);
+  ASSERT_GT(within.up, 0);
+  ASSERT_LT(within.right, ff::kFullLevel);
+  ASSERT_EQ(exchange(*device, volts(2e8, 2e8), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(evdev_levels(0).right, ff::kFullLevel);
+  // All three levels are rounded by half a step.
+  const double scale = 1.0 * ff::kFullLevel / within.right;
+  EXPECT_NEAR(evdev_levels(0).up, scale * within.up, 0.5 + scale);
+  ASSERT_EQ(exchange(*device, volts(-1e9), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(evdev_levels(0).right, -ff::kFullLevel);
+}
+
+TEST_F(EvdevFaults, WheelsAndPadsCutForcesToo) {
+  for (const EvdevKind kind : {EvdevKind::kWheel, EvdevKind::kPad}) {
+    plug_evdev(0, kind);
+    const auto device = stepped();
+    device->open();
+    ASSERT_EQ(exchange(*device, volts(1e9, 1e9), reading), ExchangeStatus::kOk);
+    const EvdevLevels levels = evdev_levels(0);
+    EXPECT_EQ(levels.right, kind == EvdevKind::kWheel ? ff::kFullLevel : 0);
+    EXPECT_EQ(levels.rumble, kind == EvdevKind::kPad ? ff::kFullStrength : 0);
+    EXPECT_EQ(levels.up, 0);
+  }
+}
+
+TEST_F(EvdevFaults, VoltsThatAreNoNumbersPushNowhere) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const EvdevKind kind : {EvdevKind::kStick, EvdevKind::kWheel, EvdevKind::kPad}) {
+    plug_evdev(0, kind);
+    const auto device = stepped();
+    device->open();
+    for (const double value : {kNan, kInfinity, -kInfinity}) {
+      // In one string, and in all.
+      MotorVolts one = volts(1, 0.5), all;
+      one.volt[6] = value;
+      all.volt.fill(value);
+      for (const MotorVolts& bad : {one, all}) {
+        ASSERT_EQ(exchange(*device, volts(1), reading), ExchangeStatus::kOk);
+        ASSERT_FALSE(evdev_levels(0).at_rest());
+        ASSERT_EQ(exchange(*device, bad, reading), ExchangeStatus::kOk);
+        EXPECT_TRUE(evdev_levels(0).at_rest()) << value;
+      }
+    }
+  }
+}
+
+TEST_F(EvdevFaults, APositionBeyondItsAxisIsTheEndOfTheAxis) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  device->open();
+  const auto counts_at = [&](int right, int down) {
+    port.axis[0] = right;
+    port.axis[1] = down;
+    EXPECT_EQ(exchange(*device, {}, reading, 50), ExchangeStatus::kOk);
+    return reading.count;
+  };
+  const auto centre = counts_at(0, 0);
+  const auto corner = counts_at(1000, -1000);
+  EXPECT_NE(corner, centre);
+  EXPECT_EQ(counts_at(32767, -32768), corner);
+  EXPECT_EQ(counts_at(1001, std::numeric_limits<int>::min()), corner);
+  // An axis whose ends are the same is at rest.
+  port.axis_end = 0;
+  EXPECT_EQ(counts_at(1000, -1000), centre);
+}
+
+TEST_F(EvdevFaults, AfterItFailedToOpenNothingIsLeftAndItOpensAgain) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const auto device = stepped();
+  const auto refuses = [&](const char* what) {
+    try {
+      device->open();
+      ADD_FAILURE() << what;
+    } catch (const DeviceError& error) {
+      const std::string said = error.what();
+      EXPECT_EQ(said.find("ff: \"Emulated Stick\" does not take an effect: "), 0u) << said;
+    }
+    EXPECT_TRUE(evdev_levels(0).at_rest());
+    for (const EvdevPort::Effect& effect : port.effect) EXPECT_FALSE(effect.used) << what;
+  };
+  for (const int error : {EIO, EINVAL, ENOSPC, ENODEV}) {
+    port.upload_error = error;
+    refuses("upload");
+    port.upload_error = 0;
+    port.event_error = error;
+    refuses("play");
+    port.event_error = 0;
+  }
+  port.cuts_events = true;
+  refuses("half of an event");
+  port.cuts_events = false;
+  device->open();
+  EXPECT_EQ(exchange(*device, volts(1), reading), ExchangeStatus::kOk);
+  EXPECT_GT(evdev_levels(0).right, 0);
+}
+
+/// A driver that takes no more levels must not keep the last one.
+TEST_F(EvdevFaults, ADriverThatFailsComesToRest) {
+  for (const auto call : {&EvdevPort::upload_error, &EvdevPort::query_error}) {
+    for (const int error : {EIO, ENODEV}) {
+      SCOPED_TRACE(std::string(call == &EvdevPort::upload_error ? "upload: " : "position: ") +
+                   std::strerror(error));
+      EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+      const FeltPlayer player;
+      player.push(1, 0);
+      wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+      port.*call = error;
+      player.loop().cancel_scheduled();
+      ASSERT_TRUE(player.loop().schedule(lasting({0, 1, 0})));
+      wait_for([&] { return player.now().last.device == DeviceState::kLost; });
+      wait_for([] { return evdev_levels(0).at_rest(); });
+      port.*call = 0;
+      wait_for([] { return is_level(evdev_levels(0).up, 1, 1) && evdev_levels(0).right == 0; });
+    }
+  }
+}
+
+/// With the board's own thread, as in make_device(), and ticks by hand: if a tick waited for the
+/// driver, it would never end.
+TEST_F(EvdevFaults, NoTickWaitsForADriverThatHangs) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  SessionSettings by_hand;
+  by_hand.threaded = false;
+  HapticSession session(profile, board(ForceFeedbackBoard::Updates::kOwnThread), by_hand);
+  int64_t now_ns = 0;
+  const auto tick = [&] {
+    now_ns += kTick_ns;
+    session.loop().tick(now_ns, now_ns);
+    return session.loop().snapshot().last;
+  };
+  session.loop().set_playback_clock({0, 0, 1.0, true});
+  while (tick().device != DeviceState::kRunning) {
+  }
+  port.hangs = true;
+  ASSERT_TRUE(session.loop().schedule(lasting({1, 0, 0})));
+  while (tick().commanded.force_N.x() != 1) {
+  }
+  wait_for([&] { return port.hanging == 1; });
+  const uint64_t uploads = port.uploads;
+  for (int ms = 0; ms < 1000; ++ms) tick();
+  EXPECT_EQ(port.hanging, 1);
+  EXPECT_EQ(port.uploads, uploads);
+  port.hangs = false;
+}
+
+}  // namespace
+}  // namespace spidar::test
