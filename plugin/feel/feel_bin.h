@@ -17,5 +17,15 @@ G_DECLARE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST, SPIDAR_FEEL_BIN
 G_END_DECLS
 
 /// `properties` are those of spidarmotion, a line NAME=VALUE each; nullptr: none. Nullptr when an
-/// element is missing. A floating reference.
+/// element is missing, which is printed. A floating reference.
 GstElement* gst_spidar_feel_bin_new(const char* properties);
+
+/// Whether the bin has opened the device.
+gboolean gst_spidar_feel_bin_is_felt(GstSpidarFeelBin* self);
+
+/// Whether the bin passes frames of these caps without conversion.
+gboolean gst_spidar_feel_bin_passes(GstSpidarFeelBin* self, GstCaps* caps);
+
+/// Like GST_PAD_LINK_CHECK_DEFAULT, without an event GST_EVENT_RECONFIGURE.
+constexpr auto kLinkQuietly =
+    static_cast<GstPadLinkCheck>(GST_PAD_LINK_CHECK_DEFAULT | GST_PAD_LINK_CHECK_NO_RECONFIGURE);
