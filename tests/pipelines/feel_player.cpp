@@ -10,6 +10,7 @@
 //   preroll, play, pause, stop
 //   other                   uses a second player from now on
 //   frames=N, wait=MS       waits until N more frames were shown; for MS milliseconds
+//   end                     waits for the end of the film, and fails when an error comes first
 //   loaded                  prints whether the plugin is in this process
 //   stay                    waits for ever
 //   exit                    exits without stopping
@@ -81,6 +82,19 @@ void wait_for_frames(int frames) {
   while (frames_shown < until) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
+/// Ends the program when the player fails.
+void wait_for_end(GstElement* player) {
+  GstBus* bus = gst_element_get_bus(player);
+  GstMessage* message = gst_bus_timed_pop_filtered(
+      bus, GST_CLOCK_TIME_NONE, static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR));
+  gst_object_unref(bus);
+  const bool failed = GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR;
+  gst_message_unref(message);
+  if (!failed) return;
+  std::fputs("the player fails\n", stderr);
+  std::exit(1);
+}
+
 bool is_loaded() {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);)
@@ -121,6 +135,8 @@ int main(int argc, char** argv) {
       now = 1;
     } else if (name == "frames") {
       wait_for_frames(number);
+    } else if (name == "end") {
+      wait_for_end(player);
     } else if (name == "wait") {
       std::this_thread::sleep_for(std::chrono::milliseconds(number));
     } else if (name == "loaded") {
