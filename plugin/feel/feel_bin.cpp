@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "plugin/feel/feel_caps.h"
+#include "plugin/feel/follow_state.h"
 
 GST_DEBUG_CATEGORY_STATIC(spidar_feel_debug);
 #define GST_CAT_DEFAULT spidar_feel_debug
@@ -116,25 +117,6 @@ static GstElement* open_motion(GstSpidarFeelBin* self) {
   return nullptr;
 }
 
-/// The state of the bin, or the one that it is changing to.
-static GstState state_of(GstSpidarFeelBin* self) {
-  GST_OBJECT_LOCK(self);
-  const GstState pending = GST_STATE_PENDING(self);
-  const GstState state = pending == GST_STATE_VOID_PENDING ? GST_STATE(self) : pending;
-  GST_OBJECT_UNLOCK(self);
-  return state;
-}
-
-/// Like gst_element_sync_state_with_parent(), but repeats when the application has changed the
-/// state of the bin meanwhile. Otherwise the element could return to a state that the bin has left.
-static void follow_state(GstSpidarFeelBin* self, GstElement* element) {
-  GstState state;
-  do {
-    state = state_of(self);
-    gst_element_set_state(element, state);
-  } while (state != state_of(self));
-}
-
 /// Replaces `out` by `in` while no data flow between `before` and `after`.
 static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   gst_element_unlink_many(self->before, out, self->after, nullptr);
@@ -143,7 +125,7 @@ static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   gst_bin_remove(GST_BIN(self), out);
   gst_bin_add(GST_BIN(self), in);
   gst_element_link_many(self->before, in, self->after, nullptr);
-  follow_state(self, in);
+  spidar::follow_state(GST_ELEMENT(self), in);
 }
 
 static bool has(GstSpidarFeelBin* self, GstElement* element) {
@@ -296,7 +278,16 @@ GstElement* gst_spidar_feel_bin_new(const char* properties) {
     gst_clear_object(&before);
     gst_clear_object(&middle);
     gst_clear_object(&after);
+    g_printerr(
+        "spidar-feel: the elements videoconvert or capsfilter are missing; nothing is felt\n");
   }
   gst_clear_caps(&caps);
   return result;
+}
+
+gboolean gst_spidar_feel_bin_is_felt(GstSpidarFeelBin* self) {
+  GST_STATE_LOCK(self);
+  const gboolean felt = self->motion != nullptr;
+  GST_STATE_UNLOCK(self);
+  return felt;
 }

@@ -18,5 +18,8 @@ G_DECLARE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST, SPIDAR_FEEL_BIN
 G_END_DECLS
 
 /// `properties` are those of spidarmotion, a line NAME=VALUE each; nullptr: none. Nullptr when an
-/// element is missing. A floating reference.
+/// element is missing, which is printed. A floating reference.
 GstElement* gst_spidar_feel_bin_new(const char* properties);
+
+/// Whether the bin has opened the device.
+gboolean gst_spidar_feel_bin_is_felt(GstSpidarFeelBin* self);

@@ -56,14 +56,20 @@ void DownstreamPath::drop_last() {
   steps_.pop_back();
 }
 
+DownstreamPath find_path_downstream(GstPad* source,
+                                    const std::function<bool(GstElement*)>& wanted) {
+  Search search(wanted);
+  search.reaches(source);
+  return std::move(search.path);
+}
+
 DownstreamPath find_path_downstream(GstElement* element,
                                     const std::function<bool(GstElement*)>& wanted) {
   GstPad* source = gst_element_get_static_pad(element, "src");
   if (!source) return {};
-  Search search(wanted);
-  search.reaches(source);
+  DownstreamPath path = find_path_downstream(source, wanted);
   gst_object_unref(source);
-  return std::move(search.path);
+  return path;
 }
 
 }  // namespace spidar

@@ -43,4 +43,7 @@ class DownstreamPath {
 DownstreamPath find_path_downstream(GstElement* element,
                                     const std::function<bool(GstElement*)>& wanted);
 
+/// The same, from a source pad.
+DownstreamPath find_path_downstream(GstPad* source, const std::function<bool(GstElement*)>& wanted);
+
 }  // namespace spidar

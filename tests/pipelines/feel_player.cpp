@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A simple player without any knowledge of haptics, which controls playbin according to its
-// arguments.
+// A simple player without any knowledge of haptics, which controls playbin or a decoder according
+// to its arguments.
 //
-// feel-player PLAYBIN FILM STEP...: PLAYBIN is playbin or playbin3. Steps are
+// feel-player PLAYBIN FILM STEP...: PLAYBIN is playbin, playbin3, or one of the decoders of
+// decoder_player.h. Steps are
 //   own-filter, own-sink    sets a video-filter, or a sink with spidarmotion device=none, of its
-//   own
-//   window                  uses a sink that accepts what a window accepts, without a converter
-//   preroll, play, pause, stop
+//   own; own-filter needs playbin
+//   window                  uses a sink that accepts what a window accepts, without a converter;
+//   needs playbin
+//   refuse                  lets its sink refuse all caps from now on; needs a decoder
+//   preroll, play, pause, ready, stop
+//   seek                    to the beginning
 //   other                   uses a second player from now on
 //   frames=N, wait=MS       waits until N more frames were shown; for MS milliseconds
-//   end                     waits for the end of the film, and fails when an error comes first
-//   loaded                  prints whether the plugin is in this process
+//   end                     waits for the end of the film, and prints how many frames were shown
+//   and a checksum of them loaded                  prints whether the plugin is in this process
 //   stay                    waits for ever
 //   exit                    exits without stopping
 #include <atomic>
@@ -27,20 +31,46 @@
 #include <gst/gst.h>
 
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/pipelines/decoder_player.h"
 
 namespace {
 
 std::atomic<int> frames_shown{0};
 
-void shown(GstElement*, GstBuffer*, GstPad*, gpointer) {
+GChecksum* checksum = nullptr;
+
+/// Called in the streaming thread; `checksum` is read when it has come to its end.
+void shown(GstElement*, GstBuffer* frame, GstPad*, gpointer) {
   ++frames_shown;
+  const GstClockTime time = GST_BUFFER_PTS(frame);
+  g_checksum_update(checksum, reinterpret_cast<const guchar*>(&time), sizeof time);
+  GstMapInfo bytes;
+  if (!gst_buffer_map(frame, &bytes, GST_MAP_READ)) return;
+  g_checksum_update(checksum, bytes.data, static_cast<gssize>(bytes.size));
+  gst_buffer_unmap(frame, &bytes);
+}
+
+/// Shows every frame, also late ones.
+void watch(GstElement* sink) {
+  g_object_set(sink, "sync", TRUE, "qos", FALSE, "max-lateness", gint64{-1}, "signal-handoffs",
+               TRUE, nullptr);
+  g_signal_connect(sink, "handoff", G_CALLBACK(shown), nullptr);
+}
+
+bool is_playbin(const std::string& name) {
+  return name.rfind("playbin", 0) == 0;
 }
 
 GstElement* make_player(const char* playbin, const std::string& film) {
+  GstElement* sink = nullptr;
+  if (!is_playbin(playbin)) {
+    GstElement* player = spidar::test::make_decoder_player(playbin, film, &sink);
+    watch(sink);
+    return player;
+  }
   GstElement* player = gst_element_factory_make(playbin, nullptr);
-  GstElement* sink = gst_element_factory_make("fakesink", nullptr);
-  g_object_set(sink, "sync", TRUE, "signal-handoffs", TRUE, nullptr);
-  g_signal_connect(sink, "handoff", G_CALLBACK(shown), nullptr);
+  sink = gst_element_factory_make("fakesink", nullptr);
+  watch(sink);
   gchar* uri = gst_filename_to_uri(film.c_str(), nullptr);
   g_object_set(player, "uri", uri, "video-sink", sink, nullptr);
   g_free(uri);
@@ -82,17 +112,17 @@ void wait_for_frames(int frames) {
   while (frames_shown < until) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-/// Ends the program when the player fails.
 void wait_for_end(GstElement* player) {
   GstBus* bus = gst_element_get_bus(player);
   GstMessage* message = gst_bus_timed_pop_filtered(
       bus, GST_CLOCK_TIME_NONE, static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR));
-  gst_object_unref(bus);
-  const bool failed = GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR;
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
+    std::fputs("the player fails\n", stderr);
+    std::exit(1);
+  }
   gst_message_unref(message);
-  if (!failed) return;
-  std::fputs("the player fails\n", stderr);
-  std::exit(1);
+  gst_object_unref(bus);
+  std::printf("%d frames, %s\n", frames_shown.load(), g_checksum_get_string(checksum));
 }
 
 bool is_loaded() {
@@ -108,6 +138,7 @@ int main(int argc, char** argv) {
   spidar::test::bus();  // or the linker leaves it out
   gst_init(nullptr, nullptr);
   if (argc < 3) return 2;
+  checksum = g_checksum_new(G_CHECKSUM_MD5);
   GstElement* players[] = {make_player(argv[1], argv[2]), make_player(argv[1], argv[2])};
   size_t now = 0;
   for (int i = 3; i < argc; ++i) {
@@ -118,6 +149,7 @@ int main(int argc, char** argv) {
     const std::map<std::string, GstState> states{{"preroll", GST_STATE_PAUSED},
                                                  {"play", GST_STATE_PLAYING},
                                                  {"pause", GST_STATE_PAUSED},
+                                                 {"ready", GST_STATE_READY},
                                                  {"stop", GST_STATE_NULL}};
     if (states.count(name)) {
       set_state(player, states.at(name));
@@ -125,18 +157,24 @@ int main(int argc, char** argv) {
       g_object_set(player, "video-filter", gst_element_factory_make("identity", nullptr), nullptr);
     } else if (name == "window") {
       show_in_window(player);
+    } else if (name == "own-sink" && !is_playbin(argv[1])) {
+      spidar::test::add_own_motion(player);
     } else if (name == "own-sink") {
       g_object_set(
           player, "video-sink",
           gst_parse_bin_from_description(
               "videoconvert ! spidarmotion device=none ! fakesink sync=true", TRUE, nullptr),
           nullptr);
+    } else if (name == "refuse") {
+      spidar::test::refuse_caps(player);
+    } else if (name == "seek") {
+      gst_element_seek_simple(player, GST_FORMAT_TIME, GST_SEEK_FLAG_FLUSH, 0);
+    } else if (name == "end") {
+      wait_for_end(player);
     } else if (name == "other") {
       now = 1;
     } else if (name == "frames") {
       wait_for_frames(number);
-    } else if (name == "end") {
-      wait_for_end(player);
     } else if (name == "wait") {
       std::this_thread::sleep_for(std::chrono::milliseconds(number));
     } else if (name == "loaded") {
@@ -154,5 +192,6 @@ int main(int argc, char** argv) {
     gst_element_set_state(player, GST_STATE_NULL);
     gst_object_unref(player);
   }
+  g_checksum_free(checksum);
   return 0;
 }

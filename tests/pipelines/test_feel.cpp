@@ -1,96 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // spidar-feel with players that are separate programs, and an SH4 board on an emulated USB.
-#include <chrono>
 #include <csignal>
-#include <memory>
 #include <string>
-#include <thread>
 #include <tuple>
 #include <vector>
 
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-#include "tests/emulated_bus/bus_state.h"
-#include "tests/emulated_bus/shared_bus.h"
+#include "tests/pipelines/feel_fixture.h"
 #include "tests/support/child_process.h"
-#include "tests/support/felt_ticks.h"
-#include "tests/support/shell.h"
-#include "tests/support/temporary_folder.h"
 
 namespace spidar::test {
 namespace {
-
-/// Waits without a limit; the test has one.
-template <typename Condition>
-void wait_for(const Condition& condition) {
-  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
-
-class Feel : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder = std::make_unique<TemporaryFolder>();
-    film = make_film("film.avi", 1500);  // a minute
-    short_film = make_film("short.avi", 50);
-  }
-  static void TearDownTestSuite() { folder.reset(); }
-
-  /// A picture that moves as a whole, 25 frames/s.
-  static std::string make_film(const char* name, int frames) {
-    const std::string path = (folder->path / name).string();
-    const CommandResult made =
-        run("gst-launch-1.0 -q videotestsrc pattern=smpte horizontal-speed=2 num-buffers=" +
-            std::to_string(frames) +
-            " ! video/x-raw,width=160,height=120,framerate=25/1 ! jpegenc ! avimux ! filesink "
-            "location=" +
-            path);
-    EXPECT_EQ(made.status, 0) << made.text;
-    return path;
-  }
-
-  Feel() { clear_bus(); }
-  ~Feel() override { clear_bus(); }
-
-  /// How often a device was opened since the test began.
-  size_t opened() const { return bus().files_opened - opened_before_; }
-
-  std::string trace() const { return (folder->path / "trace.csv").string(); }
-
-  /// Sets up the SH4 board and a trace, before the player starts.
-  std::vector<std::string> felt() const {
-    return {SPIDAR_FEEL, "device=usb", "motion=mean", "haptic-trace=" + trace(), "--"};
-  }
-  static std::vector<std::string> player(const std::vector<std::string>& steps,
-                                         const std::string& playbin = "playbin") {
-    std::vector<std::string> arguments{FEEL_PLAYER, playbin, film};
-    arguments.insert(arguments.end(), steps.begin(), steps.end());
-    return arguments;
-  }
-  static std::vector<std::string> joined(std::vector<std::string> a,
-                                         const std::vector<std::string>& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-  }
-  std::vector<std::string> felt_player(const std::vector<std::string>& steps,
-                                       const std::string& playbin = "playbin") const {
-    return joined(felt(), player(steps, playbin));
-  }
-  static CommandResult run_all(const std::vector<std::string>& arguments) {
-    std::string command;
-    for (const std::string& argument : arguments) command += "'" + argument + "' ";
-    return run(command);
-  }
-
-  static std::unique_ptr<TemporaryFolder> folder;
-  static std::string film, short_film;
-
- private:
-  const size_t opened_before_ = bus().files_opened;
-};
-std::unique_ptr<TemporaryFolder> Feel::folder;
-std::string Feel::film, Feel::short_film;
 
 TEST_F(Feel, APlayerIsFeltWhileItPlaysAndAtRestWhilePaused) {
   UsbPort& port = plug(0, UsbKind::kSh4);
@@ -101,17 +24,7 @@ TEST_F(Feel, APlayerIsFeltWhileItPlaysAndAtRestWhilePaused) {
     EXPECT_EQ(outcome.status, 0) << outcome.text;
     EXPECT_EQ(outcome.text, "");
     EXPECT_TRUE(port.at_rest());
-    const std::vector<Tick> ticks = read_trace(trace());
-    EXPECT_GT(largest_N(ticks), 0.1);
-    int64_t played_ns = 0;
-    int rested = 0;
-    for (const Tick& tick : ticks) {
-      if (tick.playing) played_ns = tick.monotonic_ns;
-      if (tick.monotonic_ns - played_ns < 60'000'000) continue;
-      EXPECT_EQ(tick.force_N, 0) << tick.monotonic_ns - played_ns << " ns after it was paused";
-      ++rested;
-    }
-    EXPECT_GT(rested, 0);
+    expect_felt_until_paused();
   }
 }
 
@@ -239,9 +152,6 @@ TEST_F(Feel, WrongUsageIsNamed) {
 }
 
 #ifdef EMULATED_BUS_LIBRARY
-
-/// Programs that are not built here see the bus through this library.
-const std::vector<std::string> kOnTheBus{"LD_PRELOAD=" EMULATED_BUS_LIBRARY};
 
 TEST_F(Feel, GstPlayIsFeltAndAtRestHoweverItEnds) {
   UsbPort& port = plug(0, UsbKind::kSh4);
