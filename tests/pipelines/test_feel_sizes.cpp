@@ -63,6 +63,7 @@ TEST_F(FeelSizes, AFilmThatIsTooSmallOrTooLargePlays) {
     EXPECT_EQ(outcome.status, 0) << outcome.text;
     EXPECT_EQ(outcome.text.find("spidar-feel: frames of " + size + " pixels are not felt; "), 0u)
         << outcome.text;
+    EXPECT_NE(outcome.text.find("\n10 frames, "), std::string::npos) << outcome.text;
     EXPECT_EQ(largest_N(read_trace(trace_)), 0);
   }
 }
@@ -73,6 +74,7 @@ TEST_F(FeelSizes, WhatFitsIsFeltBeforeAndAfterFramesThatDoNot) {
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_EQ(outcome.text.find("spidar-feel: frames of 8x8 pixels are not felt; "), 0u)
       << outcome.text;
+  EXPECT_NE(outcome.text.find("\n75 frames, "), std::string::npos) << outcome.text;
   const std::vector<double> forces = forces_while_playing(read_trace(trace_));
   ASSERT_GE(forces.size(), 2u);
   EXPECT_GT(forces.front(), 0.1);
