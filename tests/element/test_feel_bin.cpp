@@ -18,8 +18,9 @@
 
 namespace {
 
-/// What happens at the next call of a function; once.
-std::function<void()> after_adding_a_probe, before_iterating, before_motion_changes_state;
+/// What happens at the test's own next call of a function; once.
+thread_local std::function<void()> after_adding_a_probe, before_iterating,
+    before_motion_changes_state;
 
 void happen(std::function<void()>& what) {
   const std::function<void()> now = std::exchange(what, nullptr);
@@ -229,7 +230,9 @@ TEST_F(FeelBin, AFrameMayComeWhileThePlayerBeginsToPlay) {
 }
 
 TEST_F(FeelBin, APipelineThatChangesMeanwhileIsSearchedAgain) {
-  gst_bin_add(GST_BIN(pipeline_), gst_element_factory_make("spidarmotion", "own"));
+  GstElement* own = gst_element_factory_make("spidarmotion", "own");
+  g_object_set(own, "device", "none", nullptr);
+  gst_bin_add(GST_BIN(pipeline_), own);
   set_state(GST_STATE_PAUSED);
   begin_stream();
   before_iterating = [this] { gst_bin_add(GST_BIN(pipeline_), gst_bin_new(nullptr)); };
