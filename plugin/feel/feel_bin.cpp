@@ -117,6 +117,12 @@ static GstElement* open_motion(GstSpidarFeelBin* self) {
   return nullptr;
 }
 
+/// Without asking the elements upstream to negotiate again: `to` accepts what was accepted before.
+/// theoradec fails when it has to during a seek.
+static void link_quietly(GstElement* from, GstElement* to) {
+  gst_element_link_pads_full(from, "src", to, "sink", kLinkQuietly);
+}
+
 /// Replaces `out` by `in` while no data flow between `before` and `after`.
 static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   gst_element_unlink_many(self->before, out, self->after, nullptr);
@@ -124,7 +130,8 @@ static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   gst_element_set_state(out, GST_STATE_READY);
   gst_bin_remove(GST_BIN(self), out);
   gst_bin_add(GST_BIN(self), in);
-  gst_element_link_many(self->before, in, self->after, nullptr);
+  link_quietly(in, self->after);
+  link_quietly(self->before, in);
   spidar::follow_state(GST_ELEMENT(self), in);
 }
 
@@ -290,4 +297,12 @@ gboolean gst_spidar_feel_bin_is_felt(GstSpidarFeelBin* self) {
   const gboolean felt = self->motion != nullptr;
   GST_STATE_UNLOCK(self);
   return felt;
+}
+
+gboolean gst_spidar_feel_bin_passes(GstSpidarFeelBin* self, GstCaps* caps) {
+  GstCaps* accepted = nullptr;
+  g_object_get(self->middle, "caps", &accepted, nullptr);
+  const gboolean passes = gst_caps_is_subset(caps, accepted);
+  gst_caps_unref(accepted);
+  return passes;
 }

@@ -23,3 +23,10 @@ GstElement* gst_spidar_feel_bin_new(const char* properties);
 
 /// Whether the bin has opened the device.
 gboolean gst_spidar_feel_bin_is_felt(GstSpidarFeelBin* self);
+
+/// Whether the bin passes frames of these caps without conversion.
+gboolean gst_spidar_feel_bin_passes(GstSpidarFeelBin* self, GstCaps* caps);
+
+/// Like GST_PAD_LINK_CHECK_DEFAULT, without an event GST_EVENT_RECONFIGURE.
+constexpr auto kLinkQuietly =
+    static_cast<GstPadLinkCheck>(GST_PAD_LINK_CHECK_DEFAULT | GST_PAD_LINK_CHECK_NO_RECONFIGURE);

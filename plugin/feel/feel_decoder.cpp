@@ -114,13 +114,20 @@ void at_next_frame(GstGhostPad* pad, GstElement* filter, GstPadProbeCallback fou
   gst_object_unref(target);
 }
 
-bool accepts_caps_of(GstPad* sink, GstPad* source) {
-  GstCaps* caps = gst_pad_get_current_caps(source);
-  GstCaps* accepted = caps ? gst_pad_query_caps(sink, caps) : nullptr;
-  const bool accepts = accepted && !gst_caps_is_empty(accepted);
-  gst_clear_caps(&accepted);
-  gst_clear_caps(&caps);
-  return accepts;
+/// Links `target` to `in`, which is that of the filter. False when its video does not fit.
+bool link_filter(GstPad* target, GstPad* in, GstElement* filter) {
+  GstCaps* caps = gst_pad_get_current_caps(target);
+  if (!caps) return false;
+  // The decoder need not allocate its frames in another way.
+  const bool quietly = gst_spidar_feel_bin_passes(GST_SPIDAR_FEEL_BIN(filter), caps);
+  const bool linked =
+      gst_pad_link_full(target, in, quietly ? kLinkQuietly : GST_PAD_LINK_CHECK_DEFAULT) ==
+      GST_PAD_LINK_OK;
+  GstCaps* accepted = gst_pad_query_caps(in, caps);
+  const bool fits = linked && !gst_caps_is_empty(accepted);
+  gst_caps_unref(accepted);
+  gst_caps_unref(caps);
+  return fits;
 }
 
 /// Puts the filter between `target` and `pad`, whose target it is. Leaves them as they were and
@@ -128,8 +135,7 @@ bool accepts_caps_of(GstPad* sink, GstPad* source) {
 bool insert(GstGhostPad* pad, GstPad* target, GstElement* filter) {
   GstPad* in = gst_element_get_static_pad(filter, "sink");
   GstPad* out = gst_element_get_static_pad(filter, "src");
-  const bool inserted = gst_ghost_pad_set_target(pad, out) &&
-                        gst_pad_link(target, in) == GST_PAD_LINK_OK && accepts_caps_of(in, target);
+  const bool inserted = gst_ghost_pad_set_target(pad, out) && link_filter(target, in, filter);
   if (!inserted) {
     gst_pad_unlink(target, in);
     gst_ghost_pad_set_target(pad, target);

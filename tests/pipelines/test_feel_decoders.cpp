@@ -28,6 +28,18 @@ class FeelDecoders : public Feel {
     return outcome.text;
   }
 
+  /// Its decoder lets the sink crop the frames.
+  static std::string make_theora(const char* name) {
+    const std::string path = (folder->path / name).string();
+    const CommandResult made =
+        run("gst-launch-1.0 -q videotestsrc pattern=smpte horizontal-speed=2 num-buffers=" +
+            std::to_string(kFrames) +
+            " ! video/x-raw,width=160,height=120,framerate=25/1 ! theoraenc ! oggmux ! filesink "
+            "location=" +
+            path);
+    EXPECT_EQ(made.status, 0) << made.text;
+    return path;
+  }
   /// The words of a line, of which none has spaces.
   static std::vector<std::string> words(const std::string& line) {
     std::istringstream text(line);
@@ -71,6 +83,38 @@ TEST_F(FeelDecoders, AreFeltAgainAfterSeeksPausesAndStops) {
       EXPECT_GT(largest_N(read_trace(trace())), 0.1);
       EXPECT_TRUE(port.at_rest());
     }
+  }
+}
+
+TEST_F(FeelDecoders, AreFeltWhenTheirPadIsReplacedWhileTheyPlay) {
+  const std::string chain = (folder->path / "chain.ogg").string();
+  // Each with a serial number of its own.
+  const std::string parts[] = {make_theora("first.ogg"), make_theora("second.ogg")};
+  const CommandResult made = run("cat " + parts[0] + " " + parts[1] + " > " + chain);
+  ASSERT_EQ(made.status, 0) << made.text;
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  // The others do not play such a film, without spidar-feel, too.
+  for (const std::string decoder : {"uridecodebin", "decodebin"}) {
+    SCOPED_TRACE(decoder);
+    const size_t before = opened();
+    const CommandResult alone = run_all(player({"play", "end"}, decoder, chain));
+    EXPECT_EQ(alone.text.find("30 frames, "), 0u) << alone.text;
+    EXPECT_EQ(run_all(felt_player({"play", "end"}, decoder, chain)).text, alone.text);
+    EXPECT_EQ(opened() - before, 2u);
+    // That of the second part; the first part's was replaced.
+    EXPECT_GT(largest_N(read_trace(trace())), 0.1);
+    EXPECT_TRUE(port.at_rest());
+  }
+}
+
+TEST_F(FeelDecoders, NeedNotAllocateAnewDuringSeeks) {
+  plug(0, UsbKind::kSh4);
+  const std::string theora = make_theora("theora.ogg");
+  for (const char* wait : {"wait=20", "wait=40", "wait=60", "wait=80"}) {
+    SCOPED_TRACE(wait);
+    const CommandResult outcome =
+        run_all(felt_player({"play", wait, "seek", "seek", "seek", "end"}, "decodebin", theora));
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
   }
 }
 
