@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "plugin/feel/feel_caps.h"
 #include "plugin/feel/follow_state.h"
 
 GST_DEBUG_CATEGORY_STATIC(spidar_feel_debug);
@@ -13,12 +14,20 @@ struct _GstSpidarFeelBin {
   GstBin parent;
 
   gchar* properties;
+  GstCaps* felt;   // what spidarmotion accepts
+  GstCaps* shown;  // the same in any size
   // The elements of the bin, in this order.
   GstElement* before;
-  GstElement* middle;  // accepts the caps of spidarmotion; kept while it is not in the bin
+  GstElement*
+      middle;  // accepts the caps of spidarmotion in any size; kept while it is not in the bin
   GstElement* after;
-  GstElement* motion;  // the spidarmotion that has the device; nullptr: nothing is felt
-  gulong probe;        // on the pad before the middle, until `motion` is in its place
+  // The spidarmotion that has the device; nullptr: nothing is felt. It is in the place of the
+  // middle while it is in the bin. Read by the streaming thread and written in state changes,
+  // atomically.
+  GstElement* motion;
+  // Of the streaming thread:
+  const GstElement* considered;  // the `motion` for which it was last decided what is in the bin
+  bool said;                     // why it is not
 };
 
 G_DEFINE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST_TYPE_BIN)
@@ -44,7 +53,10 @@ static bool is_felt_already(GstSpidarFeelBin* self) {
   }
   GstIterator* all = gst_bin_iterate_all_by_element_factory_name(GST_BIN(top), "spidarmotion");
   GValue found = G_VALUE_INIT;
-  const bool felt = gst_iterator_next(all, &found) == GST_ITERATOR_OK;
+  GstIteratorResult result;
+  // The application may add or remove elements meanwhile.
+  while ((result = gst_iterator_next(all, &found)) == GST_ITERATOR_RESYNC) gst_iterator_resync(all);
+  const bool felt = result == GST_ITERATOR_OK;
   g_value_unset(&found);
   gst_iterator_free(all);
   gst_object_unref(top);
@@ -120,7 +132,8 @@ static void link_quietly(GstElement* from, GstElement* to) {
 /// Replaces `out` by `in` while no data flow between `before` and `after`.
 static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   gst_element_unlink_many(self->before, out, self->after, nullptr);
-  gst_element_set_state(out, GST_STATE_NULL);
+  // Not NULL: a spidarmotion keeps its device, at rest, for the next frames that it can measure.
+  gst_element_set_state(out, GST_STATE_READY);
   gst_bin_remove(GST_BIN(self), out);
   gst_bin_add(GST_BIN(self), in);
   link_quietly(in, self->after);
@@ -128,38 +141,79 @@ static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   spidar::follow_state(GST_ELEMENT(self), in);
 }
 
-static GstPadProbeReturn put_in(GstPad*, GstPadProbeInfo*, gpointer data) {
+static bool has(GstSpidarFeelBin* self, GstElement* element) {
+  return gst_object_has_as_parent(GST_OBJECT(element), GST_OBJECT(self));
+}
+
+/// Puts spidarmotion into the bin if it accepts `caps`, and takes it out if it does not. Called in
+/// the streaming thread, before the data reach `before`.
+static void consider(GstSpidarFeelBin* self, GstElement* motion, const GstCaps* caps) {
+  self->considered = motion;
+  if (!motion) return;
+  const bool fits = spidar::fits_size(caps, self->felt);
+  if (fits != has(self, motion))
+    exchange(self, fits ? self->middle : motion, fits ? motion : self->middle);
+  if (fits || self->said) return;
+  self->said = true;
+  g_printerr("spidar-feel: %s\n", spidar::say_sizes(caps, self->felt).c_str());
+}
+
+/// The probe stays on the pad: data may flow at any time, also while the bin begins to play.
+static GstPadProbeReturn before_data(GstPad* pad, GstPadProbeInfo* info, gpointer data) {
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(data);
-  exchange(self, self->middle, self->motion);
-  self->probe = 0;
-  return GST_PAD_PROBE_REMOVE;
+  auto* motion = static_cast<GstElement*>(g_atomic_pointer_get(&self->motion));
+  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
+    GstEvent* event = GST_PAD_PROBE_INFO_EVENT(info);
+    if (GST_EVENT_TYPE(event) != GST_EVENT_CAPS) return GST_PAD_PROBE_OK;
+    GstCaps* caps = nullptr;
+    gst_event_parse_caps(event, &caps);
+    consider(self, motion, caps);
+  } else if (motion != self->considered) {
+    GstCaps* caps = gst_pad_get_current_caps(pad);
+    if (caps) consider(self, motion, caps);
+    gst_clear_caps(&caps);
+  }
+  return GST_PAD_PROBE_OK;
+}
+
+/// Answers for spidarmotion like for the middle. Otherwise an element before the bin would find
+/// that frames of another size do not fit, before their caps reach the bin.
+static GstPadProbeReturn answer_query(GstPad*, GstPadProbeInfo* info, gpointer data) {
+  GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(data);
+  GstQuery* query = GST_PAD_PROBE_INFO_QUERY(info);
+  if (GST_QUERY_TYPE(query) != GST_QUERY_CAPS) return GST_PAD_PROBE_OK;
+  GstCaps* filter = nullptr;
+  gst_query_parse_caps(query, &filter);
+  GstCaps* wanted = filter ? gst_caps_intersect_full(filter, self->shown, GST_CAPS_INTERSECT_FIRST)
+                           : gst_caps_ref(self->shown);
+  GstPad* pad = gst_element_get_static_pad(self->after, "sink");
+  GstCaps* accepted = gst_pad_query_caps(pad, wanted);
+  gst_query_set_caps_result(query, accepted);
+  gst_caps_unref(accepted);
+  gst_object_unref(pad);
+  gst_caps_unref(wanted);
+  return GST_PAD_PROBE_HANDLED;
 }
 
 static void begin_to_feel(GstSpidarFeelBin* self) {
   if (self->motion || is_felt_already(self) || !take_device(self)) return;
-  self->motion = open_motion(self);
-  if (!self->motion) {
+  GstElement* motion = open_motion(self);
+  if (motion)
+    g_atomic_pointer_set(&self->motion, motion);
+  else
     leave_device(self);
-    return;
-  }
-  GstPad* pad = gst_element_get_static_pad(self->before, "src");
-  self->probe = gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BLOCK_DOWNSTREAM, put_in, self, nullptr);
-  gst_object_unref(pad);
 }
 
 /// Called while the pads of all elements are inactive.
 static void stop_feeling(GstSpidarFeelBin* self) {
-  if (!self->motion) return;
-  if (self->probe != 0) {
-    GstPad* pad = gst_element_get_static_pad(self->before, "src");
-    gst_pad_remove_probe(pad, self->probe);
-    gst_object_unref(pad);
-    self->probe = 0;
-    gst_element_set_state(self->motion, GST_STATE_NULL);
-  } else {
-    exchange(self, self->motion, self->middle);
-  }
-  gst_clear_object(&self->motion);
+  GstElement* motion = self->motion;
+  if (!motion) return;
+  if (has(self, motion)) exchange(self, motion, self->middle);
+  g_atomic_pointer_set(&self->motion, static_cast<GstElement*>(nullptr));
+  self->considered = nullptr;
+  self->said = false;
+  gst_element_set_state(motion, GST_STATE_NULL);
+  gst_object_unref(motion);
   leave_device(self);
 }
 
@@ -175,7 +229,10 @@ static GstStateChangeReturn gst_spidar_feel_bin_change_state(GstElement* element
 
 static void gst_spidar_feel_bin_finalize(GObject* object) {
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(object);
+  if (self->middle) gst_element_set_state(self->middle, GST_STATE_NULL);
   gst_clear_object(&self->middle);
+  gst_clear_caps(&self->felt);
+  gst_clear_caps(&self->shown);
   g_free(self->properties);
   G_OBJECT_CLASS(gst_spidar_feel_bin_parent_class)->finalize(object);
 }
@@ -191,28 +248,21 @@ static void gst_spidar_feel_bin_class_init(GstSpidarFeelBinClass* klass) {
       "spidarmotion for players that offer no way to add a filter", "gst-spidar");
 }
 
+static void add_probe(GstSpidarFeelBin* self, const char* name, int what,
+                      GstPadProbeCallback callback) {
+  GstPad* pad = gst_element_get_static_pad(self->before, name);
+  gst_pad_add_probe(pad, static_cast<GstPadProbeType>(what), callback, self, nullptr);
+  gst_object_unref(pad);
+}
+
 static void add_ghost_pad(GstSpidarFeelBin* self, GstElement* element, const char* name) {
   GstPad* pad = gst_element_get_static_pad(element, name);
   gst_element_add_pad(GST_ELEMENT(self), gst_ghost_pad_new(name, pad));
   gst_object_unref(pad);
 }
 
-/// Caps that spidarmotion accepts; nullptr when the element does not exist.
-static GstCaps* motion_caps() {
-  GstElementFactory* factory = gst_element_factory_find("spidarmotion");
-  if (!factory) return nullptr;
-  GstCaps* caps = nullptr;
-  for (const GList* item = gst_element_factory_get_static_pad_templates(factory); item;
-       item = item->next) {
-    auto* pad = static_cast<GstStaticPadTemplate*>(item->data);
-    if (pad->direction == GST_PAD_SINK && !caps) caps = gst_static_pad_template_get_caps(pad);
-  }
-  gst_object_unref(factory);
-  return caps;
-}
-
 GstElement* gst_spidar_feel_bin_new(const char* properties) {
-  GstCaps* caps = motion_caps();
+  GstCaps* caps = spidar::motion_caps();
   GstElement* before = gst_element_factory_make("videoconvert", nullptr);
   GstElement* middle = gst_element_factory_make("capsfilter", nullptr);
   GstElement* after = gst_element_factory_make("videoconvert", nullptr);
@@ -223,9 +273,17 @@ GstElement* gst_spidar_feel_bin_new(const char* properties) {
     self->before = before;
     self->middle = GST_ELEMENT(gst_object_ref_sink(middle));
     self->after = after;
-    g_object_set(middle, "caps", caps, nullptr);
+    self->felt = gst_caps_ref(caps);
+    self->shown = spidar::in_any_size(caps);
+    g_object_set(middle, "caps", self->shown, nullptr);
     gst_bin_add_many(GST_BIN(self), before, middle, after, nullptr);
     gst_element_link_many(before, middle, after, nullptr);
+    add_probe(self, "sink",
+              GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM | GST_PAD_PROBE_TYPE_BUFFER |
+                  GST_PAD_PROBE_TYPE_BUFFER_LIST,
+              before_data);
+    add_probe(self, "src", GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM | GST_PAD_PROBE_TYPE_PUSH,
+              answer_query);
     add_ghost_pad(self, before, "sink");
     add_ghost_pad(self, after, "src");
     result = GST_ELEMENT(self);

@@ -10,7 +10,8 @@ G_BEGIN_DECLS
 #define GST_TYPE_SPIDAR_FEEL_BIN (gst_spidar_feel_bin_get_type())
 /// videoconvert ! spidarmotion ! videoconvert, where spidarmotion is there only once the video has
 /// begun to play: what looks at films without playing them (thumbnails, tags) opens no device. A
-/// device that cannot be opened is a warning, and the video plays without it. Of several in a
+/// device that cannot be opened is a warning, and the video plays without it. Frames of a size that
+/// spidarmotion does not accept pass without it, while it keeps the device at rest. Of several in a
 /// process the first that plays has the device, until it leaves PAUSED for READY.
 G_DECLARE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST, SPIDAR_FEEL_BIN, GstBin)
 

@@ -81,11 +81,34 @@ std::string plugin_folder() {
   return {};
 }
 
+/// An older version of the plugin has no tracer.
 bool has_plugin() {
-  GstElementFactory* factory = gst_element_factory_find("spidarmotion");
-  if (!factory) return false;
-  gst_object_unref(factory);
+  for (const char* name : {"spidarmotion", "spidarfeel"}) {
+    GstPluginFeature* feature = gst_registry_lookup_feature(gst_registry_get(), name);
+    if (!feature) return false;
+    gst_object_unref(feature);
+  }
   return true;
+}
+
+/// GStreamer ignores GST_PLUGIN_PATH when the other variable exists, even if it is empty.
+const char* plugin_path_variable() {
+  return g_getenv("GST_PLUGIN_PATH_1_0") ? "GST_PLUGIN_PATH_1_0" : "GST_PLUGIN_PATH";
+}
+
+/// Searches `folder` before all others, in this process and in the player.
+void search_first(const std::string& folder) {
+  const char* variable = plugin_path_variable();
+  const char* before = g_getenv(variable);
+  const std::string path = before && *before ? folder + ":" + before : folder;
+  g_setenv(variable, path.c_str(), TRUE);
+  GstRegistry* registry = gst_registry_get();
+  // A plugin that was found first stays.
+  if (GstPlugin* older = gst_registry_find_plugin(registry, "spidar")) {
+    gst_registry_remove_plugin(registry, older);
+    gst_object_unref(older);
+  }
+  gst_registry_scan_path(registry, folder.c_str());
 }
 
 /// Sets up the environment so that GStreamer finds the plugin.
@@ -93,15 +116,12 @@ void find_plugin() {
   gst_init(nullptr, nullptr);
   if (has_plugin()) return;
   const std::string folder = plugin_folder();
-  if (!folder.empty()) {
-    const char* before = g_getenv("GST_PLUGIN_PATH");
-    const std::string path = before && *before ? folder + ":" + before : folder;
-    g_setenv("GST_PLUGIN_PATH", path.c_str(), TRUE);
-    gst_registry_scan_path(gst_registry_get(), folder.c_str());
-  }
+  if (!folder.empty()) search_first(folder);
   if (!has_plugin())
     fail(kCannotRun,
-         "GStreamer does not find the plugin of gst-spidar; name its folder in GST_PLUGIN_PATH");
+         std::string("GStreamer does not find this version of the plugin of gst-spidar, with ") +
+             "spidarmotion and the tracer spidarfeel; name its folder in " +
+             plugin_path_variable());
 }
 
 void check(const std::vector<std::string>& properties) {

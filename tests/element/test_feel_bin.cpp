@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// The filter that spidar-feel gives a player: sizes that spidarmotion does not accept, and what
+// another thread does at the worst moment. This program has functions of GStreamer of its own,
+// which let a test act in between. The thread that would do so is the test's own, so no time plays
+// a part.
+#include <dlfcn.h>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+#include "plugin/feel/feel_bin.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace {
+
+/// What happens at the test's own next call of a function; once.
+thread_local std::function<void()> after_adding_a_probe, before_iterating,
+    before_motion_changes_state;
+
+void happen(std::function<void()>& what) {
+  const std::function<void()> now = std::exchange(what, nullptr);
+  if (now) now();
+}
+
+bool is_motion(GstElement* element) {
+  GstElementFactory* factory = gst_element_get_factory(element);
+  return factory && g_strcmp0(GST_OBJECT_NAME(factory), "spidarmotion") == 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+gulong gst_pad_add_probe(GstPad* pad, GstPadProbeType mask, GstPadProbeCallback callback,
+                         gpointer data, GDestroyNotify destroy) {
+  static const auto real =
+      reinterpret_cast<decltype(&gst_pad_add_probe)>(dlsym(RTLD_NEXT, "gst_pad_add_probe"));
+  const gulong id = real(pad, mask, callback, data, destroy);
+  happen(after_adding_a_probe);
+  return id;
+}
+
+GstIteratorResult gst_iterator_next(GstIterator* iterator, GValue* element) {
+  static const auto real =
+      reinterpret_cast<decltype(&gst_iterator_next)>(dlsym(RTLD_NEXT, "gst_iterator_next"));
+  happen(before_iterating);
+  return real(iterator, element);
+}
+
+GstStateChangeReturn gst_element_set_state(GstElement* element, GstState state) {
+  static const auto real =
+      reinterpret_cast<decltype(&gst_element_set_state)>(dlsym(RTLD_NEXT, "gst_element_set_state"));
+  // Until it is in the pipeline, its device is opened.
+  if (state >= GST_STATE_PAUSED && is_motion(element)) happen(before_motion_changes_state);
+  return real(element, state);
+}
+}
+
+namespace spidar::test {
+namespace {
+
+GstFlowReturn drop(GstPad*, GstObject*, GstBuffer* frame) {
+  gst_buffer_unref(frame);
+  return GST_FLOW_OK;
+}
+
+/// A pipeline with the filter, frames for it, and their end.
+class FeelBin : public testing::Test {
+ protected:
+  FeelBin() {
+    init_gstreamer();
+    pipeline_ = gst_pipeline_new(nullptr);
+    bin_ = gst_spidar_feel_bin_new("device=none");
+    gst_bin_add(GST_BIN(pipeline_), bin_);
+    source_ = GST_PAD(gst_object_ref_sink(gst_pad_new("source", GST_PAD_SRC)));
+    // Without a template, a pad that has caps accepts no others.
+    GstPadTemplate* any =
+        gst_pad_template_new("end", GST_PAD_SINK, GST_PAD_ALWAYS, gst_caps_new_any());
+    end_ = GST_PAD(gst_object_ref_sink(gst_pad_new_from_template(any, "end")));
+    gst_object_unref(any);
+    gst_pad_set_chain_function(end_, drop);
+    link(source_, "sink");
+    link(end_, "src");
+  }
+  ~FeelBin() override {
+    gst_element_set_state(pipeline_, GST_STATE_NULL);
+    gst_object_unref(pipeline_);
+    gst_object_unref(source_);
+    gst_object_unref(end_);
+  }
+
+  void set_state(GstState state) {
+    ASSERT_EQ(gst_element_set_state(pipeline_, state), GST_STATE_CHANGE_SUCCESS);
+  }
+
+  void begin_stream() {
+    gst_pad_push_event(source_, gst_event_new_stream_start("film"));
+    set_size(320, 240);
+    GstSegment segment;
+    gst_segment_init(&segment, GST_FORMAT_TIME);
+    gst_pad_push_event(source_, gst_event_new_segment(&segment));
+  }
+  void set_size(int width, int height) {
+    GstCaps* caps = make_caps("I420", width, height);
+    gst_video_info_from_caps(&info_, caps);
+    EXPECT_TRUE(gst_pad_push_event(source_, gst_event_new_caps(caps)));
+    gst_caps_unref(caps);
+  }
+  GstFlowReturn push() {
+    GstBuffer* frame = make_frame(info_, 0, 0);
+    GST_BUFFER_PTS(frame) = 40 * GST_MSECOND * frames_++;
+    return gst_pad_push(source_, frame);
+  }
+
+  /// The spidarmotion in the filter, or nullptr.
+  GstElement* motion() const {
+    GstElement* found = nullptr;
+    for (GList* item = GST_BIN_CHILDREN(bin_); item; item = item->next)
+      if (is_motion(GST_ELEMENT(item->data))) found = GST_ELEMENT(item->data);
+    return found;
+  }
+
+  /// The size of the frames that leave the filter.
+  std::pair<int, int> size_at_end() const {
+    GstCaps* caps = gst_pad_get_current_caps(end_);
+    GstVideoInfo info;
+    gst_video_info_init(&info);
+    if (caps) gst_video_info_from_caps(&info, caps);
+    gst_clear_caps(&caps);
+    return {info.width, info.height};
+  }
+
+  /// What an element before the filter is told when it asks whether frames of this size fit.
+  bool would_accept(int width, int height) const {
+    GstCaps* caps = make_caps("I420", width, height);
+    GstCaps* accepted = gst_pad_peer_query_caps(source_, caps);
+    const bool accepts = !gst_caps_is_empty(accepted);
+    gst_caps_unref(accepted);
+    gst_caps_unref(caps);
+    return accepts;
+  }
+
+  GstElement* pipeline_ = nullptr;
+  GstElement* bin_ = nullptr;
+
+ private:
+  void link(GstPad* pad, const char* name) {
+    GstPad* other = gst_element_get_static_pad(bin_, name);
+    gst_pad_set_active(pad, TRUE);
+    if (GST_PAD_IS_SRC(pad))
+      gst_pad_link(pad, other);
+    else
+      gst_pad_link(other, pad);
+    gst_object_unref(other);
+  }
+
+  GstPad* source_ = nullptr;
+  GstPad* end_ = nullptr;
+  GstVideoInfo info_{};
+  int frames_ = 0;
+};
+
+TEST_F(FeelBin, FramesOfEverySizePlayAndThoseThatFitAreFelt) {
+  set_state(GST_STATE_PAUSED);
+  begin_stream();
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  EXPECT_EQ(motion(), nullptr);
+  set_state(GST_STATE_PLAYING);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  GstElement* const first = motion();
+  ASSERT_NE(first, nullptr);
+  constexpr std::pair<int, int> kSizes[] = {{8, 8},   {320, 240}, {1, 1},     {15, 240}, {16, 16},
+                                            {16, 15}, {8192, 16}, {8193, 16}, {640, 360}};
+  for (const auto& [width, height] : kSizes) {
+    SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+    EXPECT_TRUE(would_accept(width, height));
+    set_size(width, height);
+    EXPECT_EQ(push(), GST_FLOW_OK);
+    EXPECT_EQ(size_at_end(), std::make_pair(width, height));
+    const bool fits = width >= 16 && width <= 8192 && height >= 16 && height <= 8192;
+    // It keeps its device.
+    EXPECT_EQ(motion(), fits ? first : nullptr);
+    EXPECT_EQ(GST_STATE(first), fits ? GST_STATE_PLAYING : GST_STATE_READY);
+  }
+  // Once, although more sizes do not fit.
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "spidar-feel: frames of 8x8 pixels are not felt; spidarmotion accepts widths of 16 to "
+            "8192 and heights of 16 to 8192 pixels\n");
+}
+
+TEST_F(FeelBin, AFilmThatIsTooSmallPlays) {
+  set_state(GST_STATE_PAUSED);
+  begin_stream();
+  set_size(8, 8);
+  testing::internal::CaptureStderr();
+  for (const GstState state : {GST_STATE_PAUSED, GST_STATE_PLAYING}) {
+    set_state(state);
+    EXPECT_EQ(push(), GST_FLOW_OK);
+    EXPECT_EQ(motion(), nullptr);
+  }
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("frames of 8x8 pixels are not felt"),
+            std::string::npos);
+}
+
+TEST_F(FeelBin, AFrameMayComeWhileThePlayerBeginsToPlay) {
+  set_state(GST_STATE_PAUSED);
+  begin_stream();
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  after_adding_a_probe = [this] { EXPECT_EQ(push(), GST_FLOW_OK); };
+  set_state(GST_STATE_PLAYING);
+  after_adding_a_probe = nullptr;
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  EXPECT_NE(motion(), nullptr);
+  set_state(GST_STATE_READY);
+  EXPECT_EQ(motion(), nullptr);
+  // The next film.
+  set_state(GST_STATE_PAUSED);
+  begin_stream();
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  EXPECT_EQ(motion(), nullptr);
+  set_state(GST_STATE_PLAYING);
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  EXPECT_NE(motion(), nullptr);
+}
+
+TEST_F(FeelBin, APipelineThatChangesMeanwhileIsSearchedAgain) {
+  GstElement* own = gst_element_factory_make("spidarmotion", "own");
+  g_object_set(own, "device", "none", nullptr);
+  gst_bin_add(GST_BIN(pipeline_), own);
+  set_state(GST_STATE_PAUSED);
+  begin_stream();
+  before_iterating = [this] { gst_bin_add(GST_BIN(pipeline_), gst_bin_new(nullptr)); };
+  EXPECT_EQ(gst_element_set_state(bin_, GST_STATE_PLAYING), GST_STATE_CHANGE_SUCCESS);
+  EXPECT_EQ(before_iterating, nullptr);
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  EXPECT_EQ(motion(), nullptr);
+}
+
+/// The state of the player when the first frame puts spidarmotion in, and after that.
+class FeelBinStates : public FeelBin,
+                      public testing::WithParamInterface<std::pair<GstState, GstState>> {};
+
+TEST_P(FeelBinStates, SpidarmotionFollowsAPlayerThatChangesItsStateAtThatMoment) {
+  const auto [before, after] = GetParam();
+  set_state(GST_STATE_PAUSED);
+  begin_stream();
+  set_state(GST_STATE_PLAYING);
+  set_state(before);
+  before_motion_changes_state = [this, state = after] { set_state(state); };
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  EXPECT_EQ(before_motion_changes_state, nullptr);
+  ASSERT_NE(motion(), nullptr);
+  EXPECT_EQ(GST_STATE(motion()), after);
+  EXPECT_EQ(GST_STATE(bin_), after);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FeelBinStates,
+                         testing::Values(std::make_pair(GST_STATE_PLAYING, GST_STATE_PAUSED),
+                                         std::make_pair(GST_STATE_PAUSED, GST_STATE_PLAYING)));
+
+}  // namespace
+}  // namespace spidar::test
