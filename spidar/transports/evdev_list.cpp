@@ -89,7 +89,8 @@ std::string evdev_driver(const std::string& path) {
   std::filesystem::path file = std::filesystem::canonical(path, error);
   if (error) file = path;
   // The parent of an input device is the device that the driver is bound to, for example on the HID
-  // bus. Drivers are the first line of its uevent file (drivers/base/core.c of the kernel).
+  // bus. Its uevent file has a line DRIVER=NAME (dev_uevent() in drivers/base/core.c of the
+  // kernel).
   const std::string of_parent = file.filename().string() + "/device/device/uevent";
   const std::string uevent = "\n" + beginning(std::string(kSysfs) + "/" + of_parent);
   constexpr const char* kKey = "\nDRIVER=";
