@@ -145,7 +145,7 @@ LinkFault ForceFeedbackBoard::take_settings() noexcept {
 }
 
 void ForceFeedbackBoard::return_settings() noexcept {
-  if (!centring_off_ || !centres_at_end()) return;
+  if (!centring_off_ || !description_.starts_centred) return;
   centring_off_ = false;
   for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms) {
     if (send(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms)).fault != LinkFault::kNone)
@@ -273,9 +273,7 @@ void ForceFeedbackBoard::close() noexcept {
 std::vector<LastWill> ForceFeedbackBoard::last_wills() const {
   const auto first = in_will(ff::encode_play(effects_[0].number, false));
   const auto last = in_will(ff::encode_play(effects_[effect_count_ - 1].number, false));
-  const auto centre = in_will(ff::encode_autocentre(ff::kFullGain));
-  if (!centres_at_end()) return wills(*transport_, {first, last});
-  return wills(*transport_, {first, last, centre}, 1);
+  return wills(*transport_, {first, last});
 }
 
 FeltParts ForceFeedbackBoard::felt_parts() const noexcept {

@@ -72,9 +72,6 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
 
   void begin_effects();
   void start_updates();
-  bool centres_at_end() const noexcept {
-    return description_.autocentre && description_.starts_centred;
-  }
   Transfer upload(size_t effect, int level) noexcept;
   Transfer send(ByteView event) noexcept;
   /// Once the strings pull: sets gain to full and autocentre to off, which earlier programs or the

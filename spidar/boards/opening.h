@@ -16,10 +16,9 @@
 
 namespace spidar {
 
-/// Returns the transport's will with these packets, the last `parting` of which are for the end of
-/// the process; empty if no other process can reach the board.
+/// Returns the transport's will with these packets; empty if no other process can reach the board.
 inline std::vector<LastWill> wills(const Transport& transport,
-                                   std::initializer_list<ByteView> packets, uint32_t parting = 0) {
+                                   std::initializer_list<ByteView> packets) {
   std::optional<LastWill> will = transport.last_will();
   if (!will) return {};
   for (const ByteView packet : packets) {
@@ -27,7 +26,6 @@ inline std::vector<LastWill> wills(const Transport& transport,
     std::copy_n(packet.data, length, will->packet[will->packets].begin());
     will->length[will->packets++] = static_cast<uint32_t>(length);
   }
-  will->parting = parting;
   return {*will};
 }
 

@@ -27,16 +27,13 @@ struct LastWill {
   };
   static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
   static constexpr size_t kMaxLength = 512;
-  static constexpr uint32_t kMagic = 0x53504734;  // "SPG4": this layout
+  static constexpr uint32_t kMagic = 0x53504735;  // "SPG5": this layout
 
   uint32_t magic = kMagic;
   Wire wire = Wire::kUsb;
   uint32_t interface_number = 0;
   uint32_t endpoint = 0;
   uint32_t packets = 0;
-  /// The last of the packets, which do not stop anything, but leave the device as other programs
-  /// expect it. They are sent only when the host has ended, and only if its motors pulled.
-  uint32_t parting = 0;
   std::array<uint32_t, kMaxPackets> length{};
   std::array<std::array<uint8_t, kMaxLength>, kMaxPackets> packet{};
   /// The device's file, open, and claimed or locked. The guardian receives a descriptor of the same
@@ -44,7 +41,7 @@ struct LastWill {
   /// descriptor is different in each process.
   int file = -1;
 };
-static_assert(sizeof(LastWill) == 7 * 4 + LastWill::kMaxPackets * (4 + LastWill::kMaxLength),
+static_assert(sizeof(LastWill) == 6 * 4 + LastWill::kMaxPackets * (4 + LastWill::kMaxLength),
               "the layout must be the same in 32-bit and 64-bit programs");
 
 /// A host whose motors pull sends a message at least every kBeat_ms. If none arrives for

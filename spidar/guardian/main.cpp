@@ -40,11 +40,11 @@ void pause_10ms() {
 }
 
 /// Returns true when all packets have been sent, or can never be sent.
-bool send_usb(LastWill& will, uint32_t packets) {
+bool send_usb(LastWill& will) {
   // Does nothing if it is claimed already; a host that has closed the board has released it.
   unsigned interface = will.interface_number;
   if (ioctl(will.file, USBDEVFS_CLAIMINTERFACE, &interface) != 0) return errno == ENODEV;
-  for (uint32_t i = 0; i < packets; ++i) {
+  for (uint32_t i = 0; i < will.packets; ++i) {
     usbdevfs_bulktransfer transfer{};
     transfer.ep = will.endpoint;
     transfer.len = will.length[i];
@@ -72,14 +72,14 @@ bool write_all(int file, const uint8_t* bytes, size_t length) {
   return true;
 }
 
-bool send_terminal(const LastWill& will, uint32_t packets) {
-  for (uint32_t i = 0; i < packets; ++i)
+bool send_terminal(const LastWill& will) {
+  for (uint32_t i = 0; i < will.packets; ++i)
     if (!write_all(will.file, will.packet[i].data(), will.length[i])) return false;
   return true;
 }
 
-bool send_input(const LastWill& will, uint32_t packets) {
-  for (uint32_t i = 0; i < packets; ++i) {
+bool send_input(const LastWill& will) {
+  for (uint32_t i = 0; i < will.packets; ++i) {
     LastWill::InputEvent wanted;
     std::memcpy(&wanted, will.packet[i].data(), sizeof wanted);
     input_event event{};
@@ -91,22 +91,21 @@ bool send_input(const LastWill& will, uint32_t packets) {
   return true;
 }
 
-bool send_packets(LastWill& will, uint32_t packets) {
+bool send_packets(LastWill& will) {
   switch (will.wire) {
     case LastWill::Wire::kUsb:
-      return send_usb(will, packets);
+      return send_usb(will);
     case LastWill::Wire::kTerminal:
-      return send_terminal(will, packets);
+      return send_terminal(will);
     case LastWill::Wire::kInput:
-      return send_input(will, packets);
+      return send_input(will);
   }
   return true;  // receive() has refused others
 }
 
-/// Sends the first packets of the will.
-bool carry_out(LastWill& will, uint32_t packets) {
+bool carry_out(LastWill& will) {
   for (int i = 0; i < kTries; ++i) {
-    if (send_packets(will, packets)) return true;
+    if (send_packets(will)) return true;
     pause_10ms();
   }
   return false;
@@ -131,7 +130,7 @@ bool receive(LastWill& will, int& host) {
   will.file = files[0];
   host = files[1];
   if (will.magic != LastWill::kMagic || will.packets > LastWill::kMaxPackets ||
-      will.parting > will.packets || will.wire > LastWill::Wire::kInput)
+      will.wire > LastWill::Wire::kInput)
     return false;
   for (uint32_t i = 0; i < will.packets; ++i)
     if (will.length[i] > LastWill::kMaxLength) return false;
@@ -143,10 +142,9 @@ bool say(GuardianWord word) {
 }
 
 /// Carries out the will whenever the host is silent while its motors pull. Returns true when the
-/// host has ended, and false when it has dismissed its guardian. `pulled`: its motors have pulled.
-bool watch(int host, LastWill& will, bool& pulled) {
+/// host has ended, and false when it has dismissed its guardian.
+bool watch(int host, LastWill& will) {
   bool pulling = false, zeroed = false;
-  pulled = false;
   for (;;) {
     std::array<pollfd, 2> events{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{host, POLLIN, 0}};
     const int ready =
@@ -154,7 +152,7 @@ bool watch(int host, LastWill& will, bool& pulled) {
     if (ready < 0 && errno == EINTR) continue;
     if (ready < 0) return true;
     if (ready == 0) {
-      carry_out(will, will.packets - will.parting);
+      carry_out(will);
       zeroed = true;
     } else if (events[0].revents == 0) {
       // There may be a last message: a host that dismissed its guardian may have ended since.
@@ -164,7 +162,6 @@ bool watch(int host, LastWill& will, bool& pulled) {
       if (recv(STDIN_FILENO, &word, 1, 0) != 1) return true;
       if (word == HostWord::kDismissed) return false;
       pulling = word == HostWord::kPulling;
-      pulled |= pulling;
     }
     say(zeroed ? GuardianWord::kZeroed : GuardianWord::kWatching);
   }
@@ -196,7 +193,6 @@ int main() {
   if (chdir("/") != 0) return 1;
   ask_for_promptness();
   if (!say(GuardianWord::kWatching)) return 1;
-  bool pulled = false;
-  if (!watch(host, will, pulled)) return 0;
-  return carry_out(will, will.packets - (pulled ? 0 : will.parting)) ? 0 : 1;
+  if (!watch(host, will)) return 0;
+  return carry_out(will) ? 0 : 1;
 }

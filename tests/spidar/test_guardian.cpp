@@ -147,9 +147,9 @@ TEST(Guardian, ZeroesUsbBoardsWhoseFilesAForkedChildHasToo) {
   clear_bus();
 }
 
-/// The centring spring stays off while the host is stopped. At the end it returns only where the
-/// driver had turned it on.
-void joysticks_go_to_zero(const char* driver, int after) {
+/// The centring spring stays off, also where a regular close turns it on: the grip may be far from
+/// the centre, and nobody is there to turn the spring on slowly.
+void joysticks_go_to_zero(const char* driver) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick, driver);
   for (const int signal : {SIGKILL, SIGTERM, SIGSTOP}) {
     Victim victim("ff", "spidar-g6x3-v2-r");
@@ -171,17 +171,17 @@ void joysticks_go_to_zero(const char* driver, int after) {
     } else {
       victim.end(signal);
     }
-    wait_for([&] { return evdev_levels(0).at_rest() && port.autocentre == after; });
+    wait_for([&] { return evdev_levels(0).at_rest(); });
     // When no process has the file any more, its effects are erased.
     wait_for([&] { return evdev_levels(0).at_rest() && !port.effect[0].used; });
-    EXPECT_EQ(port.autocentre, after);
+    EXPECT_EQ(port.autocentre, 0);
   }
   clear_bus();
 }
 
 TEST(Guardian, TakesJoysticksToZeroWhenTheHostIsKilledOrStopped) {
-  joysticks_go_to_zero("iforce", 0);
-  joysticks_go_to_zero("hid-generic", 0xFFFF);
+  joysticks_go_to_zero("iforce");
+  joysticks_go_to_zero("hid-generic");
 }
 
 TEST(Guardian, ChangesNoSettingOfAJoystickThatNeverPulled) {
