@@ -145,6 +145,16 @@ bool insert(GstGhostPad* pad, GstPad* target, GstElement* filter) {
   return inserted;
 }
 
+/// Whether the filter was behind `target` before. Then the decoder has undone it, as decodebin3
+/// does with streams that it need not decode, and would again. Remembers `target`, which may be
+/// gone.
+bool was_undone(GstElement* filter, GstPad* target) {
+  const GQuark last = g_quark_from_static_string("spidar-feel-target");
+  const bool undone = g_object_get_qdata(G_OBJECT(filter), last) == target;
+  g_object_set_qdata(G_OBJECT(filter), last, target);
+  return undone;
+}
+
 /// Closes the device, too.
 void remove_filter(GstElement* filter) {
   gst_element_set_state(filter, GST_STATE_NULL);
@@ -167,7 +177,8 @@ GstPadProbeReturn put_in(GstPad* target, GstPadProbeInfo*, gpointer data) {
   // Meanwhile, the pad may have been removed, or the decoder may have given it another target.
   GstElement* filter = get_filter(GST_PAD(place->pad));
   GstPad* now = gst_ghost_pad_get_target(place->pad);
-  if (filter == place->filter && now == target && !insert(place->pad, target, filter)) {
+  if (filter == place->filter && now == target &&
+      (was_undone(filter, target) || !insert(place->pad, target, filter))) {
     g_printerr("spidar-feel: the video does not fit through the filter and is not felt\n");
     forget(GST_PAD(place->pad));
   }
@@ -217,17 +228,6 @@ GstPadProbeReturn feel_late(GstPad*, GstPadProbeInfo*, gpointer data) {
   return GST_PAD_PROBE_REMOVE;
 }
 
-/// The filter of a pad whose decoder has replaced the pad's target.
-void move_filter(GstPad* pad, GstElement* filter) {
-  GstPad* in = gst_element_get_static_pad(filter, "sink");
-  if (GstPad* before = gst_pad_get_peer(in)) {
-    gst_pad_unlink(before, in);
-    gst_object_unref(before);
-  }
-  gst_object_unref(in);
-  at_next_frame(GST_GHOST_PAD(pad), filter, put_in);
-}
-
 /// `source` was linked by the application, or has a new target.
 void feel_linked(GstObject* source, bool new_target) {
   if (!GST_IS_GHOST_PAD(source) || !GST_PAD_IS_SRC(source)) return;
@@ -239,7 +239,7 @@ void feel_linked(GstObject* source, bool new_target) {
     if (!filter)
       at_next_frame(GST_GHOST_PAD(pad), nullptr, feel_late);
     else if (new_target)
-      move_filter(pad, filter);
+      at_next_frame(GST_GHOST_PAD(pad), filter, put_in);
     gst_clear_object(&filter);
   }
   gst_object_unref(decoder);
@@ -266,6 +266,19 @@ void feel_linked_pad(GstPad* source, GstPad* sink) {
   if (outer && !(inserted && GST_IS_SPIDAR_FEEL_BIN(inserted))) feel_linked(outer, true);
   gst_clear_object(&inserted);
   gst_clear_object(&outer);
+}
+
+void free_unlinked_target(GstPad* source) {
+  GstObject* filter = gst_object_get_parent(GST_OBJECT(source));
+  if (filter && GST_IS_SPIDAR_FEEL_BIN(filter)) {
+    GstPad* in = gst_element_get_static_pad(GST_ELEMENT(filter), "sink");
+    if (GstPad* target = gst_pad_get_peer(in)) {
+      gst_pad_unlink(target, in);
+      gst_object_unref(target);
+    }
+    gst_object_unref(in);
+  }
+  gst_clear_object(&filter);
 }
 
 void forget_removed_pad(GstElement* element, GstPad* pad) {

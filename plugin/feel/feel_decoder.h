@@ -18,6 +18,11 @@ void feel_decoder(GstElement* element);
 /// decoder plays does the same.
 void feel_linked_pad(GstPad* source, GstPad* sink);
 
+/// Call it after a link from `source` was undone. A decoder that takes the filter from its pad
+/// finds the former target free, and can link it again; the next frame then puts the filter back
+/// in.
+void free_unlinked_target(GstPad* source);
+
 /// Call it after `pad` was removed from `element`. Takes the filter out again.
 void forget_removed_pad(GstElement* element, GstPad* pad);
 

@@ -65,6 +65,10 @@ static void after_link(GstTracer*, GstClockTime, GstPad* source, GstPad* sink,
   if (result == GST_PAD_LINK_OK) spidar::feel_linked_pad(source, sink);
 }
 
+static void after_unlink(GstTracer*, GstClockTime, GstPad* source, GstPad*, gboolean unlinked) {
+  if (unlinked) spidar::free_unlinked_target(source);
+}
+
 static void after_removal_of_pad(GstTracer*, GstClockTime, GstElement* element, GstPad* pad) {
   spidar::forget_removed_pad(element, pad);
 }
@@ -73,6 +77,7 @@ static void gst_spidar_feel_tracer_init(GstSpidarFeelTracer* self) {
   gst_tracing_register_hook(GST_TRACER(self), "element-change-state-pre",
                             G_CALLBACK(before_state_change));
   gst_tracing_register_hook(GST_TRACER(self), "pad-link-post", G_CALLBACK(after_link));
+  gst_tracing_register_hook(GST_TRACER(self), "pad-unlink-post", G_CALLBACK(after_unlink));
   gst_tracing_register_hook(GST_TRACER(self), "element-remove-pad",
                             G_CALLBACK(after_removal_of_pad));
 }

@@ -194,6 +194,16 @@ TEST_F(FeelDecoders, OfGstLaunchAreFelt) {
   }
 }
 
+TEST_F(FeelDecoders, PlayWithoutForceWhenTheDecoderTakesTheFilterOutAgain) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  ChildProcess child(
+      joined(felt(), words("gst-launch-1.0 -q videotestsrc num-buffers=15 ! video/x-raw,width=160,"
+                           "height=120,framerate=25/1 ! decodebin3 ! fakevideosink")),
+      kOnTheBus);
+  EXPECT_EQ(child.wait(), 0);
+  EXPECT_TRUE(port.at_rest());
+}
+
 TEST_F(FeelDecoders, OfGstLaunchAreAtRestWhenItIsInterrupted) {
   UsbPort& port = plug(0, UsbKind::kSh4);
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
