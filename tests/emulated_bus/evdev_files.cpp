@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The parts of evdev that force feedback uses.
 #undef _FORTIFY_SOURCE
 
 #include "tests/emulated_bus/evdev_files.h"
 
-#include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -23,26 +20,13 @@
 #include <vector>
 
 #include "spidar/protocols/force_feedback.h"
-#include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/bus_state.h"
-#include "tests/emulated_bus/evdev_faults.h"
+#include "tests/emulated_bus/evdev_driver.h"
 #include "tests/emulated_bus/evdev_kinds.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/usb_files.h"
 
 namespace spidar::test {
-
-/// An open call, with access to all of a port.
-struct EvdevCalls {
-  EvdevPort& port;
-
-  int upload(ff_effect& effect);
-  int erase(size_t number);
-  int query(unsigned long request, void* argument);
-  int event(const ff::Event& event);
-  /// Whether a signal interrupts this call.
-  bool is_interrupted() { return port.signals && !port.interrupted.exchange(!port.interrupted); }
-};
 
 namespace {
 
@@ -97,27 +81,10 @@ std::string hex(uint16_t id) {
   return text.data();
 }
 
-void erase(EvdevPort::Effect& effect) {
-  effect.plays = effect.used = false;
-  effect.right = effect.up = effect.rumble = 0;
-}
-
-void forget(EvdevPort& port) {
-  forget_faults(port);
-  for (EvdevPort::Effect& effect : port.effect) erase(effect);
-  port.uploads = port.unchanged = port.plays = port.settings = 0;
-  port.shortest_ns = 0;
-  for (auto& axis : port.axis) axis = 0;
-  port.gain = port.autocentre = 0;
-  port.upload_ms = port.upload_error = port.setting_error = 0;
-  port.failing = -1;
-  port.signals = false;
-}
-
 void unplug_from(BusState& state, size_t number) {
   EvdevPort& port = state.evdev[number];
   port.kind = EvdevKind::kNone;
-  for (EvdevPort::Effect& effect : port.effect) erase(effect);
+  erase_effects(port);
   std::error_code error;
   std::filesystem::remove(device_file(number), error);
   std::filesystem::remove_all(sysfs_folder(number), error);
@@ -147,112 +114,11 @@ void erase_if_abandoned(EvdevPort& port) {
   const auto number = static_cast<size_t>(&port - bus().evdev.data());
   const int file = real_open(device_file(number).c_str(), O_RDWR | O_CLOEXEC, 0);
   const bool abandoned = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
-  if (abandoned)
-    for (EvdevPort::Effect& effect : port.effect) erase(effect);
+  if (abandoned) erase_effects(port);
   if (file >= 0) syscall(SYS_close, file);
 }
 
 }  // namespace
-
-int EvdevCalls::upload(ff_effect& wanted) {
-  if (const int error = upload_fault(port)) return error;
-  const int64_t now_ns = monotonic_now_ns();
-  const int64_t passed_ns = now_ns - port.last_upload_ns.exchange(now_ns);
-  if (port.shortest_ns == 0 || passed_ns < port.shortest_ns) port.shortest_ns = passed_ns;
-  while (monotonic_now_ns() < now_ns + port.upload_ms * kSecond_ns / 1000)
-    sleep_until_ns(monotonic_now_ns() + kSecond_ns / 1000);
-  if (port.upload_error != 0 && port.failing != 0) {
-    if (port.failing > 0) --port.failing;
-    return -port.upload_error;
-  }
-  const bool fits = is_constant(port.kind) ? wanted.type == FF_CONSTANT : wanted.type == FF_RUMBLE;
-  if (!fits) return -EINVAL;
-  auto at = static_cast<size_t>(wanted.id);
-  if (wanted.id == -1) {
-    at = 0;
-    while (at < port.effect.size() && port.effect[at].used) ++at;
-    if (at == port.effect.size()) return -ENOSPC;
-  }
-  if (at >= port.effect.size() || (wanted.id != -1 && !port.effect[at].used)) return -EINVAL;
-  wanted.id = static_cast<int16_t>(at);
-  if (port.kind == EvdevKind::kWheelBase)
-    wanted.direction = static_cast<uint16_t>(ff::Direction::kLeft);
-  const auto effect = ff::decode_effect({reinterpret_cast<const uint8_t*>(&wanted), sizeof wanted});
-  EvdevPort::Effect& kept = port.effect[at];
-  const auto rounded = [](double share, int full) {
-    return static_cast<int>(std::lround(share * full));
-  };
-  const int right = rounded(effect->right, ff::kFullLevel);
-  const int up = rounded(effect->up, ff::kFullLevel);
-  const int rumble = rounded(effect->rumble, ff::kFullStrength);
-  if (kept.used && kept.right == right && kept.up == up && kept.rumble == rumble) ++port.unchanged;
-  kept.right = right;
-  kept.up = up;
-  kept.rumble = rumble;
-  kept.used = true;
-  ++port.uploads;
-  return 0;
-}
-
-int EvdevCalls::erase(size_t number) {
-  if (number >= port.effect.size() || !port.effect[number].used) return -EINVAL;
-  spidar::test::erase(port.effect[number]);
-  return 0;
-}
-
-int EvdevCalls::query(unsigned long request, void* argument) {
-  if (const int error = query_fault(port, request)) return error;
-  const unsigned number = _IOC_NR(request);
-  const size_t size = _IOC_SIZE(request);
-  if (request == EVIOCGVERSION) {
-    erase_if_abandoned(port);  // the first call of a program, before it locks the device
-    *static_cast<int*>(argument) = EV_VERSION;
-    return 0;
-  }
-  if (request == EVIOCGEFFECTS) {
-    *static_cast<int*>(argument) = static_cast<int>(port.effect.size());
-    return 0;
-  }
-  if (request == EVIOCGID) {
-    const UsbId id = usb_id_of(port.kind);
-    *static_cast<input_id*>(argument) = {BUS_USB, id.vendor, id.product, 1};
-    return 0;
-  }
-  if (number == _IOC_NR(EVIOCGNAME(0))) {
-    std::snprintf(static_cast<char*>(argument), size, "%s", name_of(port.kind));
-    return static_cast<int>(std::strlen(static_cast<char*>(argument)) + 1);
-  }
-  if (number == _IOC_NR(EVIOCGBIT(EV_FF, 0))) return put_bits(ff_bits(port.kind), argument, size);
-  if (number == _IOC_NR(EVIOCGBIT(EV_ABS, 0))) return put_bits(abs_bits(port.kind), argument, size);
-  if (number == _IOC_NR(EVIOCGBIT(EV_KEY, 0))) return put_bits({}, argument, size);
-  if (number >= _IOC_NR(EVIOCGABS(0))) {
-    const size_t axis = number - _IOC_NR(EVIOCGABS(0));
-    if (axis >= port.axis.size()) return -EINVAL;
-    auto& info = *static_cast<input_absinfo*>(argument);
-    info = {};
-    info.value = port.axis[axis];
-    info.minimum = -port.axis_end;
-    info.maximum = port.axis_end;
-    return 0;
-  }
-  return -EINVAL;
-}
-
-int EvdevCalls::event(const ff::Event& event) {
-  if (port.setting_error != 0 && (event.code == FF_GAIN || event.code == FF_AUTOCENTER))
-    return -port.setting_error;
-  if (event.code == FF_GAIN) {
-    port.gain = event.value;
-    ++port.settings;
-  } else if (event.code == FF_AUTOCENTER) {
-    port.autocentre = event.value;
-    ++port.settings;
-  } else if (event.code < port.effect.size() && port.effect[event.code].used) {
-    port.effect[event.code].plays = event.value > 0;
-    if (event.value > 0) ++port.plays;
-  }
-  return 0;
-}
 
 std::string evdev_path(const char* path) {
   const auto begins = [path](const char* with) {
@@ -271,11 +137,9 @@ bool evdev_ioctl(int file, unsigned long request, void* argument, int& result) {
   if (!is_evdev) return false;
   result = -ENODEV;
   if (port) {
-    EvdevCalls calls{*port};
-    result = calls.is_interrupted() ? -EINTR
-             : request == EVIOCSFF  ? calls.upload(*static_cast<ff_effect*>(argument))
-             : request == EVIOCRMFF ? calls.erase(reinterpret_cast<size_t>(argument))
-                                    : calls.query(request, argument);
+    // The first call of a program, before it locks the device.
+    if (request == EVIOCGVERSION) erase_if_abandoned(*port);
+    result = EvdevDriver{*port}.call(request, argument);
   }
   if (result >= 0) return true;
   errno = -result;
@@ -287,7 +151,7 @@ bool evdev_write_fails(int file, const void* bytes, size_t length, long& result)
   if (!ff::decode_event({static_cast<const uint8_t*>(bytes), length})) return false;
   bool is_evdev = false;
   const EvdevPort* port = port_of(file, is_evdev);
-  return port && write_fault(*port, length, result);
+  return port && EvdevDriver::write_fails(*port, length, result);
 }
 
 bool evdev_write(int file, const void* bytes, size_t length, long& result) {
@@ -296,11 +160,7 @@ bool evdev_write(int file, const void* bytes, size_t length, long& result) {
   bool is_evdev = false;
   EvdevPort* port = port_of(file, is_evdev);
   if (!is_evdev) return false;
-  int error = -ENODEV;
-  if (port) {
-    EvdevCalls calls{*port};
-    error = calls.is_interrupted() ? -EINTR : calls.event(*event);
-  }
+  const int error = port ? EvdevDriver{*port}.event(*event) : -ENODEV;
   result = static_cast<long>(length);
   if (error >= 0) return true;
   errno = -error;
@@ -311,7 +171,7 @@ bool evdev_write(int file, const void* bytes, size_t length, long& result) {
 EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const char* driver) {
   unplug_from(state, number);
   EvdevPort& port = state.evdev[number];
-  forget(port);
+  reset(port);
   const std::string driven_by = driver ? driver : driver_of(kind);
   // hid-pidff starts with the centring spring at its full strength.
   if (driven_by == "hid-generic" || driven_by == "hid-universal-pidff") port.autocentre = 0xFFFF;

@@ -41,13 +41,6 @@ struct EvdevPort {
   /// Position of the stick, −1000 … 1000: to the right, and towards the user, like ABS_X and ABS_Y.
   std::array<std::atomic<int>, 2> axis{};
   std::atomic<int> axis_end{0};  ///< largest value that the axes announce; 1000 when plugged in
-  // Faults of the driver. Errors are values of errno; 0: none.
-  std::atomic<int> query_error{0};       ///< of every question for the position
-  std::atomic<int> event_error{0};       ///< of every event: play, gain, autocentre
-  std::atomic<bool> cuts_events{false};  ///< accepts only half of every event
-  std::atomic<int> interruptions{0};     ///< how many of the next uploads a signal interrupts
-  std::atomic<bool> hangs{false};        ///< uploads do not return until this is false
-  std::atomic<int> hanging{0};           ///< uploads that do not return
   std::array<Effect, 4> effect{};
   std::atomic<int> gain{0};
   std::atomic<int> autocentre{0};
@@ -58,15 +51,22 @@ struct EvdevPort {
   std::atomic<uint64_t> plays{0};
   std::atomic<int64_t> shortest_ns{0};  ///< least time between two uploads since it was set to 0
 
-  /// Time that the driver takes for an upload. A smaller value ends one that is under way.
+  // What the driver does wrong. Errors are values of errno; 0: none.
+  /// Time that an upload takes. A smaller value ends one that is under way.
   std::atomic<int> upload_ms{0};
-  std::atomic<int> upload_error{0};   ///< errno of uploads; 0: none
-  std::atomic<int> failing{-1};       ///< uploads that fail with it; −1: all
-  std::atomic<int> setting_error{0};  ///< errno of gain and autocentre; 0: none
-  std::atomic<bool> signals{false};   ///< a signal interrupts every other call
+  std::atomic<int> upload_error{0};      ///< of uploads
+  std::atomic<int> failing{-1};          ///< how many of the next uploads fail with it; −1: all
+  std::atomic<int> interruptions{0};     ///< how many of the next uploads a signal interrupts
+  std::atomic<bool> hangs{false};        ///< uploads do not return until this is false
+  std::atomic<int> hanging{0};           ///< uploads that do not return
+  std::atomic<int> query_error{0};       ///< of every question for the position
+  std::atomic<int> event_error{0};       ///< of every event: play, gain, autocentre
+  std::atomic<int> setting_error{0};     ///< of gain and autocentre
+  std::atomic<bool> cuts_events{false};  ///< accepts only half of every event
+  std::atomic<bool> signals{false};      ///< a signal interrupts every other call
 
  private:
-  friend struct EvdevCalls;
+  friend class EvdevDriver;
   std::atomic<int64_t> last_upload_ns{0};
   std::atomic<bool> interrupted{false};  ///< the last call was
 };
