@@ -33,32 +33,26 @@ namespace {
 constexpr const char* kDev = "/dev/input/";
 constexpr const char* kSysfs = "/sys/class/input";
 
-/// Beside the file of a bus that is shared, else a folder of this process's own.
-class Folder {
- public:
-  Folder() {
-    const char* bus_file = std::getenv("SPIDAR_EMULATED_BUS");
-    if (bus_file && std::strchr(bus_file, '/')) {
-      path = std::string(bus_file) + ".input";
-    } else {
-      path = std::filesystem::temp_directory_path() / "spidar-input-XXXXXX";
-      own_ = mkdtemp(path.data()) != nullptr;
-    }
-  }
-  ~Folder() {
+const std::string& folder();
+
+/// Beside the file of a bus that is shared, else a folder of this process's own, which is removed
+/// when it exits.
+std::string make_folder() {
+  const char* bus_file = std::getenv("SPIDAR_EMULATED_BUS");
+  if (bus_file && std::strchr(bus_file, '/')) return std::string(bus_file) + ".input";
+  std::string path = std::filesystem::temp_directory_path() / "spidar-input-XXXXXX";
+  if (!mkdtemp(path.data())) std::abort();
+  std::atexit([] {
     std::error_code error;
-    if (own_) std::filesystem::remove_all(path, error);
-  }
+    std::filesystem::remove_all(folder(), error);
+  });
+  return path;
+}
 
-  std::string path;
-
- private:
-  bool own_ = false;
-};
-
+/// Never destroyed: a player may exit while its haptic loop still looks for the device.
 const std::string& folder() {
-  static const Folder it;
-  return it.path;
+  static const std::string& path = *new std::string(make_folder());
+  return path;
 }
 
 std::string device_file(size_t number) {

@@ -38,14 +38,13 @@ class Feel : public testing::Test {
   static void TearDownTestSuite() { folder.reset(); }
 
   /// A picture that moves as a whole, 25 frames/s.
-  static std::string make_film(const char* name, int frames) {
+  static std::string make_film(const char* name, int frames,
+                               const char* encoder = "jpegenc ! avimux") {
     const std::string path = (folder->path / name).string();
     const CommandResult made =
         run("gst-launch-1.0 -q videotestsrc pattern=smpte horizontal-speed=2 num-buffers=" +
-            std::to_string(frames) +
-            " ! video/x-raw,width=160,height=120,framerate=25/1 ! jpegenc ! avimux ! filesink "
-            "location=" +
-            path);
+            std::to_string(frames) + " ! video/x-raw,width=160,height=120,framerate=25/1 ! " +
+            encoder + " ! filesink location=" + path);
     EXPECT_EQ(made.status, 0) << made.text;
     return path;
   }
@@ -99,6 +98,21 @@ class Feel : public testing::Test {
       ++rested;
     }
     EXPECT_GT(rested, 0);
+  }
+
+  /// Plays, pauses and stops: it is felt, at rest from 60 ms after the pause, and has nothing to
+  /// say.
+  void expect_felt_and_at_rest(const std::string& player, int frames, int pause_ms) {
+    SCOPED_TRACE(player);
+    const UsbPort& port = plug(0, UsbKind::kSh4);
+    const CommandResult outcome =
+        run_all(felt_player({"play", "frames=" + std::to_string(frames), "pause",
+                             "wait=" + std::to_string(pause_ms), "stop"},
+                            player));
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_EQ(outcome.text, "");
+    EXPECT_TRUE(port.at_rest());
+    expect_felt_until_paused();
   }
 
   inline static std::unique_ptr<TemporaryFolder> folder;

@@ -16,16 +16,7 @@ namespace spidar::test {
 namespace {
 
 TEST_F(Feel, APlayerIsFeltWhileItPlaysAndAtRestWhilePaused) {
-  UsbPort& port = plug(0, UsbKind::kSh4);
-  for (const std::string playbin : {"playbin", "playbin3"}) {
-    SCOPED_TRACE(playbin);
-    const CommandResult outcome =
-        run_all(felt_player({"play", "frames=40", "pause", "wait=300", "stop"}, playbin));
-    EXPECT_EQ(outcome.status, 0) << outcome.text;
-    EXPECT_EQ(outcome.text, "");
-    EXPECT_TRUE(port.at_rest());
-    expect_felt_until_paused();
-  }
+  for (const char* playbin : {"playbin", "playbin3"}) expect_felt_and_at_rest(playbin, 40, 300);
 }
 
 TEST_F(Feel, TheDeviceIsAtRestHoweverThePlayerEnds) {

@@ -30,15 +30,7 @@ class FeelDecoders : public Feel {
 
   /// Its decoder lets the sink crop the frames.
   static std::string make_theora(const char* name) {
-    const std::string path = (folder->path / name).string();
-    const CommandResult made =
-        run("gst-launch-1.0 -q videotestsrc pattern=smpte horizontal-speed=2 num-buffers=" +
-            std::to_string(kFrames) +
-            " ! video/x-raw,width=160,height=120,framerate=25/1 ! theoraenc ! oggmux ! filesink "
-            "location=" +
-            path);
-    EXPECT_EQ(made.status, 0) << made.text;
-    return path;
+    return make_film(name, kFrames, "theoraenc ! oggmux");
   }
   /// The words of a line, of which none has spaces.
   static std::vector<std::string> words(const std::string& line) {
@@ -54,16 +46,7 @@ const std::vector<std::string> kDecoders{"uridecodebin", "uridecodebin3", "decod
                                          "decodebin3"};
 
 TEST_F(FeelDecoders, AreFeltWhileTheyPlayAndAtRestWhilePaused) {
-  UsbPort& port = plug(0, UsbKind::kSh4);
-  for (const std::string& decoder : kDecoders) {
-    SCOPED_TRACE(decoder);
-    const CommandResult outcome =
-        run_all(felt_player({"play", "frames=15", "pause", "wait=150", "stop"}, decoder));
-    EXPECT_EQ(outcome.status, 0) << outcome.text;
-    EXPECT_EQ(outcome.text, "");
-    EXPECT_TRUE(port.at_rest());
-    expect_felt_until_paused();
-  }
+  for (const std::string& decoder : kDecoders) expect_felt_and_at_rest(decoder, 15, 150);
 }
 
 TEST_F(FeelDecoders, AreFeltAgainAfterSeeksPausesAndStops) {

@@ -50,23 +50,23 @@ class Spidartrack : public testing::Test {
 };
 
 TEST_F(Spidartrack, HelpSucceedsAndWrongUsageSaysWhatWouldBeRight) {
-  EXPECT_EQ(run("--help").status, 0);
+  EXPECT_EQ(spidartrack("--help").status, 0);
   for (const char* command : {"record", "info", "check", "convert", "plot", "merge", "extract"}) {
-    const Result help = run(std::string(command) + " --help");
+    const CommandResult help = spidartrack(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     expect_contains(help.text, std::string("usage: spidartrack ") + command);
-    EXPECT_EQ(run(command).status, 2) << command;
+    EXPECT_EQ(spidartrack(command).status, 2) << command;
   }
-  expect_contains(run("frobnicate").text, "commands are record, info");
-  expect_contains(run("record x.mp4 --format ogg").text, "none of flac, mka, wav");
-  expect_contains(run("record x.mp4 -- 'a=b ! fakesink'").text, "is no PROPERTY=VALUE");
+  expect_contains(spidartrack("frobnicate").text, "commands are record, info");
+  expect_contains(spidartrack("record x.mp4 --format ogg").text, "none of flac, mka, wav");
+  expect_contains(spidartrack("record x.mp4 -- 'a=b ! fakesink'").text, "is no PROPERTY=VALUE");
 }
 
 TEST_F(Spidartrack, RecordsFilmsBesideThemAndGoesOnWhereItWas) {
   make_film("a film.avi");
   make_film("b.avi");
   const std::string films = quoted(path("a film.avi")) + " " + path("b.avi");
-  const Result first = run("record -j2 " + films);
+  const CommandResult first = spidartrack("record -j2 " + films);
   EXPECT_EQ(first.status, 0) << first.text;
   ASSERT_TRUE(fs::exists(path("a film.haptic.flac")));
   for (const char* film : {"[1/2] ", "[2/2] "}) {
@@ -78,13 +78,13 @@ TEST_F(Spidartrack, RecordsFilmsBesideThemAndGoesOnWhereItWas) {
   EXPECT_GT(largest_difference(track, std::vector<TrackSample>(2000)), 0.1);
 
   const fs::file_time_type written = fs::last_write_time(path("b.haptic.flac"));
-  expect_contains(run("record " + films).text, "is there");
+  expect_contains(spidartrack("record " + films).text, "is there");
   EXPECT_EQ(fs::last_write_time(path("b.haptic.flac")), written);
 
-  const Result missing = run("record " + path("none.avi"));
+  const CommandResult missing = spidartrack("record " + path("none.avi"));
   EXPECT_EQ(missing.status, 1);
   expect_contains(missing.text, "there is no such file");
-  EXPECT_EQ(run("record --format wav " + path("b.avi") + " -- max-force=1").status, 0);
+  EXPECT_EQ(spidartrack("record --format wav " + path("b.avi") + " -- max-force=1").status, 0);
   for (const TrackSample& sample : load_track(path("b.haptic.wav"))) {
     ASSERT_LE(to_wrench(sample).force_N.norm(), 1 + 1e-6);
   }
@@ -106,14 +106,14 @@ TEST_F(Spidartrack, ConvertsBetweenAllThatItKnows) {
                                                   {"e.mka", 4.1e-4}};
   std::string from = path("a.wav");
   for (const auto& [name, error] : steps) {
-    const Result result = run("convert " + from + " " + path(name));
+    const CommandResult result = spidartrack("convert " + from + " " + path(name));
     EXPECT_EQ(result.status, 0) << result.text;
     const std::vector<TrackSample> read = load_track(path(name));
     EXPECT_EQ(read.size(), original.size()) << name;
     EXPECT_LE(largest_difference(read, original), error) << name;
     from = path(name);
   }
-  EXPECT_EQ(run("convert " + path("a.wav") + " " + path("a.txt")).status, 1);
+  EXPECT_EQ(spidartrack("convert " + path("a.wav") + " " + path("a.txt")).status, 1);
 }
 
 TEST_F(Spidartrack, ATraceBecomesTheTrackThatExtractGives) {
@@ -131,14 +131,14 @@ TEST_F(Spidartrack, ATraceBecomesTheTrackThatExtractGives) {
     EXPECT_LE(largest_difference(traced, extracted), 1e-6);
   }
   std::ofstream(path("bad.jsonl"), std::ios::app) << "{\"wrench\":3}\n";
-  const Result bad = run("convert " + path("bad.jsonl") + " " + path("bad.wav"));
+  const CommandResult bad = spidartrack("convert " + path("bad.jsonl") + " " + path("bad.wav"));
   EXPECT_EQ(bad.status, 1);
   expect_contains(bad.text, "bad.jsonl:1: is no line of a trace");
 }
 
 TEST_F(Spidartrack, ARecordedTrackIsFoundBesideItsFilmAndFelt) {
   make_film("film.avi");
-  ASSERT_EQ(run("record " + path("film.avi")).status, 0);
+  ASSERT_EQ(spidartrack("record " + path("film.avi")).status, 0);
   GError* error = nullptr;
   GstElement* pipeline = gst_parse_launch(("filesrc location=" + path("film.avi") +
                                            " ! decodebin ! videoconvert ! spidarmotion name=motion "
@@ -204,7 +204,8 @@ TEST_F(Spidartrack, AnEditorChangesWhatItTouchesAndNothingElse) {
 
 TEST_F(Spidartrack, AFunscriptHasMillisecondsAndPositions) {
   save_track(path("a.wav"), samples());
-  ASSERT_EQ(run("convert --axis fz " + path("a.wav") + " " + path("a.funscript")).status, 0);
+  ASSERT_EQ(spidartrack("convert --axis fz " + path("a.wav") + " " + path("a.funscript")).status,
+            0);
   std::ifstream file(path("a.funscript"));
   const nlohmann::json script = nlohmann::json::parse(file);
   int last = -1;
@@ -230,9 +231,9 @@ TEST_F(Spidartrack, APlotShowsStillsOfItsFilmAndOfNoOther) {
     EXPECT_EQ(bytes.compare(1, 3, "PNG"), 0);
     return bytes.size() < 24 ? 0 : GST_READ_UINT32_BE(bytes.data() + 20);
   };
-  ASSERT_EQ(run("plot " + path("a.wav") + " " + path("plain.png")).status, 0);
-  const Result plotted =
-      run("plot " + path("a.wav") + " " + path("stills.png") + " --film " + path("film.avi"));
+  ASSERT_EQ(spidartrack("plot " + path("a.wav") + " " + path("plain.png")).status, 0);
+  const CommandResult plotted = spidartrack("plot " + path("a.wav") + " " + path("stills.png") +
+                                            " --film " + path("film.avi"));
   ASSERT_EQ(plotted.status, 0) << plotted.text;
   // The stills are 160 pixels wide, and a gap of 14 is below them.
   EXPECT_EQ(height(path("stills.png")), height(path("plain.png")) + 120 + 14);
@@ -240,31 +241,32 @@ TEST_F(Spidartrack, APlotShowsStillsOfItsFilmAndOfNoOther) {
   std::vector<TrackSample> longer = samples();
   longer.resize(3000);
   save_track(path("longer.wav"), longer);
-  const Result other =
-      run("plot " + path("longer.wav") + " " + path("no.png") + " --film " + path("film.avi"));
+  const CommandResult other = spidartrack("plot " + path("longer.wav") + " " + path("no.png") +
+                                          " --film " + path("film.avi"));
   EXPECT_EQ(other.status, 1);
   expect_contains(other.text, "another film: the track lasts 3.000 s, the film 2.000 s");
-  const Result none =
-      run("plot " + path("a.wav") + " " + path("no.png") + " --film " + path("none.avi"));
+  const CommandResult none =
+      spidartrack("plot " + path("a.wav") + " " + path("no.png") + " --film " + path("none.avi"));
   EXPECT_EQ(none.status, 1);
   expect_contains(none.text, "none.avi");
 }
 
 TEST_F(Spidartrack, CheckFindsWhatWouldNotBeFeltAsItIs) {
   save_track(path("good.wav"), samples());
-  EXPECT_EQ(run("check " + path("good.wav")).status, 0);
+  EXPECT_EQ(spidartrack("check " + path("good.wav")).status, 0);
   std::vector<TrackSample> bad = samples();
   bad[100][0] = std::numeric_limits<float>::quiet_NaN();
   for (size_t i = 500; i < 600; ++i) bad[i][1] = 1.5F;
   for (size_t i = 0; i < bad.size(); ++i) bad[i][3] = i % 4 < 2 ? 0.2F : -0.2F;
   save_track(path("bad.wav"), bad);
-  const Result result = run("check " + path("bad.wav"));
+  const CommandResult result = spidartrack("check " + path("bad.wav"));
   EXPECT_EQ(result.status, 1);
   for (const char* problem : {"1 samples are not numbers", "100 samples are beyond full scale",
                               "largest force", "largest torque", "changes by", "energy of tx"}) {
     expect_contains(result.text, problem);
   }
-  const nlohmann::json info = nlohmann::json::parse(run("info --json " + path("good.wav")).text);
+  const nlohmann::json info =
+      nlohmann::json::parse(spidartrack("info --json " + path("good.wav")).text);
   EXPECT_EQ(info["samples"], 2000);
   EXPECT_NEAR(info["channels"]["fz"]["peak"], 0.15, 1e-4);
 }
@@ -276,14 +278,14 @@ TEST_F(Spidartrack, WhatIsDamagedOrNoTrackIsNamed) {
       "audiotestsrc num-buffers=10 ! audio/x-raw,rate=8000,channels=2 ! wavenc ! filesink "
       "location=" +
       quoted(path("stereo.wav")));
-  EXPECT_EQ(run("info " + path("text.flac")).status, 1);
-  const Result stereo = run("info " + path("stereo.wav"));
+  EXPECT_EQ(spidartrack("info " + path("text.flac")).status, 1);
+  const CommandResult stereo = spidartrack("info " + path("stereo.wav"));
   EXPECT_EQ(stereo.status, 1);
   expect_contains(stereo.text, "2 channels");
   // Cut in the middle: what is left is a track.
   fs::resize_file(path("a.flac"), fs::file_size(path("a.flac")) / 2);
-  expect_contains(run("info " + path("a.flac")).text, "it is cut off: 0.");
-  const Result cut = run("check " + path("a.flac"));
+  expect_contains(spidartrack("info " + path("a.flac")).text, "it is cut off: 0.");
+  const CommandResult cut = spidartrack("check " + path("a.flac"));
   EXPECT_EQ(cut.status, 1);
   expect_contains(cut.text, "s of 2.000 s are there");
 }

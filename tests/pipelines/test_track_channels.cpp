@@ -92,7 +92,8 @@ TEST_F(TrackChannels, OfEveryContainerInPlaceOfAnalysis) {
 
 TEST_F(TrackChannels, OfTheTrackBesideTheFilmAndOfTheOneInIt) {
   ASSERT_EQ(
-      run("merge " + path("sound.avi") + " " + path("track.flac") + " " + path("felt.mkv")).status,
+      spidartrack("merge " + path("sound.avi") + " " + path("track.flac") + " " + path("felt.mkv"))
+          .status,
       0);
   for (const char* end : {".flac", ".mka", ".wav"}) {
     save_track(path("sound.haptic") + end, constant());
@@ -111,7 +112,7 @@ TEST_F(TrackChannels, OfEveryConversion) {
   for (const char* from : {"track.wav", "track.flac", "f32.mka", "s24.mov", "to.hjif"}) {
     for (const char* to : {"to.hjif", "to.wav", "to.flac", "to.mka"}) {
       if (std::string(from) == to) continue;
-      ASSERT_EQ(run("convert " + path(from) + " " + path(to)).status, 0);
+      ASSERT_EQ(spidartrack("convert " + path(from) + " " + path(to)).status, 0);
       EXPECT_LE(largest_difference(load_track(path(to)), constant()), error) << from << " " << to;
     }
   }
@@ -123,10 +124,10 @@ TEST_F(TrackChannels, OfEveryAxisOfAFunscript) {
   const std::vector<TrackSample> wide(kSamples, {0.1F, -0.2F, 0.3F, -0.4F, 0.5F, -0.6F});
   save_track(path("wide.wav"), wide);
   for (size_t axis = 0; axis < kTrackChannels; ++axis) {
-    ASSERT_EQ(
-        run("convert " + path("wide.wav") + " " + path("to.funscript") + " --axis " + axes[axis])
-            .status,
-        0);
+    ASSERT_EQ(spidartrack("convert " + path("wide.wav") + " " + path("to.funscript") + " --axis " +
+                          axes[axis])
+                  .status,
+              0);
     std::ifstream file(path("to.funscript"));
     const nlohmann::json script = nlohmann::json::parse(file);
     EXPECT_EQ(script["actions"][0]["pos"], std::lround(50 + 50 * wide[0][axis])) << axes[axis];
@@ -177,7 +178,7 @@ TEST_F(TrackChannels, OfTheTraceOfSpidarmotion) {
   }
   json.close();
   for (const char* trace : {"six.csv", "six.jsonl"}) {
-    ASSERT_EQ(run("convert " + path(trace) + " " + path("to.wav")).status, 0) << trace;
+    ASSERT_EQ(spidartrack("convert " + path(trace) + " " + path("to.wav")).status, 0) << trace;
     std::vector<TrackSample> read = load_track(path("to.wav"));
     ASSERT_EQ(read.size(), static_cast<size_t>(kSamples)) << trace;
     read.resize(kSamples - 40);  // the last frame is the way to rest

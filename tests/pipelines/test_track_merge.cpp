@@ -92,8 +92,9 @@ class TrackMerge : public testing::Test {
     }
     return track;
   }
-  Result merge(const std::string& film, const std::string& track, const std::string& out) const {
-    return run("merge " + path(film) + " " + path(track) + " " + path(out));
+  CommandResult merge(const std::string& film, const std::string& track,
+                      const std::string& out) const {
+    return spidartrack("merge " + path(film) + " " + path(track) + " " + path(out));
   }
 
   Heard play(const std::string& player, const std::string& film) const {
@@ -126,7 +127,7 @@ class TrackMerge : public testing::Test {
 };
 
 TEST_F(TrackMerge, PlayersPlayTheSoundOfTheFilmAsBefore) {
-  const Result result = merge("film.avi", "track.flac", "felt.mkv");
+  const CommandResult result = merge("film.avi", "track.flac", "felt.mkv");
   ASSERT_EQ(result.status, 0) << result.text;
   for (const char* player : {"playbin", "playbin3"}) {
     SCOPED_TRACE(player);
@@ -162,7 +163,7 @@ TEST_F(TrackMerge, TheTrackComesBackSampleBySample) {
   for (const auto& [track, error] : tracks) {
     SCOPED_TRACE(track);
     ASSERT_EQ(merge("film.avi", track, "felt.mkv").status, 0);
-    ASSERT_EQ(run("extract " + path("felt.mkv") + " " + path("out.mka")).status, 0);
+    ASSERT_EQ(spidartrack("extract " + path("felt.mkv") + " " + path("out.mka")).status, 0);
     const std::vector<TrackSample> read = load_track(path("out.mka"));
     ASSERT_EQ(read.size(), 2000u);
     EXPECT_LE(largest_difference(read, samples()), error);
@@ -176,7 +177,7 @@ TEST_F(TrackMerge, SixConstantsStayInTheirChannels) {
     save_track(path(track), constant);
     ASSERT_EQ(merge("film.avi", track, "felt.mkv").status, 0);
     for (const char* out : {"out.wav", "out.flac", "out.mka", "out.hjif"}) {
-      ASSERT_EQ(run("extract " + path("felt.mkv") + " " + path(out)).status, 0);
+      ASSERT_EQ(spidartrack("extract " + path("felt.mkv") + " " + path(out)).status, 0);
       const std::vector<TrackSample> read = load_track(path(out));
       ASSERT_EQ(read.size(), constant.size()) << out;
       // All six are whole steps of every encoding.
@@ -186,13 +187,13 @@ TEST_F(TrackMerge, SixConstantsStayInTheirChannels) {
 }
 
 TEST_F(TrackMerge, WhatPlayersWouldMakeNoiseOfIsRefused) {
-  const Result silent = merge("silent.avi", "track.flac", "felt.mkv");
+  const CommandResult silent = merge("silent.avi", "track.flac", "felt.mkv");
   EXPECT_EQ(silent.status, 1);
   expect_contains(silent.text, "has no sound");
   expect_contains(silent.text, "Leave it beside the film");
   EXPECT_FALSE(fs::exists(path("felt.mkv")));
   ASSERT_EQ(merge("film.avi", "track.flac", "felt.mkv").status, 0);
-  const Result twice = merge("felt.mkv", "track.flac", "twice.mkv");
+  const CommandResult twice = merge("felt.mkv", "track.flac", "twice.mkv");
   EXPECT_EQ(twice.status, 1);
   expect_contains(twice.text, "has a haptic track already");
   for (const auto& entry : fs::directory_iterator(folder.path)) {
@@ -202,7 +203,7 @@ TEST_F(TrackMerge, WhatPlayersWouldMakeNoiseOfIsRefused) {
 
 TEST_F(TrackMerge, OtherMistakesAreNamed) {
   save_track(path("long.wav"), samples(2200));
-  const Result other = merge("film.avi", "long.wav", "felt.mkv");
+  const CommandResult other = merge("film.avi", "long.wav", "felt.mkv");
   EXPECT_EQ(other.status, 1);
   expect_contains(other.text, "another film: the track lasts 2.200 s, the film 2.000 s");
   EXPECT_EQ(merge("film.avi", "track.flac", "felt.mp4").status, 2);
@@ -210,10 +211,10 @@ TEST_F(TrackMerge, OtherMistakesAreNamed) {
   expect_contains(merge("none.avi", "track.flac", "felt.mkv").text, "there is no such file");
   ASSERT_EQ(merge("film.avi", "track.flac", "felt.mkv").status, 0);
   EXPECT_EQ(merge("felt.mkv", "track.flac", "felt.mkv").status, 2);
-  const Result none = run("extract " + path("film.avi") + " " + path("out.wav"));
+  const CommandResult none = spidartrack("extract " + path("film.avi") + " " + path("out.wav"));
   EXPECT_EQ(none.status, 1);
   expect_contains(none.text, "2 channels");
-  expect_contains(run("extract " + path("silent.avi") + " " + path("out.wav")).text,
+  expect_contains(spidartrack("extract " + path("silent.avi") + " " + path("out.wav")).text,
                   "no haptic track");
 }
 

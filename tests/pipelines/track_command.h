@@ -5,31 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
-#include <sys/wait.h>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/track/track_format.h"
+#include "tests/support/shell.h"
 
 namespace spidar::test {
 
-struct Result {
-  int status = -1;
-  std::string text;  ///< both outputs
-};
-
-inline Result run(const std::string& arguments) {
-  Result result;
-  FILE* pipe = popen((std::string(SPIDARTRACK) + " " + arguments + " 2>&1").c_str(), "r");
-  if (!pipe) return result;
-  char part[4096];
-  while (std::fgets(part, sizeof part, pipe)) result.text += part;
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
-  return result;
+/// `text` of the result is what spidartrack printed, both outputs.
+inline CommandResult spidartrack(const std::string& arguments) {
+  return run(std::string(SPIDARTRACK) + " " + arguments);
 }
 
 inline void expect_contains(const std::string& text, const std::string& part) {
