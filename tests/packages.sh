@@ -136,4 +136,4 @@ try_packages() {
 make_debian "$suite" "$base"
 build_packages
 try_packages
-echo "$release: four packages built, without a complaint of lintian, installed, and a clip was felt"
+echo "$release: four packages built and installed, lintian reports nothing, and a clip was felt"

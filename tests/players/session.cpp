@@ -29,7 +29,8 @@ void make_home(const std::filesystem::path& folder) {
   for (const char* name : {"XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME",
                            "DBUS_SESSION_BUS_ADDRESS", "G_DEBUG"})
     unsetenv(name);
-  // Settings of its own; GNOME Web's question would take the keyboard.
+  // Settings of its own. GNOME Web would ask whether to become the default browser, and its dialog
+  // would take the keyboard.
   setenv("GSETTINGS_BACKEND", "keyfile", 1);
   const std::filesystem::path settings = folder / "home/.config/glib-2.0/settings";
   std::filesystem::create_directories(settings);
