@@ -80,11 +80,10 @@ void WindowThread::close(const std::shared_ptr<Window::Entry>& entry) {
 std::optional<Screenshot> WindowThread::screenshot(const std::shared_ptr<Window::Entry>& entry,
                                                    std::chrono::milliseconds timeout) {
   std::unique_lock<std::mutex> lock(mutex_);
-  entry->screenshot.reset();
-  entry->screenshot_wanted = true;
-  changed_.wait_for(lock, timeout, [&] { return entry->screenshot || entry->gone; });
-  entry->screenshot_wanted = false;
-  return std::move(entry->screenshot);
+  if (!entry->screenshot) entry->screenshot = std::make_shared<std::optional<Screenshot>>();
+  const auto shot = entry->screenshot;
+  changed_.wait_for(lock, timeout, [&] { return *shot || entry->gone; });
+  return *shot;
 }
 
 void WindowThread::request(const std::shared_ptr<Window::Entry>& entry,
@@ -169,12 +168,13 @@ bool WindowThread::create(Window::Entry& entry) {
 
 void WindowThread::draw(Window::Entry& entry) {
   std::vector<std::function<void(DebugWindow&)>> requests;
-  bool closing, screenshot_wanted;
+  std::shared_ptr<std::optional<Screenshot>> wanted;
+  bool closing;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     requests.swap(entry.requests);
+    wanted.swap(entry.screenshot);
     closing = entry.closing;
-    screenshot_wanted = entry.screenshot_wanted;
   }
   if (closing || (!entry.window && !create(entry))) {
     finish(entry);
@@ -188,10 +188,10 @@ void WindowThread::draw(Window::Entry& entry) {
     return;
   }
   entry.window->draw();
-  if (screenshot_wanted) {
+  if (wanted) {
     Screenshot shot = entry.window->screenshot();
     const std::lock_guard<std::mutex> lock(mutex_);
-    entry.screenshot = std::move(shot);
+    *wanted = std::move(shot);
     changed_.notify_all();
   }
   entry.window->present();

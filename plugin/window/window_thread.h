@@ -26,8 +26,9 @@ struct Window::Entry {
   bool closing = false;
   bool gone = false;
   std::vector<std::function<void(DebugWindow&)>> requests;
-  bool screenshot_wanted = false;
-  std::optional<Screenshot> screenshot;
+  /// Of a call that waits: filled by the drawing that takes it out of here, so that it never shows
+  /// one that had begun before the call. Null while none is wanted.
+  std::shared_ptr<std::optional<Screenshot>> screenshot;
   std::unique_ptr<DebugWindow> window;
 };
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -21,7 +23,10 @@ class FakeSource final : public WindowSource {
   }
 
   bool read(ElementState& state) override {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++reads_;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return reads_ <= reads_let_through_; });
     state = state_;
     return true;
   }
@@ -43,6 +48,20 @@ class FakeSource final : public WindowSource {
   void closed() override {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_closed_ = true;
+    changed_.notify_all();
+  }
+
+  /// Stops the window in the middle of its next drawing, or of the one after where it stands
+  /// stopped, and returns when it has.
+  void hold_next_drawing() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    reads_let_through_ = reads_;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return reads_ > reads_let_through_; });
+  }
+  void draw_on() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    reads_let_through_ = kAll;
     changed_.notify_all();
   }
 
@@ -78,6 +97,8 @@ class FakeSource final : public WindowSource {
   Led led_;
   std::vector<std::string> complaints_;
   bool is_closed_ = false;
+  static constexpr uint64_t kAll = std::numeric_limits<uint64_t>::max();
+  uint64_t reads_ = 0, reads_let_through_ = kAll;
 };
 
 }  // namespace spidar::test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The contents of a debug window, read back from the frame buffer.
+#include <chrono>
+#include <future>
 #include <memory>
 #include <thread>
 
@@ -47,6 +49,34 @@ TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
   // Six pixels of the window beyond the tip its newtons are written.
   EXPECT_FALSE(is_white(color(159.5, 119.5 + 48 + 5 / map.scale_y)));
   EXPECT_TRUE(is_grey(color(159.5, 112)));
+}
+
+TEST_F(WindowTest, AScreenshotIsOfNoDrawingThatBeganBeforeTheCall) {
+  auto source = std::make_shared<FakeSource>();
+  auto feed = std::make_shared<FrameFeed>();
+  Window window(source, feed);
+  FrameFacts facts;
+  facts.scene.tracks.push_back({1, {60, 80}, {100, 80}, TrackOwner::kObject, 1, false});
+  give(*feed, facts);
+  const auto is_detailed = [](const Screenshot& shot) {
+    const Eigen::Vector2d p = map_of(shot)({80, 80});
+    return is_red(at(shot, p.x(), p.y()));
+  };
+  ASSERT_FALSE(is_detailed(look(window)));
+  // A call that gives up while its drawing is under way. Where the pauses below are too short for a
+  // slow machine, the calls come in another order, which is right as well.
+  const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(100)); };
+  source->hold_next_drawing();
+  auto early = std::async(std::launch::async,
+                          [&] { return window.screenshot(std::chrono::milliseconds(300)); });
+  pause();
+  source->hold_next_drawing();
+  EXPECT_FALSE(early.get().has_value());
+  window.press(GLFW_KEY_D);
+  auto late = std::async(std::launch::async, [&] { return look(window); });
+  pause();
+  source->draw_on();
+  EXPECT_TRUE(is_detailed(late.get()));
 }
 
 TEST_F(WindowTest, ATensionBarHasItsHeight) {
