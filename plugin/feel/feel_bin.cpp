@@ -195,6 +195,25 @@ static GstPadProbeReturn answer_query(GstPad*, GstPadProbeInfo* info, gpointer d
   return GST_PAD_PROBE_HANDLED;
 }
 
+/// After an exchange, `before` negotiates and sends caps and segment again. When a seek flushes the
+/// bin meanwhile, that fails, and the player would stop with an error. The frame is one that the
+/// seek drops anyway. The flush has marked the pad of the bin before it reaches the elements in it.
+static GstFlowReturn failed_or_flushed(GstPad* pad, GstFlowReturn result) {
+  if (result != GST_FLOW_NOT_NEGOTIATED && result != GST_FLOW_ERROR) return result;
+  GST_OBJECT_LOCK(pad);
+  const bool flushing = GST_PAD_IS_FLUSHING(pad);
+  GST_OBJECT_UNLOCK(pad);
+  return flushing ? GST_FLOW_FLUSHING : result;
+}
+
+static GstFlowReturn chain(GstPad* pad, GstObject* parent, GstBuffer* buffer) {
+  return failed_or_flushed(pad, gst_proxy_pad_chain_default(pad, parent, buffer));
+}
+
+static GstFlowReturn chain_list(GstPad* pad, GstObject* parent, GstBufferList* list) {
+  return failed_or_flushed(pad, gst_proxy_pad_chain_list_default(pad, parent, list));
+}
+
 static void begin_to_feel(GstSpidarFeelBin* self) {
   if (self->motion || is_felt_already(self) || !take_device(self)) return;
   GstElement* motion = open_motion(self);
@@ -255,10 +274,12 @@ static void add_probe(GstSpidarFeelBin* self, const char* name, int what,
   gst_object_unref(pad);
 }
 
-static void add_ghost_pad(GstSpidarFeelBin* self, GstElement* element, const char* name) {
-  GstPad* pad = gst_element_get_static_pad(element, name);
-  gst_element_add_pad(GST_ELEMENT(self), gst_ghost_pad_new(name, pad));
-  gst_object_unref(pad);
+static GstPad* add_ghost_pad(GstSpidarFeelBin* self, GstElement* element, const char* name) {
+  GstPad* target = gst_element_get_static_pad(element, name);
+  GstPad* pad = gst_ghost_pad_new(name, target);
+  gst_element_add_pad(GST_ELEMENT(self), pad);
+  gst_object_unref(target);
+  return pad;
 }
 
 GstElement* gst_spidar_feel_bin_new(const char* properties) {
@@ -284,7 +305,9 @@ GstElement* gst_spidar_feel_bin_new(const char* properties) {
               before_data);
     add_probe(self, "src", GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM | GST_PAD_PROBE_TYPE_PUSH,
               answer_query);
-    add_ghost_pad(self, before, "sink");
+    GstPad* sink = add_ghost_pad(self, before, "sink");
+    gst_pad_set_chain_function(sink, chain);
+    gst_pad_set_chain_list_function(sink, chain_list);
     add_ghost_pad(self, after, "src");
     result = GST_ELEMENT(self);
   } else {

@@ -105,6 +105,13 @@ class FeelBin : public testing::Test {
     gst_segment_init(&segment, GST_FORMAT_TIME);
     gst_pad_push_event(source_, gst_event_new_segment(&segment));
   }
+  void begin_flush() { gst_pad_push_event(source_, gst_event_new_flush_start()); }
+  void end_flush() {
+    gst_pad_push_event(source_, gst_event_new_flush_stop(TRUE));
+    GstSegment segment;
+    gst_segment_init(&segment, GST_FORMAT_TIME);
+    gst_pad_push_event(source_, gst_event_new_segment(&segment));
+  }
   void set_size(int width, int height) {
     GstCaps* caps = make_caps("I420", width, height);
     gst_video_info_from_caps(&info_, caps);
@@ -263,6 +270,46 @@ TEST_P(FeelBinStates, SpidarmotionFollowsAPlayerThatChangesItsStateAtThatMoment)
 INSTANTIATE_TEST_SUITE_P(All, FeelBinStates,
                          testing::Values(std::make_pair(GST_STATE_PLAYING, GST_STATE_PAUSED),
                                          std::make_pair(GST_STATE_PAUSED, GST_STATE_PLAYING)));
+
+/// A seek's flush that arrives while spidarmotion, just put in, handles an event of this type.
+class FeelBinFlushes : public FeelBin, public testing::WithParamInterface<GstEventType> {
+ protected:
+  /// Flushes when `pad` gets its next event of the type.
+  void flush_during_event(GstPad* pad) {
+    handle_event_ = GST_PAD_EVENTFUNC(pad);
+    pad->eventdata = this;
+    pad->eventfunc = [](GstPad* pad, GstObject* parent, GstEvent* event) {
+      auto* self = static_cast<FeelBinFlushes*>(pad->eventdata);
+      if (GST_EVENT_TYPE(event) == GetParam() && !std::exchange(self->flushed_, true))
+        self->begin_flush();
+      return self->handle_event_(pad, parent, event);
+    };
+  }
+  bool flushed_ = false;
+
+ private:
+  GstPadEventFunction handle_event_ = nullptr;
+};
+
+TEST_P(FeelBinFlushes, DuringTheExchangeAreNoError) {
+  set_state(GST_STATE_PAUSED);
+  begin_stream();
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  before_motion_changes_state = [this] {
+    GstPad* pad = gst_element_get_static_pad(motion(), "sink");
+    flush_during_event(pad);
+    gst_object_unref(pad);
+  };
+  set_state(GST_STATE_PLAYING);
+  EXPECT_EQ(push(), GST_FLOW_FLUSHING);
+  EXPECT_TRUE(flushed_);
+  end_flush();
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  EXPECT_NE(motion(), nullptr);
+  EXPECT_EQ(size_at_end(), std::make_pair(320, 240));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FeelBinFlushes, testing::Values(GST_EVENT_CAPS, GST_EVENT_SEGMENT));
 
 }  // namespace
 }  // namespace spidar::test
