@@ -278,11 +278,11 @@ class FeelBinFlushes : public FeelBin, public testing::WithParamInterface<GstEve
   void flush_during_event(GstPad* pad) {
     handle_event_ = GST_PAD_EVENTFUNC(pad);
     pad->eventdata = this;
-    pad->eventfunc = [](GstPad* pad, GstObject* parent, GstEvent* event) {
-      auto* self = static_cast<FeelBinFlushes*>(pad->eventdata);
+    pad->eventfunc = [](GstPad* sink, GstObject* parent, GstEvent* event) {
+      auto* self = static_cast<FeelBinFlushes*>(sink->eventdata);
       if (GST_EVENT_TYPE(event) == GetParam() && !std::exchange(self->flushed_, true))
         self->begin_flush();
-      return self->handle_event_(pad, parent, event);
+      return self->handle_event_(sink, parent, event);
     };
   }
   bool flushed_ = false;

@@ -204,6 +204,14 @@ void SteppedPipeline::await_analysed(size_t frames) {
   while (wrenches().size() < frames) take(inbox_->await());
 }
 
+void SteppedPipeline::await_end_of_stream() {
+  GstPad* pad = gst_element_get_static_pad(element_, "src");
+  GstEvent* end = nullptr;
+  while (!(end = gst_pad_get_sticky_event(pad, GST_EVENT_EOS, 0))) g_usleep(1000);
+  gst_event_unref(end);
+  gst_object_unref(pad);
+}
+
 const std::map<GstClockTime, Wrench>& SteppedPipeline::wrenches() {
   while (GstMessage* message = inbox_->pop()) take(message);
   return wrenches_;

@@ -65,6 +65,8 @@ class SteppedPipeline {
   void await_message(GstMessageType type);
   /// Waits until the element has received this number of frames.
   void await_analysed(size_t frames);
+  /// Waits until the stream has ended for the element, which is before it ends for the sink.
+  void await_end_of_stream();
   /// Wrench of each frame since the start or the last seek, by running time, from the element's
   /// messages.
   const std::map<GstClockTime, Wrench>& wrenches();

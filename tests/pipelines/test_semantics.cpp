@@ -257,6 +257,7 @@ TEST(Semantics, AfterAnErrorUpstreamNothingIsFelt) {
   pipeline.set_state(GST_STATE_PLAYING);
   EXPECT_GT(play(pipeline, 6)[5].norm(), kMoves_px_s);
   pipeline.await_message(GST_MESSAGE_ERROR);
+  pipeline.await_end_of_stream();  // which the source sends after the error
   expect_rest(pipeline, kFrame + 50 * GST_MSECOND);
 }
 
