@@ -26,8 +26,8 @@ struct Window::Entry {
   bool closing = false;
   bool gone = false;
   std::vector<std::function<void(DebugWindow&)>> requests;
-  /// Of a call that waits: filled by the drawing that takes it out of here, so that it never shows
-  /// one that had begun before the call. Null while none is wanted.
+  /// What callers of screenshot() wait for; null while nobody does. The next drawing takes it out
+  /// of here before it begins and fills it, so a drawing that is under way does not answer a call.
   std::shared_ptr<std::optional<Screenshot>> screenshot;
   std::unique_ptr<DebugWindow> window;
 };
