@@ -101,6 +101,9 @@ class FeelBin : public testing::Test {
   void begin_stream() {
     gst_pad_push_event(source_, gst_event_new_stream_start("film"));
     set_size(320, 240);
+    begin_segment();
+  }
+  void begin_segment() {
     GstSegment segment;
     gst_segment_init(&segment, GST_FORMAT_TIME);
     gst_pad_push_event(source_, gst_event_new_segment(&segment));
@@ -108,9 +111,7 @@ class FeelBin : public testing::Test {
   void begin_flush() { gst_pad_push_event(source_, gst_event_new_flush_start()); }
   void end_flush() {
     gst_pad_push_event(source_, gst_event_new_flush_stop(TRUE));
-    GstSegment segment;
-    gst_segment_init(&segment, GST_FORMAT_TIME);
-    gst_pad_push_event(source_, gst_event_new_segment(&segment));
+    begin_segment();
   }
   void set_size(int width, int height) {
     GstCaps* caps = make_caps("I420", width, height);
