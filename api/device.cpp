@@ -94,7 +94,8 @@ std::optional<Pose> Device::pose() const {
 
 Wrench Device::felt() const {
   const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
-  if (tick.device != spidar::DeviceState::kRunning) return {};
+  // The strings already pull while the tensions ramp up, and still while they ramp down.
+  if (tick.device == spidar::DeviceState::kLost) return {};
   const spidar::FeltParts parts = impl_->session.device().felt_parts();
   Wrench felt = to_api(tick.delivered);
   if (!parts.x) felt.force_N.x = 0;

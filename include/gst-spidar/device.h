@@ -70,8 +70,9 @@ class GST_SPIDAR_API Device {
   /// of the device do not fit together.
   std::optional<Pose> pose() const;
 
-  /// What the device is told to exert on the grip at present, after all limits. Zero unless it
-  /// is kRunning. Parts that the device cannot exert are zero: torques and the force towards the
+  /// What the device is told to exert on the grip at present, after all limits, from the first
+  /// millisecond on: a device that is kOpening already pulls. Zero while it is kLost, and when its
+  /// motors are off. Parts that the device cannot exert are zero: torques and the force towards the
   /// viewer (z) on joysticks, wheels, gamepads and the SPIDAR-mouse, and the vertical force (y) on
   /// wheels. A gamepad that only rumbles renders the size of this force, not its direction.
   Wrench felt() const;
