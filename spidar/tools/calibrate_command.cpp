@@ -119,8 +119,9 @@ int calibrate_command(int argc, char** argv) {
     std::cout << kCalibrateHelp;
     return kDone;
   }
-  const Profile profile = load_profile(options.profile);
-  require_strings(board_info(options.device), "calibrate");
+  const BoardInfo board = board_info(options.device);
+  require_strings(board, "calibrate");
+  const Profile profile = load_profile(options.profile.empty() ? board.profile : options.profile);
   if (!options.output.empty()) check_folder_of(options.output);
   catch_signals();
   const CountSamples counts = record(options, profile);

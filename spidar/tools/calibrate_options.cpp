@@ -14,7 +14,7 @@ const char* const kCalibrateHelp =
 
 Determines the string lengths at which the encoders of DEVICE are zero.
 
-  --profile NAME        profile of the device, a name or a file (default spidar-gcc)
+  --profile NAME        profile of the device, a name or a file (default that of the board)
   --move SECONDS        you move and turn the grip in every direction (default, 20)
   --centre              you hold the grip still at the centre, without turning it
   --free exits,scale    with --move, also determine where the strings leave the frame, and a
@@ -87,7 +87,7 @@ CalibrateOptions parse_calibrate_options(int argc, char** argv) {
        json_option(options.json)});
   options.help = given.help;
   options.device = given.device;
-  if (!given.profile.empty()) options.profile = given.profile;
+  options.profile = given.profile;
   if (!options.help) check_together(options, moving);
   return options;
 }

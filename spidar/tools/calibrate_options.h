@@ -8,14 +8,13 @@
 
 #include "core/grip/pose.h"
 #include "spidar/calibration/calibration.h"
-#include "spidar/profiles/profile.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
 
 struct CalibrateOptions {
   std::string device;
-  std::string profile = kDefaultProfile;
+  std::string profile;  ///< empty: that of the board
   bool centre = false;
   double seconds = 20;
   CalibrationSettings settings;

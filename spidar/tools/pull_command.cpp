@@ -18,9 +18,10 @@ namespace {
 constexpr const char* kHelp = R"(usage: spidarctl pull DEVICE STRING NEWTON SECONDS [OPTION]...
 
 Pulls one string (numbered from 0) with NEWTON for SECONDS; the other strings keep their minimum
-tension. NEWTON must be within the limits of the profile for that string and at most 5, which a hand
-can hold easily. NEWTON times SECONDS must be at most 5 (at the minimum tension, SECONDS at most 10),
-so that no motor gets hot.
+tension. NEWTON must be from the smallest to the largest tension that the profile has for that string
+(`spidarctl info DEVICE` prints both; for the boards that have a driver, 1 to 5 N suits every shipped
+profile) and at most 5, which a hand can hold easily. NEWTON times SECONDS must be at most 5 (at the
+smallest tension, SECONDS at most 10), so that no motor gets hot.
 
   --yes           do not ask for confirmation
   --profile NAME  profile of the device, a name or a file

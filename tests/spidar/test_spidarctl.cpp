@@ -225,6 +225,28 @@ TEST(Spidarctl, RestAndZeroLeaveTheMotorsAtZero) {
   expect_contains(zero.text, "sim:sh4: the motors are at zero");
 }
 
+/// The line of docs/hardware.md, for the profiles of boards that have a driver.
+TEST(Spidarctl, TheFirstPullOfTheGuideSuitsEveryBoard) {
+  int tried = 0;
+  for (const std::string& name : spidar::list_profiles()) {
+    SCOPED_TRACE(name);
+    const std::string board = spidar::load_profile(name).board;
+    if (board == "ahs") continue;
+    ++tried;
+    // Asked for confirmation, so string, force and time were accepted.
+    expect_contains(run("pull sim 0 2 2 --profile " + name + " </dev/null").text,
+                    "no terminal to ask for confirmation");
+  }
+  EXPECT_GT(tried, 0);
+}
+
+TEST(Spidarctl, CalibrateTakesTheProfileOfTheBoard) {
+  // The general default profile, spidar-gcc, wants negative volts, which this board does not have.
+  const CommandResult outcome = run("calibrate sim:sh4 --centre");
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  expect_contains(outcome.text, "spidar-g6x3-v2-r");
+}
+
 TEST(Spidarctl, PullShortensItsString) {
   const CommandResult outcome =
       run_shell(std::string(SPIDARCTL) + " pull sim:sh4 2 1 0.2 --yes --json 2>&1");
