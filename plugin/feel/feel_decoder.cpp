@@ -7,6 +7,7 @@
 #include "plugin/feel/feel_bin.h"
 #include "plugin/feel/feel_tracer.h"
 #include "plugin/feel/follow_state.h"
+#include "plugin/feel/video_notice.h"
 #include "plugin/timing/downstream.h"
 
 namespace spidar {
@@ -214,7 +215,10 @@ bool is_shown(GstPad* pad) {
 void feel_pad(GstElement* decoder, GstPad* pad) {
   if (!GST_IS_GHOST_PAD(pad)) return;
   GstElement* filter = get_filter(pad);
-  if (!filter && is_shown(pad) && has_raw_video(pad)) add_filter(decoder, pad);
+  if (!filter && is_shown(pad)) {
+    notice_video();
+    if (has_raw_video(pad)) add_filter(decoder, pad);
+  }
   gst_clear_object(&filter);
 }
 

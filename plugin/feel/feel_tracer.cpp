@@ -22,6 +22,7 @@
 
 #include "plugin/feel/feel_bin.h"
 #include "plugin/feel/feel_decoder.h"
+#include "plugin/feel/video_notice.h"
 
 struct GstSpidarFeelTracer {
   GstTracer parent;
@@ -41,6 +42,7 @@ static bool is_playbin(GstElement* element) {
 }
 
 static void set_filter(GstElement* element) {
+  spidar::notice_video();
   GstElement* filter = nullptr;
   guint flags = 0;
   g_object_get(element, "video-filter", &filter, "flags", &flags, nullptr);

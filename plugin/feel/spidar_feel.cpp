@@ -15,6 +15,7 @@
 
 #include "plugin/feel/feel_tracer.h"
 #include "plugin/feel/property_check.h"
+#include "plugin/feel/video_notice.h"
 #include "spidar/install_folder.h"
 
 namespace {
@@ -145,6 +146,28 @@ void set_environment(const std::vector<std::string>& properties) {
   g_setenv("GST_TRACERS", all.c_str(), TRUE);
 }
 
+/// The value of the property `device`, of which the last one counts; empty: none is given.
+std::string device_of(const Wish& wish) {
+  const std::string begin = "device=";
+  std::string device;
+  for (const std::string& property : wish.properties)
+    if (property.rfind(begin, 0) == 0) device = property.substr(begin.size());
+  return device;
+}
+
+/// Says what would otherwise be missed: that nothing real moves, and, when it turns out so, that
+/// the player shows no video by GStreamer.
+void warn_of_nothing_felt(const Wish& wish) {
+  const std::string device = device_of(wish);
+  if (device == "none") return;  // nothing is to be felt
+  if (device.empty())
+    std::fputs(
+        "spidar-feel: no device is given: a simulated one takes the force, and nothing real moves; "
+        "\"spidarctl list\" names what is plugged in\n",
+        stderr);
+  spidar::expect_video(wish.program[0]);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -152,8 +175,10 @@ int main(int argc, char** argv) {
   find_plugin();
   check(wish.properties);
   set_environment(wish.properties);
+  warn_of_nothing_felt(wish);
   execvp(wish.program[0], wish.program);
   const int error = errno;
+  spidar::notice_video();  // this message says enough
   fail(error == ENOENT ? kNoProgram : kCannotRun,
        std::string(wish.program[0]) + ": " + std::strerror(error));
 }

@@ -158,7 +158,8 @@ TEST_F(Feel, WrongUsageIsNamed) {
   }
   EXPECT_EQ(run(feel + " device=none -- printenv SPIDAR_FEEL GST_TRACERS").text,
             "device=none\n\nspidarfeel\n");
-  EXPECT_EQ(run("GST_TRACERS=stats " + feel + " printenv GST_TRACERS").text, "stats;spidarfeel\n");
+  EXPECT_EQ(run_shell("GST_TRACERS=stats " + feel + " printenv GST_TRACERS 2>/dev/null").text,
+            "stats;spidarfeel\n");
 }
 
 TEST_F(Feel, ADeviceThatCannotExistOrBeDrivenIsNamedBeforeThePlayerStarts) {
@@ -186,8 +187,36 @@ TEST_F(Feel, ADeviceThatCannotExistOrBeDrivenIsNamedBeforeThePlayerStarts) {
        {"device=usb", "device=usb:7", "device=mouse:7", "device=uart:/dev/no-such-line",
         "device=ff:/dev/no-such-joystick", "device=none", "device=usb profile=spidar-g6x3-v2-l",
         "device=zzz device=sim", "'device=\"sim\"'"})
-    EXPECT_EQ(run(std::string(SPIDAR_FEEL) + " " + properties + " -- echo plays").text, "plays\n")
+    EXPECT_EQ(
+        run_shell(std::string(SPIDAR_FEEL) + " " + properties + " -- echo plays 2>/dev/null").text,
+        "plays\n")
         << properties;
+}
+
+TEST_F(Feel, APlayerThatShowsNoVideoByGStreamerIsNamed) {
+  plug(0, UsbKind::kSh4);
+  const std::string feel = std::string(SPIDAR_FEEL) + " device=usb -- ";
+  // When it has ended.
+  EXPECT_EQ(run(feel + "echo plays").text.find("plays\nspidar-feel: echo has shown no video"), 0u);
+  // While it plays: the shell waits for the line, as long as the test may last.
+  const std::string log = (folder->path / "log").string();
+  const CommandResult outcome = run_shell(feel + "sh -c 'until grep -q \"no video\" " + log +
+                                          "; do sleep 0.1; done' 2>" + log + "; cat " + log);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.text.find("spidar-feel: sh has shown no video"), std::string::npos)
+      << outcome.text;
+  // Not when it does, also from a process that it starts.
+  for (const char* const begin : {"", "sh -c '\"$0\" \"$@\"; :' "}) {
+    std::string line = feel + begin;
+    for (const std::string& word : player({"play", "frames=10", "stop"})) line += " " + word;
+    EXPECT_EQ(run(line).text, "");
+  }
+}
+
+TEST_F(Feel, WithoutADeviceItSaysThatNothingRealMoves) {
+  const std::string feel = SPIDAR_FEEL, line = "a simulated one takes the force";
+  EXPECT_NE(run(feel + " true").text.find(line), std::string::npos);
+  EXPECT_EQ(run(feel + " device=sim -- true").text.find(line), std::string::npos);
 }
 
 #ifdef EMULATED_BUS_LIBRARY
