@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <spawn.h>
 #include <stdexcept>
 #include <sys/wait.h>
@@ -19,13 +21,30 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+/// gnuplot reports no error when the disk is full.
+void check_png(const std::string& path) {
+  const std::string end("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
+  std::string read(end.size(), ' ');
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  file.read(read.data(), static_cast<std::streamsize>(read.size()));
+  if (read != end) {
+    throw std::runtime_error(path + ": cannot be written as a whole; the disk may be full");
+  }
+}
+
 }  // namespace
 
-void run_gnuplot(const std::string& script,
-                 const std::vector<std::pair<std::string, std::string>>& variables) {
+void run_gnuplot(const std::string& script, const GnuplotStrings& files,
+                 const GnuplotStrings& texts) {
   std::vector<std::string> arguments = {"gnuplot"};
-  for (const auto& [name, value] : variables) {
+  const auto set = [&arguments](const std::string& name, const std::string& value) {
     arguments.insert(arguments.end(), {"-e", name + "=" + quoted(value)});
+  };
+  for (const auto& [name, text] : texts) set(name, text);
+  for (const auto& [name, path] : files) {
+    // An absolute name cannot begin with | or <, after which gnuplot expects a command to run.
+    set(name, path.empty() ? path : std::filesystem::absolute(path).string());
   }
   arguments.push_back(std::string(EXAMPLES_DIR) + "/" + script);
   std::vector<char*> argv;
@@ -43,4 +62,7 @@ void run_gnuplot(const std::string& script,
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (status != 0) throw std::runtime_error("gnuplot could not draw " + script + ", see above");
+  for (const auto& [name, path] : files) {
+    if (std::filesystem::path(path).extension() == ".png") check_png(path);
+  }
 }

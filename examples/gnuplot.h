@@ -7,7 +7,11 @@
 #include <utility>
 #include <vector>
 
-/// Runs a gnuplot script of this folder; `variables` are its strings by name. Throws
-/// std::runtime_error when gnuplot is missing or reports an error.
-void run_gnuplot(const std::string& script,
-                 const std::vector<std::pair<std::string, std::string>>& variables);
+/// Strings of a gnuplot script, by name.
+using GnuplotStrings = std::vector<std::pair<std::string, std::string>>;
+
+/// Runs a gnuplot script of this folder. `files` are the names of files that it reads and writes,
+/// or empty; `texts` are its other strings. Throws std::runtime_error when gnuplot is missing or
+/// reports an error, or when one of the files ends in .png and is not a whole picture.
+void run_gnuplot(const std::string& script, const GnuplotStrings& files,
+                 const GnuplotStrings& texts);

@@ -138,10 +138,9 @@ StepError draw(const fs::path& folder) {
   const fs::path analytic = folder / "analytic.dat";
   const StepError error = write_measured(scene, measured);
   write_analytic(scene, analytic);
-  run_gnuplot("paper_figures.gp", {{"folder", folder},
-                                   {"measured", measured},
-                                   {"analytic", analytic},
-                                   {"gravity", std::to_string(scene.settings().gravity_px_s2)}});
+  run_gnuplot("paper_figures.gp",
+              {{"folder", folder}, {"measured", measured}, {"analytic", analytic}},
+              {{"gravity", std::to_string(scene.settings().gravity_px_s2)}});
   fs::remove(measured);
   fs::remove(analytic);
   return error;

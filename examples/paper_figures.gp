@@ -17,7 +17,7 @@ set xrange [0:*]
 panel(column) = sprintf("plot analytic using 1:%d with lines linestyle 1 title 'analytic', " . \
                         "measured using 1:%d with points linestyle 2 title 'measured'", column, column)
 start(name, height) = sprintf("set terminal pngcairo size 1100,%d font 'sans,12'; " . \
-                              "set output '%s/%s.png'", height, folder, name)
+                              "set output folder . '/%s.png'", height, name)
 
 eval start("fig6", 1000)
 set multiplot layout 3,1 title "Fig. 6: motion of a bouncing ball" font ",14" \

@@ -150,10 +150,9 @@ void touch(const std::string& image, bool is_depth, const fs::path& folder) {
               1e-3 * (kApproach_ticks + kStroke_ticks));
   std::printf("deepest:            %.1f mm below the surface\n", 1e3 * felt.deepest_m);
   std::printf("largest force:      %.2f N\n", felt.largest_N);
-  run_gnuplot("touch.gp", {{"relief", relief.string()},
-                           {"ticks", ticks.string()},
-                           {"png", png.string()},
-                           {"title", fs::path(image).filename().string()}});
+  run_gnuplot("touch.gp",
+              {{"relief", relief.string()}, {"ticks", ticks.string()}, {"png", png.string()}},
+              {{"title", fs::path(image).filename().string()}});
   std::printf("drawn:              %s\n", png.c_str());
 }
 

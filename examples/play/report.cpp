@@ -131,12 +131,11 @@ void draw_report(const SessionRecord::Numbers& numbers, double max_force_N,
   const std::string ticks = folder + "/ticks.dat";
   write_curve(numbers.frames_curve, frames);
   write_curve(numbers.ticks_curve, ticks);
-  run_gnuplot("play.gp", {{"png", png_path},
-                          {"title", title},
-                          {"frames", frames},
-                          {"max_force", std::to_string(max_force_N)},
-                          {"arm", std::to_string(spidar::kTorqueArm_m)},
-                          {"depth", if_felt(numbers.largest_depth_N)},
-                          {"roll", if_felt(numbers.largest_roll_Nm / spidar::kTorqueArm_m)},
-                          {"ticks", numbers.ticks == 0 ? "" : ticks}});
+  run_gnuplot("play.gp",
+              {{"png", png_path}, {"frames", frames}, {"ticks", numbers.ticks == 0 ? "" : ticks}},
+              {{"title", title},
+               {"max_force", std::to_string(max_force_N)},
+               {"arm", std::to_string(spidar::kTorqueArm_m)},
+               {"depth", if_felt(numbers.largest_depth_N)},
+               {"roll", if_felt(numbers.largest_roll_Nm / spidar::kTorqueArm_m)}});
 }

@@ -90,8 +90,7 @@ void draw_map(const spidar::Profile& profile, const fs::path& folder) {
   const fs::path rotation = folder / (name + "-rotation.csv");
   write_plane(profile, {1e3 * frame_half_size_m(profile).head<2>(), moved}, position);
   write_plane(profile, {Eigen::Vector2d::Constant(kLargestAngle_deg), turned}, rotation);
-  run_gnuplot("workspace_map.gp", {{"profile", profile.name},
-                                   {"position", position},
-                                   {"rotation", rotation},
-                                   {"png", folder / (name + ".png")}});
+  run_gnuplot("workspace_map.gp",
+              {{"position", position}, {"rotation", rotation}, {"png", folder / (name + ".png")}},
+              {{"profile", profile.name}});
 }

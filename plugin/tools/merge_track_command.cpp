@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "plugin/tools/film_merger.h"
+#include "plugin/tools/part_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "spidar/tools/command_line.h"
@@ -42,23 +43,6 @@ std::vector<std::string> parse(int argc, char** argv, const char* help_text, siz
   return operands;
 }
 
-/// Removes an output that is incomplete.
-class PartFile {
- public:
-  explicit PartFile(const fs::path& target, const std::string& end = "")
-      : path_((target.parent_path() / (".part-" + target.filename().string() + end)).string()) {}
-  ~PartFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 }  // namespace
 
 int merge_track_command(int argc, char** argv) {
@@ -77,7 +61,7 @@ int merge_track_command(int argc, char** argv) {
     }
   }
   const std::vector<TrackSample> samples = load_track(track);
-  const PartFile part(out), sound(out, ".mka");
+  PartFile part(out), sound(out + ".mka");
   const bool is_sound =
       !ends_with(track, ".hjif") && !ends_with(track, ".csv") && !ends_with(track, ".jsonl");
   if (!is_sound) save_track(sound.path(), samples);
@@ -87,7 +71,7 @@ int merge_track_command(int argc, char** argv) {
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(film + ": " + error.what());
   }
-  fs::rename(part.path(), out);
+  part.publish();
   return kDone;
 }
 

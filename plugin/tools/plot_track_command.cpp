@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <cstring>
 #include <iostream>
-#include <optional>
 #include <stdexcept>
 #include <unistd.h>
 
 #include "plugin/tools/film_stills.h"
+#include "plugin/tools/gnuplot.h"
+#include "plugin/tools/part_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "spidar/tools/command_line.h"
@@ -64,20 +63,23 @@ void place(FILE* gnuplot, int top, int bottom, int height) {
                1 - static_cast<double>(top) / height, 1 - static_cast<double>(bottom) / height);
 }
 
-/// The stills side by side, from a file with all of them, and a dotted line through the middle of
-/// each for the curves that follow.
-void draw_stills(FILE* gnuplot, const FilmStills& stills, const std::string& file,
-                 double length_s) {
+/// The stills side by side, and a dotted line through the middle of each for the curves that
+/// follow.
+void draw_stills(FILE* gnuplot, const FilmStills& stills, double length_s) {
   const double part_s = length_s / kStills;
   const double pixel_s = 0.98 * part_s / stills.width;  // with a gap
   std::fputs("set yrange [0:1]\nunset border\nunset tics\nplot ", gnuplot);
   for (int i = 0; i < kStills; ++i) {
     std::fprintf(gnuplot,
-                 "%s'%s' binary skip=%d array=(%d,%d) format='%%uchar%%uchar%%uchar' flipy "
-                 "origin=(%g,%g) dx=%g dy=%g with rgbimage notitle",
-                 i == 0 ? "" : ", ", file.c_str(), i * 3 * stills.width * stills.height,
-                 stills.width, stills.height, i * part_s + 0.01 * part_s + pixel_s / 2,
-                 0.5 / stills.height, pixel_s, 1.0 / stills.height);
+                 "%s'-' binary array=(%d,%d) format='%%uchar%%uchar%%uchar' flipy origin=(%g,%g) "
+                 "dx=%g dy=%g with rgbimage notitle",
+                 i == 0 ? "" : ", ", stills.width, stills.height,
+                 i * part_s + 0.01 * part_s + pixel_s / 2, 0.5 / stills.height, pixel_s,
+                 1.0 / stills.height);
+  }
+  std::fputc('\n', gnuplot);
+  for (const std::vector<uint8_t>& rgb : stills.rgb) {
+    std::fwrite(rgb.data(), 1, rgb.size(), gnuplot);
   }
   std::fputs("\nset yrange [*:*]\nset border\nset tics\n", gnuplot);
   for (int i = 0; i < kStills; ++i) {
@@ -89,52 +91,33 @@ void draw_stills(FILE* gnuplot, const FilmStills& stills, const std::string& fil
   }
 }
 
-/// A file of all stills, gone with the object.
-class StillsFile {
- public:
-  explicit StillsFile(const FilmStills& stills) {
-    std::string name = (std::filesystem::temp_directory_path() / "spidartrack-XXXXXX").string();
-    const int file = mkstemp(name.data());
-    if (file < 0) throw std::runtime_error(name + ": cannot be made");
-    close(file);
-    path_ = name;
-    std::ofstream out(path_, std::ios::binary);
-    for (const std::vector<uint8_t>& rgb : stills.rgb) {
-      out.write(reinterpret_cast<const char*>(rgb.data()),
-                static_cast<std::streamsize>(rgb.size()));
-    }
-    out.close();
-    if (!out) {
-      unlink(path_.c_str());
-      throw std::runtime_error(path_ + ": cannot be written");
-    }
-  }
-  ~StillsFile() { unlink(path_.c_str()); }
-  StillsFile(const StillsFile&) = delete;
-  StillsFile& operator=(const StillsFile&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
+/// gnuplot reports no error when the disk is full.
+bool is_whole_png(int descriptor) {
+  constexpr char kEnd[] = "\0\0\0\0IEND\xAE\x42\x60\x82";
+  char end[sizeof kEnd - 1] = {};
+  const off_t size = lseek(descriptor, 0, SEEK_END);
+  return size > static_cast<off_t>(sizeof end) &&
+         pread(descriptor, end, sizeof end, size - static_cast<off_t>(sizeof end)) ==
+             static_cast<ssize_t>(sizeof end) &&
+         std::memcmp(end, kEnd, sizeof end) == 0;
+}
 
 void draw(const std::vector<TrackSample>& samples, const FilmStills& stills,
           const std::string& png) {
-  std::optional<StillsFile> file;
-  if (!stills.rgb.empty()) file.emplace(stills);
+  PartFile picture(png);
+  Gnuplot plot(picture.descriptor());
+  FILE* const gnuplot = plot.input();
   const double length_s = static_cast<double>(samples.size()) / kTrackRate_Hz;
   // As high as its width between the margins makes a still.
   const int above = stills.rgb.empty() ? 0 : kStillWidth * stills.height / stills.width + kGap;
   const int height = kCurves + above;
-  FILE* gnuplot = popen("gnuplot", "w");
-  if (!gnuplot) throw std::runtime_error("gnuplot cannot be started");
   std::fprintf(gnuplot,
-               "set terminal pngcairo size %d,%d font 'sans,12'\nset output '%s'\n%sset xrange "
-               "[0:%g]\nset multiplot\n",
-               kWidth, height, png.c_str(), kStyle, length_s);
-  if (file) {
+               "set terminal pngcairo size %d,%d font 'sans,12'\n%sset xrange [0:%g]\n"
+               "set multiplot\n",
+               kWidth, height, kStyle, length_s);
+  if (!stills.rgb.empty()) {
     place(gnuplot, kGap, above, height);
-    draw_stills(gnuplot, stills, file->path(), length_s);
+    draw_stills(gnuplot, stills, length_s);
   }
   const int middle = above + kCurves / 2;
   place(gnuplot, above + kGap, middle - 2 * kGap, height);
@@ -151,7 +134,11 @@ void draw(const std::vector<TrackSample>& samples, const FilmStills& stills,
       "z'\n",
       gnuplot);
   send(gnuplot, samples, true);
-  if (pclose(gnuplot) != 0) throw std::runtime_error("gnuplot is missing, or cannot draw this");
+  plot.finish();
+  if (!is_whole_png(picture.descriptor())) {
+    throw std::runtime_error(png + ": cannot be written as a whole; the disk may be full");
+  }
+  picture.publish();
 }
 
 }  // namespace
@@ -168,9 +155,6 @@ int plot_track_command(int argc, char** argv) {
     return kDone;
   }
   if (operands.size() != 2) throw UsageError("TRACK and PNG are needed, and nothing else");
-  if (operands[1].find('\'') != std::string::npos) {
-    throw UsageError(operands[1] + ": gnuplot takes no name with an apostrophe");
-  }
   const std::vector<TrackSample> samples = load_track(operands[0]);
   if (samples.empty()) throw std::runtime_error(operands[0] + ": has no samples to draw");
   FilmStills stills;

@@ -6,6 +6,7 @@
 
 #include <gst/gst.h>
 
+#include "plugin/tools/part_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "spidar/tools/command_line.h"
 
@@ -38,6 +39,7 @@ spidartrack COMMAND --help explains a command.
 }  // namespace
 
 int main(int argc, char** argv) {
+  remove_part_files_on_signals();
   gst_init(nullptr, nullptr);
   return run_program("spidartrack", kCommands, kHelp, argc, argv);
 }

@@ -22,6 +22,21 @@ std::runtime_error wrong_line(const std::string& path, int line, const std::stri
   return std::runtime_error(path + ":" + std::to_string(line) + ": " + what);
 }
 
+/// Longer than any film. A trace that claims to be longer has a wrong time in it.
+constexpr int64_t kLongestTrack_ns = int64_t{24} * 3600 * 1'000'000'000;
+/// The stream time of a frame that is outside the segment.
+constexpr int64_t kNoTime = -1;
+
+/// Why no track can have a frame at `time_ns`; empty if it can. A double holds the times of a CSV
+/// file: it may be no number, or be too large for an integer.
+std::string wrong_time(double time_ns) {
+  if (time_ns >= 0 && time_ns <= static_cast<double>(kLongestTrack_ns)) return {};
+  std::ostringstream text;
+  text << "the stream time is " << 1e-9 * time_ns << " s, must be from 0 to "
+       << kLongestTrack_ns / 1'000'000'000 << " s, which is the longest track";
+  return text.str();
+}
+
 /// Takes frames and returns the samples between them.
 class TraceSampler {
  public:
@@ -70,6 +85,9 @@ std::vector<TrackSample> read_csv_trace(const std::string& path, const std::stri
       throw wrong_line(path, line, "a row has " + std::to_string(kColumns) + " columns");
     }
     const auto* value = &cells[kForceColumn];
+    if (cells[1] == kNoTime) continue;
+    const std::string problem = wrong_time(cells[1]);
+    if (!problem.empty()) throw wrong_line(path, line, problem);
     sampler.add(static_cast<int64_t>(cells[1]),
                 {{value[0], value[1], value[2]}, {value[3], value[4], value[5]}}, false, false);
   }
@@ -90,9 +108,12 @@ std::vector<TrackSample> read_json_trace(const std::string& path, const std::str
         const auto values = wrench.at(name).get<std::array<double, 3>>();
         return Eigen::Vector3d(values[0], values[1], values[2]);
       };
-      sampler.add(frame.at("stream_time_ns").get<int64_t>(),
-                  {vector("force_N"), vector("torque_Nm")}, frame.at("repeated").get<bool>(),
-                  frame.at("restarted").get<bool>());
+      const auto time_ns = frame.at("stream_time_ns").get<int64_t>();
+      if (time_ns == kNoTime) continue;
+      const std::string problem = wrong_time(static_cast<double>(time_ns));
+      if (!problem.empty()) throw wrong_line(path, line, problem);
+      sampler.add(time_ns, {vector("force_N"), vector("torque_Nm")},
+                  frame.at("repeated").get<bool>(), frame.at("restarted").get<bool>());
     } catch (const nlohmann::json::exception& error) {
       throw wrong_line(path, line,
                        std::string("is no line of a trace of spidarmotion: ") + error.what());

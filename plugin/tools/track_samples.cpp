@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <sstream>
 #include <stdexcept>
 
@@ -16,13 +14,12 @@
 
 #include "core/track/hjif.h"
 #include "core/track/track_reader.h"
+#include "plugin/tools/part_file.h"
 #include "plugin/tools/trace_track.h"
 #include "plugin/track/track_file.h"
 
 namespace spidar {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -84,19 +81,13 @@ std::string funscript(const std::vector<TrackSample>& samples, size_t axis) {
 
 void write_sound(const std::string& path, const std::string& encoder,
                  const std::vector<TrackSample>& samples) {
-  const std::string raw = path + ".raw";
+  const PartFile raw(path + ".raw");
   const auto* bytes = reinterpret_cast<const char*>(samples.data());
-  write_text(raw, std::string(bytes, samples.size() * sizeof(TrackSample)));
-  try {
-    run_pipeline("filesrc location=" + quoted(raw) +
-                 " ! rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
-                 "capssetter caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
-                 encoder + " ! filesink location=" + quoted(path));
-  } catch (...) {
-    fs::remove(raw);
-    throw;
-  }
-  fs::remove(raw);
+  write_text(raw.path(), std::string(bytes, samples.size() * sizeof(TrackSample)));
+  run_pipeline("filesrc location=" + quoted(raw.path()) +
+               " ! rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
+               "capssetter caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
+               encoder + " ! filesink location=" + quoted(path));
 }
 
 }  // namespace
@@ -183,27 +174,20 @@ std::vector<TrackSample> load_track(const std::string& path, TrackCondition* con
 
 void save_track(const std::string& path, const std::vector<TrackSample>& samples,
                 const SaveOptions& options) {
-  // Keeps the end of the name, because it determines the format.
-  const fs::path target(path);
-  const std::string part =
-      (target.parent_path() / (".part-" + target.filename().string())).string();
-  try {
-    const std::string encoder = encoder_of(path);
-    if (!encoder.empty()) {
-      write_sound(part, encoder, samples);
-    } else if (ends_with(path, ".hjif")) {
-      write_text(part, write_hjif(samples, options.hjif_tolerance));
-    } else if (ends_with(path, ".funscript")) {
-      write_text(part, funscript(samples, options.funscript_axis));
-    } else {
-      throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .funscript");
-    }
-    fs::rename(part, path);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw;
+  const std::string encoder = encoder_of(path);
+  const bool is_hjif = ends_with(path, ".hjif");
+  if (encoder.empty() && !is_hjif && !ends_with(path, ".funscript")) {
+    throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .funscript");
   }
+  PartFile part(path);
+  if (!encoder.empty()) {
+    write_sound(part.path(), encoder, samples);
+  } else if (is_hjif) {
+    write_text(part.path(), write_hjif(samples, options.hjif_tolerance));
+  } else {
+    write_text(part.path(), funscript(samples, options.funscript_axis));
+  }
+  part.publish();
 }
 
 }  // namespace spidar

@@ -62,6 +62,27 @@ def check_slope(program, folder):
         assert abs(force_N / (STIFFNESS_N_MM * depth_mm) - 1) < 0.05, (side, force_N, depth_mm)
 
 
+def check_names(program, folder):
+    """gnuplot takes a file name that begins with | or < for a command."""
+    image = os.path.join(folder, "slope.png")
+    for name in ["|touch ran; true ", "<touch ran; true ", "it's", "`touch ran`", "two\nlines"]:
+        done = subprocess.run([program, image, "--output", name], text=True, capture_output=True,
+                              timeout=60, cwd=folder)
+        assert done.returncode == 0, (name, done)
+        assert not os.path.exists(os.path.join(folder, "ran")), name
+        assert os.path.getsize(os.path.join(folder, name, "touch.png")) > 10_000, name
+
+
+def check_full_disk(program, folder):
+    """gnuplot does not report that it could not write."""
+    full = os.path.join(folder, "full")
+    os.mkdir(full)
+    os.symlink("/dev/full", os.path.join(full, "touch.png"))
+    done = subprocess.run([program, os.path.join(folder, "slope.png"), "--output", full], text=True,
+                          capture_output=True, timeout=60)
+    assert done.returncode == 1 and "the disk may be full" in done.stderr, done
+
+
 def check_mistakes(program, folder):
     none = os.path.join(folder, "none.png")
     text = os.path.join(folder, "text.png")
@@ -79,9 +100,12 @@ def main():
     if shutil.which("gnuplot") is None:
         print("skipped: gnuplot is not installed", file=sys.stderr)
         sys.exit(77)
+    program = os.path.abspath(sys.argv[1])
     with tempfile.TemporaryDirectory() as folder:
-        check_slope(sys.argv[1], folder)
-        check_mistakes(sys.argv[1], folder)
+        check_slope(program, folder)
+        check_names(program, folder)
+        check_full_disk(program, folder)
+        check_mistakes(program, folder)
 
 
 if __name__ == "__main__":

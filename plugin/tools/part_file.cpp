@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/part_file.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <mutex>
+#include <pthread.h>
+#include <set>
+#include <stdexcept>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The part files of this process. The lock is held while one is made, renamed or removed, so that
+/// a signal finds all of them.
+struct Registry {
+  std::mutex mutex;
+  std::set<std::string> paths;
+};
+
+Registry& registry() {
+  static auto* const all = new Registry;  // outlives the thread that waits for signals
+  return *all;
+}
+
+std::runtime_error failure(const std::string& path, int error) {
+  return std::runtime_error(path + ": " + std::strerror(error));
+}
+
+/// Whether the open file is still the one of this name: its last owner may have renamed or removed
+/// it before the lock was free.
+bool is_at(int descriptor, const std::string& path) {
+  struct stat opened {
+  }, named{};
+  return fstat(descriptor, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+/// An open and locked file; −1 when another process has locked it. Throws std::runtime_error.
+int open_locked(const std::string& path) {
+  for (;;) {
+    const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0) throw failure(path, errno);
+    // Some network file systems have no locks: only this process is then kept from writing it
+    // twice.
+    const bool taken = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!taken && is_at(descriptor, path)) return descriptor;
+    close(descriptor);
+    if (taken) return -1;
+  }
+}
+
+/// Waits for one of the signals, removes the part files, and ends the program as the signal does.
+void await_signal(const sigset_t& signals) {
+  int number = 0;
+  if (sigwait(&signals, &number) != 0) return;
+  registry().mutex.lock();  // for ever: no more part files are made
+  for (const std::string& path : registry().paths) unlink(path.c_str());
+  std::signal(number, SIG_DFL);
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  kill(getpid(), number);
+}
+
+}  // namespace
+
+PartFile::PartFile(const fs::path& target) : PartFile() {
+  if (!take(target)) {
+    throw std::runtime_error(target.string() + ": another process is writing it");
+  }
+}
+
+PartFile::~PartFile() {
+  if (descriptor_ < 0) return;
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  if (registry().paths.erase(path_) > 0) unlink(path_.c_str());
+  close(descriptor_);
+}
+
+std::unique_ptr<PartFile> PartFile::claim(const fs::path& target) {
+  std::unique_ptr<PartFile> file(new PartFile);
+  if (!file->take(target)) file.reset();
+  return file;
+}
+
+bool PartFile::take(const fs::path& target) {
+  std::error_code none;
+  if (fs::exists(target, none) && !fs::is_regular_file(target, none)) {
+    throw std::runtime_error(target.string() + ": is not a regular file, and is not replaced");
+  }
+  target_ = target.string();
+  path_ = (target.parent_path() / (".part-" + target.filename().string())).string();
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  if (registry().paths.count(path_) > 0) return false;
+  descriptor_ = open_locked(path_);
+  if (descriptor_ < 0) return false;
+  registry().paths.insert(path_);
+  if (ftruncate(descriptor_, 0) != 0) throw failure(path_, errno);
+  return true;
+}
+
+void PartFile::publish(Existing existing) {
+  // Some file systems notice only now that the disk is full.
+  if (fsync(descriptor_) != 0 && errno != EINVAL) throw failure(path_, errno);
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  const unsigned flags = existing == Existing::kKeep ? RENAME_NOREPLACE : 0;
+  int status = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), flags);
+  if (status != 0 && errno == EINVAL) {  // not every file system knows the flag
+    if (fs::exists(target_)) throw failure(target_, EEXIST);
+    status = std::rename(path_.c_str(), target_.c_str());
+  }
+  if (status != 0) throw failure(target_, errno);
+  registry().paths.erase(path_);
+}
+
+void remove_part_files_on_signals() {
+  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction present {};
+    sigaction(number, nullptr, &present);
+    if (present.sa_handler != SIG_IGN) sigaddset(&signals, number);  // nohup ignores SIGHUP
+  }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread(await_signal, signals).detach();
+}
+
+}  // namespace spidar

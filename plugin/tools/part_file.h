@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Output files that appear under their names only when they are complete.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace spidar {
+
+/// The file `.part-NAME` beside the file NAME that it becomes. One owner at a time, among all
+/// threads and processes: it is locked for as long as the object exists, so that what a killed
+/// process left can be taken over. It is removed with the object.
+class PartFile {
+ public:
+  /// Makes an empty part file. Throws std::runtime_error when that is not possible, or when another
+  /// thread or process is writing the same file.
+  explicit PartFile(const std::filesystem::path& target);
+  ~PartFile();
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  /// Null when another thread or process is writing the same file.
+  static std::unique_ptr<PartFile> claim(const std::filesystem::path& target);
+
+  const std::string& path() const { return path_; }
+  /// Open for reading and writing.
+  int descriptor() const { return descriptor_; }
+
+  enum class Existing { kReplace, kKeep };
+  /// Gives the file its name; afterwards there is no part file. With kKeep, throws
+  /// std::runtime_error if a file of this name has appeared in the meantime.
+  void publish(Existing existing = Existing::kReplace);
+
+ private:
+  PartFile() = default;
+  bool take(const std::filesystem::path& target);
+
+  std::string path_, target_;
+  int descriptor_ = -1;
+};
+
+/// From now on, SIGINT, SIGTERM and SIGHUP remove all part files before they end the program, and
+/// what cannot be written is an error instead of a signal. To be called before other threads start,
+/// because they inherit the signals that are blocked.
+void remove_part_files_on_signals();
+
+}  // namespace spidar

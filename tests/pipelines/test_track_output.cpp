@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What spidartrack does when an output cannot be written, when it is interrupted, and with names
+// that mean something to a shell or to gnuplot.
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+#include "core/track/track_format.h"
+#include "plugin/tools/track_samples.h"
+#include "tests/pipelines/track_command.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TrackOutput : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { gst_init(nullptr, nullptr); }
+
+  std::string path(const std::string& name) const { return (folder.path / name).string(); }
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder.path))
+      names.insert(entry.path().filename().string());
+    return names;
+  }
+  /// A hundred samples.
+  void save(const std::string& name, size_t count = 100) const {
+    std::vector<TrackSample> track(count);
+    for (size_t i = 0; i < track.size(); ++i) {
+      const auto x = static_cast<float>(0.1 * std::sin(0.01 * static_cast<double>(i * i)));
+      track[i] = {x, 2 * x, -3 * x, x / 2, -x / 3, x / 4};
+    }
+    save_track(path(name), track);
+  }
+  static bool has_gnuplot() { return std::system("gnuplot --version > /dev/null 2>&1") == 0; }
+  /// The shell's text for a word, whatever is in it.
+  static std::string word(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+  }
+  std::string start_of(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    std::string bytes(4, '\0');
+    file.read(bytes.data(), 4);
+    return bytes;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(TrackOutput, APlotRunsNoCommandThatANameContains) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  save("a.flac");
+  for (const std::string name :
+       {"|touch ran", "< touch ran", "it's.png", "'; system 'touch ran'; a='", "`touch ran`",
+        "$(touch ran)", "two\nlines.png", "100%s.png", "\xff\xfe.png"}) {
+    SCOPED_TRACE(name);
+    const CommandResult result =
+        run("cd " + path("") + " && " SPIDARTRACK " plot a.flac " + word(name));
+    EXPECT_EQ(result.status, 0) << result.text;
+    EXPECT_EQ(start_of(name), "\x89PNG");
+    EXPECT_FALSE(fs::exists(path("ran")));
+  }
+}
+
+TEST_F(TrackOutput, APlotWithoutGnuplotSaysWhatIsMissing) {
+  save("a.flac");
+  const std::set<std::string> before = files();
+  const CommandResult result =
+      run("PATH=/nowhere " SPIDARTRACK " plot " + path("a.flac") + " " + path("a.png"));
+  EXPECT_EQ(result.status, 1);
+  expect_contains(result.text, "Debian package gnuplot-nox");
+  EXPECT_EQ(files(), before);
+}
+
+// A limit of the size of a file stands for a full disk, because a test cannot mount one: the write
+// fails in the same way, with another reason.
+TEST_F(TrackOutput, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {
+  save("a.flac", 1000);  // more than 4 KiB in every format
+  const std::set<std::string> before = files();
+  std::vector<std::string> commands = {"convert a.flac b.flac", "convert a.flac b.mka",
+                                       "convert a.flac b.wav", "convert a.flac b.hjif",
+                                       "convert a.flac b.funscript"};
+  if (has_gnuplot()) commands.emplace_back("plot a.flac b.png");
+  for (const std::string& command : commands) {
+    SCOPED_TRACE(command);
+    const CommandResult result =
+        run("cd " + path("") + " && trap '' XFSZ && ulimit -f 8 && " SPIDARTRACK " " + command);
+    EXPECT_EQ(result.status, 1) << result.text;
+    EXPECT_FALSE(result.text.empty());
+    EXPECT_EQ(files(), before);
+  }
+}
+
+// gnuplot is replaced by a program that runs until spidartrack has ended, so that the signal comes
+// while the picture is being drawn.
+TEST_F(TrackOutput, ASignalRemovesWhatIsIncomplete) {
+  save("a.flac");
+  fs::create_directory(path("bin"));
+  std::ofstream(path("bin/gnuplot"))
+      << "#!/bin/sh\ncat > /dev/null\nwhile kill -0 $PPID; do sleep 0.02; done 2> /dev/null\n";
+  fs::permissions(path("bin/gnuplot"), fs::perms::owner_all);
+  const std::set<std::string> before = files();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    SCOPED_TRACE(signal);
+    std::signal(signal, SIG_DFL);  // the tests may have been started with nohup
+    ChildProcess plot({SPIDARTRACK, "plot", path("a.flac"), path("a.png")},
+                      {"PATH=" + path("bin") + ":/usr/bin:/bin"});
+    while (plot.lives() && !fs::exists(path(".part-a.png")))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(plot.lives());
+    plot.send(signal);
+    EXPECT_EQ(plot.wait(), -1) << "ended by the signal, as its caller expects";
+    EXPECT_EQ(files(), before);
+  }
+}
+
+TEST_F(TrackOutput, ATraceWithAWildTimeIsRefused) {
+  const std::string head =
+      "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,force_x_N,"
+      "force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit\n";
+  const std::string rest = ",10,10,0,0,1,0,0,0,0,0,none\n";
+  const std::pair<const char*, const char*> times[] = {{"1000000000000000", "1e+06 s"},
+                                                       {"1e300", "1e+291 s"},
+                                                       {"-40000000", "-0.04 s"},
+                                                       {"nan", "nan s"}};
+  for (const auto& [time, shown] : times) {
+    SCOPED_TRACE(time);
+    std::ofstream(path("wild.csv")) << head << "0,0" << rest << "40000000," << time << rest;
+    // 4 GB of addresses, so that a track without bounds fails here and does not take all memory.
+    const CommandResult result =
+        run("ulimit -v 4000000; " SPIDARTRACK " convert " + path("wild.csv") + " " + path("a.wav"));
+    EXPECT_EQ(result.status, 1);
+    expect_contains(result.text, "wild.csv:3: the stream time is ");
+    expect_contains(result.text, shown);
+    expect_contains(result.text, "must be from 0 to 86400 s");
+  }
+  // −1 is what the element writes for a frame outside the segment.
+  std::ofstream(path("good.csv")) << head << "0,-1" << rest << "0,0" << rest << "40000000,40000000"
+                                  << rest;
+  EXPECT_EQ(spidartrack("convert " + path("good.csv") + " " + path("good.wav")).status, 0);
+  EXPECT_EQ(load_track(path("good.wav")).size(), 80u) << "two frames of 40 ms";
+
+  std::ofstream(path("wild.jsonl"))
+      << R"({"stream_time_ns":1000000000000000,"repeated":false,"restarted":false,)"
+      << R"("wrench":{"force_N":[1,0,0],"torque_Nm":[0,0,0]}})" << '\n';
+  const CommandResult json =
+      run("ulimit -v 4000000; " SPIDARTRACK " convert " + path("wild.jsonl") + " " + path("a.wav"));
+  EXPECT_EQ(json.status, 1);
+  expect_contains(json.text, "wild.jsonl:1: the stream time is 1e+06 s");
+}
+
+}  // namespace
+}  // namespace spidar::test
