@@ -10,6 +10,11 @@
  * z and torque x, y, z, 1000 samples a second, F32. A sample of 1.0 is 10 N or 1 N m. Between two
  * frames the samples follow the curve that the haptic loop feels.
  *
+ * Samples lie in running time from 0 on, whatever segments the video comes in, and their segment
+ * gives their stream time. Where there are no frames they are zero. If the time stamps of the video
+ * jump forward by more than an hour, a warning is posted, there are no samples in between, and a
+ * single frame there is left out.
+ *
  * Buffers are 40 ms long, and marked as gaps where there is no force. A sample is known when the
  * frame after the next one is: `wrench` reports that latency. Either source pad may be left
  * unlinked. Where both lead to sinks that wait for their first buffer, the video needs a queue.
@@ -47,7 +52,8 @@ struct _GstSpidarExtract {
   // Streaming thread.
   TrackStream* track;
   GstFlowCombiner* flows;
-  gboolean complained;  // about frames that have no meta
+  guint without_meta;   // how many frames in succession
+  gboolean complained;  // about them
 };
 
 static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -90,8 +96,11 @@ static GstFlowReturn combined(GstSpidarExtract* self, GstPad* pad, GstFlowReturn
 static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuffer* buffer) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
   const FrameWrench frame = read_frame(buffer, self->track->last_wrench());
-  // A frame without a picture has no meta; it needs no warning.
-  if (!frame.known && !self->complained && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP)) {
+  // No warning for a frame without a picture, nor for a single one: when two frames have the same
+  // time, spidarmotion analyses only the first, and says so.
+  const bool is_missing = !frame.known && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP);
+  self->without_meta = is_missing ? self->without_meta + 1 : 0;
+  if (self->without_meta == 2 && !self->complained) {
     self->complained = TRUE;
     GST_ELEMENT_WARNING(
         self, STREAM, FORMAT,
@@ -192,7 +201,10 @@ static gboolean gst_spidar_extract_wrench_event(GstPad* pad, GstObject* parent, 
 static GstStateChangeReturn gst_spidar_extract_change_state(GstElement* element,
                                                             GstStateChange transition) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(element);
-  if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) self->complained = FALSE;
+  if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
+    self->complained = FALSE;
+    self->without_meta = 0;
+  }
   const GstStateChangeReturn result =
       GST_ELEMENT_CLASS(gst_spidar_extract_parent_class)->change_state(element, transition);
   if (transition == GST_STATE_CHANGE_PAUSED_TO_READY) {

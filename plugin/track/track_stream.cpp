@@ -3,6 +3,8 @@
 #include "plugin/track/track_stream.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 #include "plugin/timing/instant_rate.h"
 
@@ -10,10 +12,6 @@ namespace spidar {
 namespace {
 
 constexpr size_t kBufferSamples = TrackStream::kBuffer_ns / kTrackPeriod_ns;
-/// If the first frame is further than this from the beginning of its segment, the track begins with
-/// that frame and not with silence: the timestamps are those of a source that has been running for
-/// long.
-constexpr int64_t kLongestSilentStart_ns = 10'000'000'000;
 
 GstTagList* describe_track() {
   GstTagList* tags =
@@ -26,9 +24,23 @@ GstTagList* describe_track() {
   return tags;
 }
 
+/// Whose time is the running time of `video`, in which it plays forward.
+GstSegment running_segment(const GstSegment& video) {
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.flags = video.flags;
+  segment.start = segment.base = segment.position = video.base;
+  segment.time = gst_segment_to_stream_time(
+      &video, GST_FORMAT_TIME,
+      gst_segment_position_from_running_time(&video, GST_FORMAT_TIME, video.base));
+  segment.applied_rate = video.rate * video.applied_rate;
+  return segment;
+}
+
+/// Whether a running time has the same stream time in both.
 bool is_continued(const GstSegment& a, const GstSegment& b) {
-  return a.format == b.format && a.rate == b.rate && a.start == b.start && a.base == b.base &&
-         a.time == b.time && a.offset == b.offset;
+  return a.format == b.format && a.flags == b.flags && a.applied_rate == b.applied_rate &&
+         gst_segment_to_stream_time(&a, a.format, b.start) == b.time;
 }
 
 int64_t signed_ns(GstClockTime time) {
@@ -38,7 +50,7 @@ int64_t signed_ns(GstClockTime time) {
 }  // namespace
 
 TrackStream::TrackStream(GstPad* pad) : pad_(pad) {
-  gst_segment_init(&segment_, GST_FORMAT_UNDEFINED);
+  reset();
 }
 
 TrackStream::~TrackStream() {
@@ -56,6 +68,7 @@ void TrackStream::begin_stream(GstElement* element, const GstEvent* stream_start
   gst_event_set_seqnum(event, gst_event_get_seqnum(given));
   gst_pad_push_event(pad_, event);
   negotiated_ = false;
+  gst_segment_init(&sent_, GST_FORMAT_UNDEFINED);
 }
 
 bool TrackStream::negotiate() {
@@ -75,25 +88,47 @@ bool TrackStream::negotiate() {
 
 GstFlowReturn TrackStream::begin_segment(const GstEvent* event) {
   auto* const given = const_cast<GstEvent*>(event);
-  const GstSegment* segment;
-  gst_event_parse_segment(given, &segment);
-  const bool continued = is_continued(segment_, *segment);
-  const GstFlowReturn flow = continued ? GST_FLOW_OK : finish();
-  segment_ = *segment;
+  gst_event_copy_segment(given, &segment_);
   if (!negotiate()) return GST_FLOW_NOT_NEGOTIATED;
-  gst_pad_push_event(pad_, gst_event_ref(given));
-  if (!continued) gst_pad_push_event(pad_, gst_event_new_tag(describe_track()));
+  const bool has_samples = segment_.format == GST_FORMAT_TIME && segment_.rate > 0;
+  const GstSegment segment = has_samples ? running_segment(segment_) : segment_;
+  if (has_samples && is_continued(sent_, segment)) return GST_FLOW_OK;
+  const int64_t begin_ns = has_samples && is_time(segment.start) ? signed_ns(segment.start) : 0;
+  const bool is_near = begin_ns - last_frame_ns_ <= kLongestSilence_ns;
+  const GstFlowReturn flow = settle(is_near ? begin_ns : 0);
+  sent_ = segment;
+  GstEvent* const own = gst_event_new_segment(&segment);
+  gst_event_set_seqnum(own, gst_event_get_seqnum(given));
+  gst_pad_push_event(pad_, own);
+  gst_pad_push_event(pad_, gst_event_new_tag(describe_track()));
   return flow;
 }
 
-void TrackStream::begin_at(int64_t first_frame_ns) {
-  const auto start_ns = signed_ns(std::min(segment_.start, GstClockTime{kLatest_ns}));
-  const bool silent_start = first_frame_ns - start_ns <= kLongestSilentStart_ns;
-  sampler_.begin(silent_start ? start_ns : first_frame_ns);
+/// -1 if it is not shown.
+int64_t TrackStream::running_ns(guint64 time) const {
+  const GstClockTime running = gst_segment_to_running_time(&segment_, GST_FORMAT_TIME, time);
+  return is_time(running) ? signed_ns(running) : -1;
+}
+
+void TrackStream::begin_at(int64_t time_ns) {
+  sampler_.begin(time_ns);
   begun_ = true;
   discont_ = true;
-  last_frame_ns_ = first_frame_ns;
+  jumped_to_ns_ = -1;
+  last_frame_ns_ = time_ns;
   interval_ns_ = 0;
+}
+
+bool TrackStream::is_alone(int64_t time_ns) {
+  const int64_t before_ns = std::exchange(jumped_to_ns_, time_ns);
+  if (before_ns >= 0) return std::llabs(time_ns - before_ns) > kLongestSilence_ns;
+  GST_ELEMENT_WARNING(
+      GST_PAD_PARENT(pad_), STREAM, FORMAT,
+      ("The time stamps of the video jump from %.3f s to %.3f s: the haptic track "
+       "has no samples in between.",
+       1e-9 * static_cast<double>(last_frame_ns_), 1e-9 * static_cast<double>(time_ns)),
+      ("At most an hour without a frame becomes silence."));
+  return true;
 }
 
 GstFlowReturn TrackStream::add(const FrameWrench& frame) {
@@ -111,9 +146,17 @@ GstFlowReturn TrackStream::add(const FrameWrench& frame) {
                        gst_event_new_gap(from, has_duration ? to - from : GST_CLOCK_TIME_NONE));
     return GST_FLOW_OK;
   }
-  const int64_t time_ns = signed_ns(from);
-  if (!begun_) begin_at(time_ns);
+  const int64_t time_ns = running_ns(from);
+  if (time_ns < 0) return GST_FLOW_OK;
+  if (!begun_) begin_at(signed_ns(sent_.start));
   if (time_ns < last_frame_ns_) return GST_FLOW_OK;
+  if (time_ns - last_frame_ns_ > kLongestSilence_ns) {
+    if (is_alone(time_ns)) return GST_FLOW_OK;
+    const GstFlowReturn flow = settle(0);
+    if (flow != GST_FLOW_OK) return flow;
+    begin_at(time_ns);
+  }
+  jumped_to_ns_ = -1;
   const int64_t since_ns = time_ns - last_frame_ns_;
   const bool follows = frame.compared || frame.repeats;
   if (frame.known) {
@@ -121,30 +164,39 @@ GstFlowReturn TrackStream::add(const FrameWrench& frame) {
     sampler_.add({time_ns, hold_ns, frame.wrench, frame.repeats});
   }
   last_wrench_ = frame.wrench;
-  interval_ns_ = has_duration ? signed_ns(to - from) : since_ns;
+  const int64_t lasts_ns = has_duration ? running_ns(to) - time_ns : -1;
+  interval_ns_ = lasts_ns >= 0 && lasts_ns <= kLongestSilence_ns ? lasts_ns : since_ns;
   last_frame_ns_ = time_ns;
   constexpr auto kAhead_ns = static_cast<int64_t>(kLookAhead_ns);
   return put_until(std::max(sampler_.settled_ns(kAhead_ns), time_ns - kAhead_ns));
 }
 
 GstFlowReturn TrackStream::add_gap(GstClockTime pts) {
-  if (!begun_ || segment_.rate < 0 || !is_time(pts)) return GST_FLOW_OK;
-  sampler_.add({signed_ns(pts), 0, Wrench(), false});
+  if (!begun_ || segment_.format != GST_FORMAT_TIME || segment_.rate < 0 || !is_time(pts))
+    return GST_FLOW_OK;
+  const int64_t time_ns = running_ns(pts);
+  if (time_ns < 0 || time_ns - last_frame_ns_ > kLongestSilence_ns) return GST_FLOW_OK;
+  sampler_.add({time_ns, 0, Wrench(), false});
   return put_until(sampler_.settled_ns(static_cast<int64_t>(kLookAhead_ns)));
 }
 
-GstFlowReturn TrackStream::finish() {
+GstFlowReturn TrackStream::settle(int64_t until_ns) {
   if (!begun_) return GST_FLOW_OK;
   const int64_t end_ns = last_frame_ns_ + interval_ns_;
   sampler_.add({end_ns, 0, Wrench(), false});
-  GstFlowReturn flow = put_until(end_ns);
-  if (flow == GST_FLOW_OK && filled_ > 0) flow = push();
+  const GstFlowReturn flow = put_until(std::max(end_ns, until_ns));
+  return flow == GST_FLOW_OK && filled_ > 0 ? push() : flow;
+}
+
+GstFlowReturn TrackStream::finish() {
+  const GstFlowReturn flow = settle(0);
   flush();
   return flow;
 }
 
 void TrackStream::flush() {
   begun_ = false;
+  gst_segment_init(&sent_, GST_FORMAT_UNDEFINED);
   if (!buffer_) return;
   gst_buffer_unmap(buffer_, &map_);
   gst_clear_buffer(&buffer_);

@@ -31,6 +31,11 @@ struct FrameWrench {
   Wrench wrench;
 };
 
+/// Samples lie at whole milliseconds of the running time of the video, from 0 on, whatever segments
+/// the frames come in: a demuxer may move the segment after the first frame (matroskademux, when
+/// the sound begins earlier than the pictures), an edit list has one segment for each edit, and
+/// encoders of sound accept no step backwards. The segment of the samples gives their stream time.
+///
 /// Streaming thread only. All methods that return a flow push what has become known.
 class TrackStream {
  public:
@@ -38,6 +43,9 @@ class TrackStream {
   /// The curve between two frames needs the one after them; where that is further away than this
   /// the samples do not wait for it.
   static constexpr GstClockTime kLookAhead_ns = 100 * GST_MSECOND;
+  /// An interval without frames is silent. A longer one than this is a wrong time stamp, or the
+  /// beginning of a stream that has been running for long: there are no samples in it.
+  static constexpr int64_t kLongestSilence_ns = 3600 * int64_t{1'000'000'000};
 
   /// `pad` belongs to the element that owns this.
   explicit TrackStream(GstPad* pad);
@@ -47,7 +55,7 @@ class TrackStream {
 
   /// Another stream begins upstream: what it is called here.
   void begin_stream(GstElement* element, const GstEvent* stream_start);
-  /// Of the video. What is pending of the last one is pushed.
+  /// Of the video. Samples continue where their stream time does.
   GstFlowReturn begin_segment(const GstEvent* event);
   GstFlowReturn add(const FrameWrench& frame);
   /// There are no frames from here on.
@@ -67,17 +75,24 @@ class TrackStream {
 
  private:
   bool negotiate();
-  void begin_at(int64_t first_frame_ns);
+  int64_t running_ns(guint64 time) const;
+  void begin_at(int64_t time_ns);
+  /// A frame so late that its time stamp may be wrong, unless the next one is near it.
+  bool is_alone(int64_t time_ns);
+  /// Pushes everything up to the end of the last frame, or to `until_ns`, which may be later.
+  GstFlowReturn settle(int64_t until_ns);
   GstFlowReturn put_until(int64_t time_ns);
   GstFlowReturn put(const TrackSample& sample, GstClockTime pts);
   GstFlowReturn push();
 
   GstPad* const pad_;
-  GstSegment segment_{};
+  GstSegment segment_{};  // of the video
+  GstSegment sent_{};     // of the samples
   bool negotiated_ = false;
   bool begun_ = false;
+  int64_t jumped_to_ns_ = -1;  // of the last frame, if that is_alone()
   TrackSampler sampler_;
-  int64_t last_frame_ns_ = 0;
+  int64_t last_frame_ns_ = 0;  // running time
   Wrench last_wrench_;
   int64_t interval_ns_ = 0;  // its duration, or the time since the one before
   // The buffer that is being filled.

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Where the samples of spidarextract lie in time, whatever segments and time stamps the film has.
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/element/extract_harness.h"
+
+namespace spidar::test {
+namespace {
+
+using ExtractTime = Extract;
+
+// matroskademux when the sound begins 21 ms before the pictures: one segment for the first frame,
+// and another one, that begins earlier, when the first packet of sound comes.
+TEST_F(ExtractTime, ASegmentThatMovesAfterTheFirstFrameDoesNotBeginTheTrackAgain) {
+  constexpr GstClockTime kFirst = 21 * GST_MSECOND;
+  push_segment({1, kFirst, GST_CLOCK_TIME_NONE, 0, 0});
+  push_frames(0, 0, kFirst);
+  push_segment({1, 0, GST_CLOCK_TIME_NONE, 0, 0});
+  push_frames(1, 24, kFirst + kFrame);
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  EXPECT_EQ(begin, 0u);
+  ASSERT_EQ(samples.size(), 1021u);
+  for (size_t i = 1; i < 25; ++i)
+    EXPECT_EQ(samples[21 + 40 * i], to_track_sample(wrench_of(static_cast<double>(i)))) << i;
+  // One is what the harness begins with.
+  EXPECT_EQ(take_segments().size(), 1u);
+}
+
+// qtdemux for an edit list: nothing for 200 ms, then the media from 80 ms on, then a part again.
+TEST_F(ExtractTime, EditsLieWhereThePlayerShowsThem) {
+  push_segment({1, 0, 5 * kFrame, 0, 0});
+  push_segment({1, 2 * kFrame, 12 * kFrame, 5 * kFrame, 5 * kFrame});
+  push_frames(5, 14, 2 * kFrame);
+  push_segment({1, 4 * kFrame, 9 * kFrame, 15 * kFrame, 15 * kFrame});
+  push_frames(15, 19, 4 * kFrame);
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  EXPECT_EQ(begin, 0u);
+  ASSERT_EQ(samples.size(), 800u);
+  for (size_t ms = 0; ms < 5 * 40; ms += 40) EXPECT_EQ(samples[ms], TrackSample{}) << ms;
+  for (size_t i = 5; i < 20; ++i)
+    EXPECT_EQ(samples[40 * i], to_track_sample(wrench_of(static_cast<double>(i)))) << i;
+  EXPECT_EQ(take_segments().size(), 1u);
+}
+
+TEST_F(ExtractTime, WhereStreamTimeBeginsAnewSamplesGoOn) {
+  push_frames(0, 9, 0);
+  push_segment({1, kFrame, GST_CLOCK_TIME_NONE, 0, 12 * kFrame});
+  push_frames(12, 19, kFrame);
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  ASSERT_EQ(samples.size(), 800u);
+  for (size_t i : {0u, 9u, 12u, 19u})
+    EXPECT_EQ(samples[40 * i], to_track_sample(wrench_of(static_cast<double>(i)))) << i;
+  for (size_t ms = 400; ms < 440; ++ms) EXPECT_EQ(samples[ms], TrackSample{}) << ms;
+  const std::vector<GstSegment> segments = take_segments();
+  ASSERT_EQ(segments.size(), 2u);
+  EXPECT_EQ(gst_segment_to_stream_time(&segments[1], GST_FORMAT_TIME, 13 * kFrame), kFrame);
+  EXPECT_EQ(gst_segment_to_running_time(&segments[1], GST_FORMAT_TIME, 13 * kFrame), 13 * kFrame);
+}
+
+TEST_F(ExtractTime, AtTwiceTheRateThereAreHalfAsManySamples) {
+  begin_segment(2, 0);
+  push_frames(0, 24, 0);
+  gst_harness_push_event(h, gst_event_new_eos());
+  take_all();
+  ASSERT_EQ(samples.size(), 500u);
+  for (size_t i = 0; i < 25; ++i)
+    EXPECT_EQ(samples[20 * i], to_track_sample(wrench_of(static_cast<double>(i)))) << i;
+  EXPECT_EQ(gst_segment_to_stream_time(&take_segments().back(), GST_FORMAT_TIME, 5 * kFrame),
+            10 * kFrame);
+}
+
+TEST_F(ExtractTime, OneWildTimeStampIsLeftOutWithAWarning) {
+  constexpr GstClockTime kWild = 1'000'000 * GST_SECOND;
+  for (const GstClockTime from : {0 * kFrame, 5 * kFrame}) {
+    open("wrench");
+    samples.clear();
+    push_frames(0, static_cast<int>(from / kFrame) - 1, 0);
+    push_frames(0, 0, kWild);
+    EXPECT_EQ(warnings(), 1);
+    push_frames(static_cast<int>(from / kFrame), 9, from);
+    gst_harness_push_event(h, gst_event_new_eos());
+    take_all();
+    EXPECT_EQ(begin, 0u);
+    ASSERT_EQ(samples.size(), 400u);
+    for (size_t i = 0; i < 10; ++i)
+      EXPECT_EQ(samples[40 * i], to_track_sample(wrench_of(static_cast<double>(i)))) << i;
+    EXPECT_EQ(warnings(), 0);
+  }
+}
+
+TEST_F(ExtractTime, AfterAJumpOfDaysTheTrackGoesOnWithoutDaysOfSilence) {
+  constexpr GstClockTime kLater = 1'000'000 * GST_SECOND;
+  push_frames(0, 4, 0);
+  push_frames(0, 9, kLater);
+  GstBuffer* frame = make_frame(kLater + 10 * kFrame, Wrench());
+  GST_BUFFER_DURATION(frame) = kLater;
+  ASSERT_EQ(gst_harness_push(h, frame), GST_FLOW_OK);
+  gst_harness_push_event(h, gst_event_new_gap(3 * kLater, kFrame));
+  gst_harness_push_event(h, gst_event_new_eos());
+  size_t count = 0;
+  GstClockTime last = 0;
+  while (GstBuffer* buffer = gst_harness_try_pull(h)) {
+    if (GST_BUFFER_PTS(buffer) > last + kFrame) {
+      EXPECT_EQ(count, 200u);
+      EXPECT_EQ(GST_BUFFER_PTS(buffer), kLater + kFrame) << "the first frame might have been alone";
+      EXPECT_TRUE(GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_DISCONT));
+    }
+    last = GST_BUFFER_PTS(buffer);
+    count += gst_buffer_get_size(buffer) / sizeof(TrackSample);
+    gst_buffer_unref(buffer);
+  }
+  // The last frame is held as long as the interval before it, instead of its own duration.
+  EXPECT_EQ(count, 200u + 10 * 40);
+  EXPECT_EQ(warnings(), 1);
+}
+
+}  // namespace
+}  // namespace spidar::test
