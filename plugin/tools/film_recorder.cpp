@@ -2,28 +2,54 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/film_recorder.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <stdexcept>
 #include <utility>
 
 #include <gst/gst.h>
 
+#include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
 
 namespace spidar {
 namespace {
+
+/// Moves a segment so that running time is stream time, which a player shows as the position in the
+/// film, and which the track is found by when it is replayed. They differ where a film does not
+/// begin at 0: MPEG-TS, MPEG-PS, FLV.
+GstPadProbeReturn follow_stream_time(GstPad*, GstPadProbeInfo* info, gpointer) {
+  GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
+  if (GST_EVENT_TYPE(event) != GST_EVENT_SEGMENT) return GST_PAD_PROBE_OK;
+  GstSegment segment;
+  gst_event_copy_segment(event, &segment);
+  if (segment.format != GST_FORMAT_TIME || segment.time <= segment.base) return GST_PAD_PROBE_OK;
+  // As much as possible by an earlier beginning, so that the track begins with the film.
+  const GstClockTime earlier = std::min(segment.start, segment.time - segment.base);
+  segment.start -= earlier;
+  segment.time -= earlier;
+  segment.base = segment.time;
+  GstEvent* const moved = gst_event_new_segment(&segment);
+  gst_event_set_seqnum(moved, gst_event_get_seqnum(event));
+  gst_event_unref(event);
+  GST_PAD_PROBE_INFO_DATA(info) = moved;
+  return GST_PAD_PROBE_OK;
+}
 
 /// Reports `percent` of the film as recorded, in steps of ten.
 class Progress {
  public:
   explicit Progress(std::function<void(int percent)> tell) : tell_(std::move(tell)) {}
 
-  /// Counts the buffers that come out of `extract` in `pipeline`.
+  /// Counts the buffers that come out of `extract` in `pipeline`, and gives it stream time.
   void watch(GstElement* pipeline) {
     GstElement* extract = gst_bin_get_by_name(GST_BIN(pipeline), "extract");
     sink_ = gst_element_get_static_pad(extract, "sink");
     GstPad* wrench = gst_element_get_static_pad(extract, "wrench");
     gst_pad_add_probe(wrench, GST_PAD_PROBE_TYPE_BUFFER, passes, this, nullptr);
+    gst_pad_add_probe(sink_, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, follow_stream_time, nullptr,
+                      nullptr);
     gst_object_unref(wrench);
     gst_object_unref(sink_);  // the pipeline has it
     gst_object_unref(extract);
@@ -59,12 +85,24 @@ void record_film(const std::string& film, const std::string& track, const std::s
                  const std::function<void(int percent)>& tell) {
   if (!std::filesystem::exists(film)) throw std::runtime_error("there is no such file");
   Progress progress(tell);
-  run_pipeline("filesrc location=" + quoted(film) +
-                   " ! decodebin ! video/x-raw ! videoconvert ! spidarmotion device=none "
-                   "post-messages=false attach-meta=true" +
-                   properties + " ! spidarextract name=extract extract.wrench ! " +
-                   encoder_of(track) + " ! filesink location=" + quoted(track),
-               [&progress](GstElement* pipeline) { progress.watch(pipeline); });
+  FilmWatch watch;
+  std::string error;
+  try {
+    run_pipeline("filesrc location=" + quoted(film) +
+                     " ! decodebin name=decode videoconvert name=convert ! spidarmotion "
+                     "device=none post-messages=false attach-meta=true" +
+                     properties + " ! spidarextract name=extract extract.wrench ! " +
+                     encoder_of(track) + " ! filesink location=" + quoted(track),
+                 [&](GstElement* pipeline) {
+                   watch.begin(pipeline);
+                   progress.watch(pipeline);
+                 });
+  } catch (const std::runtime_error& ended) {
+    error = ended.what();
+  }
+  const std::string problem = watch.problem(error);
+  if (!problem.empty()) throw std::runtime_error(problem);
+  if (!watch.remark().empty()) std::cerr << film + ": " + watch.remark() + "\n";
 }
 
 }  // namespace spidar

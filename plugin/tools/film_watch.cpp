@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/film_watch.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "plugin/timing/instant_rate.h"
+#include "plugin/track/film_streams.h"
+
+namespace spidar {
+namespace {
+
+constexpr auto kFlow =
+    static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
+
+/// By which the duration in a header may exceed the end of the last packet: rounding, padding of
+/// the sound, and a last packet whose duration is unknown.
+constexpr gint64 kTolerance_ns = 500'000'000;
+
+/// The demuxers of MPEG streams, which have no header, compute the duration from clock references,
+/// which a cut in the stream makes wrong.
+bool has_header(GstElement* demuxer) {
+  GstElementFactory* const factory = gst_element_get_factory(demuxer);
+  const char* const name = factory ? GST_OBJECT_NAME(factory) : "";
+  return std::strcmp(name, "tsdemux") != 0 && std::strcmp(name, "mpegpsdemux") != 0;
+}
+
+/// "H.265 (Main Profile) decoder", if that is what is missing, and it is for pictures.
+std::string missing_decoder(const GstStructure* message) {
+  const GstCaps* caps = nullptr;
+  const GValue* const detail = gst_structure_get_value(message, "detail");
+  if (detail && GST_VALUE_HOLDS_CAPS(detail)) caps = gst_value_get_caps(detail);
+  const char* const name = gst_structure_get_string(message, "name");
+  return caps && name && kind_of(caps) == StreamKind::kVideo ? name : "";
+}
+
+}  // namespace
+
+void FilmWatch::begin(GstElement* pipeline) {
+  GstBus* bus = gst_element_get_bus(pipeline);
+  gst_bus_set_sync_handler(bus, hears, this, nullptr);
+  gst_object_unref(bus);
+  g_signal_connect(pipeline, "deep-element-added", G_CALLBACK(decoder_has), this);
+  GstElement* decoder = gst_bin_get_by_name(GST_BIN(pipeline), "decode");
+  g_signal_connect(decoder, "no-more-pads", G_CALLBACK(choose), this);
+  gst_object_unref(decoder);
+  convert_ = gst_bin_get_by_name(GST_BIN(pipeline), "convert");
+  gst_object_unref(convert_);  // the pipeline has it
+}
+
+GstBusSyncReply FilmWatch::hears(GstBus*, GstMessage* message, gpointer user) {
+  auto& self = *static_cast<FilmWatch*>(user);
+  const std::lock_guard<std::mutex> lock(self.lock_);
+  const GstStructure* const about = gst_message_get_structure(message);
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING) {
+    GError* warning = nullptr;
+    gst_message_parse_warning(message, &warning, nullptr);
+    // Players play what spidarmotion warns of: two frames of the same time, for example.
+    const bool is_remark =
+        g_strcmp0(G_OBJECT_TYPE_NAME(GST_MESSAGE_SRC(message)), "GstSpidarMotion") == 0;
+    std::string& kept = is_remark ? self.remark_ : self.warning_;
+    if (kept.empty()) kept = warning->message;
+    g_error_free(warning);
+  } else if (about && gst_structure_has_name(about, "missing-plugin") && self.missing_.empty()) {
+    self.missing_ = missing_decoder(about);
+  }
+  return GST_BUS_PASS;
+}
+
+void FilmWatch::decoder_has(GstBin*, GstBin*, GstElement* element, gpointer self) {
+  const char* const kind = gst_element_get_metadata(element, GST_ELEMENT_METADATA_KLASS);
+  if (kind && std::strstr(kind, "Demux"))
+    g_signal_connect(element, "pad-added", G_CALLBACK(demuxer_has), self);
+}
+
+void FilmWatch::demuxer_has(GstElement* demuxer, GstPad* pad, gpointer user) {
+  auto& self = *static_cast<FilmWatch*>(user);
+  if (!has_header(demuxer)) return;
+  constexpr auto kData =
+      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
+  gst_pad_add_probe(pad, kData, flows, user, nullptr);
+  const std::lock_guard<std::mutex> lock(self.lock_);
+  self.tells_duration_ = true;
+}
+
+GstPadProbeReturn FilmWatch::flows(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  auto& self = *static_cast<FilmWatch*>(user);
+  const std::lock_guard<std::mutex> lock(self.lock_);
+  Stream& stream = self.streams_[pad];
+  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
+    GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
+    if (GST_EVENT_TYPE(event) == GST_EVENT_SEGMENT) gst_event_copy_segment(event, &stream.segment);
+    return GST_PAD_PROBE_OK;
+  }
+  GstBuffer* const packet = GST_PAD_PROBE_INFO_BUFFER(info);
+  const GstClockTime pts = GST_BUFFER_PTS(packet);
+  if (!GST_CLOCK_TIME_IS_VALID(pts) || stream.segment.format != GST_FORMAT_TIME)
+    return GST_PAD_PROBE_OK;
+  // Packets come in the order of decoding, so that their times may go back.
+  if (stream.packets++ > 0 && pts > stream.last_pts) stream.interval = pts - stream.last_pts;
+  stream.last_pts = pts;
+  // matroskademux gives stream times from 0, but a duration from the time stamp 0.
+  const GstClockTime at = gst_segment_to_stream_time(&stream.segment, GST_FORMAT_TIME, pts);
+  const GstClockTime begin = GST_CLOCK_TIME_IS_VALID(at) ? std::max(at, pts) : pts;
+  const GstClockTime lasts = GST_BUFFER_DURATION_IS_VALID(packet) ? GST_BUFFER_DURATION(packet) : 0;
+  const GstClockTime end = begin + std::max(lasts, stream.interval);
+  if (is_time(end)) self.end_ns_ = std::max(self.end_ns_, static_cast<gint64>(end));
+  return GST_PAD_PROBE_OK;
+}
+
+GstPadProbeReturn FilmWatch::decoded(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
+    // matroskademux sends gaps while the sound goes on after the pictures; they overtake the last
+    // frames, which are still in the decoder.
+    const bool is_gap = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) == GST_EVENT_GAP;
+    return is_gap ? GST_PAD_PROBE_DROP : GST_PAD_PROBE_OK;
+  }
+  auto& self = *static_cast<FilmWatch*>(user);
+  const std::lock_guard<std::mutex> lock(self.lock_);
+  if (self.frames_++ == 0) gst_pad_query_duration(pad, GST_FORMAT_TIME, &self.duration_ns_);
+  return GST_PAD_PROBE_OK;
+}
+
+/// All streams are known. playbin and playbin3 play the first video, even if another one is marked
+/// as default.
+void FilmWatch::choose(GstElement* decoder, gpointer user) {
+  auto& self = *static_cast<FilmWatch*>(user);
+  GstPad* into = gst_element_get_static_pad(self.convert_, "sink");
+  if (!gst_pad_is_linked(into)) {
+    GstPad* chosen = nullptr;
+    for (GList* i = decoder->srcpads; i; i = i->next) {
+      auto* const pad = static_cast<GstPad*>(i->data);
+      GstCaps* caps = caps_of(pad);
+      const bool is_video = kind_of(caps) == StreamKind::kVideo;
+      gst_caps_unref(caps);
+      if (is_video && !chosen) chosen = pad;
+    }
+    if (chosen) gst_pad_add_probe(chosen, kFlow, decoded, user, nullptr);
+    if (!chosen || gst_pad_link(chosen, into) != GST_PAD_LINK_OK) {
+      {
+        const std::lock_guard<std::mutex> lock(self.lock_);
+        self.has_video_ = false;
+      }
+      GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("There is no video in it."), (nullptr));
+    }
+  }
+  gst_object_unref(into);
+}
+
+std::string FilmWatch::problem(const std::string& error) const {
+  const std::lock_guard<std::mutex> lock(lock_);
+  if (!has_video_) {
+    return missing_.empty() ? "there is no video in it"
+                            : "its video cannot be decoded: install a " + missing_;
+  }
+  // What an element warned of comes before what follows from it: "Internal data stream error".
+  if (!warning_.empty()) return warning_;
+  if (!error.empty()) return error;
+  if (frames_ == 0) return "no picture of it can be decoded: it is damaged or cut off";
+  if (tells_duration_ && duration_ns_ - end_ns_ > kTolerance_ns) {
+    gchar* const text = g_strdup_printf("it ends at %.3f s of %.3f s: it is damaged or cut off",
+                                        1e-9 * static_cast<double>(end_ns_),
+                                        1e-9 * static_cast<double>(duration_ns_));
+    const std::string result = text;
+    g_free(text);
+    return result;
+  }
+  return frames_ < 2 ? "it is a single picture, in which nothing moves" : "";
+}
+
+}  // namespace spidar

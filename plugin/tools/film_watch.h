@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Chooses the video of a film that is decoded, and notices when the film is damaged.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+/// GStreamer ends a film that is cut off like one that is whole, and what it warns of is for the
+/// application to judge. Outlives the pipeline.
+class FilmWatch {
+ public:
+  FilmWatch() = default;
+  FilmWatch(const FilmWatch&) = delete;
+  FilmWatch& operator=(const FilmWatch&) = delete;
+
+  /// `pipeline` has a decodebin "decode", whose video goes to the element "convert".
+  void begin(GstElement* pipeline);
+
+  /// When the pipeline has ended, with `error` or, if that is empty, with the film: a sentence that
+  /// says what is wrong with the film, or nothing. A film without a second frame is wrong, too.
+  std::string problem(const std::string& error) const;
+  /// What is to be known of the track of a film that is whole; usually empty.
+  const std::string& remark() const { return remark_; }
+
+ private:
+  /// Of a stream, as the demuxer gives it.
+  struct Stream {
+    GstSegment segment{};
+    uint64_t packets = 0;
+    GstClockTime last_pts = 0;
+    GstClockTime interval = 0;  // between two packets
+  };
+
+  static GstBusSyncReply hears(GstBus* bus, GstMessage* message, gpointer self);
+  static void decoder_has(GstBin* bin, GstBin* sub, GstElement* element, gpointer self);
+  static void demuxer_has(GstElement* demuxer, GstPad* pad, gpointer self);
+  static GstPadProbeReturn flows(GstPad* pad, GstPadProbeInfo* info, gpointer self);
+  static GstPadProbeReturn decoded(GstPad* pad, GstPadProbeInfo* info, gpointer self);
+  static void choose(GstElement* decoder, gpointer self);
+
+  GstElement* convert_ = nullptr;
+  mutable std::mutex lock_;
+  std::map<GstPad*, Stream> streams_;
+  std::string warning_;          // the first one
+  std::string remark_;           // the first warning of spidarmotion
+  std::string missing_;          // the decoder of the video that is not installed
+  bool has_video_ = true;        // unknown until chosen
+  bool tells_duration_ = false;  // in a header, so that a film that is cut off has it, too
+  gint64 duration_ns_ = 0;
+  gint64 end_ns_ = 0;  // of what was demuxed
+  uint64_t frames_ = 0;
+};
+
+}  // namespace spidar
