@@ -46,7 +46,10 @@ int convert_track_command(int argc, char** argv) {
     return kDone;
   }
   if (operands.size() != 2) throw UsageError("FROM and TO are needed, and nothing else");
-  save_track(operands[1], load_track(operands[0]), options);
+  TrackCondition condition;
+  const std::vector<TrackSample> samples = load_track(operands[0], &condition);
+  options.notes = condition.notes;
+  save_track(operands[1], samples, options);
   return kDone;
 }
 

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/film_merger.h"
 
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
@@ -11,14 +10,11 @@
 #include "plugin/tools/matroska_flags.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/film_streams.h"
-#include "plugin/track/sidecar.h"
 
 namespace spidar {
 namespace {
 
 constexpr const char* kTrackName = "Haptic track";
-// Used when the film does not tell the duration of a frame.
-constexpr int64_t kFrame_ns = 40'000'000;
 
 struct Merge {
   GstElement* mux = nullptr;
@@ -26,10 +22,6 @@ struct Merge {
   GstElement* samples = nullptr;  // for the samples of the track
   GstPad* track = nullptr;        // blocked until the streams of the film are known
   gulong hold = 0;
-  int64_t track_ns = 0;
-  bool has_sound = false, has_track = false;
-  int64_t frame_ns = kFrame_ns;
-  std::string other;  // why the track belongs to another film
 };
 
 void refuse(GstElement* element, const std::string& reason) {
@@ -56,42 +48,32 @@ bool link_to_mux(Merge& merge, GstPad* pad, GstCaps* caps) {
 void add_stream(GstElement* parser, GstPad* pad, gpointer user) {
   auto& merge = *static_cast<Merge*>(user);
   GstCaps* caps = caps_of(pad);
-  const StreamKind kind = kind_of(caps);
-  merge.has_sound = merge.has_sound || kind == StreamKind::kSound;
-  merge.has_track = merge.has_track || kind == StreamKind::kHapticTrack;
-  int numerator = 0, denominator = 0;
-  if (kind == StreamKind::kVideo &&
-      gst_structure_get_fraction(gst_caps_get_structure(caps, 0), "framerate", &numerator,
-                                 &denominator) &&
-      numerator > 0 && denominator > 0) {
-    merge.frame_ns =
-        static_cast<int64_t>(gst_util_uint64_scale_int(GST_SECOND, denominator, numerator));
-  }
   const bool linked = link_to_mux(merge, pad, caps);
   if (!linked) {
     gchar* const text = gst_caps_to_string(caps);
     refuse(parser, std::string("Matroska takes no stream of ") + text +
                        ": leave the track beside the film, where track=auto finds it.");
     g_free(text);
-  } else if (merge.other.empty()) {
-    GstPad* peer = gst_pad_get_peer(pad);
-    merge.other = other_film(peer, merge.track_ns, merge.frame_ns);
-    gst_object_unref(peer);
   }
   gst_caps_unref(caps);
 }
 
 /// Lets the film and the track continue, or stops with the reason why they cannot be merged.
 void judge_film(const Merge& merge, GstElement* parser) {
-  if (merge.has_track) {
+  bool has_sound = false, has_track = false;
+  for (GList* i = parser->srcpads; i; i = i->next) {
+    GstCaps* caps = caps_of(static_cast<GstPad*>(i->data));
+    has_sound = has_sound || kind_of(caps) == StreamKind::kSound;
+    has_track = has_track || kind_of(caps) == StreamKind::kHapticTrack;
+    gst_caps_unref(caps);
+  }
+  if (has_track) {
     refuse(parser, "The film has a haptic track already: spidartrack extract takes it out.");
-  } else if (!merge.has_sound) {
+  } else if (!has_sound) {
     refuse(
         parser,
         "The film has no sound: players would play the haptic track through the loudspeakers. "
         "Leave it beside the film, as FILM.haptic.flac for FILM.mp4, where track=auto finds it.");
-  } else if (!merge.other.empty()) {
-    refuse(parser, "The track is that of another film: " + merge.other + ".");
   } else {
     // Added after the film's sound, because players choose the first audio stream.
     GstPad* mux_pad = gst_element_request_pad_simple(merge.mux, "audio_%u");
@@ -135,11 +117,9 @@ void add_track(GstElement* parser, GstPad* pad, gpointer user) {
 
 }  // namespace
 
-void merge_film(const std::string& film, const std::string& track, int64_t track_ns,
-                const std::string& out) {
+void merge_film(const std::string& film, const std::string& track, const std::string& out) {
   Merge merge;
   std::optional<StreamsWatch> streams;
-  merge.track_ns = track_ns;
   run_pipeline(
       "matroskamux name=mux ! filesink location=" + quoted(out) +
           " filesrc location=" + quoted(film) +

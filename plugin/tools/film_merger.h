@@ -3,16 +3,14 @@
 /// Merges a haptic track into a film.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 namespace spidar {
 
 /// Copies the streams of `film` without decoding them, together with the sound of the file `track`,
-/// which lasts `track_ns`, into the Matroska file `out`. Throws std::runtime_error, whose message
-/// says what would be right, when the film has no sound, has a haptic track already, is not the
-/// film of the track, or has a stream that Matroska does not accept. `out` is then incomplete.
-void merge_film(const std::string& film, const std::string& track, int64_t track_ns,
-                const std::string& out);
+/// into the Matroska file `out`. Throws std::runtime_error, whose message says what would be right,
+/// when the film has no sound, has a haptic track already, or has a stream that Matroska does not
+/// accept. `out` is then incomplete.
+void merge_film(const std::string& film, const std::string& track, const std::string& out);
 
 }  // namespace spidar

@@ -12,6 +12,8 @@
 
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/track/film_reader.h"
+#include "plugin/track/track_notes.h"
 
 namespace spidar {
 namespace {
@@ -79,12 +81,26 @@ class Progress {
   int told_ = 0;
 };
 
+void tag_samples(GstElement* pipeline, const TrackNotes& notes) {
+  GstElement* extract = gst_bin_get_by_name(GST_BIN(pipeline), "extract");
+  GstPad* wrench = gst_element_get_static_pad(extract, "wrench");
+  tag_track(wrench, notes);
+  gst_object_unref(wrench);
+  gst_object_unref(extract);
+}
+
 }  // namespace
 
 void record_film(const std::string& film, const std::string& track, const std::string& properties,
                  const std::function<void(int percent)>& tell) {
   if (!std::filesystem::exists(film)) throw std::runtime_error("there is no such file");
   Progress progress(tell);
+  TrackNotes notes;
+  try {
+    notes.film = fingerprint_of(read_film(film).packets);
+  } catch (const std::runtime_error&) {
+    // Recording it will tell why.
+  }
   FilmWatch watch;
   std::string error;
   try {
@@ -96,6 +112,7 @@ void record_film(const std::string& film, const std::string& track, const std::s
                  [&](GstElement* pipeline) {
                    watch.begin(pipeline);
                    progress.watch(pipeline);
+                   tag_samples(pipeline, notes);
                  });
   } catch (const std::runtime_error& ended) {
     error = ended.what();

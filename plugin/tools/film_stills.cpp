@@ -13,7 +13,6 @@ namespace {
 
 /// Until a picture is there: of a long film with few key frames much is decoded first.
 constexpr GstClockTime kLongest = 30 * GST_SECOND;
-constexpr int64_t kFrame_ns = 40'000'000;  // where the film does not say how long one lasts
 
 /// A film in PAUSED, whose sink has a picture.
 class StillFilm {
@@ -51,12 +50,6 @@ class StillFilm {
       throw std::runtime_error(film_ + ": " + e.what());
     }
   }
-  void refuse_other(int64_t track_ns) const {
-    GstPad* pad = gst_element_get_static_pad(sink_, "sink");
-    const std::string other = other_film(pad, track_ns, kFrame_ns);
-    gst_object_unref(pad);
-    if (!other.empty()) throw std::runtime_error(film_ + " is another film: " + other);
-  }
   void seek(int64_t time_ns) const {
     if (!gst_element_seek_simple(
             pipeline_, GST_FORMAT_TIME,
@@ -89,11 +82,13 @@ class StillFilm {
 
 }  // namespace
 
-FilmStills film_stills(const std::string& film, int64_t track_ns, int count, int width) {
+FilmStills film_stills(const std::string& film, int64_t track_ns, const TrackNotes& notes,
+                       int count, int width) {
   FilmStills stills;
+  const std::string other = other_film(read_film(film), track_ns, notes);
+  if (!other.empty()) throw std::runtime_error(film + " is another film: " + other);
   const StillFilm still(film, width);
   still.await();
-  still.refuse_other(track_ns);
   for (int i = 0; i < count; ++i) {
     still.seek(track_ns / count * i + track_ns / count / 2);
     still.take(stills);

@@ -9,6 +9,8 @@
 
 #include <gst/gst.h>
 
+#include "plugin/track/track_notes.h"
+
 namespace spidar {
 
 /// Pictures of one size, RGB, row by row from the top without gaps.
@@ -18,8 +20,9 @@ struct FilmStills {
 };
 
 /// `count` pictures, `width` pixels wide, from the middles of as many equal parts of a track of
-/// `track_ns`. `width` is a multiple of 4. Throws std::runtime_error: the film cannot be played or
-/// searched, or the track is that of another one.
-FilmStills film_stills(const std::string& film, int64_t track_ns, int count, int width);
+/// `track_ns` with `notes`. `width` is a multiple of 4. Throws std::runtime_error: the film cannot
+/// be played or searched, or the track is that of another one.
+FilmStills film_stills(const std::string& film, int64_t track_ns, const TrackNotes& notes,
+                       int count, int width);
 
 }  // namespace spidar

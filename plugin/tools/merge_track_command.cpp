@@ -8,6 +8,7 @@
 #include "plugin/tools/part_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/track/sidecar.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
 
@@ -60,14 +61,19 @@ int merge_track_command(int argc, char** argv) {
       throw UsageError(out + ": is to be another file than " + input);
     }
   }
-  const std::vector<TrackSample> samples = load_track(track);
+  TrackCondition condition;
+  const std::vector<TrackSample> samples = load_track(track, &condition);
   PartFile part(out), sound(out + ".mka");
   const bool is_sound =
       !ends_with(track, ".hjif") && !ends_with(track, ".csv") && !ends_with(track, ".jsonl");
   if (!is_sound) save_track(sound.path(), samples);
   try {
-    merge_film(film, is_sound ? track : sound.path(),
-               static_cast<int64_t>(samples.size()) * kTrackPeriod_ns, part.path());
+    const std::string other = other_film(
+        read_film(film), static_cast<int64_t>(samples.size()) * kTrackPeriod_ns, condition.notes);
+    if (!other.empty()) {
+      throw std::runtime_error("The track is that of another film: " + other + ".");
+    }
+    merge_film(film, is_sound ? track : sound.path(), part.path());
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(film + ": " + error.what());
   }
@@ -79,7 +85,11 @@ int extract_track_command(int argc, char** argv) {
   const std::vector<std::string> operands =
       parse(argc, argv, kExtractHelp, 2, "FILM and OUT are needed, and nothing else");
   if (operands.empty()) return kDone;
-  save_track(operands[1], load_track(operands[0]));
+  TrackCondition condition;
+  const std::vector<TrackSample> samples = load_track(operands[0], &condition);
+  SaveOptions options;
+  options.notes = condition.notes;
+  save_track(operands[1], samples, options);
   return kDone;
 }
 

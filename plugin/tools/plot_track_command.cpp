@@ -155,12 +155,13 @@ int plot_track_command(int argc, char** argv) {
     return kDone;
   }
   if (operands.size() != 2) throw UsageError("TRACK and PNG are needed, and nothing else");
-  const std::vector<TrackSample> samples = load_track(operands[0]);
+  TrackCondition condition;
+  const std::vector<TrackSample> samples = load_track(operands[0], &condition);
   if (samples.empty()) throw std::runtime_error(operands[0] + ": has no samples to draw");
   FilmStills stills;
   if (!film.empty()) {
-    stills = film_stills(film, static_cast<int64_t>(samples.size()) * kTrackPeriod_ns, kStills,
-                         kStillWidth);
+    stills = film_stills(film, static_cast<int64_t>(samples.size()) * kTrackPeriod_ns,
+                         condition.notes, kStills, kStillWidth);
   }
   draw(samples, stills, operands[1]);
   return kDone;

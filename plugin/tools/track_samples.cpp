@@ -80,14 +80,21 @@ std::string funscript(const std::vector<TrackSample>& samples, size_t axis) {
 }
 
 void write_sound(const std::string& path, const std::string& encoder,
-                 const std::vector<TrackSample>& samples) {
+                 const std::vector<TrackSample>& samples, const TrackNotes& notes) {
   const PartFile raw(path + ".raw");
   const auto* bytes = reinterpret_cast<const char*>(samples.data());
   write_text(raw.path(), std::string(bytes, samples.size() * sizeof(TrackSample)));
   run_pipeline("filesrc location=" + quoted(raw.path()) +
-               " ! rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
-               "capssetter caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
-               encoder + " ! filesink location=" + quoted(path));
+                   " ! rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
+                   "capssetter name=samples caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
+                   encoder + " ! filesink location=" + quoted(path),
+               [&notes](GstElement* pipeline) {
+                 GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "samples");
+                 GstPad* pad = gst_element_get_static_pad(element, "src");
+                 tag_track(pad, notes);
+                 gst_object_unref(pad);
+                 gst_object_unref(element);
+               });
 }
 
 }  // namespace
@@ -168,7 +175,7 @@ std::vector<TrackSample> load_track(const std::string& path, TrackCondition* con
   if (ends_with(path, ".csv")) return read_csv_trace(path, read_text(path));
   if (ends_with(path, ".jsonl")) return read_json_trace(path, read_text(path));
   const TrackFile track = read_track_file(path);
-  if (condition) *condition = {track.faults, track.missing()};
+  if (condition) *condition = {track.faults, track.missing(), track.notes};
   return samples_of(track);
 }
 
@@ -181,7 +188,7 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
   }
   PartFile part(path);
   if (!encoder.empty()) {
-    write_sound(part.path(), encoder, samples);
+    write_sound(part.path(), encoder, samples, options.notes);
   } else if (is_hjif) {
     write_text(part.path(), write_hjif(samples, options.hjif_tolerance));
   } else {

@@ -11,6 +11,7 @@
 
 #include "core/track/track_format.h"
 #include "plugin/track/track_input.h"
+#include "plugin/track/track_notes.h"
 
 namespace spidar {
 
@@ -18,6 +19,7 @@ namespace spidar {
 struct TrackCondition {
   TrackFaults faults;
   std::string missing;  ///< what is missing at the end of the file; empty if it is complete
+  TrackNotes notes;
 };
 
 /// The format follows from the end of the name: HJIF (`.hjif`), a trace of spidarmotion (`.csv`,
@@ -28,6 +30,7 @@ std::vector<TrackSample> load_track(const std::string& path, TrackCondition* con
 struct SaveOptions {
   double hjif_tolerance = 4e-4;  ///< of the full scale
   size_t funscript_axis = 0;     ///< channel
+  TrackNotes notes;              ///< for sound
 };
 
 /// The format follows from the end of the name: `.flac`, `.wav`, `.mka` (both F32), `.hjif` or

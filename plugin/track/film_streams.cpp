@@ -65,6 +65,13 @@ GstPadProbeReturn StreamsWatch::flows(GstPad*, GstPadProbeInfo* info, gpointer s
 
 GstCaps* caps_of(GstPad* pad) {
   GstCaps* caps = gst_pad_get_current_caps(pad);
+  // Caps reach the pad of a parsebin with the first data, but its parser has them earlier.
+  GstPad* target =
+      !caps && GST_IS_GHOST_PAD(pad) ? gst_ghost_pad_get_target(GST_GHOST_PAD(pad)) : nullptr;
+  if (target) {
+    caps = gst_pad_get_current_caps(target);
+    gst_object_unref(target);
+  }
   return caps ? caps : gst_pad_query_caps(pad, nullptr);
 }
 

@@ -4,9 +4,16 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 namespace spidar {
 namespace {
+
+/// Copying a film into another container may shift its pictures against the beginning by two or
+/// three frames.
+constexpr int64_t kMostLater_ns = 100'000'000;
+/// So much may be missing at the end of a film that is known by its pictures.
+constexpr int64_t kMostMissing_ns = 500'000'000;
 
 std::string seconds(int64_t ns) {
   gchar* const text = g_strdup_printf("%.3f s", 1e-9 * static_cast<double>(ns));
@@ -41,6 +48,31 @@ std::string find_sidecar(const std::string& film) {
     if (std::filesystem::exists(path, ignored)) return path.string();
   }
   return {};
+}
+
+std::string other_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {
+  const FilmFingerprint& fingerprint = notes.film;
+  // Plus a millisecond, because many containers round durations to milliseconds.
+  int64_t tolerance_ns = film.frame_ns + static_cast<int64_t>(GST_MSECOND);
+  if (!fingerprint.empty()) {
+    const std::optional<int64_t> later_ns = find_pictures(fingerprint, film.packets);
+    if (!later_ns) {
+      return "it was recorded from other pictures, or from these before they were encoded anew";
+    }
+    if (std::llabs(*later_ns) > kMostLater_ns) {
+      return "the film shows its pictures " + seconds(std::llabs(*later_ns)) +
+             (*later_ns > 0 ? " later" : " earlier") + " than when the track was recorded";
+    }
+    tolerance_ns += kMostMissing_ns;
+  } else {
+    tolerance_ns += film.begin_ns;  // it may begin with the first picture
+  }
+  const int64_t end_ns = film.end_ns.value_or(film.duration_ns);
+  const int64_t missing_ns = end_ns - track_ns;
+  // Sound may be longer than the pictures.
+  const bool is_short = film.end_ns && missing_ns > tolerance_ns;
+  if (end_ns == 0 || (!is_short && -missing_ns <= tolerance_ns)) return {};
+  return "the track lasts " + seconds(track_ns) + ", the film " + seconds(end_ns);
 }
 
 std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns) {

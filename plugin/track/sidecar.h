@@ -3,10 +3,12 @@
 /// The haptic track beside a film.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include <gst/gst.h>
+
+#include "plugin/track/film_reader.h"
+#include "plugin/track/track_notes.h"
 
 namespace spidar {
 
@@ -17,8 +19,14 @@ std::string film_of(GstPad* pad);
 /// them that is there; empty when none is.
 std::string find_sidecar(const std::string& film);
 
-/// Empty, or why a track that lasts `track_ns` is not that of the film that comes to `pad`: a film
-/// whose duration is known lasts as long, but for one of its frames.
+/// Empty, or why a track of `track_ns` with `notes` is not that of `film`. A track that knows its
+/// film is recognised by the pictures, any other by its length: it ends where the last picture
+/// does, but for one frame.
+std::string other_film(const Film& film, int64_t track_ns, const TrackNotes& notes);
+
+/// For a film that does not come from a file. Empty, or why a track that lasts `track_ns` is not
+/// that of the film that comes to `pad`: a film whose duration is known lasts as long, but for one
+/// of its frames.
 std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns);
 
 }  // namespace spidar

@@ -73,7 +73,11 @@ std::optional<TrackFile> choose_track(GstElement* element, const std::string& wa
     try {
       track = read_track_file(path);
       problem = track->missing();
-      if (problem.empty()) problem = other_film(pad, track->duration_ns, frame_ns);
+      const std::string film = film_of(pad);
+      if (problem.empty()) {
+        problem = film.empty() ? other_film(pad, track->duration_ns, frame_ns)
+                               : other_film(read_film(film), track->duration_ns, track->notes);
+      }
     } catch (const std::runtime_error& error) {
       problem = error.what();
     }

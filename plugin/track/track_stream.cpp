@@ -7,22 +7,12 @@
 #include <utility>
 
 #include "plugin/timing/instant_rate.h"
+#include "plugin/track/track_notes.h"
 
 namespace spidar {
 namespace {
 
 constexpr size_t kBufferSamples = TrackStream::kBuffer_ns / kTrackPeriod_ns;
-
-GstTagList* describe_track() {
-  GstTagList* tags =
-      gst_tag_list_new(GST_TAG_TITLE, "Haptic track", GST_TAG_COMMENT,
-                       "Wrench on the grip: fx fy fz tx ty tz; x right, y up, z towards the "
-                       "viewer. Full scale is 10 "
-                       "N and 1 N m.",
-                       GST_TAG_EXTENDED_COMMENT, "HAPTIC_FULL_SCALE=10 N, 1 N m", nullptr);
-  gst_tag_list_set_scope(tags, GST_TAG_SCOPE_STREAM);
-  return tags;
-}
 
 /// Whose time is the running time of `video`, in which it plays forward.
 GstSegment running_segment(const GstSegment& video) {
@@ -100,7 +90,7 @@ GstFlowReturn TrackStream::begin_segment(const GstEvent* event) {
   GstEvent* const own = gst_event_new_segment(&segment);
   gst_event_set_seqnum(own, gst_event_get_seqnum(given));
   gst_pad_push_event(pad_, own);
-  gst_pad_push_event(pad_, gst_event_new_tag(describe_track()));
+  gst_pad_push_event(pad_, gst_event_new_tag(track_tags()));
   return flow;
 }
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A pipeline that reads a file from a thread that can be stopped.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+class FilePipeline {
+ public:
+  /// `line` contains a filesrc named "source". Throws std::runtime_error when `path` is not a
+  /// regular file, because reading anything else may wait for ever, or when an element is missing.
+  FilePipeline(const std::string& line, const std::string& path, const std::atomic<bool>* stopped);
+  FilePipeline(const FilePipeline&) = delete;
+  FilePipeline& operator=(const FilePipeline&) = delete;
+
+  GstElement* pipeline() const { return pipeline_.get(); }
+  /// Owned by the pipeline.
+  GstElement* find(const char* name) const;
+  /// Adds a sink that discards what it gets as fast as it comes. Owned by the pipeline.
+  GstElement* add_fakesink() const;
+
+  /// To be called whenever something has been read.
+  void advance() const { ++read_; }
+  /// Plays until a message of `awaited` or EOS comes, and returns which; GST_MESSAGE_UNKNOWN when
+  /// `limit` has passed. Throws std::runtime_error with the text of an error, when nothing was
+  /// read for kLongestSilence, because some demuxers stop at damage without an error, or when
+  /// `*stopped` has become true.
+  GstMessageType play_until(GstMessageType awaited, GstClockTime limit = GST_CLOCK_TIME_NONE) const;
+  /// No callback runs any more.
+  void stop() const { gst_element_set_state(pipeline_.get(), GST_STATE_NULL); }
+
+ private:
+  static constexpr GstClockTime kLongestSilence = 10 * GST_SECOND;
+
+  const std::atomic<bool>* const stopped_;
+  mutable std::atomic<uint64_t> read_{0};
+  std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
+};
+
+}  // namespace spidar
