@@ -2,8 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/feel/property_check.h"
 
-#include <locale>
-#include <sstream>
+#include <string>
 
 #include "spidar/boards/board_list.h"
 #include "spidar/device_factory.h"
@@ -11,70 +10,11 @@
 namespace spidar {
 namespace {
 
-constexpr int kDigits = 15;  // of a double, those that do not depend on how it is stored
-
-template <typename Number>
-std::string range(const char* kind, Number least, Number most) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(kDigits);
-  text << " is not a " << kind << " from " << least << " to " << most;
-  return text.str();
-}
-
-std::string one_of(GEnumClass* known) {
-  std::string names;
-  for (guint i = 0; i < known->n_values; ++i)
-    names += (i == 0 ? "" : ", ") + std::string(known->values[i].value_nick);
-  return " is not one of " + names;
-}
-
-/// Continues the sentence that begins with the value.
-std::string why_wrong(GParamSpec* property) {
-  if (G_IS_PARAM_SPEC_DOUBLE(property)) {
-    const GParamSpecDouble* spec = G_PARAM_SPEC_DOUBLE(property);
-    return range("number", spec->minimum, spec->maximum);
-  }
-  if (G_IS_PARAM_SPEC_UINT(property)) {
-    const GParamSpecUInt* spec = G_PARAM_SPEC_UINT(property);
-    return range("whole number", spec->minimum, spec->maximum);
-  }
-  if (G_IS_PARAM_SPEC_INT64(property)) {
-    const GParamSpecInt64* spec = G_PARAM_SPEC_INT64(property);
-    return range("whole number", spec->minimum, spec->maximum);
-  }
-  if (G_IS_PARAM_SPEC_ENUM(property)) return one_of(G_PARAM_SPEC_ENUM(property)->enum_class);
-  if (G_IS_PARAM_SPEC_BOOLEAN(property)) return " is neither true nor false";
-  return " is not among its values; gst-inspect-1.0 spidarmotion lists them";
-}
-
-/// Numbers have their unit in the description.
-std::string unit(GParamSpec* property) {
-  const GType type = G_PARAM_SPEC_VALUE_TYPE(property);
-  const bool number = type == G_TYPE_DOUBLE || type == G_TYPE_UINT || type == G_TYPE_INT64;
-  const char* blurb = number ? g_param_spec_get_blurb(property) : nullptr;
-  return blurb ? std::string(". ") + blurb : std::string();
-}
-
 void check_one(GObject* element, const std::string& text) {
-  const size_t equals = text.find('=');
-  const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
-  GParamSpec* property = g_object_class_find_property(G_OBJECT_GET_CLASS(element), name.c_str());
-  if (!property || !(property->flags & G_PARAM_WRITABLE))
-    throw PropertyError("spidarmotion has no property \"" + name +
-                        "\" that can be set; gst-inspect-1.0 spidarmotion lists them");
-  if (value.find('\n') != std::string::npos) throw PropertyError(name + ": a value is one line");
-  GValue parsed = G_VALUE_INIT;
-  g_value_init(&parsed, property->value_type);
-  const bool understood = gst_value_deserialize_with_pspec(&parsed, value.c_str(), property);
-  // Clamps values that are out of range.
-  const bool wrong = !understood || g_param_value_validate(property, &parsed);
-  const std::string canonical = g_param_spec_get_name(property);
-  if (!wrong && (canonical == "device" || canonical == "profile"))
-    g_object_set_property(element, canonical.c_str(), &parsed);
-  g_value_unset(&parsed);
-  if (wrong)
-    throw PropertyError(name + ": \"" + value + "\"" + why_wrong(property) + unit(property));
+  const TypedProperty property(element, text);
+  const std::string name = property.name();
+  if (name == "device" || name == "profile")
+    g_object_set_property(element, name.c_str(), property.value());
 }
 
 std::string string_property(GObject* element, const char* name) {

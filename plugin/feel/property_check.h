@@ -3,18 +3,14 @@
 /// Properties of spidarmotion that were typed, checked before a player starts.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gst/gst.h>
 
-namespace spidar {
+#include "plugin/properties/typed_property.h"
 
-class PropertyError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace spidar {
 
 /// `properties` are of the form NAME=VALUE; `element` is a spidarmotion in the state NULL. Sets its
 /// `device` and `profile`, and no other property. Opens no device, so one that is not plugged in is

@@ -142,12 +142,12 @@ void install_motion_properties(GObjectClass* c) {
                                "While true, no force: it ramps to zero at once, and returns with "
                                "the next frame after the property is set to false",
                                defaults.mute, kControllable));
-  install(kPropTrack,
-          g_param_spec_string("track", "Track",
-                              "Play this haptic track by stream time instead of analysing frames: "
-                              "a file, or 'auto' for the one beside the film (FILM.haptic.flac, "
-                              ".mka or .wav). Read with the first frame of a stream",
-                              nullptr, kReady));
+  install(kPropTrack, g_param_spec_string(
+                          "track", "Track",
+                          "Play this haptic track by stream time instead of analysing frames: "
+                          "a file, or 'auto' for the one beside the film (FILM.mp4.haptic.flac, "
+                          ".mka or .wav). Read with the first frame of a stream",
+                          nullptr, kReady));
   install_touch_properties(c);
   install_display_properties(c);
   install(kPropStats, g_param_spec_boxed(

@@ -70,10 +70,10 @@ void judge_film(const Merge& merge, GstElement* parser) {
   if (has_track) {
     refuse(parser, "The film has a haptic track already: spidartrack extract takes it out.");
   } else if (!has_sound) {
-    refuse(
-        parser,
-        "The film has no sound: players would play the haptic track through the loudspeakers. "
-        "Leave it beside the film, as FILM.haptic.flac for FILM.mp4, where track=auto finds it.");
+    refuse(parser,
+           "The film has no sound: players would play the haptic track through the loudspeakers. "
+           "Leave it beside the film, as FILM.mp4.haptic.flac for FILM.mp4, where track=auto finds "
+           "it.");
   } else {
     // Added after the film's sound, because players choose the first audio stream.
     GstPad* mux_pad = gst_element_request_pad_simple(merge.mux, "audio_%u");
@@ -121,12 +121,14 @@ void merge_film(const std::string& film, const std::string& track, const std::st
   Merge merge;
   std::optional<StreamsWatch> streams;
   run_pipeline(
-      "matroskamux name=mux ! filesink location=" + quoted(out) +
-          " filesrc location=" + quoted(film) +
-          " ! parsebin name=film multiqueue name=streams max-size-bytes=0 max-size-buffers=0 "
-          "max-size-time=10000000000 filesrc location=" +
-          quoted(track) + " ! parsebin name=track queue name=samples",
+      "matroskamux name=mux ! filesink name=out_file "
+      "filesrc name=film_file ! parsebin name=film "
+      "multiqueue name=streams max-size-bytes=0 max-size-buffers=0 max-size-time=10000000000 "
+      "filesrc name=track_file ! parsebin name=track queue name=samples",
       [&](GstElement* pipeline) {
+        set_location(pipeline, "out_file", out);
+        set_location(pipeline, "film_file", film);
+        set_location(pipeline, "track_file", track);
         const auto find = [pipeline](const char* name) {
           GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), name);
           gst_object_unref(element);  // the pipeline has it

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <stdexcept>
 #include <utility>
 
@@ -81,6 +80,13 @@ class Progress {
   int told_ = 0;
 };
 
+void set_properties(GstElement* pipeline, const RecordProperties& properties) {
+  GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
+  for (const auto& [name, value] : properties.values)
+    gst_util_set_object_arg(G_OBJECT(motion), name.c_str(), value.c_str());
+  gst_object_unref(motion);
+}
+
 void tag_samples(GstElement* pipeline, const TrackNotes& notes) {
   GstElement* extract = gst_bin_get_by_name(GST_BIN(pipeline), "extract");
   GstPad* wrench = gst_element_get_static_pad(extract, "wrench");
@@ -91,11 +97,13 @@ void tag_samples(GstElement* pipeline, const TrackNotes& notes) {
 
 }  // namespace
 
-void record_film(const std::string& film, const std::string& track, const std::string& properties,
-                 const std::function<void(int percent)>& tell) {
+std::string record_film(const std::string& film, const std::string& track,
+                        const RecordProperties& properties,
+                        const std::function<void(int percent)>& tell) {
   if (!std::filesystem::exists(film)) throw std::runtime_error("there is no such file");
   Progress progress(tell);
   TrackNotes notes;
+  notes.settings = properties.settings;
   try {
     notes.film = fingerprint_of(read_film(film).packets);
   } catch (const std::runtime_error&) {
@@ -104,22 +112,25 @@ void record_film(const std::string& film, const std::string& track, const std::s
   FilmWatch watch;
   std::string error;
   try {
-    run_pipeline("filesrc location=" + quoted(film) +
-                     " ! decodebin name=decode videoconvert name=convert ! spidarmotion "
-                     "device=none post-messages=false attach-meta=true" +
-                     properties + " ! spidarextract name=extract extract.wrench ! " +
-                     encoder_of(track) + " ! filesink location=" + quoted(track),
-                 [&](GstElement* pipeline) {
-                   watch.begin(pipeline);
-                   progress.watch(pipeline);
-                   tag_samples(pipeline, notes);
-                 });
+    run_pipeline(
+        "filesrc name=film ! decodebin name=decode videoconvert name=convert ! "
+        "spidarmotion name=motion device=none post-messages=false attach-meta=true ! "
+        "spidarextract name=extract extract.wrench ! " +
+            encoder_of(track) + " ! filesink name=track",
+        [&](GstElement* pipeline) {
+          set_location(pipeline, "film", film);
+          set_location(pipeline, "track", track);
+          set_properties(pipeline, properties);
+          watch.begin(pipeline);
+          progress.watch(pipeline);
+          tag_samples(pipeline, notes);
+        });
   } catch (const std::runtime_error& ended) {
     error = ended.what();
   }
   const std::string problem = watch.problem(error);
   if (!problem.empty()) throw std::runtime_error(problem);
-  if (!watch.remark().empty()) std::cerr << film + ": " + watch.remark() + "\n";
+  return watch.remark();
 }
 
 }  // namespace spidar

@@ -19,8 +19,8 @@ class StillFilm {
  public:
   StillFilm(const std::string& film, int width) : film_(film) {
     const std::string line =
-        "filesrc location=" + quoted(film) +
-        " ! decodebin ! video/x-raw ! videoconvert ! videoscale add-borders=false ! "
+        "filesrc name=film ! decodebin ! video/x-raw ! videoconvert ! videoscale add-borders=false "
+        "! "
         "video/x-raw,format=RGB,pixel-aspect-ratio=1/1,width=" +
         std::to_string(width) + " ! fakesink name=sink sync=false";
     GError* error = nullptr;
@@ -31,6 +31,7 @@ class StillFilm {
       if (pipeline_) gst_object_unref(pipeline_);
       throw std::runtime_error(text);
     }
+    set_location(pipeline_, "film", film);
     sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
     gst_element_set_state(pipeline_, GST_STATE_PAUSED);
   }
@@ -80,12 +81,20 @@ class StillFilm {
   GstElement* sink_ = nullptr;
 };
 
+Film read(const std::string& film) {
+  try {
+    return read_film(film);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(film + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 FilmStills film_stills(const std::string& film, int64_t track_ns, const TrackNotes& notes,
                        int count, int width) {
   FilmStills stills;
-  const std::string other = other_film(read_film(film), track_ns, notes);
+  const std::string other = other_film(read(film), track_ns, notes);
   if (!other.empty()) throw std::runtime_error(film + " is another film: " + other);
   const StillFilm still(film, width);
   still.await();

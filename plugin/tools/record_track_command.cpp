@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <algorithm>
-#include <atomic>
-#include <filesystem>
-#include <functional>
-#include <iostream>
+#include <chrono>
+#include <deque>
+#include <map>
 #include <mutex>
+#include <optional>
+#include <stdexcept>
 #include <thread>
 
 #include "plugin/tools/film_recorder.h"
+#include "plugin/tools/part_file.h"
+#include "plugin/tools/record_options.h"
+#include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
-#include "plugin/tools/track_samples.h"
-#include "spidar/tools/command_line.h"
+#include "plugin/track/film_reader.h"
+#include "plugin/track/sidecar.h"
+#include "plugin/track/track_file.h"
 #include "spidar/tools/exit_status.h"
 
 namespace spidar {
@@ -19,125 +23,128 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHelp =
-    R"(usage: spidartrack record FILM... [OPTION]... [-- PROPERTY=VALUE...]
+/// How often it is looked whether another process has finished a track.
+constexpr std::chrono::milliseconds kLook{200};
 
-Analyses films as fast as they can be decoded, and writes FILM's haptic track beside it, under its
-name with .haptic.flac in place of the extension. Tracks that are there are left alone, so that the
-command goes on where it was interrupted. Properties are those of spidarmotion: motion=camera …
+/// Throws std::runtime_error when the track that is there is not what would be recorded. A track
+/// that says nothing of itself was made by hand, or by an older version, and may be.
+void check_track(const std::string& film, const fs::path& track, const std::string& settings) {
+  const std::string again = "; --force records it again";
+  const TrackNotes notes = read_track_notes(track.string());
+  if (fs::is_empty(track)) throw std::runtime_error(track.string() + " is empty" + again);
+  if (notes.settings && *notes.settings != settings) {
+    const auto shown = [](const std::string& text) { return text.empty() ? "the defaults" : text; };
+    throw std::runtime_error(track.string() + " was recorded with " + shown(*notes.settings) +
+                             ", and not with " + shown(settings) + again);
+  }
+  if (notes.film.empty()) return;
+  const Film read = read_film(film);
+  const std::string other = other_film(read, read.end_ns.value_or(read.duration_ns), notes);
+  if (!other.empty()) {
+    throw std::runtime_error(track.string() + " is the track of another film: " + other + again);
+  }
+}
 
-  -j, --jobs N   films at a time; as many as there are processors
-  --folder DIR   where tracks are written
-  --format TYPE  flac (24 bits), mka or wav (both F32); flac
-  --force        also those that are there
-)";
+/// Records a list of films with several threads.
+class FilmBatch {
+ public:
+  explicit FilmBatch(const RecordOptions& options) : options_(options), report_(options.films) {}
 
-struct RecordOptions {
-  bool help = false;
-  bool force = false;
-  unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
-  std::string folder;
-  std::string format = "flac";
-  std::string properties;
-  std::vector<std::string> films;
-};
+  /// Returns whether no film failed.
+  bool run() {
+    claim_names();
+    std::vector<std::thread> workers;
+    for (unsigned i = 1; i < options_.jobs && i < options_.films.size(); ++i)
+      workers.emplace_back([this] { work(); });
+    work();
+    for (std::thread& worker : workers) worker.join();
+    return report_.finish();
+  }
 
-RecordOptions parse(int argc, char** argv) {
-  RecordOptions options;
-  // getopt must not see the arguments after --.
-  int own = 1;
-  while (own < argc && std::string(argv[own]) != "--") ++own;
-  for (int i = own + 1; i < argc; ++i) {
-    const std::string property = argv[i];
-    if (property.find('=') == std::string::npos || property.find('!') != std::string::npos) {
-      throw UsageError(property + ": is no PROPERTY=VALUE");
+ private:
+  struct Film {
+    size_t index;
+    bool is_elsewhere = false;  ///< another process is recording it
+  };
+
+  /// Queues the films, but for those whose track has the same name as that of an earlier one.
+  void claim_names() {
+    std::map<fs::path, size_t> first;
+    for (size_t i = 0; i < options_.films.size(); ++i) {
+      std::error_code none;
+      const std::string& film = options_.films[i];
+      const fs::path track = fs::weakly_canonical(options_.track_of(film), none);
+      const auto [there, is_new] = first.emplace(track, i);
+      const std::string& other = options_.films[there->second];
+      if (is_new) {
+        waiting_.push_back({i});
+      } else if (fs::equivalent(film, other, none)) {
+        report_.there(i, "is given twice");
+      } else {
+        report_.failed(i, options_.track_of(film).string() + " is for " + other +
+                              "; give films of the same name different folders");
+      }
     }
-    options.properties += " " + property;
   }
-  std::vector<std::string> words(argv, argv + own);
-  for (size_t i = 1; i < words.size(); ++i) {
-    if (words[i].rfind("-j", 0) == 0)
-      words[i] = words[i] == "-j" ? "--jobs" : "--jobs=" + words[i].substr(2);
-  }
-  std::vector<char*> rest;
-  for (std::string& word : words) rest.push_back(word.data());
-  rest.push_back(nullptr);
-  options.films = parse_options(
-      own, rest.data(),
-      {{"jobs", true,
-        [&](const std::string& text) {
-          options.jobs = static_cast<unsigned>(parse_number("--jobs", text, 1, 1024, ""));
-        }},
-       {"folder", true, [&](const std::string& text) { options.folder = text; }},
-       {"format", true, [&](const std::string& text) { options.format = text; }},
-       {"force", false, [&](const std::string&) { options.force = true; }},
-       {"help", false, [&](const std::string&) { options.help = true; }}});
-  if (options.help) return options;
-  if (options.films.empty()) throw UsageError("no FILM given");
-  if (encoder_of("." + options.format).empty()) {
-    throw UsageError("--format: \"" + options.format + "\" is none of flac, mka, wav");
-  }
-  return options;
-}
 
-fs::path track_of(const std::string& film, const RecordOptions& options) {
-  fs::path track(film);
-  track.replace_extension(".haptic." + options.format);
-  return options.folder.empty() ? track : fs::path(options.folder) / track.filename();
-}
-
-/// `track` appears when it is whole.
-void record(const std::string& film, const fs::path& track, const std::string& properties,
-            const std::function<void(int percent)>& tell) {
-  const std::string part = (track.parent_path() / (".part-" + track.filename().string())).string();
-  try {
-    record_film(film, part, properties, tell);
-    fs::rename(part, track);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw;
+  std::optional<Film> next() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (waiting_.empty()) return {};
+    const Film film = waiting_.front();
+    waiting_.pop_front();
+    return film;
   }
-}
+
+  void work() {
+    while (const std::optional<Film> film = next()) {
+      try {
+        if (film->is_elsewhere) std::this_thread::sleep_for(kLook);
+        if (finish(film->index)) continue;
+        if (!film->is_elsewhere) report_.note(film->index, "another process is recording it");
+        // All others come first.
+        const std::lock_guard<std::mutex> lock(mutex_);
+        waiting_.push_back({film->index, true});
+      } catch (const std::exception& error) {
+        report_.failed(film->index, error.what());
+      }
+    }
+  }
+
+  /// Returns false if another process is recording the film.
+  bool finish(size_t index) {
+    const std::string& film = options_.films[index];
+    const fs::path track = options_.track_of(film);
+    if (is_done(index, track)) return true;
+    const std::unique_ptr<PartFile> part = PartFile::claim(track);
+    if (!part) return false;
+    if (is_done(index, track)) return true;  // in the meantime
+    report_.progress(index, 0);
+    const std::string remark = record_film(film, part->path(), options_.properties,
+                                           [&](int percent) { report_.progress(index, percent); });
+    part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
+    report_.recorded(index, track.string() + (remark.empty() ? "" : "; " + remark));
+    return true;
+  }
+
+  bool is_done(size_t index, const fs::path& track) {
+    if (options_.force || !fs::exists(track)) return false;
+    check_track(options_.films[index], track, options_.properties.settings);
+    report_.there(index, track.string() + " is there");
+    return true;
+  }
+
+  const RecordOptions& options_;
+  RecordReport report_;
+  std::mutex mutex_;
+  std::deque<Film> waiting_;
+};
 
 }  // namespace
 
 int record_track_command(int argc, char** argv) {
-  const RecordOptions options = parse(argc, argv);
-  if (options.help) {
-    std::cout << kHelp;
-    return kDone;
-  }
-  std::atomic<size_t> next{0}, failed{0};
-  std::mutex output;
-  const auto say = [&](size_t film, const std::string& text) {
-    const std::lock_guard<std::mutex> lock(output);
-    std::cout << '[' << film + 1 << '/' << options.films.size() << "] " << options.films[film]
-              << ": " << text << std::endl;
-  };
-  const auto work = [&] {
-    for (size_t i; (i = next++) < options.films.size();) {
-      const fs::path track = track_of(options.films[i], options);
-      if (!options.force && fs::exists(track)) {
-        say(i, track.string() + " is there");
-        continue;
-      }
-      try {
-        record(options.films[i], track, options.properties,
-               [&](int percent) { say(i, std::to_string(percent) + " %"); });
-        say(i, track.string());
-      } catch (const std::exception& error) {
-        ++failed;
-        say(i, std::string("failed: ") + error.what());
-      }
-    }
-  };
-  std::vector<std::thread> workers;
-  for (unsigned i = 1; i < options.jobs && i < options.films.size(); ++i)
-    workers.emplace_back(work);
-  work();
-  for (std::thread& worker : workers) worker.join();
-  return failed == 0 ? kDone : kFailed;
+  const RecordOptions options = parse_record_options(argc, argv);
+  if (options.help) return kDone;
+  return FilmBatch(options).run() ? kDone : kFailed;
 }
 
 }  // namespace spidar

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/track/track_sampler.h"
+#include "plugin/track/track_file.h"
 
 namespace spidar {
 namespace {
@@ -22,18 +23,16 @@ std::runtime_error wrong_line(const std::string& path, int line, const std::stri
   return std::runtime_error(path + ":" + std::to_string(line) + ": " + what);
 }
 
-/// Longer than any film. A trace that claims to be longer has a wrong time in it.
-constexpr int64_t kLongestTrack_ns = int64_t{24} * 3600 * 1'000'000'000;
 /// The stream time of a frame that is outside the segment.
 constexpr int64_t kNoTime = -1;
 
 /// Why no track can have a frame at `time_ns`; empty if it can. A double holds the times of a CSV
 /// file: it may be no number, or be too large for an integer.
 std::string wrong_time(double time_ns) {
-  if (time_ns >= 0 && time_ns <= static_cast<double>(kLongestTrack_ns)) return {};
+  if (time_ns >= 0 && time_ns <= static_cast<double>(TrackFile::kLongest_ns)) return {};
   std::ostringstream text;
   text << "the stream time is " << 1e-9 * time_ns << " s, must be from 0 to "
-       << kLongestTrack_ns / 1'000'000'000 << " s, which is the longest track";
+       << TrackFile::kLongest_ns / 1'000'000'000 << " s, which is the longest track";
   return text.str();
 }
 

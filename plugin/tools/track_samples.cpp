@@ -84,23 +84,32 @@ void write_sound(const std::string& path, const std::string& encoder,
   const PartFile raw(path + ".raw");
   const auto* bytes = reinterpret_cast<const char*>(samples.data());
   write_text(raw.path(), std::string(bytes, samples.size() * sizeof(TrackSample)));
-  run_pipeline("filesrc location=" + quoted(raw.path()) +
-                   " ! rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
-                   "capssetter name=samples caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
-                   encoder + " ! filesink location=" + quoted(path),
-               [&notes](GstElement* pipeline) {
-                 GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "samples");
-                 GstPad* pad = gst_element_get_static_pad(element, "src");
-                 tag_track(pad, notes);
-                 gst_object_unref(pad);
-                 gst_object_unref(element);
-               });
+  run_pipeline(
+      "filesrc name=raw_file ! "
+      "rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
+      "capssetter name=samples caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
+          encoder + " ! filesink name=file",
+      [&](GstElement* pipeline) {
+        set_location(pipeline, "raw_file", raw.path());
+        set_location(pipeline, "file", path);
+        GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "samples");
+        GstPad* pad = gst_element_get_static_pad(element, "src");
+        tag_track(pad, notes);
+        gst_object_unref(pad);
+        gst_object_unref(element);
+      });
 }
 
 }  // namespace
 
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+void set_location(GstElement* pipeline, const char* name, const std::string& path) {
+  GstElement* const element = gst_bin_get_by_name(GST_BIN(pipeline), name);
+  g_object_set(element, "location", path.c_str(), nullptr);
+  gst_object_unref(element);
 }
 
 std::string quoted(const std::string& path) {

@@ -54,6 +54,9 @@ void run_pipeline(const std::string& line,
 void await_message(GstElement* pipeline, GstMessageType awaited,
                    GstClockTime limit = GST_CLOCK_TIME_NONE);
 
+/// Of the source or sink `name` in a pipeline. Unlike a launch line, it takes every file name.
+void set_location(GstElement* pipeline, const char* name, const std::string& path);
+
 bool ends_with(const std::string& text, const std::string& end);
 /// Quotes a location for a launch line.
 std::string quoted(const std::string& path);

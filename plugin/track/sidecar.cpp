@@ -41,11 +41,12 @@ std::string film_of(GstPad* pad) {
 
 std::string find_sidecar(const std::string& film) {
   if (film.empty()) return {};
-  for (const char* extension : {".haptic.flac", ".haptic.mka", ".haptic.wav"}) {
-    std::filesystem::path path(film);
-    path.replace_extension(extension);
-    std::error_code ignored;
-    if (std::filesystem::exists(path, ignored)) return path.string();
+  const std::string stem = std::filesystem::path(film).replace_extension().string();
+  for (const std::string& name : {film, stem}) {
+    for (const char* end : {".haptic.flac", ".haptic.mka", ".haptic.wav"}) {
+      std::error_code ignored;
+      if (std::filesystem::exists(name + end, ignored)) return name + end;
+    }
   }
   return {};
 }

@@ -15,8 +15,9 @@ namespace spidar {
 /// Path of the film that comes to `pad` (GST_QUERY_URI upstream); empty when it is not from a file.
 std::string film_of(GstPad* pad);
 
-/// FILM without its extension and with `.haptic.flac`, `.haptic.mka` or `.haptic.wav`: the first of
-/// them that is there; empty when none is.
+/// FILM with `.haptic.flac`, `.haptic.mka` or `.haptic.wav`, else the same without the extension of
+/// FILM: the first of them that is there; empty when none is. The whole name comes first because
+/// films may differ in nothing else.
 std::string find_sidecar(const std::string& film);
 
 /// Empty, or why a track of `track_ns` with `notes` is not that of `film`. A track that knows its

@@ -112,7 +112,7 @@ TEST_F(FilmRecorder, AFilmWithBFramesAndSoundIsFeltWhenItIsShown) {
     const CommandResult result = spidartrack(std::string("record --format ") + format + " " +
                                              path("silent.mp4") + " -- motion=mean");
     ASSERT_EQ(result.status, 0) << result.text;
-    const int plain_ms = onset_ms(load_track(path(std::string("silent.haptic.") + format)));
+    const int plain_ms = onset_ms(load_track(path(std::string("silent.mp4.haptic.") + format)));
     ASSERT_GT(plain_ms, 900);
     for (const auto& [name, later_ms] : {std::pair("sound.mkv", 21), std::pair("sound.ts", 780)}) {
       SCOPED_TRACE(name);
@@ -121,7 +121,7 @@ TEST_F(FilmRecorder, AFilmWithBFramesAndSoundIsFeltWhenItIsShown) {
                       format + " " + path(name) + " -- motion=mean");
       ASSERT_EQ(recorded.status, 0) << recorded.text;
       const std::vector<TrackSample> track =
-          load_track(path(std::string("out/sound.haptic.") + format));
+          load_track(path(std::string("out/") + name + ".haptic." + format));
       EXPECT_NEAR(onset_ms(track), plain_ms + later_ms, 1);
     }
   }

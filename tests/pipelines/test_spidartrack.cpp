@@ -59,7 +59,7 @@ TEST_F(Spidartrack, HelpSucceedsAndWrongUsageSaysWhatWouldBeRight) {
   }
   expect_contains(spidartrack("frobnicate").text, "commands are record, info");
   expect_contains(spidartrack("record x.mp4 --format ogg").text, "none of flac, mka, wav");
-  expect_contains(spidartrack("record x.mp4 -- 'a=b ! fakesink'").text, "is no PROPERTY=VALUE");
+  expect_contains(spidartrack("record x.mp4 -- motion").text, "is no PROPERTY=VALUE");
 }
 
 TEST_F(Spidartrack, RecordsFilmsBesideThemAndGoesOnWhereItWas) {
@@ -68,24 +68,21 @@ TEST_F(Spidartrack, RecordsFilmsBesideThemAndGoesOnWhereItWas) {
   const std::string films = quoted(path("a film.avi")) + " " + path("b.avi");
   const CommandResult first = spidartrack("record -j2 " + films);
   EXPECT_EQ(first.status, 0) << first.text;
-  ASSERT_TRUE(fs::exists(path("a film.haptic.flac")));
-  for (const char* film : {"[1/2] ", "[2/2] "}) {
-    EXPECT_LT(first.text.find("film.avi: 10 %"), first.text.find("film.avi: 90 %")) << first.text;
-    expect_contains(first.text, film);
-  }
-  const std::vector<TrackSample> track = load_track(path("b.haptic.flac"));
+  ASSERT_TRUE(fs::exists(path("a film.avi.haptic.flac")));
+  for (const char* film : {"[1/2] ", "[2/2] "}) expect_contains(first.text, film);
+  const std::vector<TrackSample> track = load_track(path("b.avi.haptic.flac"));
   EXPECT_EQ(track.size(), 2000u);
   EXPECT_GT(largest_difference(track, std::vector<TrackSample>(2000)), 0.1);
 
-  const fs::file_time_type written = fs::last_write_time(path("b.haptic.flac"));
+  const fs::file_time_type written = fs::last_write_time(path("b.avi.haptic.flac"));
   expect_contains(spidartrack("record " + films).text, "is there");
-  EXPECT_EQ(fs::last_write_time(path("b.haptic.flac")), written);
+  EXPECT_EQ(fs::last_write_time(path("b.avi.haptic.flac")), written);
 
   const CommandResult missing = spidartrack("record " + path("none.avi"));
   EXPECT_EQ(missing.status, 1);
   expect_contains(missing.text, "there is no such file");
   EXPECT_EQ(spidartrack("record --format wav " + path("b.avi") + " -- max-force=1").status, 0);
-  for (const TrackSample& sample : load_track(path("b.haptic.wav"))) {
+  for (const TrackSample& sample : load_track(path("b.avi.haptic.wav"))) {
     ASSERT_LE(to_wrench(sample).force_N.norm(), 1 + 1e-6);
   }
   for (const auto& entry : fs::directory_iterator(folder.path)) {
@@ -139,6 +136,7 @@ TEST_F(Spidartrack, ATraceBecomesTheTrackThatExtractGives) {
 TEST_F(Spidartrack, ARecordedTrackIsFoundBesideItsFilmAndFelt) {
   make_film("film.avi");
   ASSERT_EQ(spidartrack("record " + path("film.avi")).status, 0);
+  std::ofstream(path("film.haptic.flac")) << "an older name, which may be that of film.mkv";
   GError* error = nullptr;
   GstElement* pipeline = gst_parse_launch(("filesrc location=" + path("film.avi") +
                                            " ! decodebin ! videoconvert ! spidarmotion name=motion "

@@ -20,6 +20,13 @@ inline CommandResult spidartrack(const std::string& arguments) {
   return run(std::string(SPIDARTRACK) + " " + arguments);
 }
 
+/// `text` as one word of a shell's command line.
+inline std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 inline void expect_contains(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
 }

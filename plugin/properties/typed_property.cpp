@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/properties/typed_property.h"
+
+#include <locale>
+#include <sstream>
+
+namespace spidar {
+namespace {
+
+constexpr int kDigits = 15;  // of a double, those that do not depend on how it is stored
+
+template <typename Number>
+std::string range(const char* kind, Number least, Number most) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(kDigits);
+  text << " is not a " << kind << " from " << least << " to " << most;
+  return text.str();
+}
+
+std::string one_of(GEnumClass* known) {
+  std::string names;
+  for (guint i = 0; i < known->n_values; ++i)
+    names += (i == 0 ? "" : ", ") + std::string(known->values[i].value_nick);
+  return " is not one of " + names;
+}
+
+/// Continues the sentence that begins with the value.
+std::string why_wrong(GParamSpec* property) {
+  if (G_IS_PARAM_SPEC_DOUBLE(property)) {
+    const GParamSpecDouble* spec = G_PARAM_SPEC_DOUBLE(property);
+    return range("number", spec->minimum, spec->maximum);
+  }
+  if (G_IS_PARAM_SPEC_UINT(property)) {
+    const GParamSpecUInt* spec = G_PARAM_SPEC_UINT(property);
+    return range("whole number", spec->minimum, spec->maximum);
+  }
+  if (G_IS_PARAM_SPEC_INT64(property)) {
+    const GParamSpecInt64* spec = G_PARAM_SPEC_INT64(property);
+    return range("whole number", spec->minimum, spec->maximum);
+  }
+  if (G_IS_PARAM_SPEC_ENUM(property)) return one_of(G_PARAM_SPEC_ENUM(property)->enum_class);
+  if (G_IS_PARAM_SPEC_BOOLEAN(property)) return " is neither true nor false";
+  return " is not among its values; gst-inspect-1.0 spidarmotion lists them";
+}
+
+/// Numbers have their unit in the description.
+std::string unit(GParamSpec* property) {
+  const GType type = G_PARAM_SPEC_VALUE_TYPE(property);
+  const bool number = type == G_TYPE_DOUBLE || type == G_TYPE_UINT || type == G_TYPE_INT64;
+  const char* blurb = number ? g_param_spec_get_blurb(property) : nullptr;
+  return blurb ? std::string(". ") + blurb : std::string();
+}
+
+}  // namespace
+
+TypedProperty::TypedProperty(GObject* element, const std::string& text) {
+  const size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (equals == std::string::npos) throw PropertyError(text + ": is no PROPERTY=VALUE");
+  const std::string value = text.substr(equals + 1);
+  property_ = g_object_class_find_property(G_OBJECT_GET_CLASS(element), name.c_str());
+  if (!property_ || !(property_->flags & G_PARAM_WRITABLE))
+    throw PropertyError("spidarmotion has no property \"" + name +
+                        "\" that can be set; gst-inspect-1.0 spidarmotion lists them");
+  if (value.find('\n') != std::string::npos) throw PropertyError(name + ": a value is one line");
+  g_value_init(&value_, property_->value_type);
+  const bool understood = gst_value_deserialize_with_pspec(&value_, value.c_str(), property_);
+  // Clamps values that are out of range.
+  if (understood && !g_param_value_validate(property_, &value_)) return;
+  g_value_unset(&value_);
+  throw PropertyError(name + ": \"" + value + "\"" + why_wrong(property_) + unit(property_));
+}
+
+std::string TypedProperty::canonical_value() const {
+  gchar* const text = gst_value_serialize(&value_);
+  const std::string result = text ? text : "";
+  g_free(text);
+  return result;
+}
+
+}  // namespace spidar

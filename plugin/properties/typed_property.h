@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Properties of spidarmotion as a user types them: NAME=VALUE.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+class PropertyError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A property and the value for it. Sets nothing.
+class TypedProperty {
+ public:
+  /// `element` is a spidarmotion. Throws PropertyError, which says what is wrong and what would be
+  /// right, for an unknown property and a value that it does not take.
+  TypedProperty(GObject* element, const std::string& text);
+  ~TypedProperty() { g_value_unset(&value_); }
+  TypedProperty(const TypedProperty&) = delete;
+  TypedProperty& operator=(const TypedProperty&) = delete;
+
+  /// As it is registered: `max-force`, even if `max_force` was typed.
+  std::string name() const { return g_param_spec_get_name(property_); }
+  const GValue* value() const { return &value_; }
+  bool is_default() const { return g_param_value_defaults(property_, &value_) != FALSE; }
+  /// The same for all ways to type a value: `2` and `2.0`.
+  std::string canonical_value() const;
+
+ private:
+  GParamSpec* property_;
+  GValue value_ = G_VALUE_INIT;
+};
+
+}  // namespace spidar

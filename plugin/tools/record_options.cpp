@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/record_options.h"
+
+#include <algorithm>
+#include <iostream>
+#include <thread>
+
+#include "plugin/tools/track_samples.h"
+#include "spidar/tools/command_line.h"
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHelp =
+    R"(usage: spidartrack record FILM... [OPTION]... [-- PROPERTY=VALUE...]
+
+Analyses films as fast as they can be decoded, and writes the haptic track of FILM.mp4 beside it, as
+FILM.mp4.haptic.flac. A track that is there is left alone, so that the command goes on where it was
+interrupted; if it is that of another film, or was recorded with other properties, that is an error.
+Properties are those of spidarmotion that change the force: motion=camera …
+
+  -j, --jobs N   films at a time; as many as there are processors
+  --folder DIR   where tracks are written
+  --format TYPE  flac (24 bits), mka or wav (both F32); flac
+  --force        also those that are there
+)";
+
+}  // namespace
+
+fs::path RecordOptions::track_of(const std::string& film) const {
+  const std::string track = film + ".haptic." + format;
+  return folder.empty() ? fs::path(track) : fs::path(folder) / fs::path(track).filename();
+}
+
+RecordOptions parse_record_options(int argc, char** argv) {
+  RecordOptions options;
+  options.jobs = std::max(1U, std::thread::hardware_concurrency());
+  // getopt must not see the arguments after --.
+  int own = 1;
+  while (own < argc && std::string(argv[own]) != "--") ++own;
+  const std::vector<std::string> properties(argv + std::min(own + 1, argc), argv + argc);
+  std::vector<std::string> words(argv, argv + own);
+  for (size_t i = 1; i < words.size(); ++i) {
+    if (words[i].rfind("-j", 0) == 0)
+      words[i] = words[i] == "-j" ? "--jobs" : "--jobs=" + words[i].substr(2);
+  }
+  std::vector<char*> rest;
+  for (std::string& word : words) rest.push_back(word.data());
+  rest.push_back(nullptr);
+  options.films = parse_options(
+      own, rest.data(),
+      {{"jobs", true,
+        [&](const std::string& text) {
+          options.jobs = static_cast<unsigned>(parse_number("--jobs", text, 1, 1024, ""));
+        }},
+       {"folder", true, [&](const std::string& text) { options.folder = text; }},
+       {"format", true, [&](const std::string& text) { options.format = text; }},
+       {"force", false, [&](const std::string&) { options.force = true; }},
+       {"help", false, [&](const std::string&) { options.help = true; }}});
+  if (options.help) {
+    std::cout << kHelp;
+    return options;
+  }
+  if (options.films.empty()) throw UsageError("no FILM given");
+  if (encoder_of("." + options.format).empty()) {
+    throw UsageError("--format: \"" + options.format + "\" is none of flac, mka, wav");
+  }
+  options.properties = parse_record_properties(properties, options.films.size());
+  return options;
+}
+
+}  // namespace spidar

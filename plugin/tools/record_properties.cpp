@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/record_properties.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+#include <gst/gst.h>
+
+#include "plugin/properties/typed_property.h"
+#include "spidar/tools/command_line.h"
+
+namespace spidar {
+namespace {
+
+/// What changes the force that the frames of a film give. All others are for a device, for a viewer
+/// or for a pipeline, of which there is none.
+constexpr const char* kAnalysis[] = {
+    "alpha",        "controller", "depth-gain",    "filter-beta", "filter-min-cutoff",
+    "max-features", "max-force",  "min-distance",  "motion",      "pointer-x",
+    "pointer-y",    "quality",    "quality-level", "roll-gain",   "tracker"};
+
+std::string list_of_analysis() {
+  std::string list;
+  for (const char* name : kAnalysis) list += (list.empty() ? "" : ", ") + std::string(name);
+  return list;
+}
+
+/// Why it is refused, as the rest of a sentence; empty if it is not.
+std::string why_refused(const TypedProperty& property, size_t films) {
+  const std::string name = property.name();
+  if (name == "touch")
+    return "what is touched depends on the hand, and a track is the same for all";
+  if (name == "track") return "a film is analysed for its track, and a track is not recorded again";
+  if (name == "trace") {
+    return films == 1 ? "" : "all films would be written to one file; record them one by one";
+  }
+  if (name == "max-force" && property.canonical_value() == "0") {
+    return "the whole track would be at rest";
+  }
+  const bool known = std::any_of(std::begin(kAnalysis), std::end(kAnalysis),
+                                 [&](const char* other) { return name == other; });
+  return known ? "" : "does not change what a track contains, which are " + list_of_analysis();
+}
+
+}  // namespace
+
+RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films) {
+  RecordProperties properties;
+  if (words.empty()) return properties;
+  const std::unique_ptr<GstElement, void (*)(gpointer)> element(
+      gst_element_factory_make("spidarmotion", nullptr), gst_object_unref);
+  if (!element) {
+    throw std::runtime_error(
+        "GStreamer finds no spidarmotion; set GST_PLUGIN_PATH to the folder of libgstspidar.so");
+  }
+  std::map<std::string, std::string> settings;  // the last one of a name counts
+  for (const std::string& word : words) {
+    try {
+      const TypedProperty property(G_OBJECT(element.get()), word);
+      const std::string refused = why_refused(property, films);
+      if (!refused.empty()) throw UsageError(word + ": " + refused);
+      properties.values.emplace_back(property.name(), word.substr(word.find('=') + 1));
+      settings.erase(property.name());
+      if (property.is_default() || property.name() == "trace") continue;
+      settings[property.name()] = property.canonical_value();
+    } catch (const PropertyError& error) {
+      throw UsageError(error.what());
+    }
+  }
+  for (const auto& [name, value] : settings) {
+    properties.settings += (properties.settings.empty() ? "" : " ") + name + "=" + value;
+  }
+  return properties;
+}
+
+}  // namespace spidar

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/record_report.h"
+
+#include <iostream>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace spidar {
+namespace {
+
+/// A name may contain line breaks, or commands for the terminal.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  }
+  return text;
+}
+
+size_t width_of_terminal() {
+  winsize size{};
+  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return known ? size.ws_col : 80;
+}
+
+/// At most `bytes` long, and not cut within a character.
+std::string shortened(std::string text, size_t bytes) {
+  if (text.size() <= bytes) return text;
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
+  text.resize(bytes);
+  return text;
+}
+
+}  // namespace
+
+RecordReport::RecordReport(std::vector<std::string> films)
+    : films_(std::move(films)), is_terminal_(isatty(STDOUT_FILENO) != 0) {}
+
+void RecordReport::progress(size_t film, int percent) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  in_work_[film] = percent;
+  erase();
+  draw();
+}
+
+void RecordReport::recorded(size_t film, const std::string& track) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++recorded_;
+  in_work_.erase(film);
+  print(std::cout, film, track);
+}
+
+void RecordReport::there(size_t film, const std::string& what) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++there_;
+  in_work_.erase(film);
+  print(std::cout, film, what);
+}
+
+void RecordReport::failed(size_t film, const std::string& cause) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  failures_.emplace_back(film, cause);
+  in_work_.erase(film);
+  print(std::cerr, film, "failed: " + cause);
+}
+
+void RecordReport::note(size_t film, const std::string& text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  print(std::cout, film, text);
+}
+
+bool RecordReport::finish() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (films_.size() > 1) {
+    std::cout << recorded_ << " recorded, " << there_ << " there, " << failures_.size() << " failed"
+              << (failures_.empty() ? "" : ":") << '\n';
+    for (const auto& [film, cause] : failures_) {
+      std::cout << "  " << one_line(films_[film]) << ": " << one_line(cause) << '\n';
+    }
+    std::cout << std::flush;
+  }
+  return failures_.empty();
+}
+
+void RecordReport::print(std::ostream& out, size_t film, const std::string& text) {
+  erase();
+  out << '[' << film + 1 << '/' << films_.size() << "] " << one_line(films_[film]) << ": "
+      << one_line(text) << std::endl;
+  draw();
+}
+
+void RecordReport::draw() const {
+  if (!is_terminal_ || in_work_.empty()) return;
+  std::string line = std::to_string(recorded_ + there_ + failures_.size()) + " of " +
+                     std::to_string(films_.size()) + " done";
+  for (const auto& [film, percent] : in_work_) {
+    const std::string& name = films_[film];
+    line +=
+        "; " + one_line(name.substr(name.rfind('/') + 1)) + " " + std::to_string(percent) + " %";
+  }
+  std::cout << shortened(line, width_of_terminal() - 1) << std::flush;
+}
+
+void RecordReport::erase() const {
+  if (is_terminal_) std::cout << "\r\033[K" << std::flush;
+}
+
+}  // namespace spidar

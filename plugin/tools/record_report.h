@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What `spidartrack record` prints about a batch of films.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spidar {
+
+/// Prints a line for each film when it is done, and at the end how many were recorded. A terminal
+/// has a line below with the films that are in work. The functions can be called from any thread.
+class RecordReport {
+ public:
+  explicit RecordReport(std::vector<std::string> films);
+
+  void progress(size_t film, int percent);
+  /// `track` is its file.
+  void recorded(size_t film, const std::string& track);
+  /// There is nothing to do for it: `what` says so.
+  void there(size_t film, const std::string& what);
+  void failed(size_t film, const std::string& cause);
+  /// Something else about a film that is not done.
+  void note(size_t film, const std::string& text);
+
+  /// Prints the summary, unless it was for one film. Returns whether no film failed.
+  bool finish();
+
+ private:
+  void print(std::ostream& out, size_t film, const std::string& text);
+  void draw() const;
+  void erase() const;
+
+  const std::vector<std::string> films_;
+  const bool is_terminal_;
+  std::mutex mutex_;
+  std::map<size_t, int> in_work_;  // film and percent
+  size_t recorded_ = 0, there_ = 0;
+  std::vector<std::pair<size_t, std::string>> failures_;
+};
+
+}  // namespace spidar
