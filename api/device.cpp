@@ -92,6 +92,17 @@ std::optional<Pose> Device::pose() const {
   return to_api(snapshot.last.pose);
 }
 
+std::optional<Vector3> Device::velocity() const {
+  const spidar::LoopSnapshot snapshot = impl_->session.loop().snapshot();
+  if (snapshot.pose_trouble != spidar::PoseTrouble::kNone) return std::nullopt;
+  const Eigen::Vector3d& velocity_m_s = snapshot.last.velocity.linear_m_s;
+  return Vector3{velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z()};
+}
+
+bool Device::held() const {
+  return impl_->session.loop().snapshot().last.held;
+}
+
 Wrench Device::felt() const {
   const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
   // The strings already pull while the tensions ramp up, and still while they ramp down.

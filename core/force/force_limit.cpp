@@ -37,6 +37,10 @@ Wording wording(ForceLimit limit) noexcept {
     case ForceLimit::kGripUnknown:
       return {"grip-unknown",
               "The device is at rest because of a fault: the position of the grip is not known."};
+    case ForceLimit::kGripReleased:
+      return {"grip-released",
+              "Nobody holds the grip: it moved as the strings alone would move it, or faster than "
+              "1.5 m/s. The force returns by itself."};
     case ForceLimit::kMuted:
       return {"muted", "The force is muted (mute=true)."};
     case ForceLimit::kNotPlaying:

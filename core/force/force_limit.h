@@ -26,6 +26,7 @@ enum class ForceLimit {
   kDeviceLost,
   kDeviceStarting,
   kGripUnknown,
+  kGripReleased,
   kMuted,
   kNotPlaying,
   kNoFrames,

@@ -70,6 +70,13 @@ class GST_SPIDAR_API Device {
   /// of the device do not fit together.
   std::optional<Pose> pose() const;
 
+  /// How fast the grip moves, m/s, about 3 ms ago. Nothing while pose() is not known.
+  std::optional<Vector3> velocity() const;
+
+  /// False when the force rests, or is returning, because nobody seems to hold the grip: it moved
+  /// as the strings alone would move it, or faster than 1.5 m/s (docs/safety.md).
+  bool held() const;
+
   /// What the device is told to exert on the grip at present, after all limits, from the first
   /// millisecond on: a device that is kOpening already pulls. Zero while it is kLost, and when its
   /// motors are off. Parts that the device cannot exert are zero: torques and the force towards the

@@ -32,7 +32,8 @@ ForceLimit limit_of_device(const LoopSnapshot& loop, bool muted) {
   }
   if (loop.untrusted_ns > kGripLost_ns) return ForceLimit::kGripUnknown;
   if (muted) return ForceLimit::kMuted;
-  return loop.last.playing ? ForceLimit::kNone : ForceLimit::kNotPlaying;
+  if (!loop.last.playing) return ForceLimit::kNotPlaying;
+  return loop.last.held ? ForceLimit::kNone : ForceLimit::kGripReleased;
 }
 
 ForceLimit limit_of_contact(const LoopSnapshot& loop) {

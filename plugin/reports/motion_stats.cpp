@@ -63,10 +63,11 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       G_TYPE_STRING, to_string(snapshot.pose_trouble), "motor-heat", G_TYPE_DOUBLE,
       snapshot.motor_heat, "held-back", G_TYPE_BOOLEAN, snapshot.held_back ? TRUE : FALSE,
       "held-back-ticks", G_TYPE_UINT64, counters.held_back_ticks, "faulty-string", G_TYPE_INT,
-      snapshot.last.faulty_string, "wakeup-us-median", G_TYPE_DOUBLE,
-      us(session.timing().lateness.quantile_ns(0.5)), "wakeup-us-p999", G_TYPE_DOUBLE,
-      us(session.timing().lateness.quantile_ns(0.999)), "skew-ms-median", G_TYPE_DOUBLE,
-      ms(loop.skew().quantile_ns(0.5)), "skew-ms-p99", G_TYPE_DOUBLE,
+      snapshot.last.faulty_string, "grip-held", G_TYPE_BOOLEAN, snapshot.last.held ? TRUE : FALSE,
+      "grip-speed", G_TYPE_DOUBLE, snapshot.last.velocity.linear_m_s.norm(), "wakeup-us-median",
+      G_TYPE_DOUBLE, us(session.timing().lateness.quantile_ns(0.5)), "wakeup-us-p999",
+      G_TYPE_DOUBLE, us(session.timing().lateness.quantile_ns(0.999)), "skew-ms-median",
+      G_TYPE_DOUBLE, ms(loop.skew().quantile_ns(0.5)), "skew-ms-p99", G_TYPE_DOUBLE,
       ms(loop.skew().quantile_ns(0.99)), nullptr);
   const Contact& contact = snapshot.last.contact;
   gst_structure_set(structure, "touching", G_TYPE_BOOLEAN, contact.touching ? TRUE : FALSE,

@@ -45,6 +45,8 @@ class MotionStats {
 /// known, 'none' while it is), motor-heat (double: of the warmest motor, 1 is what it may have for
 /// ever), held-back (boolean: less force than wanted because a motor is warm or a string is out),
 /// held-back-ticks (uint64), faulty-string (int, −1 when none),
+/// grip-held (boolean: false when the force rests because nobody holds the grip), grip-speed
+/// (double, m/s),
 /// wakeup-us-median, wakeup-us-p999, skew-ms-median, skew-ms-p99 (double; skew: force at the device
 /// after its frame was due on the screen), link-fault (string: the last one, see LinkFault),
 /// link-timeouts, link-errors (all other faults), link-late-replies (uint64), round-trip-us-median,

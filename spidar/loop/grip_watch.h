@@ -62,6 +62,8 @@ class SPIDAR_API GripWatch {
   PoseTrouble trouble() const noexcept { return trusted_ ? PoseTrouble::kNone : trouble_; }
   /// The newest good one, trusted or not.
   const Pose& pose() const noexcept { return pose_; }
+  /// When it was read.
+  int64_t located_ns() const noexcept { return located_ns_; }
   double residual_m() const noexcept { return residual_m_; }
   /// See PoseResult.
   int faulty_string() const noexcept { return faulty_string_; }

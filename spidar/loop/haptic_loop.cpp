@@ -30,6 +30,7 @@ HapticLoop::HapticLoop(const Profile& profile, Device& device, const SafetyLimit
       shared_limits_(limits),
       limits_(limits),
       grip_(profile),
+      brake_(profile),
       tension_command_(profile),
       tension_slew_(profile),
       heat_(profile) {}
@@ -76,6 +77,8 @@ void HapticLoop::energise() noexcept {
   errors_in_a_row_ = 0;
   untrusted_ns_ = 0;
   grip_.reset();
+  motion_.reset();
+  brake_.reset();
   tension_command_.reset();
   safety_.reset();
   idle_.reset();
@@ -134,13 +137,15 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     touch(record, passed_ns);
     command(record, dt_s);
     pull(record, dt_s);
-    exchange(record);
+    exchange(record, dt_s);
     untrusted_ns_ = grip_.trusted() ? 0 : untrusted_ns_ + passed_ns;
   }
   unfelt_ns_ = size_N(record.commanded) < kFeltForce_N ? unfelt_ns_ + passed_ns : 0;
   record.device = state_;
   record.pose = grip_.pose();
   record.pose_residual_m = grip_.residual_m();
+  record.velocity = motion_.velocity();
+  record.held = brake_.held();
   record.faulty_string = grip_.faulty_string();
   publish(record);
 }
@@ -238,18 +243,6 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   record.wanted.force_N += record.contact.force_N;
 }
 
-/// Share of the wrench of the rest tensions that is kept during contact. That wrench derives from a
-/// potential and generates no energy while it is kept unchanged. If a light contact removed it, it
-/// could be removed while the grip moves away from the centre and restored on the way back, or vice
-/// versa, which would generate energy. A wrench of the film replaces it gradually.
-double HapticLoop::kept_at_rest(const TickRecord& record) const noexcept {
-  if (!record.contact.has_surface) return 0;
-  constexpr double kFilm_N = 0.2;  // more than the force of the rest tensions within 2 cm
-  Wrench film = record.wanted;
-  film.force_N -= record.contact.force_N;
-  return std::max(0.0, 1 - tension_command_.size_N(film) / kFilm_N);
-}
-
 void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
   const bool wanted = has_wanted(record);
   const bool closing = closing_.load(std::memory_order_acquire);
@@ -263,7 +256,8 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
     state_ = energised_ < 1 ? DeviceState::kOpening : DeviceState::kRunning;
   }
   const bool fresh = wanted && grip_.trusted() && !closing;
-  record.commanded = safety_.apply(record.wanted, fresh, dt_s, limits_);
+  const Wrench braked = brake_.apply(record.wanted, motion_, dt_s);
+  record.commanded = safety_.apply(braked, fresh, dt_s, limits_);
   counters_.rejected_wrenches = safety_.rejected();
 }
 
@@ -274,8 +268,7 @@ void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
   // tensions would not have enough time left to fall.
   const bool fresh = has_wanted(record) && grip_.trusted() && state_ != DeviceState::kClosing;
   const StringVector wanted_N =
-      fresh ? tension_command_.solve(W, record.commanded, heat_.limit_N(), kept_at_rest(record))
-            : tension_command_.fade(record.commanded);
+      fresh ? tensions_within_limits(W, record.commanded) : tension_command_.fade(record.commanded);
   const StringVector limited_N = tension_slew_.apply(energised_ * wanted_N, profile_, dt_s);
   record.tension_N = bound_tensions(limited_N, profile_);
   const Eigen::Matrix<double, 6, 1> delivered = W * record.tension_N;
@@ -283,7 +276,21 @@ void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
   if (tension_command_.held_back()) ++counters_.held_back_ticks;
 }
 
-void HapticLoop::exchange(TickRecord& record) noexcept {
+/// The tensions act while the grip moves on, and fade out with the lag of the drives: after two
+/// time constants an eighth is left. The structure matrix changes little on that way, so that both
+/// ends of it bound the wrench between them.
+StringVector HapticLoop::tensions_within_limits(const StructureMatrix& W,
+                                                const Wrench& wrench) noexcept {
+  const StringVector tension_N = tension_command_.solve(W, wrench, heat_.limit_N());
+  if (wrench.stacked().isZero(0)) return tension_N;
+  const double ahead_s = 1e-9 * kAhead * static_cast<double>(kTick_ns) + 2 * profile_.drive_lag_s;
+  const Pose there = motion_.pose_in(grip_.pose(), ahead_s);
+  const StructureMatrix ahead = structure_matrix(profile_.geometry, there);
+  return tension_command_.reduce(std::min(tension_command_.share_within(W, limits_),
+                                          tension_command_.share_within(ahead, limits_)));
+}
+
+void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
   DeviceReading reading;
   const ExchangeStatus status = device_.exchange(to_volts(record.tension_N, profile_), reading);
   if (status == ExchangeStatus::kOk) {
@@ -292,6 +299,7 @@ void HapticLoop::exchange(TickRecord& record) noexcept {
     acknowledged_energised_ = energised_;
     const bool at_rest = record.commanded.stacked().isZero(0);
     grip_.see(reading, record.delivered, at_rest, record.monotonic_ns);
+    follow(reading.encoders, record.delivered, dt_s);
     counters_.pose_errors = grip_.pose_errors();
     counters_.string_faults = grip_.string_faults();
     return;
@@ -300,6 +308,18 @@ void HapticLoop::exchange(TickRecord& record) noexcept {
   grip_.miss(record.monotonic_ns);
   ++counters_.exchange_errors;
   if (status == ExchangeStatus::kLost || ++errors_in_a_row_ >= kMaxErrors) lose();
+}
+
+/// Joysticks have no strings that could pull their stick in all directions, and no encoders.
+void HapticLoop::follow(bool encoders, const Wrench& strings, double dt_s) noexcept {
+  if (!grip_.trusted() || !encoders) {
+    motion_.reset();
+    brake_.reset();
+    return;
+  }
+  motion_.see(grip_.pose(), grip_.located_ns());
+  brake_.see(motion_, dt_s);
+  brake_.pull(strings, dt_s);
 }
 
 /// The motors may not have received this tick, so the next one starts from the last acknowledged

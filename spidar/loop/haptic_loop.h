@@ -12,6 +12,8 @@
 #include "core/grip/string_geometry.h"
 #include "core/track/track_reader.h"
 #include "spidar/device.h"
+#include "spidar/loop/grip_brake.h"
+#include "spidar/loop/grip_motion.h"
 #include "spidar/loop/grip_watch.h"
 #include "spidar/loop/idle_watch.h"
 #include "spidar/loop/motor_heat.h"
@@ -43,6 +45,9 @@ class SPIDAR_API HapticLoop {
   /// Upper bound of the time that one tick counts for, however late it is, so that a stall does not
   /// end in a step.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
+  /// Force and torque are limited at the pose of the grip and at the poses that it reaches, at its
+  /// present speed, in so many ticks and the lag of the drives.
+  static constexpr int kAhead = 2;
   /// A wrench enters the timeline this long before the previous one is due, so that the slope there
   /// is known at any frame rate. Later wrenches wait in the ring, so that a long queue of frames
   /// before the screen does not displace the wrench that is due.
@@ -132,10 +137,11 @@ class SPIDAR_API HapticLoop {
   TimelineResult read_track(bool playing, int64_t running_ns) noexcept;
   void find_wanted(TickRecord& record) noexcept;
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
-  double kept_at_rest(const TickRecord& record) const noexcept;
   void command(TickRecord& record, double dt_s) noexcept;
   void pull(TickRecord& record, double dt_s) noexcept;
-  void exchange(TickRecord& record) noexcept;
+  StringVector tensions_within_limits(const StructureMatrix& W, const Wrench& wrench) noexcept;
+  void exchange(TickRecord& record, double dt_s) noexcept;
+  void follow(bool encoders, const Wrench& strings, double dt_s) noexcept;
   void undo(TickRecord& record) noexcept;
   void publish(const TickRecord& record) noexcept;
 
@@ -164,6 +170,8 @@ class SPIDAR_API HapticLoop {
   TouchRendering touch_;
   WrenchSafety safety_;
   GripWatch grip_;
+  GripMotion motion_;
+  GripBrake brake_;
   TensionCommand tension_command_;
   TensionSlew tension_slew_;
   MotorHeat heat_;

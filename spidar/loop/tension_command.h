@@ -7,6 +7,7 @@
 #include "core/grip/string_geometry.h"
 #include "core/grip/tension_solver.h"
 #include "core/wrench.h"
+#include "spidar/loop/safety.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
@@ -28,11 +29,20 @@ class SPIDAR_API TensionCommand {
   /// Returns the tensions that approximate `wrench` best, with the structure matrix `W` of a
   /// trusted pose. A wrench of zero is rest. No tension exceeds `limit_N`.
   ///
-  /// Away from the centre the tensions at rest pull the grip back a little. `kept`, 0 … 1: of that
-  /// wrench at rest, so much is left as it is and comes on top of `wrench`. With 0, it is part of
-  /// `wrench`. None is kept while a string is left out.
-  StringVector solve(const StructureMatrix& W, const Wrench& wrench, const StringVector& limit_N,
-                     double kept = 0) noexcept;
+  /// Away from the centre the tensions at rest pull the grip back a little. That wrench stays as it
+  /// is, and `wrench` comes on top of it, because it generates no energy only while nothing removes
+  /// it and restores it elsewhere. None is kept while a string is left out.
+  StringVector solve(const StructureMatrix& W, const Wrench& wrench,
+                     const StringVector& limit_N) noexcept;
+
+  /// Of the last solve(): the share of what its tensions add to those at rest with which force and
+  /// torque at a pose with the structure matrix `W` are within `limits`, 0 … 1. Least squares may
+  /// overshoot, and the wrench at rest comes on top. Where that one exceeds a limit by itself, no
+  /// more may be added to its size.
+  double share_within(const StructureMatrix& W, const SafetyLimits& limits) const noexcept;
+
+  /// Reduces the tensions of the last solve() to that share, and returns them.
+  StringVector reduce(double share) noexcept;
 
   /// For an unknown pose: takes `wrench`, which is ramping to zero, as a share of the wrench of the
   /// last solve(), and returns the tensions to rest by the same share, without W.
@@ -65,6 +75,7 @@ class SPIDAR_API TensionCommand {
   TensionProblem problem_;
   TensionSolver solver_;
   int left_out_ = -1;
+  StringVector rest_N_;  ///< in the last solve(), with a string left out
   StringVector last_N_;  ///< of the last solve()
   double last_size_N_ = 0;
   double share_ = 1;

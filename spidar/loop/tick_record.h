@@ -9,6 +9,7 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
+#include "spidar/loop/grip_motion.h"
 #include "spidar/loop/pose_trouble.h"
 #include "spidar/loop/safety.h"
 #include "spidar/touch/touch_rendering.h"
@@ -80,6 +81,8 @@ struct TickRecord {
   bool acknowledged = true;                       ///< the device has answered
   Pose pose;                                      ///< from the newest good reading
   double pose_residual_m = 0;
+  GripVelocity velocity;   ///< GripMotion::kLag_s behind `pose`; zero while that is not trusted
+  bool held = true;        ///< false: nobody holds the grip, and the wrench is at rest or returning
   int faulty_string = -1;  ///< whose length fits no pose that the others allow; −1 if all fit
   DeviceState device = DeviceState::kClosed;
   bool playing = false;

@@ -141,6 +141,9 @@ TEST(Device, TheGripOfTheSimulatedOneIsAtTheCentre) {
   const Device device("sim", "spidar-g");
   ASSERT_TRUE(comes_true([&] { return device.pose().has_value(); }));
   const Pose pose = *device.pose();
+  ASSERT_TRUE(device.velocity().has_value());
+  EXPECT_LT(std::abs(device.velocity()->x), 0.5);  // a hand holds the simulated grip
+  EXPECT_TRUE(device.held());
   // An encoder step of this profile is less than a tenth of a millimetre; the simulated hand is
   // soft.
   EXPECT_LT(std::hypot(pose.position_m.x, pose.position_m.y, pose.position_m.z), 0.005);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Keeps a grip slow that nobody holds.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+#include "core/wrench.h"
+#include "spidar/loop/grip_motion.h"
+#include "spidar/profiles/profile.h"
+
+namespace spidar {
+
+/// Three measures against a force that accelerates a released grip:
+///
+/// - A force along the velocity fades out between kFadeFrom_m_s and kFadeTo_m_s, a torque in the
+///   same way, with the speed of the strings' ends.
+/// - A damper acts above kDampedFrom_m_s.
+/// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, or
+///   when it moves as the strings alone would move a bare grip. After kRest_s it returns within
+///   kReturn_s, and goes to rest again at a far lower speed if there still is no hand.
+///
+/// A hand that follows the force of a film notices none of them: with 300 N/m and 8 N s/m it moves
+/// at no more than 0.45 m/s when a force of 3 N is reversed.
+class SPIDAR_API GripBrake {
+ public:
+  static constexpr double kFadeFrom_m_s = 0.6;
+  static constexpr double kFadeTo_m_s = 1.0;
+  static constexpr double kFastest_m_s = 1.5;
+  /// The damping force rises with kDamping_N_s_m from here on. A damper that acts with a delay T on
+  /// a mass m is stable up to π/2 · m / T: 8 N s/m for 50 g and 10 ms.
+  static constexpr double kDampedFrom_m_s = 0.65;
+  static constexpr double kDamping_N_s_m = 6;
+  /// Mass of a bare grip. It may be a third as heavy, and a fifth heavier.
+  static constexpr double kBareGrip_kg = 0.1;
+  static constexpr double kRest_s = 1.0;
+  static constexpr double kReturn_s = 1.0;
+
+  explicit GripBrake(const Profile& profile);
+
+  /// The pose is not known, or the device was opened: forgets the motion, not that nobody holds.
+  void reset() noexcept;
+
+  /// The velocity after an exchange, `dt_s` after the last call.
+  void see(const GripMotion& motion, double dt_s) noexcept;
+  /// The wrench that the strings are told to exert until the next exchange.
+  void pull(const Wrench& strings, double dt_s) noexcept;
+
+  /// What is left of the wrench that is wanted.
+  Wrench apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept;
+
+  /// False from when the grip was found to be released until the full wrench has returned.
+  bool held() const noexcept { return share_ >= 1 && resting_s_ <= 0; }
+
+ private:
+  bool is_released(const GripMotion& motion) const noexcept;
+
+  const double radius_m_;
+  const double drive_lag_s_;
+  // What the strings gave a bare grip in the last kMemory_s, and what was seen.
+  Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< told
+  Eigen::Vector3d acting_N_ = Eigen::Vector3d::Zero();   ///< after the drive's lag
+  Eigen::Vector3d late_N_ = Eigen::Vector3d::Zero();     ///< as late as the velocity is
+  Eigen::Vector3d given_m_s_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d seen_m_s_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d last_m_s_ = Eigen::Vector3d::Zero();
+  double share_ = 1;      ///< of the wrench
+  double resting_s_ = 0;  ///< until it begins to return
+};
+
+}  // namespace spidar

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The velocity of the grip.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+#include "core/grip/pose.h"
+
+namespace spidar {
+
+/// Linear and angular velocity in the device frame.
+struct GripVelocity {
+  Eigen::Vector3d linear_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_rad_s = Eigen::Vector3d::Zero();
+};
+
+/// Estimates the velocity from one pose a tick, by differences and a first-order low-pass.
+///
+/// The estimate is kLag_s behind the newest pose. A coordinate with independent errors of standard
+/// deviation σ has a velocity with an error of 0.25 σ per tick; an encoder step of 20 µm (σ = 6 µm)
+/// gives 1.5 mm/s.
+class SPIDAR_API GripMotion {
+ public:
+  static constexpr double kCutoff_Hz = 60;
+  /// Half a tick of the difference, and the time constant of the low-pass.
+  static constexpr double kLag_s = 0.5e-3 + 1 / (2 * 3.14159265358979 * kCutoff_Hz);
+
+  /// The grip was at `pose` at `at_ns`. The same time again is no new pose.
+  void see(const Pose& pose, int64_t at_ns) noexcept;
+
+  /// The pose is not known: the velocity is zero until there are two poses again.
+  void reset() noexcept { *this = {}; }
+
+  const GripVelocity& velocity() const noexcept { return velocity_[0]; }
+
+  /// Where a grip at `pose` is `ahead_s` later at the present velocity.
+  Pose pose_in(const Pose& pose, double ahead_s) const noexcept;
+
+  /// The velocity `ahead_s` after the newest pose, with the present acceleration.
+  GripVelocity velocity_in(double ahead_s) const noexcept;
+
+ private:
+  static constexpr int kSlope = 3;  ///< ticks over which the acceleration is measured
+
+  bool started_ = false;
+  int64_t at_ns_ = 0;
+  double dt_s_ = 1e-3;
+  Pose last_;
+  std::array<GripVelocity, kSlope + 1> velocity_;  ///< latest first
+};
+
+}  // namespace spidar
