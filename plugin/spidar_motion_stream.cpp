@@ -165,6 +165,8 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     case GST_EVENT_STREAM_START:
       self->complaints->begin_stream();
       self->track_chosen = FALSE;
+      // Without a flush, what comes now is shown after the frames that still wait for the screen.
+      engine.restart();
       break;
     case GST_EVENT_SEGMENT: {
       const GstSegment* segment;

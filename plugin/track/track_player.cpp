@@ -31,7 +31,6 @@ void name_faults(GstElement* element, const std::string& path, const TrackFaults
 }  // namespace
 
 void TrackPlayer::set_track(TrackFile track) {
-  schedule_.forget();
   replay_.set_track(std::move(track));
   active_ = replay_.has_track();
   frames_ = 0;

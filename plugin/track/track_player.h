@@ -32,7 +32,8 @@ class TrackPlayer {
 
   // --- streaming thread
 
-  /// An empty one: frames are to be analysed from now on.
+  /// An empty one: frames are to be analysed from now on. What was given of the track before is
+  /// felt nevertheless: its frames are on their way to the screen.
   void set_track(TrackFile track);
   /// The next frame has nothing to do with the one before.
   void restart() { replay_.restart(); }

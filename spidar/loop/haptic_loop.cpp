@@ -212,8 +212,12 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   take_scheduled(record.playing, record.running_ns);
   const TimelineResult of_track = read_track(record.playing, record.running_ns);
   if (!record.playing) return;
-  const bool has_track = of_track.found != Found::kNothing;
-  const TimelineResult result = has_track ? of_track : timeline_.at(record.running_ns);
+  const TimelineResult of_frames = timeline_.at(record.running_ns);
+  // After a film with a track there may be one without: its frames come later than every sample.
+  const bool track_is_over =
+      of_track.found == Found::kExpired && of_frames.frame_time_ns > of_track.frame_time_ns;
+  const bool has_track = of_track.found != Found::kNothing && !track_is_over;
+  const TimelineResult& result = has_track ? of_track : of_frames;
   record.found = result.found;
   record.frame_ns = result.frame_time_ns;
   record.wanted = result.wrench;

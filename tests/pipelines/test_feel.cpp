@@ -241,6 +241,30 @@ TEST_F(Feel, GstPlayIsFeltAndAtRestHoweverItEnds) {
   }
 }
 
+TEST_F(Feel, EveryFilmOfAGaplessListIsFeltToItsEnd) {
+  for (const char* playbin : {"--use-playbin3", "--quiet"}) {
+    SCOPED_TRACE(playbin);
+    std::filesystem::remove(trace());
+    // In the queue, the last second of a film waits while the next one arrives.
+    const CommandResult outcome =
+        run_all({SPIDAR_FEEL, "motion=mean", "haptic-trace=" + trace(), "--", "gst-play-1.0", "-q",
+                 "--no-interactive", "--gapless", playbin, "--videosink=queue ! fakesink sync=true",
+                 short_film, short_film});
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    constexpr int kFilm_ms = 2000;
+    // The device opens when the first second has passed the element already.
+    for (const int from_ms : {1200, kFilm_ms + 200, kFilm_ms + 1200}) {
+      double felt_N = 0;
+      for (const Tick& tick : read_trace(trace())) {
+        const int64_t ms = tick.running_ns / 1'000'000;
+        if (tick.playing && ms >= from_ms && ms < from_ms + 700)
+          felt_N = std::max(felt_N, tick.force_N);
+      }
+      EXPECT_GT(felt_N, 0.1) << "from " << from_ms << " ms on";
+    }
+  }
+}
+
 TEST_F(Feel, GstDiscovererOpensNoDevice) {
   plug(0, UsbKind::kSh4);
   ChildProcess child(joined(felt(), {"gst-discoverer-1.0", film}), kOnTheBus);

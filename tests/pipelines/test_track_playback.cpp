@@ -10,14 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/pipelines/stepped_track.h"
+#include "tests/support/wav_track.h"
 
 namespace spidar::test {
 namespace {
-
-TrackSample sample_at(double ms) {
-  const auto share = static_cast<float>(0.15 * std::sin(0.01 * ms));
-  return {share, -share / 2, share / 3, share / 100, 0, -share / 50};
-}
 
 /// One second in which sample n is sample_at(first + n · step).
 std::vector<TrackSample> curve(double first = 0, double step = 1, int count = 1000) {

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 // spidarmotion with a track instead of its analysis. On a test clock; every tick is checked.
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -10,42 +9,15 @@
 
 #include <gtest/gtest.h>
 
-#include "core/track/track_format.h"
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/wav_track.h"
 
 namespace spidar::test {
 namespace {
 
 constexpr int kFrames = 100;  // 4 s
 constexpr int kFrame_ms = 40;
-
-TrackSample sample_at(double ms) {
-  const auto share = static_cast<float>(0.15 * std::sin(0.01 * ms));
-  return {share, -share / 2, share / 3, share / 100, 0, -share / 50};
-}
-
-/// A WAV file (IEEE float) of so many samples.
-void write_track(const std::string& path, int count) {
-  std::string wav = "RIFF....WAVEfmt ";
-  const auto put = [&wav](uint32_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) wav += static_cast<char>(value >> (8 * i) & 0xff);
-  };
-  put(16, 4);
-  put(3, 2);     // floats
-  put(6, 2);     // channels
-  put(1000, 4);  // samples a second
-  put(24000, 4);
-  put(24, 2);
-  put(32, 2);
-  wav += "data";
-  put(static_cast<uint32_t>(count) * sizeof(TrackSample), 4);
-  for (int i = 0; i < count; ++i) {
-    const TrackSample sample = sample_at(i);
-    wav.append(reinterpret_cast<const char*>(sample.data()), sizeof sample);
-  }
-  std::ofstream(path, std::ios::binary) << wav;
-}
 
 class TrackReplay : public testing::Test {
  protected:

@@ -17,6 +17,7 @@ namespace spidar::test {
 /// The columns of a haptic trace that tests of players look at.
 struct Tick {
   int64_t monotonic_ns = 0;
+  int64_t running_ns = 0;
   double force_N = 0;
   bool playing = false;
 };
@@ -39,6 +40,7 @@ inline std::vector<Tick> read_trace(const std::string& path) {
     const auto number = [&](const std::string& name) { return std::stod(fields[column.at(name)]); };
     Tick tick;
     tick.monotonic_ns = std::stoll(fields[column.at("monotonic_ns")]);
+    tick.running_ns = std::stoll(fields[column.at("running_ns")]);
     tick.force_N = std::hypot(number("commanded_force_x_N"), number("commanded_force_y_N"),
                               number("commanded_force_z_N"));
     tick.playing = number("playing") != 0;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A haptic track whose samples are known.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+#include "core/track/track_format.h"
+
+namespace spidar::test {
+
+inline TrackSample sample_at(double ms) {
+  const auto share = static_cast<float>(0.15 * std::sin(0.01 * ms));
+  return {share, -share / 2, share / 3, share / 100, 0, -share / 50};
+}
+
+/// A WAV file (IEEE float) of so many samples, sample_at() every millisecond.
+inline void write_track(const std::string& path, int count) {
+  std::string wav = "RIFF....WAVEfmt ";
+  const auto put = [&wav](uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) wav += static_cast<char>(value >> (8 * i) & 0xff);
+  };
+  put(16, 4);
+  put(3, 2);     // floats
+  put(6, 2);     // channels
+  put(1000, 4);  // samples a second
+  put(24000, 4);
+  put(24, 2);
+  put(32, 2);
+  wav += "data";
+  put(static_cast<uint32_t>(count) * sizeof(TrackSample), 4);
+  for (int i = 0; i < count; ++i) {
+    const TrackSample sample = sample_at(i);
+    wav.append(reinterpret_cast<const char*>(sample.data()), sizeof sample);
+  }
+  std::ofstream(path, std::ios::binary) << wav;
+}
+
+}  // namespace spidar::test
