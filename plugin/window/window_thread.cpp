@@ -8,6 +8,7 @@
 
 #include <GLFW/glfw3.h>
 
+#include "plugin/window/glfw/private_glfw.h"
 #include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
@@ -28,13 +29,6 @@ std::string glfw_error() {
   const char* why = nullptr;
   glfwGetError(&why);
   return why ? why : "unknown reason";
-}
-
-/// GLFW's state is that of the process: its timer runs when somebody has initialised it.
-bool glfw_is_initialised() {
-  const bool initialised = glfwGetTimerFrequency() != 0;
-  glfwGetError(nullptr);
-  return initialised;
 }
 
 }  // namespace
@@ -97,18 +91,16 @@ void WindowThread::request(const std::shared_ptr<Window::Entry>& entry,
 void WindowThread::run() {
   // Drawing yields to decoding; of a thread on Linux, whatever POSIX says of processes.
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
-  if (glfw_is_initialised() && !initialised_glfw_) {
-    fail_all("The debug window needs GLFW, which this application uses itself.",
-             "GLFW serves one thread of a process only.");
+  const std::string problem = load_glfw();
+  if (!problem.empty()) {
+    fail_all("The debug window needs GLFW, which cannot be loaded: " + problem + ".",
+             "Is the package libglfw3 installed?");
   } else if (!glfwInit()) {
     fail_all("The debug window cannot be opened: " + glfw_error() +
                  ". Is DISPLAY or WAYLAND_DISPLAY right?",
              "It needs an X11 or Wayland display.");
   } else {
-    // Never terminated: an application may have begun to use GLFW in the meantime, and would lose
-    // its windows. The second glfwInit() does nothing.
-    initialised_glfw_ = true;
-    serve();
+    serve();  // GLFW stays initialised afterwards: the next glfwInit() does nothing
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   running_ = false;

@@ -62,7 +62,6 @@ class WindowThread {
   std::condition_variable changed_;  // whoever waits for it
   Entries entries_;
   bool running_ = false;
-  bool initialised_glfw_ = false;  // of the window thread, once in the process
   std::thread thread_;
 };
 

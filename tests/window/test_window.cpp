@@ -143,34 +143,6 @@ TEST_F(WindowTest, WithoutADisplayIsAComplaintAndTheNextOneIsNotConcerned) {
   EXPECT_EXIT(open_without_a_display(), testing::ExitedWithCode(0), "DISPLAY");
 }
 
-/// In a process of its own, where no window was before.
-void open_beside_an_application_with_glfw() {
-  const bool initialised = glfwInit() == GLFW_TRUE;
-  auto source = std::make_shared<FakeSource>();
-  {
-    const Window window(source, std::make_shared<FrameFeed>());
-    std::fprintf(stderr, "%s", source->wait_for_complaint()[0].c_str());
-  }
-  const bool left_alone = glfwGetTimerFrequency() > 0;
-  _exit(initialised && left_alone ? 0 : 1);
-}
-
-TEST_F(WindowTest, WhereTheApplicationUsesGlfwItselfIsAComplaint) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(open_beside_an_application_with_glfw(), testing::ExitedWithCode(0), "uses itself");
-}
-
-TEST_F(WindowTest, AnApplicationThatBeginsToUseGlfwKeepsItWhenTheWindowIsClosed) {
-  {
-    Window window(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
-    ASSERT_GT(look(window).width, 0);
-    ASSERT_TRUE(glfwInit());
-  }
-  EXPECT_GT(glfwGetTimerFrequency(), 0u);
-  Window another(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
-  EXPECT_GT(look(another).width, 0) << "and there may be a window again";
-}
-
 /// In a process of its own, for Mesa asks once.
 void open_without_opengl_33() {
   setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
