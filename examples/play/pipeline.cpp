@@ -19,19 +19,27 @@ GstElement* make(const char* factory) {
                            ": is gstreamer1.0-plugins-good installed?");
 }
 
-/// The sink that autovideosink has chosen, or null. It uses a fakesink when nothing else works.
-GstElement* chosen_sink(GstElement* autovideosink) {
+/// The first sink in a bin; borrowed, null if there is none.
+GstElement* sink_in(GstElement* bin) {
   GValue item = G_VALUE_INIT;
-  GstIterator* const sinks = gst_bin_iterate_sinks(GST_BIN(autovideosink));
+  GstIterator* const sinks = gst_bin_iterate_sinks(GST_BIN(bin));
   GstElement* sink = nullptr;
   if (gst_iterator_next(sinks, &item) == GST_ITERATOR_OK) {
     sink = GST_ELEMENT(g_value_get_object(&item));
     g_value_unset(&item);
   }
   gst_iterator_free(sinks);
+  return sink;
+}
+
+/// The sink that autovideosink has chosen, or null. It uses a fakesink when nothing else works.
+GstElement* chosen_sink(GstElement* autovideosink) {
+  GstElement* sink = sink_in(autovideosink);
   if (sink == nullptr) return nullptr;
-  return std::strcmp(GST_OBJECT_NAME(gst_element_get_factory(sink)), "fakesink") == 0 ? nullptr
-                                                                                      : sink;
+  if (std::strcmp(GST_OBJECT_NAME(gst_element_get_factory(sink)), "fakesink") == 0) return nullptr;
+  // glimagesink is a bin, too.
+  while (sink != nullptr && GST_IS_BIN(sink)) sink = sink_in(sink);
+  return sink;
 }
 
 }  // namespace

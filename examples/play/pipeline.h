@@ -10,7 +10,7 @@
 /// The sink for the picture.
 struct Screen {
   GstElement* element = nullptr;  ///< for the pipeline; floating
-  GstElement* sink = nullptr;     ///< the GstBaseSink in it; borrowed
+  GstElement* sink = nullptr;     ///< the one in it that shows the frames; borrowed
   std::string why_none;           ///< why there is no window; empty when one is shown
 };
 

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <utility>
 
+#include <gst/base/gstbasesink.h>
 #include <gst/gsttracer.h>
 
 namespace {
@@ -14,6 +15,7 @@ namespace {
 struct Watch {
   GstElement* sink = nullptr;
   GstPad* sink_pad = nullptr;
+  bool has_stats = false;
   std::function<void(int64_t, int64_t)> on_shown;
   // The push in progress; only one thread pushes into a sink.
   int64_t running_ns = -1;
@@ -40,7 +42,9 @@ bool leads_to_sink(GstPad* pad) {
   return peer == watch.sink_pad;
 }
 
+/// 0 for a sink without statistics.
 uint64_t frames_rendered() {
+  if (!watch.has_stats) return 0;
   GstStructure* stats = nullptr;
   g_object_get(watch.sink, "stats", &stats, nullptr);
   guint64 rendered = 0;
@@ -70,7 +74,8 @@ void after_push(GObject*, GstClockTime, GstPad* pad, GstFlowReturn) {
   if (!leads_to_sink(pad)) return;
   timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
-  if (watch.running_ns < 0 || frames_rendered() == watch.rendered) return;
+  const bool dropped = watch.has_stats && frames_rendered() == watch.rendered;
+  if (watch.running_ns < 0 || dropped) return;
   watch.on_shown(watch.running_ns, now.tv_sec * INT64_C(1'000'000'000) + now.tv_nsec);
 }
 
@@ -79,6 +84,7 @@ void after_push(GObject*, GstClockTime, GstPad* pad, GstFlowReturn) {
 void watch_shown_frames(GstElement* sink, std::function<void(int64_t, int64_t)> on_shown) {
   watch.sink = GST_ELEMENT(gst_object_ref(sink));
   watch.sink_pad = gst_element_get_static_pad(sink, "sink");
+  watch.has_stats = GST_IS_BASE_SINK(sink);
   watch.on_shown = std::move(on_shown);
   auto* const owner = GST_TRACER(g_object_new(hook_owner_get_type(), nullptr));
   gst_tracing_register_hook(owner, "pad-push-pre", G_CALLBACK(before_push));

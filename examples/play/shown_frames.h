@@ -10,8 +10,9 @@
 
 /// Calls `on_shown` in the sink's streaming thread with a frame's running time and the time
 /// (CLOCK_MONOTONIC) at which the sink had shown it: a push into a sink returns after the wait for
-/// the clock and after the drawing. Frames that the sink drops because they are late are left out.
-/// `sink` is a GstBaseSink. Call this once in a process, before the pipeline starts; it remains in
-/// effect until the process ends, because GStreamer cannot remove a tracer hook.
+/// the clock and after the drawing. Frames that the sink drops because they are late are left out,
+/// if it is a GstBaseSink: other sinks do not tell. `sink` is not a bin. Call this once in a
+/// process, before the pipeline starts; it remains in effect until the process ends, because
+/// GStreamer cannot remove a tracer hook.
 void watch_shown_frames(GstElement* sink,
                         std::function<void(int64_t running_ns, int64_t monotonic_ns)> on_shown);
