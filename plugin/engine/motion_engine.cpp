@@ -227,7 +227,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   const ImageView picture = packed ? picture_half(luma, *packed) : luma;
   if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
     restart();
-    report.problem = FrameProblem::kNotShown;
+    report.problem = luma.data ? FrameProblem::kSmallHalf : FrameProblem::kNotShown;
     return report;
   }
   analyzer_.configure(settings);

@@ -64,6 +64,15 @@ void Complaints::look_at_frame(const FrameReport& report) {
           ("A frame has less memory than its picture needs; it is passed on but not felt."),
           ("The strides and offsets of its GstVideoMeta do not fit it."));
       break;
+    case FrameProblem::kSmallHalf:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("With this depth-layout, the picture is smaller than %d x %d pixels; it is neither felt "
+           "nor touched.",
+           FrameLuma::kSmallestSide, FrameLuma::kSmallestSide),
+          ("Half of the frame is picture and half is depth. Larger frames are felt; depth-layout="
+           "meta takes the whole frame as picture."));
+      break;
     case FrameProblem::kNone:
     case FrameProblem::kNotShown:
       break;

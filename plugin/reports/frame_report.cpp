@@ -18,6 +18,8 @@ const char* to_string(FrameProblem problem) {
       return "it has less memory than its picture needs";
     case FrameProblem::kNotShown:
       return "it is outside the segment or cropped to nothing";
+    case FrameProblem::kSmallHalf:
+      return "the half of it that is picture is too small";
   }
   return "unknown problem";
 }

@@ -3,6 +3,7 @@
 // The motion of a film in 2D+Z is that of the half that is picture.
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gst-spidar/gstspidarmotionmeta.h>
@@ -94,12 +95,19 @@ TEST(PackedFilm, WithoutTouchingDepthTheWholeFrameIsThePicture) {
   }
 }
 
-TEST(PackedFilm, AHalfThatIsTooSmallIsNotAnalysed) {
-  ElementHarness h("device=none touch=depth depth-layout=right");
-  h.set_caps(make_caps("GRAY8", 30, 240));
-  for (int n = 0; n < 3; ++n) h.push_moved(n, 0, static_cast<GstClockTime>(n) * kFrame);
-  EXPECT_TRUE(h.motions().empty());
-  EXPECT_TRUE(h.errors().empty());
+TEST(PackedFilm, AHalfThatIsTooSmallIsNotAnalysedAndComplainedAboutOnce) {
+  for (const auto& [layout, width, height] :
+       {std::tuple{"right", 30, 240}, std::tuple{"below", 240, 30}}) {
+    SCOPED_TRACE(layout);
+    ElementHarness h(std::string("device=none touch=depth depth-layout=") + layout);
+    h.set_caps(make_caps("GRAY8", width, height));
+    for (int n = 0; n < 3; ++n) h.push_moved(n, 0, static_cast<GstClockTime>(n) * kFrame);
+    EXPECT_EQ(gst_harness_buffers_received(h.harness()), 3u);
+    EXPECT_TRUE(h.motions().empty());
+    EXPECT_TRUE(h.errors().empty());
+    ASSERT_EQ(h.warnings().size(), 1u);
+    EXPECT_NE(h.warnings()[0].find("depth-layout"), std::string::npos);
+  }
 }
 
 }  // namespace
