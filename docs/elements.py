@@ -25,9 +25,13 @@ ELEMENTS = ("spidarmotion", "spidarextract", "spidarsink", "spidardepth")
 INTRODUCTION = """# Elements
 
 For people who build pipelines. This page is written by `docs/elements.py` from the plugin, as
-`gst-inspect-1.0` shows it, and a test compares the two. All elements and properties have been there
-since 0.1, the first version.
+`gst-inspect-1.0` shows it, and a test compares the two. "Since" is the version of gst-spidar that had the
+property first.
 """
+
+# Of properties that came later than their element: (element, property): version.
+SINCE = {}
+FIRST_VERSION = "0.1"
 
 
 def value_text(value):
@@ -105,12 +109,14 @@ def describe(name):
                      f"{template.presence.value_nick} | {', '.join(f'`{kind}`' for kind in kinds)} |")
     own = [spec for spec in element.list_properties() if spec.owner_type == element.__gtype__]
     if own:
-        lines += ["", "### Properties", "", "| property | default | values | access | meaning |", "|---|---|---|---|---|"]
+        lines += ["", "### Properties", "", "| property | default | values | access | since | meaning |",
+                  "|---|---|---|---|---|---|"]
     for spec in sorted(own, key=lambda spec: spec.name):
         if spec.value_type.is_a(GObject.TYPE_ENUM):
             element.get_property(spec.name)
         blurb = " ".join(spec.blurb.split()).replace("|", "\\|")
-        lines.append(f"| `{spec.name}` | {default_text(spec)} | {range_text(spec)} | {flags_text(spec)} | {blurb} |")
+        lines.append(f"| `{spec.name}` | {default_text(spec)} | {range_text(spec)} | {flags_text(spec)} | "
+                     f"{SINCE.get((name, spec.name), FIRST_VERSION)} | {blurb} |")
     for spec in sorted(own, key=lambda spec: spec.name):
         if spec.value_type.is_a(GObject.TYPE_ENUM):
             lines += ["", f"Values of `{spec.name}`:", ""]

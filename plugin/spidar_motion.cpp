@@ -42,7 +42,6 @@
 
 #include <string>
 
-#include "plugin/reports/device_complaints.h"
 #include "plugin/reports/exceptions.h"
 #include "plugin/reports/motion_meta.h"
 #include "plugin/spidar_motion_private.h"
@@ -133,8 +132,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The video and the force continue without it."));
     }
-    if (const spidar::HapticSession* session = engine.output().session())
-      spidar::tell_what_is_not_felt(element, *session);
+    self->complaints->look_at_opened(engine);
     set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
     self->steps->begin(element);

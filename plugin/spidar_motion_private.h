@@ -22,6 +22,7 @@ struct _GstSpidarMotion {
   spidar::MotionEngine* engine;
   spidar::MotionDisplay* display;
   gboolean track_chosen;  // streaming thread: for this stream
+  gint unread_messages;   // atomic: that an application has not read
   gint window_changes;    // atomic: how many the window has still to follow
   spidar::StepWatch* steps;
   spidar::Complaints* complaints;

@@ -99,7 +99,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   self->complaints->look_at_touch(report, touch);
   if (display.overlay) self->complaints->look_at_overlay(frame->info);
   if (report.analyzed && post_messages) {
-    post_motion_message(GST_ELEMENT(self), frame->buffer, report);
+    post_motion_message(GST_ELEMENT(self), frame->buffer, report, &self->unread_messages);
   }
   return self->complaints->look_at_device(*self->engine, on_device_error) ? GST_FLOW_OK
                                                                           : GST_FLOW_ERROR;

@@ -5,6 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "plugin/reports/category.h"
+
+#define GST_CAT_DEFAULT spidar::category_of(element_)
+
 namespace spidar {
 
 GstClockTime VideoStream::frame_ns() const {

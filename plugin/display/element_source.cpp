@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "plugin/engine/motion_engine.h"
+#include "plugin/reports/category.h"
 #include "plugin/spidar_motion.h"
+
+#define GST_CAT_DEFAULT spidar::category_of(held.get())
 
 namespace spidar {
 namespace {

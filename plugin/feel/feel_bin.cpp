@@ -7,8 +7,8 @@
 #include "plugin/feel/feel_caps.h"
 #include "plugin/feel/follow_state.h"
 
-GST_DEBUG_CATEGORY_STATIC(spidar_feel_debug);
-#define GST_CAT_DEFAULT spidar_feel_debug
+GST_DEBUG_CATEGORY_STATIC(gst_spidar_feel_debug);
+#define GST_CAT_DEFAULT gst_spidar_feel_debug
 
 struct _GstSpidarFeelBin {
   GstBin parent;
@@ -259,11 +259,11 @@ static void gst_spidar_feel_bin_finalize(GObject* object) {
 static void gst_spidar_feel_bin_init(GstSpidarFeelBin*) {}
 
 static void gst_spidar_feel_bin_class_init(GstSpidarFeelBinClass* klass) {
-  GST_DEBUG_CATEGORY_INIT(spidar_feel_debug, "spidarfeel", 0, "players that are felt");
+  GST_DEBUG_CATEGORY_INIT(gst_spidar_feel_debug, "spidarfeel", 0, "players that are felt");
   G_OBJECT_CLASS(klass)->finalize = gst_spidar_feel_bin_finalize;
   GST_ELEMENT_CLASS(klass)->change_state = gst_spidar_feel_bin_change_state;
   gst_element_class_set_static_metadata(
-      GST_ELEMENT_CLASS(klass), "Felt video", "Filter/Effect/Video",
+      GST_ELEMENT_CLASS(klass), "Felt video", "Filter/Analyzer/Video/Hardware",
       "spidarmotion for players that offer no way to add a filter", "gst-spidar");
 }
 

@@ -123,7 +123,8 @@ void install_motion_properties(GObjectClass* c) {
                         static_cast<int>(defaults.on_device_error), kPlaying));
   install(kPropPostMessages,
           g_param_spec_boolean("post-messages", "Post messages",
-                               "Post a 'spidar-motion' element message for each frame",
+                               "Post a 'spidar-motion' element message for each frame, as long as "
+                               "fewer than 1000 of them wait on the bus",
                                defaults.post_messages, kPlaying));
   install(kPropTrace,
           g_param_spec_string("trace", "Trace",

@@ -32,6 +32,9 @@ class Complaints {
   /// The overlay is on: can it be drawn into such frames?
   void look_at_overlay(const GstVideoInfo& info);
   /// See DeviceComplaints.
+  void look_at_opened(const MotionEngine& engine) const {
+    if (const HapticSession* session = engine.output().session()) device_.look_at_opened(*session);
+  }
   void look_at_haptic_trace(const MotionEngine& engine) {
     device_.look_at_haptic_trace(engine.output().session());
   }

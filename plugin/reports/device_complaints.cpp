@@ -2,10 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/reports/device_complaints.h"
 
+#include "plugin/reports/category.h"
 #include "spidar/loop/motor_heat.h"
 
-GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
-#define GST_CAT_DEFAULT gst_spidar_motion_debug
+#define GST_CAT_DEFAULT spidar::category_of(element_)
 
 namespace spidar {
 namespace {
@@ -30,11 +30,11 @@ std::string why_lost(const HapticSession& session) {
 
 }  // namespace
 
-void tell_what_is_not_felt(GstElement* element, const HapticSession& session) {
+void DeviceComplaints::look_at_opened(const HapticSession& session) const {
   const FeltParts felt = session.device().felt_parts();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   if (felt.x && felt.y && felt.direction) return;
-  GST_ELEMENT_INFO(element, RESOURCE, SETTINGS, ("%s.", session.opened().c_str()),
+  GST_ELEMENT_INFO(element_, RESOURCE, SETTINGS, ("%s.", session.opened().c_str()),
                    ("The device works, but renders nothing else of the force and the torque."));
 }
 

@@ -12,10 +12,6 @@
 
 namespace spidar {
 
-/// Posts an information message if a device that was just opened renders only a part of what is to
-/// be seen in the picture.
-void tell_what_is_not_felt(GstElement* element, const HapticSession& session);
-
 /// Says each thing once a stream. Streaming thread, and start() before it. Sessions are null while
 /// the element has no device.
 class DeviceComplaints {
@@ -24,6 +20,9 @@ class DeviceComplaints {
   DeviceComplaints(GstElement* element, std::string what)
       : element_(element), what_(std::move(what)) {}
 
+  /// Posts an information message if a device that was just opened renders only a part of what is
+  /// to be seen in the picture.
+  void look_at_opened(const HapticSession& session) const;
   /// The element begins: everything may be said again.
   void start();
   /// Looks at the device. False when the stream is to end, and then says why.

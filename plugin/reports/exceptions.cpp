@@ -2,8 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/reports/exceptions.h"
 
+#include "plugin/reports/category.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile_file.h"
+
+#define GST_CAT_DEFAULT spidar::category_of(element)
 
 namespace spidar {
 

@@ -4,7 +4,9 @@
 
 namespace spidar {
 
-void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameReport& report) {
+void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameReport& report,
+                         gint* unread) {
+  if (g_atomic_int_get(unread) >= kMostUnread) return;
   const FrameAnalysis& frame = report.analysis;
   const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
   const Eigen::Vector3d& force = frame.wrench.force_N;
@@ -23,7 +25,14 @@ void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameRepo
       G_TYPE_DOUBLE, force.z(), "torque-x", G_TYPE_DOUBLE, torque.x(), "torque-y", G_TYPE_DOUBLE,
       torque.y(), "torque-z", G_TYPE_DOUBLE, torque.z(), nullptr);
   describe_limit(report.limit, s);
-  gst_element_post_message(element, gst_message_new_element(GST_OBJECT(element), s));
+  GstMessage* const message = gst_message_new_element(GST_OBJECT(element), s);
+  g_atomic_int_inc(unread);
+  // The message holds the element until then.
+  const auto count_down = [](gpointer count, GstMiniObject*) {
+    g_atomic_int_add(static_cast<gint*>(count), -1);
+  };
+  gst_mini_object_weak_ref(GST_MINI_OBJECT_CAST(message), count_down, unread);
+  gst_element_post_message(element, message);
 }
 
 }  // namespace spidar

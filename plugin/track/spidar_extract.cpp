@@ -248,7 +248,7 @@ static void gst_spidar_extract_class_init(GstSpidarExtractClass* klass) {
   G_OBJECT_CLASS(klass)->finalize = gst_spidar_extract_finalize;
   element_class->change_state = gst_spidar_extract_change_state;
   gst_element_class_set_static_metadata(
-      element_class, "SPIDAR track extractor", "Filter/Analyzer/Video",
+      element_class, "SPIDAR track extractor", "Extracter/Video/Metadata",
       "Outputs the force and torque of spidarmotion as a track of six channels", "gst-spidar");
   for (GstStaticPadTemplate* pad_template : {&sink_template, &src_template, &wrench_template}) {
     gst_element_class_add_static_pad_template(element_class, pad_template);

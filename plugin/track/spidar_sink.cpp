@@ -63,15 +63,12 @@ struct _GstSpidarSink {
   spidar::TrackComplaints* track_complaints;
 };
 
-// The second kind of caps is refused with an error message, which says more than a failed link.
 static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
     "sink", GST_PAD_SINK, GST_PAD_ALWAYS,
     GST_STATIC_CAPS(
         "audio/x-raw, format = (string) { F32LE, S16LE, S24LE, S24_32LE, S32LE }, layout = "
         "(string) interleaved, rate = (int) [ 200, 8000 ], channels = (int) 6, "
-        "channel-mask = (bitmask) { 0x0, 0x3f }; "
-        "audio/x-raw, format = (string) { F32LE, S16LE, S24LE, S24_32LE, S32LE }, layout = "
-        "(string) interleaved, rate = (int) [ 1, max ], channels = (int) [ 1, max ]"));
+        "channel-mask = (bitmask) { 0x0, 0x3f }"));
 
 G_DEFINE_TYPE_WITH_CODE(GstSpidarSink, gst_spidar_sink, GST_TYPE_BASE_SINK,
                         GST_DEBUG_CATEGORY_INIT(gst_spidar_sink_debug, "spidarsink", 0,
@@ -91,6 +88,16 @@ static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
   GST_ELEMENT_ERROR(self, STREAM, WRONG_TYPE, ("%s", problem.c_str()),
                     ("caps %" GST_PTR_FORMAT, static_cast<void*>(caps)));
   return FALSE;
+}
+
+/// A stream of other sound, whose source does not ask first what is accepted, gets as far as
+/// set_caps(): the sentence there says more than a failed negotiation.
+static gboolean gst_spidar_sink_query(GstBaseSink* sink, GstQuery* query) {
+  if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS) {
+    return GST_BASE_SINK_CLASS(gst_spidar_sink_parent_class)->query(sink, query);
+  }
+  gst_query_set_accept_caps_result(query, TRUE);
+  return TRUE;
 }
 
 /// Samples are handed to the loop ahead of their time, so render() waits instead of the base class.
@@ -219,7 +226,7 @@ static bool open_device(GstSpidarSink* self) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The force continues without it."));
     }
-    spidar::tell_what_is_not_felt(GST_ELEMENT(self), *self->output->session());
+    self->complaints->look_at_opened(*self->output->session());
     self->schedule->connect(&self->output->session()->loop());
   });
 }
@@ -323,13 +330,14 @@ static void gst_spidar_sink_class_init(GstSpidarSinkClass* klass) {
   object_class->get_property = gst_spidar_sink_get_property;
   object_class->finalize = gst_spidar_sink_finalize;
   spidar::install_sink_properties(object_class);
-  gst_element_class_set_static_metadata(element_class, "SPIDAR sink", "Sink/Haptic",
+  gst_element_class_set_static_metadata(element_class, "SPIDAR sink", "Sink/Hardware",
                                         "Feel a haptic track with a SPIDAR haptic device",
                                         "gst-spidar");
   gst_element_class_add_static_pad_template(element_class, &sink_template);
   element_class->change_state = gst_spidar_sink_change_state;
   element_class->send_event = gst_spidar_sink_send_event;
   sink_class->set_caps = gst_spidar_sink_set_caps;
+  sink_class->query = gst_spidar_sink_query;
   sink_class->get_times = gst_spidar_sink_get_times;
   sink_class->render = gst_spidar_sink_render;
   sink_class->wait_event = gst_spidar_sink_wait_event;

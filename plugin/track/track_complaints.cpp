@@ -2,6 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/track/track_complaints.h"
 
+#include "plugin/reports/category.h"
+
+#define GST_CAT_DEFAULT spidar::category_of(element_)
+
 namespace spidar {
 
 void TrackComplaints::look_at(const TrackFaults& faults, bool has_time) {

@@ -4,7 +4,10 @@
 
 #include <stdexcept>
 
+#include "plugin/reports/category.h"
 #include "plugin/track/sidecar.h"
+
+#define GST_CAT_DEFAULT spidar::category_of(element)
 
 namespace spidar {
 namespace {

@@ -17,6 +17,7 @@
 #include <gst/controller/gstinterpolationcontrolsource.h>
 #include <gtest/gtest.h>
 
+#include "plugin/reports/motion_message.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/video_frames.h"
@@ -130,6 +131,20 @@ TEST(Properties, EverySettingReadsBackWhatWasWritten) {
     g_value_unset(&wanted);
   }
   gst_object_unref(element);
+}
+
+TEST(Properties, MessagesThatNobodyReadsEnd) {
+  ElementHarness h;
+  h.set_caps(make_caps("GRAY8", 32, 32));
+  const auto push = [&h](int n) {
+    h.push(make_frame(h.info(), 0, 0), static_cast<GstClockTime>(n) * 40 * GST_MSECOND);
+  };
+  constexpr int kFrames = kMostUnread + 100;
+  for (int n = 0; n < kFrames; ++n) push(n);
+  EXPECT_EQ(h.motions().size(), static_cast<size_t>(kMostUnread));
+  // Now they are read.
+  push(kFrames);
+  EXPECT_EQ(h.motions().size(), static_cast<size_t>(kMostUnread) + 1);
 }
 
 TEST(Properties, ForceFollowsAControllerWhilePlaying) {

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // Invalid and faulty haptic tracks, in spidarmotion track= and in spidarsink: the messages, with a
 // check of every tick. In real time, with the plugin as GStreamer loads it.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +22,14 @@ namespace spidar::test {
 namespace {
 
 constexpr int kFrames = 25;  // 1 s
+
+struct Case {
+  const char* name;
+  size_t channels;
+  int rate_Hz;
+  const char* mask;
+  const char* said;
+};
 
 class BadTracks : public testing::Test {
  protected:
@@ -79,6 +88,11 @@ class BadTracks : public testing::Test {
     std::ofstream(path("masked.wav"), std::ios::binary) << wav;
     return path("masked.wav");
   }
+  std::string write(const Case& bad) const {
+    if (std::string(bad.mask) == "0xc0f") return write_masked_wav(second(), 0x60f);
+    return write(raw(second(bad.channels), static_cast<int>(bad.channels), bad.rate_Hz, bad.mask),
+                 "wavenc", "bad.wav");
+  }
   /// A film of a second with this track.
   static Outcome play(const std::string& track) {
     return launch("videotestsrc pattern=ball num-buffers=" + std::to_string(kFrames) +
@@ -94,14 +108,6 @@ class BadTracks : public testing::Test {
   TemporaryFolder folder;
 };
 
-struct Case {
-  const char* name;
-  size_t channels;
-  int rate_Hz;
-  const char* mask;
-  const char* said;
-};
-
 constexpr Case kCases[] = {
     {"5 channels", 5, 1000, "0x37", "5 channels"},
     {"8 channels", 8, 1000, "0xc3f", "8 channels"},
@@ -113,12 +119,7 @@ constexpr Case kCases[] = {
 TEST_F(BadTracks, ForAFilmTheyAreNamedAndTheFilmIsAnalysed) {
   for (const Case& bad : kCases) {
     SCOPED_TRACE(bad.name);
-    const bool is_moved = std::string(bad.mask) == "0xc0f";
-    const Outcome outcome =
-        play(is_moved ? write_masked_wav(second(), 0x60f)
-                      : write(raw(second(bad.channels), static_cast<int>(bad.channels), bad.rate_Hz,
-                                  bad.mask),
-                              "wavenc", "bad.wav"));
+    const Outcome outcome = play(write(bad));
     EXPECT_TRUE(outcome.eos) << outcome.error;
     expect_said(outcome, bad.said);
     EXPECT_EQ(outcome.motions, kFrames) << "analysed";
@@ -128,11 +129,66 @@ TEST_F(BadTracks, ForAFilmTheyAreNamedAndTheFilmIsAnalysed) {
 TEST_F(BadTracks, InTheSinkTheyAreAnErrorThatSaysWhatIsWrong) {
   for (const Case& bad : kCases) {
     SCOPED_TRACE(bad.name);
-    const Outcome outcome =
-        launch(raw(second(bad.channels), static_cast<int>(bad.channels), bad.rate_Hz, bad.mask) +
-               "spidarsink");
+    const Outcome outcome = launch("filesrc location=" + write(bad) + " ! wavparse ! spidarsink");
     EXPECT_FALSE(outcome.eos);
     EXPECT_NE(outcome.error.find(bad.said), std::string::npos) << outcome.error;
+  }
+}
+
+TEST_F(BadTracks, TheSinkHasOnlyCapsInItsTemplateThatItAccepts) {
+  GstElementFactory* factory = gst_element_factory_find("spidarsink");
+  const GList* templates = gst_element_factory_get_static_pad_templates(factory);
+  ASSERT_EQ(g_list_length(const_cast<GList*>(templates)), 1u);
+  GstCaps* accepted =
+      gst_static_pad_template_get_caps(static_cast<GstStaticPadTemplate*>(templates->data));
+  const auto is_accepted = [accepted](size_t channels, int rate_Hz, const std::string& mask) {
+    GstCaps* sound = gst_caps_from_string(
+        ("audio/x-raw,format=F32LE,layout=interleaved,rate=" + std::to_string(rate_Hz) +
+         ",channels=" + std::to_string(channels) + ",channel-mask=(bitmask)" + mask)
+            .c_str());
+    const bool accepts = gst_caps_can_intersect(accepted, sound) != FALSE;
+    gst_caps_unref(sound);
+    return accepts;
+  };
+  for (const Case& bad : kCases) {
+    EXPECT_FALSE(is_accepted(bad.channels, bad.rate_Hz, bad.mask)) << bad.name;
+  }
+  for (const int rate_Hz : {200, 1000, 8000}) {
+    EXPECT_TRUE(is_accepted(kTrackChannels, rate_Hz, "0x0")) << rate_Hz;
+    EXPECT_TRUE(is_accepted(kTrackChannels, rate_Hz, "0x3f")) << rate_Hz;
+  }
+  gst_caps_unref(accepted);
+  gst_object_unref(factory);
+}
+
+/// What is logged, as "category: text".
+std::vector<std::string> logged;
+
+void collect(GstDebugCategory* category, GstDebugLevel, const gchar*, const gchar*, gint, GObject*,
+             GstDebugMessage* message, gpointer) {
+  logged.push_back(std::string(gst_debug_category_get_name(category)) + ": " +
+                   gst_debug_message_get(message));
+}
+
+TEST_F(BadTracks, MessagesAreLoggedUnderTheNameOfTheElement) {
+  for (const std::string element : {"spidarsink", "spidarmotion"}) {
+    for (const auto& [property, said] :
+         {std::pair{"device=no-such-device", ": error: unknown device"},
+          {"haptic-trace=/dev/full", ": warning: The haptic trace can no longer be written"}}) {
+      SCOPED_TRACE(element + " " + property);
+      GstElement* opened = gst_parse_launch((element + " " + property).c_str(), nullptr);
+      logged.clear();
+      gst_debug_set_default_threshold(GST_LEVEL_WARNING);
+      gst_debug_add_log_function(collect, nullptr, nullptr);
+      gst_element_set_state(opened, GST_STATE_PAUSED);
+      gst_element_set_state(opened, GST_STATE_NULL);
+      gst_debug_remove_log_function(collect);
+      gst_debug_set_default_threshold(GST_LEVEL_NONE);
+      gst_object_unref(opened);
+      EXPECT_TRUE(std::any_of(logged.begin(), logged.end(), [&](const std::string& line) {
+        return line.rfind(element + said, 0) == 0;
+      }));
+    }
   }
 }
 
