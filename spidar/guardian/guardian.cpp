@@ -7,13 +7,17 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "spidar/device.h"
+#include "spidar/guardian/systemd_programs.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/monotonic.h"
 
@@ -22,30 +26,58 @@ extern char** environ;
 namespace spidar {
 namespace {
 
-/// How long to wait for an answer: carrying out a will takes at most two seconds.
-constexpr time_t kPatience_s = 5;
+/// A guardian answers as soon as it runs. Making a scope takes some tens of milliseconds.
+constexpr int kPatience_s = 5;
+constexpr int kScopePatience_s = 2;
 
 std::string program() {
   const char* named = std::getenv("SPIDAR_GUARDIAN");
   return named && *named ? named : installed(SPIDAR_GUARDIAN_PATH).string();
 }
 
-/// Starts the program with `its_end` as its standard input. Returns errno.
-int spawn(const std::string& path, int its_end, pid_t& process) {
+bool is_socket(const std::string& path) {
+  struct stat status {};
+  return stat(path.c_str(), &status) == 0 && S_ISSOCK(status.st_mode);
+}
+
+/// The command that makes a transient scope and then replaces itself by the guardian, whose process
+/// id and files are therefore those of the command. Empty without systemd.
+std::vector<std::string> in_a_scope(const std::string& path) {
+  const std::string run = systemd_program("systemd-run");
+  if (run.empty()) return {};
+  std::vector<std::string> command{run, "--scope", "--quiet", "--collect",
+                                   "--description=Guardian of a haptic device"};
+  if (geteuid() != 0) command.emplace_back("--user");
+  command.insert(command.end(), {"--", path});
+  return command;
+}
+
+/// Starts the command with `its_end` as its standard input. Returns errno.
+int spawn(std::vector<std::string> command, int its_end, pid_t& process) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, its_end, STDIN_FILENO);
+  // systemd-run would complain there, after which the guardian is started without it.
+  if (command.size() > 1)
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   // In a session of its own, so that Ctrl-C in a terminal reaches only the host.
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
-  std::string name = "spidar-guardian";
-  std::array<char*, 2> arguments{name.data(), nullptr};
+  std::vector<char*> arguments;
+  for (std::string& argument : command) arguments.push_back(argument.data());
+  arguments.push_back(nullptr);
   const int error =
-      posix_spawn(&process, path.c_str(), &actions, &attributes, arguments.data(), environ);
+      posix_spawn(&process, command[0].c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) process = -1;
   return error;
+}
+
+void set_patience(int socket, int seconds) {
+  const timeval patience{seconds, 0};
+  setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
 }
 
 /// The will, the device's file, and a descriptor by which the end of this process is noticed.
@@ -76,40 +108,67 @@ bool send_will(int socket, const LastWill& will) {
 }  // namespace
 
 Guardian::Guardian(const std::string& device, const LastWill& will) : owner_(getpid()) {
-  std::array<int, 2> ends{};
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw DeviceError(device + ": no guardian: " + std::strerror(errno));
   const std::string path = program();
-  const int error = spawn(path, ends[1], process_);
-  ::close(ends[1]);
+  const bool service = is_socket(path);
+  const std::vector<std::string> scoped = in_a_scope(path);
+  if (!service && !scoped.empty() && start(scoped, will, kScopePatience_s)) return;
+  errno = 0;
+  const bool works =
+      service ? connect_to(path) && greet(will, kPatience_s) : start({path}, will, kPatience_s);
+  if (works) return;
+  const std::string why =
+      errno != 0 ? std::strerror(errno) : "does not answer, it may be of another version";
+  if (socket_ >= 0) ::close(socket_);
+  throw DeviceError(device + ": no guardian to zero the motors should this process be killed: " +
+                    path + ": " + why + "; install spidar-guardian, or name it in SPIDAR_GUARDIAN");
+}
+
+/// Returns false, and sets errno where there is a reason, when the guardian does not work.
+bool Guardian::start(const std::vector<std::string>& command, const LastWill& will,
+                     int patience_s) {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return false;
   socket_ = ends[0];
-  if (error != 0) {
-    ::close(socket_);
-    throw DeviceError(
-        device + ": no guardian to zero the motors should this process be killed: " + path + ": " +
-        std::strerror(error) + "; install spidar-guardian, or name it in SPIDAR_GUARDIAN");
-  }
-  const timeval patience{kPatience_s, 0};
-  setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const int error = spawn(command, ends[1], process_);
+  ::close(ends[1]);
+  if (error == 0) return greet(will, patience_s);
+  ::close(socket_);
+  socket_ = -1;
+  errno = error;
+  return false;
+}
+
+bool Guardian::connect_to(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) return false;
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  socket_ = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
+  return socket_ >= 0 &&
+         connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+}
+
+/// Gives the guardian its will and waits for its answer.
+bool Guardian::greet(const LastWill& will, int patience_s) {
+  set_patience(socket_, patience_s);
   char answer = 0;
-  if (!send_will(socket_, will)) {
-    const std::string why = std::strerror(errno);
-    finish();
-    throw DeviceError(device + ": the guardian " + path + " cannot be told of the board: " + why);
-  }
-  if (recv(socket_, &answer, 1, 0) == 1) return;
-  finish();
-  throw DeviceError(device + ": the guardian " + path +
-                    " does not answer; is it of the same version as this library?");
+  errno = 0;
+  if (send_will(socket_, will) && recv(socket_, &answer, 1, 0) == 1) return true;
+  // Whatever was started has no will, or is a program that sleeps.
+  const int error = errno == EAGAIN || errno == EPIPE || errno == ECONNRESET ? 0 : errno;
+  send_signal(SIGKILL);
+  finish(End::kWait);
+  errno = error;
+  return false;
 }
 
 Guardian::~Guardian() {
   if (socket_ >= 0 && getpid() == owner_) say(HostWord::kDismissed);
-  finish();
+  finish(End::kWait);
 }
 
 void Guardian::carry_out() noexcept {
-  finish();
+  finish(End::kLeave);
 }
 
 bool Guardian::say(HostWord word) noexcept {
@@ -128,11 +187,8 @@ bool Guardian::watch(bool pulling) noexcept {
   }
   if (zeroed_ || got == 0 || (errno != EAGAIN && errno != EINTR)) return false;
   const int64_t now_ns = monotonic_now_ns();
-  if (unanswered_ns_ != 0 && now_ns - unanswered_ns_ > kAnswer_ns) {
-    kill(process_, SIGKILL);
-    return false;
-  }
-  const bool due = pulling && now_ns - said_ns_ >= kBeat_ms * kSecond_ns / 1000;
+  if (unanswered_ns_ != 0 && now_ns - unanswered_ns_ > kAnswer_ms * kSecond_ns / 1000) return false;
+  const bool due = now_ns - said_ns_ >= kBeat_ms * kSecond_ns / 1000;
   if (pulling == pulling_ && !due) return true;
   pulling_ = pulling;
   said_ns_ = now_ns;
@@ -140,11 +196,17 @@ bool Guardian::watch(bool pulling) noexcept {
   return say(pulling ? HostWord::kPulling : HostWord::kResting);
 }
 
-/// Waits until the guardian has ended.
-void Guardian::finish() noexcept {
+void Guardian::send_signal(int number) const noexcept {
+  if (process_ > 0) kill(process_, number);
+}
+
+/// Ends the connection and waits until the guardian has ended.
+void Guardian::finish(End end) noexcept {
   if (socket_ < 0) return;
   // A forked child only closes its copy of the socket.
   if (getpid() == owner_) {
+    send_signal(SIGCONT);  // it may have been stopped
+    set_patience(socket_, kEnd_s);
     // Not close(), because a forked child may hold the socket, too.
     shutdown(socket_, SHUT_WR);
     char answer = 0;
@@ -152,10 +214,11 @@ void Guardian::finish() noexcept {
     do {
       got = recv(socket_, &answer, 1, 0);
     } while (got > 0 || (got < 0 && errno == EINTR));
-    // The guardian is stopped. Its end of the socket is still open, so its process id has not been
-    // reused.
-    if (got < 0 && errno == EAGAIN) kill(process_, SIGKILL);
-    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    // Its end of the socket is still open, so its process id has not been reused.
+    const bool open = got < 0 && errno == EAGAIN;
+    if (open && end == End::kWait) send_signal(SIGKILL);
+    const bool leave = open && end == End::kLeave;
+    while (process_ > 0 && !leave && waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
   ::close(socket_);

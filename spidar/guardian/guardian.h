@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <sys/types.h>
+#include <vector>
 
 #include "core/api.h"
 #include "spidar/guardian/last_will.h"
@@ -23,7 +24,10 @@ namespace spidar {
 class SPIDAR_API Guardian {
  public:
   /// Starts a guardian for the connection. Throws DeviceError when the program is not found or does
-  /// not answer. The program is $SPIDAR_GUARDIAN, or the installed one.
+  /// not answer. The program is $SPIDAR_GUARDIAN, or the installed one. It has a session of its
+  /// own, and where systemd runs a scope of its own, so that it survives what ends or freezes the
+  /// control group of this process. If $SPIDAR_GUARDIAN is a socket (SOCK_SEQPACKET), a service
+  /// behind it starts the guardian.
   Guardian(const std::string& device, const LastWill& will);
   /// Dismisses the guardian; it does not send the packets of `will`.
   ~Guardian();
@@ -32,7 +36,7 @@ class SPIDAR_API Guardian {
 
   /// To be called in every exchange. `pulling` must be true as long as the motors are not at zero,
   /// from before the first voltage to after the last. Returns false if the guardian no longer
-  /// works: it was killed, has been stopped for kAnswer_ns, or has zeroed the motors because this
+  /// works: it was killed, has not answered for kAnswer_ms, or has zeroed the motors because this
   /// process did not call watch() in time. The caller must then set the motors to zero and create
   /// another guardian.
   bool watch(bool pulling) noexcept;
@@ -41,19 +45,24 @@ class SPIDAR_API Guardian {
   bool zeroed() const noexcept { return zeroed_; }
 
   /// Makes the guardian zero the motors now, for the case that the board is released but the motors
-  /// could not be zeroed.
+  /// could not be zeroed. Returns after kEnd_s at the latest; the guardian goes on trying until the
+  /// board takes the zeros or is gone.
   void carry_out() noexcept;
 
-  /// This time is long because a process may have to wait on a busy machine, and a stopped guardian
-  /// is only a problem if its host fails, too.
-  static constexpr int64_t kAnswer_ns = 500'000'000;
+  static constexpr int kEnd_s = 2;
 
  private:
+  enum class End { kWait, kLeave };
+
+  bool start(const std::vector<std::string>& command, const LastWill& will, int patience_s);
+  bool greet(const LastWill& will, int patience_s);
+  bool connect_to(const std::string& path);
   bool say(HostWord word) noexcept;
-  void finish() noexcept;
+  void send_signal(int number) const noexcept;
+  void finish(End end) noexcept;
 
   int socket_ = -1;
-  pid_t process_ = -1;
+  pid_t process_ = -1;  // −1: it is a service
   pid_t owner_ = -1;
   bool pulling_ = false;  // as the guardian knows it
   bool zeroed_ = false;   // the motors, by the guardian

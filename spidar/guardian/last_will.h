@@ -44,17 +44,20 @@ struct LastWill {
 static_assert(sizeof(LastWill) == 6 * 4 + LastWill::kMaxPackets * (4 + LastWill::kMaxLength),
               "the layout must be the same in 32-bit and 64-bit programs");
 
-/// A host whose motors pull sends a message at least every kBeat_ms. If none arrives for
-/// kSilence_ms, the guardian assumes that the host is stopped, by a signal, a debugger, or a fault
-/// of its own, and sets its motors to zero.
+/// A host that exchanges with its board sends a message at least every kBeat_ms. If its motors pull
+/// and none arrives for kSilence_ms, the guardian assumes that the host is stopped, by a signal, a
+/// debugger, or a fault of its own, and sets its motors to zero. If an answer is kAnswer_ms late,
+/// the host assumes the same of its guardian, so that a stopped guardian is noticed within 100 ms,
+/// also at rest.
 constexpr int kBeat_ms = 10;
 constexpr int kSilence_ms = 50;
+constexpr int kAnswer_ms = 80;
 
 /// Messages from a host to its guardian, one byte each. The guardian answers every message except
 /// the last, which shows the host that its guardian is running.
 enum class HostWord : char {
-  kPulling = 'p',    ///< the motors pull: the next message follows soon
-  kResting = 'r',    ///< they are at zero: no further message is needed
+  kPulling = 'p',    ///< the motors pull: the next message must follow soon
+  kResting = 'r',    ///< they are at zero: the host may be silent
   kDismissed = 'q',  ///< the guardian is to end without sending the packets
 };
 
@@ -62,8 +65,8 @@ enum class HostWord : char {
 enum class GuardianWord : char {
   kWatching = 'w',
   /// The host sent no message in time, and the guardian has sent the zeros. It sends them again
-  /// every kSilence_ms until it is dismissed, because a host that continues may send old volts
-  /// before it reads this answer.
+  /// every kSilence_ms, sooner when they have not arrived, until it is dismissed, because a host
+  /// that continues may send old volts before it reads this answer.
   kZeroed = 'z',
 };
 

@@ -24,6 +24,7 @@
 #include <unistd.h>
 
 #include "spidar/guardian/last_will.h"
+#include "spidar/guardian/sleep_inhibitor.h"
 
 namespace {
 
@@ -31,19 +32,27 @@ using spidar::GuardianWord;
 using spidar::HostWord;
 using spidar::LastWill;
 
-constexpr int kTries = 100;
+constexpr int kRetry_ms = 10;
 constexpr int kTransfer_ms = 20;
 
-void pause_10ms() {
-  const timespec duration{0, 10'000'000};
-  nanosleep(&duration, nullptr);
+/// Does nothing if the interface is claimed already. A host that has closed the board has released
+/// it, perhaps to a driver of the kernel, which is detached. Returns errno.
+int claim(const LastWill& will) {
+  unsigned interface = will.interface_number;
+  if (ioctl(will.file, USBDEVFS_CLAIMINTERFACE, &interface) == 0) return 0;
+  if (errno != EBUSY) return errno;
+  usbdevfs_disconnect_claim claim{};
+  claim.interface = interface;
+  claim.flags = USBDEVFS_DISCONNECT_CLAIM_EXCEPT_DRIVER;
+  std::memcpy(claim.driver, "usbfs", sizeof "usbfs");
+  return ioctl(will.file, USBDEVFS_DISCONNECT_CLAIM, &claim) == 0 ? 0 : errno;
 }
 
-/// Returns true when all packets have been sent, or can never be sent.
+/// Returns true when all packets have been sent, or can never be sent, or a new host has the board,
+/// which it has set to zero.
 bool send_usb(LastWill& will) {
-  // Does nothing if it is claimed already; a host that has closed the board has released it.
-  unsigned interface = will.interface_number;
-  if (ioctl(will.file, USBDEVFS_CLAIMINTERFACE, &interface) != 0) return errno == ENODEV;
+  const int error = claim(will);
+  if (error != 0) return error == ENODEV || error == EBUSY;
   for (uint32_t i = 0; i < will.packets; ++i) {
     usbdevfs_bulktransfer transfer{};
     transfer.ep = will.endpoint;
@@ -59,12 +68,13 @@ bool send_usb(LastWill& will) {
   return true;
 }
 
-/// Like send_usb(). The file is non-blocking.
-bool write_all(int file, const uint8_t* bytes, size_t length) {
+/// Like send_usb(). The file is non-blocking. `gone` is the error of a file whose device is gone,
+/// besides ENODEV and ENXIO.
+bool write_all(int file, const uint8_t* bytes, size_t length, int gone) {
   for (size_t sent = 0; sent < length;) {
     const ssize_t more = write(file, bytes + sent, length - sent);
     if (more < 0 && errno != EAGAIN && errno != EINTR)
-      return errno == EIO || errno == ENXIO || errno == ENODEV;
+      return errno == gone || errno == ENXIO || errno == ENODEV;
     if (more > 0) sent += static_cast<size_t>(more);
     pollfd room{file, POLLOUT, 0};
     if (more <= 0 && poll(&room, 1, kTransfer_ms) == 0) return false;
@@ -74,7 +84,7 @@ bool write_all(int file, const uint8_t* bytes, size_t length) {
 
 bool send_terminal(const LastWill& will) {
   for (uint32_t i = 0; i < will.packets; ++i)
-    if (!write_all(will.file, will.packet[i].data(), will.length[i])) return false;
+    if (!write_all(will.file, will.packet[i].data(), will.length[i], EIO)) return false;
   return true;
 }
 
@@ -86,7 +96,8 @@ bool send_input(const LastWill& will) {
     event.type = EV_FF;
     event.code = static_cast<uint16_t>(wanted.code);
     event.value = wanted.value;
-    if (!write_all(will.file, reinterpret_cast<const uint8_t*>(&event), sizeof event)) return false;
+    if (!write_all(will.file, reinterpret_cast<const uint8_t*>(&event), sizeof event, ENODEV))
+      return false;
   }
   return true;
 }
@@ -103,12 +114,13 @@ bool send_packets(LastWill& will) {
   return true;  // receive() has refused others
 }
 
-bool carry_out(LastWill& will) {
-  for (int i = 0; i < kTries; ++i) {
-    if (send_packets(will)) return true;
-    pause_10ms();
+/// Returns when the zeros have arrived or the device is gone. A board may recover at any time, and
+/// pulls until then.
+void carry_out(LastWill& will) {
+  while (!send_packets(will)) {
+    const timespec duration{0, kRetry_ms * 1'000'000};
+    nanosleep(&duration, nullptr);
   }
-  return false;
 }
 
 /// Receives the will, with a descriptor of this process for the device's file, and one for the
@@ -144,15 +156,17 @@ bool say(GuardianWord word) {
 /// Carries out the will whenever the host is silent while its motors pull. Returns true when the
 /// host has ended, and false when it has dismissed its guardian.
 bool watch(int host, LastWill& will) {
-  bool pulling = false, zeroed = false;
+  bool pulling = false, zeroed = false, failed = false;
+  spidar::SleepInhibitor inhibitor;
   for (;;) {
     std::array<pollfd, 2> events{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{host, POLLIN, 0}};
-    const int ready =
-        poll(events.data(), events.size(), pulling || zeroed ? spidar::kSilence_ms : -1);
+    const int wait_ms = failed ? kRetry_ms : pulling || zeroed ? spidar::kSilence_ms : -1;
+    const int ready = poll(events.data(), events.size(), wait_ms);
     if (ready < 0 && errno == EINTR) continue;
     if (ready < 0) return true;
     if (ready == 0) {
-      carry_out(will);
+      // Once only, so that a host that continues gets its answers while the board fails.
+      failed = !send_packets(will);
       zeroed = true;
     } else if (events[0].revents == 0) {
       // There may be a last message: a host that dismissed its guardian may have ended since.
@@ -162,17 +176,18 @@ bool watch(int host, LastWill& will) {
       if (recv(STDIN_FILENO, &word, 1, 0) != 1) return true;
       if (word == HostWord::kDismissed) return false;
       pulling = word == HostWord::kPulling;
+      inhibitor.hold(pulling);
     }
     say(zeroed ? GuardianWord::kZeroed : GuardianWord::kWatching);
   }
 }
 
 /// The guardian is needed just as much when the machine is busy or short of memory. It does without
-/// anything that is not permitted.
+/// anything that is not permitted. Programs that it starts have the usual priority.
 void ask_for_promptness() {
   sched_param parameters{};
   parameters.sched_priority = sched_get_priority_min(SCHED_FIFO);
-  sched_setscheduler(0, SCHED_FIFO, &parameters);
+  sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
   mlockall(MCL_CURRENT | MCL_FUTURE);
 }
 
@@ -193,6 +208,6 @@ int main() {
   if (chdir("/") != 0) return 1;
   ask_for_promptness();
   if (!say(GuardianWord::kWatching)) return 1;
-  if (!watch(host, will)) return 0;
-  return carry_out(will) ? 0 : 1;
+  if (watch(host, will)) carry_out(will);
+  return 0;
 }

@@ -9,8 +9,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <sys/wait.h>
 #include <thread>
@@ -22,27 +20,12 @@
 #include "spidar/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
-#include "tests/support/child_process.h"
+#include "tests/spidar/guardian_victim.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"
 
 namespace spidar::test {
 namespace {
-
-constexpr const char* kUsbProfile = "spidar-g6x3-v2-r";
-constexpr const char* kUartProfile = "spidar-g6x5-r";
-
-/// For every string; a joystick, which takes their sum, would have no force.
-MotorVolts one_volt(const std::string& device = "") {
-  MotorVolts volts;
-  volts.volt.fill(1);
-  if (device == "ff") volts.volt = {1};
-  return volts;
-}
-
-void sleep_1ms() {
-  std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
 
 /// An idle child with copies of all open files. It ends when another board is plugged in, or the
 /// test has ended.
@@ -76,32 +59,6 @@ void leave_files_to_a_child() {
     if (count == 10) bus().evdev[0].axis[1] = 1;
     sleep_1ms();
   }
-}
-
-/// This program, pulling.
-class Victim : public ChildProcess {
- public:
-  Victim(const std::string& spec, const std::string& profile, const char* how = "--pull")
-      : ChildProcess({"/proc/self/exe", how, spec, profile}) {}
-};
-
-/// Waits without a limit; the test has one.
-template <typename Condition>
-void wait_for(const Condition& condition) {
-  while (!condition()) sleep_1ms();
-}
-
-/// The guardian that this process has started; 0 when there is none.
-pid_t guardian_process() {
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    std::ifstream file(entry.path() / "stat");
-    std::string number, name, state;
-    pid_t parent = 0;
-    if (file >> number >> name >> state >> parent && parent == getpid() &&
-        name == "(spidar-guardian)")
-      return std::stoi(number);
-  }
-  return 0;
 }
 
 TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsKilled) {
@@ -188,7 +145,7 @@ TEST(Guardian, ChangesNoSettingOfAJoystickThatNeverPulled) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
   port.autocentre = 0x4000;  // by another program
   Victim victim("ff", "spidar-g6x3-v2-r", "--read");
-  wait_for([&] { return port.plays == 2 || !victim.lives(); });
+  wait_for([&] { return port.plays >= 2 || !victim.lives(); });
   wait_for([&] { return port.axis[1] != 0 || !victim.lives(); });
   ASSERT_TRUE(victim.lives());
   victim.end(SIGKILL);
@@ -303,8 +260,13 @@ TEST(Guardian, IsTriedWhenTheMotorsCannotBeZeroed) {
   device->open();
   port.digit[0] = 100;
   port.fault = LinkFault::kStall;
-  device->close();  // the guardian has given up, too
+  device->close();
   EXPECT_FALSE(port.at_rest());
+  const pid_t trying = guardian_process();
+  ASSERT_NE(trying, 0);
+  port.fault = LinkFault::kNone;
+  wait_for([&] { return port.at_rest(); });
+  EXPECT_EQ(waitpid(trying, nullptr, 0), trying);
   clear_bus();
 }
 
@@ -335,6 +297,11 @@ TEST(Guardian, IsRequiredUnlessDisabled) {
 int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "--pull") == 0)
     spidar::test::pull_for_ever(argv[2], argv[3], false);
+  if (argc == 4 && std::strcmp(argv[1], "--pull-when-plugged") == 0) {
+    spidar::test::wait_for(
+        [] { return spidar::test::bus().port[0].kind != spidar::test::UsbKind::kNone; });
+    spidar::test::pull_for_ever(argv[2], argv[3], false);
+  }
   if (argc == 4 && std::strcmp(argv[1], "--pull-and-fork") == 0)
     spidar::test::pull_for_ever(argv[2], argv[3], true);
   if (argc == 4 && std::strcmp(argv[1], "--read") == 0)

@@ -41,6 +41,8 @@ class ChildProcess {
     process_ = -1;
   }
 
+  pid_t id() const { return process_; }
+
   /// Returns at once, whatever the signal does.
   void send(int signal) const { kill(process_, signal); }
 

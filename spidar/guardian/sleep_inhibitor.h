@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Keeps the machine from being suspended while motors pull.
+#pragma once
+
+#include <array>
+#include <csignal>
+#include <fcntl.h>
+#include <spawn.h>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "spidar/guardian/systemd_programs.h"
+
+extern char** environ;
+
+namespace spidar {
+
+/// Suspending freezes a host and its guardian at the same time, so that nobody sets the motors to
+/// zero. systemd-inhibit holds a lock of logind as long as its command runs; the command is a cat
+/// that reads from this process, so that the lock ends with it. Without logind, or without
+/// permission, there is no lock.
+class SleepInhibitor {
+ public:
+  SleepInhibitor() = default;
+  ~SleepInhibitor() { hold(false); }
+  SleepInhibitor(const SleepInhibitor&) = delete;
+  SleepInhibitor& operator=(const SleepInhibitor&) = delete;
+
+  /// Does not wait for logind.
+  void hold(bool wanted) noexcept {
+    while (process_ > 0 && waitpid(process_, nullptr, WNOHANG) != 0) process_ = -1;
+    if (wanted == (pipe_ >= 0)) return;
+    if (wanted) return start();
+    ::close(pipe_);
+    pipe_ = -1;
+  }
+
+ private:
+  void start() noexcept {
+    std::string program = systemd_program("systemd-inhibit");
+    std::array<int, 2> ends{};
+    if (program.empty() || pipe2(ends.data(), O_CLOEXEC) != 0) return;
+    pipe_ = ends[1];
+    // Closing the lid suspends in spite of a lock of "sleep" alone (LidSwitchIgnoreInhibited).
+    std::string what = "--what=sleep:handle-lid-switch", mode = "--mode=block",
+                who = "--who=SPIDAR";
+    std::string why = "--why=The motors of a haptic device are pulling", command = "cat";
+    const std::array<char*, 7> arguments{program.data(), what.data(),    mode.data(), who.data(),
+                                         why.data(),     command.data(), nullptr};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t all;
+    sigfillset(&all);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    if (posix_spawn(&process_, program.c_str(), &actions, &attributes, arguments.data(), environ) !=
+        0)
+      process_ = -1;
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[0]);
+  }
+
+  int pipe_ = -1;  // −1: not wanted
+  pid_t process_ = -1;
+};
+
+}  // namespace spidar

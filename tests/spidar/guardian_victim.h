@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Processes for tests of the guardian: players that are killed or stopped.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <unistd.h>
+
+#include "spidar/device.h"
+#include "tests/support/child_process.h"
+
+namespace spidar::test {
+
+constexpr const char* kUsbProfile = "spidar-g6x3-v2-r";
+constexpr const char* kUartProfile = "spidar-g6x5-r";
+
+/// For every string; a joystick, which takes their sum, would have no force.
+inline MotorVolts one_volt(const std::string& device = "") {
+  MotorVolts volts;
+  volts.volt.fill(1);
+  if (device == "ff") volts.volt = {1};
+  return volts;
+}
+
+inline void sleep_1ms() {
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+/// This program, pulling.
+class Victim : public ChildProcess {
+ public:
+  Victim(const std::string& spec, const std::string& profile, const char* how = "--pull")
+      : ChildProcess({"/proc/self/exe", how, spec, profile}) {}
+};
+
+/// Waits without a limit; the test has one.
+template <typename Condition>
+void wait_for(const Condition& condition) {
+  while (!condition()) sleep_1ms();
+}
+
+/// The guardian that a process, by default this one, has started; 0 when there is none.
+inline pid_t guardian_process(pid_t of = getpid()) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "stat");
+    std::string number, name, state;
+    pid_t parent = 0;
+    if (file >> number >> name >> state >> parent && parent == of && name == "(spidar-guardian)")
+      return std::stoi(number);
+  }
+  return 0;
+}
+
+}  // namespace spidar::test

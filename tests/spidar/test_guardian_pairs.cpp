@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Two faults at once: of the player, its guardian, the board, and the control group of the player.
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <spawn.h>
+#include <string>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/board_device.h"
+#include "spidar/device_factory.h"
+#include "spidar/guardian/last_will.h"
+#include "spidar/realtime/monotonic.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/guardian_victim.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test {
+namespace {
+
+void sleep_ms(int ms) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Sets a variable of the environment, for programs that are started, until the end of the scope.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before, had_ = true;
+    setenv(name, value.c_str(), 1);
+  }
+  ~Variable() { had_ ? setenv(name_, before_.c_str(), 1) : unsetenv(name_); }
+
+ private:
+  const char* name_;
+  std::string before_;
+  bool had_ = false;
+};
+
+/// A folder with programs that take the place of those of systemd.
+struct FakeSystemd {
+  TemporaryFolder folder;
+  Variable variable{"SPIDAR_SYSTEMD", folder.path.string()};
+
+  void add(const char* name, const std::string& script) const {
+    const std::filesystem::path file = folder.path / name;
+    std::ofstream(file) << "#!/bin/sh\n" << script << "\n";
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+  }
+};
+
+/// Replaces itself by the command after "--", as systemd-run --scope does.
+constexpr const char* kRunCommand = R"(while [ "$1" != -- ]; do shift; done; shift; exec "$@")";
+
+UsbPort& pulling_board(const Victim&) {
+  UsbPort& port = bus().port[0];
+  wait_for([&] { return port.digit[7] != 0; });
+  return port;
+}
+
+TEST(GuardianPairs, ABoardThatStallsWhileItsPlayerIsKilled) {
+  for (const LinkFault fault : {LinkFault::kStall, LinkFault::kBusError}) {
+    plug(0, UsbKind::kSh4);
+    Victim victim("usb", kUsbProfile);
+    UsbPort& port = pulling_board(victim);
+    port.fault = fault;
+    victim.end(SIGKILL);
+    sleep_ms(2000);
+    EXPECT_FALSE(port.at_rest());
+    port.fault = LinkFault::kNone;
+    wait_for([&] { return port.at_rest(); });
+    clear_bus();
+  }
+}
+
+/// A player that continues while its board still fails must find its guardian at work.
+TEST(GuardianPairs, ABoardThatStallsWhileItsPlayerIsStoppedAndThenKilled) {
+  plug(0, UsbKind::kSh4);
+  Victim victim("usb", kUsbProfile);
+  UsbPort& port = pulling_board(victim);
+  port.fault = LinkFault::kStall;
+  victim.send(SIGSTOP);
+  sleep_ms(300);
+  victim.send(SIGCONT);
+  sleep_ms(300);
+  victim.end(SIGKILL);
+  port.fault = LinkFault::kNone;
+  wait_for([&] { return port.at_rest(); });
+  clear_bus();
+}
+
+TEST(GuardianPairs, AStoppedPlayerWhoseGuardianIsKilled) {
+  plug(0, UsbKind::kSh4);
+  Victim victim("usb", kUsbProfile);
+  UsbPort& port = pulling_board(victim);
+  victim.send(SIGSTOP);
+  wait_for([&] { return port.at_rest(); });
+  kill(guardian_process(victim.id()), SIGKILL);
+  victim.end(SIGKILL);
+  sleep_ms(50);
+  EXPECT_TRUE(port.at_rest());
+  clear_bus();
+}
+
+/// The time until a player has noticed that its guardian is stopped, has set the motors to zero,
+/// and has another guardian.
+int64_t replacement_ns(const Victim& victim) {
+  const pid_t first = guardian_process(victim.id());
+  const int64_t begin_ns = monotonic_now_ns();
+  kill(first, SIGSTOP);
+  wait_for([&] { return bus().port[0].at_rest(); });
+  const int64_t passed_ns = monotonic_now_ns() - begin_ns;
+  wait_for([&] {
+    const pid_t now = guardian_process(victim.id());
+    return now != 0 && now != first;
+  });
+  return passed_ns;
+}
+
+TEST(GuardianPairs, AStoppedGuardianWhosePlayerIsKilled) {
+  plug(0, UsbKind::kSh4);
+  Victim victim("usb", kUsbProfile);
+  pulling_board(victim);
+  replacement_ns(victim);
+  UsbPort& port = pulling_board(victim);
+  victim.end(SIGKILL);
+  wait_for([&] { return port.at_rest(); });
+  clear_bus();
+}
+
+/// On a busy machine, a try may take any time; one that is not disturbed takes a beat, the time for
+/// an answer, and an exchange.
+TEST(GuardianPairs, AStoppedGuardianIsNoticedWithin100Ms) {
+  static_assert(kBeat_ms + kAnswer_ms + BoardDevice::kTransfer_ns / 1'000'000 <= 100);
+  plug(0, UsbKind::kSh4);
+  Victim victim("usb", kUsbProfile);
+  int64_t shortest_ns = INT64_MAX;
+  for (int i = 0; i < 20 && shortest_ns > kSecond_ns / 10; ++i) {
+    pulling_board(victim);
+    shortest_ns = std::min(shortest_ns, replacement_ns(victim));
+  }
+  EXPECT_LE(shortest_ns, kSecond_ns / 10);
+  victim.end(SIGKILL);
+  clear_bus();
+}
+
+/// A control group of version 2, if this process may make one; it ends with its processes.
+class ControlGroup {
+ public:
+  explicit ControlGroup(const std::string& name) {
+    for (const char* root : {"/sys/fs/cgroup", "/sys/fs/cgroup/unified"}) {
+      const std::filesystem::path path =
+          std::filesystem::path(root) / (name + std::to_string(getpid()));
+      std::error_code error;
+      if (!std::filesystem::exists(std::filesystem::path(root) / "cgroup.procs")) continue;
+      if (!std::filesystem::create_directory(path, error)) continue;
+      if (std::filesystem::exists(path / "cgroup.kill"))
+        path_ = path;
+      else
+        std::filesystem::remove(path, error);
+    }
+  }
+  ~ControlGroup() {
+    if (path_.empty()) return;
+    write("cgroup.freeze", "0");
+    write("cgroup.kill", "1");
+    wait_for([&] { return text_of(path_ / "cgroup.procs").empty(); });
+    std::error_code error;
+    std::filesystem::remove(path_, error);
+  }
+  ControlGroup(const ControlGroup&) = delete;
+  ControlGroup& operator=(const ControlGroup&) = delete;
+
+  bool write(const char* file, const std::string& text) const {
+    std::ofstream stream(path_ / file);
+    return !path_.empty() && static_cast<bool>(stream << text << std::flush);
+  }
+  bool add(pid_t process) const { return write("cgroup.procs", std::to_string(process)); }
+  std::filesystem::path procs() const { return path_ / "cgroup.procs"; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// As systemd-oomd does, or docker kill and docker pause.
+TEST(GuardianPairs, AControlGroupThatIsKilledOrFrozen) {
+  for (const char* how : {"cgroup.kill", "cgroup.freeze"}) {
+    const ControlGroup players("spidar-players-"), guardians("spidar-guardians-");
+    const FakeSystemd systemd;
+    // The scope of its own.
+    systemd.add("systemd-run", "echo $$ > " + guardians.procs().string() + "\n" + kRunCommand);
+    Victim victim("usb", kUsbProfile, "--pull-when-plugged");
+    if (!players.add(victim.id())) GTEST_SKIP() << "no control group of version 2 can be made";
+    plug(0, UsbKind::kSh4);
+    UsbPort& port = pulling_board(victim);
+    ASSERT_TRUE(players.write(how, "1"));
+    wait_for([&] { return port.at_rest(); });
+    clear_bus();
+  }
+}
+
+TEST(GuardianPairs, AScopeIsUsedWhereSystemdRuns) {
+  const FakeSystemd systemd;
+  const std::string seen = (systemd.folder.path / "seen").string();
+  systemd.add("systemd-run", "echo \"$@\" > " + seen + "\n" + kRunCommand);
+  plug(0, UsbKind::kSh4);
+  const auto device = make_device("usb", load_profile(kUsbProfile));
+  device->open();
+  EXPECT_NE(guardian_process(), 0);
+  const std::string options = text_of(seen);
+  EXPECT_NE(options.find("--scope --quiet --collect"), std::string::npos) << options;
+  EXPECT_EQ(options.find("--user") == std::string::npos, geteuid() == 0) << options;
+  device->close();
+  EXPECT_EQ(guardian_process(), 0);
+  clear_bus();
+}
+
+TEST(GuardianPairs, WithoutAScopeThereIsAGuardianNevertheless) {
+  for (const char* script : {"exit 1", "kill -9 $$", "exec sleep 100"}) {
+    const FakeSystemd systemd;
+    systemd.add("systemd-run", script);
+    plug(0, UsbKind::kSh4);
+    Victim victim("usb", kUsbProfile);
+    UsbPort& port = pulling_board(victim);
+    victim.end(SIGKILL);
+    wait_for([&] { return port.at_rest(); });
+    clear_bus();
+  }
+}
+
+/// Until the lock's command, which reads from the guardian, has ended.
+TEST(GuardianPairs, SleepIsInhibitedWhileTheMotorsPull) {
+  const FakeSystemd systemd;
+  const std::string held = (systemd.folder.path / "held").string();
+  systemd.add("systemd-run", kRunCommand);
+  systemd.add("systemd-inhibit", "echo \"$@\" > " + held + "; cat; rm " + held);
+  const auto is_held = [&] { return std::filesystem::exists(held); };
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  const auto device = make_device("usb", load_profile(kUsbProfile));
+  DeviceReading reading;
+  const auto exchange_until = [&](const MotorVolts& volts, const auto& condition) {
+    wait_for([&] {
+      if (device->exchange(volts, reading) == ExchangeStatus::kLost) device->open();
+      return condition();
+    });
+  };
+  device->open();
+  exchange_until({}, [&] { return reading.count[0] == 0; });
+  EXPECT_FALSE(is_held());
+  exchange_until(one_volt(), [&] { return !port.at_rest() && !text_of(held).empty(); });
+  EXPECT_NE(text_of(held).find("--what=sleep:handle-lid-switch --mode=block"), std::string::npos);
+  exchange_until({}, [&] { return port.at_rest() && !is_held(); });
+  exchange_until(one_volt(), is_held);
+  device->close();
+  wait_for([&] { return !is_held(); });
+  {
+    Victim victim("usb", kUsbProfile);
+    wait_for(is_held);
+    victim.end(SIGKILL);
+    wait_for([&] { return !is_held(); });
+  }
+  clear_bus();
+}
+
+/// As systemd does with Accept=yes and StandardInput=socket.
+TEST(GuardianPairs, AServiceBehindASocketCanBeTheGuardian) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "guardian").string();
+  const std::string program = std::getenv("SPIDAR_GUARDIAN");
+  const int listening = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  ASSERT_LT(path.size(), sizeof address.sun_path);
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  ASSERT_EQ(bind(listening, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(listening, 4), 0);
+  pid_t service = -1;
+  std::thread accepting([&] {
+    const int connection = accept(listening, nullptr, nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, connection, STDIN_FILENO);
+    std::array<char*, 2> arguments{const_cast<char*>(program.c_str()), nullptr};
+    posix_spawn(&service, program.c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(connection);
+  });
+  plug(0, UsbKind::kSh4);
+  const Variable variable("SPIDAR_GUARDIAN", path);
+  Victim victim("usb", kUsbProfile);
+  UsbPort& port = pulling_board(victim);
+  accepting.join();
+  EXPECT_EQ(guardian_process(victim.id()), 0);
+  victim.end(SIGKILL);
+  wait_for([&] { return port.at_rest(); });
+  EXPECT_EQ(waitpid(service, nullptr, 0), service);
+  close(listening);
+  clear_bus();
+}
+
+}  // namespace
+}  // namespace spidar::test
