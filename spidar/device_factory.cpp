@@ -45,21 +45,40 @@ std::unique_ptr<Board> make_uart(const std::string& spec, const std::string& pat
   return std::make_unique<UartBoard>(spec, profile, std::move(lines));
 }
 
-/// `rest` is empty, PATH, or PATH,axes=N.
+/// A number from 1 to `largest` after `name`; 0 if it is something else.
+int option_value(const std::string& option, const std::string& name, int largest) {
+  if (option.compare(0, name.size(), name) != 0) return 0;
+  const std::string digits = option.substr(name.size());
+  if (digits.empty() || digits.size() > 3) return 0;
+  if (digits.find_first_not_of("0123456789") != std::string::npos) return 0;
+  const int value = std::stoi(digits);
+  return value <= largest ? value : 0;
+}
+
+/// `rest` is empty, PATH, or PATH with options after commas: axes=N, gain=PERCENT.
 std::unique_ptr<Board> make_force_feedback(const std::string& spec, const std::string& rest,
                                            const Profile& profile) {
   const size_t comma = rest.find(',');
   const std::string path = rest.substr(0, comma);
-  const std::string option = comma == std::string::npos ? "" : rest.substr(comma + 1);
-  const int axes = option == "axes=1" ? 1 : option == "axes=2" ? 2 : 0;
-  if (comma != std::string::npos && path.empty())
-    throw DeviceError(spec + ": the path is empty; write ff:/dev/input/eventN," + option);
-  if (comma != std::string::npos && axes == 0)
-    throw DeviceError(spec + ": \"" + option + "\" is not known; write ff:" + path +
-                      ",axes=1 for a wheel or ff:" + path + ",axes=2 for a joystick");
-  return std::make_unique<ForceFeedbackBoard>(spec, profile,
-                                              std::make_unique<EvdevTransport>(spec, path, axes),
-                                              ForceFeedbackBoard::Updates::kOwnThread);
+  int axes = 0, gain = 0;
+  for (size_t at = comma; at != std::string::npos;) {
+    const size_t end = rest.find(',', at + 1);
+    const std::string option = rest.substr(at + 1, end == std::string::npos ? end : end - at - 1);
+    at = end;
+    if (path.empty())
+      throw DeviceError(spec + ": the path is empty; write ff:/dev/input/eventN," + option);
+    int& value = option.compare(0, 5, "gain=") == 0 ? gain : axes;
+    const int given =
+        &value == &gain ? option_value(option, "gain=", 100) : option_value(option, "axes=", 2);
+    if (given == 0 || value != 0)
+      throw DeviceError(spec + ": \"" + option + "\" is not known; write ff:" + path +
+                        ",axes=1 for a wheel, ff:" + path + ",axes=2 for a joystick, or ff:" +
+                        path + ",gain=50 for 50 % of the device's strength");
+    value = given;
+  }
+  return std::make_unique<ForceFeedbackBoard>(
+      spec, profile, std::make_unique<EvdevTransport>(spec, path, axes),
+      ForceFeedbackBoard::Updates::kOwnThread, gain / 100.0);
 }
 
 BoardSettings resolved(BoardSettings settings, const Profile& profile) {
@@ -91,7 +110,7 @@ std::unique_ptr<Device> make_device(const std::string& spec, const Profile& prof
     throw DeviceError(
         "unknown device \"" + spec +
         "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse, ff, ff:PATH, "
-        "ff:PATH,axes=N");
+        "ff:PATH,axes=N, ff:PATH,gain=PERCENT");
   return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
 }
 

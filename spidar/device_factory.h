@@ -20,9 +20,9 @@ namespace spidar {
 ///   usb, usb:ID             CyVerse board; ID: rotary switch, serial number or bus path
 ///   uart:PATH[,PATH]        UART motor boards on serial lines
 ///   mouse, mouse:ID         SPIDAR-mouse; ID: serial number or bus path
-///   ff, ff:PATH[,axes=N]    joystick, wheel or gamepad with force feedback: the first one, or
-///                           this file; N: 1 for a wheel, 2 for a joystick, if it is taken for the
-///                           other
+///   ff, ff:PATH[,OPTION]…   joystick, wheel or gamepad with force feedback: the first one, or
+///                           this file; OPTION: axes=1 for a wheel or axes=2 for a joystick, if it
+///                           is taken for the other; gain=PERCENT of its strength (20)
 /// Opens nothing. Throws DeviceError, which lists the valid names or explains why the board cannot
 /// drive the profile. "none" is not a device, because it needs no loop.
 SPIDAR_API std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,

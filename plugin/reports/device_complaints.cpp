@@ -33,9 +33,17 @@ std::string why_lost(const HapticSession& session) {
 void DeviceComplaints::look_at_opened(const HapticSession& session) const {
   const FeltParts felt = session.device().felt_parts();
   // Most devices have no torque or no force towards the viewer: their pages say so.
-  if (felt.x && felt.y && felt.direction) return;
-  GST_ELEMENT_INFO(element_, RESOURCE, SETTINGS, ("%s.", session.opened().c_str()),
-                   ("The device works, but renders nothing else of the force and the torque."));
+  // Of what force-feedback devices can do, and how strong they are, nothing is known before.
+  const bool force_feedback = session.device().name().compare(0, 2, "ff") == 0;
+  const bool whole = felt.x && felt.y && felt.direction;
+  if (whole && !force_feedback) return;
+  GST_ELEMENT_INFO(
+      element_, RESOURCE, SETTINGS, ("%s.", session.opened().c_str()),
+      ("The device works%s%s.",
+       whole ? "" : ", but renders nothing else of the force and the torque",
+       force_feedback ? "; device=ff:PATH,gain=PERCENT sets how much of its strength is "
+                        "used"
+                      : ""));
 }
 
 void DeviceComplaints::start() {

@@ -37,6 +37,7 @@ EffectBytes encode_constant(int16_t number, Direction direction, int level) noex
   ff_effect effect{};
   effect.type = FF_CONSTANT;
   effect.id = number;
+  effect.replay.length = kEffect_ms;
   effect.direction = static_cast<uint16_t>(direction);
   effect.u.constant.level = static_cast<int16_t>(std::clamp(level, -kFullLevel, kFullLevel));
   return as_bytes<EffectBytes>(effect);
@@ -46,6 +47,7 @@ EffectBytes encode_rumble(int16_t number, int strength) noexcept {
   ff_effect effect{};
   effect.type = FF_RUMBLE;
   effect.id = number;
+  effect.replay.length = kEffect_ms;
   effect.u.rumble.strong_magnitude = static_cast<uint16_t>(std::clamp(strength, 0, kFullStrength));
   return as_bytes<EffectBytes>(effect);
 }
@@ -68,6 +70,7 @@ std::optional<Effect> decode_effect(ByteView bytes) noexcept {
   std::memcpy(&effect, bytes.data, sizeof effect);
   Effect result;
   result.number = effect.id;
+  result.length_ms = effect.replay.length;
   if (effect.type == FF_RUMBLE) {
     result.rumble = double{1} * effect.u.rumble.strong_magnitude / kFullStrength;
   } else if (effect.type == FF_CONSTANT) {

@@ -22,6 +22,8 @@ constexpr double kFullForce_N = 3.0;
 constexpr int kFullLevel = 0x7FFF;
 constexpr int kFullStrength = 0xFFFF;
 constexpr int kFullGain = 0xFFFF;
+/// Duration of every effect, so that none outlasts a program that hangs or is stopped.
+constexpr int kEffect_ms = 150;
 /// Number in a new effect; the answer contains the number that the device has given it.
 constexpr int16_t kNewEffect = -1;
 
@@ -66,12 +68,12 @@ using EffectBytes = std::array<uint8_t, kEffectSize>;
 constexpr std::array<uint8_t, kDescribeSize> kDescribe{};
 constexpr std::array<uint8_t, kPositionSize> kPosition{};
 
-/// FF_CONSTANT of unlimited duration in a fixed direction; `level` is clamped to −kFullLevel …
+/// FF_CONSTANT for kEffect_ms in a fixed direction; `level` is clamped to −kFullLevel …
 /// kFullLevel.
 SPIDAR_API EffectBytes encode_constant(int16_t number, Direction direction, int level) noexcept;
-/// FF_RUMBLE of unlimited duration; `strength` of the strong motor is clamped to 0 … kFullStrength.
+/// FF_RUMBLE for kEffect_ms; `strength` of the strong motor is clamped to 0 … kFullStrength.
 SPIDAR_API EffectBytes encode_rumble(int16_t number, int strength) noexcept;
-/// Starts or stops an effect.
+/// Starts an effect, from its beginning if it plays already, or stops it.
 SPIDAR_API EventBytes encode_play(int16_t number, bool on) noexcept;
 SPIDAR_API EventBytes encode_gain(int gain) noexcept;
 SPIDAR_API EventBytes encode_autocentre(int strength) noexcept;
@@ -82,6 +84,7 @@ struct Effect {
   double right = 0;  ///< shares of the full level
   double up = 0;
   double rumble = 0;
+  int length_ms = 0;  ///< 0: no limit
 };
 /// Nothing when it is neither FF_CONSTANT nor FF_RUMBLE, or does not have kEffectSize bytes.
 SPIDAR_API std::optional<Effect> decode_effect(ByteView bytes) noexcept;

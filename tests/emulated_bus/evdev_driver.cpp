@@ -36,7 +36,7 @@ void reset(EvdevPort& port) {
   port.upload_ms = port.upload_error = port.interruptions = 0;
   port.query_error = port.event_error = port.setting_error = 0;
   port.failing = -1;
-  port.hangs = port.cuts_events = port.signals = false;
+  port.expires = port.hangs = port.cuts_events = port.signals = false;
 }
 
 bool EvdevDriver::is_interrupted() {
@@ -100,6 +100,7 @@ int EvdevDriver::upload(ff_effect& wanted) {
   const int up = rounded(effect->up, ff::kFullLevel);
   const int rumble = rounded(effect->rumble, ff::kFullStrength);
   if (kept.used && kept.right == right && kept.up == up && kept.rumble == rumble) ++port_.unchanged;
+  kept.length_ms = effect->length_ms;
   kept.right = right;
   kept.up = up;
   kept.rumble = rumble;
@@ -165,6 +166,7 @@ int EvdevDriver::event(const ff::Event& event) {
     ++port_.settings;
   } else if (event.code < port_.effect.size() && port_.effect[event.code].used) {
     port_.effect[event.code].plays = event.value > 0;
+    port_.effect[event.code].began_ns = monotonic_now_ns();
     if (event.value > 0) ++port_.plays;
   }
   return 0;

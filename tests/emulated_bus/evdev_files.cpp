@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "spidar/protocols/force_feedback.h"
+#include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/evdev_driver.h"
 #include "tests/emulated_bus/evdev_kinds.h"
@@ -204,7 +205,9 @@ EvdevLevels evdev_levels(size_t number) {
   erase_if_abandoned(port);
   EvdevLevels levels;
   for (const EvdevPort::Effect& effect : port.effect) {
-    if (!effect.plays) continue;
+    const int64_t end_ns = effect.began_ns + effect.length_ms * kSecond_ns / 1000;
+    const bool ended = port.expires && effect.length_ms > 0 && monotonic_now_ns() > end_ns;
+    if (!effect.plays || ended) continue;
     levels.right += effect.right;
     levels.up += effect.up;
     levels.rumble += effect.rumble;

@@ -22,6 +22,7 @@ std::vector<unsigned> ff_bits(EvdevKind kind) {
     case EvdevKind::kWheel:
     case EvdevKind::kWheelBase:
     case EvdevKind::kPedalBase:
+      return {FF_CONSTANT, FF_GAIN, FF_AUTOCENTER};
     case EvdevKind::kOneAxis:
       return {FF_CONSTANT, FF_AUTOCENTER};
     case EvdevKind::kPad:

@@ -22,7 +22,7 @@ enum class EvdevKind : int {
   /// in the direction 0x4000.
   kWheelBase,
   kPedalBase,  ///< a wheel that only its pedals give away
-  kOneAxis,    ///< FF_CONSTANT, and only ABS_X
+  kOneAxis,    ///< FF_CONSTANT without gain, and only ABS_X
 };
 
 /// An input device, as /dev/input/eventN with its number. Any process may change any member at any
@@ -31,9 +31,11 @@ struct EvdevPort {
   struct Effect {
     std::atomic<bool> used{false};
     std::atomic<bool> plays{false};
-    std::atomic<int> right{0};   ///< level
-    std::atomic<int> up{0};      ///< level
-    std::atomic<int> rumble{0};  ///< strength
+    std::atomic<int> length_ms{0};     ///< 0: no limit
+    std::atomic<int64_t> began_ns{0};  ///< when it was last started
+    std::atomic<int> right{0};         ///< level
+    std::atomic<int> up{0};            ///< level
+    std::atomic<int> rumble{0};        ///< strength
   };
 
   std::atomic<EvdevKind> kind{EvdevKind::kNone};
@@ -42,6 +44,9 @@ struct EvdevPort {
   std::array<std::atomic<int>, 2> axis{};
   std::atomic<int> axis_end{0};  ///< largest value that the axes announce; 1000 when plugged in
   std::array<Effect, 4> effect{};
+  /// Effects end after their length, as in the kernel. Off when plugged in, because on a busy
+  /// machine a test may not start them again in time.
+  std::atomic<bool> expires{false};
   std::atomic<int> gain{0};
   std::atomic<int> autocentre{0};
   std::atomic<uint64_t> settings{0};  ///< how often gain or autocentre was set

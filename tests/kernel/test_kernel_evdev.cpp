@@ -23,8 +23,9 @@ constexpr int64_t kMs = kSecond_ns / 1000;
 TEST(KernelEvdev, RightIsRightAndUpIsUp) {
   UinputDevice stick(UinputKind::kStick);
   const FeltPlayer player(listed());
-  EXPECT_EQ(player.session->device().description(), "uinput device, force feedback on two axes");
-  wait_for([&] { return stick.gain == 0xFFFF && stick.autocentre == 0; });
+  EXPECT_EQ(player.session->device().description(),
+            "uinput device at 20 % of its strength, force feedback on two axes");
+  wait_for([&] { return stick.gain == 13107 && stick.autocentre == 0; });
   for (const auto& [x_N, y_N] :
        {std::pair{1.5, 0.0}, {-0.7, 0.0}, {0.0, 2.0}, {0.0, -0.2}, {1.0, -1.2}, {0.0, 0.0}}) {
     player.push(x_N, y_N);

@@ -167,7 +167,7 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
     } catch (const DeviceError& error) {
       EXPECT_EQ(error.what(), "unknown device \"" + spec +
                                   "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, "
-                                  "mouse, ff, ff:PATH, ff:PATH,axes=N");
+                                  "mouse, ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT");
     }
   }
   for (const std::string spec :

@@ -25,6 +25,8 @@ namespace spidar::test {
 namespace {
 
 constexpr int64_t kMs = 1'000'000;
+/// 20 % of 0xFFFF.
+constexpr int kGain = 13107;
 
 /// The message of open(); empty on success.
 std::string opening(const std::string& spec) {
@@ -70,7 +72,8 @@ TEST_F(ForceFeedback, IsListedWithoutBeingOpened) {
 TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
   plug_evdev(0, EvdevKind::kStick);
   const FeltPlayer player;
-  EXPECT_EQ(player.session->opened(), "Emulated Stick, force feedback on two axes");
+  EXPECT_EQ(player.session->opened(),
+            "Emulated Stick at 20 % of its strength, force feedback on two axes");
   const FeltParts felt = player.session->device().felt_parts();
   EXPECT_TRUE(felt.x && felt.y && felt.direction);
   EXPECT_FALSE(felt.z || felt.torque);
@@ -129,6 +132,7 @@ TEST_F(ForceFeedback, TheStickIsTheGripAndRestsAnywhere) {
 
 TEST_F(ForceFeedback, UpdatesAreRareAndNeverUnnecessary) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const int64_t opened_ns = HapticSession::monotonic_now_ns();
   {
     const FeltPlayer player;
     port.shortest_ns = 0;  // without those of opening it
@@ -146,7 +150,9 @@ TEST_F(ForceFeedback, UpdatesAreRareAndNeverUnnecessary) {
   }
   EXPECT_GE(port.shortest_ns, ForceFeedbackBoard::kUpdate_ms * kMs);
   EXPECT_EQ(port.unchanged, 0u);
-  EXPECT_EQ(port.plays, 2u);
+  // Each of two effects, when it was opened, and at most once every kRefresh_ms of the time since.
+  const int64_t lasted_ms = (HapticSession::monotonic_now_ns() - opened_ns) / kMs;
+  EXPECT_LE(static_cast<int64_t>(port.plays), 2 + 2 * (lasted_ms / StickEffects::kRefresh_ms + 1));
 }
 
 /// A device whose spring was off before must not be left with a spring that pushes the hand.
@@ -170,9 +176,10 @@ TEST_F(ForceFeedback, TheCentringSpringReturnsOnlyWhereTheDriverHadTurnedItOn) {
     {
       const FeltPlayer player;
       player.push(1, 0);
-      wait_for([&] { return port.gain == 0xFFFF && port.autocentre == 0; });
+      wait_for([&] { return port.gain == kGain && port.autocentre == 0; });
     }
     EXPECT_EQ(port.autocentre, after);
+    EXPECT_EQ(port.gain, 0xFFFF);
     EXPECT_TRUE(evdev_levels(0).at_rest());
     for (const EvdevPort::Effect& effect : port.effect) EXPECT_FALSE(effect.used);
   }
@@ -186,8 +193,33 @@ TEST_F(ForceFeedback, TheCentringSpringReturnsByARamp) {
     EXPECT_EQ(port.settings, 2u);
   }
   EXPECT_EQ(port.autocentre, 0xFFFF);
-  // Every 5 ms for 100 ms.
-  EXPECT_EQ(port.settings, 2u + 20u);
+  // Gain, and every 5 ms for 100 ms.
+  EXPECT_EQ(port.settings, 2u + 1u + 20u);
+}
+
+TEST_F(ForceFeedback, AFifthOfTheStrengthIsUsedUnlessMoreIsAskedFor) {
+  const auto used = [](EvdevKind kind, const std::string& option) {
+    EvdevPort& port = plug_evdev(0, kind);
+    const FeltPlayer player("ff:/dev/input/event0" + option);
+    player.push(1.5, 0);
+    wait_for([&] { return !evdev_levels(0).at_rest(); });
+    return std::pair(port.gain.load(), player.session->device().description());
+  };
+  const std::string two = ", force feedback on two axes";
+  const std::string one = ", force feedback on one axis: forces up and down are not felt";
+  EXPECT_EQ(used(EvdevKind::kStick, ""),
+            std::pair(kGain, "Emulated Stick at 20 % of its strength" + two));
+  EXPECT_EQ(used(EvdevKind::kWheel, ""),
+            std::pair(kGain, "Emulated Racing Wheel at 20 % of its strength" + one));
+  EXPECT_EQ(used(EvdevKind::kStick, ",gain=60"),
+            std::pair(39321, "Emulated Stick at 60 % of its strength" + two));
+  EXPECT_EQ(used(EvdevKind::kStick, ",axes=1,gain=100"), std::pair(0xFFFF, "Emulated Stick" + one));
+  EXPECT_EQ(used(EvdevKind::kPad, "").first, 0);
+  // A driver without gain: levels.
+  plug_evdev(0, EvdevKind::kOneAxis);
+  const FeltPlayer player;
+  player.push(1.5, 0);
+  wait_for([] { return is_level(evdev_levels(0).right, 0.3, 0.3); });
 }
 
 /// As spidarctl info and zero do.

@@ -30,6 +30,8 @@ namespace spidar::test {
 namespace {
 
 constexpr int64_t kMs = kSecond_ns / 1000;
+/// 20 % of 0xFFFF.
+constexpr int kGain = 13107;
 constexpr double kPi = 3.14159265358979323846;
 
 /// A stick that is moved from stop to stop, 118 mm apart, in `half_ms`.
@@ -176,6 +178,67 @@ TEST_F(ForceFeedbackFaults, ADriverThatHangsIsATimeOut) {
   EXPECT_TRUE(evdev_levels(0).at_rest());
 }
 
+/// A process that is stopped looks the same to the device.
+TEST_F(ForceFeedbackFaults, AnEffectEndsWhenTheLoopOrTheDriverHangs) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  port.expires = true;
+  {
+    const FeltPlayer player;
+    player.push(2, 0);
+    wait_for([&] { return port.plays > 10; });
+    wait_for([] { return is_level(evdev_levels(0).right, 2, 2); });
+    port.hangs = true;
+    player.loop().cancel_scheduled();
+    ASSERT_TRUE(player.loop().schedule(lasting({2.5, 0, 0})));
+    wait_for([] { return evdev_levels(0).at_rest(); });
+    port.hangs = false;
+  }
+  BoardSettings settings;
+  settings.guardian = settings.threaded = false;
+  const Profile profile = load_profile(kDefaultProfile);
+  const auto device = make_device("ff", profile, settings);
+  device->open();
+  MotorVolts volts;
+  volts.volt = {1};
+  DeviceReading reading;
+  wait_for([&] {
+    device->exchange(volts, reading);
+    return !evdev_levels(0).at_rest();
+  });
+  wait_for([] { return evdev_levels(0).at_rest(); });
+}
+
+/// Only then are the effects ended; and nobody else gets the device before.
+TEST_F(ForceFeedbackFaults, ADriverThatHangsDoesNotKeepTheDeviceFromBeingClosed) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  BoardSettings settings;
+  settings.guardian = settings.threaded = false;
+  const Profile profile = load_profile(kDefaultProfile);
+  const auto device = make_device("ff", profile, settings);
+  {
+    const FeltPlayer player;
+    player.push(2, 0);
+    wait_for([] { return is_level(evdev_levels(0).right, 2, 2); });
+    port.hangs = true;
+    player.loop().cancel_scheduled();
+    ASSERT_TRUE(player.loop().schedule(lasting({2.5, 0, 0})));
+    wait_for([&] { return port.hanging > 0; });
+  }
+  EXPECT_GT(port.hanging, 0);
+  EXPECT_FALSE(evdev_levels(0).at_rest());
+  EXPECT_THROW(device->open(), DeviceError);
+  port.hangs = false;
+  wait_for([] { return evdev_levels(0).at_rest(); });
+  wait_for([&] {
+    try {
+      device->open();
+      return true;
+    } catch (const DeviceError&) {
+      return false;
+    }
+  });
+}
+
 TEST_F(ForceFeedbackFaults, OneFailedUpdateOfASlowDriverIsNoLoss) {
   for (const int upload_ms : {0, 50}) {
     EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
@@ -199,13 +262,14 @@ TEST_F(ForceFeedbackFaults, CallsThatASignalInterruptsAreRepeated) {
   port.signals = true;
   {
     const FeltPlayer player;
-    EXPECT_EQ(player.session->device().description(), "Emulated Stick, force feedback on two axes");
+    EXPECT_EQ(player.session->device().description(),
+              "Emulated Stick at 20 % of its strength, force feedback on two axes");
     player.push(1, -1);
     wait_for([] {
       const EvdevLevels levels = evdev_levels(0);
       return is_level(levels.right, 1, 1) && is_level(levels.up, -1, 1);
     });
-    EXPECT_EQ(port.gain, 0xFFFF);
+    EXPECT_EQ(port.gain, kGain);
     EXPECT_EQ(port.autocentre, 0);
     port.axis[0] = 500;
     wait_for([&] { return player.now().last.pose.position_m.x() > 0.014; });
@@ -224,7 +288,7 @@ TEST_F(ForceFeedbackFaults, NoLevelIsSetUntilGainAndAutocentreAre) {
   EXPECT_TRUE(evdev_levels(0).at_rest());
   port.setting_error = 0;
   wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
-  EXPECT_EQ(port.gain, 0xFFFF);
+  EXPECT_EQ(port.gain, kGain);
 }
 
 TEST_F(ForceFeedbackFaults, AnOpeningThatFailsChangesNoSetting) {

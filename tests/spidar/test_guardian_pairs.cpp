@@ -120,6 +120,21 @@ TEST(GuardianPairs, AStoppedPlayerWhoseGuardianIsKilled) {
   clear_bus();
 }
 
+/// Nobody is left who could do anything, but effects end by themselves.
+TEST(GuardianPairs, AStickWhosePlayerAndGuardianAreStoppedTogether) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  port.expires = true;
+  Victim victim("ff", kUsbProfile);
+  wait_for([] { return !evdev_levels(0).at_rest(); });
+  const pid_t guardian = guardian_process(victim.id());
+  kill(guardian, SIGSTOP);
+  victim.send(SIGSTOP);
+  wait_for([] { return evdev_levels(0).at_rest(); });
+  kill(guardian, SIGKILL);
+  victim.end(SIGKILL);
+  clear_bus();
+}
+
 /// The time until a player has noticed that its guardian is stopped, has set the motors to zero,
 /// and has another guardian.
 int64_t replacement_ns(const Victim& victim) {

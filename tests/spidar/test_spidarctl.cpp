@@ -199,7 +199,8 @@ TEST(Spidarctl, InfoReadsEachBoard) {
     expect_contains(outcome.text, "device    " + device + "\n");
     expect_contains(outcome.text, "inputs    0x0000");
   }
-  expect_contains(run("info sim:ff").text, "found     emulated stick, force feedback on two axes");
+  expect_contains(run("info sim:ff").text,
+                  "found     emulated stick at 20 % of its strength, force feedback on two axes");
   expect_contains(run("info sim:sh4 --json").text, "\"profile\" : \"spidar-g6x3-v2-r\"");
 }
 

@@ -16,8 +16,9 @@
 namespace spidar::test {
 namespace {
 
-constexpr const char* kOneAxis = ", force feedback on one axis: forces up and down are not felt";
-constexpr const char* kTwoAxes = ", force feedback on two axes";
+constexpr const char* kOneAxis =
+    " at 20 % of its strength, force feedback on one axis: forces up and down are not felt";
+constexpr const char* kTwoAxes = " at 20 % of its strength, force feedback on two axes";
 
 class Wheels : public testing::Test {
  protected:
@@ -66,7 +67,8 @@ TEST_F(Wheels, GetTheSidewaysForce) {
   plug_evdev(0, EvdevKind::kWheel).axis[1] = 1000;  // a pedal
   const FeltPlayer player;
   EXPECT_EQ(player.session->device().description(),
-            "Emulated Racing Wheel, force feedback on one axis: forces up and down are not felt");
+            "Emulated Racing Wheel at 20 % of its strength, force feedback on one axis: forces up "
+            "and down are not felt");
   player.push(-1, 1);
   wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
   EXPECT_EQ(evdev_levels(0).up, 0);
@@ -74,7 +76,7 @@ TEST_F(Wheels, GetTheSidewaysForce) {
   EXPECT_FALSE(player.session->device().felt_parts().y);
   EXPECT_TRUE(player.session->device().felt_parts().direction);
   EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
-  EXPECT_EQ(bus().evdev[0].plays, 1u);
+  EXPECT_FALSE(bus().evdev[0].effect[1].used);
 }
 
 /// hid-pidff plays every effect of such a wheel to the left if its level is positive.
@@ -95,7 +97,7 @@ TEST_F(Wheels, AreKnownByTheirIdOrTheirPedals) {
     const FeltPlayer player;
     player.push(1, 1);
     wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
-    EXPECT_EQ(port.plays, 1u);
+    EXPECT_FALSE(port.effect[1].used);
     EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
   }
 }
@@ -125,11 +127,15 @@ TEST_F(Wheels, BadNumbersOfAxesAreRefused) {
     }
     return "nothing";
   };
-  for (const char* bad : {"axes=3", "axes=0", "axes=", "axes", "axes=1,axes=1", "wheel", ""})
+  for (const char* bad : {"axes=3", "axes=0", "axes=", "axes", "wheel", "", "gain=0", "gain=101",
+                          "gain=1e1", "gain="})
     EXPECT_EQ(says(std::string("ff:/dev/input/event0,") + bad),
               std::string("ff:/dev/input/event0,") + bad + ": \"" + bad +
-                  "\" is not known; write ff:/dev/input/event0,axes=1 for a wheel or "
-                  "ff:/dev/input/event0,axes=2 for a joystick");
+                  "\" is not known; write ff:/dev/input/event0,axes=1 for a wheel, "
+                  "ff:/dev/input/event0,axes=2 for a joystick, or ff:/dev/input/event0,gain=50 for "
+                  "50 % of the device's strength");
+  EXPECT_NE(says("ff:/dev/input/event0,axes=1,axes=1").find("\"axes=1\" is not known"),
+            std::string::npos);
   EXPECT_EQ(says("ff:,axes=1"), "ff:,axes=1: the path is empty; write ff:/dev/input/eventN,axes=1");
   plug_evdev(0, EvdevKind::kOneAxis);
   EXPECT_EQ(says("ff:/dev/input/event0,axes=2"),

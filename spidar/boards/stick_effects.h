@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The effects of a force-feedback device, set by a thread that may wait for the driver.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <future>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/api.h"
+#include "spidar/boards/stick_place.h"
+#include "spidar/boards/update_watch.h"
+#include "spidar/guardian/last_will.h"
+#include "spidar/protocols/force_feedback.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// Drivers may need a long time for an update, or lose updates that come too fast. One effect for
+/// each axis is set at most every kUpdate_ms, one at a time, and only if it has changed. It lasts
+/// ff::kEffect_ms, and is started again every kRefresh_ms as long as forces arrive, so that it ends
+/// by itself when this process hangs or is stopped.
+///
+/// A call of a driver that hangs cannot be ended: the kernel lets no other call to the device pass
+/// until it returns, not even the guardian's. report() then returns a time-out, see UpdateWatch,
+/// and close() leaves the thread alone, which shares the ownership of this object and releases the
+/// device when the driver returns.
+///
+/// A device that is only opened and read keeps its gain and its autocentre.
+class StickEffects : public std::enable_shared_from_this<StickEffects> {
+ public:
+  static constexpr int kUpdate_ms = 5;
+  static constexpr int kRefresh_ms = 50;
+  /// How long close() waits for a driver that hangs, beyond the time that the centring spring
+  /// needs.
+  static constexpr int kHang_ms = 300;
+
+  enum class Updates {
+    kOwnThread,  ///< cycle() never waits for the driver
+    kInCycle,    ///< every kUpdate_ms-th cycle(), for emulations
+  };
+
+  /// Linux does not report how strong a device is. A wheel may turn with 20 N m, so a fifth is used
+  /// of a device that has a directional force, unless somebody has asked for more.
+  static constexpr double kDefaultGain = 0.2;
+
+  /// `gain` is the share of the device's strength that is used, at most 1; 0: kDefaultGain, or all
+  /// of a device that only rumbles.
+  StickEffects(std::string name, std::unique_ptr<Transport> transport, Updates updates,
+               double gain);
+
+  /// Throws DeviceError.
+  void open();
+  /// The centring spring stays off if `reopening`, for a hand that still holds the stick.
+  void close(bool reopening) noexcept;
+  /// Sets the force in newtons, right and up, and whether the strings pull at all. Returns what the
+  /// exchange is to report. Does not wait.
+  LinkFault cycle(const Eigen::Vector2d& force_N, bool pulls) noexcept;
+  /// Position of the stick, −1 … 1, as of the last cycle().
+  const Eigen::Vector2d& place() const noexcept { return place_.share(); }
+
+  std::vector<LastWill> last_wills() const;
+  /// Of the device that is open.
+  const ff::Description& description() const noexcept { return description_; }
+  size_t effects() const noexcept { return effect_count_; }
+  double gain() const noexcept {
+    return asked_gain_ > 0 ? asked_gain_ : description_.constant ? kDefaultGain : 1;
+  }
+
+ private:
+  struct Effect {
+    int16_t number = ff::kNewEffect;
+    int level = 0;       ///< that is set; for a rumble effect its strength
+    bool known = false;  ///< the level is known to be set
+    int64_t played_ns = 0;
+  };
+
+  void begin_effects();
+  void start_updates();
+  Transfer upload(size_t effect, int level) noexcept;
+  Transfer play(size_t effect) noexcept;
+  Transfer send(ByteView event) noexcept;
+  /// Once the strings pull: sets gain to the share that is used and autocentre to off, which
+  /// earlier programs or the driver may have left otherwise, and which would scale the force or add
+  /// to it. Until both have been accepted, no level is set.
+  LinkFault take_settings() noexcept;
+  /// Gain to full and, if the driver had turned it on, autocentre by a ramp.
+  void return_settings() noexcept;
+  int wanted_level(size_t effect) const noexcept;
+  /// Reads the position, sets one level, starts effects again, and notes how it ended.
+  void update() noexcept;
+  LinkFault read_and_set() noexcept;
+  LinkFault set_one_level() noexcept;
+  LinkFault refresh() noexcept;
+  void end_effects() noexcept;
+  /// Of cycles in emulations, which need not take a millisecond.
+  int64_t now_ns() const noexcept;
+  void run() noexcept;
+
+  const std::string name_;
+  const std::unique_ptr<Transport> transport_;
+  const Updates updates_;
+  const double asked_gain_;
+
+  ff::Description description_;
+  std::array<Effect, 2> effects_{};  ///< right and up; a rumble effect uses the first
+  size_t effect_count_ = 0;
+  size_t turn_ = 0;  ///< the effect that is checked first
+  int64_t cycle_ = 0;
+  std::thread thread_;
+  std::future<void> ended_;  ///< of the thread; not valid before there is one
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> reopening_{false};
+  std::atomic<bool> pulled_{false};    ///< since it was opened
+  std::atomic<int64_t> cycled_ns_{0};  ///< the latest cycle()
+  bool has_settings_ = false;          ///< take_settings() has succeeded
+  bool gain_set_ = false;              ///< gain may not be full
+  bool centring_off_ = false;          ///< autocentre may be off
+  UpdateWatch updated_;
+  std::array<std::atomic<double>, 2> force_N_{};
+  StickPlace place_;
+};
+
+}  // namespace spidar
