@@ -3,8 +3,8 @@
 /// The paper's experiment with people: which controller feels better, and what haptics add.
 
 #include <cstdio>
-#include <ctime>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -18,6 +18,7 @@
 #include "examples/play/properties.h"
 #include "examples/study/analysis.h"
 #include "examples/study/answers.h"
+#include "examples/study/briefing.h"
 #include "examples/study/schedule.h"
 #include "examples/study/terminal.h"
 
@@ -28,12 +29,16 @@ using namespace study;
 constexpr const char* kUsage =
     "usage: study run ANSWERS.csv PARTICIPANT CLIP... [option...] [-- name=value ...]\n"
     "       study report ANSWERS.csv\n"
-    "  run     plays clips and asks; goes on where this participant stopped\n"
+    "  run     asks for consent, for reasons to exclude the participant, and for a test of the\n"
+    "          emergency stop; then plays clips and asks; goes on where this participant stopped\n"
     "  report  percentages, means, and a sign test of all answers\n"
     "  --seed N              another random order of clips; the same for all of a study\n"
     "  --question NAME=TEXT  one more question after each clip, on the same five steps\n"
     "  --headless            no window for the video\n"
-    "  name=value            properties of spidarmotion, the same for all clips\n";
+    "  name=value            properties of spidarmotion, the same for all clips; without "
+    "max-force,\n"
+    "                        the largest force is 1 N, and more must be confirmed\n"
+    "ANSWERS.csv.briefings keeps what was asked before, ANSWERS.csv.traces/ what was felt.\n";
 
 struct Options {
   std::string answers;
@@ -92,29 +97,84 @@ Options parse(const std::vector<std::string>& arguments) {
   return options;
 }
 
-std::string utc_now() {
-  char text[32];
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
+/// The value that an option after "--" gives a property; empty without one.
+std::string given(const Options& options, const std::string& property) {
+  std::string value;
+  for (const std::string& assignment : options.assignments)
+    if (assignment.compare(0, property.size() + 1, property + "=") == 0)
+      value = assignment.substr(property.size() + 1);
+  return value;
+}
+
+/// A player that is stopped and released at the end.
+class Player {
+ public:
+  Player(const std::string& clip, const Options& options,
+         const std::vector<std::string>& assignments)
+      : filter_(make_filter()) {
+    gst_object_ref_sink(filter_);
+    if (given(options, "max-force").empty()) set_property(filter_, "max-force=1");
+    for (const std::string& assignment : options.assignments) set_property(filter_, assignment);
+    for (const std::string& assignment : assignments) set_property(filter_, assignment);
+    pipeline_ = make_player(film_uri(clip), filter_, open_screen(options.headless));
+  }
+  ~Player() {
+    gst_element_set_state(pipeline_, GST_STATE_NULL);
+    gst_object_unref(pipeline_);
+    gst_object_unref(filter_);
+  }
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
+
+  GstElement* pipeline() const { return pipeline_; }
+
+ private:
+  GstElement* filter_;
+  GstElement* pipeline_ = nullptr;
+};
+
+/// A file name for a trace that no earlier one has: a trial that was stopped is played again.
+std::string trace_file(const Options& options, const Trial& trial) {
+  const std::filesystem::path folder = options.answers + ".traces";
+  std::filesystem::create_directories(folder);
+  const std::string name = options.participant + "-" + std::to_string(trial.number);
+  std::string file;
+  for (int again = 1; file.empty() || std::filesystem::exists(file + ".csv"); ++again)
+    file = (folder / (again == 1 ? name : name + "-" + std::to_string(again))).string();
+  return file;
 }
 
 Ending play(const Trial& trial, const Options& options) {
-  GstElement* const filter = make_filter();
-  gst_object_ref_sink(filter);
-  for (const std::string& assignment : options.assignments) set_property(filter, assignment);
-  set_property(
-      filter, trial.condition == Condition::kLinear ? "controller=linear" : "controller=nonlinear");
-  if (trial.condition == Condition::kWithout) set_property(filter, "mute=true");
-  const Screen screen = open_screen(options.headless);
-  GstElement* const pipeline = make_player(film_uri(trial.clip), filter, screen);
-  const Ending ending = run_playback(pipeline, 0, [&] { return "clip " + trial.code; });
-  gst_element_set_state(pipeline, GST_STATE_NULL);
-  gst_object_unref(pipeline);
-  gst_object_unref(filter);
-  return ending;
+  const std::string file = trace_file(options, trial);
+  std::vector<std::string> assignments{
+      trial.condition == Condition::kLinear ? "controller=linear" : "controller=nonlinear",
+      "trace=" + file + ".csv", "haptic-trace=" + file + ".haptic.csv"};
+  if (trial.condition == Condition::kWithout) assignments.push_back("mute=true");
+  const Player player(trial.clip, options, assignments);
+  return run_playback(player.pipeline(), 0, [&] { return "clip " + trial.code; });
+}
+
+/// The strings have their minimum tension, in PAUSED as with mute=true.
+void while_taut(const Options& options, const std::function<void()>& run) {
+  const Player player(options.clips.front(), options, {"mute=true"});
+  gst_element_set_state(player.pipeline(), GST_STATE_PAUSED);
+  if (gst_element_get_state(player.pipeline(), nullptr, nullptr, 10 * GST_SECOND) ==
+      GST_STATE_CHANGE_FAILURE)
+    throw std::runtime_error("the device cannot be opened; examples/play.sh says why");
+  run();
+}
+
+bool may_take_part(const Options& options) {
+  Briefing briefing;
+  briefing.record = options.answers + ".briefings";
+  briefing.participant = options.participant;
+  const std::string force = given(options, "max-force");
+  if (!force.empty()) briefing.force_N = std::strtod(force.c_str(), nullptr);
+  const std::string device = given(options, "device");
+  const bool simulated = device.empty() || device == "none" || device.compare(0, 3, "sim") == 0;
+  if (!simulated)
+    briefing.while_taut = [&](const std::function<void()>& run) { while_taut(options, run); };
+  return brief(briefing, std::cin, std::cout);
 }
 
 /// Returns false when the participant stops here.
@@ -142,6 +202,7 @@ int run(const Options& options) {
   const std::vector<Trial> trials =
       schedule(options.clips, index_of(answers, options.participant), options.seed);
   check_same_trials(answers, options.participant, trials);
+  if (!may_take_part(options)) return 1;
   for (const Trial& trial : trials) {
     std::vector<Question> open;
     std::vector<Question> all = questions(trial.part);

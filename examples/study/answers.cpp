@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -99,22 +100,37 @@ void check_name(const std::string& text) {
   }
 }
 
-void append_answer(const std::string& path, const Answer& answer) {
-  for (const std::string& text : {answer.participant, answer.trial.clip, answer.question}) {
-    check_name(text);
-  }
+std::string utc_now() {
+  char text[32];
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+void append_line(const std::string& path, const std::string& header, const std::string& line) {
   std::FILE* file = std::fopen(path.c_str(), "ae");
   if (!file) throw std::runtime_error(path + ": " + std::strerror(errno));
   const bool is_new = std::fseek(file, 0, SEEK_END) == 0 && std::ftell(file) == 0;
-  if (is_new) std::fprintf(file, "%s\n", kHeader);
-  const Trial& trial = answer.trial;
-  std::fprintf(file, "%s,%d,%s,%s,%s,%s,%s,%d,%s\n", answer.participant.c_str(), trial.number,
-               to_string(trial.part), to_string(trial.condition), trial.code.c_str(),
-               trial.clip.c_str(), answer.question.c_str(), answer.step, answer.time.c_str());
+  if (is_new) std::fprintf(file, "%s\n", header.c_str());
+  std::fprintf(file, "%s\n", line.c_str());
   const bool written = std::fflush(file) == 0 && std::ferror(file) == 0 && fsync(fileno(file)) == 0;
   const int error = errno;
   std::fclose(file);
   if (!written) throw std::runtime_error(path + ": " + std::strerror(error));
+}
+
+void append_answer(const std::string& path, const Answer& answer) {
+  for (const std::string& text : {answer.participant, answer.trial.clip, answer.question}) {
+    check_name(text);
+  }
+  const Trial& trial = answer.trial;
+  std::ostringstream line;
+  line << answer.participant << ',' << trial.number << ',' << to_string(trial.part) << ','
+       << to_string(trial.condition) << ',' << trial.code << ',' << trial.clip << ','
+       << answer.question << ',' << answer.step << ',' << answer.time;
+  append_line(path, kHeader, line.str());
 }
 
 int index_of(const std::vector<Answer>& answers, const std::string& participant) {

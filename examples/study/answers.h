@@ -40,6 +40,13 @@ std::vector<Answer> read_answers(const std::string& path);
 /// line breaks would need quoting.
 void check_name(const std::string& text);
 
+/// UTC, ISO 8601.
+std::string utc_now();
+
+/// Appends a line and flushes it to the disk; creates the file, with a first line `header`, if
+/// there is none. Throws std::runtime_error.
+void append_line(const std::string& path, const std::string& header, const std::string& line);
+
 /// Appends a row and flushes it to the disk; creates the file if there is none. Throws
 /// std::runtime_error, and std::invalid_argument as check_name() does.
 void append_answer(const std::string& path, const Answer& answer);

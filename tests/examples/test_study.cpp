@@ -15,6 +15,7 @@
 
 #include "examples/study/analysis.h"
 #include "examples/study/answers.h"
+#include "examples/study/briefing.h"
 #include "examples/study/schedule.h"
 #include "examples/study/terminal.h"
 #include "tests/support/temporary_folder.h"
@@ -147,6 +148,89 @@ TEST(StudyTerminal, AsksUntilThereIsAnAnswer) {
   EXPECT_TRUE(wait_for_return(ready, out));
   EXPECT_FALSE(wait_for_return(ready, out));
   EXPECT_FALSE(wait_for_return(ready, out));
+}
+
+class StudyBriefing : public StudyFile {
+ protected:
+  bool brief_with(const std::vector<std::string>& answers, double force_N = 1, bool pulls = true) {
+    Briefing briefing;
+    briefing.record = path;
+    briefing.participant = "P1";
+    briefing.force_N = force_N;
+    if (pulls) {
+      briefing.while_taut = [this](const std::function<void()>& run) {
+        taut = true;
+        run();
+        taut = false;
+      };
+    }
+    std::string typed;
+    for (const std::string& answer : answers) typed += answer + "\n";
+    std::istringstream in(typed);
+    out.str("");
+    return brief(briefing, in, out);
+  }
+
+  std::vector<std::string> right() const {
+    std::vector<std::string> answers{"yes"};
+    answers.resize(1 + exclusions().size(), "no");
+    answers.push_back("yes");  // nothing loose
+    return answers;
+  }
+
+  std::string record() const {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  bool taut = false;
+  std::ostringstream out;
+};
+
+TEST_F(StudyBriefing, NobodyTakesPartWithoutConsentOrWithAReasonAgainstIt) {
+  std::vector<std::string> all = right();
+  all.insert(all.end(), {"yes", "yes"});
+  EXPECT_TRUE(brief_with(all));
+  EXPECT_NE(record().find("P1,consent,yes,20"), std::string::npos);
+  EXPECT_NE(record().find("P1,eligible,yes,20"), std::string::npos);
+  for (size_t i = 0; i < all.size(); ++i) {
+    std::vector<std::string> answers = all;
+    answers[i] = all[i] == "yes" ? "no" : "yes";
+    EXPECT_FALSE(brief_with(answers)) << i;
+    EXPECT_NE(out.str().find("P1 does not take part"), std::string::npos) << i;
+    answers.resize(i);
+    EXPECT_FALSE(brief_with(answers)) << "the input ends at " << i;
+  }
+  // The reason itself is not recorded.
+  EXPECT_NE(record().find("P1,eligible,no,20"), std::string::npos);
+  EXPECT_EQ(record().find("implant"), std::string::npos);
+}
+
+TEST_F(StudyBriefing, TheEmergencyStopIsTestedWhileTheStringsAreTaut) {
+  std::vector<std::string> all = right();
+  EXPECT_FALSE(brief_with(all));
+  EXPECT_NE(out.str().find("Press the emergency stop"), std::string::npos);
+  EXPECT_FALSE(taut);
+  EXPECT_TRUE(brief_with(all, 1, false)) << "a simulated device has none";
+  all.push_back("maybe");
+  all.insert(all.end(), {"yes", "yes"});
+  EXPECT_TRUE(brief_with(all));
+  EXPECT_NE(record().find("P1,emergency-stop,yes,20"), std::string::npos);
+}
+
+TEST_F(StudyBriefing, MoreThanANewtonMustBeConfirmedInWriting) {
+  std::vector<std::string> all = right();
+  EXPECT_FALSE(brief_with(all, 3, false));
+  for (const char* said : {"yes", "I am responsible for 2 N Ada", "I am responsible for 3 N",
+                           "I am responsible for 3 N "}) {
+    std::vector<std::string> answers = all;
+    answers.push_back(said);
+    EXPECT_FALSE(brief_with(answers, 3, false)) << said;
+  }
+  all.push_back("I am responsible for 3 N Ada");
+  EXPECT_FALSE(brief_with(all, std::nan(""), false));
+  EXPECT_TRUE(brief_with(all, 3, false));
+  EXPECT_NE(record().find("P1,force,I am responsible for 3 N Ada,20"), std::string::npos);
 }
 
 TEST(StudyStatistics, AreTheTextbookOnes) {
