@@ -55,30 +55,40 @@ int option_value(const std::string& option, const std::string& name, int largest
   return value <= largest ? value : 0;
 }
 
-/// `rest` is empty, PATH, or PATH with options after commas: axes=N, gain=PERCENT.
+/// One of axes=N, gain=PERCENT, flip=x, flip=y and flip=xy. Returns false if it is none of them, or
+/// was given before.
+bool take_option(const std::string& option, int& axes, StickEffects::Options& options) {
+  if (axes == 0 && (axes = option_value(option, "axes=", 2)) != 0) return true;
+  if (options.gain == 0 && (options.gain = option_value(option, "gain=", 100) / 100.0) != 0)
+    return true;
+  if (options.flipped[0] || options.flipped[1]) return false;
+  options.flipped = {option == "flip=x" || option == "flip=xy",
+                     option == "flip=y" || option == "flip=xy"};
+  return options.flipped[0] || options.flipped[1];
+}
+
+/// `rest` is empty, PATH, or PATH with options after commas.
 std::unique_ptr<Board> make_force_feedback(const std::string& spec, const std::string& rest,
                                            const Profile& profile) {
   const size_t comma = rest.find(',');
   const std::string path = rest.substr(0, comma);
-  int axes = 0, gain = 0;
+  int axes = 0;
+  StickEffects::Options options;
   for (size_t at = comma; at != std::string::npos;) {
     const size_t end = rest.find(',', at + 1);
     const std::string option = rest.substr(at + 1, end == std::string::npos ? end : end - at - 1);
     at = end;
     if (path.empty())
       throw DeviceError(spec + ": the path is empty; write ff:/dev/input/eventN," + option);
-    int& value = option.compare(0, 5, "gain=") == 0 ? gain : axes;
-    const int given =
-        &value == &gain ? option_value(option, "gain=", 100) : option_value(option, "axes=", 2);
-    if (given == 0 || value != 0)
+    if (!take_option(option, axes, options))
       throw DeviceError(spec + ": \"" + option + "\" is not known; write ff:" + path +
-                        ",axes=1 for a wheel, ff:" + path + ",axes=2 for a joystick, or ff:" +
-                        path + ",gain=50 for 50 % of the device's strength");
-    value = given;
+                        ",axes=1 for a wheel, ff:" + path + ",axes=2 for a joystick, ff:" + path +
+                        ",gain=50 for 50 % of the device's strength, or ff:" + path +
+                        ",flip=x if it pushes to the wrong side");
   }
-  return std::make_unique<ForceFeedbackBoard>(
-      spec, profile, std::make_unique<EvdevTransport>(spec, path, axes),
-      ForceFeedbackBoard::Updates::kOwnThread, gain / 100.0);
+  return std::make_unique<ForceFeedbackBoard>(spec, profile,
+                                              std::make_unique<EvdevTransport>(spec, path, axes),
+                                              ForceFeedbackBoard::Updates::kOwnThread, options);
 }
 
 BoardSettings resolved(BoardSettings settings, const Profile& profile) {

@@ -22,7 +22,8 @@ namespace spidar {
 ///   mouse, mouse:ID         SPIDAR-mouse; ID: serial number or bus path
 ///   ff, ff:PATH[,OPTION]…   joystick, wheel or gamepad with force feedback: the first one, or
 ///                           this file; OPTION: axes=1 for a wheel or axes=2 for a joystick, if it
-///                           is taken for the other; gain=PERCENT of its strength (20)
+///                           is taken for the other; gain=PERCENT of its strength (20);
+///                           flip=x, y or xy if its driver pushes to the other side
 /// Opens nothing. Throws DeviceError, which lists the valid names or explains why the board cannot
 /// drive the profile. "none" is not a device, because it needs no loop.
 SPIDAR_API std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,

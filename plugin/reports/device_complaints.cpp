@@ -42,7 +42,7 @@ void DeviceComplaints::look_at_opened(const HapticSession& session) const {
       ("The device works%s%s.",
        whole ? "" : ", but renders nothing else of the force and the torque",
        force_feedback ? "; device=ff:PATH,gain=PERCENT sets how much of its strength is "
-                        "used"
+                        "used, and spidarctl selftest ff tests its directions"
                       : ""));
 }
 

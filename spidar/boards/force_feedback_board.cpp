@@ -16,12 +16,12 @@ constexpr double kReach = 0.5;
 
 ForceFeedbackBoard::ForceFeedbackBoard(std::string name, const Profile& profile,
                                        std::unique_ptr<Transport> transport, Updates updates,
-                                       double gain)
+                                       const StickEffects::Options& options)
     : name_(std::move(name)),
       profile_(profile),
       rest_N_(profile.min_tension_N()),
       encoders_(profile),
-      effects_(std::make_shared<StickEffects>(name_, std::move(transport), updates, gain)) {
+      effects_(std::make_shared<StickEffects>(name_, std::move(transport), updates, options)) {
   for (int i = 0; i < profile.geometry.count; ++i)
     reach_m_ = reach_m_.cwiseMax(
         kReach * profile.geometry.exit_m[static_cast<size_t>(i)].head<2>().cwiseAbs());

@@ -26,9 +26,8 @@ class SPIDAR_API ForceFeedbackBoard final : public Board {
  public:
   static constexpr int kUpdate_ms = StickEffects::kUpdate_ms;
   using Updates = StickEffects::Updates;
-  /// `gain`: see StickEffects.
   ForceFeedbackBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
-                     Updates updates, double gain = 0);
+                     Updates updates, const StickEffects::Options& options = {});
   ~ForceFeedbackBoard() override { close(); }
 
   void open() override;

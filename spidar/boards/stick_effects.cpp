@@ -58,11 +58,11 @@ std::string reason(const Transfer& transfer) {
 }  // namespace
 
 StickEffects::StickEffects(std::string name, std::unique_ptr<Transport> transport, Updates updates,
-                           double gain)
+                           const Options& options)
     : name_(std::move(name)),
       transport_(std::move(transport)),
       updates_(updates),
-      asked_gain_(gain) {}
+      options_(options) {}
 
 void StickEffects::open() {
   if (ended_.valid() && ended_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
@@ -190,7 +190,8 @@ int StickEffects::wanted_level(size_t effect) const noexcept {
   // A force that is too strong keeps its direction.
   const double largest =
       effect_count_ > 1 ? std::max(std::abs(right), std::abs(up)) : std::abs(right);
-  const double share = (effect == 0 ? right : up) / std::max(1.0, largest);
+  const double side = options_.flipped[effect] ? -1 : 1;
+  const double share = side * (effect == 0 ? right : up) / std::max(1.0, largest);
   return static_cast<int>(std::lround(share_used * ff::kFullLevel * share));
 }
 
@@ -226,7 +227,9 @@ LinkFault StickEffects::refresh() noexcept {
   // Not when the loop hangs.
   if (time_ns - cycled_ns_ > kRefresh_ns) return LinkFault::kNone;
   for (size_t i = 0; i < effect_count_; ++i) {
-    if (effects_[i].level == 0 || time_ns - effects_[i].played_ns < kRefresh_ns) continue;
+    // An effect that is about to be set to rest may have been stopped by the guardian.
+    const bool rests = effects_[i].level == 0 || wanted_level(i) == 0;
+    if (rests || time_ns - effects_[i].played_ns < kRefresh_ns) continue;
     const LinkFault fault = play(i).fault;
     if (fault != LinkFault::kNone) return fault;
   }

@@ -41,6 +41,14 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   /// needs.
   static constexpr int kHang_ms = 300;
 
+  struct Options {
+    /// The share of the device's strength that is used, at most 1; 0: kDefaultGain, or all of a
+    /// device that only rumbles.
+    double gain = 0;
+    /// The driver turns the force to the other side: right and up.
+    std::array<bool, 2> flipped{};
+  };
+
   enum class Updates {
     kOwnThread,  ///< cycle() never waits for the driver
     kInCycle,    ///< every kUpdate_ms-th cycle(), for emulations
@@ -50,10 +58,8 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   /// of a device that has a directional force, unless somebody has asked for more.
   static constexpr double kDefaultGain = 0.2;
 
-  /// `gain` is the share of the device's strength that is used, at most 1; 0: kDefaultGain, or all
-  /// of a device that only rumbles.
   StickEffects(std::string name, std::unique_ptr<Transport> transport, Updates updates,
-               double gain);
+               const Options& options);
 
   /// Throws DeviceError.
   void open();
@@ -70,7 +76,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   const ff::Description& description() const noexcept { return description_; }
   size_t effects() const noexcept { return effect_count_; }
   double gain() const noexcept {
-    return asked_gain_ > 0 ? asked_gain_ : description_.constant ? kDefaultGain : 1;
+    return options_.gain > 0 ? options_.gain : description_.constant ? kDefaultGain : 1;
   }
 
  private:
@@ -106,7 +112,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   const std::string name_;
   const std::unique_ptr<Transport> transport_;
   const Updates updates_;
-  const double asked_gain_;
+  const Options options_;
 
   ff::Description description_;
   std::array<Effect, 2> effects_{};  ///< right and up; a rumble effect uses the first

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <unistd.h>
+#include <utility>
 
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/count_recorder.h"
@@ -19,7 +20,10 @@
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/hand_motion.h"
+#include "spidar/tools/selftest_report.h"
+#include "spidar/tools/sim_wiring.h"
 #include "spidar/tools/terminal.h"
+#include "spidar/wiring/wiring_test.h"
 
 namespace spidar {
 namespace {
@@ -37,6 +41,7 @@ class Bench {
       BoardSettings as_counted;
       as_counted.count_zero = CountZero::kNever;
       device_ = make_device(options.device, profile, as_counted);
+      miswire(options.sim_wiring, options.device, profile, device_);
       return;
     }
     Profile real = profile;
@@ -49,6 +54,7 @@ class Bench {
     auto simulated = std::make_unique<SimulatedDevice>(real, SimulatedDevice::Time::kClock);
     hand_ = simulated.get();
     device_ = std::move(simulated);
+    miswire(options.sim_wiring, options.device, profile, device_);
   }
 
   Device& device() { return *device_; }
@@ -83,8 +89,27 @@ class Progress {
   int last_ = -1;
 };
 
-CountSamples record(const CalibrateOptions& options, const Profile& profile) {
-  Bench bench(options, profile);
+/// False when it is not as in the profile, or when interrupted; says so.
+bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Bench& bench) {
+  bool told = false;
+  const Pace pace = [&, next = every_millisecond()] {
+    // Only now is the device open.
+    if (!std::exchange(told, true))
+      std::cerr << "Hold the grip loosely at the centre. The strings are pulled one after the "
+                   "other.\n";
+    return next();
+  };
+  WiringTestSettings settings;
+  settings.try_reversed = can_reverse(options.device, profile);
+  const WiringTest test = test_wiring(bench.device(), profile, pace, settings, tell_to_hold_still);
+  if (!test.answers.complete) return false;
+  if (test.report.as_profile()) return true;
+  print_wiring(std::cerr, profile, test.answers, test.report);
+  std::cerr << "nothing is calibrated: spidarctl selftest finds out what to change\n";
+  return false;
+}
+
+CountSamples record(const CalibrateOptions& options, const Profile& profile, Bench& bench) {
   const RecordingSettings settings{options.centre ? kHoldSeconds : options.seconds,
                                    kSamplePeriod_s};
   Progress progress(settings.seconds);
@@ -124,7 +149,10 @@ int calibrate_command(int argc, char** argv) {
   const Profile profile = load_profile(options.profile.empty() ? board.profile : options.profile);
   if (!options.output.empty()) check_folder_of(options.output);
   catch_signals();
-  const CountSamples counts = record(options, profile);
+  Bench bench(options, profile);
+  const bool wired_right = options.untested || is_wired_right(options, profile, bench);
+  if (!wired_right && !interrupted()) return kNotCalibrated;
+  const CountSamples counts = wired_right ? record(options, profile, bench) : CountSamples();
   if (interrupted()) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;

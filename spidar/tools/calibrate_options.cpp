@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "spidar/tools/sim_wiring.h"
+
 namespace spidar {
 
 const char* const kCalibrateHelp =
@@ -19,16 +21,20 @@ Determines the string lengths at which the encoders of DEVICE are zero.
   --centre              you hold the grip still at the centre, without turning it
   --free exits,scale    with --move, also determine where the strings leave the frame, and a
                         factor on every metres_per_count
+  --untested            do not test the wiring before
   --output FILE.toml    write the calibrated profile
   --json                print the report as JSON
   --sim-start X,Y,Z,RX,RY,RZ
                         simulated device: clear its counters X,Y,Z millimetres from the
                         centre, turned by RX,RY,RZ degrees (a rotation vector)
+  --sim-wiring FAULTS   simulated device: see selftest
   --help
 
-The strings are held taut; no other force acts on the hand. Exit status: 0 calibrated, 1 device,
-profile or file not found or not usable, 2 wrong usage, 3 the samples do not determine everything
-that was asked for or contradict the profile (nothing is written), 130 interrupted.
+First the wiring is tested as selftest does, with pulls of 0.5 N, because counts of a device that is
+wired differently mean something else. Then the strings are held taut; no other force acts on the
+hand. Exit status: 0 calibrated, 1 device, profile or file not found or not usable, 2 wrong usage, 3
+the wiring is not as in the profile, or the samples do not determine everything that was asked for or
+contradict the profile (nothing is written), 130 interrupted.
 )";
 
 namespace {
@@ -84,6 +90,8 @@ CalibrateOptions parse_calibrate_options(int argc, char** argv) {
        {"output", true,
         [&](const std::string& text) { options.output = parse_profile_file("--output", text); }},
        {"sim-start", true, [&](const std::string& text) { options.sim_start = start_pose(text); }},
+       {"untested", false, [&](const std::string&) { options.untested = true; }},
+       sim_wiring_option(options.sim_wiring),
        json_option(options.json)});
   options.help = given.help;
   options.device = given.device;

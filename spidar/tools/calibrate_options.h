@@ -20,6 +20,8 @@ struct CalibrateOptions {
   CalibrationSettings settings;
   std::string output;             ///< empty: none
   std::optional<Pose> sim_start;  ///< pose at which the simulated device's counters were cleared
+  bool untested = false;          ///< does not test the wiring before
+  std::string sim_wiring;
   bool json = false;
   bool help = false;
 };

@@ -16,8 +16,10 @@
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/conformance_report.h"
+#include "spidar/tools/selftest_report.h"
 #include "spidar/tools/sim_wiring.h"
 #include "spidar/tools/terminal.h"
+#include "spidar/wiring/wiring_test.h"
 
 namespace spidar {
 namespace {
@@ -127,8 +129,10 @@ bool pull(Device& device, const ConformanceOptions& options, Conformance& found)
   WiringTestSettings settings;
   settings.pull_N = options.newton;
   settings.try_reversed = can_reverse(options.common.device, found.profile);
-  found.answers = ask_wiring(device, found.profile, every_millisecond(), settings);
-  if (found.answers.complete) found.wiring = judge_wiring(found.profile, found.answers);
+  const WiringTest test =
+      test_wiring(device, found.profile, every_millisecond(), settings, tell_to_hold_still);
+  found.answers = test.answers;
+  if (found.answers.complete) found.wiring = test.report;
   return found.answers.complete;
 }
 
@@ -175,7 +179,7 @@ int conformance_command(int argc, char** argv) {
   }
   ChosenDevice chosen = choose_device(options.common);
   if (options.sim_lag_ms) simulate_lag(1e-3 * *options.sim_lag_ms, options.common.device, chosen);
-  miswire(options.sim_wiring, options.common.device, chosen);
+  miswire(options.sim_wiring, options.common.device, chosen.profile, chosen.device);
   if (!options.report.empty()) check_folder_of(options.report);
   const bool pulls = may_pull(options, chosen);
   catch_signals();

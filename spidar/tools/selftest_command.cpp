@@ -9,8 +9,8 @@
 #include "spidar/tools/selftest_report.h"
 #include "spidar/tools/sim_wiring.h"
 #include "spidar/tools/terminal.h"
-#include "spidar/wiring/wiring_answers.h"
-#include "spidar/wiring/wiring_report.h"
+#include "spidar/wiring/stick_test.h"
+#include "spidar/wiring/wiring_test.h"
 
 namespace spidar {
 namespace {
@@ -19,7 +19,11 @@ constexpr const char* kHelp = R"(usage: spidarctl selftest DEVICE [OPTION]...
 
 Pulls one string after the other, for a second each, or longer if the hand moves. From the responses
 of the encoders, it determines which motor and which encoder are connected to which string, and which
-of them are reversed. Hold the grip loosely at the centre.
+of them are reversed. Hold the grip loosely at the centre, with the elbow on the table. Motors whose
+responses are unclear, because the hand moved, are pulled again, up to twice.
+
+Of a joystick or wheel (ff), determines whether it moves in the direction of the force: pushes it to
+each side for 0.2 s, four times, with half of the force that its gain allows. Take the hand away.
 
   --newton N             tension of a pull above the minimum tension, 0.1 to 2 (default 0.5)
   --write-profile FILE.toml
@@ -76,6 +80,46 @@ void write(const SelftestOptions& options, const Profile& profile, const WiringR
     std::cerr << "the counts must be calibrated again: spidarctl calibrate\n";
 }
 
+bool is_stick(const std::string& device) {
+  return device == "ff" || device.compare(0, 3, "ff:") == 0;
+}
+
+const char* side_of(double moved_m) {
+  if (moved_m >= StickTest::kLeast_m) return "moves with the force";
+  return moved_m <= -StickTest::kLeast_m ? "moves against the force" : "does not move";
+}
+
+/// Directions of a joystick or wheel, of which drivers differ.
+int test_stick_command(const SelftestOptions& options, ChosenDevice& chosen) {
+  if (!options.yes && !is_simulated(options.common.device) &&
+      !confirm("Push " + chosen.device->name() +
+               " to all sides with a part of its strength? Take the hand away.")) {
+    std::cerr << "nothing was pushed\n";
+    return kFailed;
+  }
+  catch_signals();
+  const StickTest test = test_stick(*chosen.device, chosen.profile, every_millisecond());
+  if (!test.complete) {
+    std::cerr << "interrupted; the force is zero\n";
+    return kInterrupted;
+  }
+  const bool up = chosen.device->felt_parts().y;
+  std::cout << "right  " << side_of(test.moved_m[0]) << '\n';
+  if (up) std::cout << "up     " << side_of(test.moved_m[1]) << '\n';
+  const bool x = test.moved_m[0] <= -StickTest::kLeast_m,
+             y = test.moved_m[1] <= -StickTest::kLeast_m;
+  const bool right =
+      test.moved_m[0] >= StickTest::kLeast_m && (!up || test.moved_m[1] >= StickTest::kLeast_m);
+  if (x || y)
+    std::cout << "Its driver pushes to the other side. Write flip=" << (x ? "x" : "")
+              << (y ? "y" : "") << ": device=ff:PATH,flip=" << (x ? "x" : "") << (y ? "y" : "")
+              << '\n';
+  else if (!right)
+    std::cout << "An axis that does not move is not tested. Let go of the stick, or try more "
+                 "strength: ff:PATH,gain=50\n";
+  return right ? kDone : kFailed;
+}
+
 }  // namespace
 
 int selftest_command(int argc, char** argv) {
@@ -85,8 +129,9 @@ int selftest_command(int argc, char** argv) {
     return kDone;
   }
   ChosenDevice chosen = choose_device(options.common);
+  if (is_stick(options.common.device)) return test_stick_command(options, chosen);
   require_strings(chosen.board, "selftest");
-  miswire(options.sim_wiring, options.common.device, chosen);
+  miswire(options.sim_wiring, options.common.device, chosen.profile, chosen.device);
   if (!options.output.empty()) check_folder_of(options.output);
   if (!options.yes && !is_simulated(options.common.device) &&
       !confirm("Pull the strings of " + chosen.device->name() +
@@ -98,13 +143,12 @@ int selftest_command(int argc, char** argv) {
   WiringTestSettings settings;
   settings.pull_N = options.newton;
   settings.try_reversed = can_reverse(options.common.device, chosen.profile);
-  const WiringAnswers answers =
-      ask_wiring(*chosen.device, chosen.profile, every_millisecond(), settings);
+  const auto [answers, report] = test_wiring(*chosen.device, chosen.profile, every_millisecond(),
+                                             settings, tell_to_hold_still);
   if (!answers.complete) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;
   }
-  const WiringReport report = judge_wiring(chosen.profile, answers);
   (options.json ? print_wiring_json : print_wiring)(std::cout, chosen.profile, answers, report);
   if (!options.output.empty()) write(options, chosen.profile, report);
   return report.as_profile() ? kDone : kFailed;

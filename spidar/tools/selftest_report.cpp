@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "spidar/tools/json_text.h"
+#include "spidar/wiring/wiring_test.h"
 
 namespace spidar {
 namespace {
@@ -100,15 +102,6 @@ bool silent(const WiringReport& report) {
                      [](const WiringChannel& channel) { return channel.motor_string < 0; });
 }
 
-/// Text like " 2, 5"; empty when there are none.
-std::string unclear_motors(const WiringReport& report) {
-  std::string names;
-  for (int i = 0; i < report.count; ++i)
-    if (report.channel[static_cast<size_t>(i)].unclear)
-      names += (names.empty() ? " " : ", ") + std::to_string(i);
-  return names;
-}
-
 const char* verdict(const WiringReport& report) {
   if (silent(report)) return "no answer";
   if (!report.understood()) return "unclear";
@@ -116,6 +109,14 @@ const char* verdict(const WiringReport& report) {
 }
 
 }  // namespace
+
+void tell_to_hold_still(const WiringReport& report) {
+  const std::string motors = unclear_motors(report);
+  std::cerr
+      << "Unclear: " << (motors.empty() ? "all motors" : "motors" + motors)
+      << ". Rest the elbow on the table, hold the grip with the fingertips, and let it be pulled "
+         "without following or resisting. They are pulled again.\n";
+}
 
 void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
                   const WiringReport& report) {
@@ -142,8 +143,10 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
            "the grip so that the strings are taut.\n";
   else if (const std::string motors = unclear_motors(report); !motors.empty())
     out << "The responses of the encoders to pulls of these motors are unclear:" << motors
-        << ". Hold the grip still and loosely at the centre, and test again. If the result is the "
-           "same, check these motors and their strings.\n";
+        << ". They have been pulled in " << WiringTest::kTries
+        << " tries. Fix the grip at the centre so that it yields a little, for example with rubber "
+           "bands, and test again. If the result is the same, check these motors and their "
+           "strings.\n";
   else
     out << "No wiring of this profile explains the responses. Hold the grip still and loosely at "
            "the centre, and check the profile.\n";

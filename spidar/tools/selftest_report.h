@@ -9,6 +9,9 @@
 
 namespace spidar {
 
+/// On standard error: what to do with the hand before unclear motors are pulled again.
+void tell_to_hold_still(const WiringReport& report);
+
 void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
                   const WiringReport& report);
 void print_wiring_json(std::ostream& out, const Profile& profile, const WiringAnswers& answers,

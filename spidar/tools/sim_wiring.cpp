@@ -18,13 +18,13 @@ CommandOption sim_wiring_option(std::string& faults) {
   return {"sim-wiring", true, [&faults](const std::string& text) { faults = text; }};
 }
 
-void miswire(const std::string& faults, const std::string& device, ChosenDevice& chosen) {
+void miswire(const std::string& faults, const std::string& name, const Profile& profile,
+             std::unique_ptr<Device>& device) {
   if (faults.empty()) return;
-  if (!is_simulated(device))
-    throw UsageError("--sim-wiring is for simulated devices only, not for " + device);
+  if (!is_simulated(name))
+    throw UsageError("--sim-wiring is for simulated devices only, not for " + name);
   try {
-    const Miswiring wiring = parse_miswiring(faults, chosen.profile.geometry.count);
-    chosen.device = make_miswired(std::move(chosen.device), wiring);
+    device = make_miswired(std::move(device), parse_miswiring(faults, profile.geometry.count));
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--sim-wiring: ") + error.what());
   }

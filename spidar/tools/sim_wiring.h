@@ -16,7 +16,8 @@ CommandOption sim_wiring_option(std::string& faults);
 
 /// Does nothing when `faults` is empty. Throws UsageError when `faults` is invalid or the device is
 /// not simulated.
-void miswire(const std::string& faults, const std::string& device, ChosenDevice& chosen);
+void miswire(const std::string& faults, const std::string& name, const Profile& profile,
+             std::unique_ptr<Device>& device);
 
 /// Makes the drives lag by this, whatever the profile says. Throws UsageError when the device is
 /// not simulated.

@@ -18,28 +18,32 @@ constexpr int kRounds = 4;
 /// that does nothing has no answer, so this allows at most smallest_answer_m() for it.
 constexpr double kSteady = 0.25;
 
-class WiringTest {
+class Asking {
  public:
-  WiringTest(Device& device, const Profile& profile, const Pace& pace,
-             const WiringTestSettings& settings)
+  Asking(Device& device, const Profile& profile, const Pace& pace,
+         const WiringTestSettings& settings)
       : device_(device),
         profile_(profile),
         settings_(settings),
         rest_N_(profile.min_tension_N()),
         hold_(device, profile, pace) {}
 
-  WiringAnswers run() {
-    WiringAnswers answers;
-    answers.complete = hold_.go(rest_N_, HapticLoop::kEnergise_s) && stay() && ask_all(answers);
+  void run(const std::array<bool, kMaxStrings>& motors, WiringAnswers& answers) {
+    for (int i = 0; i < profile_.geometry.count; ++i)
+      if (answers.reversed[static_cast<size_t>(i)]) hold_.reverse_motor(i);
+    answers.complete =
+        hold_.go(rest_N_, HapticLoop::kEnergise_s) && stay() && ask_all(motors, answers);
     hold_.release();
-    return answers;
   }
 
  private:
-  bool ask_all(WiringAnswers& answers) {
+  bool ask_all(const std::array<bool, kMaxStrings>& motors, WiringAnswers& answers) {
     for (int i = 0; i < profile_.geometry.count; ++i) {
+      const auto k = static_cast<size_t>(i);
+      if (!motors[k]) continue;
+      const bool reversed = answers.reversed[k];
       if (!ask(i, answers)) return false;
-      if (settings_.try_reversed && !answered(answers, i) && !ask_reversed(i, answers))
+      if (settings_.try_reversed && !reversed && !answered(answers, i) && !ask_reversed(i, answers))
         return false;
     }
     return true;
@@ -178,7 +182,17 @@ double smallest_answer_m(const Profile& profile) {
 
 WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pace,
                          const WiringTestSettings& settings) {
-  return WiringTest(device, profile, pace, settings).run();
+  WiringAnswers answers;
+  std::array<bool, kMaxStrings> all{};
+  all.fill(true);
+  ask_again(device, profile, pace, settings, all, answers);
+  return answers;
+}
+
+void ask_again(Device& device, const Profile& profile, const Pace& pace,
+               const WiringTestSettings& settings, const std::array<bool, kMaxStrings>& motors,
+               WiringAnswers& answers) {
+  Asking(device, profile, pace, settings).run(motors, answers);
 }
 
 }  // namespace spidar

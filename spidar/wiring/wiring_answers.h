@@ -45,6 +45,11 @@ struct WiringAnswers {
 SPIDAR_API WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pace,
                                     const WiringTestSettings& settings = {});
 
+/// Pulls these motors again, and replaces their answers.
+SPIDAR_API void ask_again(Device& device, const Profile& profile, const Pace& pace,
+                          const WiringTestSettings& settings,
+                          const std::array<bool, kMaxStrings>& motors, WiringAnswers& answers);
+
 /// Smallest change of length that counts as an answer, metres: some counts, above the tremor of a
 /// hand.
 SPIDAR_API double smallest_answer_m(const Profile& profile);

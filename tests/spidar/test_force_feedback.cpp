@@ -197,31 +197,6 @@ TEST_F(ForceFeedback, TheCentringSpringReturnsByARamp) {
   EXPECT_EQ(port.settings, 2u + 1u + 20u);
 }
 
-TEST_F(ForceFeedback, AFifthOfTheStrengthIsUsedUnlessMoreIsAskedFor) {
-  const auto used = [](EvdevKind kind, const std::string& option) {
-    EvdevPort& port = plug_evdev(0, kind);
-    const FeltPlayer player("ff:/dev/input/event0" + option);
-    player.push(1.5, 0);
-    wait_for([&] { return !evdev_levels(0).at_rest(); });
-    return std::pair(port.gain.load(), player.session->device().description());
-  };
-  const std::string two = ", force feedback on two axes";
-  const std::string one = ", force feedback on one axis: forces up and down are not felt";
-  EXPECT_EQ(used(EvdevKind::kStick, ""),
-            std::pair(kGain, "Emulated Stick at 20 % of its strength" + two));
-  EXPECT_EQ(used(EvdevKind::kWheel, ""),
-            std::pair(kGain, "Emulated Racing Wheel at 20 % of its strength" + one));
-  EXPECT_EQ(used(EvdevKind::kStick, ",gain=60"),
-            std::pair(39321, "Emulated Stick at 60 % of its strength" + two));
-  EXPECT_EQ(used(EvdevKind::kStick, ",axes=1,gain=100"), std::pair(0xFFFF, "Emulated Stick" + one));
-  EXPECT_EQ(used(EvdevKind::kPad, "").first, 0);
-  // A driver without gain: levels.
-  plug_evdev(0, EvdevKind::kOneAxis);
-  const FeltPlayer player;
-  player.push(1.5, 0);
-  wait_for([] { return is_level(evdev_levels(0).right, 0.3, 0.3); });
-}
-
 /// As spidarctl info and zero do.
 TEST_F(ForceFeedback, AnExchangeOfZerosChangesNoSetting) {
   for (const char* driver : {"logitech", "hid-generic"}) {

@@ -171,9 +171,19 @@ TEST(Spidarctl, SelftestSaysWhenTheMotorsHaveNoSupply) {
   expect_contains(outcome.text, "Switch on the supply of the motors");
 }
 
+TEST(Spidarctl, CalibrateRefusesADeviceThatIsWiredDifferently) {
+  const OutputFile file;
+  const CommandResult outcome =
+      run("calibrate sim --sim-wiring swap-encoders:1,2 --centre --output " + file.path());
+  EXPECT_EQ(outcome.status, 3) << outcome.text;
+  expect_contains(outcome.text, "encoders 1 and 2 are swapped");
+  expect_contains(outcome.text, "nothing is calibrated");
+  EXPECT_FALSE(fs::exists(file.path()));
+}
+
 TEST(Spidarctl, JsonIsOneObject) {
   const CommandResult outcome =
-      run_shell(std::string(SPIDARCTL) + " calibrate sim --centre --json 2>/dev/null");
+      run_shell(std::string(SPIDARCTL) + " calibrate sim --untested --centre --json 2>/dev/null");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.text.find("Hold"), std::string::npos);
   EXPECT_EQ(outcome.text.front(), '{');
@@ -243,7 +253,7 @@ TEST(Spidarctl, TheFirstPullOfTheGuideSuitsEveryBoard) {
 
 TEST(Spidarctl, CalibrateTakesTheProfileOfTheBoard) {
   // The general default profile, spidar-gcc, wants negative volts, which this board does not have.
-  const CommandResult outcome = run("calibrate sim:sh4 --centre");
+  const CommandResult outcome = run("calibrate sim:sh4 --untested --centre");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "spidar-g6x3-v2-r");
 }
@@ -341,7 +351,7 @@ TEST(Spidarctl, ConformanceWithoutPullsLeavesTheMotorsAtZero) {
 TEST(Spidarctl, InterruptReleasesTheStrings) {
   const OutputFile log;
   const CommandResult outcome =
-      run_shell(std::string(SPIDARCTL) + " calibrate sim --move 600 >" + log.path() +
+      run_shell(std::string(SPIDARCTL) + " calibrate sim --untested --move 600 >" + log.path() +
                 " 2>&1 & until grep -q Move " + log.path() +
                 "; do sleep 0.05; done; kill -INT $!; wait $!; status=$?; cat " + log.path() +
                 "; exit $status");
