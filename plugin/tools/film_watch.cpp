@@ -53,7 +53,8 @@ GstBusSyncReply FilmWatch::hears(GstBus*, GstMessage* message, gpointer user) {
   auto& self = *static_cast<FilmWatch*>(user);
   const std::lock_guard<std::mutex> lock(self.lock_);
   const GstStructure* const about = gst_message_get_structure(message);
-  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING) {
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) self.failed_ = true;
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING && !self.failed_) {
     GError* warning = nullptr;
     gst_message_parse_warning(message, &warning, nullptr);
     // Players play what spidarmotion warns of: two frames of the same time, for example.

@@ -48,6 +48,7 @@ class FilmWatch {
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
   std::map<GstPad*, Stream> streams_;
+  bool failed_ = false;          // with an error; warnings after it follow from it
   std::string warning_;          // the first one
   std::string remark_;           // the first warning of spidarmotion
   std::string missing_;          // the decoder of the video that is not installed

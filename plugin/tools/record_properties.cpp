@@ -43,7 +43,7 @@ std::string why_refused(const TypedProperty& property, size_t films) {
   }
   const bool known = std::any_of(std::begin(kAnalysis), std::end(kAnalysis),
                                  [&](const char* other) { return name == other; });
-  return known ? "" : "does not change what a track contains, which are " + list_of_analysis();
+  return known ? "" : "changes nothing in a track; these properties do: " + list_of_analysis();
 }
 
 }  // namespace

@@ -142,10 +142,11 @@ TEST_F(TrackBatch, PropertiesThatDoNotBelongToATrackAreRefused) {
   make_film("x.avi");
   make_film("y.avi");
   const std::pair<const char*, const char*> cases[] = {
-      {"x.avi -- attach-meta=false", "attach-meta=false: does not change what a track contains"},
-      {"x.avi -- device=sim", "device=sim: does not change"},
-      {"x.avi -- name=extract", "name=extract: does not change"},
-      {"x.avi -- pointer=grip", "pointer=grip: does not change"},
+      {"x.avi -- attach-meta=false",
+       "attach-meta=false: changes nothing in a track; these properties do: alpha"},
+      {"x.avi -- device=sim", "device=sim: changes nothing"},
+      {"x.avi -- name=extract", "name=extract: changes nothing"},
+      {"x.avi -- pointer=grip", "pointer=grip: changes nothing"},
       {"x.avi -- touch=luma", "touch=luma: what is touched depends on the hand"},
       {"x.avi -- touch=depth", "touch=depth: what is touched depends on the hand"},
       {"x.avi -- track=auto", "track=auto: a film is analysed for its track"},

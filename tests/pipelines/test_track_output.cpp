@@ -59,6 +59,24 @@ class TrackOutput : public testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(TrackOutput, ARecordingThatCannotBeWrittenSaysWhy) {
+  run_pipeline(
+      "videotestsrc num-buffers=100 pattern=ball ! "
+      "video/x-raw,width=160,height=120,framerate=25/1 ! jpegenc ! avimux ! filesink "
+      "location=" +
+      quoted(path("a.avi")));
+  const std::set<std::string> before = files();
+  for (const char* format : {"flac", "mka", "wav"}) {
+    SCOPED_TRACE(format);
+    const CommandResult result = run("cd " + path("") + " && trap '' XFSZ && ulimit -f 2 && " +
+                                     SPIDARTRACK " record a.avi --format " + format);
+    EXPECT_EQ(result.status, 1) << result.text;
+    // filesink's words, and not those of the encoder that ends because of it.
+    expect_contains(result.text, "failed: Could not write to resource.");
+    EXPECT_EQ(files(), before);
+  }
+}
+
 TEST_F(TrackOutput, APlotRunsNoCommandThatANameContains) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   save("a.flac");
