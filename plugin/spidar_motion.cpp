@@ -18,6 +18,11 @@
  * (+ #spidarmotion:ts-offset), between two frames it is interpolated. Before PLAYING,
  * in PAUSED and after the end there is none.
  *
+ * Where the tag `image-orientation` says that the picture is turned or mirrored before it is shown,
+ * as that of a telephone held upright, force and torque are turned like it, and so are the relief
+ * of #spidarmotion:touch and the places of pointer and grip. What refers to pixels, velocities and
+ * objects, stays in the coordinates of the frame.
+ *
  * The element posts a `spidar-motion` element message for each frame when
  * #spidarmotion:post-messages is set, with these fields: `timestamp`, `stream-time`,
  * `running-time`, `duration` (#GstClockTime), `features`, `tracked` (uint), `velocity-x`,

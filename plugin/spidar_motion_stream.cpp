@@ -69,6 +69,8 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     settings.pointer = self->engine->grip_place().value_or(settings.pointer);
   }
 
+  settings.pointer = self->engine->turn().place_coded(settings.pointer);
+
   FrameReport report;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
     choose_track(self, frame->info);
@@ -167,7 +169,14 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       self->track_chosen = FALSE;
       // Without a flush, what comes now is shown after the frames that still wait for the screen.
       engine.restart();
+      engine.begin_stream();
       break;
+    case GST_EVENT_TAG: {
+      GstTagList* tags;
+      gst_event_parse_tag(event, &tags);
+      engine.take_tags(tags);
+      break;
+    }
     case GST_EVENT_SEGMENT: {
       const GstSegment* segment;
       gst_event_parse_segment(event, &segment);

@@ -19,7 +19,7 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
     return;
   }
   const VisiblePart& visible = report.part;
-  const SceneView& scene = viewer_.see(report.analysis, visible);
+  const SceneView& scene = viewer_.see(report.analysis, visible, report.turn);
   // Before the overlay draws into the frame, because the window draws arrows of its own.
   if (window_feed && window_feed->wanted()) {
     FrameFacts facts;

@@ -70,6 +70,16 @@ void MotionEngine::begin_segment() {
   pacer_.begin_segment();
 }
 
+void MotionEngine::begin_stream() {
+  orientation_.begin_stream();
+  turn_ = orientation_.turn();
+}
+
+void MotionEngine::take_tags(const GstTagList* tags) {
+  orientation_.take(tags);
+  turn_ = orientation_.turn();
+}
+
 GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
@@ -136,7 +146,7 @@ void MotionEngine::pass_gap(GstClockTime running_time) {
       time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : std::nullopt;
   if (analysis) {
     schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
-                   scaled(analysis->wrench, motion_share_), analysis->repeated});
+                   turn_.to_shown(scaled(analysis->wrench, motion_share_)), analysis->repeated});
     limit_watch_.repeat(schedule_.at_sink_ns(running_ns), analysis->wrench);
   } else {
     run_out(running_time);
@@ -159,15 +169,17 @@ void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
                                const TouchProperties& touch, int64_t running_ns,
                                FrameReport& report) {
   const Eigen::Vector2d middle(0.5, 0.5);
-  const bool found = reliefs_.add(buffer, luma, report.analysis, schedule_.at_sink_ns(running_ns),
-                                  touch, grip_place().value_or(middle));
+  const Eigen::Vector2d finger = turn_.place_coded(grip_place().value_or(middle));
+  reliefs_.set_turn(turn_);
+  const bool found =
+      reliefs_.add(buffer, luma, report.analysis, schedule_.at_sink_ns(running_ns), touch, finger);
   if (touch.kind == TouchKind::kOff) return;
   if (output_.session() == nullptr) {
     report.touch_problem = TouchProblem::kNoDevice;
     return;
   }
   report.touch.on = true;
-  report.touch.map = {grip_pointer_};
+  report.touch.map = {grip_pointer_, turn_};
   report.touch.stiffness_N_m = contact_settings(touch, output_.profile()).stiffness_N_m;
   report.touch.motion_share = touch.motion_share;
   report.touch.relief = reliefs_.take_copy();
@@ -247,7 +259,8 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   limit_watch_.set_touching(touch.kind != TouchKind::kOff);
   // This share of the film's motion is felt, reported and shown in addition to touch.
   motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
-  report.analysis.wrench = scaled(report.analysis.wrench, motion_share_);
+  report.analysis.wrench = turn_.to_shown(scaled(report.analysis.wrench, motion_share_));
+  report.turn = turn_;
   if (!time.in_place) {
     touch_frame(frame.buffer, luma, touch, running_ns, report);
     schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),

@@ -14,6 +14,7 @@
 #include "core/motion_analyzer.h"
 #include "plugin/engine/frame_luma.h"
 #include "plugin/engine/grip_pointer.h"
+#include "plugin/engine/stream_orientation.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/reports/frame_report.h"
 #include "plugin/reports/frame_trace.h"
@@ -71,8 +72,14 @@ class MotionEngine {
 
   // --- streaming thread
 
+  /// Another stream begins: its frames are shown as they are until a tag says otherwise.
+  void begin_stream();
+  void take_tags(const GstTagList* tags);
+  /// How frames are turned before they are shown. What is felt is turned like them.
+  const PictureTurn& turn() const { return turn_; }
   /// Frames are not analysed: the samples of this track are felt. Nothing: they are again.
   void set_track(std::optional<TrackFile> track);
+  /// The pointer of `settings` is a place of the frame before it is turned.
   FrameReport process(const GstVideoFrame& frame, const GstSegment& segment,
                       const AnalyzerSettings& settings, const TouchProperties& touch);
   /// Whether reports have the relief of their frame from now on.
@@ -89,7 +96,7 @@ class MotionEngine {
   void pass_gap(GstClockTime running_time);
   /// Nothing more comes.
   void end_of_stream();
-  /// Where the grip points at the picture; nothing while no device runs.
+  /// Where the grip points at the picture as it is shown; nothing while no device runs.
   std::optional<Eigen::Vector2d> grip_place() const;
 
  private:
@@ -104,6 +111,8 @@ class MotionEngine {
   HapticOutput output_;
   // Streaming thread.
   GripPointer grip_pointer_;
+  StreamOrientation orientation_;
+  PictureTurn turn_;
   MotionAnalyzer analyzer_;
   FrameLuma luma_;
   FrameTrace trace_;

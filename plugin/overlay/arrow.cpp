@@ -114,7 +114,8 @@ std::optional<FeltArrow> felt_arrow(const Wrench& wrench, const ArrowStyle& styl
   if (!(style.max_force_N > 0)) return std::nullopt;
   const double px_N = kFeltLength * style.height_px / style.max_force_N;
   // Up is +y in the device frame and −y in the picture.
-  const Eigen::Vector2d along_px = px_N * Eigen::Vector2d(wrench.force_N.x(), -wrench.force_N.y());
+  const Eigen::Vector2d along_px =
+      px_N * style.turn.to_coded(Eigen::Vector2d(wrench.force_N.x(), -wrench.force_N.y()));
   FeltArrow felt;
   felt.arrow.width_px = felt_width_px(style);
   if (along_px.norm() < felt.arrow.width_px) return std::nullopt;

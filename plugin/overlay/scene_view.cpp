@@ -33,13 +33,15 @@ void SceneViewer::reset() {
   compares_ = false;
 }
 
-const SceneView& SceneViewer::see(const FrameAnalysis& analysis, const VisiblePart& visible) {
+const SceneView& SceneViewer::see(const FrameAnalysis& analysis, const VisiblePart& visible,
+                                  const PictureTurn& turn) {
   std::vector<SceneTrack> before = std::move(scene_.tracks);
   scene_.tracks.clear();
   scene_.lost.clear();
   scene_.objects.clear();
   scene_.motion = analysis.motion;
   scene_.wrench = analysis.wrench;
+  scene_.turn = turn;
   if (analysis.object_list) scene_.objects = *analysis.object_list;
   if (!analysis.tracks) {
     compares_ = false;

@@ -8,6 +8,7 @@
 
 #include "core/motion/objects.h"
 #include "core/motion_analyzer.h"
+#include "core/picture_turn.h"
 #include "plugin/engine/frame_luma.h"
 
 namespace spidar {
@@ -32,7 +33,8 @@ struct SceneView {
   std::vector<ImagePoint> lost;       ///< last positions of the lost points
   std::vector<MovingObject> objects;  ///< relative to the centre of the visible part
   ImageMotion motion;                 ///< the motion that is rendered
-  Wrench wrench;
+  Wrench wrench;                      ///< turned like the picture
+  PictureTurn turn;                   ///< of the picture before it is shown
 };
 
 /// Assigns tracks to the background or to objects, and tracks their appearance from frame to frame.
@@ -40,7 +42,8 @@ class SceneViewer {
  public:
   /// Updates the scene with the result of analyze() for the part `visible` of the frame. The
   /// reference is valid until the next call.
-  const SceneView& see(const FrameAnalysis& analysis, const VisiblePart& visible);
+  const SceneView& see(const FrameAnalysis& analysis, const VisiblePart& visible,
+                       const PictureTurn& turn = {});
   const SceneView& scene() const { return scene_; }
 
   /// Clears the scene. Call before frames that are not analysed.

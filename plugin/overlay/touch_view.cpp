@@ -17,11 +17,11 @@ double at_height_px(double at_480, double height_px) {
 }  // namespace
 
 Eigen::Vector2d TouchMap::place(const Eigen::Vector3d& position_m) const {
-  return pointer.place(position_m);
+  return turn.place_coded(pointer.place(position_m));
 }
 
 Eigen::Vector2d TouchMap::position_m(const Eigen::Vector2d& place) const {
-  const Eigen::Vector2d in_picture = place.cwiseMax(0.0).cwiseMin(1.0);
+  const Eigen::Vector2d in_picture = turn.place_shown(place.cwiseMax(0.0).cwiseMin(1.0));
   return {(2 * in_picture.x() - 1) * pointer.half_size_m().x(),
           (1 - 2 * in_picture.y()) * pointer.half_size_m().y()};
 }

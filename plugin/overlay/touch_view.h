@@ -8,15 +8,17 @@
 
 #include <Eigen/Core>
 
+#include "core/picture_turn.h"
 #include "core/touch/height_field.h"
 #include "plugin/engine/grip_pointer.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {
 
-/// Maps between the device frame and the picture.
+/// Maps between the device frame and the picture before it is turned.
 struct TouchMap {
   GripPointer pointer;
+  PictureTurn turn = {};
 
   /// Place in the picture, the analysed part of the frame: (0, 0) is its top left corner and (1, 1)
   /// its bottom right one. Positions outside the picture are clamped to its edge.

@@ -46,6 +46,7 @@ void draw_overlay(const SceneView& scene, const VisiblePart& visible, double sca
   ArrowStyle style;
   style.scale = scale;
   style.max_force_N = max_force_N;
+  style.turn = scene.turn;
   style.height_px = visible.height;
   style.centre_px = {visible.x + 0.5 * (visible.width - 1), visible.y + 0.5 * (visible.height - 1)};
   FramePainter painter(frame);

@@ -10,6 +10,7 @@
 
 #include "core/force/force_limit.h"
 #include "core/motion_analyzer.h"
+#include "core/picture_turn.h"
 #include "plugin/engine/frame_luma.h"
 #include "plugin/overlay/touch_view.h"
 
@@ -43,7 +44,8 @@ struct FrameReport {
   bool analyzed = false;
   GstClockTime running_time = GST_CLOCK_TIME_NONE;
   GstClockTime stream_time = GST_CLOCK_TIME_NONE;
-  FrameAnalysis analysis;
+  FrameAnalysis analysis;                ///< its wrench is turned
+  PictureTurn turn;                      ///< of the frame before it is shown
   VisiblePart part;                      ///< of the frame that was analysed
   int64_t took_ns = 0;                   ///< the analysis
   ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame

@@ -78,27 +78,54 @@ void ReliefStream::start() {
   mailbox_ = std::move(mailbox);
 }
 
-/// Subsamples a picture that is larger than the relief needs.
+/// The picture as it is shown, subsampled if it is larger than the relief needs.
 ImageView ReliefStream::thinned(const ImageView& luma) {
-  const int down = step_of(luma.height, HeightField::kRows);
-  const int across = step_of(luma.width, HeightField::kColumns);
+  const int columns = turn_.is_sideways() ? luma.height : luma.width;
+  const int rows = turn_.is_sideways() ? luma.width : luma.height;
+  const int down = step_of(rows, HeightField::kRows);
+  const int across = step_of(columns, HeightField::kColumns);
   ImageView thin = luma;
-  thin.height = (luma.height + down - 1) / down;
+  thin.height = (rows + down - 1) / down;
   thin.stride_bytes = down * luma.stride_bytes;
-  if (across == 1) return thin;  // read in place
+  if (across == 1 && turn_.is_none()) return thin;  // read in place
   const int bytes = luma.sample.bytes;
-  thin.width = (luma.width + across - 1) / across;
+  thin.width = (columns + across - 1) / across;
   thinned_.resize(static_cast<size_t>(thin.width) * static_cast<size_t>(thin.height * bytes));
+  // Steps in the memory of the frame to the right and down in the shown picture.
+  const auto step_to = [&](double x, double y) {
+    const Eigen::Vector2i step = turn_.to_coded(Eigen::Vector2d(x, y)).cast<int>();
+    return step.x() * bytes + step.y() * luma.stride_bytes;
+  };
+  const ptrdiff_t right = across * step_to(1, 0), lower = down * step_to(0, 1);
+  const Eigen::Vector2i corner = turn_.place_coded({0, 0}).cast<int>();
+  const uint8_t* const first =
+      luma.at(corner.x() * (luma.width - 1), corner.y() * (luma.height - 1));
   uint8_t* to = thinned_.data();
   for (int y = 0; y < thin.height; ++y) {
     for (int x = 0; x < thin.width; ++x) {
-      const uint8_t* const from = luma.at(across * x, down * y);
+      const uint8_t* const from = first + y * lower + x * right;
       for (int byte = 0; byte < bytes; ++byte) *to++ = from[byte];
     }
   }
   thin.data = thinned_.data();
   thin.stride_bytes = thin.width * bytes;
   return thin;
+}
+
+/// `levels` of a depth image as the picture is shown.
+const float* ReliefStream::turned(const float* levels) {
+  if (turn_.is_none()) return levels;
+  constexpr int kColumns = HeightField::kColumns, kRows = HeightField::kRows;
+  turned_levels_.resize(HeightField::kCells);
+  float* to = turned_levels_.data();
+  for (int y = 0; y < kRows; ++y) {
+    for (int x = 0; x < kColumns; ++x) {
+      const Eigen::Vector2d place = turn_.place_coded({(x + 0.5) / kColumns, (y + 0.5) / kRows});
+      const int column = static_cast<int>(place.x() * kColumns);
+      *to++ = levels[static_cast<int>(place.y() * kRows) * kColumns + column];
+    }
+  }
+  return turned_levels_.data();
 }
 
 /// Fills in the surface of a frame. Returns false when the frame has no depth.
@@ -116,7 +143,8 @@ bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown
     const std::optional<DepthLayout> layout = properties.packed();
     const bool has_depth = layout ? depth_.read(depth_half(luma, *layout), {true}, dt_s)
                                   : read_frame_depth(buffer, dt_s, depth_);
-    if (!has_depth || !builder_.from_levels(depth_.levels(), settings, frame.relief)) return false;
+    if (!has_depth || !builder_.from_levels(turned(depth_.levels()), settings, frame.relief))
+      return false;
     depth_ns_ = shown_ns;
   } else if (!builder_.from_brightness(thinned(luma), settings, frame.relief)) {
     return false;
@@ -154,8 +182,10 @@ bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnal
   frame->has_surface = true;
   frame->contact = contact_settings(properties, profile_);
   const Eigen::Vector2d moved_px = touched_displacement_px(analysis, finger);
-  frame->displacement_m = {moved_px.x() / analysis.width * frame->relief.width_m(),
-                           -moved_px.y() / analysis.height * frame->relief.height_m()};
+  const Eigen::Vector2d moved = turn_.to_shown(
+      Eigen::Vector2d(moved_px.x() / analysis.width, moved_px.y() / analysis.height));
+  frame->displacement_m = {moved.x() * frame->relief.width_m(),
+                           -moved.y() * frame->relief.height_m()};
   if (copy_wanted_) copy_ = std::make_shared<HeightField>(frame->relief);
   stiffness_N_m_ = frame->contact.stiffness_N_m;
   frame->follows = touched_ && !left_out_ && generation == generation_ && !analysis.restarted;

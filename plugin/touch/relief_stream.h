@@ -15,6 +15,7 @@
 
 #include "core/image_view.h"
 #include "core/motion_analyzer.h"
+#include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
 #include "plugin/properties/touch_properties.h"
@@ -66,6 +67,8 @@ class ReliefStream {
   /// the frame; the last relief then remains. Allocates only when the frame size changes.
   bool add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
            int64_t shown_ns, const TouchProperties& properties, const Eigen::Vector2d& finger);
+  /// How the frames that follow are turned before they are shown; the relief is turned like them.
+  void set_turn(const PictureTurn& turn) { turn_ = turn; }
   /// Sets whether add() copies the relief, which allocates.
   void want_copy(bool wanted) { copy_wanted_ = wanted; }
   /// Returns the copy of the last added frame; null if there is none.
@@ -78,6 +81,7 @@ class ReliefStream {
   bool build(GstBuffer* buffer, const ImageView& luma, int64_t shown_ns,
              const TouchProperties& properties, TouchFrame& frame);
   ImageView thinned(const ImageView& luma);
+  const float* turned(const float* levels);
 
   HapticLoop* loop_ = nullptr;
   Profile profile_;
@@ -89,7 +93,9 @@ class ReliefStream {
   ReliefBuilder builder_;
   DepthPicture depth_;
   int64_t depth_ns_ = INT64_MIN;  ///< time of the last frame that had depth
+  PictureTurn turn_;
   std::vector<uint8_t> thinned_;
+  std::vector<float> turned_levels_;
   bool touched_ = false;   ///< the newest frame has a surface
   bool left_out_ = false;  ///< the newest frame was not published
   uint32_t generation_ = 0;

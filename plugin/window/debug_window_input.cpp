@@ -118,7 +118,7 @@ void DebugWindow::move_hand(const Rect& picture) {
     hand_.let_go();
     return;
   }
-  const TouchMap map{GripPointer(state_.device->geometry)};
+  const TouchMap map{GripPointer(state_.device->geometry), facts_.scene.turn};
   hand_.update(given_mouse_ ? *given_mouse_ : read_mouse(), picture, map);
 }
 

@@ -215,14 +215,22 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
                       im(visible.x / w, visible.y / h),
                       im((visible.x + visible.width) / w, (visible.y + visible.height) / h));
   if (picture.relief) {
-    brush.list.AddImage(picture.relief, upper_left(map.shown), lower_right(map.shown), {0, 0},
-                        {1, 1}, IM_COL32(255, 255, 255, kReliefOpacity));
+    // The relief is turned like the picture when it is shown; here it is turned back.
+    const auto in_relief = [&facts](double x, double y) {
+      return im(facts.scene.turn.place_shown({x, y}));
+    };
+    const Rect& on = map.shown;
+    brush.list.AddImageQuad(picture.relief, im(on.x, on.y), im(on.right(), on.y),
+                            im(on.right(), on.y + on.height), im(on.x, on.y + on.height),
+                            in_relief(0, 0), in_relief(1, 0), in_relief(1, 1), in_relief(0, 1),
+                            IM_COL32(255, 255, 255, kReliefOpacity));
   }
   brush.list.PushClipRect(upper_left(map.shown), lower_right(map.shown), true);
   ArrowStyle style;
   style.scale = picture.arrow_scale;
   style.height_px = map.shown.height;
   style.max_force_N = picture.max_force_N;
+  style.turn = facts.scene.turn;
   const Overlay over{brush, map, facts, picture, felt_objects(facts)};
   draw_tracks(over, style);
   if (picture.detail) draw_points(over);

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// How a picture is turned or mirrored before it is shown.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/wrench.h"
+
+namespace spidar {
+
+/// A telephone that is held upright stores its pictures lying on their side, and the player turns
+/// them. Directions are x right, y down; places go from (0, 0), the top left corner, to (1, 1).
+class PictureTurn {
+ public:
+  /// Shown as it is.
+  PictureTurn() = default;
+  /// First mirrored left to right, if `mirrored`; then turned clockwise.
+  explicit PictureTurn(int quarters, bool mirrored = false) {
+    Eigen::Matrix2d quarter;
+    quarter << 0, -1, 1, 0;
+    if (mirrored) turn_(0, 0) = -1;
+    for (int i = 0; i < quarters; ++i) turn_ = (quarter * turn_).eval();
+  }
+
+  bool is_none() const { return turn_.isIdentity(); }
+  /// Whether width becomes height.
+  bool is_sideways() const { return turn_(0, 0) == 0; }
+
+  Eigen::Vector2d to_shown(const Eigen::Vector2d& direction) const { return turn_ * direction; }
+  Eigen::Vector2d to_coded(const Eigen::Vector2d& direction) const {
+    return turn_.transpose() * direction;
+  }
+  // Nothing is rounded where nothing is turned.
+  Eigen::Vector2d place_shown(const Eigen::Vector2d& place) const {
+    if (is_none()) return place;
+    return middle() + to_shown(place - middle());
+  }
+  Eigen::Vector2d place_coded(const Eigen::Vector2d& place) const {
+    if (is_none()) return place;
+    return middle() + to_coded(place - middle());
+  }
+
+  /// A torque is an axial vector: what mirrors the picture reverses it in addition.
+  Wrench to_shown(const Wrench& wrench) const {
+    if (is_none()) return wrench;
+    Eigen::Matrix3d in_device = Eigen::Matrix3d::Identity();
+    in_device.topLeftCorner<2, 2>() = turn_;
+    // y of the device points up.
+    in_device(0, 1) = -in_device(0, 1);
+    in_device(1, 0) = -in_device(1, 0);
+    return {in_device * wrench.force_N, turn_.determinant() * (in_device * wrench.torque_Nm)};
+  }
+
+ private:
+  static Eigen::Vector2d middle() { return {0.5, 0.5}; }
+
+  Eigen::Matrix2d turn_ = Eigen::Matrix2d::Identity();
+};
+
+}  // namespace spidar

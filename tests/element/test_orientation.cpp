@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Frames that are turned or mirrored before they are shown: the tag image-orientation.
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugin/engine/stream_orientation.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+
+GstTagList* orientation_tags(const char* orientation, GstTagScope scope) {
+  GstTagList* tags = gst_tag_list_new(GST_TAG_IMAGE_ORIENTATION, orientation, nullptr);
+  gst_tag_list_set_scope(tags, scope);
+  return tags;
+}
+
+/// Where right and down of the frame lead in the picture that is shown, by the description of
+/// GST_TAG_IMAGE_ORIENTATION: "flip-rotate-90" is first mirrored left to right, then turned by 90°
+/// clockwise. x right, y down.
+struct Turn {
+  const char* tag;
+  Eigen::Vector2d right, down;
+};
+const Turn kTurns[] = {
+    {"rotate-0", {1, 0}, {0, 1}},         {"rotate-90", {0, 1}, {-1, 0}},
+    {"rotate-180", {-1, 0}, {0, -1}},     {"rotate-270", {0, -1}, {1, 0}},
+    {"flip-rotate-0", {-1, 0}, {0, 1}},   {"flip-rotate-90", {0, -1}, {-1, 0}},
+    {"flip-rotate-180", {1, 0}, {0, -1}}, {"flip-rotate-270", {0, 1}, {1, 0}},
+};
+
+/// After two frames, between which everything moves right and a little up.
+Wrench felt_with(const std::vector<GstTagList*>& tags) {
+  ElementHarness h;
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  for (GstTagList* given : tags) gst_harness_push_event(h.harness(), gst_event_new_tag(given));
+  for (int n = 0; n < 2; ++n)
+    h.push_moved(2.0 * n, -1.0 * n, static_cast<GstClockTime>(n) * kFrame);
+  EXPECT_EQ(h.motions().size(), 2u);
+  EXPECT_NEAR(h.motions().back().velocity_x, 50, 2.5) << "of the frame, not of what is shown";
+  return h.motions().back().wrench;
+}
+
+TEST(Orientation, ForceIsTurnedLikeThePicture) {
+  const Wrench plain = felt_with({});
+  ASSERT_GT(plain.force_N.head<2>().norm(), 0.1);
+  for (const Turn& turn : kTurns) {
+    for (const GstTagScope scope : {GST_TAG_SCOPE_STREAM, GST_TAG_SCOPE_GLOBAL}) {
+      SCOPED_TRACE(turn.tag);
+      const Wrench felt = felt_with({orientation_tags(turn.tag, scope)});
+      const Eigen::Vector2d shown = plain.force_N.x() * turn.right - plain.force_N.y() * turn.down;
+      // The same numbers, exchanged and negated.
+      EXPECT_EQ(felt.force_N, Eigen::Vector3d(shown.x(), -shown.y(), plain.force_N.z()));
+    }
+  }
+}
+
+TEST(Orientation, TheTagOfTheStreamCountsBeforeThatOfTheFilm) {
+  const Wrench plain = felt_with({});
+  for (const bool stream_first : {true, false}) {
+    GstTagList* const of_stream = orientation_tags("rotate-180", GST_TAG_SCOPE_STREAM);
+    GstTagList* const of_film = orientation_tags("rotate-90", GST_TAG_SCOPE_GLOBAL);
+    const Wrench felt =
+        stream_first ? felt_with({of_stream, of_film}) : felt_with({of_film, of_stream});
+    EXPECT_EQ(felt.force_N.x(), -plain.force_N.x());
+  }
+  StreamOrientation orientation;
+  GstTagList* tags = orientation_tags("rotate-90", GST_TAG_SCOPE_STREAM);
+  orientation.take(tags);
+  gst_tag_list_unref(tags);
+  EXPECT_TRUE(orientation.turn().is_sideways());
+  orientation.begin_stream();
+  EXPECT_TRUE(orientation.turn().is_none());
+}
+
+TEST(Orientation, AMirrorReversesTheTorqueAboutTheViewAxis) {
+  const Wrench wrench{{1, 2, 3}, {0.1, 0.2, 0.3}};
+  EXPECT_EQ(PictureTurn(1).to_shown(wrench).torque_Nm, Eigen::Vector3d(0.2, -0.1, 0.3));
+  EXPECT_EQ(PictureTurn(0, true).to_shown(wrench).torque_Nm, Eigen::Vector3d(0.1, -0.2, -0.3));
+  EXPECT_EQ(PictureTurn(0, true).to_shown(wrench).force_N, Eigen::Vector3d(-1, 2, 3));
+}
+
+TEST(Orientation, PlacesAreTurnedThereAndBack) {
+  // Of a picture on its right side, the lower left corner is shown in the upper left one.
+  EXPECT_EQ(PictureTurn(1).place_coded({0, 0}), Eigen::Vector2d(0, 1));
+  for (int i = 0; i < 8; ++i) {
+    const PictureTurn turn(i % 4, i >= 4);
+    const Eigen::Vector2d place(0.25, 0.875);
+    EXPECT_EQ(turn.place_shown(turn.place_coded(place)), place) << "quarters are exact";
+  }
+}
+
+/// The relief of a frame that is bright in its upper left quarter, whose middle heights are given
+/// in the order of the quarters of what is shown: upper left, upper right, lower left, lower right.
+std::array<double, 4> relief_with(const char* orientation, int width, int height) {
+  ElementHarness h("device=sim touch=luma");
+  h.set_caps(make_caps("GRAY8", width, height));
+  gst_harness_push_event(h.harness(),
+                         gst_event_new_tag(orientation_tags(orientation, GST_TAG_SCOPE_STREAM)));
+  GstBuffer* buffer = make_frame(h.info(), 0, 0);
+  GstVideoFrame frame;
+  EXPECT_TRUE(gst_video_frame_map(&frame, &h.info(), buffer, GST_MAP_READWRITE));
+  auto* const luma = static_cast<guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      luma[y * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0) + x] =
+          x < width / 2 && y < height / 2 ? 235 : 16;
+  }
+  GST_BUFFER_PTS(buffer) = 0;
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  TouchProperties touch;
+  touch.kind = TouchKind::kLuma;
+  h.engine().want_relief(true);
+  const FrameReport report = h.engine().process(frame, segment, AnalyzerSettings(), touch);
+  gst_video_frame_unmap(&frame);
+  gst_buffer_unref(buffer);
+  const auto relief = report.touch.relief;
+  if (!relief) return {};
+  constexpr int kLeft = HeightField::kColumns / 4, kTop = HeightField::kRows / 4;
+  return {relief->row(kTop)[kLeft], relief->row(kTop)[3 * kLeft], relief->row(3 * kTop)[kLeft],
+          relief->row(3 * kTop)[3 * kLeft]};
+}
+
+TEST(Orientation, ReliefIsTurnedLikeThePicture) {
+  for (const Turn& turn : kTurns) {
+    // Where the upper left quarter is shown: against both directions from the middle.
+    const Eigen::Vector2d at = -turn.right - turn.down;
+    const size_t high = (at.x() > 0 ? 1U : 0U) + (at.y() > 0 ? 2U : 0U);
+    // In place, and thinned in one direction or in both.
+    for (const auto& [width, height] :
+         {std::pair(320, 240), std::pair(1280, 160), std::pair(1280, 720)}) {
+      SCOPED_TRACE(std::string(turn.tag) + " " + std::to_string(width));
+      const std::array<double, 4> z_m = relief_with(turn.tag, width, height);
+      for (size_t i = 0; i < 4; ++i) {
+        if (i != high) {
+          EXPECT_GT(z_m[high], z_m[i] + 0.004) << i << ": half of the relief's height";
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test
