@@ -144,6 +144,8 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
   } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
     GST_DEBUG_OBJECT(self, "paused: force ramps to rest");
     engine.output().set_playing(false);
+  } else if (transition == GST_STATE_CHANGE_PAUSED_TO_READY) {
+    self->loader->interrupt();
   }
 
   const GstStateChangeReturn result =
@@ -213,6 +215,7 @@ static void gst_spidar_motion_finalize(GObject* object) {
   delete self->complaints;
   delete self->steps;
   delete self->display;
+  delete self->loader;
   delete self->engine;
   delete self->properties;
   g_mutex_clear(&self->setting);
@@ -224,6 +227,7 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
   self->display = new MotionDisplay(GST_ELEMENT(self));
+  self->loader = new spidar::TrackLoader;
   self->steps = new spidar::StepWatch;
   self->complaints = new spidar::Complaints(GST_ELEMENT(self));
   // GstVideoFilter would drop late frames before they are analysed; here the application decides

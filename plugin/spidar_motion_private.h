@@ -21,9 +21,9 @@ struct _GstSpidarMotion {
   gboolean opened;                       // object lock: READY or above
   spidar::MotionEngine* engine;
   spidar::MotionDisplay* display;
-  gboolean track_chosen;  // streaming thread: for this stream
-  gint unread_messages;   // atomic: that an application has not read
-  gint window_changes;    // atomic: how many the window has still to follow
+  spidar::TrackLoader* loader;
+  gint unread_messages;  // atomic: that an application has not read
+  gint window_changes;   // atomic: how many the window has still to follow
   spidar::StepWatch* steps;
   spidar::Complaints* complaints;
 };

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Frames and events that pass through the element.
+#include <chrono>
 #include <string>
+#include <utility>
 
 #include "plugin/reports/exceptions.h"
 #include "plugin/reports/motion_message.h"
 #include "plugin/reports/motion_meta.h"
 #include "plugin/spidar_motion_private.h"
+#include "plugin/track/sidecar.h"
 
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
 
@@ -34,18 +37,28 @@ static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffe
   if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
 }
 
-/// Called once for each stream, with its first frame: neither name nor length of the film is known
-/// earlier.
-static void choose_track(GstSpidarMotion* self, const GstVideoInfo& info) {
-  if (self->track_chosen) return;
-  self->track_chosen = TRUE;
+/// How long a stream waits for its track; frames that come before the track are analysed.
+static constexpr std::chrono::seconds kLongestWait{3};
+
+static void begin_to_load_track(GstSpidarMotion* self) {
   GST_OBJECT_LOCK(self);
   const std::string wanted = self->properties->track;
   GST_OBJECT_UNLOCK(self);
+  self->engine->set_track(std::nullopt);
+  self->loader->begin(wanted, spidar::film_of(GST_BASE_TRANSFORM_SINK_PAD(self)));
+}
+
+static void take_track(GstSpidarMotion* self, const GstVideoInfo& info) {
+  std::optional<spidar::LoadedTrack> loaded = self->loader->take();
+  if (!loaded) return;
   const GstClockTime frame =
       info.fps_n > 0 ? gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n) : 0;
-  self->engine->set_track(
-      spidar::choose_track(GST_ELEMENT(self), wanted, static_cast<gint64>(frame)));
+  std::optional<spidar::TrackFile> track =
+      spidar::judge_track(GST_ELEMENT(self), std::move(*loaded), static_cast<gint64>(frame));
+  if (!track) return;
+  // Of the frames that were analysed before.
+  self->engine->flush();
+  self->engine->set_track(std::move(track));
 }
 
 static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter,
@@ -73,7 +86,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
 
   FrameReport report;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
-    choose_track(self, frame->info);
+    take_track(self, frame->info);
     self->engine->want_relief(self->display->wants_relief());
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch);
     self->display->show(report, display, settings, *frame);
@@ -152,12 +165,14 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
       GST_DEBUG_OBJECT(self, "flush: scheduled wrenches are cancelled");
+      self->loader->interrupt();
       engine.flush();
       break;
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
       GST_DEBUG_OBJECT(self, "end of flush%s", reset_time ? ", running time starts at zero" : "");
+      self->loader->resume();
       // Flushes again, because a frame may have been in progress when the flush began.
       engine.flush();
       engine.restart_timing();
@@ -166,7 +181,8 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     }
     case GST_EVENT_STREAM_START:
       self->complaints->begin_stream();
-      self->track_chosen = FALSE;
+      spidar::guarded(GST_ELEMENT(self), "looking for a track",
+                      [self] { begin_to_load_track(self); });
       // Without a flush, what comes now is shown after the frames that still wait for the screen.
       engine.restart();
       engine.begin_stream();
@@ -181,6 +197,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       const GstSegment* segment;
       gst_event_parse_segment(event, &segment);
       GST_DEBUG_OBJECT(self, "segment: %" GST_SEGMENT_FORMAT, segment);
+      self->loader->await(kLongestWait);
       if (!same_playback(trans->segment, *segment)) engine.restart();
       engine.begin_segment();
       break;
@@ -231,7 +248,6 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   const std::string trace = self->properties->trace;
   GST_OBJECT_UNLOCK(self);
   GST_DEBUG_OBJECT(self, "start; trace: %s", trace.empty() ? "none" : trace.c_str());
-  self->track_chosen = FALSE;
   self->complaints->start();
   self->complaints->look_at_place();
   const std::string reason = self->engine->start(trace);
@@ -246,6 +262,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
 static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
   GST_DEBUG_OBJECT(self, "stop");
+  self->loader->stop();
   if (!self->engine->stop()) {
     GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("The end of the trace could not be written."),
                         ("Disk full?"));

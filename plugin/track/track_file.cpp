@@ -81,7 +81,7 @@ void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
       return GST_FLOW_OK;
     }
     reading.problem = "its samples reach to " + std::to_string(block.begin_ns / GST_SECOND) +
-                      " s, and a track lasts at most 12 h: is a timestamp in it wrong?";
+                      " s, and a track lasts at most 24 h: is a timestamp in it wrong?";
     give_up(pad);
     return GST_FLOW_EOS;
   });

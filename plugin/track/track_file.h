@@ -17,7 +17,7 @@ namespace spidar {
 /// A whole track. The times of its blocks are those of the file, and rise.
 struct TrackFile {
   /// A longer one, of which a single wild timestamp is enough, would take all memory.
-  static constexpr int64_t kLongest_ns = 12 * 3600 * int64_t{1'000'000'000};
+  static constexpr int64_t kLongest_ns = 24 * 3600 * int64_t{1'000'000'000};
 
   std::vector<TrackBlock> blocks;
   int64_t duration_ns = 0;

@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/track/track_player.h"
 
-#include <stdexcept>
+#include <utility>
 
 #include "plugin/reports/category.h"
 #include "plugin/track/sidecar.h"
@@ -64,34 +64,21 @@ std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_durati
   return place;
 }
 
-std::optional<TrackFile> choose_track(GstElement* element, const std::string& wanted,
-                                      int64_t frame_ns) {
-  if (wanted.empty()) return std::nullopt;
-  GstPad* pad = gst_element_get_static_pad(element, "sink");
-  const std::string path = wanted == "auto" ? find_sidecar(film_of(pad)) : wanted;
-  std::optional<TrackFile> track;
-  std::string problem;
-  if (!path.empty()) {
-    try {
-      track = read_track_file(path);
-      problem = track->missing();
-      const std::string film = film_of(pad);
-      if (problem.empty()) {
-        problem = film.empty() ? other_film(pad, track->duration_ns, frame_ns)
-                               : other_film(read_film(film), track->duration_ns, track->notes);
-      }
-    } catch (const std::runtime_error& error) {
-      problem = error.what();
-    }
+std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns) {
+  if (loaded.path.empty()) return std::nullopt;
+  if (loaded.problem.empty() && !loaded.is_compared) {
+    GstPad* pad = gst_element_get_static_pad(element, "sink");
+    loaded.problem = other_film(pad, loaded.track->duration_ns, frame_ns);
+    gst_object_unref(pad);
   }
-  gst_object_unref(pad);
-  if (problem.empty()) {
-    if (track) name_faults(element, path, track->faults);
-    return track;
+  if (loaded.problem.empty()) {
+    name_faults(element, loaded.path, loaded.track->faults);
+    return std::move(loaded.track);
   }
-  GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
-                      ("The haptic track %s is not felt: %s.", path.c_str(), problem.c_str()),
-                      ("The video is analysed in its place."));
+  GST_ELEMENT_WARNING(
+      element, RESOURCE, SETTINGS,
+      ("The haptic track %s is not felt: %s.", loaded.path.c_str(), loaded.problem.c_str()),
+      ("The video is analysed in its place."));
   return std::nullopt;
 }
 

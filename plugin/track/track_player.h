@@ -11,6 +11,7 @@
 #include <gst/gst.h>
 
 #include "plugin/track/block_schedule.h"
+#include "plugin/track/track_loader.h"
 #include "plugin/track/track_replay.h"
 
 namespace spidar {
@@ -53,10 +54,8 @@ std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_durati
                                    const GstSegment& segment, int64_t running_ns,
                                    double rate_multiplier);
 
-/// The track that the property `track` of `element` means: a file, or with "auto" the one beside
-/// the film that comes to its sink pad. Nothing when there is none; a warning on the bus when it
-/// cannot be used, or is that of another film. Reads the whole file: a second for an hour.
-std::optional<TrackFile> choose_track(GstElement* element, const std::string& wanted,
-                                      int64_t frame_ns);
+/// The track to be felt for the film that comes to the sink pad of `element`. Nothing when there is
+/// none; a warning on the bus when it cannot be used, or is that of another film.
+std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns);
 
 }  // namespace spidar

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 #include <gst/gst.h>
@@ -222,6 +223,14 @@ TEST_F(BadTracks, ATruncatedFlacIsNamedForAFilmAndGoesToRestInTheSink) {
   // The watch looks for rest 50 ms after the last sample.
   const Outcome sink = launch("filesrc location=" + track + " ! flacparse ! flacdec ! spidarsink");
   EXPECT_TRUE(sink.eos || !sink.error.empty());
+}
+
+TEST_F(BadTracks, WhatMayNeverEndIsNotRead) {
+  ASSERT_EQ(mkfifo(path("fifo.flac").c_str(), 0600), 0);
+  const Outcome film = play(path("fifo.flac"));
+  EXPECT_TRUE(film.eos) << film.error;
+  expect_said(film, "not a regular file");
+  EXPECT_EQ(film.motions, kFrames) << "analysed";
 }
 
 TEST_F(BadTracks, TheTrackOfAnotherFilmMayDifferByAFrameAndNoMore) {

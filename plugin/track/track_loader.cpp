@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/track/track_loader.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <stdexcept>
+#include <utility>
+
+#include "plugin/track/film_reader.h"
+#include "plugin/track/sidecar.h"
+#include "spidar/realtime/thread_setup.h"
+
+namespace spidar {
+namespace {
+
+/// How long stop() waits for a thread that has been told to stop; it looks every 20 ms.
+constexpr std::chrono::milliseconds kLongestStop{500};
+
+/// Why `track` is not that of the file `film`. Nothing when the film cannot be read.
+std::optional<std::string> compare(const TrackFile& track, const std::string& film,
+                                   const std::atomic<bool>* stopped) {
+  try {
+    return other_film(read_film(film, stopped), track.duration_ns, track.notes);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+bool has_track(const std::string& film, const std::atomic<bool>* stopped) {
+  try {
+    return read_film(film, stopped).has_track;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+LoadedTrack load(const std::string& wanted, const std::string& film,
+                 const std::atomic<bool>* stopped) {
+  LoadedTrack loaded;
+  loaded.path = wanted == "auto" ? find_sidecar(film) : wanted;
+  if (loaded.path.empty() && !film.empty() && has_track(film, stopped)) loaded.path = film;
+  if (loaded.path.empty()) return loaded;
+  try {
+    loaded.track = read_track_file(loaded.path, stopped);
+    loaded.problem = loaded.track->missing();
+    // A track inside the film is the film's own.
+    std::optional<std::string> other;
+    if (loaded.path == film) {
+      other = std::string();
+    } else if (!film.empty()) {
+      other = compare(*loaded.track, film, stopped);
+    }
+    loaded.is_compared = other.has_value();
+    if (loaded.problem.empty() && other) loaded.problem = *other;
+  } catch (const std::runtime_error& error) {
+    loaded.problem = error.what();
+  }
+  return loaded;
+}
+
+}  // namespace
+
+struct TrackLoader::Reading {
+  std::atomic<bool> stopped{false};
+  std::mutex mutex;  // of what follows
+  std::condition_variable changed;
+  bool interrupted = false, done = false;
+  LoadedTrack loaded;
+};
+
+std::shared_ptr<TrackLoader::Reading> TrackLoader::reading() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return reading_;
+}
+
+void TrackLoader::begin(const std::string& wanted, const std::string& film) {
+  stop();
+  if (wanted.empty()) return;
+  const auto reading = std::make_shared<Reading>();
+  thread_ = start_thread("spidar-track", [reading, wanted, film] {
+    LoadedTrack loaded;
+    try {
+      loaded = load(wanted, film, &reading->stopped);
+    } catch (const std::exception& error) {
+      loaded.path = wanted;
+      loaded.problem = error.what();
+    }
+    const std::lock_guard<std::mutex> lock(reading->mutex);
+    reading->loaded = std::move(loaded);
+    reading->done = true;
+    reading->changed.notify_all();
+  });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  reading_ = reading;
+}
+
+void TrackLoader::await(std::chrono::milliseconds limit) {
+  const auto reading = this->reading();
+  if (!reading) return;
+  std::unique_lock<std::mutex> lock(reading->mutex);
+  reading->changed.wait_for(lock, limit, [&] { return reading->done || reading->interrupted; });
+}
+
+std::optional<LoadedTrack> TrackLoader::take() {
+  const auto reading = this->reading();
+  if (!reading) return std::nullopt;
+  std::unique_lock<std::mutex> lock(reading->mutex);
+  if (!reading->done) return std::nullopt;
+  std::optional<LoadedTrack> loaded = std::move(reading->loaded);
+  lock.unlock();
+  stop();
+  return loaded;
+}
+
+void TrackLoader::interrupt() {
+  const auto reading = this->reading();
+  if (!reading) return;
+  const std::lock_guard<std::mutex> lock(reading->mutex);
+  reading->interrupted = true;
+  reading->changed.notify_all();
+}
+
+void TrackLoader::resume() {
+  const auto reading = this->reading();
+  if (!reading) return;
+  const std::lock_guard<std::mutex> lock(reading->mutex);
+  reading->interrupted = false;
+}
+
+void TrackLoader::stop() {
+  const auto reading = this->reading();
+  if (!reading) return;
+  reading->stopped = true;
+  std::unique_lock<std::mutex> lock(reading->mutex);
+  const bool done = reading->changed.wait_for(lock, kLongestStop, [&] { return reading->done; });
+  lock.unlock();
+  if (done) {
+    thread_.join();
+  } else {
+    thread_.detach();
+  }
+  const std::lock_guard<std::mutex> pointer_lock(mutex_);
+  reading_ = nullptr;
+}
+
+}  // namespace spidar
