@@ -60,6 +60,7 @@ class TrackOutput : public testing::Test {
 };
 
 TEST_F(TrackOutput, ARecordingThatCannotBeWrittenSaysWhy) {
+  // More than filesink buffers, which are 64 KiB: 4 s of WAV are 96 kB.
   run_pipeline(
       "videotestsrc num-buffers=100 pattern=ball ! "
       "video/x-raw,width=160,height=120,framerate=25/1 ! jpegenc ! avimux ! filesink "
