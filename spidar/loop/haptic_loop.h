@@ -45,7 +45,7 @@ class SPIDAR_API HapticLoop {
   /// Upper bound of the time that one tick counts for, however late it is, so that a stall does not
   /// end in a step.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
-  /// Force and torque are limited at the pose of the grip and at the poses that it reaches, at its
+  /// The force is limited at the pose of the grip and at the poses that it reaches, at its
   /// present speed, in so many ticks and the lag of the drives.
   static constexpr int kAhead = 2;
   /// A wrench enters the timeline this long before the previous one is due, so that the slope there

@@ -97,10 +97,9 @@ StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrenc
 
 double TensionCommand::share_within(const StructureMatrix& W,
                                     const SafetyLimits& limits) const noexcept {
-  const Eigen::Matrix<double, 6, 1> rest = W * rest_N_;
-  const Eigen::Matrix<double, 6, 1> added = W * (last_N_ - rest_N_);
-  return std::min(longest_step(rest.head<3>(), added.head<3>(), limits.max_force_N),
-                  longest_step(rest.tail<3>(), added.tail<3>(), limits.max_torque_Nm));
+  const Eigen::Vector3d rest_N = W.topRows<3>() * rest_N_;
+  const Eigen::Vector3d added_N = W.topRows<3>() * (last_N_ - rest_N_);
+  return longest_step(rest_N, added_N, limits.max_force_N);
 }
 
 StringVector TensionCommand::reduce(double share) noexcept {

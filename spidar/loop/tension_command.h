@@ -35,10 +35,11 @@ class SPIDAR_API TensionCommand {
   StringVector solve(const StructureMatrix& W, const Wrench& wrench,
                      const StringVector& limit_N) noexcept;
 
-  /// Of the last solve(): the share of what its tensions add to those at rest with which force and
-  /// torque at a pose with the structure matrix `W` are within `limits`, 0 … 1. Least squares may
-  /// overshoot, and the wrench at rest comes on top. Where that one exceeds a limit by itself, no
-  /// more may be added to its size.
+  /// Of the last solve(): the share of what its tensions add to those at rest with which the force
+  /// at a pose with the structure matrix `W` is within `limits`, 0 … 1. Least squares may
+  /// overshoot, and the force at rest comes on top. Where that one exceeds the limit by itself, no
+  /// more may be added to its size. The torque has no such bound: a stray torque would take the
+  /// force with it.
   double share_within(const StructureMatrix& W, const SafetyLimits& limits) const noexcept;
 
   /// Reduces the tensions of the last solve() to that share, and returns them.
