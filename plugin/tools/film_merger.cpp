@@ -8,6 +8,7 @@
 #include <gst/gst.h>
 
 #include "plugin/tools/matroska_flags.h"
+#include "plugin/tools/plain_subtitles.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/film_streams.h"
 
@@ -22,6 +23,8 @@ struct Merge {
   GstElement* samples = nullptr;  // for the samples of the track
   GstPad* track = nullptr;        // blocked until the streams of the film are known
   gulong hold = 0;
+  TrackNotes notes;
+  int buffers = 0;  // of the track
 };
 
 void refuse(GstElement* element, const std::string& reason) {
@@ -36,7 +39,18 @@ bool link_to_mux(Merge& merge, GstPad* pad, GstCaps* caps) {
   const std::string out_name = "src_" + std::string(name).substr(5);
   g_free(name);
   GstPad* out = gst_element_get_static_pad(merge.queue, out_name.c_str());
-  GstPad* mux_pad = gst_element_get_compatible_pad(merge.mux, pad, caps);
+  GstObject* pipeline = gst_object_get_parent(GST_OBJECT(merge.mux));
+  GstElement* plain = add_plain_subtitles(GST_ELEMENT(pipeline), caps);
+  if (plain) {
+    GstPad* plain_sink = gst_element_get_static_pad(plain, "sink");
+    gst_pad_link(out, plain_sink);
+    gst_object_unref(plain_sink);
+    gst_object_unref(out);
+    out = gst_element_get_static_pad(plain, "src");
+  }
+  gst_object_unref(pipeline);
+  GstPad* mux_pad = plain ? gst_element_request_pad_simple(merge.mux, "subtitle_%u")
+                          : gst_element_get_compatible_pad(merge.mux, pad, caps);
   const bool linked = mux_pad && gst_pad_link(pad, into) == GST_PAD_LINK_OK &&
                       gst_pad_link(out, mux_pad) == GST_PAD_LINK_OK;
   if (mux_pad) gst_object_unref(mux_pad);
@@ -70,10 +84,10 @@ void judge_film(const Merge& merge, GstElement* parser) {
   if (has_track) {
     refuse(parser, "The film has a haptic track already: spidartrack extract takes it out.");
   } else if (!has_sound) {
-    refuse(parser,
-           "The film has no sound: players would play the haptic track through the loudspeakers. "
-           "Leave it beside the film, as FILM.mp4.haptic.flac for FILM.mp4, where track=auto finds "
-           "it.");
+    refuse(
+        parser,
+        "The film has no sound: players would play the haptic track through the loudspeakers. "
+        "Leave it beside the film, as FILM.haptic.flac for FILM.mp4, where track=auto finds it.");
   } else {
     // Added after the film's sound, because players choose the first audio stream.
     GstPad* mux_pad = gst_element_request_pad_simple(merge.mux, "audio_%u");
@@ -87,15 +101,21 @@ GstPadProbeReturn hold_back(GstPad*, GstPadProbeInfo*, gpointer) {
   return GST_PAD_PROBE_OK;
 }
 
-/// Sends the name of the track to the muxer right before its first sample, and drops the names in
-/// the track itself.
-GstPadProbeReturn name_track(GstPad* pad, GstPadProbeInfo*, gpointer) {
-  GstTagList* tags = gst_tag_list_new(GST_TAG_TITLE, name_with_room(kTrackName).c_str(), nullptr);
-  gst_tag_list_set_scope(tags, GST_TAG_SCOPE_STREAM);
-  GstPad* mux_pad = gst_pad_get_peer(pad);
+void send_tags(GstPad* mux_pad, const TrackNotes& notes, const std::string& title) {
+  GstTagList* tags = track_tags(notes);
+  gst_tag_list_add(tags, GST_TAG_MERGE_REPLACE, GST_TAG_TITLE, title.c_str(), nullptr);
   gst_pad_send_event(mux_pad, gst_event_new_tag(tags));
+}
+
+/// Sends the tags of the track to the muxer right before its first sample, which is when the muxer
+/// writes the name of the track, with room for flags. Its tags are written at the end, without.
+GstPadProbeReturn tag_samples(GstPad* pad, GstPadProbeInfo*, gpointer user) {
+  auto& merge = *static_cast<Merge*>(user);
+  GstPad* mux_pad = gst_pad_get_peer(pad);
+  const bool is_first = ++merge.buffers == 1;
+  send_tags(mux_pad, merge.notes, is_first ? name_with_room(kTrackName) : kTrackName);
   gst_object_unref(mux_pad);
-  return GST_PAD_PROBE_REMOVE;
+  return is_first ? GST_PAD_PROBE_OK : GST_PAD_PROBE_REMOVE;
 }
 
 GstPadProbeReturn drop_tags(GstPad*, GstPadProbeInfo* info, gpointer) {
@@ -117,18 +137,18 @@ void add_track(GstElement* parser, GstPad* pad, gpointer user) {
 
 }  // namespace
 
-void merge_film(const std::string& film, const std::string& track, const std::string& out) {
+void merge_film(const std::string& film, const std::string& track, const TrackNotes& notes,
+                const std::string& out) {
   Merge merge;
+  merge.notes = notes;
   std::optional<StreamsWatch> streams;
   run_pipeline(
-      "matroskamux name=mux ! filesink name=out_file "
-      "filesrc name=film_file ! parsebin name=film "
-      "multiqueue name=streams max-size-bytes=0 max-size-buffers=0 max-size-time=10000000000 "
-      "filesrc name=track_file ! parsebin name=track queue name=samples",
+      "matroskamux name=mux ! filesink location=" + quoted(out) +
+          " filesrc location=" + quoted(film) +
+          " ! parsebin name=film multiqueue name=streams max-size-bytes=0 max-size-buffers=0 "
+          "max-size-time=10000000000 filesrc location=" +
+          quoted(track) + " ! parsebin name=track queue name=samples",
       [&](GstElement* pipeline) {
-        set_location(pipeline, "out_file", out);
-        set_location(pipeline, "film_file", film);
-        set_location(pipeline, "track_file", track);
         const auto find = [pipeline](const char* name) {
           GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), name);
           gst_object_unref(element);  // the pipeline has it
@@ -138,7 +158,7 @@ void merge_film(const std::string& film, const std::string& track, const std::st
         merge.queue = find("streams");
         merge.samples = find("samples");
         merge.track = gst_element_get_static_pad(merge.samples, "src");
-        gst_pad_add_probe(merge.track, GST_PAD_PROBE_TYPE_BUFFER, name_track, nullptr, nullptr);
+        gst_pad_add_probe(merge.track, GST_PAD_PROBE_TYPE_BUFFER, tag_samples, &merge, nullptr);
         gst_pad_add_probe(merge.track, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, drop_tags, nullptr,
                           nullptr);
         merge.hold = gst_pad_add_probe(merge.track, GST_PAD_PROBE_TYPE_BLOCK_DOWNSTREAM, hold_back,

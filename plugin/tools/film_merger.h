@@ -5,12 +5,15 @@
 
 #include <string>
 
+#include "plugin/track/track_notes.h"
+
 namespace spidar {
 
 /// Copies the streams of `film` without decoding them, together with the sound of the file `track`,
-/// into the Matroska file `out`. Throws std::runtime_error, whose message says what would be right,
-/// when the film has no sound, has a haptic track already, or has a stream that Matroska does not
-/// accept. `out` is then incomplete.
-void merge_film(const std::string& film, const std::string& track, const std::string& out);
+/// which says `notes` of itself, into the Matroska file `out`. Throws std::runtime_error, whose
+/// message says what would be right, when the film has no sound, has a haptic track already, or has
+/// a stream that Matroska does not accept. `out` is then incomplete.
+void merge_film(const std::string& film, const std::string& track, const TrackNotes& notes,
+                const std::string& out);
 
 }  // namespace spidar

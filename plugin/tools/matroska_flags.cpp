@@ -9,8 +9,10 @@
 namespace spidar {
 namespace {
 
-/// FlagDefault = 0 and FlagEnabled = 0: the identifier, the size (one byte), and the value.
-constexpr char kFlags[] = {'\x88', '\x81', '\x00', '\xB9', '\x81', '\x00'};
+/// FlagDefault = 0, FlagEnabled = 0 and Language = "zxx": the identifier, the size (one byte), and
+/// the value. Without a Language, Matroska's default is English.
+constexpr char kFlags[] = {'\x88', '\x81', '\x00', '\xB9', '\x81', '\x00', '\x22',
+                           '\xB5', '\x9C', '\x83', 'z',    'x',    'x'};
 /// The description of the tracks is within the first bytes of the file, before the pictures.
 constexpr size_t kHead = size_t{1} << 20;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Clears flags of a track in a Matroska file that GStreamer's muxer always sets.
+/// Sets flags and language of a track in a Matroska file, which GStreamer's muxer cannot.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace spidar {
 std::string name_with_room(const std::string& name);
 
 /// Marks the track of `path` whose name is name_with_room(`name`) as neither default nor enabled
-/// (FlagDefault and FlagEnabled of RFC 9559), and shortens its name to `name`, in place. Throws
-/// std::runtime_error when there is no such track.
+/// (FlagDefault and FlagEnabled of RFC 9559), and as of no language ("zxx" of ISO 639-2), and
+/// shortens its name to `name`, in place. Throws std::runtime_error when there is no such track.
 void clear_track_flags(const std::string& path, const std::string& name);
 
 }  // namespace spidar

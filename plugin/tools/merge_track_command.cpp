@@ -73,7 +73,7 @@ int merge_track_command(int argc, char** argv) {
     if (!other.empty()) {
       throw std::runtime_error("The track is that of another film: " + other + ".");
     }
-    merge_film(film, is_sound ? track : sound.path(), part.path());
+    merge_film(film, is_sound ? track : sound.path(), condition.notes, part.path());
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(film + ": " + error.what());
   }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kDescription =
     "Wrench on the grip: fx fy fz tx ty tz; x right, y up, z towards the viewer. Full scale is 10 "
-    "N and 1 N m.";
+    "N and 1 N m.\nHAPTIC_FULL_SCALE=10 N, 1 N m";
 // Lines of the comment after the description.
 constexpr const char* kFilm = "HAPTIC_FILM=";
 constexpr const char* kSettings = "HAPTIC_SETTINGS=";

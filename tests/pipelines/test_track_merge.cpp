@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // Films that contain a haptic track: how players handle them, and which films are refused.
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +15,7 @@
 
 #include "core/track/track_format.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/track/track_file.h"
 #include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -152,6 +154,38 @@ TEST_F(TrackMerge, TheTrackIsNeitherDefaultNorEnabled) {
   const size_t at = bytes.find(off);
   ASSERT_NE(at, std::string::npos);
   EXPECT_EQ(bytes.find(off, at + 1), std::string::npos);
+}
+
+TEST_F(TrackMerge, TheTrackHasNoLanguageAndTheFilmKeepsWhatItHas) {
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "ffmpeg is not installed";
+  }
+  std::ofstream(path("film.srt")) << "1\n00:00:00,100 --> 00:00:01,000\nThis & that\n";
+  ASSERT_EQ(
+      std::system(("ffmpeg -nostdin -v error -i " + path("film.avi") + " -i " + path("film.srt") +
+                   " -map 0 -map 1 -frames:v 50 -c:v libx264 -preset ultrafast -c:a aac -c:s "
+                   "srt -metadata title=Title -metadata:s:a:0 language=jpn " +
+                   path("film.mkv"))
+                      .c_str()),
+      0);
+  const CommandResult merged = merge("film.mkv", "track.flac", "felt.mkv");
+  ASSERT_EQ(merged.status, 0) << merged.text;
+  const std::string probed =
+      run("ffprobe -v error -show_entries stream=codec_type:stream_tags=language:format_tags=title "
+          "-of compact=p=0 " +
+          path("felt.mkv"))
+          .text;
+  expect_contains(probed, "codec_type=audio|tag:language=jpn");
+  expect_contains(probed, "codec_type=audio|tag:language=zxx");
+  expect_contains(probed, "codec_type=subtitle");
+  expect_contains(probed, "Title");
+  expect_contains(
+      run("ffmpeg -nostdin -v error -i " + path("felt.mkv") + " -map 0:s -f srt -").text,
+      "This & that");
+  const TrackNotes notes = read_track_notes(path("felt.mkv"));
+  EXPECT_TRUE(notes.film.empty()) << "the track was made by hand";
+  // Beside H.264 and AAC, whose parsers tell their caps later.
+  expect_contains(merge("felt.mkv", "track.flac", "twice.mkv").text, "has a haptic track already");
 }
 
 TEST_F(TrackMerge, TheTrackComesBackSampleBySample) {
