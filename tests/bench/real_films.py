@@ -5,18 +5,24 @@
 spidarmotion of a meson build folder on the films of FOLDER and writes three tables into docs/tracking.md: a row for
 each of its settings, and one for OLDER_BUILD, the build folder of an older version; films of which a
 corner is cut off; methods with the processor time that each takes, see bench_real_film.cpp. The last is
-also written to BUILD/real_films.csv, for real_films.gp.
+also written to BUILD/real_films.csv, for real_films.gp. real_films.py BUILD --calm FILM... prints how
+calm the force is in films of which no truth is known.
 
 FOLDER holds films that GStreamer can decode. Beside a film, NAME.csv gives the true motion of its
 object against the background: lines `frame,x,y`, the first frame being 0, in pixels of the film
 since the frame before, x right, y down; frames that are missing are not counted. A film without
-such a file has no object, only a camera that moves.
+such a file has no object, only a camera that moves. truth.py makes such a FOLDER from a data set.
 
 right: within 30 degrees and a factor of 2 of the truth. wrong: felt and more than 60 degrees off.
 Counted are frames with more than 1 px of true motion, of a frame 480 lines high. false: frames of
 films without an object in which some motion is felt. jitter: root mean square of the second
 difference of the motion, px of a frame 480 lines high, median over the films, beside that of the
-truth. felt: more than 2.1 px/s of a frame 480 lines high."""
+truth. felt: more than 2.1 px/s of a frame 480 lines high.
+
+changes: times a minute that another object is felt. turns: times a minute that the force turns by more
+than 90 degrees from one frame to the next. step: root mean square of its change from frame to frame, N.
+felt: share of the frames with a force of at least 0.04 N, the least that a hand feels. run: mean time in
+which the same object is felt."""
 
 import csv
 import json
@@ -33,6 +39,7 @@ from pathlib import Path
 REFERENCE_LINES = 480
 FELT_PX_S = 2.1
 LEAST_TRUE_PX = 1.0
+FELT_N = 0.04
 FRAMES_A_SECOND = 24  # what FELT_PX_S is a speed of where times are not known
 SETTINGS = [
     [],
@@ -85,9 +92,8 @@ def read_truth(file):
         return {int(n): (float(x), float(y)) for n, x, y in csv.reader(lines)}
 
 
-def play(build, film, properties, crop=()):
-    """Motion of each frame in px since the frame before, the seconds since then, the height; `crop`
-    are elements before spidarmotion."""
+def analyse(build, film, properties, crop=()):
+    """What is found in each frame, see docs/elements.md; `crop` are elements before spidarmotion."""
     with tempfile.TemporaryDirectory() as folder:
         trace = Path(folder) / "trace.jsonl"
         environment = dict(
@@ -101,7 +107,12 @@ def play(build, film, properties, crop=()):
              *crop, "spidarmotion", "device=none", "post-messages=false", f"trace={trace}", *properties,
              "!", "fakesink", "sync=false"],
             env=environment, check=True, stdout=subprocess.DEVNULL)
-        rows = [json.loads(line) for line in trace.read_text().splitlines()]
+        return [json.loads(line) for line in trace.read_text().splitlines()]
+
+
+def play(build, film, properties, crop=()):
+    """Motion of each frame in px since the frame before, the seconds since then, the height."""
+    rows = analyse(build, film, properties, crop)
     motion = []
     for row in rows:
         seconds = row["interval_ns"] * 1e-9
@@ -197,6 +208,54 @@ class Tally:
                 f"| {middle(self.jitters)} ({middle(self.true_jitters)}) |")
 
 
+class Calm:
+    """How steady the force of some films is."""
+
+    def __init__(self):
+        self.frames = self.felt = self.changes = self.turns = self.runs = self.steps = 0
+        self.square_N2 = self.seconds = self.felt_s = 0.0
+
+    def add(self, rows):
+        before_N, before_s, last = None, rows[0]["running_time_ns"] * 1e-9, None
+        for row in rows:
+            force_N, seconds = row["wrench"]["force_N"], row["running_time_ns"] * 1e-9 - before_s
+            before_s += seconds
+            self.frames += 1
+            self.seconds += seconds
+            if before_N:
+                self.steps += 1
+                self.square_N2 += math.dist(force_N, before_N) ** 2
+                both = min(math.hypot(*force_N), math.hypot(*before_N)) >= FELT_N
+                self.turns += both and sum(p * q for p, q in zip(force_N, before_N)) < 0
+            before_N = force_N
+            if math.hypot(*force_N) < FELT_N:
+                continue
+            self.felt += 1
+            self.felt_s += seconds
+            # What is felt is a copy of the dominant object's motion.
+            felt = [o["id"] for o in row["objects"] if o["velocity_px_s"] == row["motion"]["velocity_px_s"]]
+            if felt and felt[0] != last:
+                self.runs, self.changes, last = self.runs + 1, self.changes + (last is not None), felt[0]
+
+    def row(self, name):
+        minutes = max(self.seconds / 60, 1e-9)
+        return (f"| {name} | {self.seconds:.0f} | {self.changes / minutes:.0f} | {self.turns / minutes:.0f} "
+                f"| {math.sqrt(self.square_N2 / max(self.steps, 1)):.2f} | {100 * self.felt / max(self.frames, 1):.0f} "
+                f"| {self.felt_s / max(self.runs, 1):.1f} |")
+
+
+def print_calm(build, films):
+    print("| film | s | changes/min | turns/min | step, N | felt % | run, s |\n" + "|---" * 7 + "|")
+    together = Calm()
+    for film in films:
+        calm = Calm()
+        rows = analyse(build, film, []) or sys.exit(f"real_films.py: {film} has no frames")
+        for each in (calm, together):
+            each.add(rows)
+        print(calm.row(film.name), flush=True)
+    print(together.row("all"))
+
+
 def measure(program, method, film):
     """As play() does, and the milliseconds of each frame; without the times between frames, which
     count for nothing but whether a motion is felt."""
@@ -249,19 +308,29 @@ def compare_settings(build, older, films):
     table.write()
 
 
+def check_plugin(build):
+    if not list((build / "plugin").glob("libgstspidar.*")):
+        sys.exit(f"real_films.py: no plugin in {build}/plugin: build it with meson compile")
+
+
 def check(builds):
     """What is missing is said before the minutes that the first tables take."""
     for build in builds:
-        if not list((build / "plugin").glob("libgstspidar.*")):
-            sys.exit(f"real_films.py: no plugin in {build}/plugin: build it with meson compile")
+        check_plugin(build)
     if not (builds[0] / "tests" / "bench" / "bench_real_film").exists() or not shutil.which("ffmpeg"):
         sys.exit("real_films.py: the table of methods needs libavformat-dev (after which: meson configure "
                  f"--clearcache {builds[0]}; meson setup --reconfigure {builds[0]}) and ffmpeg")
 
 
 def main():
-    if len(sys.argv) not in (3, 4):
-        sys.exit("usage: real_films.py BUILD FOLDER [OLDER_BUILD]")
+    if len(sys.argv) > 3 and sys.argv[2] == "--calm":
+        build, missing = Path(sys.argv[1]).resolve(), [f for f in sys.argv[3:] if not Path(f).is_file()]
+        if missing:
+            sys.exit(f"real_films.py: no film {', '.join(missing)}")
+        check_plugin(build)
+        return print_calm(build, [Path(f) for f in sys.argv[3:]])
+    if len(sys.argv) not in (3, 4) or sys.argv[2].startswith("-"):
+        sys.exit("usage: real_films.py BUILD FOLDER [OLDER_BUILD], or real_films.py BUILD --calm FILM...")
     build, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     older = Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else None
     if not folder.is_dir():

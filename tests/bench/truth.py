@@ -1,0 +1,284 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""Makes films with the true motion of their object, for real_films.py, from the frames of a data set.
+
+  truth.py FOLDER OUT [--fps 24]
+
+FOLDER holds sequences in either of two layouts, at any depth (links to folders are not followed):
+  masks, as in DAVIS: JPEGImages/[480p/]NAME/*.jpg and Annotations/[480p/]NAME/*.png, a mask for each
+    frame, where every value but 0 is the object;
+  boxes, as in OTB and VOT: NAME/img/*.jpg (or imgs, or NAME/*.jpg) and NAME/groundtruth*.txt, a line
+    for each frame with x, y, width, height, or the corners x1, y1, x2, y2, ….
+For each sequence, OUT gets the film NAME.mkv, its frames as they are, and NAME.csv: lines `frame,x,y`,
+the motion of the object against the background since the frame before, in pixels of the film. Where the
+mask leaves free a rectangle of which the camera's motion shows something, still-NAME.mkv is a cut of it.
+
+The motion is measured twice: by Lucas-Kanade on corners of the object, and by the centre of its mask or
+box, smoothed over three frames. Each is taken against a homography that is fitted robustly to corners
+outside. Where the mask is cut off by the border or changes by more than 15 % in area, the centre says
+nothing, and the corners count alone if they agree with each other. A frame is left out where the two
+disagree, or where the homography explains less than 60 % of the corners. Needs ffmpeg and
+python3-opencv."""
+
+import argparse
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+try:
+    import cv2
+    import numpy as np
+except ImportError:
+    sys.exit("truth.py: needs OpenCV for Python (python3-opencv), for the interpreter that runs it")
+
+LINES = 480  # lengths below are in px of a frame of so many lines
+MARGIN_PX = 12  # around the mask, as what is close to its edge belongs to neither side
+AGREE_PX, AGREE_SHARE = 0.8, 0.35  # how far the two measurements may differ
+ALONE_PX, ALONE_SHARE = 0.5, 0.3  # median deviation of the corners from their median
+LEAST_INLIERS = 0.6
+MOST_GROWTH = 0.15  # of the area in a frame, as a logarithm
+LEAST_CORNERS = 12  # on the object
+LEAST_OUTSIDE = 40
+# A cut without the object is at least this share of each side and so many frames long, and the picture
+# moves by so much in most of its frames.
+CUT_SIDE, CUT_FRAMES, CUT_MOVES_PX = 0.45, 20, 1.0
+PICTURES = {".jpg", ".jpeg", ".png"}
+
+
+def pictures_of(folder):
+    return sorted(f for f in folder.iterdir() if f.suffix.lower() in PICTURES) if folder.is_dir() else []
+
+
+def find_sequences(folder):
+    """Name, frames and a list of masks or an array of boxes of each sequence."""
+    for annotations in sorted(folder.rglob("Annotations")):
+        images = annotations.parent / "JPEGImages"
+        for inside in sorted({f.parent for f in annotations.rglob("*.png")}):
+            frames = pictures_of(images / inside.relative_to(annotations))
+            masks = pictures_of(inside)
+            if not frames:
+                print(f"truth.py: {inside}: there are no frames for these masks in {images}", file=sys.stderr)
+            elif len(frames) != len(masks):
+                print(f"truth.py: {inside}: {len(masks)} masks for {len(frames)} frames", file=sys.stderr)
+            else:
+                name = inside.name if inside != annotations else annotations.parent.name
+                yield name, frames, masks
+    for truth in sorted(folder.rglob("groundtruth*.txt")):
+        home = truth.parent
+        frames = pictures_of(home / "img") or pictures_of(home / "imgs") or pictures_of(home)
+        boxes = read_boxes(truth)
+        if frames and abs(len(frames) - len(boxes)) <= 2:
+            yield home.name, frames[: len(boxes)], boxes[: len(frames)]
+        else:
+            print(f"truth.py: {truth}: {len(boxes)} boxes for {len(frames)} frames", file=sys.stderr)
+
+
+def read_boxes(file):
+    """Corners of the box around each line's numbers."""
+    boxes = []
+    for line in file.read_text().splitlines():
+        values = [float(v) for v in re.split(r"[,\s]+", line.strip()) if v]
+        if len(values) == 4:
+            x, y, width, height = values
+            boxes.append((x, y, x + width, y + height))
+        elif len(values) >= 6:
+            boxes.append((min(values[0::2]), min(values[1::2]), max(values[0::2]), max(values[1::2])))
+    return np.array(boxes)
+
+
+class Objects:
+    """Where the object is: `mask(n)` of the frame, `centre(n)` and `area(n)` of what it is measured by."""
+
+    def __init__(self, given, size):
+        self.given, self.size = given, size
+        self.is_box = isinstance(given, np.ndarray)
+        self.known = {}
+
+    def mask(self, n):
+        if n not in self.known:
+            height, width = self.size
+            if self.is_box:
+                mask = np.zeros((height, width), np.uint8)
+                x0, y0, x1, y1 = np.round(self.given[n]).astype(int)
+                mask[max(y0, 0):max(y1, 0), max(x0, 0):max(x1, 0)] = 255
+            else:
+                mask = cv2.imread(str(self.given[n]), cv2.IMREAD_UNCHANGED)
+                mask = mask.max(axis=2) if mask.ndim == 3 else mask
+                mask = cv2.resize((mask > 0).astype(np.uint8) * 255, (width, height),
+                                  interpolation=cv2.INTER_NEAREST)
+            self.known = {k: v for k, v in self.known.items() if k == n - 1}
+            self.known[n] = mask
+        return self.known[n]
+
+    def centre_and_area(self, n):
+        """Nothing where the border cuts it off."""
+        mask = self.mask(n)
+        if self.is_box:
+            x0, y0, x1, y1 = self.given[n]
+            cut_off = x0 < 1 or y0 < 1 or x1 > self.size[1] - 1 or y1 > self.size[0] - 1
+            return None if cut_off or x1 <= x0 or y1 <= y0 else ((x0 + x1) / 2, (y0 + y1) / 2, (x1 - x0) * (y1 - y0))
+        if any(edge.any() for edge in (mask[0], mask[-1], mask[:, 0], mask[:, -1])) or not mask.any():
+            return None
+        m = cv2.moments(mask, True)
+        return m["m10"] / m["m00"], m["m01"] / m["m00"], m["m00"]
+
+    def inside(self, n):
+        """What certainly shows the object: a box also contains what is behind it."""
+        mask = self.mask(n)
+        if not self.is_box:
+            return mask
+        x0, y0, x1, y1 = self.given[n]
+        part = np.zeros_like(mask)
+        dx, dy = (x1 - x0) / 5, (y1 - y0) / 5
+        part[max(int(y0 + dy), 0):max(int(y1 - dy), 0), max(int(x0 + dx), 0):max(int(x1 - dx), 0)] = 255
+        return part
+
+
+def follow(before, now, mask, count):
+    """Corners of `before` and where they are in `now`: those that return to within half a pixel."""
+    corners = cv2.goodFeaturesToTrack(before, count, 0.005, 5, mask=mask)
+    if corners is None:
+        return np.empty((0, 2)), np.empty((0, 2))
+    window = {"winSize": (15, 15), "maxLevel": 4}
+    there, found, _ = cv2.calcOpticalFlowPyrLK(before, now, corners, None, **window)
+    back, returned, _ = cv2.calcOpticalFlowPyrLK(now, before, there, None, **window)
+    good = (found[:, 0] > 0) & (returned[:, 0] > 0) & (np.linalg.norm(corners - back, axis=2)[:, 0] < 0.5)
+    return corners[good, 0], there[good, 0]
+
+
+def moved_by(homography, points):
+    return cv2.perspectiveTransform(np.asarray(points, np.float64).reshape(-1, 1, 2), homography)[:, 0]
+
+
+def smooth(values):
+    """With a Gaussian of one frame, over those that are known; a gap stays where little is known."""
+    kernel = np.exp(-0.5 * np.arange(-3, 4) ** 2.0)
+    known = ~np.isnan(values[:, 0])
+    weight = np.convolve(known.astype(float), kernel, "same")
+    sums = [np.convolve(np.where(known, values[:, j], 0), kernel, "same") for j in (0, 1)]
+    return np.where(weight[:, None] > 1.2, np.stack(sums, 1) / np.maximum(weight, 1e-9)[:, None], np.nan)
+
+
+def measure(frames, objects, unit):
+    """Motion of the object in each frame, NaN where it is not certain; motion of the picture."""
+    n = len(frames)
+    by_corners, by_centre = np.full((n, 2), np.nan), np.full((n, 2), np.nan)
+    certain, alone, camera_px = np.zeros(n, bool), np.zeros(n, bool), np.zeros(n)
+    around = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (int(2 * MARGIN_PX * unit) + 1,) * 2)
+    before = gray_of(frames[0])
+    for i in range(1, n):
+        now = gray_of(frames[i])
+        inside, was = objects.inside(i - 1), objects.centre_and_area(i - 1)
+        outside = 255 - cv2.dilate(objects.mask(i - 1), around)
+        here = objects.centre_and_area(i)
+        a, b = follow(before, now, outside, 600)
+        if len(a) >= LEAST_OUTSIDE:
+            homography, inliers = cv2.findHomography(a, b, cv2.USAC_MAGSAC, unit)
+            if homography is not None:
+                certain[i] = inliers.mean() > LEAST_INLIERS
+                camera_px[i] = np.median(np.linalg.norm(b - a, axis=1))
+                p, q = follow(before, now, inside, 200)
+                if len(p) >= LEAST_CORNERS:
+                    relative = q - moved_by(homography, p)
+                    by_corners[i] = np.median(relative, axis=0)
+                    apart = np.median(np.linalg.norm(relative - by_corners[i], axis=1))
+                    alone[i] = apart < ALONE_SHARE * np.linalg.norm(by_corners[i]) + ALONE_PX * unit
+                if was and here and abs(np.log(here[2] / was[2])) < MOST_GROWTH:
+                    by_centre[i] = here[:2] - moved_by(homography, [was[:2]])[0]
+        before = now
+    by_centre = smooth(by_centre)
+    size = np.fmax(np.linalg.norm(by_centre, axis=1), np.linalg.norm(by_corners, axis=1))
+    apart = np.linalg.norm(by_centre - by_corners, axis=1)
+    agree = certain & (apart < np.fmax(AGREE_PX * unit, AGREE_SHARE * size))
+    alone &= certain & np.isnan(by_centre[:, 0])
+    either = np.where(alone[:, None], by_corners, np.nan)
+    return np.where(agree[:, None], (by_centre + by_corners) / 2, either), camera_px
+
+
+def gray_of(file):
+    return cv2.imread(str(file), cv2.IMREAD_GRAYSCALE)
+
+
+def largest_free(taken):
+    """The largest rectangle of an image that is 0 everywhere: x, y, width, height."""
+    height, width = taken.shape
+    column, best, area = np.zeros(width, int), (0, 0, 0, 0), 0
+    for y in range(height):
+        column = np.where(taken[y] == 0, column + 1, 0)
+        stack = []
+        for x in range(width + 1):
+            tall, start = (column[x] if x < width else 0), x
+            while stack and stack[-1][1] >= tall:
+                start, h = stack.pop()
+                if h * (x - start) > area:
+                    area, best = h * (x - start), (start, y - h + 1, x - start, h)
+            stack.append((start, tall))
+    return best
+
+
+def cut_without(objects, camera_px, unit):
+    """The largest cut that the object never enters: first and last frame, and its rectangle in px."""
+    height, width = objects.size
+    cell = 8
+    around = np.ones((int(2 * MARGIN_PX * unit) + 1,) * 2, np.uint8)
+    maps = []
+    for n in range(len(camera_px)):
+        mask = cv2.dilate(objects.mask(n), around)
+        maps.append(cv2.resize(mask, (width // cell, height // cell), interpolation=cv2.INTER_AREA) > 0)
+    n, best = len(maps), None
+    for parts in (1, 2, 3):
+        length = n // parts
+        if length < CUT_FRAMES:
+            break
+        for start in range(0, n - length + 1, length):
+            x, y, w, h = largest_free(np.any(maps[start:start + length], axis=0).astype(np.uint8))
+            moves = np.median(camera_px[start + 1:start + length]) > CUT_MOVES_PX * unit
+            large = w * cell >= CUT_SIDE * width and h * cell >= CUT_SIDE * height
+            if moves and large and (best is None or w * h * length > best[0]):
+                best = w * h * length, start, start + length, (x * cell, y * cell, w * cell, h * cell)
+    return best[1:] if best else None
+
+
+def make_film(frames, film, fps, crop=None):
+    """The frames as they are, if they are JPEG; a cut, and other frames, are coded without loss."""
+    jpeg = all(f.suffix.lower() in (".jpg", ".jpeg") for f in frames)
+    coding = ["-c", "copy"] if jpeg and not crop else ["-c:v", "ffv1", "-pix_fmt", "yuv420p"]
+    if crop:
+        coding = ["-vf", "crop={2}:{3}:{0}:{1}".format(*crop), *coding]
+    subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-f", "image2pipe", "-framerate", str(fps), "-i", "-",
+                    *coding, film], check=True, input=b"".join(f.read_bytes() for f in frames))
+
+
+def main():
+    parser = argparse.ArgumentParser(usage="truth.py FOLDER OUT [--fps 24]")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--fps", type=float, default=24)
+    arguments = parser.parse_args()
+    if not arguments.folder.is_dir():
+        sys.exit(f"truth.py: {arguments.folder} is not a folder")
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    made = 0
+    for name, frames, given in find_sequences(arguments.folder):
+        size = gray_of(frames[0]).shape
+        unit = size[0] / LINES
+        objects = Objects(given, size)
+        motion, camera_px = measure(frames, objects, unit)
+        make_film(frames, arguments.out / f"{name}.mkv", arguments.fps)
+        known = [n for n in range(len(frames)) if not np.isnan(motion[n, 0])]
+        lines = [f"{n},{motion[n, 0]:.3f},{motion[n, 1]:.3f}\n" for n in known]
+        (arguments.out / f"{name}.csv").write_text("".join(lines))
+        objects.known = {}
+        cut = cut_without(objects, camera_px, unit)
+        if cut:
+            make_film(frames[cut[0]:cut[1]], arguments.out / f"still-{name}.mkv", arguments.fps, cut[2])
+        print(f"{name}: {len(frames)} frames, motion known in {len(known)}, "
+              + (f"a cut of {cut[1] - cut[0]} frames without the object" if cut else "no cut without the object"))
+        made += 1
+    if made == 0:
+        sys.exit(f"truth.py: {arguments.folder} has neither Annotations with masks nor groundtruth*.txt with boxes")
+
+
+main()
