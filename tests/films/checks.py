@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""What must hold for every film of the matrix. A check returns nothing, or raises Wrong with a sentence."""
+import bisect
+import json
+import math
+
+from corpus import MS, STANDING, probed
+from trial import QUICK_PLAYERS
+
+# Both sides round times to the resolution of the container, 1 ms at most.
+TIME_S = 1.001 * MS
+# A picture may lie half a millisecond beside a sample, at a maximum of the curve. A cubic curve that changes by 5.3 N,
+# twice the force, in 40 ms, falls by 5.3 N * 3 * (0.5 / 40)^2 until then. `convert` to HJIF allows 0.0004 of 10 N more.
+TRACK_N = 2.5e-3
+HJIF_N = 10 * 0.00041 + TRACK_N
+FELT_N = 0.1  # a hand feels 0.04 N; the square moves with more than 1 N
+# The square moves by whole pairs of pixels, of 5.4 in a picture: its direction is off by up to atan(2 / 5.4), and the
+# filter of the motion is a picture late, 10 degrees. A film that is turned is off by 90.
+DIRECTION_RAD = math.radians(45)
+NO_LENGTH = ("ts", "m2ts", "fragmented mp4", "ogg", "flv")  # containers that do not say how long the film is
+
+
+class Wrong(Exception):
+    pass
+
+
+def expect(condition, text):
+    if not condition:
+        raise Wrong(text)
+
+
+def moving(trial):
+    """Positions, among the pictures that are shown, of those in which the square has moved."""
+    return [i for i, number in enumerate(trial.numbers) if number >= STANDING]
+
+
+def expect_sentence(text, what):
+    """The last line of `text` is a cause that a person understands."""
+    line = text.splitlines()[-1] if text else ""
+    expect(len(line) > 20 and "Internal data stream error" not in line and "GStreamer error" not in line,
+           f"{what}: the cause is not said: {line[-200:]!r}")
+
+
+# --- what GStreamer and the element make of the film
+
+
+def pictures(trial):
+    """Every player shows the pictures that ffprobe finds, at these times."""
+    times = trial.film.times_s
+    expect(len(times) == len(trial.film.numbers), f"ffprobe finds {len(times)} pictures, not {len(trial.film.numbers)}")
+    for player in QUICK_PLAYERS:
+        play = trial.plays[player]
+        expect(not play["error"], f"{player}: {play['error']}")
+        shown = [stream for stream, _ in play["frames"]]
+        expect(len(shown) == len(times), f"{player} shows {len(shown)} pictures of {len(times)}")
+        worst = max(abs((a - shown[0]) - (b - times[0])) for a, b in zip(shown, times))
+        expect(worst <= TIME_S, f"{player} shows a picture {1e3 * worst:.1f} ms beside its time")
+
+
+def analysed(trial):
+    """Each picture is analysed once; there is force in the right direction in those in which the square moves. In the
+    first of them, an encoder may not show it yet."""
+    play, film = trial.plays["analysed"], trial.film
+    expect(not play["error"], play["error"])
+    shown = [stream for stream, _ in trial.plays["decodebin"]["frames"]]
+    expect(len(trial.forces) == len(shown), f"{len(trial.forces)} of {len(shown)} pictures are analysed")
+    for stream, force in zip(shown, trial.forces):
+        expect(abs(force[0] - stream) < 1e-6, f"the picture of {stream:.3f} s is analysed as of {force[0]:.3f} s")
+    first = moving(trial)[0]
+    expect(all(math.hypot(x, y) < FELT_N for _, x, y in trial.forces[:first]), "there is force before anything moves")
+    for i in moving(trial)[1:]:
+        _, x, y = trial.forces[i]
+        toward = film.direction(trial.numbers[i])
+        expect(math.hypot(x, y) > FELT_N, f"no force in picture {i}, which moves")
+        off = math.acos(max(-1, min(1, (x * toward[0] + y * toward[1]) / math.hypot(x, y))))
+        expect(off < DIRECTION_RAD, f"the force of picture {i} is turned by {math.degrees(off):.0f} degrees")
+
+
+# --- spidartrack
+
+
+def record(trial):
+    """The film is recorded, without anything else on the terminal."""
+    outcome = trial.spidartrack("record", "-j1", trial.path)
+    expect(outcome and trial.track.exists(), f"status {outcome.status}: {outcome.text[-250:]}")
+    expect("CRITICAL" not in outcome.text and "WARNING" not in outcome.text, outcome.text[-250:])
+
+
+def expect_in_time(samples, trial, error_N=TRACK_N):
+    """The force of each picture is in the samples of its time, or of a millisecond before or after."""
+    for i in moving(trial):
+        force = trial.forces[i]
+        at = force[0] / MS
+        near = samples[max(0, math.floor(at - 1.001)):math.ceil(at + 1.001) + 1]
+        expect(near, f"the track ends at {len(samples)} ms, before picture {i} of {at:.0f} ms")
+        for axis in (0, 1):
+            values = [sample[axis] for sample in near]
+            expect(min(values) - error_N <= force[1 + axis] <= max(values) + error_N,
+                   f"the force of picture {i}, of {at:.0f} ms, is not in the track at this time")
+
+
+def track_in_time(trial):
+    """The track has the force of each picture within a millisecond of its time, and is at rest before."""
+    wav = trial.folder / "track.wav"
+    outcome = trial.spidartrack("convert", trial.track, wav)
+    expect(outcome, outcome.text)
+    trial.samples = trial.read_samples(wav)
+    expect_in_time(trial.samples, trial)
+    still = int(trial.forces[moving(trial)[0] - 1][0] / MS)
+    expect(all(math.hypot(*sample) < FELT_N for sample in trial.samples[:still]), "the track is not at rest at first")
+    after_s = len(trial.samples) * MS - trial.forces[-1][0]
+    expect(after_s < 0.3, f"the track goes on for {after_s:.1f} s after the last picture")
+
+
+def info(trial):
+    """`info` and `check` find nothing wrong with the track."""
+    outcome = trial.spidartrack("info", "--json", trial.track)
+    expect(outcome and json.loads(outcome.text)["largest_force_N"] > 1, outcome.text[-200:])
+    outcome = trial.spidartrack("check", trial.track)
+    expect(outcome, outcome.text[-200:])
+
+
+def convert(trial):
+    """To HJIF and back, the track stays what it was."""
+    hjif, wav = trial.folder / "track.hjif", trial.folder / "back.wav"
+    for source, target in ((trial.track, hjif), (hjif, wav)):
+        outcome = trial.spidartrack("convert", source, target)
+        expect(outcome, outcome.text[-200:])
+    expect_in_time(trial.read_samples(wav), trial, HJIF_N)
+
+
+def plot(trial):
+    """`plot --film` draws the film's own track."""
+    png = trial.folder / "plot.png"
+    outcome = trial.spidartrack("plot", trial.track, png, "--film", trial.path)
+    expect(outcome and png.exists() and png.stat().st_size > 5000, outcome.text[-250:])
+
+
+def merge(trial):
+    """The track goes into its film if that has sound; nothing else is lost, and no player takes it for sound."""
+    merged = trial.folder / "merged" / "film.mkv"
+    merged.parent.mkdir(exist_ok=True)
+    outcome = trial.spidartrack("merge", trial.path, trial.track, merged)
+    if not trial.film.has_sound:
+        expect(outcome.status == 1 and not merged.exists(), f"a film without sound: status {outcome.status}")
+        return expect_sentence(outcome.text, "a film without sound")
+    expect(outcome, outcome.text[-250:])
+    entries = "stream=codec_type,channels,codec_name:stream_disposition=default:stream_tags=language"
+    streams = probed(merged, entries)["streams"]
+    haptic = [s for s in streams if s.get("channels") == 6]
+    expect(len(haptic) == 1, f"{len(haptic)} haptic tracks in the film")
+    expect(not haptic[0]["disposition"]["default"], "the track is marked as default")
+    expect(haptic[0].get("tags", {}).get("language") == "zxx", f"the language of the track: {haptic[0].get('tags')}")
+    for kind in ("video", "audio", "subtitle"):
+        before = trial.film.streams.count(kind)
+        after = sum(s["codec_type"] == kind for s in streams) - (kind == "audio")
+        expect(after == before, f"{before} streams of {kind} in the film, {after} in the merged one")
+    wav = trial.folder / "extracted.wav"
+    outcome = trial.spidartrack("extract", merged, wav)
+    expect(outcome, outcome.text[-200:])
+    played = trial.play_quickly("playbin", merged, {"track": "auto"})
+    expect(played["of track"] and not played["analysed"],
+           f"track=auto does not play the track inside the film: {played['error'] or played['warnings'][:1]}")
+
+
+def own_track(trial):
+    """track=auto plays the track beside its film without a warning."""
+    played = trial.play_quickly("playbin3", trial.path, {"track": "auto"})
+    expect(played["of track"] == len(trial.numbers) and not played["analysed"] and not played["warnings"],
+           f"{played['of track']} pictures of the track, {played['analysed']} analysed: {played['warnings'][:1]}")
+
+
+def other_film(trial):
+    """The track is refused for another film of the same length, which is analysed."""
+    path = trial.copy(trial.other, "other", "film" + trial.other.path.suffix)
+    trial.track.exists() and path.with_name(path.name + ".haptic.flac").write_bytes(trial.track.read_bytes())
+    played = trial.play_quickly("playbin", path, {"track": "auto"})
+    expect(played["analysed"] and not played["of track"], f"track=auto plays the track of another film: {trial.other}")
+    expect(played["warnings"], "track=auto refuses the track of another film without a word")
+    for command in (("merge", path, trial.track, path.with_name("out.mkv")),
+                    ("plot", trial.track, path.with_name("out.png"), "--film", path)):
+        outcome = trial.spidartrack(*command)
+        expect(outcome.status == 1, f"{command[0]} takes the track of another film, {trial.other}")
+        expect_sentence(outcome.text, command[0])
+        expect(not any(path.parent.glob("out.*")), f"{command[0]} leaves a file")
+
+
+# --- felt
+
+
+def felt(trial):
+    """It is felt from the first picture in which the square has moved to the last, at their times."""
+    player = trial.film.kind["player"]
+    play = trial.play_in_time(player)
+    expect(not play["warnings"], f"{player}: {play['warnings']}")
+    forces, count = trial.forces, len(trial.forces)
+    times = 2 if player == "gapless" else 1
+    expect(len(play["frames"]) == times * count, f"{player} shows {len(play['frames'])} of {times * count} pictures")
+    ticks = sorted(play["ticks"])
+    expect(ticks, f"{player}: the loop never played")
+    running = [tick[0] for tick in ticks]
+    checked = 0
+    for turn in range(times):
+        due = [frame[1] for frame in play["frames"][turn * count:(turn + 1) * count]]
+        pictures_s = [due[i] for i in moving(trial)]
+        # The force fades in over 40 ms when the film begins with it.
+        # spidar-feel opens the device when the film begins to play, so that the 13 pictures that are on their way to the
+        # screen then are not felt.
+        first_s = max(pictures_s[1], due[0] + 1 if player == "spidar-feel" else 0)
+        begin, end = (bisect.bisect(running, t) for t in (first_s, pictures_s[-1]))
+        weak = [tick[0] for tick in ticks[begin:end] if tick[3] < FELT_N]
+        expect(begin < end, f"{player}: nothing is felt in film {turn + 1}")
+        if weak:
+            raise Wrong(f"{player}: nothing is felt from {weak[0]:.3f} s to {weak[-1]:.3f} s in film {turn + 1}, which "
+                        f"moves from {pictures_s[0]:.3f} s to {pictures_s[-1]:.3f} s")
+        for i, due_s in zip(moving(trial), pictures_s):
+            near = ticks[bisect.bisect_left(running, due_s - 1.5 * MS):bisect.bisect_right(running, due_s + 1.5 * MS)]
+            if not near or due_s < first_s:
+                continue  # the machine was busy
+            checked += 1
+            for axis in (1, 2):
+                values = [tick[axis] for tick in near]
+                expect(min(values) - 0.01 <= forces[i][axis] <= max(values) + 0.01,
+                       f"{player}: what is wanted at {due_s:.3f} s is not the force of picture {i}")
+    expect(checked > times * count / 4, f"{player}: only {checked} pictures met a tick; the machine was too busy")
+
+
+# --- damaged films
+
+
+def damaged(trial):
+    """Cut off, it is an error with a cause, which leaves nothing behind, or its whole pictures are recorded in a
+    container that does not say how long it is."""
+    film, kind = trial.film, trial.film.kind
+    folder = trial.folder / "damaged"
+    folder.mkdir(exist_ok=True)
+    path = folder / film.path.name
+    path.write_bytes(film.path.read_bytes()[:film.cut_bytes])
+    outcome = trial.spidartrack("record", "-j1", path)
+    left = sorted(p.name for p in folder.iterdir() if p != path)
+    if outcome and kind["container"] in NO_LENGTH:
+        return expect(left == [trial.track.name], f"status 0, and in the folder: {left}")
+    expect(outcome.status == 1, f"status {outcome.status}: {outcome.text[-200:]}")
+    expect(not left, f"an error leaves {left}")
+    expect_sentence(outcome.text, "record")
+
+
+def nothing_left(trial):
+    """No temporary file is left beside the film."""
+    known = {trial.path.name, trial.track.name, "track.wav", "track.hjif", "back.wav", "plot.png", "extracted.wav"}
+    written = (p.name for p in trial.folder.iterdir() if p.is_file() and not p.name.startswith("ticks-"))
+    left = [name for name in written if name not in known]
+    expect(not left, f"left: {left}")
+
+
+CHECKS = (pictures, analysed, record, track_in_time, info, convert, plot, merge, own_track, other_film, felt, damaged,
+          nothing_left)
+# Without these, the others say nothing.
+NEEDED = {track_in_time: (record,), info: (record,), convert: (track_in_time,), plot: (record,), merge: (record,),
+          own_track: (record,), other_film: (record,)}
