@@ -56,8 +56,7 @@ static void take_track(GstSpidarMotion* self, const GstVideoInfo& info) {
   std::optional<spidar::TrackFile> track =
       spidar::judge_track(GST_ELEMENT(self), std::move(*loaded), static_cast<gint64>(frame));
   if (!track) return;
-  // Of the frames that were analysed before.
-  self->engine->flush();
+  // The wrenches of frames that came before it stay: some of them may be the end of another film.
   self->engine->set_track(std::move(track));
 }
 
