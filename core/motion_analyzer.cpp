@@ -10,7 +10,7 @@
 #include "core/force/motion_bounds.h"
 #include "core/motion/cadence.h"
 #include "core/motion/motion_estimator.h"
-#include "core/tracking/tracker.h"
+#include "core/tracking/opencv_tracker.h"
 
 namespace spidar {
 namespace {
@@ -46,7 +46,6 @@ ImageMotion faster(ImageMotion motion, double factor) {
 
 AnalyzerSettings paper_settings() {
   AnalyzerSettings settings;
-  settings.tracker.kind = TrackerKind::kOpenCv;
   settings.motion = MotionKind::kMean;
   settings.filter.min_cutoff_Hz = 0;
   settings.controller.kind = ControllerKind::kNonlinear;
@@ -55,18 +54,11 @@ AnalyzerSettings paper_settings() {
 
 struct MotionAnalyzer::Impl {
   explicit Impl(const AnalyzerSettings& given)
-      : settings(given),
-        tracker(make_tracker(given.tracker)),
-        controller(make_controller(given.controller)) {
+      : settings(given), tracker(given.tracker), controller(make_controller(given.controller)) {
     validate_rest(given);
   }
 
-  /// The mean is computed from points, and with tracker=opencv objects are measured by them.
-  bool needs_tracker() const {
-    return settings.motion == MotionKind::kMean || settings.tracker.kind == TrackerKind::kOpenCv;
-  }
-
-  FieldPoints::Settings own_points() const {
+  FieldPoints::Settings field_points() const {
     const TrackerQuality quality = settings.tracker.quality;
     return {std::min(settings.tracker.max_features,
                      quality == TrackerQuality::kFine ? kManyPoints : kFewPoints),
@@ -75,8 +67,8 @@ struct MotionAnalyzer::Impl {
 
   AnalyzerSettings settings;
   ReducedFrame reduced;
-  std::unique_ptr<Tracker> tracker;
-  MotionEstimator motion;
+  OpenCvTracker tracker;   // for kMean
+  MotionEstimator motion;  // for all other kinds
   MotionFilter filter;
   std::unique_ptr<GainController> controller;
   std::optional<int64_t> last_running_time_ns;
@@ -85,6 +77,16 @@ struct MotionAnalyzer::Impl {
 
   FrameAnalysis wait() const;
 };
+
+/// The paper's motion: the mean over all points.
+SceneMotion mean_of_points(const TrackedFrame& tracked, int64_t interval_ns) {
+  SceneMotion scene;
+  scene.restarted = tracked.restarted;
+  scene.tracks = &tracked.tracks;
+  scene.features = tracked.features;
+  if (!scene.restarted) scene.felt = mean_motion(tracked.tracks, interval_ns);
+  return scene;
+}
 
 /// The result that continues while the picture is repeated.
 FrameAnalysis MotionAnalyzer::Impl::wait() const {
@@ -105,10 +107,13 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   validate(settings.tracker);
   validate(settings.controller);
   validate_rest(settings);
-  if (settings.tracker.kind == impl_->settings.tracker.kind) {
-    impl_->tracker->configure(settings.tracker);
-  } else {
-    impl_->tracker = make_tracker(settings.tracker);
+  impl_->tracker.configure(settings.tracker);
+  const auto by_points = [](const AnalyzerSettings& s) { return s.motion == MotionKind::kMean; };
+  if (by_points(settings) != by_points(impl_->settings)) {
+    // What will be used next has not seen the last picture.
+    impl_->tracker.restart();
+    impl_->reduced.restart();
+    impl_->motion.reset();
   }
   if (settings.controller.kind == impl_->settings.controller.kind) {
     impl_->controller->configure(settings.controller);
@@ -125,9 +130,11 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   const Repeats repeats = may_wait ? Repeats::kAlike : Repeats::kSame;
   const AnalyzerSettings& settings = impl_->settings;
   const bool by_points = settings.motion == MotionKind::kMean;
-  if (!by_points) impl_->reduced.read(frame, repeats);
   const TrackedFrame* tracked = nullptr;
-  if (impl_->needs_tracker()) tracked = &impl_->tracker->track(frame, repeats);
+  if (by_points)
+    tracked = &impl_->tracker.track(frame, repeats);
+  else
+    impl_->reduced.read(frame, repeats);
   impl_->last_running_time_ns = running_time_ns;
 
   FrameAnalysis analysis;
@@ -145,9 +152,11 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
     analysis.interval_ns = std::max(step.interval_ns, kLeastInterval_ns);
     analysis.same_picture = repeated || alike;
   }
+  const int64_t interval_ns = std::max(analysis.interval_ns, kLeastInterval_ns);
   const SceneMotion scene =
-      impl_->motion.estimate(settings.motion, frame, impl_->reduced, {tracked, impl_->own_points()},
-                             std::max(analysis.interval_ns, kLeastInterval_ns), settings.pointer);
+      by_points ? mean_of_points(*tracked, interval_ns)
+                : impl_->motion.estimate(settings.motion, frame, impl_->reduced,
+                                         impl_->field_points(), interval_ns, settings.pointer);
   analysis.features = scene.features;
   analysis.restarted = analysis.restarted || scene.restarted;
   if (analysis.restarted) {
@@ -196,7 +205,7 @@ std::optional<FrameAnalysis> MotionAnalyzer::repeat(int64_t running_time_ns) {
 
 void MotionAnalyzer::restart() {
   impl_->reduced.restart();
-  impl_->tracker->restart();
+  impl_->tracker.restart();
   impl_->motion.reset();
   impl_->controller->reset();
   impl_->cadence.restart();

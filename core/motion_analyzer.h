@@ -31,7 +31,7 @@ struct AnalyzerSettings {
   ControllerSettings controller;
 };
 
-/// Exactly as in the paper: OpenCV's tracker, mean velocity of all points, unfiltered, nonlinear
+/// Closest to the paper: mean velocity of the points of OpenCvTracker, unfiltered, nonlinear
 /// controller.
 SPIDAR_API AnalyzerSettings paper_settings();
 
@@ -83,7 +83,7 @@ class SPIDAR_API MotionAnalyzer {
   /// causes a restart, because the interval would not be positive. A cut in the picture or a new
   /// size restarts tracks and filter only: the largest speed of eq. 13 and what the adaptive
   /// controller has learnt belong to the whole video.
-  /// Throws std::invalid_argument for a frame that Tracker::track() refuses.
+  /// Throws std::invalid_argument for a frame that require_usable() refuses.
   FrameAnalysis analyze(const ImageView& frame, int64_t running_time_ns);
 
   /// Takes a frame that is known to repeat the previous picture, without analysing it. Returns

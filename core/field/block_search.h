@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/tracking/gray_pyramid.h"
+#include "core/tracking/padded_image.h"
 
 namespace spidar {
 

@@ -7,8 +7,8 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
-#include "core/tracking/gray_pyramid.h"
 #include "core/tracking/luma_row.h"
+#include "core/tracking/padded_image.h"
 
 namespace spidar {
 namespace {

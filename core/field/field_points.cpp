@@ -21,7 +21,7 @@ constexpr int kWindow_px = 16;
 /// A point that is further than this from where its block went shows something else, px of the
 /// field's picture.
 constexpr float kReach_px = 1;
-constexpr MatchSettings kMatch{4, 0.02f, 2, 0};
+constexpr MatchSettings kMatch{4, 0.02f, 2};
 
 /// Block of the grid at a place of the base; outside the grid, the nearest block.
 size_t block_of(const BlockField& field, ImagePoint base_px) {
@@ -85,7 +85,6 @@ bool FieldPoints::find(Point& point, const FineWindow& fine, const ImageView& fr
                point.frame.y_px + factor * (match.centre.y_px - point.at.y_px)};
   coarse.variance_px2 = match.variance_px2;
   coarse.strength = window.strength();
-  coarse.gain = 0;
   const bool has_finer = refines_ && reduced.factor() > 1;
   point.frame = has_finer ? fine.place(neighbourhood_, frame, reduced.factor(), coarse) : coarse.at;
   point.at = to_reduced(point.frame, reduced.factor());

@@ -5,7 +5,7 @@
 
 #include "core/api.h"
 #include "core/image_view.h"
-#include "core/tracking/gray_pyramid.h"
+#include "core/tracking/padded_image.h"
 #include "core/tracking/repeated_picture.h"
 #include "core/tracking/tracker.h"
 

@@ -182,7 +182,7 @@ void MotionEstimator::refine_background(Background& background) {
 }
 
 void MotionEstimator::choose_points(const ImageView& frame, const ReducedFrame& reduced,
-                                    const Points& points) {
+                                    const FieldPoints::Settings& points) {
   const std::vector<uint32_t>& owners = objects_.owners();
   const bool camera_moves = estimator_.background().model.kind != ModelKind::kStill;
   wishes_.resize(field_.blocks().size());
@@ -192,13 +192,12 @@ void MotionEstimator::choose_points(const ImageView& frame, const ReducedFrame& 
                  : shows_background                  ? PointWish::kSome
                                                      : PointWish::kNone;
   }
-  points_.choose(frame, reduced, field_, wishes_, points.own);
+  points_.choose(frame, reduced, field_, wishes_, points);
 }
 
 /// Lists the tracks: the points, and the blocks that have no point.
-void MotionEstimator::report_tracks(const ReducedFrame& reduced,
-                                    const std::vector<Track>& followed) {
-  tracks_.assign(followed.begin(), followed.end());
+void MotionEstimator::report_tracks(const ReducedFrame& reduced) {
+  tracks_.assign(points_.tracks().begin(), points_.tracks().end());
   const auto scale = static_cast<float>(reduced.factor() * field_.scale());
   const Eigen::Vector2d offset_px =
       field_offset_px(field_.picture(), reduced, static_cast<double>(scale));
@@ -220,17 +219,12 @@ void MotionEstimator::report_tracks(const ReducedFrame& reduced,
 }
 
 SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
-                                      const ReducedFrame& reduced, const Points& points,
-                                      int64_t interval_ns, const Eigen::Vector2d& pointer) {
-  if (kind != kind_) drop_unneeded(kind);
+                                      const ReducedFrame& reduced,
+                                      const FieldPoints::Settings& points, int64_t interval_ns,
+                                      const Eigen::Vector2d& pointer) {
+  if (kind != kind_ && kind == MotionKind::kCamera) dominant_.reset();
+  kind_ = kind;
   SceneMotion scene;
-  if (kind == MotionKind::kMean) {
-    scene.restarted = points.given->restarted;
-    scene.tracks = &points.given->tracks;
-    scene.features = points.given->features;
-    if (!scene.restarted) scene.felt = mean_motion(points.given->tracks, interval_ns);
-    return scene;
-  }
   if (reduced.is_repeated() && field_.has_picture()) {
     field_.stand_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {
@@ -243,9 +237,8 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
     return scene;
   }
   const double interval_s = static_cast<double>(interval_ns) * 1e-9;
-  if (!points.given) points_.follow(frame, reduced, field_);
-  const std::vector<Track>& followed = points.given ? points.given->tracks : points_.tracks();
-  collect_points(reduced, followed);
+  points_.follow(frame, reduced, field_);
+  collect_points(reduced, points_.tracks());
   collect_votes();
   Background background = estimator_.estimate(votes_);
   refine_background(background);
@@ -276,22 +269,11 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
       scene.felt = motion_of(*scene.dominant);
     }
   }
-  report_tracks(reduced, followed);
+  report_tracks(reduced);
   scene.tracks = &tracks_;
-  if (!points.given) choose_points(frame, reduced, points);
+  choose_points(frame, reduced, points);
   scene.features = static_cast<int>(tracks_.size());
   return scene;
-}
-
-/// Drops the state that a kind does not update and that would be stale when it is needed again.
-void MotionEstimator::drop_unneeded(MotionKind kind) {
-  kind_ = kind;
-  if (kind == MotionKind::kMean) {
-    field_.restart();
-    estimator_.reset();
-    objects_.reset();
-  }
-  if (kind == MotionKind::kMean || kind == MotionKind::kCamera) dominant_.reset();
 }
 
 void MotionEstimator::reset() {

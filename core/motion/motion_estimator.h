@@ -25,35 +25,27 @@ class SPIDAR_API MotionEstimator {
  public:
   MotionEstimator();
 
-  /// Optional input beside the field of blocks.
-  struct Points {
-    /// Tracks of the frame from another tracker; null: the estimator follows points of its own.
-    const TrackedFrame* given = nullptr;
-    FieldPoints::Settings own;
-  };
-
   /// Takes the frame that was shown `interval_ns` > 0 after the one before, both as it is and as
-  /// `reduced`. kMean is the mean of the given points and requires them; all other kinds analyse
-  /// the frame itself and use points for sub-pixel accuracy. `pointer` is a place in the picture,
-  /// where (0, 0) is the top left and (1, 1) the bottom right corner; it may lie outside. Only
-  /// kObjects uses it. When the kind changes, state that the previous kind did not update begins
-  /// anew.
+  /// `reduced`. `kind` is not kMean, which needs no scene. `points` are followed for sub-pixel
+  /// accuracy. `pointer` is a place in the picture, where (0, 0) is the top left and (1, 1) the
+  /// bottom right corner; it may lie outside. Only kObjects uses it. When the kind changes, state
+  /// that the previous kind did not update begins anew.
   SceneMotion estimate(MotionKind kind, const ImageView& frame, const ReducedFrame& reduced,
-                       const Points& points, int64_t interval_ns,
+                       const FieldPoints::Settings& points, int64_t interval_ns,
                        const Eigen::Vector2d& pointer = {0.5, 0.5});
 
   /// After a cut or a seek: the next frame is not compared with the one before.
   void reset();
 
  private:
-  void drop_unneeded(MotionKind kind);
   void collect_votes();
   void collect_points(const ReducedFrame& reduced, const std::vector<Track>& tracks);
   void refine_background(Background& background);
-  void choose_points(const ImageView& frame, const ReducedFrame& reduced, const Points& points);
-  void report_tracks(const ReducedFrame& reduced, const std::vector<Track>& followed);
+  void choose_points(const ImageView& frame, const ReducedFrame& reduced,
+                     const FieldPoints::Settings& points);
+  void report_tracks(const ReducedFrame& reduced);
 
-  MotionKind kind_ = MotionKind::kMean;
+  MotionKind kind_ = MotionKind::kObject;
   BlockField field_;
   BackgroundVotes votes_;
   BackgroundEstimator estimator_;

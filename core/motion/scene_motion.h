@@ -17,7 +17,7 @@
 namespace spidar {
 
 enum class MotionKind {
-  kMean,    ///< mean velocity of all points: the paper's eq. 9–10
+  kMean,    ///< mean velocity of the points of OpenCvTracker: the paper's eq. 1–10
   kObject,  ///< motion of the dominant object relative to the background
   /// All objects relative to the background, weighted by area and nearness to the pointer.
   kObjects,

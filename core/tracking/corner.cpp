@@ -40,7 +40,7 @@ struct Tensor {
 /// Smaller eigenvalue of the window's mean structure tensor, (grey / px)²; 0 for an edge. The mean
 /// gradient is subtracted: windows are compared without their mean, so a constant slope alone
 /// cannot be located.
-float strength(const Tensor& t, float least_roundness) {
+float strength(const Tensor& t) {
   constexpr float kTwice = 4;  // both derivatives are doubled
   constexpr float kPixels = kCornerWindow_px * kCornerWindow_px;
   const auto x = static_cast<float>(t.x);
@@ -52,7 +52,7 @@ float strength(const Tensor& t, float least_roundness) {
   const float root = std::sqrt(difference * difference + 4 * xy * xy);
   const float smaller = xx + yy - root;
   const float larger = xx + yy + root;
-  return smaller > least_roundness * larger ? 0.5f / (kTwice * kPixels) * smaller : 0.0f;
+  return smaller > kLeastRoundness * larger ? 0.5f / (kTwice * kPixels) * smaller : 0.0f;
 }
 
 constexpr int kBlock_px = kCornerStep_px;
@@ -125,7 +125,7 @@ ImagePoint window_centre(int x0, int y0) {
 
 }  // namespace
 
-Corner best_corner(const PaddedImage& image, const PixelBox& box, float least_roundness) {
+Corner best_corner(const PaddedImage& image, const PixelBox& box) {
   const int columns = std::min(box.x1 - box.x0, kMostCornerBox_px) / kBlock_px;
   const int rows = std::min(box.y1 - box.y0, kMostCornerBox_px) / kBlock_px;
   Corner best;
@@ -142,7 +142,7 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box, float least_ro
       window += above[i + 1];
       window += below[i];
       window += below[i + 1];
-      const float found = strength(window, least_roundness);
+      const float found = strength(window);
       if (found <= best.strength) continue;
       best = {window_centre(box.x0 + static_cast<int>(i) * kBlock_px, y0 - kBlock_px), found};
     }
@@ -150,42 +150,9 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box, float least_ro
   return best;
 }
 
-Corner centred_corner(const PaddedImage& image, const PixelBox& box, const Corner& corner,
-                      float least_roundness) {
-  constexpr int kSteps = 2;
-  const ImagePoint half = window_centre(0, 0);
-  int x0 = static_cast<int>(corner.at.x_px - half.x_px);
-  int y0 = static_cast<int>(corner.at.y_px - half.y_px);
-  // Moves the window `kSteps` times, then evaluates its strength once more.
-  for (int step = 0;; ++step) {
-    Tensor window;
-    int columns = 0;
-    int rows = 0;
-    for (int y = 0; y < kCornerWindow_px; ++y) {
-      for (int x = 0; x < kCornerWindow_px; ++x) {
-        const uint8_t* p = image.row(y0 + y) + x0 + x;
-        const int gx = p[1] - p[-1];
-        const int gy = p[image.stride()] - p[-image.stride()];
-        window.add(gx, gy);
-        columns += x * (gx * gx + gy * gy);
-        rows += y * (gx * gx + gy * gy);
-      }
-    }
-    if (step == kSteps) {
-      const float found = strength(window, least_roundness);
-      return found > 0 ? Corner{window_centre(x0, y0), found} : corner;
-    }
-    const int all = window.xx + window.yy;
-    if (all == 0) return corner;
-    constexpr int kMiddle = kCornerWindow_px / 2 - 1;
-    x0 = std::clamp(x0 + columns / all - kMiddle, box.x0, box.x1 - kCornerWindow_px);
-    y0 = std::clamp(y0 + rows / all - kMiddle, box.y0, box.y1 - kCornerWindow_px);
-  }
-}
-
 namespace plain {
 
-Corner best_corner(const PaddedImage& image, const PixelBox& box, float least_roundness) {
+Corner best_corner(const PaddedImage& image, const PixelBox& box) {
   const int x1 = std::min(box.x1, box.x0 + kMostCornerBox_px);
   const int y1 = std::min(box.y1, box.y0 + kMostCornerBox_px);
   Corner best;
@@ -198,7 +165,7 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box, float least_ro
                      image.row(y + 1)[x] - image.row(y - 1)[x]);
         }
       }
-      const float found = strength(window, least_roundness);
+      const float found = strength(window);
       if (found > best.strength) best = {window_centre(x0, y0), found};
     }
   }

@@ -3,7 +3,7 @@
 /// Finds the strongest corner in part of a picture (Shi–Tomasi, eq. 1).
 #pragma once
 
-#include "core/tracking/gray_pyramid.h"
+#include "core/tracking/padded_image.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
@@ -37,21 +37,12 @@ struct PixelBox {
 constexpr int kMostCornerBox_px = 64;
 
 /// Returns the strongest window inside `box` on a grid of kCornerStep_px that starts at its upper
-/// left corner, among those with at least `least_roundness`. Derivatives are central differences.
+/// left corner, among those with at least kLeastRoundness. Derivatives are central differences.
 /// `box` must lie inside the image. A box smaller than a window has no corner.
-Corner best_corner(const PaddedImage& image, const PixelBox& box,
-                   float least_roundness = kLeastRoundness);
-
-/// Centres the window of `corner` on its gradients: moves it in two steps, by whole pixels and
-/// within `box`, to the centroid of the squared gradients. Returns `corner` unchanged if the moved
-/// window does not reach `least_roundness`. At the rim of an object, the centre of an uncentred
-/// window may lie on the background, although the match is determined by the rim.
-Corner centred_corner(const PaddedImage& image, const PixelBox& box, const Corner& corner,
-                      float least_roundness = kLeastRoundness);
+Corner best_corner(const PaddedImage& image, const PixelBox& box);
 
 namespace plain {
-Corner best_corner(const PaddedImage& image, const PixelBox& box,
-                   float least_roundness = kLeastRoundness);
+Corner best_corner(const PaddedImage& image, const PixelBox& box);
 }
 
 }  // namespace spidar

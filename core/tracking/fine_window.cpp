@@ -19,7 +19,6 @@ ImagePoint FineWindow::place(LumaNeighbourhood& neighbourhood, const ImageView& 
   settings.iterations = 3;
   settings.step_px = 0.03f;
   settings.reach_px = 0.5f + 0.5f * scale;
-  settings.gain = coarse.gain;
   WindowMatch match;
   match.centre = coarse.at;
   const ReadablePixels pixels = neighbourhood.around(frame, coarse.at, settings.reach_px);

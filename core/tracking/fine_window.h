@@ -15,7 +15,6 @@ struct CoarsePlace {
   ImagePoint at;           ///< px of the frame
   float variance_px2 = 0;  ///< px of the reduced picture
   float strength = 0;      ///< of the window in the reduced picture, (grey / px)²
-  float gain = 1;          ///< contrast gain, see MatchSettings
 };
 
 /// Templates of a point's surroundings from the previous frame, which itself is not kept.

@@ -14,16 +14,22 @@ namespace spidar {
 /// reused for the next frame. Drops points that leave the picture, are not found, fail the
 /// forward–backward check, or look different. Selects new points when few are left and every few
 /// frames, so that objects that enter are found.
-class SPIDAR_API OpenCvTracker final : public Tracker {
+class SPIDAR_API OpenCvTracker {
  public:
   /// Throws as validate() does.
   explicit OpenCvTracker(const TrackerSettings& settings = {});
-  ~OpenCvTracker() override;
+  ~OpenCvTracker();
 
-  using Tracker::track;
-  const TrackedFrame& track(const ImageView& frame, Repeats repeats) override;
-  void restart() override;
-  void configure(const TrackerSettings& settings) override;
+  /// Compares `frame` with the previous one. A frame of another size restarts the tracks, as does a
+  /// cut (a frame in which hardly any point is found again). The result is valid until the next
+  /// call. Throws as require_usable() does.
+  const TrackedFrame& track(const ImageView& frame, Repeats repeats = Repeats::kSame);
+
+  /// Discards the previous frame, so that the next one starts anew without motion.
+  void restart();
+
+  /// Takes effect with the next frame. Throws as validate() does, and then changes nothing.
+  void configure(const TrackerSettings& settings);
 
  private:
   struct Impl;

@@ -6,9 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/tracking/opencv_tracker.h"
-#include "core/tracking/patch_tracker.h"
-
 namespace spidar {
 
 void validate(const TrackerSettings& settings) {
@@ -45,11 +42,6 @@ void require_usable(const ImageView& frame) {
       std::to_string(kMinSide_px) + " pixels and a stride of at least a row's bytes; got " +
       (frame.data ? "" : "no data, ") + std::to_string(frame.width) + "x" +
       std::to_string(frame.height) + " with stride " + std::to_string(frame.stride_bytes));
-}
-
-std::unique_ptr<Tracker> make_tracker(const TrackerSettings& settings) {
-  if (settings.kind == TrackerKind::kOpenCv) return std::make_unique<OpenCvTracker>(settings);
-  return std::make_unique<PatchTracker>(settings);
 }
 
 }  // namespace spidar

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Interface of the point trackers.
+/// Points of a picture that are found again in the next, and the settings of finding them.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "core/api.h"
@@ -16,29 +15,25 @@ namespace spidar {
 /// a setting has the same effect at 360p and at 2160p.
 constexpr double kReferenceHeight_px = 480.0;
 
-enum class TrackerKind {
-  kPatch,   ///< small windows from coarse to fine, see PatchTracker
-  kOpenCv,  ///< the paper's: OpenCV's Shi–Tomasi points and Lucas–Kanade
-};
-
-/// Trade-off between time per frame and accuracy, for kPatch.
+/// Trade-off between time per frame and accuracy of the points in the field of blocks.
 enum class TrackerQuality {
-  kFast,      ///< in the reduced picture only, with small windows
+  kFast,      ///< in the reduced picture only
   kBalanced,  ///< refined in the frame where it helps
-  kFine,      ///< as kBalanced, with more points on the grid and fewer in moving regions
+  kFine,      ///< as kBalanced, with more points
 };
 
 struct TrackerSettings {
-  int max_features = 200;       ///< 1 … 10000 points followed at once
-  double quality_level = 0.01;  ///< Shi–Tomasi: share of the strongest corner's eigenvalue, 0 … 1
-  /// Minimum distance between selected features, in pixels of the reference frame; finite and ≥ 0.
+  int max_features = 200;  ///< 1 … 10000 points followed at once
+  /// OpenCvTracker (Shi–Tomasi): share of the strongest corner's eigenvalue, 0 … 1.
+  double quality_level = 0.01;
+  /// OpenCvTracker: minimum distance between selected features, in pixels of the reference frame;
+  /// finite and ≥ 0.
   double min_distance_px = 10.0;
-  TrackerKind kind = TrackerKind::kPatch;
-  TrackerQuality quality = TrackerQuality::kBalanced;
+  TrackerQuality quality = TrackerQuality::kBalanced;  ///< FieldPoints
 
   bool operator==(const TrackerSettings& o) const {
     return max_features == o.max_features && quality_level == o.quality_level &&
-           min_distance_px == o.min_distance_px && kind == o.kind && quality == o.quality;
+           min_distance_px == o.min_distance_px && quality == o.quality;
   }
   bool operator!=(const TrackerSettings& o) const { return !(*this == o); }
 };
@@ -83,27 +78,5 @@ struct TrackedFrame {
   /// `repeated` is false but would be true with kAlike.
   bool alike = false;
 };
-
-/// Follows points through a sequence of frames of one size.
-class SPIDAR_API Tracker {
- public:
-  virtual ~Tracker() = default;
-
-  /// Compares `frame` with the previous one. A frame of another size restarts the tracks, as does a
-  /// cut (a frame in which hardly any point is found again). The result is valid until the next
-  /// call. Throws as require_usable() does.
-  virtual const TrackedFrame& track(const ImageView& frame, Repeats repeats) = 0;
-  const TrackedFrame& track(const ImageView& frame) { return track(frame, Repeats::kSame); }
-
-  /// Discards the previous frame, so that the next one starts anew without motion.
-  virtual void restart() = 0;
-
-  /// Takes effect with the next frame; the kind cannot change. Throws as validate() does, and then
-  /// changes nothing.
-  virtual void configure(const TrackerSettings& settings) = 0;
-};
-
-/// Creates a tracker of `settings.kind`. Throws as validate() does.
-SPIDAR_API std::unique_ptr<Tracker> make_tracker(const TrackerSettings& settings);
 
 }  // namespace spidar

@@ -74,7 +74,6 @@ bool WindowTemplate<kSide>::read(const ReadablePixels& image, ImagePoint centre)
   const float root = std::sqrt(difference * difference + 4 * xy_ * xy_);
   constexpr float kScale = 0.5f / (kPixels * kDerivativeOne * kDerivativeOne);
   strength_ = std::max(0.0f, kScale * (xx_ + yy_ - root));
-  roundness_ = strength_ / (kScale * (xx_ + yy_ + root));
   contrast_ = std::sqrt(variance(sums.pixel, sums.pixel_squared, kPixels)) / kDifferenceOne;
   return strength_ > 0 && contrast_ > 0;
 }
@@ -93,7 +92,7 @@ bool WindowTemplate<kSide>::find(const ReadablePixels& image, const MatchSetting
   const ImagePoint start = match.centre;
   ImagePoint at = start;
   float left = 0;  // residual variance
-  float gain = settings.gain > 0 ? std::clamp(settings.gain, kLeastGain, kMostGain) : 1.0f;
+  float gain = 1;  // ratio of the contrast to the template's
   for (int i = 0; i < settings.iterations; ++i) {
     const ImagePoint begin = upper_left(at, kSide);
     WindowSource source;
@@ -115,7 +114,7 @@ bool WindowTemplate<kSide>::find(const ReadablePixels& image, const MatchSetting
       return false;
     }
     if (dx * dx + dy * dy < settings.step_px * settings.step_px) break;
-    if (settings.gain <= 0) gain = gain_of(sums);
+    gain = gain_of(sums);
   }
   match.centre = at;
   match.residual = std::sqrt(left) / (gain * contrast_);
@@ -123,7 +122,6 @@ bool WindowTemplate<kSide>::find(const ReadablePixels& image, const MatchSetting
   return true;
 }
 
-template class WindowTemplate<8>;
 template class WindowTemplate<16>;
 template class WindowTemplate<24>;
 

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "core/image_view.h"
-#include "core/tracking/gray_pyramid.h"
-#include "core/tracking/patch_kernels.h"
+#include "core/tracking/padded_image.h"
 #include "core/tracking/tracker.h"
+#include "core/tracking/window_kernels.h"
 
 namespace spidar {
 
@@ -33,8 +33,6 @@ struct MatchSettings {
   int iterations = 5;
   float step_px = 0.03f;  ///< the iteration stops after a smaller step
   float reach_px = 6;     ///< largest distance from the start
-  /// Ratio of the picture's contrast to the template's; 0: estimate it from the two windows.
-  float gain = 1;
 };
 
 struct WindowMatch {
@@ -57,15 +55,11 @@ class WindowTemplate {
   /// Smaller eigenvalue of the mean structure tensor, with the mean gradient subtracted, (grey /
   /// px)².
   float strength() const { return strength_; }
-  /// Ratio of the smaller to the larger eigenvalue: 0 for an edge.
-  float roundness() const { return roundness_; }
-  /// Standard deviation, grey levels.
-  float contrast() const { return contrast_; }
 
-  /// Searches the window in `image` around `match.centre`, for any change of brightness. Uses
-  /// inverse-compositional Gauss–Newton (Baker & Matthews, IJCV 56, 2004) on windows with their
-  /// mean subtracted. Returns false if the search leaves the picture or moves too far; `match` is
-  /// then undefined.
+  /// Searches the window in `image` around `match.centre`, for any change of brightness and
+  /// contrast. Uses inverse-compositional Gauss–Newton (Baker & Matthews, IJCV 56, 2004) on windows
+  /// with their mean subtracted. Returns false if the search leaves the picture or moves too far;
+  /// `match` is then undefined.
   bool find(const ReadablePixels& image, const MatchSettings& settings, WindowMatch& match) const;
 
  private:
@@ -79,8 +73,7 @@ class WindowTemplate {
   float mean_x_ = 0;  ///< mean of the derivatives
   float mean_y_ = 0;
   float strength_ = 0;
-  float roundness_ = 0;
-  float contrast_ = 0;
+  float contrast_ = 0;  ///< standard deviation, grey levels
 };
 
 }  // namespace spidar

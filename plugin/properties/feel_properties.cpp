@@ -30,7 +30,9 @@ GType controller_type() {
 GType motion_type() {
   static const GType type = [] {
     static const GEnumValue values[] = {
-        {static_cast<int>(MotionKind::kMean), "Mean velocity of all tracked points (eq. 9-10)",
+        {static_cast<int>(MotionKind::kMean),
+         "Mean velocity of OpenCV's Shi-Tomasi points, tracked by pyramidal Lucas-Kanade: closest "
+         "to the paper (eq. 1-10)",
          "mean"},
         {static_cast<int>(MotionKind::kObject),
          "The dominant object relative to the background; no force when only the camera moves",

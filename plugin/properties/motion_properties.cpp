@@ -8,19 +8,6 @@
 namespace spidar {
 namespace {
 
-GType tracker_type() {
-  static const GType type = [] {
-    static const GEnumValue values[] = {
-        {static_cast<int>(TrackerKind::kPatch),
-         "Small windows matched from coarse to fine, spread evenly over the picture", "patch"},
-        {static_cast<int>(TrackerKind::kOpenCv),
-         "OpenCV's Shi-Tomasi points and pyramidal Lucas-Kanade (eq. 1-8)", "opencv"},
-        {0, nullptr, nullptr}};
-    return g_enum_register_static("GstSpidarMotionTracker", values);
-  }();
-  return type;
-}
-
 GType quality_type() {
   static const GType type = [] {
     static const GEnumValue values[] = {
@@ -91,12 +78,10 @@ void install_motion_properties(GObjectClass* c) {
           "file. If unset, a profile that fits the board. Read in the change from NULL to READY",
           defaults.used_profile().c_str(), kReady));
   install_feel_properties(c);
-  install(kPropTracker,
-          g_param_spec_enum("tracker", "Tracker", "How points are tracked", tracker_type(),
-                            static_cast<int>(tracker.kind), kControllable));
   install(kPropQuality,
           g_param_spec_enum("quality", "Quality",
-                            "Trade-off between computing time and error of the tracker",
+                            "Trade-off between computing time and error of the points that refine "
+                            "the motion of blocks; no effect with motion=mean",
                             quality_type(), static_cast<int>(tracker.quality), kControllable));
   install(kPropMaxFeatures,
           g_param_spec_uint("max-features", "Maximum features",
@@ -104,14 +89,16 @@ void install_motion_properties(GObjectClass* c) {
                             static_cast<guint>(tracker.max_features), kControllable));
   install(kPropQualityLevel,
           g_param_spec_double("quality-level", "Quality level",
-                              "Weakest corner that is tracked, as a share of the strongest "
-                              "corner's smaller eigenvalue (Shi-Tomasi)",
+                              "With motion=mean: weakest corner that is tracked, as a share of the "
+                              "strongest corner's smaller eigenvalue (Shi-Tomasi)",
                               1e-6, 1.0, tracker.quality_level, kControllable));
-  install(kPropMinDistance,
-          g_param_spec_double(
-              "min-distance", "Minimum distance",
-              "Smallest distance between two tracked points, in pixels of a frame 480 lines high",
-              0.0, 480.0, tracker.min_distance_px, kControllable));
+  install(
+      kPropMinDistance,
+      g_param_spec_double(
+          "min-distance", "Minimum distance",
+          "With motion=mean: smallest distance between two tracked points, in pixels of a frame "
+          "480 lines high",
+          0.0, 480.0, tracker.min_distance_px, kControllable));
   install(kPropTsOffset, g_param_spec_int64("ts-offset", "Timestamp offset",
                                             "Render the force later (positive) or earlier "
                                             "(negative) than the frame is shown, in nanoseconds",
@@ -156,7 +143,6 @@ void install_motion_properties(GObjectClass* c) {
                           "Statistics: frames, analysis time, state and timing of the haptic loop",
                           GST_TYPE_STRUCTURE, kRead));
 
-  gst_type_mark_as_plugin_api(tracker_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
   gst_type_mark_as_plugin_api(quality_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
   gst_type_mark_as_plugin_api(on_device_error_type(), GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
 }
@@ -169,9 +155,6 @@ bool set_motion_property(MotionProperties& p, guint id, const GValue* value) {
       return true;
     case kPropProfile:
       p.profile = string_of(value);
-      return true;
-    case kPropTracker:
-      tracker.kind = static_cast<TrackerKind>(g_value_get_enum(value));
       return true;
     case kPropQuality:
       tracker.quality = static_cast<TrackerQuality>(g_value_get_enum(value));
@@ -220,9 +203,6 @@ bool get_motion_property(const MotionProperties& p, guint id, GValue* value) {
       return true;
     case kPropProfile:
       g_value_set_string(value, p.used_profile().c_str());
-      return true;
-    case kPropTracker:
-      g_value_set_enum(value, static_cast<int>(tracker.kind));
       return true;
     case kPropQuality:
       g_value_set_enum(value, static_cast<int>(tracker.quality));

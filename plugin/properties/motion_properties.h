@@ -50,7 +50,6 @@ enum PropertyId : guint {
   kPropRollGain,
   kPropFilterMinCutoff,
   kPropFilterBeta,
-  kPropTracker,
   kPropQuality,
   kPropMaxFeatures,
   kPropQualityLevel,

@@ -227,12 +227,11 @@ std::unique_ptr<Method> make_method(const std::string& name) {
   AnalyzerSettings settings;
   if (name == "fast") settings.tracker.quality = spidar::TrackerQuality::kFast;
   if (name == "fine") settings.tracker.quality = spidar::TrackerQuality::kFine;
-  if (name == "opencv") settings.tracker.kind = spidar::TrackerKind::kOpenCv;
   if (name == "mean") settings.motion = spidar::MotionKind::kMean;
   if (name == "paper") settings = spidar::paper_settings();
-  const std::vector<std::string> known{"default", "fast", "fine", "opencv", "mean", "paper"};
+  const std::vector<std::string> known{"default", "fast", "fine", "mean", "paper"};
   if (std::find(known.begin(), known.end(), name) == known.end()) {
-    throw std::runtime_error("no method '" + name + "'; there are default, fast, fine, opencv, " +
+    throw std::runtime_error("no method '" + name + "'; there are default, fast, fine, " +
                              "mean, paper, dis and vectors");
   }
   return std::make_unique<Element>(settings);

@@ -45,19 +45,17 @@ SETTINGS = [
     [],
     ["quality=fast"],
     ["quality=fine"],
-    ["tracker=opencv"],
     ["motion=mean"],
-    ["tracker=opencv", "motion=mean", "filter-min-cutoff=0"],
+    ["motion=mean", "filter-min-cutoff=0"],
 ]
-NAMES = {"tracker=opencv motion=mean filter-min-cutoff=0": "the paper"}
+NAMES = {"motion=mean filter-min-cutoff=0": "closest to the paper"}
 PAGE = Path("docs/tracking.md")
 # Of bench_real_film, and their names in the table.
 METHODS = {
     "default": "`motion=object`",
     "fast": "`quality=fast`",
     "fine": "`quality=fine`",
-    "opencv": "`tracker=opencv`",
-    "paper": "the paper",
+    "paper": "closest to the paper",
     "dis": "DIS at half size, largest region",
     "vectors": "H.264 vectors, largest region",
 }

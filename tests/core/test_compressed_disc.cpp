@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-#include "core/tracking/patch_tracker.h"
+#include "core/motion_analyzer.h"
 #include "tests/support/picture.h"
 
 namespace spidar {
@@ -44,10 +43,8 @@ Block cosines() {
   return c;
 }
 
-/// Replaces a picture, whose sides are multiples of 8 px, by its compressed version. Returns the
-/// largest change, grey levels.
-int compress(int quality, Picture& picture) {
-  int largest = 0;
+/// Replaces a picture, whose sides are multiples of 8 px, by its compressed version.
+void compress(int quality, Picture& picture) {
   static const Block transform = cosines();
   const Block steps = steps_of_quality(quality);
   const ImageView view = picture.view();
@@ -64,15 +61,14 @@ int compress(int quality, Picture& picture) {
         for (int j = 0; j < 8; ++j) {
           const double level = std::clamp(std::round(block(i, j) + 128), 0.0, 255.0);
           uint8_t& pixel = first[i * picture.stride + j];
-          largest = std::max(largest, std::abs(static_cast<int>(level) - pixel));
           pixel = static_cast<uint8_t>(level);
         }
       }
     }
   }
-  return largest;
 }
 
+constexpr int64_t kFrame_ns = 40'000'000;
 constexpr double kRadius_px = 20;
 constexpr double kRim_1_px = 110;  ///< grey levels a pixel, at its edge
 
@@ -86,7 +82,7 @@ class CompressedDisc : public testing::TestWithParam<int> {};
 
 TEST_P(CompressedDisc, IsFollowed) {
   Picture picture(320, 240);
-  PatchTracker tracker;
+  MotionAnalyzer analyzer;
   for (int n = 0; n < 60; ++n) {
     SCOPED_TRACE(n);
     const Eigen::Vector2d centre = place(n);
@@ -94,21 +90,14 @@ TEST_P(CompressedDisc, IsFollowed) {
       const double inside_px = kRadius_px - std::hypot(x - centre.x(), y - centre.y());
       return 16 + std::clamp(kRim_1_px * inside_px, 0.0, 219.0);
     });
-    const int ringing = compress(GetParam(), picture);
-    const TrackedFrame& frame = tracker.track(picture.view());
-    // The second picture tells that small windows do not last, in the third there are others.
+    compress(GetParam(), picture);
+    const FrameAnalysis frame = analyzer.analyze(picture.view(), n * kFrame_ns);
+    // An object is felt from the second pair of frames in which it moves.
     if (n < 2) continue;
-    EXPECT_FALSE(frame.restarted);
-    EXPECT_FALSE(frame.tracks.empty());
-    if (frame.tracks.empty()) continue;
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    for (const Track& track : frame.tracks) {
-      mean += Eigen::Vector2d(static_cast<double>(track.to.x_px - track.from.x_px),
-                              static_cast<double>(track.to.y_px - track.from.y_px));
-    }
-    mean /= static_cast<double>(frame.tracks.size());
-    // As far off as if all of the rim were by the codec's largest error too light or too dark.
-    EXPECT_LT((mean - (centre - place(n - 1))).norm(), ringing / kRim_1_px);
+    const Eigen::Vector2d moved_px = frame.motion.velocity_px_s * 1e-9 * kFrame_ns;
+    // What a search by whole pixels leaves: blocks on the rim show both disc and background, which
+    // the codec changes, so that the refinement may not gain anything.
+    EXPECT_LT((moved_px - (centre - place(n - 1))).norm(), 0.5);
   }
 }
 

@@ -28,12 +28,11 @@ Picture frame_of(int width, int n) {
   return picture;
 }
 
-class LumaFormats : public testing::TestWithParam<TrackerKind> {};
+class LumaFormats : public testing::TestWithParam<MotionKind> {};
 
 TEST_P(LumaFormats, AreFeltAsTheFilmInBytes) {
   AnalyzerSettings settings;
-  settings.tracker.kind = GetParam();
-  settings.motion = MotionKind::kCamera;
+  settings.motion = GetParam();
   for (const int width : {320, 720, 1500}) {  // factors 1, 2 and 4
     for (const LumaSample& sample : kWordSamples) {
       SCOPED_TRACE(test::name_of(sample) + ", " + std::to_string(width));
@@ -55,8 +54,8 @@ TEST_P(LumaFormats, AreFeltAsTheFilmInBytes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Trackers, LumaFormats,
-                         testing::Values(TrackerKind::kPatch, TrackerKind::kOpenCv));
+INSTANTIATE_TEST_SUITE_P(FieldAndPoints, LumaFormats,
+                         testing::Values(MotionKind::kCamera, MotionKind::kMean));
 
 TEST(LumaSample, WhatCannotBeLumaIsRefused) {
   const Picture picture = frame_of(320, 0);

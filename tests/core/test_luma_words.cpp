@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tracking/gray_pyramid.h"
 #include "core/tracking/luma_neighbourhood.h"
 #include "core/tracking/luma_row.h"
+#include "core/tracking/padded_image.h"
 #include "tests/support/picture.h"
 #include "tests/support/word_picture.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Trackers on frames with a known motion.
+// The tracker on frames with a known motion.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,12 +8,11 @@
 #include <random>
 #include <set>
 #include <stdexcept>
-#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/core/every_tracker.h"
+#include "tests/core/moving_texture.h"
 
 namespace spidar::test {
 namespace {
@@ -28,15 +27,13 @@ const Translation kTranslations[] = {
     {640, 360, -17.6, 9.2}, {641, 359, 2.5, -2.5},  {322, 241, -1.3, 0.6},
     {1280, 720, 5.7, -3.1}, {1920, 1080, 0.9, 0.7}, {1080, 1920, -8.2, 6.6}};
 
-TYPED_TEST_SUITE(EveryTracker, Trackers);
-
-TYPED_TEST(EveryTracker, FindsAKnownTranslationToAPartOfAPixel) {
+TEST(OpenCvTracker, FindsAKnownTranslationToAPartOfAPixel) {
   for (const Translation& p : kTranslations) {
     SCOPED_TRACE(testing::Message()
                  << p.width << "x" << p.height << " moves " << p.dx_px << ", " << p.dy_px);
     const double unit = reduction(p.width, p.height);
     MovingTexture scene(p.width, p.height, p.dx_px, p.dy_px);
-    TypeParam tracker;
+    OpenCvTracker tracker;
     int looked_for = tracker.track(scene.frame(0)).features;
     ASSERT_GE(looked_for, 50);
     for (int n = 1; n <= 3; ++n) {
@@ -61,46 +58,21 @@ TYPED_TEST(EveryTracker, FindsAKnownTranslationToAPartOfAPixel) {
   }
 }
 
-TEST(PatchTracker, FastMotionIsFoundBesideSlowMotion) {
-  // As a floor below a moving camera: 2 px a frame at the top, 46 px at the bottom, further than
-  // any point is looked for from rest, with details of 5 px that do not show in a coarser picture.
-  constexpr int kWidth = 640;
-  constexpr int kHeight = 480;
-  const auto moved_px = [](double y) { return 2 + 44 * y / kHeight; };
-  const Texture texture(3, 5);
-  Picture before(kWidth, kHeight);
-  Picture after(kWidth, kHeight);
-  before.fill([&](double x, double y) { return texture.at(x, y); });
-  after.fill([&](double x, double y) { return texture.at(x - moved_px(y), y); });
-  PatchTracker tracker;
-  const int looked_for = tracker.track(before.view()).features;
-  ASSERT_GE(looked_for, 50);
-  const TrackedFrame& frame = tracker.track(after.view());
-  ASSERT_FALSE(frame.restarted);
-  // Half of the width of the band that leaves the picture, 24 px of 640, and as much for chance.
-  EXPECT_GE(static_cast<double>(frame.tracks.size()), 0.92 * looked_for);
-  for (const Track& track : frame.tracks) {
-    // A window of 16 px sees what moves differently by 0.73 px above and below its middle.
-    EXPECT_NEAR(dx(track), moved_px(static_cast<double>(track.from.y_px)), 0.75);
-    EXPECT_NEAR(dy(track), 0, 0.75);
-  }
-}
-
-TYPED_TEST(EveryTracker, TheFirstFrameHasNothingToCompareWith) {
+TEST(OpenCvTracker, TheFirstFrameHasNothingToCompareWith) {
   MovingTexture scene(640, 360, 1, 0);
-  TypeParam tracker;
+  OpenCvTracker tracker;
   const TrackedFrame& first = tracker.track(scene.frame(0));
   EXPECT_TRUE(first.restarted);
   EXPECT_TRUE(first.tracks.empty());
   EXPECT_GT(first.features, 0);
 }
 
-TYPED_TEST(EveryTracker, APeriodicTextureDoesNotJumpAPeriod) {
+TEST(OpenCvTracker, APeriodicTextureDoesNotJumpAPeriod) {
   // Every 12 px the picture is the same: of all displacements that explain it the smallest is
   // meant.
   constexpr double kWave_px = 2 * 3.14159265358979323846 / 12;
   Picture picture(640, 360);
-  TypeParam tracker;
+  OpenCvTracker tracker;
   for (int n = 0; n < 4; ++n) {
     picture.fill([n](double x, double y) {
       return 128 + 50 * std::sin(kWave_px * (x - 2 * n)) + 50 * std::sin(kWave_px * (y + n));
@@ -115,9 +87,9 @@ TYPED_TEST(EveryTracker, APeriodicTextureDoesNotJumpAPeriod) {
   }
 }
 
-TYPED_TEST(EveryTracker, APointKeepsItsIdAndStartsWhereItEnded) {
+TEST(OpenCvTracker, APointKeepsItsIdAndStartsWhereItEnded) {
   MovingTexture scene(640, 360, 1.5, 0.5);
-  TypeParam tracker;
+  OpenCvTracker tracker;
   tracker.track(scene.frame(0));
   std::map<uint32_t, ImagePoint> last;
   for (int n = 1; n <= 12; ++n) {
@@ -139,7 +111,7 @@ TYPED_TEST(EveryTracker, APointKeepsItsIdAndStartsWhereItEnded) {
   }
 }
 
-TYPED_TEST(EveryTracker, APointStartsWhereItEndedAlsoAfterARepeatedFrame) {
+TEST(OpenCvTracker, APointStartsWhereItEndedAlsoAfterARepeatedFrame) {
   // New points on a rim may be taken for others beside them, but not once they have been reported.
   const Texture behind(3, 6);
   const Texture disc(4, 6);
@@ -151,7 +123,7 @@ TYPED_TEST(EveryTracker, APointStartsWhereItEndedAlsoAfterARepeatedFrame) {
     });
     return picture.view();
   };
-  TypeParam tracker;
+  OpenCvTracker tracker;
   tracker.track(frame(0));
   std::map<uint32_t, ImagePoint> ended;
   for (const Track& track : tracker.track(frame(0)).tracks) ended[track.id] = track.to;
@@ -163,11 +135,11 @@ TYPED_TEST(EveryTracker, APointStartsWhereItEndedAlsoAfterARepeatedFrame) {
   }
 }
 
-TYPED_TEST(EveryTracker, GivesTheSameForTheSameFrames) {
+TEST(OpenCvTracker, GivesTheSameForTheSameFrames) {
   // Bit for bit, of two trackers and of one that has been restarted.
   MovingTexture scene(640, 360, 2.3, -0.7);
-  auto first = std::make_unique<TypeParam>();
-  TypeParam second;
+  auto first = std::make_unique<OpenCvTracker>();
+  OpenCvTracker second;
   for (int round = 0; round < 2; ++round) {
     for (int n = 0; n < 8; ++n) {
       const std::vector<Track> expected = first->track(scene.frame(n)).tracks;
@@ -180,14 +152,14 @@ TYPED_TEST(EveryTracker, GivesTheSameForTheSameFrames) {
       }
     }
     second.restart();
-    first = std::make_unique<TypeParam>();
+    first = std::make_unique<OpenCvTracker>();
   }
 }
 
-TYPED_TEST(EveryTracker, PointsThatLeaveTheFrameAreDroppedNotStill) {
+TEST(OpenCvTracker, PointsThatLeaveTheFrameAreDroppedNotStill) {
   constexpr double kSpeed_px = 25;
   MovingTexture scene(640, 360, kSpeed_px, 0);
-  TypeParam tracker;
+  OpenCvTracker tracker;
   int looked_for = tracker.track(scene.frame(0)).features;
   int dropped = 0;
   for (int n = 1; n <= 8; ++n) {
@@ -203,10 +175,10 @@ TYPED_TEST(EveryTracker, PointsThatLeaveTheFrameAreDroppedNotStill) {
   EXPECT_GE(dropped, 8);
 }
 
-TYPED_TEST(EveryTracker, ACutRestartsAndTheNextFrameIsFollowedAgain) {
+TEST(OpenCvTracker, ACutRestartsAndTheNextFrameIsFollowedAgain) {
   MovingTexture scene(640, 360, 2, 1, 5);
   MovingTexture other(640, 360, -3, 1, 99);
-  TypeParam tracker;
+  OpenCvTracker tracker;
   tracker.track(scene.frame(0));
   EXPECT_FALSE(tracker.track(scene.frame(1)).restarted);
   const TrackedFrame& cut = tracker.track(other.frame(2));
@@ -219,11 +191,11 @@ TYPED_TEST(EveryTracker, ACutRestartsAndTheNextFrameIsFollowedAgain) {
   for (const Track& track : after.tracks) EXPECT_NEAR(dx(track), -3, kTrackTolerance_px);
 }
 
-TYPED_TEST(EveryTracker, ACutToAFlatPictureAndBackIsNoMotion) {
+TEST(OpenCvTracker, ACutToAFlatPictureAndBackIsNoMotion) {
   MovingTexture scene(640, 360, 2, 1);
   Picture black(640, 360);
   black.fill([](double, double) { return 16.0; });
-  TypeParam tracker;
+  OpenCvTracker tracker;
   tracker.track(scene.frame(0));
   tracker.track(scene.frame(1));
   for (int n = 0; n < 3; ++n) {
@@ -235,10 +207,10 @@ TYPED_TEST(EveryTracker, ACutToAFlatPictureAndBackIsNoMotion) {
   EXPECT_TRUE(tracker.track(scene.frame(2)).tracks.empty());
 }
 
-TYPED_TEST(EveryTracker, AnotherSizeRestarts) {
+TEST(OpenCvTracker, AnotherSizeRestarts) {
   MovingTexture large(640, 360, 1, 0);
   MovingTexture small(320, 180, 1, 0);
-  TypeParam tracker;
+  OpenCvTracker tracker;
   tracker.track(large.frame(0));
   EXPECT_FALSE(tracker.track(large.frame(1)).restarted);
   const TrackedFrame& frame = tracker.track(small.frame(0));
@@ -249,9 +221,9 @@ TYPED_TEST(EveryTracker, AnotherSizeRestarts) {
   for (const Track& track : next.tracks) EXPECT_NEAR(dx(track), 1, kTrackTolerance_px);
 }
 
-TYPED_TEST(EveryTracker, RestartForgetsTheFrameBefore) {
+TEST(OpenCvTracker, RestartForgetsTheFrameBefore) {
   MovingTexture scene(640, 360, 4, 0);
-  TypeParam tracker;
+  OpenCvTracker tracker;
   tracker.track(scene.frame(0));
   tracker.restart();
   const TrackedFrame& frame = tracker.track(scene.frame(1));
@@ -260,10 +232,10 @@ TYPED_TEST(EveryTracker, RestartForgetsTheFrameBefore) {
   EXPECT_FALSE(tracker.track(scene.frame(2)).tracks.empty());
 }
 
-TYPED_TEST(EveryTracker, SettingsTakeEffectWithTheNextFrame) {
+TEST(OpenCvTracker, SettingsTakeEffectWithTheNextFrame) {
   MovingTexture scene(640, 360, 1, 0);
   TrackerSettings settings;
-  TypeParam tracker(settings);
+  OpenCvTracker tracker(settings);
   // How many of them there are is up to the tracker; with texture everywhere a third at least.
   const auto in_use = [](int features, int most) {
     return features <= most && 3 * features >= most;
@@ -280,20 +252,20 @@ TYPED_TEST(EveryTracker, SettingsTakeEffectWithTheNextFrame) {
   EXPECT_GE(more.tracks.size(), 15u);
 }
 
-TYPED_TEST(EveryTracker, RefusesSettingsOutOfRange) {
-  TypeParam tracker;
+TEST(OpenCvTracker, RefusesSettingsOutOfRange) {
+  OpenCvTracker tracker;
   const double nan = std::nan("");
   for (const TrackerSettings& bad : {TrackerSettings{0, 0.01, 10}, TrackerSettings{10001, 0.01, 10},
                                      TrackerSettings{200, -0.1, 10}, TrackerSettings{200, 1.1, 10},
                                      TrackerSettings{200, nan, 10}, TrackerSettings{200, 0.01, -1},
                                      TrackerSettings{200, 0.01, nan}}) {
     EXPECT_THROW(tracker.configure(bad), std::invalid_argument);
-    EXPECT_THROW(TypeParam{bad}, std::invalid_argument);
+    EXPECT_THROW(OpenCvTracker{bad}, std::invalid_argument);
   }
 }
 
-TYPED_TEST(EveryTracker, RefusesAFrameThatIsNone) {
-  TypeParam tracker;
+TEST(OpenCvTracker, RefusesAFrameThatIsNone) {
+  OpenCvTracker tracker;
   const Picture picture(64, 64);
   EXPECT_THROW(tracker.track({nullptr, 64, 64, 64}), std::invalid_argument);
   EXPECT_THROW(tracker.track({picture.pixels.data(), 15, 64, 64}), std::invalid_argument);
@@ -301,7 +273,7 @@ TYPED_TEST(EveryTracker, RefusesAFrameThatIsNone) {
   EXPECT_THROW(tracker.track({picture.pixels.data(), 64, 64, 63}), std::invalid_argument);
 }
 
-TYPED_TEST(EveryTracker, WorksFromTheSmallestFrameToTheLargest) {
+TEST(OpenCvTracker, WorksFromTheSmallestFrameToTheLargest) {
   struct Size {
     int width, height;
   };
@@ -316,7 +288,7 @@ TYPED_TEST(EveryTracker, WorksFromTheSmallestFrameToTheLargest) {
     } else {
       picture.fill([](double x, double y) { return std::fmod(x * y / 4096, 200); });
     }
-    TypeParam tracker;
+    OpenCvTracker tracker;
     EXPECT_TRUE(tracker.track(picture.view()).restarted);
     const TrackedFrame& frame = tracker.track(picture.view());
     EXPECT_FALSE(frame.restarted) << size.width << "x" << size.height;

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Trackers with objects that enter the picture, and with noise.
+// The tracker with objects that enter the picture, and with noise.
 #include <algorithm>
 #include <random>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 
-#include "tests/core/every_tracker.h"
+#include "tests/core/moving_texture.h"
 #include "tests/support/ball_scene.h"
 
 namespace spidar::test {
 namespace {
-
-TYPED_TEST_SUITE(EveryTracker, Trackers);
 
 /// Tracks that begin on the ball and follow it.
 int on_ball(const TrackedFrame& frame, const BallScene& scene, double t0_s, double t1_s) {
@@ -29,7 +26,6 @@ int on_ball(const TrackedFrame& frame, const BallScene& scene, double t0_s, doub
 }
 
 /// The most tracks on a ball that has just come in from the left.
-template <typename AnyTracker>
 int found_on_entering_ball(uint32_t seed, bool textured_background) {
   BallSettings settings;
   settings.seed = seed;
@@ -40,7 +36,7 @@ int found_on_entering_ball(uint32_t seed, bool textured_background) {
   settings.floor_px = 251;
   const BallScene scene(settings);
   Picture picture(settings.width, settings.height);
-  AnyTracker tracker;
+  OpenCvTracker tracker;
   constexpr double kFrame_s = 1.0 / 30;
   int most = 0;
   // The ball is wholly inside after 230 px, 29 frames. Points are selected every 5 frames at the
@@ -53,32 +49,30 @@ int found_on_entering_ball(uint32_t seed, bool textured_background) {
   return most;
 }
 
-TYPED_TEST(EveryTracker, AnObjectThatEntersAnEmptyPictureIsFound) {
-  // A disc of 70 px has room for some hundred points 7.5 px apart, or 27 in quarters of cells of
-  // 48 px, 100 of which cover the picture: half of them at least.
-  const bool has_cells = std::is_same_v<TypeParam, PatchTracker>;
-  EXPECT_GE(found_on_entering_ball<TypeParam>(1, false), has_cells ? 13 : 50);
+TEST(OpenCvTracker, AnObjectThatEntersAnEmptyPictureIsFound) {
+  // A disc of 70 px has room for some hundred points 7.5 px apart: half of them at least.
+  EXPECT_GE(found_on_entering_ball(1, false), 50);
 }
 
-TYPED_TEST(EveryTracker, AnObjectThatEntersAFullPictureGetsItsShareOfThePoints) {
+TEST(OpenCvTracker, AnObjectThatEntersAFullPictureGetsItsShareOfThePoints) {
   // All 200 points are taken when it comes. Away from its edge it covers 60² π of 626 × 346 px, 5.2
   // % or 10 points if all textures were equally strong: half of that on average over six textures,
   // and at least one on the weakest.
   int sum = 0;
   for (uint32_t seed = 1; seed <= 6; ++seed) {
-    const int found = found_on_entering_ball<TypeParam>(seed, true);
+    const int found = found_on_entering_ball(seed, true);
     EXPECT_GE(found, 1) << "seed " << seed;
     sum += found;
   }
   EXPECT_GE(sum, 6 * 5);
 }
 
-TYPED_TEST(EveryTracker, IndependentNoiseIsNotMotion) {
+TEST(OpenCvTracker, IndependentNoiseIsNotMotion) {
   std::mt19937 random(17);
   for (const double sigma : {2.0, 8.0, 30.0}) {
     std::normal_distribution<double> noise(128, sigma);
     Picture picture(640, 360);
-    TypeParam tracker;
+    OpenCvTracker tracker;
     int looked_for = 0;
     for (int n = 0; n < 12; ++n) {
       picture.fill([&](double, double) { return std::min(255.0, std::max(0.0, noise(random))); });

@@ -106,7 +106,7 @@ TEST_P(Passthrough, AGapIsNotEvenMapped) {
 INSTANTIATE_TEST_SUITE_P(Modes, Passthrough,
                          testing::Values("device=sim", "device=none",
                                          "device=none post-messages=true",
-                                         "device=none tracker=opencv", "device=none mute=true",
+                                         "device=none motion=mean", "device=none mute=true",
                                          "device=none motion=objects",
                                          "device=none overlay=true overlay=false"));
 

@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "core/tracking/opencv_tracker.h"
+
 namespace spidar::bench {
 namespace {
 
@@ -23,11 +25,20 @@ ImagePoint point(const cv::Point2f& p) {
   return {p.x, p.y};
 }
 
-/// What all have in common: frames of one size, and none before the first.
-class Peer : public Tracker {
+class Paper final : public Peer {
  public:
-  using Tracker::track;
-  const TrackedFrame& track(const ImageView& frame, Repeats) override {
+  explicit Paper(const TrackerSettings& settings) : tracker_(settings) {}
+  const TrackedFrame& track(const ImageView& frame) override { return tracker_.track(frame); }
+  void restart() override { tracker_.restart(); }
+
+ private:
+  OpenCvTracker tracker_;
+};
+
+/// What the others have in common: frames of one size, and none before the first.
+class OpenCvFunctions : public Peer {
+ public:
+  const TrackedFrame& track(const ImageView& frame) override {
     result_.tracks.clear();
     result_.restarted = fresh_;
     follow(as_mat(frame), fresh_);
@@ -35,7 +46,6 @@ class Peer : public Tracker {
     return result_;
   }
   void restart() override { fresh_ = true; }
-  void configure(const TrackerSettings&) override {}
 
  protected:
   /// `first`: there is no frame before.
@@ -47,7 +57,7 @@ class Peer : public Tracker {
   bool fresh_ = true;
 };
 
-class Naive final : public Peer {
+class Naive final : public OpenCvFunctions {
   void follow(const cv::Mat& luma, bool first) override {
     // What the conversion costs does not depend on the picture; the luma is that of all pipelines.
     bgr_.create(luma.size(), CV_8UC3);
@@ -55,7 +65,7 @@ class Naive final : public Peer {
     if (!first && !from_.empty()) {
       cv::calcOpticalFlowPyrLK(before_, luma, from_, to_, found_, error_, cv::Size(21, 21), 3);
       for (size_t i = 0; i < from_.size(); ++i) {
-        if (found_[i]) result_.tracks.push_back({next_id_++, point(from_[i]), point(to_[i])});
+        if (found_[i]) result_.tracks.push_back({0, point(from_[i]), point(to_[i])});
       }
     }
     const TrackerSettings settings;
@@ -72,11 +82,10 @@ class Naive final : public Peer {
   std::vector<cv::Point2f> to_;
   std::vector<uint8_t> found_;
   std::vector<float> error_;
-  uint32_t next_id_ = 0;
 };
 
 /// At a width of 480 px, with tracks on a grid.
-class Reduced : public Peer {
+class Reduced : public OpenCvFunctions {
   void follow(const cv::Mat& luma, bool first) final {
     std::swap(before_, now_);
     const double factor = std::max(1.0, luma.cols / static_cast<double>(kWidth_px));
@@ -86,14 +95,13 @@ class Reduced : public Peer {
     if (first) return;
     find(before_, now_);
     const auto scale = static_cast<float>(factor);
-    uint32_t id = 0;
     for (int y = kGrid_px / 2; y + kGrid_px / 2 <= size.height; y += kGrid_px) {
-      for (int x = kGrid_px / 2; x + kGrid_px / 2 <= size.width; x += kGrid_px, ++id) {
+      for (int x = kGrid_px / 2; x + kGrid_px / 2 <= size.width; x += kGrid_px) {
         const cv::Point2f moved = moved_px(x, y) * scale;
         // Pixels count from the centre of the first one.
         const cv::Point2f from = (cv::Point2f(cv::Point(x, y)) + cv::Point2f(0.5f, 0.5f)) * scale -
                                  cv::Point2f(0.5f, 0.5f);
-        result_.tracks.push_back({id, point(from), point(from + moved)});
+        result_.tracks.push_back({0, point(from), point(from + moved)});
       }
     }
   }
@@ -141,16 +149,21 @@ class PhaseCorrelation final : public Reduced {
 
 }  // namespace
 
-std::unique_ptr<Tracker> make_naive() {
+std::unique_ptr<Peer> make_paper(double min_distance_px) {
+  TrackerSettings settings;
+  settings.min_distance_px = min_distance_px;
+  return std::make_unique<Paper>(settings);
+}
+std::unique_ptr<Peer> make_naive() {
   return std::make_unique<Naive>();
 }
-std::unique_ptr<Tracker> make_dis_ultrafast() {
+std::unique_ptr<Peer> make_dis_ultrafast() {
   return std::make_unique<Dis>();
 }
-std::unique_ptr<Tracker> make_farneback() {
+std::unique_ptr<Peer> make_farneback() {
   return std::make_unique<Farneback>();
 }
-std::unique_ptr<Tracker> make_phase_correlation() {
+std::unique_ptr<Peer> make_phase_correlation() {
   return std::make_unique<PhaseCorrelation>();
 }
 

@@ -55,12 +55,14 @@ void print_usual(const std::string& size, const std::vector<Pipeline>& pipelines
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (size_t k = 0; k < scores.size(); ++k) {
     const Figures f = figures(scores[k]);
-    std::printf(
-        "| %-28s | %.2f | %.2f | %.3f | %.3f | %.3f | %.1f | %.1f | %.2f | %.3f | %.3f | %.1f "
-        "| %.1f |\n",
-        pipelines[k].description.c_str(), f.ms_median, f.ms_p99, f.epe_median, f.epe_mean,
-        f.epe_p95, f.lost, f.wrong, f.mean_error, f.object_median, f.object_p95, f.missed,
-        f.ghosts);
+    std::printf("| %-28s | %.2f | %.2f | %.3f | %.3f | %.3f | %.1f | %.1f | %.2f | ",
+                pipelines[k].description.c_str(), f.ms_median, f.ms_p99, f.epe_median, f.epe_mean,
+                f.epe_p95, f.lost, f.wrong, f.mean_error);
+    if (scores[k].object_error.empty()) {
+      std::puts("– | – | – | – |");
+      continue;
+    }
+    std::printf("%.3f | %.3f | %.1f | %.1f |\n", f.object_median, f.object_p95, f.missed, f.ghosts);
   }
 }
 
@@ -84,7 +86,8 @@ void print_silent(const std::vector<Pipeline>& pipelines, const CaseScores& case
   for (const auto& [name, scores] : cases) {
     std::printf("| %-20s", name.c_str());
     for (const Score& score : scores) {
-      std::printf(" | %.3g / %.3g", score.largest_mean, score.largest_object);
+      std::printf(" | %.3g", score.largest_mean);
+      if (score.without_object > 0) std::printf(" / %.3g", score.largest_object);
     }
     std::puts(" |");
   }

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/bench/tracking/run.h"
 
-#include <cmath>
 #include <ctime>
 
 namespace spidar::bench {
@@ -19,56 +18,39 @@ double thread_time_ms() {
 
 }  // namespace
 
-Runner::Runner(const Pipeline& pipeline) : pipeline_(&pipeline), tracker_(pipeline.make()) {}
+Runner::Runner(const Pipeline& pipeline)
+    : pipeline_(&pipeline), peer_(pipeline.make ? pipeline.make() : nullptr) {}
 
-/// Points that begin within half the least distance of where another one ended are the same.
-void Runner::link(int height) {
-  const auto reach_px =
-      static_cast<float>(TrackerSettings().min_distance_px / 2 * height / kReferenceHeight_px);
-  for (Track& track : linked_.tracks) {
-    track.id = next_id_++;
-    float nearest_px = reach_px;
-    for (const Track& old : before_) {
-      const float distance_px =
-          std::hypot(old.to.x_px - track.from.x_px, old.to.y_px - track.from.y_px);
-      if (distance_px >= nearest_px) continue;
-      nearest_px = distance_px;
-      track.id = old.id;
-    }
-  }
-  before_ = linked_.tracks;
+/// motion=object of the next frame.
+SceneMotion Runner::find_objects(const ImageView& frame) {
+  reduced_.read(frame);
+  return motion_.estimate(MotionKind::kObject, frame, reduced_, pipeline_->points, kFrame_ns);
+}
+
+void Runner::restart() {
+  if (peer_) peer_->restart();
+  motion_.reset();
+  reduced_.restart();
 }
 
 void Runner::run(const test::Film& film, const std::vector<test::Picture>& frames, bool errors,
                  Score& score) {
-  if (tracker_) tracker_->restart();
-  motion_.reset();
-  reduced_.restart();
-  before_.clear();
+  restart();
   int looked_for = 0;
   for (size_t n = 0; n < frames.size(); ++n) {
     const int frame = static_cast<int>(n);
     const ImageView view = frames[n].view();
+    TrackedFrame tracked;
+    SceneMotion scene;
     const double begin_ms = thread_time_ms();
-    const TrackedFrame* tracked = tracker_ ? &tracker_->track(view) : nullptr;
-    double ms = thread_time_ms() - begin_ms;
-    if (tracked && !pipeline_->keeps_ids) {
-      linked_ = *tracked;
-      link(film.height());
-      tracked = &linked_;
-    }
-    const double middle_ms = thread_time_ms();
-    reduced_.read(view);
-    const SceneMotion scene = motion_.estimate(
-        MotionKind::kObject, view, reduced_,
-        {tracked, pipeline_->own_points.value_or(FieldPoints::Settings())}, kFrame_ns);
-    ms += thread_time_ms() - middle_ms;
-    if (!tracked) {
-      own_.restarted = scene.restarted;
-      own_.features = scene.features;
-      own_.tracks.clear();
-      if (scene.tracks) own_.tracks = *scene.tracks;
-      tracked = &own_;
+    if (peer_)
+      tracked = peer_->track(view);
+    else
+      scene = find_objects(view);
+    const double ms = thread_time_ms() - begin_ms;
+    if (!peer_) {
+      tracked.features = scene.features;
+      if (scene.tracks) tracked.tracks = *scene.tracks;
     }
     if (n > 0) score.ms.push_back(ms);
     if (n > 0 && errors) {
@@ -76,11 +58,11 @@ void Runner::run(const test::Film& film, const std::vector<test::Picture>& frame
         const auto truth = [&](const Eigen::Vector2d& from_px) -> std::optional<Eigen::Vector2d> {
           return film.displacement_px(frame, from_px);
         };
-        score.add_tracks(*tracked, looked_for, truth, kReferenceWidth_px / film.width());
+        score.add_tracks(tracked, looked_for, truth, kReferenceWidth_px / film.width());
       }
-      score.add_motion(film, frame, *tracked, scene, kFrame_s);
+      score.add_motion(film, frame, tracked, peer_ ? nullptr : &scene, kFrame_s);
     }
-    looked_for = tracked->features;
+    looked_for = tracked.features;
   }
 }
 
@@ -89,24 +71,17 @@ void Runner::run(const FlowPair& pair, Score& score) {
     return pair.truth.at(from_px.x(), from_px.y());
   };
   const double unit = kReferenceWidth_px / pair.before.width;
-  if (tracker_) {
-    tracker_->restart();
-    const int looked_for = tracker_->track(pair.before.view()).features;
-    score.add_tracks(tracker_->track(pair.after.view()), looked_for, truth, unit);
+  restart();
+  if (peer_) {
+    const int looked_for = peer_->track(pair.before.view()).features;
+    score.add_tracks(peer_->track(pair.after.view()), looked_for, truth, unit);
     return;
   }
-  motion_.reset();
-  reduced_.restart();
-  const MotionEstimator::Points points{nullptr, *pipeline_->own_points};
-  for (const test::Picture* picture : {&pair.before, &pair.after}) {
-    reduced_.read(picture->view());
-    const SceneMotion scene =
-        motion_.estimate(MotionKind::kObject, picture->view(), reduced_, points, kFrame_ns);
-    if (!scene.tracks) continue;
-    own_.tracks = *scene.tracks;
-    own_.features = scene.features;
-  }
-  score.add_tracks(own_, static_cast<int>(own_.tracks.size()), truth, unit);
+  find_objects(pair.before.view());
+  const SceneMotion scene = find_objects(pair.after.view());
+  TrackedFrame tracked;
+  if (scene.tracks) tracked.tracks = *scene.tracks;
+  score.add_tracks(tracked, static_cast<int>(tracked.tracks.size()), truth, unit);
 }
 
 std::vector<Score> run_all(std::deque<Runner>& runners, const test::Film& film,

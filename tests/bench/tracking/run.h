@@ -14,15 +14,15 @@
 
 namespace spidar::bench {
 
-/// A pipeline in use: memory and ids last from film to film, as they do in a player.
+/// A pipeline in use: memory lasts from film to film, as it does in a player.
 class Runner {
  public:
   explicit Runner(const Pipeline& pipeline);
 
   const Pipeline& pipeline() const { return *pipeline_; }
 
-  /// One film. The time is that of the thread, of the tracks and of motion=object together; the
-  /// first frame is not in it. `errors` false: only the time is added.
+  /// One film. The time is that of the thread: of the tracks, or of all of motion=object; the first
+  /// frame is not in it. `errors` false: only the time is added.
   void run(const test::Film& film, const std::vector<test::Picture>& frames, bool errors,
            Score& score);
 
@@ -30,16 +30,13 @@ class Runner {
   void run(const FlowPair& pair, Score& score);
 
  private:
-  void link(int height);
+  SceneMotion find_objects(const ImageView& frame);
+  void restart();
 
   const Pipeline* pipeline_;
-  std::unique_ptr<Tracker> tracker_;
+  std::unique_ptr<Peer> peer_;
   MotionEstimator motion_;
   ReducedFrame reduced_;
-  TrackedFrame linked_;
-  TrackedFrame own_;  ///< of a pipeline without a tracker
-  std::vector<Track> before_;
-  uint32_t next_id_ = 0;
 };
 
 /// All over one film, one after the other, `rounds` times, so that what disturbs hits all.

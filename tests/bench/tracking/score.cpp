@@ -61,16 +61,16 @@ void Score::add_tracks(const TrackedFrame& tracked, int were_looked_for,
 }
 
 void Score::add_motion(const test::Film& film, int frame, const TrackedFrame& tracked,
-                       const SceneMotion& scene, double interval_s) {
+                       const SceneMotion* scene, double interval_s) {
   const double unit = to_reference(film);
   const Vector2d mean_px = mean_displacement_px(tracked.tracks);
   largest_mean = std::max(largest_mean, mean_px.norm() * unit);
-  const MovingObject* found = scene.dominant;
+  const MovingObject* found = scene ? scene->dominant : nullptr;
   Vector2d found_px = Vector2d::Zero();
   if (found) found_px = found->relative_px_s * interval_s;
   largest_object = std::max(largest_object, found_px.norm() * unit);
   if (film.objects.empty()) {
-    ++without_object;
+    without_object += scene != nullptr;
     ghosts += found_px != Vector2d::Zero();
     return;
   }
@@ -80,6 +80,7 @@ void Score::add_motion(const test::Film& film, int frame, const TrackedFrame& tr
   const std::optional<Truth> mean_truth = nearest(film, frame, mean_px, centre_px);
   if (!mean_truth) return;
   mean_error.push_back(mean_truth->error_px * unit);
+  if (!scene) return;
   if (found_px == Vector2d::Zero()) {
     ++missed;
     object_error.push_back(nearest(film, frame, found_px, centre_px)->error_px * unit);

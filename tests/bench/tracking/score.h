@@ -46,9 +46,9 @@ struct Score {
       const TrackedFrame& tracked, int were_looked_for,
       const std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)>& truth,
       double unit);
-  /// A and B of a frame with the true motion of `film`; `scene` is that of motion=object.
+  /// A of a frame with the true motion of `film`, and B, if there is a `scene` of motion=object.
   void add_motion(const test::Film& film, int frame, const TrackedFrame& tracked,
-                  const SceneMotion& scene, double interval_s);
+                  const SceneMotion* scene, double interval_s);
 
   void add(const Score& other);
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/tracking/gray_pyramid.h"
+#include "core/tracking/padded_image.h"
 
 #include <algorithm>
 #include <cstring>
@@ -192,14 +192,6 @@ void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
 
 void halve(const PaddedImage& image, PaddedImage& half) {
   reduce_blocks(image.view(), 2, half);
-}
-
-void GrayPyramid::build_from_base() {
-  levels[0].repeat_border();
-  for (size_t k = 1; k < levels.size(); ++k) {
-    halve(levels[k - 1], levels[k]);
-    levels[k].repeat_border();
-  }
 }
 
 namespace plain {

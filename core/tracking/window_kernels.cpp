@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/tracking/patch_kernels.h"
+#include "core/tracking/window_kernels.h"
 
 #include <array>
 
@@ -140,17 +140,6 @@ DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& 
   }
   return {total(sx), total(sy), total(sd), total(sdd), total(sp), total(spp)};
 }
-
-int absolute_difference(const uint8_t* a, ptrdiff_t stride_a, const uint8_t* b,
-                        ptrdiff_t stride_b) {
-  unsigned sum = 0;
-  for (int y = 0; y < 8; y += 2) {
-    const cv::v_uint8x16 rows_a = cv::v_load_halves(a + y * stride_a, a + (y + 1) * stride_a);
-    const cv::v_uint8x16 rows_b = cv::v_load_halves(b + y * stride_b, b + (y + 1) * stride_b);
-    sum += cv::v_reduce_sad(rows_a, rows_b);
-  }
-  return static_cast<int>(sum);
-}
 #else
 template <int kSide>
 TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to) {
@@ -161,17 +150,10 @@ template <int kSide>
 DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& with, int gain) {
   return plain::compare(window, with, gain);
 }
-
-int absolute_difference(const uint8_t* a, ptrdiff_t stride_a, const uint8_t* b,
-                        ptrdiff_t stride_b) {
-  return plain::absolute_difference(a, stride_a, b, stride_b);
-}
 #endif
 
-template TemplateSums read_template(const WindowSource&, TemplatePixels<8>&);
 template TemplateSums read_template(const WindowSource&, TemplatePixels<16>&);
 template TemplateSums read_template(const WindowSource&, TemplatePixels<24>&);
-template DifferenceSums compare(const WindowSource&, const TemplatePixels<8>&, int);
 template DifferenceSums compare(const WindowSource&, const TemplatePixels<16>&, int);
 template DifferenceSums compare(const WindowSource&, const TemplatePixels<24>&, int);
 

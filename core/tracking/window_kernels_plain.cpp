@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include <cstdlib>
 
-#include "core/tracking/patch_kernels.h"
+#include "core/tracking/window_kernels.h"
 
 namespace spidar::plain {
 namespace {
@@ -69,19 +69,8 @@ DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& 
   return sums;
 }
 
-int absolute_difference(const uint8_t* a, ptrdiff_t stride_a, const uint8_t* b,
-                        ptrdiff_t stride_b) {
-  int sum = 0;
-  for (int y = 0; y < 8; ++y) {
-    for (int x = 0; x < 8; ++x) sum += std::abs(a[y * stride_a + x] - b[y * stride_b + x]);
-  }
-  return sum;
-}
-
-template TemplateSums read_template(const WindowSource&, TemplatePixels<8>&);
 template TemplateSums read_template(const WindowSource&, TemplatePixels<16>&);
 template TemplateSums read_template(const WindowSource&, TemplatePixels<24>&);
-template DifferenceSums compare(const WindowSource&, const TemplatePixels<8>&, int);
 template DifferenceSums compare(const WindowSource&, const TemplatePixels<16>&, int);
 template DifferenceSums compare(const WindowSource&, const TemplatePixels<24>&, int);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Both trackers, on a texture that moves by a known displacement.
+/// The tracker on a texture that moves by a known displacement.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "core/tracking/opencv_tracker.h"
-#include "core/tracking/patch_tracker.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
@@ -57,10 +56,4 @@ inline double dx(const Track& t) {
 inline double dy(const Track& t) {
   return static_cast<double>(t.to.y_px) - static_cast<double>(t.from.y_px);
 }
-/// Properties that hold for every tracker.
-template <typename T>
-class EveryTracker : public testing::Test {};
-
-using Trackers = testing::Types<OpenCvTracker, PatchTracker>;
-
 }  // namespace spidar::test

@@ -95,8 +95,6 @@ TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to);
 template <int kSide>
 DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& with, int gain);
 
-/// Σ |a − b| over 8 × 8 pixels.
-int absolute_difference(const uint8_t* a, ptrdiff_t stride_a, const uint8_t* b, ptrdiff_t stride_b);
 }  // namespace vectors
 
 /// Reference implementations.
@@ -105,7 +103,6 @@ template <int kSide>
 TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to);
 template <int kSide>
 DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& with, int gain);
-int absolute_difference(const uint8_t* a, ptrdiff_t stride_a, const uint8_t* b, ptrdiff_t stride_b);
 }  // namespace plain
 
 }  // namespace spidar

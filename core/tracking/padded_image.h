@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Image pyramid of a reduced picture.
+/// A picture with room for windows beyond its edge, and the reductions that make one.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -58,16 +57,6 @@ void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced);
 
 /// Mean of each 2 × 2 block, rounded.
 void halve(const PaddedImage& image, PaddedImage& half);
-
-/// The base picture in which points are followed, and three halvings: 8 px of the last level are 64
-/// px of the base.
-struct GrayPyramid {
-  static constexpr int kLevels = 4;
-  std::array<PaddedImage, kLevels> levels;
-
-  /// Builds the levels from the picture in levels[0], including the border of levels[0].
-  void build_from_base();
-};
 
 /// Reference implementations, pixel by pixel, for tests of the fast versions.
 namespace plain {
