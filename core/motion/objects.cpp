@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/motion/salience.h"
+#include "core/quantile.h"
 
 namespace spidar {
 namespace {
@@ -40,6 +41,8 @@ constexpr int kProvenAfter = 3;
 constexpr double kMostOfPicture = 0.75;
 constexpr double kMostOfUnknown = 0.4;
 constexpr double kKnownCoverage = 0.07;
+/// Median of the length of a vector whose coordinates have standard deviation 1: √(2 ln 2).
+constexpr double kRayleighMedian = 1.1774;
 
 }  // namespace
 
@@ -173,6 +176,21 @@ void ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
                       std::sqrt(static_cast<double>(std::max(object.tracks, 1))) / frame.interval_s;
 }
 
+/// How far blocks outside an object are from the background, as a standard deviation: in a scene
+/// with depth, half of the picture may move against any single model of the background. A region
+/// that does not stand out from that is no object.
+double ObjectTracker::noise_around(uint32_t id) {
+  squares_px2_.clear();
+  for (size_t i = 0; i < owners_.size(); ++i) {
+    const RelativeBlock& block = (*relative_)[i];
+    if (owners_[i] == id || !block.has_texture || block.is_new || is_burned_in(i)) continue;
+    squares_px2_.push_back(block.x_px * block.x_px + block.y_px * block.y_px);
+  }
+  if (squares_px2_.empty()) return 0;
+  const float middle_px2 = median(squares_px2_.begin(), squares_px2_.end());
+  return std::sqrt(static_cast<double>(middle_px2)) / kRayleighMedian;
+}
+
 void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   measure(life, frame);
   const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
@@ -180,6 +198,7 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const double share = life.is_rigid || !goes_on ? 1 : kNewest;
   life.velocity_px_s += share * (velocity_px_s - life.velocity_px_s);
   expect(life, frame);
+  life.evidence.add(velocity_px_s, life.region.background_px / frame.interval_s, frame.interval_s);
   ++life.frames_seen;
   life.blocks_seen += life.region.blocks;
   life.unseen_s = 0;
@@ -188,8 +207,11 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   const double known = background_->coverage < kKnownCoverage ? kMostOfUnknown : kMostOfPicture;
   const bool too_large = life.region.blocks > known * static_cast<double>(owners_.size());
-  life.proven += salience(life.region, camera_, false) > 0;
-  object.prominence = too_large ? 0 : salience(life.region, camera_, life.proven >= kProvenAfter);
+  CameraMotion camera = camera_;
+  if (camera.moves()) camera.noise_px = std::max(camera.noise_px, noise_around(object.id));
+  life.proven += salience(life.region, life.evidence, camera, false) > 0;
+  const bool was_followed = life.proven >= kProvenAfter;
+  object.prominence = too_large ? 0 : salience(life.region, life.evidence, camera, was_followed);
   life.is_layer = object.prominence == 0;
 }
 
@@ -259,6 +281,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   if (owners_.size() != n) owners_.assign(n, 0);
   owners_before_.resize(n);
   expected_.resize(n);
+  squares_px2_.reserve(n);
   for (size_t i = 0; i < n; ++i) {
     owners_before_[i] = owners_[origin_of(field, i)];
     const uint32_t owner = owners_before_[i];

@@ -11,6 +11,7 @@
 #include "core/api.h"
 #include "core/field/block_field.h"
 #include "core/motion/background.h"
+#include "core/motion/layer_evidence.h"
 #include "core/motion/motion_models.h"
 #include "core/motion/moving_blocks.h"
 #include "core/motion/moving_object.h"
@@ -69,6 +70,7 @@ class SPIDAR_API ObjectTracker {
     MovingObject object;
     Region region;  ///< in the last frame in which it was seen
     Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
+    LayerEvidence evidence;
     double usual_blocks = 0;  ///< number of blocks when nothing hides it
     /// Place, motion and size in the last frame in which most of it was visible. When only a rim of
     /// an object is left, the rim does not tell any of these.
@@ -99,6 +101,7 @@ class SPIDAR_API ObjectTracker {
   void go_on_unseen(Life& life, const FieldInFrame& frame) const;
   void measure(Life& life, const FieldInFrame& frame);
   void place(Life& life, const FieldInFrame& frame) const;
+  double noise_around(uint32_t id);
 
   MovingBlocks moving_;
   RegionFinder finder_;
@@ -111,6 +114,7 @@ class SPIDAR_API ObjectTracker {
   std::vector<uint32_t> owners_before_;  ///< moved to their places in this frame
   std::vector<uint32_t> region_ids_;     ///< object of each region
   std::vector<size_t> order_;            ///< regions, largest first
+  std::vector<float> squares_px2_;       ///< of the motion of blocks around an object
   std::vector<Life> lives_;
   std::vector<MovingObject> objects_;
   uint32_t next_id_ = 1;

@@ -15,37 +15,36 @@ constexpr double kLeastRoundness = 0.02;
 constexpr double kBorder = 1.2;
 /// How much touching the border lowers the score in every case.
 constexpr double kBorderCost = 0.5;
-/// Least speed of an object as a share of the camera's. Twice that is needed in the direction of
-/// the background's motion, because parts of the scene that are nearer move like this.
-constexpr double kLeastShareOfCamera = 0.2;
 /// A region that moves against the background by less than this many standard deviations of the
-/// blocks that follow the background is one of the scene's layers: the further the layers are
-/// apart, the more each differs from a single model of them all.
+/// blocks around it is one of the scene's layers: the further the layers are apart, the more each
+/// differs from a single model of them all. The limit rises with
+/// LayerEvidence::ratio() where that is above 1.
 constexpr double kNoiseSigmas = 5;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;
-/// A region with a smaller likelihood is not an object.
-constexpr double kLeastLikelihood = 0.3;
+/// A region with a smaller likelihood is not an object. Away from the border this is a
+/// LayerEvidence::ratio() above 2: a layer that is further away than half of the background's
+/// distance.
+constexpr double kLeastLikelihood = 0.25;
 
 }  // namespace
 
-double salience(const Region& region, const CameraMotion& camera, bool was_followed) {
+double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
+                bool was_followed) {
   if (region.roundness < kLeastRoundness) return 0;
   const double speed_px = region.relative_px.norm();
   if (speed_px == 0) return 0;
   const double touching = region.border_blocks / std::sqrt(static_cast<double>(region.blocks));
-  const double score = region.blocks * kBlockArea_px * speed_px / (1 + kBorderCost * touching);
-  if (camera.speed_px < camera.still_px) return score;
+  const double side_px = std::sqrt(region.blocks * kBlockArea_px);
+  const double score = side_px * speed_px / (1 + kBorderCost * touching);
+  if (!camera.moves()) return score;
   // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
-  if (speed_px * trust < kNoiseSigmas * camera.noise_px) return 0;
+  const double doubt = std::max(1.0, evidence.ratio() / trust);
+  if (speed_px * trust < kNoiseSigmas * doubt * camera.noise_px) return 0;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));
-  const double along_px = region.relative_px.dot(region.background_px.normalized());
-  const double least_px =
-      kLeastShareOfCamera * camera.speed_px * (1 + std::max(0.0, along_px / speed_px));
-  const double share = speed_px * trust / least_px;
-  const double likelihood = inside * std::min(1.0, share * share);
+  const double likelihood = inside / (doubt * doubt);
   return likelihood < kLeastLikelihood ? 0 : likelihood * score;
 }
 

@@ -3,6 +3,7 @@
 /// Scores how much a region looks like an object rather than a layer of the scene.
 #pragma once
 
+#include "core/motion/layer_evidence.h"
 #include "core/motion/regions.h"
 
 namespace spidar {
@@ -12,14 +13,17 @@ struct CameraMotion {
   double speed_px = 0;  ///< mean displacement of the background over the picture
   double still_px = 0;  ///< below this the camera counts as still
   double noise_px = 0;  ///< standard deviation of what follows the background
+
+  bool moves() const { return speed_px >= still_px; }
 };
 
-/// Area × speed, px³ of the field's picture. The score is lower when the camera moves and the
+/// √area × speed, px² of the field's picture. The score is lower when the camera moves and the
 /// region looks like an effect of the camera's translation in a scene with depth: a layer nearer
-/// than the background extends over the border of the picture, moves faster than the background in
-/// the same direction, or hardly differs from it or from the noise around its model. 0 for a region
-/// that is no object. `was_followed`: it was an object before and may look a little more like a
-/// layer.
-double salience(const Region& region, const CameraMotion& camera, bool was_followed);
+/// than the background extends over the border of the picture, moves on the screen more than it
+/// moves relative to the background, or hardly differs from the noise around the background's
+/// model. 0 for a region that is no object. `was_followed`: it was an object before and may look a
+/// little more like a layer.
+double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
+                bool was_followed);
 
 }  // namespace spidar

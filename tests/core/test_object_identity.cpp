@@ -13,6 +13,8 @@
 
 #include "core/motion/objects.h"
 #include "core/motion_analyzer.h"
+#include "core/tracking/padded_image.h"
+#include "tests/support/picture.h"
 #include "tests/support/scene_film.h"
 #include "tests/support/texture.h"
 
@@ -23,6 +25,7 @@ using Eigen::Vector2d;
 using test::in_disc;
 using test::kSceneFrame_ns;
 using test::kSceneFrame_s;
+using test::Picture;
 using test::Scene;
 using test::Texture;
 
@@ -285,6 +288,53 @@ TEST(ObjectIdentity, OneThatStandsStillForAMomentIsTheSame) {
   const auto seen = watch(film, 25 + rest);
   EXPECT_EQ(only_id(seen, film.discs[0], kFound, 10),
             only_id(seen, film.discs[0], 10 + rest + kFound, 24 + rest));
+}
+
+/// How often a disc that goes to the right counts as an object, in a field of which the outer parts
+/// move with the background and the rest by `depth_px` more: up left of the disc's middle, down
+/// right of it. 60 % of the picture is such a layer.
+int times_found(double depth_px) {
+  constexpr int kWidth = 427;
+  constexpr int kHeight = 240;
+  constexpr int kFrames = 6;
+  const Vector2d camera_px(0.5, 0);
+  const Vector2d disc_px(3, 0);
+  const Texture wall(1, 8);
+  const Texture cover(2, 8);
+  Background background{{}, 0.1, 0.4};
+  background.model.kind = ModelKind::kTranslation;
+  background.model.shift_px = camera_px;
+  BlockField field;
+  ObjectTracker tracker;
+  const std::vector<PlacedPoint> no_points;
+  int found = 0;
+  for (int n = 0; n < kFrames; ++n) {
+    Picture picture(kWidth, kHeight);
+    picture.fill([&](double x, double y) {
+      const Vector2d at(x, y);
+      const Vector2d centre = Vector2d(200, 120) + n * (camera_px + disc_px);
+      if (in_disc(at, centre, 36)) return cover.at(x - centre.x(), y - centre.y());
+      const bool is_layer = x > 0.2 * kWidth && x < 0.8 * kWidth;
+      const double up_px = !is_layer ? 0 : x < 0.5 * kWidth ? -depth_px : depth_px;
+      return wall.at(x - n * camera_px.x(), y - n * up_px);
+    });
+    PaddedImage padded;
+    reduce_blocks(picture.view(), 1, padded);
+    padded.repeat_border();
+    if (field.update(padded) != BlockField::Result::kMoved) continue;
+    for (const MovingObject& object :
+         tracker.update({field, 1, {0, 0}, kSceneFrame_s, no_points}, background)) {
+      found +=
+          (object.relative_px_s * kSceneFrame_s - disc_px).norm() < 0.5 && object.prominence > 0;
+    }
+  }
+  return found;
+}
+
+TEST(ObjectTracker, WhatMovesNoMoreThanTheLayersAroundItIsNoObject) {
+  EXPECT_GE(times_found(0), 4) << "of 5 pairs, it is found in the second";
+  // 3 px is less than five standard deviations of 2.5 / 1.18 px.
+  EXPECT_EQ(times_found(2.5), 0);
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/motion/layer_evidence.h"
+
+#include <algorithm>
+
+namespace spidar {
+
+void LayerEvidence::add(const Eigen::Vector2d& relative_px_s,
+                        const Eigen::Vector2d& background_px_s, double interval_s) {
+  const double newest = seen_s_ == 0 ? 1 : std::min(1.0, interval_s / kMean_s);
+  relative_px_s_ += newest * (relative_px_s - relative_px_s_);
+  background_px_s_ += newest * (background_px_s - background_px_s_);
+  seen_s_ += interval_s;
+  if (seen_s_ >= kMean_s) least_ratio_ = std::min(least_ratio_, mean_ratio());
+}
+
+double LayerEvidence::mean_ratio() const {
+  const double relative_px_s = relative_px_s_.norm();
+  // Without any motion of its own nothing shows that a region is more than a layer.
+  constexpr double kLeast_px_s = 1e-6;
+  return (relative_px_s_ + background_px_s_).norm() / std::max(relative_px_s, kLeast_px_s);
+}
+
+double LayerEvidence::ratio() const {
+  return std::min(mean_ratio(), least_ratio_);
+}
+
+}  // namespace spidar
