@@ -155,12 +155,14 @@ TEST(ObjectMotion, IsRelativeToTheBackgroundOfAPan) {
   }
 }
 
-TEST(ObjectMotion, IsAsGoodAsTheMeanOnAPlainBackground) {
+TEST(ObjectMotion, KeepsTheSpeedOfADiscOnAPlainBackground) {
+  // Of a single frame, half a pixel in both directions: what a search by whole pixels leaves, since
+  // all blocks of the small disc show its rim and the background, too.
+  const double worst_px = std::sqrt(0.5);
   for (const double radius_px : {14.0, 56.0}) {
-    const Comparison mean = follow_disc(MotionKind::kMean, radius_px, {0, 0}, 1, true);
     const Comparison object = follow_disc(MotionKind::kObject, radius_px, {0, 0}, 1, true);
     EXPECT_NEAR(object.left(), 1, 0.01) << radius_px;
-    EXPECT_LT(object.worst_px, mean.worst_px + kMean_px) << radius_px;
+    EXPECT_LT(object.worst_px, worst_px) << radius_px;
   }
 }
 

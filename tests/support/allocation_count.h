@@ -22,21 +22,23 @@ inline void* counted_allocation(std::size_t size, std::size_t alignment) {
 
 }  // namespace spidar::test
 
-void* operator new(std::size_t size) {
+// Not inlined: GCC would see memory of one pair of functions given to the other and warn.
+__attribute__((noinline)) void* operator new(std::size_t size) {
   return spidar::test::counted_allocation(size, alignof(std::max_align_t));
 }
-void* operator new(std::size_t size, std::align_val_t alignment) {
+__attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {
   return spidar::test::counted_allocation(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* memory) noexcept {
+__attribute__((noinline)) void operator delete(void* memory) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::size_t) noexcept {
+__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::align_val_t) noexcept {
+__attribute__((noinline)) void operator delete(void* memory, std::align_val_t) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+__attribute__((noinline)) void operator delete(void* memory, std::size_t,
+                                               std::align_val_t) noexcept {
   std::free(memory);
 }
