@@ -182,14 +182,12 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       self->complaints->begin_stream();
       spidar::guarded(GST_ELEMENT(self), "looking for a track",
                       [self] { begin_to_load_track(self); });
-      // Without a flush, what comes now is shown after the frames that still wait for the screen.
-      engine.restart();
       engine.begin_stream();
       break;
     case GST_EVENT_TAG: {
       GstTagList* tags;
       gst_event_parse_tag(event, &tags);
-      engine.take_tags(tags);
+      if (!spidar::follows_tag_upstream(GST_BASE_TRANSFORM_SINK_PAD(trans))) engine.take_tags(tags);
       break;
     }
     case GST_EVENT_SEGMENT: {

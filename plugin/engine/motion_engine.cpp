@@ -71,6 +71,8 @@ void MotionEngine::begin_segment() {
 }
 
 void MotionEngine::begin_stream() {
+  // What is scheduled stays: without a flush, its frames still wait for the screen.
+  restart();
   orientation_.begin_stream();
   turn_ = orientation_.turn();
 }

@@ -74,6 +74,7 @@ class MotionEngine {
 
   /// Another stream begins: its frames are shown as they are until a tag says otherwise.
   void begin_stream();
+  /// Tags that no element upstream has followed.
   void take_tags(const GstTagList* tags);
   /// How frames are turned before they are shown. What is felt is turned like them.
   const PictureTurn& turn() const { return turn_; }

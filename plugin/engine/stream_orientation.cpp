@@ -4,6 +4,8 @@
 
 #include <gst/video/video.h>
 
+#include "plugin/timing/downstream.h"
+
 namespace spidar {
 namespace {
 
@@ -36,6 +38,15 @@ void StreamOrientation::take(const GstTagList* tags) {
   if (!gst_video_orientation_from_tag(const_cast<GstTagList*>(tags), &method)) return;
   const bool of_film = gst_tag_list_get_scope(tags) == GST_TAG_SCOPE_GLOBAL;
   (of_film ? of_film_ : of_stream_) = turn_of(method);
+}
+
+bool follows_tag_upstream(GstPad* sink) {
+  return is_upstream(sink, [](GstElement* element) {
+    if (!GST_IS_VIDEO_DIRECTION(element)) return false;
+    GstVideoOrientationMethod method;
+    g_object_get(element, "video-direction", &method, nullptr);
+    return method == GST_VIDEO_ORIENTATION_AUTO;
+  });
 }
 
 }  // namespace spidar

@@ -12,8 +12,7 @@
 namespace spidar {
 
 /// Follows the tag `image-orientation` by the rules of videoflip: the tag of the stream counts, and
-/// that of the whole film where the stream has none. A videoflip that has turned the picture
-/// upstream has changed the tag accordingly.
+/// that of the whole film where the stream has none.
 class StreamOrientation {
  public:
   /// Another stream begins, whose tags are not known yet.
@@ -24,5 +23,9 @@ class StreamOrientation {
  private:
   std::optional<PictureTurn> of_stream_, of_film_;
 };
+
+/// Whether an element before `sink` turns the picture by the tag. The videoflip of GStreamer 1.22
+/// passes the tag on all the same, where newer ones replace it by "rotate-0".
+bool follows_tag_upstream(GstPad* sink);
 
 }  // namespace spidar

@@ -9,11 +9,12 @@ class Search {
  public:
   explicit Search(const std::function<bool(GstElement*)>& wanted) : wanted_(wanted) {}
 
-  /// Whether the wanted element can be reached from `source`, along the links of the path.
-  bool reaches(GstPad* source) {
-    GstPad* peer = --pads_left_ > 0 ? gst_pad_get_peer(source) : nullptr;
+  /// Whether the wanted element can be reached from `from`: downstream from a source pad, upstream
+  /// from a sink pad.
+  bool reaches(GstPad* from) {
+    GstPad* peer = --pads_left_ > 0 ? gst_pad_get_peer(from) : nullptr;
     if (!peer) return false;
-    path.add(GST_PAD(gst_object_ref(source)), nullptr);
+    path.add(GST_PAD(gst_object_ref(from)), nullptr);
     // A ghost pad continues inside the bin, and a pad inside a ghost pad has no parent element.
     GstElement* element = gst_pad_get_parent_element(peer);
     path.add(peer, element);
@@ -70,6 +71,10 @@ DownstreamPath find_path_downstream(GstElement* element,
   DownstreamPath path = find_path_downstream(source, wanted);
   gst_object_unref(source);
   return path;
+}
+
+bool is_upstream(GstPad* sink, const std::function<bool(GstElement*)>& wanted) {
+  return Search(wanted).reaches(sink);
 }
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What an element's frames go on to.
+/// What an element's frames go on to, and what they come from.
 #pragma once
 
 #include <functional>
@@ -45,5 +45,8 @@ DownstreamPath find_path_downstream(GstElement* element,
 
 /// The same, from a source pad.
 DownstreamPath find_path_downstream(GstPad* source, const std::function<bool(GstElement*)>& wanted);
+
+/// Whether `wanted` says yes for an element before `sink`, through bins, on any branch.
+bool is_upstream(GstPad* sink, const std::function<bool(GstElement*)>& wanted);
 
 }  // namespace spidar
