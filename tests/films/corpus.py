@@ -123,8 +123,6 @@ def arguments(kind, master, common):
     elif extra == "chapters":
         inputs += ["-i", common / "chapters.txt"]
         output += ["-map_metadata", inputs.count("-i") - 1]
-    elif extra == TURNED:
-        output += ["-metadata:s:v:0", "rotate=90"]
     poster = extra == "poster" and CONTAINERS[kind["container"]][1] != "mkv"
     if poster:
         add("-i", common / "poster.png")
@@ -141,14 +139,28 @@ def arguments(kind, master, common):
     return [*inputs, *maps, *video, *output]
 
 
+def turn(film, copied):
+    """Copies the film so that it is shown turned by 90 degrees clockwise. Newer releases of ffmpeg have -display_rotation
+    in place of rotate=270, which ffmpeg 5.1 follows only when it copies."""
+    try:
+        ffmpeg("-display_rotation", -90, "-i", film, *copied)
+    except RuntimeError:
+        ffmpeg("-i", film, "-metadata:s:v:0", "rotate=270", *copied)
+    rotation = probed(copied[-1], "stream_side_data=rotation")["streams"][0]["side_data_list"][0]["rotation"]
+    if rotation != -90:
+        raise RuntimeError(f"ffmpeg has turned {copied[-1]} by {rotation} degrees counterclockwise")
+
+
 def encode(kind, master, common, to):
     muxer = CONTAINERS[kind["container"]][0].split()
-    if kind["times"] != "edit list":
-        return ffmpeg(*arguments(kind, master, common), *muxer, to)
     whole = to.with_name("whole" + to.suffix)
-    ffmpeg(*arguments(kind, master, common), *muxer, whole)
-    ffmpeg("-ss", HIDDEN_S, "-i", whole, "-map", "0:v", "-map", "0:a?", "-c", "copy", "-strict", "-2", *muxer, to)
-    whole.unlink()
+    copied = ["-map", "0:v", "-map", "0:a?", "-c", "copy", "-strict", "-2", *muxer, to]
+    ffmpeg(*arguments(kind, master, common), *muxer, to)
+    if kind["times"] == "edit list":
+        ffmpeg("-ss", HIDDEN_S, "-i", to.rename(whole), *copied)
+    if kind["extra"] == TURNED:
+        turn(to.rename(whole), copied)
+    whole.unlink(missing_ok=True)
 
 
 def probed(path, entries):

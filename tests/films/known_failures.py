@@ -11,7 +11,7 @@ def of(**values):
 
 
 ANY = of()
-NO_UTF_8, TURNED, GAPLESS = of(name="not UTF-8"), of(extra="turned by 90"), of(player="gapless")
+NO_UTF_8, GAPLESS = of(name="not UTF-8"), of(player="gapless")
 LENGTH = "a track knows its film by the film's duration only"
 
 KNOWN = (
@@ -25,7 +25,6 @@ KNOWN = (
      "the last picture is lost in qtdemux or av1dec"),
     ("felt", of(container="m2ts|ts", player="playbin3"), "shows", "playbin3 does not show the first picture"),
     ("felt", of(container="flv", player="gapless"), "shows", "playbin3 does not show the last picture"),
-    ("analysed", TURNED, "turned by", "the image-orientation tag is not followed"),
     ("analysed", of(sound_time="ends 5 s after"), "no force in picture",
      "gap events of sound that goes on stop the motion of the last pictures, which the decoder still holds"),
     ("track_in_time", of(sound_time="ends 5 s after"), "not in the track", "the same"),

@@ -136,10 +136,13 @@ TEST_F(FilmRecorder, AFilmWithBFramesAndSoundIsFeltWhenItIsShown) {
 // the picture when it decodes the film, and videoflip in a pipeline, where the tag may stay.
 TEST_F(FilmRecorder, AFilmThatIsTurnedWhenItIsShownIsFeltAsItIsShown) {
   if (!has_encoder()) GTEST_SKIP() << "ffmpeg with libx264 is not installed";
+  const std::string copy = "-i " + path("stored.mp4") + " -c copy ";
+  // Newer releases of ffmpeg have -display_rotation in place of rotate=90.
   const std::string make = kMovingPicture + "-t 2 -c:v libx264 " + path("stored.mp4") +
-                           " && ffmpeg -v error -y -i " + path("stored.mp4") +
-                           " -c copy -metadata:s:v rotate=90 " + path("turned.mp4") +
-                           " && ffmpeg -v error -y -i " + path("turned.mp4") +
+                           " && (ffmpeg -v quiet -y -display_rotation 90 " + copy +
+                           path("turned.mp4") + " || ffmpeg -v error -y " + copy +
+                           "-metadata:s:v rotate=90 " + path("turned.mp4") +
+                           ") && ffmpeg -v error -y -i " + path("turned.mp4") +
                            " -c:v libx264 -metadata:s:v rotate=0 " + path("upright.mp4");
   ASSERT_EQ(std::system(make.c_str()), 0);
   for (const char* film : {"stored", "turned", "upright"}) {
