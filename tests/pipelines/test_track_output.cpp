@@ -166,7 +166,7 @@ TEST_F(TrackOutput, ATraceWithAWildTimeIsRefused) {
     EXPECT_EQ(result.status, 1);
     expect_contains(result.text, "wild.csv:3: the stream time is ");
     expect_contains(result.text, shown);
-    expect_contains(result.text, "must be from 0 to 43200 s");
+    expect_contains(result.text, "must be from 0 to 86400 s");
   }
   // −1 is what the element writes for a frame outside the segment.
   std::ofstream(path("good.csv")) << head << "0,-1" << rest << "0,0" << rest << "40000000,40000000"
