@@ -154,14 +154,17 @@ void run_pipeline(const std::string& line,
   if (!problem.empty()) throw std::runtime_error(problem);
 }
 
-void await_message(GstElement* pipeline, GstMessageType awaited, GstClockTime limit) {
+void await_message(GstElement* pipeline, GstMessageType awaited, GstClockTime limit,
+                   GstClockTime start_limit) {
   constexpr GstClockTime kLook = 100 * GST_MSECOND;  // for a state change that failed in silence
   const auto types = static_cast<GstMessageType>(awaited | GST_MESSAGE_ERROR);
   GstBus* bus = gst_element_get_bus(pipeline);
   GstMessage* message = nullptr;
   GstClockTime waited = 0;
   for (bool failed = false; !message && !failed && waited < limit; waited += kLook) {
-    failed = gst_element_get_state(pipeline, nullptr, nullptr, 0) == GST_STATE_CHANGE_FAILURE;
+    const GstStateChangeReturn change = gst_element_get_state(pipeline, nullptr, nullptr, 0);
+    failed = change == GST_STATE_CHANGE_FAILURE ||
+             (change == GST_STATE_CHANGE_ASYNC && waited >= start_limit);
     message = gst_bus_timed_pop_filtered(bus, kLook, types);
   }
   gst_object_unref(bus);

@@ -48,11 +48,16 @@ std::string encoder_of(const std::string& path);
 void run_pipeline(const std::string& line,
                   const std::function<void(GstElement* pipeline)>& prepare = {});
 
+/// Much longer than a pipeline needs for its first buffers, also on a slow share.
+constexpr GstClockTime kLongestStart = 60 * GST_SECOND;
+
 /// Returns when `awaited` was posted. Throws std::runtime_error with what went wrong: an error that
-/// was posted, a change of state that failed, or nothing for as long as `limit`: decodebin keeps an
-/// error of a demuxer to itself when it comes at the wrong moment.
+/// was posted, a change of state that failed or took longer than `start_limit`, or nothing for as
+/// long as `limit`. decodebin keeps an error of a demuxer to itself when it comes at the wrong
+/// moment, and then waits for ever.
 void await_message(GstElement* pipeline, GstMessageType awaited,
-                   GstClockTime limit = GST_CLOCK_TIME_NONE);
+                   GstClockTime limit = GST_CLOCK_TIME_NONE,
+                   GstClockTime start_limit = kLongestStart);
 
 /// Of the source or sink `name` in a pipeline. Unlike a launch line, it takes every file name.
 void set_location(GstElement* pipeline, const char* name, const std::string& path);

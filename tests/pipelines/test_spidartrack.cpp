@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -286,6 +287,16 @@ TEST_F(Spidartrack, WhatIsDamagedOrNoTrackIsNamed) {
   const CommandResult cut = spidartrack("check " + path("a.flac"));
   EXPECT_EQ(cut.status, 1);
   expect_contains(cut.text, "s of 2.000 s are there");
+}
+
+TEST_F(Spidartrack, APipelineThatNeverBeginsIsNotAwaitedForEver) {
+  GstElement* pipeline =
+      gst_parse_launch("fakesrc ! identity drop-probability=1 ! fakesink", nullptr);
+  gst_element_set_state(pipeline, GST_STATE_PLAYING);
+  EXPECT_THROW(await_message(pipeline, GST_MESSAGE_EOS, GST_CLOCK_TIME_NONE, 200 * GST_MSECOND),
+               std::runtime_error);
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(pipeline);
 }
 
 }  // namespace
