@@ -21,7 +21,7 @@ namespace {
 constexpr const char* kAnalysis[] = {
     "alpha",        "controller", "depth-gain",    "filter-beta", "filter-min-cutoff",
     "max-features", "max-force",  "min-distance",  "motion",      "pointer-x",
-    "pointer-y",    "quality",    "quality-level", "roll-gain",   "tracker"};
+    "pointer-y",    "quality",    "quality-level", "roll-gain"};
 
 std::string list_of_analysis() {
   std::string list;
