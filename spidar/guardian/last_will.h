@@ -51,7 +51,11 @@ static_assert(sizeof(LastWill) == 6 * 4 + LastWill::kMaxPackets * (4 + LastWill:
 /// also at rest.
 constexpr int kBeat_ms = 10;
 constexpr int kSilence_ms = 50;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kAnswer_ms = 800;  // under a sanitizer, programs are up to ten times slower
+#else
 constexpr int kAnswer_ms = 80;
+#endif
 
 /// Messages from a host to its guardian, one byte each. The guardian answers every message except
 /// the last, which shows the host that its guardian is running.
