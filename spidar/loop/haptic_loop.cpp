@@ -158,8 +158,7 @@ void HapticLoop::forget_timeline(uint32_t generation) noexcept {
   reached_ns_ = INT64_MIN;
 }
 
-/// Whether an entry was scheduled after a flush that has just taken place, and so is for the next
-/// tick.
+/// Whether an entry was scheduled after a flush that has just taken place: it is for the next tick.
 bool HapticLoop::is_of_the_future(uint32_t generation) const noexcept {
   return static_cast<int32_t>(generation - timeline_generation_) > 0;  // the number wraps around
 }
