@@ -10,8 +10,8 @@
 
 #include "api/vectors.h"
 #include "spidar/boards/board_list.h"
-#include "spidar/device_factory.h"
-#include "spidar/haptic_session.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 
 namespace gst_spidar {
 inline namespace v0 {

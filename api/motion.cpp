@@ -5,7 +5,7 @@
 #include <gst-spidar/motion.h>
 
 #include "api/vectors.h"
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 
 namespace gst_spidar {
 inline namespace v0 {

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "core/analysis/motion_analyzer.h"
 #include "core/force/gain_controller.h"
-#include "core/motion_analyzer.h"
 #include "examples/gnuplot.h"
 #include "tests/support/ball_scene.h"
 

@@ -39,7 +39,7 @@ plot frames using 1:4 title "x, right", frames using 1:5 title "y, up"
 # Force and torque: `limit` at the ends of the axis, `felt` is what a hand feels, `in_unit` of them in
 # one of the unit. Column `wanted` of frames, `given` of ticks.
 limit = max_force > 0 ? real(max_force) : 0.1
-felt = 0.04  # kFeltForce_N of core/force/force_limit.h
+felt = 0.04  # kFeltForce_N of core/analysis/force_limit.h
 grey = "#a0a0a0"
 draw = 'plot frames using 1:(in_unit * column(wanted)) with points pointtype 7 pointsize 0.5 linecolor rgb grey \
              title "wanted", \

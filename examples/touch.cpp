@@ -19,7 +19,7 @@
 #include "core/touch/relief.h"
 #include "examples/gnuplot.h"
 #include "examples/track/luma_reader.h"
-#include "plugin/engine/grip_pointer.h"
+#include "plugin/frame/grip_pointer.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 

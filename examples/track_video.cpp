@@ -4,9 +4,9 @@
 //   track_video FILE [--points] [--motion=mean|object|objects|camera]
 // FILE may be a URI. Each line has the time, the background's model, the objects (id, position,
 // size, velocity relative to the background and on the screen, growth, roll) and the motion that
-// would be felt; core/analysis_json.h lists the keys. --points adds the points with their motion,
-// as [id, x, y, moved x, moved y]. Positions are in pixels from the centre of the frame, x right, y
-// down.
+// would be felt; core/analysis/analysis_json.h lists the keys. --points adds the points with their
+// motion, as [id, x, y, moved x, moved y]. Positions are in pixels from the centre of the frame, x
+// right, y down.
 //   track_video film.mkv | jq -c '.objects[] | [.id, .velocity_px_s]'
 #include <cstdio>
 #include <cstring>
@@ -17,8 +17,8 @@
 
 #include <gst/gst.h>
 
-#include "core/analysis_json.h"
-#include "core/motion_analyzer.h"
+#include "core/analysis/analysis_json.h"
+#include "core/analysis/motion_analyzer.h"
 #include "examples/track/luma_reader.h"
 
 using namespace spidar;

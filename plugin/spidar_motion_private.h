@@ -5,9 +5,9 @@
 
 #include <gst/gst.h>
 
+#include "plugin/complaints.h"
 #include "plugin/display/motion_display.h"
 #include "plugin/engine/motion_engine.h"
-#include "plugin/reports/complaints.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/timing/step_watch.h"
 

@@ -10,7 +10,7 @@
 
 #include "core/api.h"
 #include "core/grip/string_geometry.h"
-#include "spidar/transports/link_fault.h"
+#include "spidar/link_fault.h"
 
 namespace spidar {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/force/force_limit.h"
+#include "core/analysis/force_limit.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 #include "examples/feel/film.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 
 namespace spidar {
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "core/force/force_limit.h"
+#include "core/analysis/force_limit.h"
 #include "core/force/motion_rendering.h"
 #include "examples/gnuplot.h"
 #include "examples/play/unfelt.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/force/force_limit.h"
+#include "core/analysis/force_limit.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/force/force_limit.h"
+#include "core/analysis/force_limit.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/window/window_source.h"
+#include "plugin/window/model/window_source.h"
 
 namespace spidar {
 

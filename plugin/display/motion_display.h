@@ -11,7 +11,7 @@
 #include <gst/video/video.h>
 
 #include "plugin/engine/motion_engine.h"
-#include "plugin/overlay/scene_view.h"
+#include "plugin/frame/scene_view.h"
 #include "plugin/properties/display_properties.h"
 #include "plugin/window/window.h"
 

@@ -11,17 +11,17 @@
 
 #include <gst/video/video.h>
 
-#include "core/motion_analyzer.h"
-#include "plugin/engine/frame_luma.h"
-#include "plugin/engine/grip_pointer.h"
+#include "core/analysis/motion_analyzer.h"
+#include "plugin/device/haptic_output.h"
 #include "plugin/engine/stream_orientation.h"
+#include "plugin/frame/frame_luma.h"
+#include "plugin/frame/frame_report.h"
+#include "plugin/frame/grip_pointer.h"
 #include "plugin/properties/motion_properties.h"
-#include "plugin/reports/frame_report.h"
 #include "plugin/reports/frame_trace.h"
 #include "plugin/reports/limit_watch.h"
 #include "plugin/reports/motion_stats.h"
 #include "plugin/timing/frame_pacer.h"
-#include "plugin/timing/haptic_output.h"
 #include "plugin/timing/wrench_schedule.h"
 #include "plugin/touch/relief_stream.h"
 #include "plugin/track/track_player.h"

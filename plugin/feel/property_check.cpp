@@ -5,7 +5,7 @@
 #include <string>
 
 #include "spidar/boards/board_list.h"
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 
 namespace spidar {
 namespace {

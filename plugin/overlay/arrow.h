@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "plugin/overlay/scene_view.h"
+#include "plugin/frame/scene_view.h"
 
 namespace spidar {
 

@@ -7,8 +7,8 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/overlay/scene_view.h"
-#include "plugin/overlay/touch_view.h"
+#include "plugin/frame/scene_view.h"
+#include "plugin/frame/touch_view.h"
 
 namespace spidar {
 

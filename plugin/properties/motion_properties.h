@@ -8,7 +8,7 @@
 
 #include <gst/gst.h>
 
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 #include "plugin/properties/display_properties.h"
 #include "plugin/properties/touch_properties.h"
 

@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "core/analysis_json.h"
+#include "core/analysis/analysis_json.h"
 #include "spidar/realtime/sigpipe_block.h"
 
 namespace spidar {

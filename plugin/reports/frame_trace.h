@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <string>
 
-#include "core/force/force_limit.h"
-#include "core/motion_analyzer.h"
+#include "core/analysis/force_limit.h"
+#include "core/analysis/motion_analyzer.h"
 
 namespace spidar {
 

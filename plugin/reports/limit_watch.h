@@ -8,8 +8,8 @@
 
 #include <gst/gst.h>
 
-#include "core/force/force_limit.h"
-#include "core/motion_analyzer.h"
+#include "core/analysis/force_limit.h"
+#include "core/analysis/motion_analyzer.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {

@@ -6,7 +6,7 @@
 #include <gst/video/video.h>
 
 #include "plugin/engine/motion_engine.h"
-#include "plugin/overlay/scene_view.h"
+#include "plugin/frame/scene_view.h"
 
 namespace spidar {
 

@@ -9,9 +9,9 @@
 
 #include <gst/gst.h>
 
-#include "core/motion_analyzer.h"
-#include "spidar/haptic_session.h"
+#include "core/analysis/motion_analyzer.h"
 #include "spidar/realtime/latency_histogram.h"
+#include "spidar/session/haptic_session.h"
 
 namespace spidar {
 

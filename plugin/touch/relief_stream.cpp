@@ -7,8 +7,8 @@
 
 #include "plugin/depth/frame_depth.h"
 #include "plugin/touch/touched_motion.h"
+#include "spidar/loop/stiffness_limit.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/touch/stiffness_limit.h"
 
 namespace spidar {
 namespace {

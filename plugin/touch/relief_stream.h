@@ -13,8 +13,8 @@
 #include <Eigen/Core>
 #include <gst/gst.h>
 
+#include "core/analysis/motion_analyzer.h"
 #include "core/image_view.h"
-#include "core/motion_analyzer.h"
 #include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 
 namespace spidar {
 

@@ -27,9 +27,9 @@
 
 #include <string>
 
-#include "plugin/reports/device_complaints.h"
+#include "plugin/device/device_complaints.h"
+#include "plugin/device/haptic_output.h"
 #include "plugin/reports/exceptions.h"
-#include "plugin/timing/haptic_output.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/track/block_schedule.h"
 #include "plugin/track/sink_properties.h"

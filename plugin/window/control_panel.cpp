@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin/window/model/setting_text.h"
 #include "plugin/window/panels.h"
-#include "plugin/window/setting_text.h"
 
 namespace spidar {
 namespace {

@@ -12,7 +12,7 @@
 
 #include <GLFW/glfw3.h>
 
-#include "plugin/window/touch/relief_view.h"
+#include "plugin/window/model/relief_view.h"
 
 namespace spidar {
 namespace {

@@ -7,12 +7,12 @@
 #include <optional>
 #include <string>
 
-#include "plugin/window/frame_feed.h"
+#include "plugin/window/hand_control.h"
+#include "plugin/window/model/frame_feed.h"
+#include "plugin/window/model/window_source.h"
 #include "plugin/window/panels.h"
 #include "plugin/window/picture_texture.h"
-#include "plugin/window/touch/hand_control.h"
 #include "plugin/window/window.h"
-#include "plugin/window/window_source.h"
 
 struct GLFWwindow;
 struct ImGuiContext;

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "plugin/window/hand.h"
+#include "plugin/window/model/plot_axis.h"
 #include "plugin/window/panels.h"
-#include "plugin/window/plot_axis.h"
 
 namespace spidar {
 namespace {

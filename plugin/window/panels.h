@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "plugin/window/model/timeline.h"
+#include "plugin/window/model/window_model.h"
 #include "plugin/window/style.h"
-#include "plugin/window/timeline.h"
-#include "plugin/window/window_model.h"
 
 namespace spidar {
 

@@ -8,8 +8,8 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/window/frame_feed.h"
-#include "plugin/window/still.h"
+#include "plugin/window/model/frame_feed.h"
+#include "plugin/window/model/still.h"
 
 namespace spidar {
 

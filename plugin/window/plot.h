@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "plugin/window/plot_axis.h"
+#include "plugin/window/model/plot_axis.h"
 #include "plugin/window/style.h"
 
 namespace spidar {

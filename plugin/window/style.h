@@ -6,7 +6,7 @@
 #include <imgui.h>
 #include <string>
 
-#include "plugin/window/layout.h"
+#include "plugin/window/model/layout.h"
 
 namespace spidar {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "plugin/window/frame_feed.h"
-#include "plugin/window/touch/mouse_hand.h"
-#include "plugin/window/window_source.h"
+#include "plugin/window/model/frame_feed.h"
+#include "plugin/window/model/mouse_hand.h"
+#include "plugin/window/model/window_source.h"
 
 namespace spidar {
 

@@ -10,7 +10,7 @@
 #include "core/api.h"
 #include "spidar/device.h"
 #include "spidar/guardian/last_will.h"
-#include "spidar/transports/link_fault.h"
+#include "spidar/link_fault.h"
 
 namespace spidar {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "spidar/guardian/last_will.h"
+#include "spidar/link_fault.h"
 #include "spidar/protocols/bytes.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/transports/link_fault.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar {

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
+#include "spidar/link_fault.h"
 #include "spidar/realtime/seqlock.h"
-#include "spidar/transports/link_fault.h"
 
 namespace spidar {
 

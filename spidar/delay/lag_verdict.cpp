@@ -7,7 +7,7 @@
 
 #include "core/touch/contact_force.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/touch/stiffness_limit.h"
+#include "spidar/loop/stiffness_limit.h"
 
 namespace spidar {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/force/force_limit.h"
+#include "core/analysis/force_limit.h"
 
 namespace spidar {
 namespace {

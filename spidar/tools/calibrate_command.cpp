@@ -11,9 +11,9 @@
 
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/count_recorder.h"
-#include "spidar/device_factory.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/session/device_factory.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/calibrate_options.h"
 #include "spidar/tools/calibrate_report.h"

@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/tools/chosen_device.h"
 
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 
 namespace spidar {
 namespace {

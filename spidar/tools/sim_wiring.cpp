@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 #include "spidar/tools/miswired_device.h"
 
 namespace spidar {

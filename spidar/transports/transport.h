@@ -9,8 +9,8 @@
 
 #include "core/api.h"
 #include "spidar/guardian/last_will.h"
+#include "spidar/link_fault.h"
 #include "spidar/protocols/bytes.h"
-#include "spidar/transports/link_fault.h"
 
 namespace spidar {
 

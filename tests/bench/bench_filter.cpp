@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 #include "tests/support/ball_scene.h"
 #include "tests/support/moving_scene.h"
 

@@ -11,11 +11,11 @@
 #include <libusb.h>
 
 #include "spidar/boards/board_settings.h"
-#include "spidar/device_factory.h"
 #include "spidar/protocols/sh4.h"
 #include "spidar/realtime/latency_histogram.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
+#include "spidar/session/device_factory.h"
 #include "spidar/transports/usb_transport.h"
 #include "tests/emulated_bus/bus_state.h"
 

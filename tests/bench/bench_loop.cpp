@@ -10,8 +10,8 @@
 #include <exception>
 #include <thread>
 
-#include "spidar/device_factory.h"
-#include "spidar/haptic_session.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 
 namespace {
 

@@ -29,8 +29,8 @@ extern "C" {
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "core/analysis/motion_analyzer.h"
 #include "core/motion/robust_fit.h"
-#include "core/motion_analyzer.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/analysis_json.h"
+#include "core/analysis/analysis_json.h"
 #include "count_allocations.h"
 #include "tests/support/moving_scene.h"
 

@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 #include "core/tracking/opencv_tracker.h"
 #include "tests/support/ball_scene.h"
 #include "tests/support/picture.h"

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 

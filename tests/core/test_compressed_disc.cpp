@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 #include "tests/support/picture.h"
 
 namespace spidar {

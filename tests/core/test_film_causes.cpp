@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 #include "tests/support/scene_film.h"
 #include "tests/support/texture.h"
 

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/force/force_limit.h"
+#include "core/analysis/force_limit.h"
+#include "core/analysis/motion_analyzer.h"
 #include "core/force/motion_rendering.h"
-#include "core/motion_analyzer.h"
 
 namespace spidar::test {
 namespace {

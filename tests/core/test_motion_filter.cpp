@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/analysis/motion_analyzer.h"
 #include "core/force/adaptive_controller.h"
 #include "core/force/motion_filter.h"
 #include "core/force/motion_rendering.h"
-#include "core/motion_analyzer.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 

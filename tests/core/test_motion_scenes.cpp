@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion_analyzer.h"
+#include "core/analysis/motion_analyzer.h"
 #include "tests/support/moving_scene.h"
 
 namespace spidar {

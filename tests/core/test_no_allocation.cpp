@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/analysis/motion_analyzer.h"
 #include "core/grip/pose_solver.h"
 #include "core/grip/tension_solver.h"
 #include "core/motion/motion_estimator.h"
-#include "core/motion_analyzer.h"
 #include "count_allocations.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/tension_cases.h"

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/analysis/motion_analyzer.h"
 #include "core/motion/objects.h"
-#include "core/motion_analyzer.h"
 #include "core/tracking/padded_image.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene_film.h"

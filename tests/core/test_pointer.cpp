@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/analysis/motion_analyzer.h"
 #include "core/motion/motion_estimator.h"
-#include "core/motion_analyzer.h"
 #include "tests/support/moving_scene.h"
 
 namespace spidar {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/provider/device_provider.h"
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/element_harness.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/haptic_session.h"
+#include "spidar/session/haptic_session.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"

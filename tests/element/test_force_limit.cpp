@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/force/force_limit.h"
+#include "core/analysis/force_limit.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"

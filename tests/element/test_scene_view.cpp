@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/overlay/scene_view.h"
+#include "plugin/frame/scene_view.h"
 
 namespace spidar::test {
 namespace {

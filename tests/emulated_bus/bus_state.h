@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "spidar/transports/link_fault.h"
+#include "spidar/link_fault.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/exported.h"
 

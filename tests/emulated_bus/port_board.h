@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "spidar/emulation/emulated_usb.h"
+#include "spidar/link_fault.h"
 #include "spidar/protocols/bytes.h"
-#include "spidar/transports/link_fault.h"
 #include "tests/emulated_bus/bus_state.h"
 
 namespace spidar::test {

@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/board_settings.h"
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 #include "tests/kernel/uinput_device.h"
 #include "tests/support/felt_player.h"
 

@@ -18,10 +18,10 @@
 
 #include "spidar/boards/board_list.h"
 #include "spidar/boards/digits.h"
-#include "spidar/device_factory.h"
 #include "spidar/guardian/last_will.h"
-#include "spidar/haptic_session.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 #include "tests/kernel/usbip_board.h"
 #include "tests/support/child_process.h"
 #include "tests/support/recorded_motors.h"

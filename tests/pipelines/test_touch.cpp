@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/depth/spidar_depth.h"
-#include "plugin/engine/grip_pointer.h"
+#include "plugin/frame/grip_pointer.h"
 #include "plugin/spidar_motion.h"
 #include "spidar/loop/tick_trace.h"
 #include "spidar/simulation/simulated_device.h"

@@ -18,7 +18,7 @@
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
-#include "spidar/haptic_session.h"
+#include "spidar/session/haptic_session.h"
 #include "tests/support/recorded_motors.h"
 
 namespace spidar::test {

@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "examples/example_board.h"
-#include "spidar/device_factory.h"
 #include "spidar/emulation/wire_simulation.h"
-#include "spidar/haptic_session.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 #include "tests/spidar/board_bench.h"
 
 namespace spidar::test {

@@ -15,7 +15,7 @@
 #include "spidar/delay/lag_verdict.h"
 #include "spidar/emulation/wire_simulation.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/touch/stiffness_limit.h"
+#include "spidar/loop/stiffness_limit.h"
 #include "tests/support/tampered_device.h"
 
 namespace spidar::test {

@@ -13,7 +13,7 @@
 
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/force_feedback_board.h"
-#include "spidar/haptic_session.h"
+#include "spidar/session/haptic_session.h"
 #include "spidar/transports/evdev_transport.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"

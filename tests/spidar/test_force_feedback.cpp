@@ -12,9 +12,9 @@
 
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/board_list.h"
-#include "spidar/device_factory.h"
-#include "spidar/haptic_session.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 #include "spidar/transports/evdev_list.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/board_bench.h"

@@ -17,7 +17,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/board_device.h"
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
 #include "tests/spidar/guardian_victim.h"

@@ -21,9 +21,9 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/board_device.h"
-#include "spidar/device_factory.h"
 #include "spidar/guardian/last_will.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/temporary_folder.h"

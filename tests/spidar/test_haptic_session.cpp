@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/device_factory.h"
-#include "spidar/haptic_session.h"
 #include "spidar/loop/loop_thread.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 #include "tests/support/fake_device.h"
 
 namespace spidar::test {

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 #include "tests/spidar/simulated_device_test.h"
 #include "tests/support/allocation_count.h"
 

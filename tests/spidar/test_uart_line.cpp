@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/board_device.h"
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 #include "spidar/transports/tty_list.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"

@@ -13,8 +13,8 @@
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/board_list.h"
 #include "spidar/boards/usb_kinds.h"
-#include "spidar/device_factory.h"
-#include "spidar/haptic_session.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 #include "tests/emulated_bus/bus_state.h"
 
 namespace spidar::test {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/board_list.h"
-#include "spidar/device_factory.h"
+#include "spidar/session/device_factory.h"
 #include "spidar/transports/wheel.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "plugin/frame/scene_view.h"
 #include "plugin/overlay/arrow.h"
-#include "plugin/overlay/scene_view.h"
 #include "plugin/overlay/video_overlay.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_formats.h"

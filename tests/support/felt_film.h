@@ -10,8 +10,8 @@
 
 #include <Eigen/Core>
 
+#include "core/analysis/motion_analyzer.h"
 #include "core/force/wrench_timeline.h"
-#include "core/motion_analyzer.h"
 #include "tests/support/picture.h"
 
 namespace spidar::test {

@@ -11,10 +11,10 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/device_factory.h"
-#include "spidar/haptic_session.h"
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 
 namespace spidar::test {
 

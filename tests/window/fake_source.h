@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/window/window_source.h"
+#include "plugin/window/model/window_source.h"
 
 namespace spidar::test {
 

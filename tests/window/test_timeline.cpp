@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/window/timeline.h"
+#include "plugin/window/model/timeline.h"
 
 namespace spidar::test {
 namespace {

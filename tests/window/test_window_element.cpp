@@ -14,7 +14,7 @@
 
 #include "plugin/display/motion_display.h"
 #include "plugin/spidar_motion.h"
-#include "plugin/window/layout.h"
+#include "plugin/window/model/layout.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 #include "tests/support/virtual_display.h"

@@ -10,11 +10,11 @@
 
 #include "plugin/display/element_source.h"
 #include "plugin/spidar_motion.h"
-#include "plugin/window/frame_feed.h"
-#include "plugin/window/layout.h"
-#include "plugin/window/setting_text.h"
-#include "plugin/window/timeline.h"
-#include "plugin/window/window_model.h"
+#include "plugin/window/model/frame_feed.h"
+#include "plugin/window/model/layout.h"
+#include "plugin/window/model/setting_text.h"
+#include "plugin/window/model/timeline.h"
+#include "plugin/window/model/window_model.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 

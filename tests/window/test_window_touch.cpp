@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/overlay/touch_view.h"
-#include "plugin/window/touch/mouse_hand.h"
-#include "plugin/window/touch/relief_view.h"
-#include "plugin/window/window_model.h"
+#include "plugin/frame/touch_view.h"
+#include "plugin/window/model/mouse_hand.h"
+#include "plugin/window/model/relief_view.h"
+#include "plugin/window/model/window_model.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar::test {

@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/window/layout.h"
+#include "plugin/window/model/layout.h"
 #include "plugin/window/window.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"

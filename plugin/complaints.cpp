@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/complaints.h"
+
+#include "plugin/reports/category.h"
+
+#define GST_CAT_DEFAULT spidar::category_of(element_)
+
+namespace spidar {
+
+void Complaints::start() {
+  begin_stream();
+  device_.start();
+}
+
+void Complaints::look_at_place() {
+  bool in_timeline = false;
+  GstObject* place = gst_object_get_parent(GST_OBJECT(element_));
+  while (place) {
+    in_timeline = in_timeline || g_strcmp0(G_OBJECT_TYPE_NAME(place), "NleComposition") == 0;
+    GstObject* const outer = gst_object_get_parent(place);
+    gst_object_unref(place);
+    place = outer;
+  }
+  if (!in_timeline) return;
+  GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
+                      ("As an effect of an editing timeline, most of the video is not felt, or is "
+                       "felt at the wrong time."),
+                      ("Each clip of GES has its own running time, and seeks that the sink is not "
+                       "notified of. Put spidarmotion behind the timeline instead, for example "
+                       "with ges-launch-1.0 --videosink=\"spidarmotion ! autovideosink\"."));
+}
+
+void Complaints::look_at_frame(const FrameReport& report) {
+  if (report.trace_failed) {
+    GST_ELEMENT_WARNING(element_, RESOURCE, WRITE, ("The trace can no longer be written."),
+                        ("The disk may be full. The video continues without the trace."));
+  }
+  const guint bit = 1u << static_cast<guint>(report.problem);
+  if (frame_problems_ & bit) return;
+  frame_problems_ |= bit;
+  switch (report.problem) {
+    case FrameProblem::kNoTimestamp:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("Frames without a timestamp cannot be felt in time; they are only shown."),
+          ("The buffer has no PTS, or its PTS is decades ahead, or the segment is not in time "
+           "format (for example raw frames from a filesrc). A videorate, a rawvideoparse or a "
+           "parser before the decoder adds timestamps."));
+      break;
+    case FrameProblem::kSameTimestamp:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("Two frames have the same timestamp, or nearly so; the second one is shown but not "
+           "felt."),
+          ("No velocity is computed from two frames that are less than half a millisecond, or an "
+           "eighth of the usual time between two frames, apart."));
+      break;
+    case FrameProblem::kFallingTimestamp:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("Timestamps go back without a discontinuity; the measurement of motion restarts."),
+          ("Running time must increase within a segment."));
+      break;
+    case FrameProblem::kTooSmall:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("A frame has less memory than its picture needs; it is passed on but not felt."),
+          ("The strides and offsets of its GstVideoMeta do not fit it."));
+      break;
+    case FrameProblem::kSmallHalf:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("With this depth-layout, the picture is smaller than %d x %d pixels; it is neither felt "
+           "nor touched.",
+           FrameLuma::kSmallestSide, FrameLuma::kSmallestSide),
+          ("Half of the frame is picture and half is depth. Larger frames are felt; depth-layout="
+           "meta takes the whole frame as picture."));
+      break;
+    case FrameProblem::kNone:
+    case FrameProblem::kNotShown:
+      break;
+  }
+}
+
+void Complaints::look_at_touch(const FrameReport& report, const TouchProperties& wanted) {
+  const guint bit = 1u << static_cast<guint>(report.touch_problem);
+  if (touch_problems_ & bit) return;
+  touch_problems_ |= bit;
+  switch (report.touch_problem) {
+    case TouchProblem::kNoDevice:
+      GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                          ("There is no device to touch the picture with."),
+                          ("device=none; the simulated one is device=sim."));
+      break;
+    case TouchProblem::kTrack:
+      GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                          ("The picture cannot be touched while a haptic track is played."),
+                          ("Leave out track, or set touch=off."));
+      break;
+    case TouchProblem::kTooStiff:
+      GST_ELEMENT_WARNING(
+          element_, RESOURCE, SETTINGS,
+          ("touch-stiffness is %g N/m, which this device cannot render without shaking; it is "
+           "touched with %.0f N/m.",
+           wanted.stiffness_N_m, report.stiffness_N_m),
+          ("The profile's drive_lag_s sets how stiff a surface may be (docs/touch.md)."));
+      break;
+    case TouchProblem::kNoDepth:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FORMAT,
+          ("touch=depth, but a frame has no depth; the last relief stays."),
+          ("spidardepth in front of the element attaches a second stream of depth; a film that has "
+           "its depth in the frame needs depth-layout=right or below."));
+      break;
+    case TouchProblem::kNone:
+      break;
+  }
+}
+
+void Complaints::look_at_overlay(const GstVideoInfo& info) {
+  if (overlay_ || !is_unpacked(*info.finfo)) return;
+  overlay_ = true;
+  GST_ELEMENT_WARNING(
+      element_, STREAM, FORMAT,
+      ("The overlay cannot be drawn into frames of the format %s.", GST_VIDEO_INFO_NAME(&info)),
+      ("The force is felt nevertheless. To convert to a format that supports the overlay, put a "
+       "videoconvert in front of the element, with caps such as format=I420."));
+}
+
+}  // namespace spidar

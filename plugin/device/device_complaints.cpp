@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/device/device_complaints.h"
+
+#include "plugin/reports/category.h"
+#include "spidar/loop/motor_heat.h"
+
+#define GST_CAT_DEFAULT spidar::category_of(element_)
+
+namespace spidar {
+namespace {
+
+/// A hand that swings a slack string loses the pose for a moment, which is not reported.
+constexpr int64_t kPoseLost_ns = 500'000'000;
+
+/// Why the device was lost, with the last fault of the link, if there is a link.
+std::string why_lost(const HapticSession& session) {
+  const LinkFault fault = session.device().health().last_fault;
+  switch (fault) {
+    case LinkFault::kNone:
+      return "The haptic device does not answer.";
+    case LinkFault::kStoodStill:
+      return "The guardian has set the haptic device to rest, because the player stood still.";
+    case LinkFault::kUnguarded:
+      return "The haptic device was set to rest, because its guardian has ended.";
+    default:
+      return std::string("The haptic device does not answer: ") + to_string(fault) + ".";
+  }
+}
+
+}  // namespace
+
+void DeviceComplaints::look_at_opened(const HapticSession& session) const {
+  const FeltParts felt = session.device().felt_parts();
+  // Most devices have no torque or no force towards the viewer: their pages say so.
+  // Of what force-feedback devices can do, and how strong they are, nothing is known before.
+  const bool force_feedback = session.device().name().compare(0, 2, "ff") == 0;
+  const bool whole = felt.x && felt.y && felt.direction;
+  if (whole && !force_feedback) return;
+  GST_ELEMENT_INFO(
+      element_, RESOURCE, SETTINGS, ("%s.", session.opened().c_str()),
+      ("The device works%s%s.",
+       whole ? "" : ", but renders nothing else of the force and the torque",
+       force_feedback ? "; device=ff:PATH,gain=PERCENT sets how much of its strength is "
+                        "used, and spidarctl selftest ff tests its directions"
+                      : ""));
+}
+
+void DeviceComplaints::start() {
+  strings_ = 0;
+  pose_lost_ = held_back_ = false;
+  haptic_trace_ = false;
+  state_ = DeviceState::kClosed;
+}
+
+void DeviceComplaints::look_at_haptic_trace(const HapticSession* session) {
+  const int error = session ? session->trace_error() : 0;
+  if (error == 0 || haptic_trace_) return;
+  haptic_trace_ = true;
+  GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
+                      ("The haptic trace can no longer be written: %s.", g_strerror(error)),
+                      ("%s and the force continue without it.", what_.c_str()));
+}
+
+void DeviceComplaints::look_at_strings(const HapticSession& session) {
+  const int string = session.loop().snapshot().last.faulty_string;
+  if (string < 0 || (strings_ & 1u << string) != 0) return;
+  strings_ |= 1u << string;
+  GST_ELEMENT_WARNING(
+      element_, RESOURCE, READ,
+      ("String %d of the haptic device is slack, or its encoder is faulty.", string),
+      ("Its length fits no pose that the other strings allow. The string is not used, and the "
+       "force is limited to what the others can deliver. If all strings are taut, the grip was not "
+       "at the centre when the device was opened: start again with the grip there, or calibrate "
+       "the device (spidarctl calibrate)."));
+}
+
+void DeviceComplaints::look_at_pose(const HapticSession& session) {
+  const LoopSnapshot loop = session.loop().snapshot();
+  if (loop.untrusted_ns == 0 && pose_lost_) {
+    GST_INFO_OBJECT(element_, "the pose of the grip is known again");
+    pose_lost_ = false;
+  }
+  if (loop.untrusted_ns > kPoseLost_ns && !pose_lost_) {
+    pose_lost_ = true;
+    GST_ELEMENT_WARNING(
+        element_, RESOURCE, READ,
+        ("The pose of the grip is unknown: %s. There is no force until it is known again.",
+         to_string(loop.pose_trouble)),
+        ("The strings have their minimum tension. Possible causes: slack strings, dead encoders, "
+         "or a grip that was not at the centre when the device was opened: start again with the "
+         "grip there, or calibrate the device (spidarctl calibrate)."));
+  }
+  if (loop.held_back && loop.motor_heat > MotorHeat::kLimitFrom && !held_back_) {
+    held_back_ = true;
+    GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
+                        ("A motor of the haptic device is warm: the force is reduced."),
+                        ("The motor is at %.2f of its continuous rating (continuous_tension_N of "
+                         "the profile). The full force returns when the motor has cooled.",
+                         loop.motor_heat));
+  }
+}
+
+bool DeviceComplaints::look_at(const HapticSession* session, OnDeviceError policy) {
+  if (session) {
+    look_at_strings(*session);
+    look_at_pose(*session);
+    look_at_haptic_trace(session);
+  }
+  const LoopSnapshot loop = session ? session->loop().snapshot() : LoopSnapshot{};
+  const DeviceState state = session ? loop.last.device : DeviceState::kClosed;
+  const DeviceState before = state_;
+  // A device may be lost and back between two frames.
+  const bool lost_since = before != DeviceState::kClosed && loop.counters.times_lost > times_lost_;
+  state_ = state;
+  times_lost_ = loop.counters.times_lost;
+  if (state == before && !lost_since) return true;
+  if (state != DeviceState::kLost && !lost_since) {
+    if (before == DeviceState::kLost) GST_INFO_OBJECT(element_, "the device is back");
+    return true;
+  }
+  const std::string text = why_lost(*session);
+  GST_INFO_OBJECT(element_, "the device is lost: %s", text.c_str());
+  if (policy == OnDeviceError::kError) {
+    GST_ELEMENT_ERROR(element_, RESOURCE, WRITE, ("%s", text.c_str()), ("on-device-error=error"));
+    return false;
+  }
+  GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
+                      ("%s %s continues without it.", text.c_str(), what_.c_str()),
+                      ("The device is reopened when it returns."));
+  return true;
+}
+
+}  // namespace spidar

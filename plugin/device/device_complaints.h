@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What an element says on the bus when something is wrong with its device.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+
+#include "plugin/properties/motion_properties.h"
+#include "spidar/session/haptic_session.h"
+
+namespace spidar {
+
+/// Says each thing once a stream. Streaming thread, and start() before it. Sessions are null while
+/// the element has no device.
+class DeviceComplaints {
+ public:
+  /// `what` goes on without the device: "The video".
+  DeviceComplaints(GstElement* element, std::string what)
+      : element_(element), what_(std::move(what)) {}
+
+  /// Posts an information message if a device that was just opened renders only a part of what is
+  /// to be seen in the picture.
+  void look_at_opened(const HapticSession& session) const;
+  /// The element begins: everything may be said again.
+  void start();
+  /// Looks at the device. False when the stream is to end, and then says why.
+  bool look_at(const HapticSession* session, OnDeviceError policy);
+  /// Once a device, also at its end: the haptic trace cannot be written any more.
+  void look_at_haptic_trace(const HapticSession* session);
+
+ private:
+  void look_at_strings(const HapticSession& session);
+  void look_at_pose(const HapticSession& session);
+
+  GstElement* const element_;
+  const std::string what_;
+  guint strings_ = 0;       // bit i: string i
+  bool pose_lost_ = false;  // said, and not come back since
+  bool held_back_ = false;  // said
+  bool haptic_trace_ = false;
+  DeviceState state_ = DeviceState::kClosed;
+  uint64_t times_lost_ = 0;
+};
+
+}  // namespace spidar

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/device/haptic_output.h"
+
+#include <utility>
+
+#include "plugin/reports/motion_stats.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/simulation/simulated_device.h"
+
+namespace spidar {
+namespace {
+
+int64_t monotonic_now(void*) {
+  return HapticSession::monotonic_now_ns();
+}
+
+/// If a test makes the ticks, only these move the simulated grip, so that the speed of the test
+/// does not matter.
+std::unique_ptr<Device> device_for(const std::string& spec, const Profile& profile, bool threaded) {
+  if (threaded || spec != "sim") return make_device(spec, profile);
+  return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
+}
+
+}  // namespace
+
+void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
+  now_ = now;
+  now_user_ = user;
+}
+
+std::string HapticOutput::open(const std::string& device, const std::string& profile_name,
+                               const std::string& haptic_trace) {
+  const Profile profile = load_profile(profile_name);
+  SessionSettings settings;
+  settings.trace_path = haptic_trace;
+  settings.threaded = now_ == nullptr;
+  const auto make_session = [&] {
+    return std::make_unique<HapticSession>(profile, device_for(device, profile, settings.threaded),
+                                           settings);
+  };
+  std::string trace_problem;
+  std::unique_ptr<HapticSession> session;
+  try {
+    session = make_session();
+  } catch (const TraceError& error) {
+    trace_problem = error.what();
+    settings.trace_path.clear();
+    session = make_session();
+  }
+  HapticLoop& loop = session->loop();
+  auto follower = std::make_unique<PlaybackFollower>(
+      element_,
+      [this, &loop](const PlaybackClock& clock) {
+        loop.set_playback_clock(clock);
+        refreshed_();
+      },
+      now_ ? now_ : monotonic_now, now_user_, settings.threaded);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  loop.set_limits(limits_);
+  follower->set_latency(latency_);
+  follower->set_offset(offset_ns_);
+  profile_ = profile;
+  session_ = std::move(session);
+  follower_ = std::move(follower);
+  return trace_problem;
+}
+
+void HapticOutput::close() {
+  std::unique_ptr<HapticSession> session;
+  std::unique_ptr<PlaybackFollower> follower;  // destroyed before the loop to which it publishes
+  // Both are destroyed after the lock is released, because the ramp to rest takes 60 ms.
+  const std::lock_guard<std::mutex> lock(mutex_);
+  session = std::move(session_);
+  follower = std::move(follower_);
+}
+
+void HapticOutput::set_playing(bool playing) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->set_playing(playing);
+}
+
+void HapticOutput::set_latency(GstClockTime latency) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  latency_ = latency;
+  if (follower_) follower_->set_latency(latency);
+}
+
+void HapticOutput::set_offset(GstClockTimeDiff offset_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  offset_ns_ = offset_ns;
+  if (follower_) follower_->set_offset(offset_ns);
+}
+
+void HapticOutput::set_max_force(double max_force_N) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  limits_.max_force_N = max_force_N;
+  if (session_) session_->loop().set_limits(limits_);
+}
+
+void HapticOutput::set_skipped(int64_t skipped_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->set_skipped(skipped_ns);
+}
+
+void HapticOutput::look_for_sink() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->look_for_sink();
+}
+
+void HapticOutput::expect_base_time() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->expect_base_time();
+}
+
+void HapticOutput::refresh_clock() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (follower_) follower_->refresh();
+}
+
+std::optional<LoopSnapshot> HapticOutput::snapshot() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!session_) return std::nullopt;
+  return session_->loop().snapshot();
+}
+
+DeviceState HapticOutput::device_state() const {
+  const std::optional<LoopSnapshot> loop = snapshot();
+  return loop ? loop->last.device : DeviceState::kClosed;
+}
+
+bool HapticOutput::look_at_device(DeviceView& view) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!session_) return false;
+  view.name = session_->device().name();
+  view.has_hand = dynamic_cast<const SimulatedDevice*>(&session_->device()) != nullptr;
+  view.loop = session_->loop().snapshot();
+  view.geometry = profile_.geometry;
+  view.min_tension_N = profile_.min_tension_N();
+  view.max_tension_N = profile_.max_tension_N();
+  return true;
+}
+
+bool HapticOutput::lead_hand(const std::optional<Eigen::Vector3d>& to_m) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto* const simulated = session_ ? dynamic_cast<SimulatedDevice*>(&session_->device()) : nullptr;
+  if (!simulated) return false;
+  simulated->lead_hand(to_m);
+  return true;
+}
+
+void HapticOutput::describe(GstStructure* structure) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (session_) describe_session(*session_, structure);
+}
+
+}  // namespace spidar

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A device that follows the playback of an element.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <gst/gst.h>
+
+#include "plugin/device/device_view.h"
+#include "plugin/timing/playback_follower.h"
+#include "spidar/session/haptic_session.h"
+
+namespace spidar {
+
+/// Haptic session and playback clock of one element. Thread-safe, but for session(), which is for
+/// state changes and the streaming thread.
+class HapticOutput {
+ public:
+  /// `refreshed` is called each time after the haptic loop was told where playback is: a hundred
+  /// times a second while playing.
+  HapticOutput(GstElement* element, std::function<void()> refreshed)
+      : element_(element), refreshed_(std::move(refreshed)) {}
+
+  /// Tests only, before open(): `now` stands for CLOCK_MONOTONIC, the loop waits to be ticked, and
+  /// each tick is a millisecond for the device "sim".
+  void set_manual(PlaybackSync::Now now, void* user);
+
+  /// Opens the device; `profile` is a name or a path for load_profile(). Throws ProfileError,
+  /// DeviceError, std::runtime_error. Empty, or why the haptic trace cannot be written: the device
+  /// works without it.
+  std::string open(const std::string& device, const std::string& profile,
+                   const std::string& haptic_trace);
+  /// Motors to rest, device closed.
+  void close();
+
+  void set_playing(bool playing);
+  void set_latency(GstClockTime latency);
+  void set_offset(GstClockTimeDiff offset_ns);
+  /// Holds with the next tick of the haptic loop.
+  void set_max_force(double max_force_N);
+  /// By the sink, of running time: what follows is shown as much earlier.
+  void set_skipped(int64_t skipped_ns);
+  /// Something behind the element was linked anew.
+  void look_for_sink();
+  /// See PlaybackSync::expect_base_time().
+  void expect_base_time();
+  /// Looks at the pipeline's clock now; a thread does that by itself.
+  void refresh_clock();
+
+  /// Null while closed. Opened and closed by state changes only.
+  HapticSession* session() const { return session_.get(); }
+  /// Of the device that is open, or was last.
+  const Profile& profile() const { return profile_; }
+  /// Nothing while closed.
+  std::optional<LoopSnapshot> snapshot() const;
+  /// kClosed while closed.
+  DeviceState device_state() const;
+  /// False while closed.
+  bool look_at_device(DeviceView& view) const;
+  /// Leads the hand of the device "sim" to a place, see SimulatedDevice::lead_hand(). False for
+  /// other devices, and while closed.
+  bool lead_hand(const std::optional<Eigen::Vector3d>& to_m);
+  /// Adds what describe_session() says, while a device is open.
+  void describe(GstStructure* structure) const;
+
+ private:
+  GstElement* const element_;
+  const std::function<void()> refreshed_;
+  PlaybackSync::Now now_ = nullptr;
+  void* now_user_ = nullptr;
+  mutable std::mutex mutex_;  // state changes against any thread
+  std::unique_ptr<HapticSession> session_;
+  Profile profile_;
+  std::unique_ptr<PlaybackFollower> follower_;
+  GstClockTime latency_ = 0;
+  GstClockTimeDiff offset_ns_ = 0;
+  SafetyLimits limits_;
+};
+
+}  // namespace spidar

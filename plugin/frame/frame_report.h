@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What became of one frame of video.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <gst/gst.h>
+
+#include "core/analysis/force_limit.h"
+#include "core/analysis/motion_analyzer.h"
+#include "core/picture_turn.h"
+#include "plugin/frame/frame_luma.h"
+#include "plugin/frame/touch_view.h"
+
+namespace spidar {
+
+enum class FrameProblem {
+  kNone,
+  kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be felt in time
+  kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
+  kFallingTimestamp,  ///< before the frame before
+  kTooSmall,          ///< less memory than the picture needs
+  kNotShown,          ///< outside the segment, or cropped to nothing
+  kSmallHalf,         ///< depth-layout leaves a picture of less than 16 px on a side
+};
+
+/// In words, for the log.
+const char* to_string(FrameProblem problem);
+
+/// Why a frame cannot be touched as the properties say.
+enum class TouchProblem {
+  kNone,
+  kNoDevice,  ///< device=none
+  kTrack,     ///< a haptic track is played, and no frame is looked at
+  kTooStiff,  ///< for the drives of this device: it is touched with less
+  kNoDepth,   ///< touch=depth, and the frame has none: the last relief stays
+};
+
+/// What became of one frame.
+struct FrameReport {
+  FrameProblem problem = FrameProblem::kNone;
+  bool analyzed = false;
+  GstClockTime running_time = GST_CLOCK_TIME_NONE;
+  GstClockTime stream_time = GST_CLOCK_TIME_NONE;
+  FrameAnalysis analysis;                ///< its wrench is turned
+  PictureTurn turn;                      ///< of the frame before it is shown
+  VisiblePart part;                      ///< of the frame that was analysed
+  int64_t took_ns = 0;                   ///< the analysis
+  ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame
+  TouchProblem touch_problem = TouchProblem::kNone;
+  double stiffness_N_m = 0;  ///< that is rendered, with TouchProblem::kTooStiff
+  TouchScene touch;
+  std::optional<TouchMark> touch_mark;  ///< where the grip is when the frame passes the element
+  bool trace_failed = false;            ///< the trace could not be written and was closed
+};
+
+}  // namespace spidar

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/frame/scene_view.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace spidar {
+namespace {
+
+/// A track that deviates more than this from the background moves independently.
+constexpr double kMovingSigmas = 3;
+
+bool by_id(const SceneTrack& a, const SceneTrack& b) {
+  return a.id < b.id;
+}
+
+bool has(const std::vector<SceneTrack>& sorted, uint32_t id) {
+  SceneTrack wanted;
+  wanted.id = id;
+  return std::binary_search(sorted.begin(), sorted.end(), wanted, by_id);
+}
+
+bool is_in_box(const MovingObject& object, const Eigen::Vector2d& at_px) {
+  const Eigen::Vector2d distance_px = (at_px - object.position_px).cwiseAbs();
+  return (distance_px.array() <= object.size_px.array() / 2).all();
+}
+
+}  // namespace
+
+void SceneViewer::reset() {
+  scene_ = {};
+  compares_ = false;
+}
+
+const SceneView& SceneViewer::see(const FrameAnalysis& analysis, const VisiblePart& visible,
+                                  const PictureTurn& turn) {
+  std::vector<SceneTrack> before = std::move(scene_.tracks);
+  scene_.tracks.clear();
+  scene_.lost.clear();
+  scene_.objects.clear();
+  scene_.motion = analysis.motion;
+  scene_.wrench = analysis.wrench;
+  scene_.turn = turn;
+  if (analysis.object_list) scene_.objects = *analysis.object_list;
+  if (!analysis.tracks) {
+    compares_ = false;
+    return scene_;
+  }
+  const auto left_px = static_cast<float>(visible.x);
+  const auto top_px = static_cast<float>(visible.y);
+  for (const Track& given : *analysis.tracks) {
+    SceneTrack track;
+    track.id = given.id;
+    track.from = given.from;
+    track.to = given.to;
+    if (analysis.background) find_owner(analysis, visible, track);
+    for (ImagePoint* point : {&track.from, &track.to}) {
+      point->x_px += left_px;
+      point->y_px += top_px;
+    }
+    scene_.tracks.push_back(track);
+  }
+  if (compares_) compare(before);
+  compares_ = true;
+  return scene_;
+}
+
+/// Assigns the track to the background if it follows it, otherwise to the object with the most
+/// similar velocity among those whose box contains the track.
+void SceneViewer::find_owner(const FrameAnalysis& analysis, const VisiblePart& visible,
+                             SceneTrack& track) {
+  // Relative to the centre of the picture, as in displacements().
+  const Eigen::Vector2d centre_px(0.5 * (visible.width - 1), 0.5 * (visible.height - 1));
+  const Eigen::Vector2d from_px = Eigen::Vector2d(track.from.x_px, track.from.y_px) - centre_px;
+  const Eigen::Vector2d to_px = Eigen::Vector2d(track.to.x_px, track.to.y_px) - centre_px;
+  const Background& background = *analysis.background;
+  const Eigen::Vector2d relative_px = to_px - from_px - background.model.displacement_px(from_px);
+  if (relative_px.norm() <= kMovingSigmas * background.sigma_px) {
+    track.owner = TrackOwner::kBackground;
+    return;
+  }
+  const double interval_s = 1e-9 * static_cast<double>(analysis.interval_ns);
+  double nearest_px = 0;
+  for (const MovingObject& object : scene_.objects) {
+    if (object.tracks == 0 || !is_in_box(object, to_px)) continue;
+    const double difference_px = (relative_px - object.relative_px_s * interval_s).norm();
+    if (track.owner == TrackOwner::kObject && difference_px >= nearest_px) continue;
+    nearest_px = difference_px;
+    track.owner = TrackOwner::kObject;
+    track.object = object.id;
+  }
+}
+
+void SceneViewer::compare(const std::vector<SceneTrack>& before) {
+  std::vector<SceneTrack> known = before;
+  std::sort(known.begin(), known.end(), by_id);
+  std::vector<SceneTrack> now = scene_.tracks;
+  std::sort(now.begin(), now.end(), by_id);
+  for (SceneTrack& track : scene_.tracks) track.is_new = !has(known, track.id);
+  for (const SceneTrack& track : before) {
+    if (!has(now, track.id)) scene_.lost.push_back(track.to);
+  }
+}
+
+}  // namespace spidar

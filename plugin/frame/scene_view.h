@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The motion in one frame, as data for the overlay, the window and the meta.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/analysis/motion_analyzer.h"
+#include "core/motion/objects.h"
+#include "core/picture_turn.h"
+#include "plugin/frame/frame_luma.h"
+
+namespace spidar {
+
+enum class TrackOwner {
+  kUnknown,     ///< no model was applied, or none explains it
+  kBackground,  ///< moves with the background
+  kObject,
+};
+
+/// Coordinates are pixels of the uncropped frame, with (0, 0) at the centre of the first one.
+struct SceneTrack {
+  uint32_t id = 0;
+  ImagePoint from, to;
+  TrackOwner owner = TrackOwner::kUnknown;
+  uint32_t object = 0;  ///< id of the object it belongs to; 0 if none
+  bool is_new = false;  ///< not in the previous frame
+};
+
+struct SceneView {
+  std::vector<SceneTrack> tracks;
+  std::vector<ImagePoint> lost;       ///< last positions of the lost points
+  std::vector<MovingObject> objects;  ///< relative to the centre of the visible part
+  ImageMotion motion;                 ///< the motion that is rendered
+  Wrench wrench;                      ///< turned like the picture
+  PictureTurn turn;                   ///< of the picture before it is shown
+};
+
+/// Assigns tracks to the background or to objects, and tracks their appearance from frame to frame.
+class SceneViewer {
+ public:
+  /// Updates the scene with the result of analyze() for the part `visible` of the frame. The
+  /// reference is valid until the next call.
+  const SceneView& see(const FrameAnalysis& analysis, const VisiblePart& visible,
+                       const PictureTurn& turn = {});
+  const SceneView& scene() const { return scene_; }
+
+  /// Clears the scene. Call before frames that are not analysed.
+  void reset();
+
+ private:
+  void find_owner(const FrameAnalysis& analysis, const VisiblePart& visible, SceneTrack& track);
+  void compare(const std::vector<SceneTrack>& before);
+
+  SceneView scene_;
+  bool compares_ = false;  ///< the previous frame was analysed for tracks
+};
+
+}  // namespace spidar

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/model/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+// Shares of the window.
+constexpr double kLeft = 0.66, kGrip = 0.34, kTensions = 0.19;
+constexpr double kTimeline = 0.13, kPlots = 0.23;
+/// Of text, in pixels at a scale of 1; a share of the window at most.
+constexpr double kStatus_px = 34, kStatusMost = 0.1;
+constexpr double kGap_px = 8;
+
+// Of the view: turned about y, then tilted, radians.
+constexpr double kTurn = 0.4, kTilt = 0.3;
+/// Of the panel, for the exits of the strings; the rest is for their numbers.
+constexpr double kFilled = 0.8;
+
+/// Of the room of a string's bar.
+constexpr double kBarFilled = 0.5;
+
+}  // namespace
+
+Rect Rect::inset(double margin) const {
+  const double dx = std::min(margin, width / 2), dy = std::min(margin, height / 2);
+  return {x + dx, y + dy, width - 2 * dx, height - 2 * dy};
+}
+
+Rect fit(const Rect& outer, double aspect) {
+  const double width = std::min(outer.width, outer.height * aspect);
+  const double height = width / aspect;
+  return {outer.x + (outer.width - width) / 2, outer.y + (outer.height - height) / 2, width,
+          height};
+}
+
+WindowLayout lay_out(int width, int height, double scale) {
+  const double w = std::max(width, 1), h = std::max(height, 1);
+  const double left = kLeft * w, gap = kGap_px * scale / 2;
+  const double status_y = h - std::min(kStatus_px * scale, kStatusMost * h);
+  const double plots_y = status_y - kPlots * h, timeline_y = plots_y - kTimeline * h;
+  const double tensions_y = kGrip * h, controls_y = tensions_y + kTensions * h;
+  const Rect whole = Rect{0, 0, w, h}.inset(gap);
+  const auto place = [&](double x, double y, double right_x, double bottom_y) {
+    // Within the margin around all.
+    const double x0 = std::max(x, whole.x), y0 = std::max(y, whole.y);
+    return Rect{x0, y0, std::max(std::min(right_x, whole.right()) - x0, 0.0),
+                std::max(std::min(bottom_y, whole.bottom()) - y0, 0.0)}
+        .inset(gap);
+  };
+  WindowLayout layout;
+  layout.picture = place(0, 0, left, timeline_y);
+  layout.timeline = place(0, timeline_y, left, plots_y);
+  layout.force = place(0, plots_y, 0.42 * left, status_y);
+  layout.speed = place(0.42 * left, plots_y, 0.71 * left, status_y);
+  layout.gain = place(0.71 * left, plots_y, left, status_y);
+  layout.status = place(0, status_y, left, h);
+  layout.grip = place(left, 0, w, tensions_y);
+  layout.tensions = place(left, tensions_y, w, controls_y);
+  layout.controls = place(left, controls_y, w, h);
+  return layout;
+}
+
+PictureMap map_picture(const Rect& panel, double frame_x, double frame_y, double frame_width,
+                       double frame_height, double pixel_aspect) {
+  PictureMap map;
+  map.shown = fit(panel, frame_width * pixel_aspect / frame_height);
+  map.frame_x = frame_x;
+  map.frame_y = frame_y;
+  map.scale_x = map.shown.width / frame_width;
+  map.scale_y = map.shown.height / frame_height;
+  return map;
+}
+
+GripProjection::GripProjection(const Rect& panel, const StringGeometry& geometry)
+    : centre_px_(panel.x + panel.width / 2, panel.y + panel.height / 2) {
+  constexpr double kLeast_m = 1e-3;
+  Eigen::Vector2d reach_m(kLeast_m, kLeast_m);
+  for (int i = 0; i < geometry.count; ++i) {
+    reach_m = reach_m.cwiseMax(flat_m(geometry.exit_m[static_cast<size_t>(i)]).cwiseAbs());
+  }
+  px_m_ = kFilled / 2 * std::min(panel.width / reach_m.x(), panel.height / reach_m.y());
+}
+
+Eigen::Vector2d GripProjection::flat_m(const Eigen::Vector3d& at_m) {
+  // The viewer goes to the right and up: near things (z > 0) go to the left and down.
+  const double x = std::cos(kTurn) * at_m.x() - std::sin(kTurn) * at_m.z();
+  const double z = std::sin(kTurn) * at_m.x() + std::cos(kTurn) * at_m.z();
+  return {x, -(std::cos(kTilt) * at_m.y() - std::sin(kTilt) * z)};
+}
+
+Eigen::Vector2d GripProjection::operator()(const Eigen::Vector3d& at_m) const {
+  return centre_px_ + px_m_ * flat_m(at_m);
+}
+
+Rect tension_area(const Rect& panel, double scale) {
+  constexpr double kAbove_px = 46, kLeft_px = 34, kBelow_px = 38, kRight_px = 10;
+  const double left = std::min(kLeft_px * scale, panel.width / 4);
+  const double above = std::min(kAbove_px * scale, panel.height / 3);
+  const double right = std::min(kRight_px * scale, panel.width / 4);
+  const double below = std::min(kBelow_px * scale, panel.height / 3);
+  return {panel.x + left, panel.y + above, panel.width - left - right,
+          panel.height - above - below};
+}
+
+std::vector<TensionBar> tension_bars(const Rect& area, const DeviceView& device) {
+  std::vector<TensionBar> bars;
+  const double room = area.width / std::max(device.geometry.count, 1), width = kBarFilled * room;
+  for (int i = 0; i < device.geometry.count; ++i) {
+    TensionBar bar;
+    bar.range = {area.x + i * room + (room - width) / 2, area.y, width, area.height};
+    const double most_N = device.max_tension_N[i];
+    const auto share = [&](double tension_N) {
+      return most_N > 0 ? std::clamp(tension_N / most_N, 0.0, 1.0) : 0.0;
+    };
+    const double filled = share(device.loop.last.tension_N[i]) * area.height;
+    bar.filled = {bar.range.x, bar.range.bottom() - filled, width, filled};
+    bar.least_y = bar.range.bottom() - share(device.min_tension_N[i]) * area.height;
+    bars.push_back(bar);
+  }
+  return bars;
+}
+
+}  // namespace spidar

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/model/timeline.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace spidar {
+
+void Timeline::add(const Moment& moment) {
+  std::deque<Moment>& moments = live_.moments;
+  moments.push_back(moment);
+  largest_speed_px_s_ = std::max(largest_speed_px_s_, moment.speed_px_s);
+  const double oldest_s = moment.time_s - kMemory_s;
+  while (moments.front().time_s < oldest_s) moments.pop_front();
+  while (!live_.stills.empty() && live_.stills.front()->time_s < oldest_s) {
+    live_.stills.pop_front();
+  }
+}
+
+bool Timeline::wants_still(double time_s) const {
+  return live_.stills.empty() || time_s >= live_.stills.back()->time_s + kStill_s;
+}
+
+void Timeline::add_still(std::shared_ptr<const Still> still) {
+  live_.stills.push_back(std::move(still));
+}
+
+void Timeline::forget() {
+  live_ = {};
+  largest_speed_px_s_ = 0;
+}
+
+void Timeline::pause() {
+  if (frozen_ || live_.moments.empty()) return;
+  frozen_ = Frozen{live_, live_.moments.back().time_s};
+}
+
+void Timeline::look_at(double time_s) {
+  pause();
+  if (!frozen_) return;
+  const std::deque<Moment>& moments = frozen_->record.moments;
+  frozen_->cursor_s = std::clamp(time_s, moments.front().time_s, moments.back().time_s);
+}
+
+double Timeline::cursor_s() const {
+  if (frozen_) return frozen_->cursor_s;
+  return live_.moments.empty() ? 0 : live_.moments.back().time_s;
+}
+
+Timeline::Part Timeline::plotted() const {
+  const std::deque<Moment>& moments = shown().moments;
+  const double cursor = cursor_s();
+  const auto is_before = [](const Moment& moment, double time_s) { return moment.time_s < time_s; };
+  const auto is_after = [](double time_s, const Moment& moment) { return time_s < moment.time_s; };
+  return {std::lower_bound(moments.begin(), moments.end(), cursor - kPlotted_s, is_before),
+          std::upper_bound(moments.begin(), moments.end(), cursor, is_after)};
+}
+
+std::shared_ptr<const Still> Timeline::still() const {
+  if (!frozen_) return nullptr;
+  const auto& stills = frozen_->record.stills;
+  const auto after =
+      std::upper_bound(stills.begin(), stills.end(), frozen_->cursor_s,
+                       [](double time_s, const auto& still) { return time_s < still->time_s; });
+  if (stills.empty()) return nullptr;
+  return after == stills.begin() ? *after : *(after - 1);
+}
+
+}  // namespace spidar

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The last minute of a window, and the moment of it that is looked at.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
+#include "core/wrench.h"
+#include "plugin/window/model/still.h"
+#include "spidar/touch/touch_rendering.h"
+
+namespace spidar {
+
+/// What the plots and the grip show of one moment.
+struct Moment {
+  double time_s = 0;
+  double interval_s = 0;  ///< of the frame before, when a new one has come; 0 otherwise
+  double speed_px_s = 0;  ///< of the reference frame, before the filter
+  Wrench wanted;          ///< by the controller, of the newest frame
+  Wrench felt;            ///< commanded by the loop, after safety; zero without a device
+  StringVector tension_N = StringVector::Zero();
+  Pose pose;
+  Contact contact;
+};
+
+/// Records moments and pictures as they come, whether it is paused or not. While it is paused it
+/// shows what was recorded up to then, at any time of it; resume() shows the newest again, without
+/// a gap.
+class Timeline {
+ public:
+  static constexpr double kMemory_s = 60;   ///< older moments and pictures are forgotten
+  static constexpr double kPlotted_s = 5;   ///< what the plots show, up to the cursor
+  static constexpr double kStill_s = 0.25;  ///< between two pictures that are kept
+
+  /// Moments in order of time.
+  void add(const Moment& moment);
+  /// Whether a picture at this time is due, kStill_s after the last one.
+  bool wants_still(double time_s) const;
+  /// Pictures in order of time.
+  void add_still(std::shared_ptr<const Still> still);
+  /// Another stream: nothing of what was recorded concerns it. A paused view stays.
+  void forget();
+
+  bool is_paused() const { return frozen_.has_value(); }
+  void pause();
+  void resume() { frozen_.reset(); }
+  /// Pauses, and looks at this time or the nearest one there is.
+  void look_at(double time_s);
+
+  /// The time that is looked at: the newest unless paused. 0 when there is nothing.
+  double cursor_s() const;
+  /// All that can be looked at, oldest first.
+  const std::deque<Moment>& moments() const { return shown().moments; }
+  /// The last kPlotted_s before the cursor, and the moment at it; a part of moments().
+  struct Part {
+    std::deque<Moment>::const_iterator first, last;
+    auto begin() const { return first; }
+    auto end() const { return last; }
+    bool empty() const { return first == last; }
+    const Moment& back() const { return *(last - 1); }
+  };
+  Part plotted() const;
+  /// The picture at the cursor, or the oldest; null when it is live, or none was kept.
+  std::shared_ptr<const Still> still() const;
+
+  /// Largest speed since the controller began to learn, for the linear one (eq. 13).
+  double largest_speed_px_s() const { return largest_speed_px_s_; }
+
+ private:
+  struct Record {
+    std::deque<Moment> moments;
+    std::deque<std::shared_ptr<const Still>> stills;
+  };
+  struct Frozen {
+    Record record;
+    double cursor_s = 0;
+  };
+  const Record& shown() const { return frozen_ ? frozen_->record : live_; }
+
+  Record live_;
+  std::optional<Frozen> frozen_;
+  double largest_speed_px_s_ = 0;
+};
+
+}  // namespace spidar

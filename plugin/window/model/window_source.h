@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What a window looks at.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "plugin/window/model/window_model.h"
+
+namespace spidar {
+
+/// Called on the window thread only.
+class WindowSource {
+ public:
+  virtual ~WindowSource() = default;
+
+  /// False when there is nothing to look at any more.
+  virtual bool read(ElementState& state) = 0;
+  /// Sets a property; a value that is out of range is brought into it.
+  virtual void set(const std::string& setting, double value) = 0;
+  /// Where the hand of the simulated device goes, device frame; nothing: it lets go.
+  virtual void lead_hand(const std::optional<Eigen::Vector3d>& to_m) = 0;
+  /// The window cannot be opened or goes on no more: `what` happened, `advice` to do.
+  virtual void complain(const std::string& what, const std::string& advice) = 0;
+  /// The user has closed the window.
+  virtual void closed() = 0;
+};
+
+}  // namespace spidar

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/session/device_factory.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "spidar/boards/board_device.h"
+#include "spidar/boards/force_feedback_board.h"
+#include "spidar/boards/uart_board.h"
+#include "spidar/boards/usb_board.h"
+#include "spidar/emulation/wire_simulation.h"
+#include "spidar/protocols/uart_motor.h"
+#include "spidar/simulation/simulated_device.h"
+#include "spidar/transports/evdev_transport.h"
+#include "spidar/transports/tty_transport.h"
+
+namespace spidar {
+namespace {
+
+std::unique_ptr<Device> make_simulation(const std::string& spec, const std::string& board,
+                                        const Profile& profile) {
+  try {
+    if (!board.empty()) return make_wire_simulation(board, profile);
+    return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock,
+                                             grip_model_of(profile));
+  } catch (const std::invalid_argument& error) {
+    throw DeviceError(spec + ": cannot simulate profile \"" + profile.name + "\": " + error.what());
+  }
+}
+
+/// `paths` are separated by commas.
+std::unique_ptr<Board> make_uart(const std::string& spec, const std::string& paths,
+                                 const Profile& profile) {
+  std::vector<std::unique_ptr<Transport>> lines;
+  for (size_t begin = 0; begin <= paths.size();) {
+    const size_t end = std::min(paths.find(',', begin), paths.size());
+    if (end == begin) throw DeviceError(spec + ": a path is empty; write uart:/dev/ttyUSB0");
+    lines.push_back(
+        std::make_unique<TtyTransport>(paths.substr(begin, end - begin), uart_motor::kBaud));
+    begin = end + 1;
+  }
+  return std::make_unique<UartBoard>(spec, profile, std::move(lines));
+}
+
+/// A number from 1 to `largest` after `name`; 0 if it is something else.
+int option_value(const std::string& option, const std::string& name, int largest) {
+  if (option.compare(0, name.size(), name) != 0) return 0;
+  const std::string digits = option.substr(name.size());
+  if (digits.empty() || digits.size() > 3) return 0;
+  if (digits.find_first_not_of("0123456789") != std::string::npos) return 0;
+  const int value = std::stoi(digits);
+  return value <= largest ? value : 0;
+}
+
+/// One of axes=N, gain=PERCENT, flip=x, flip=y and flip=xy. Returns false if it is none of them, or
+/// was given before.
+bool take_option(const std::string& option, int& axes, StickEffects::Options& options) {
+  if (axes == 0 && (axes = option_value(option, "axes=", 2)) != 0) return true;
+  if (options.gain == 0 && (options.gain = option_value(option, "gain=", 100) / 100.0) != 0)
+    return true;
+  if (options.flipped[0] || options.flipped[1]) return false;
+  options.flipped = {option == "flip=x" || option == "flip=xy",
+                     option == "flip=y" || option == "flip=xy"};
+  return options.flipped[0] || options.flipped[1];
+}
+
+/// `rest` is empty, PATH, or PATH with options after commas.
+std::unique_ptr<Board> make_force_feedback(const std::string& spec, const std::string& rest,
+                                           const Profile& profile) {
+  const size_t comma = rest.find(',');
+  const std::string path = rest.substr(0, comma);
+  int axes = 0;
+  StickEffects::Options options;
+  for (size_t at = comma; at != std::string::npos;) {
+    const size_t end = rest.find(',', at + 1);
+    const std::string option = rest.substr(at + 1, end == std::string::npos ? end : end - at - 1);
+    at = end;
+    if (path.empty())
+      throw DeviceError(spec + ": the path is empty; write ff:/dev/input/eventN," + option);
+    if (!take_option(option, axes, options))
+      throw DeviceError(spec + ": \"" + option + "\" is not known; write ff:" + path +
+                        ",axes=1 for a wheel, ff:" + path + ",axes=2 for a joystick, ff:" + path +
+                        ",gain=50 for 50 % of the device's strength, or ff:" + path +
+                        ",flip=x if it pushes to the wrong side");
+  }
+  return std::make_unique<ForceFeedbackBoard>(spec, profile,
+                                              std::make_unique<EvdevTransport>(spec, path, axes),
+                                              ForceFeedbackBoard::Updates::kOwnThread, options);
+}
+
+BoardSettings resolved(BoardSettings settings, const Profile& profile) {
+  if (settings.count_zero != CountZero::kByProfile) return settings;
+  const bool calibrated =
+      std::any_of(profile.drives.begin(), profile.drives.end(),
+                  [](const StringDrive& drive) { return drive.home_offset_m != 0; });
+  settings.count_zero = calibrated ? CountZero::kNever : CountZero::kFirstOpen;
+  return settings;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
+                                    const BoardSettings& settings) {
+  const size_t colon = spec.find(':');
+  const std::string kind = spec.substr(0, colon);
+  const std::string rest = colon == std::string::npos ? "" : spec.substr(colon + 1);
+  const bool named = colon == std::string::npos || !rest.empty();
+  std::unique_ptr<Board> board;
+  if (kind == "sim" && named) return make_simulation(spec, rest, profile);
+  if (kind == "usb" && named)
+    board = std::make_unique<UsbBoard>(UsbFamily::kCyverse, spec, rest, profile);
+  if (kind == "mouse" && named)
+    board = std::make_unique<UsbBoard>(UsbFamily::kMouse, spec, rest, profile);
+  if (kind == "ff" && named) board = make_force_feedback(spec, rest, profile);
+  if (kind == "uart" && !rest.empty()) board = make_uart(spec, rest, profile);
+  if (!board)
+    throw DeviceError(
+        "unknown device \"" + spec +
+        "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse, ff, ff:PATH, "
+        "ff:PATH,axes=N, ff:PATH,gain=PERCENT");
+  return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
+}
+
+}  // namespace spidar

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/session/haptic_session.h"
+
+#include <optional>
+
+#include "spidar/loop/loop_thread.h"
+#include "spidar/loop/trace_thread.h"
+#include "spidar/realtime/monotonic.h"
+
+namespace spidar {
+
+// Members are destroyed in reverse order: the thread has brought the motors to zero before the
+// trace takes its last row.
+struct HapticSession::Impl {
+  Impl(const Profile& profile, std::unique_ptr<Device> owned, const SessionSettings& settings)
+      : device(std::move(owned)), loop(profile, *device, settings.limits) {
+    if (!settings.trace_path.empty()) trace.emplace(settings.trace_path, loop, settings.threaded);
+    loop.open();
+    opened = device->description();
+    if (settings.threaded) thread.emplace(loop, settings.real_time);
+  }
+  ~Impl() {
+    if (!thread) ramp_down();
+  }
+
+  void ramp_down() noexcept {
+    loop.begin_close();
+    int64_t now = loop.snapshot().last.monotonic_ns;
+    while (!loop.released()) {
+      now += kTick_ns;
+      loop.tick(now, now);
+    }
+    loop.close();
+  }
+
+  std::unique_ptr<Device> device;
+  HapticLoop loop;
+  std::optional<TraceThread> trace;
+  std::string opened;
+  Scheduling manual{false, "no thread: the owner calls tick()"};
+  LoopTiming no_timing;
+  std::optional<LoopThread> thread;
+};
+
+HapticSession::HapticSession(const Profile& profile, std::unique_ptr<Device> device,
+                             const SessionSettings& settings)
+    : impl_(std::make_unique<Impl>(profile, std::move(device), settings)) {}
+
+HapticSession::~HapticSession() = default;
+
+HapticLoop& HapticSession::loop() noexcept {
+  return impl_->loop;
+}
+const HapticLoop& HapticSession::loop() const noexcept {
+  return impl_->loop;
+}
+const Device& HapticSession::device() const noexcept {
+  return *impl_->device;
+}
+
+Device& HapticSession::device() noexcept {
+  return *impl_->device;
+}
+
+const std::string& HapticSession::opened() const noexcept {
+  return impl_->opened;
+}
+
+const Scheduling& HapticSession::scheduling() const noexcept {
+  return impl_->thread ? impl_->thread->scheduling() : impl_->manual;
+}
+
+const LoopTiming& HapticSession::timing() const noexcept {
+  return impl_->thread ? impl_->thread->timing() : impl_->no_timing;
+}
+
+void HapticSession::drain_trace() noexcept {
+  if (impl_->trace) impl_->trace->drain();
+}
+
+TraceStatus HapticSession::trace_status() const noexcept {
+  return impl_->trace ? impl_->trace->status() : TraceStatus{};
+}
+
+int HapticSession::trace_error() const noexcept {
+  return impl_->trace ? impl_->trace->error() : 0;
+}
+
+int64_t HapticSession::monotonic_now_ns() noexcept {
+  return spidar::monotonic_now_ns();
+}
+
+}  // namespace spidar
