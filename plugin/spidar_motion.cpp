@@ -140,7 +140,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     self->complaints->look_at_opened(engine);
     set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
-    self->steps->begin(element);
+    self->steps->begin();
   } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
     GST_DEBUG_OBJECT(self, "paused: force ramps to rest");
     engine.output().set_playing(false);
@@ -226,9 +226,10 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   g_mutex_init(&self->setting);
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
-  self->display = new MotionDisplay(GST_ELEMENT(self));
+  self->display = new MotionDisplay(GST_ELEMENT(self), *self->engine);
   self->loader = new spidar::TrackLoader;
-  self->steps = new spidar::StepWatch;
+  self->steps = new spidar::StepWatch(
+      GST_ELEMENT(self), [self](GstClockTime skipped) { self->engine->skip(skipped); });
   self->complaints = new spidar::Complaints(GST_ELEMENT(self));
   // GstVideoFilter would drop late frames before they are analysed; here the application decides
   // that with `qos`.

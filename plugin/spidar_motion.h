@@ -20,6 +20,6 @@ class MotionDisplay;
 class MotionEngine;
 }  // namespace spidar
 
-/// For the debug window, and for tests that step the element by hand.
+/// For tests that step the element by hand.
 spidar::MotionDisplay& gst_spidar_motion_display(GstSpidarMotion* self);
 spidar::MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self);

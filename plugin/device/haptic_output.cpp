@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "plugin/reports/motion_stats.h"
+#include "plugin/device/session_stats.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/simulation/simulated_device.h"
 

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plugin/engine/motion_engine.h"
 #include "plugin/reports/category.h"
-#include "plugin/spidar_motion.h"
 
 #define GST_CAT_DEFAULT spidar::category_of(held.get())
 
@@ -46,9 +44,10 @@ double number_of(const GValue* value) {
   return result;
 }
 
-/// Returns false for a property that cannot be changed while playing or is not a number.
-bool describe(const GParamSpec* spec, Setting& setting) {
-  if (spec->owner_type != GST_TYPE_SPIDAR_MOTION) return false;
+/// Returns false for a property that the element inherits, that cannot be changed while playing or
+/// is not a number.
+bool describe(GstElement* element, const GParamSpec* spec, Setting& setting) {
+  if (spec->owner_type != G_OBJECT_TYPE(element)) return false;
   if ((spec->flags & GST_PARAM_MUTABLE_PLAYING) == 0) return false;
   if ((spec->flags & G_PARAM_READWRITE) != G_PARAM_READWRITE) return false;
   setting.name = g_param_spec_get_name(const_cast<GParamSpec*>(spec));
@@ -88,7 +87,9 @@ double get_value(GObject* object, const Setting& setting) {
 
 class ElementSource final : public WindowSource {
  public:
-  explicit ElementSource(GstElement* element) { g_weak_ref_init(&element_, element); }
+  ElementSource(GstElement* element, MotionEngine& engine) : engine_(engine) {
+    g_weak_ref_init(&element_, element);
+  }
   ~ElementSource() override { g_weak_ref_clear(&element_); }
 
   bool read(ElementState& state) override {
@@ -100,9 +101,8 @@ class ElementSource final : public WindowSource {
       setting.value = get_value(G_OBJECT(held.get()), setting);
     }
     DeviceView device;
-    const MotionEngine& engine = gst_spidar_motion_engine(GST_SPIDAR_MOTION(held.get()));
-    state.limit = engine.force_limit();
-    if (engine.output().look_at_device(device)) {
+    state.limit = engine_.force_limit();
+    if (engine_.output().look_at_device(device)) {
       state.device = std::move(device);
     } else {
       state.device.reset();
@@ -116,7 +116,7 @@ class ElementSource final : public WindowSource {
     const GParamSpec* spec =
         g_object_class_find_property(G_OBJECT_GET_CLASS(held.get()), name.c_str());
     Setting setting;
-    if (!spec || !describe(spec, setting)) return;
+    if (!spec || !describe(held.get(), spec, setting)) return;
     const double value = setting.kind == Setting::Kind::kChoice
                              ? wanted
                              : std::clamp(wanted, setting.low, setting.high);
@@ -136,7 +136,7 @@ class ElementSource final : public WindowSource {
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) override {
     const Held held(element_);
     if (!held.get()) return;
-    gst_spidar_motion_engine(GST_SPIDAR_MOTION(held.get())).output().lead_hand(to_m);
+    engine_.output().lead_hand(to_m);
   }
 
   void complain(const std::string& what, const std::string& advice) override {
@@ -158,7 +158,7 @@ class ElementSource final : public WindowSource {
     for (guint i = 0; i < count; ++i) {
       Setting setting;
       // The window does not offer a switch that would close it.
-      if (describe(specs[i], setting) && setting.name != "debug-window") {
+      if (describe(element, specs[i], setting) && setting.name != "debug-window") {
         settings.push_back(std::move(setting));
       }
     }
@@ -166,12 +166,13 @@ class ElementSource final : public WindowSource {
   }
 
   GWeakRef element_;
+  MotionEngine& engine_;  // only while the element is held
 };
 
 }  // namespace
 
-std::shared_ptr<WindowSource> make_element_source(GstElement* element) {
-  return std::make_shared<ElementSource>(element);
+std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine) {
+  return std::make_shared<ElementSource>(element, engine);
 }
 
 }  // namespace spidar

@@ -7,11 +7,13 @@
 
 #include <gst/gst.h>
 
+#include "plugin/engine/motion_engine.h"
 #include "plugin/window/model/window_source.h"
 
 namespace spidar {
 
-/// Keeps no reference: the element may go while the window is open. `element` is a spidarmotion.
-std::shared_ptr<WindowSource> make_element_source(GstElement* element);
+/// Keeps no reference: the element may go while the window is open. `engine` is that of `element`,
+/// and lives as long.
+std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine);
 
 }  // namespace spidar

@@ -63,7 +63,7 @@ std::shared_ptr<Window> MotionDisplay::window() const {
 void MotionDisplay::open_window() {
   if (window()) return;
   auto new_feed = std::make_shared<FrameFeed>();
-  auto new_window = std::make_shared<Window>(make_element_source(element_), new_feed);
+  auto new_window = std::make_shared<Window>(make_element_source(element_, engine_), new_feed);
   // If another thread has opened a window meanwhile, this one closes at the end of the function.
   const std::lock_guard<std::mutex> lock(mutex_);
   if (window_) return;

@@ -20,7 +20,8 @@ namespace spidar {
 /// One element's overlay, meta and debug window.
 class MotionDisplay {
  public:
-  explicit MotionDisplay(GstElement* element) : element_(element) {}
+  /// `engine` is that of `element` and lives as long.
+  MotionDisplay(GstElement* element, MotionEngine& engine) : element_(element), engine_(engine) {}
 
   // --- streaming thread
 
@@ -49,6 +50,7 @@ class MotionDisplay {
   std::shared_ptr<FrameFeed> feed() const;
 
   GstElement* const element_;
+  MotionEngine& engine_;
   SceneViewer viewer_;  // streaming thread
 
   mutable std::mutex mutex_;  // never held while a window opens or closes

@@ -22,16 +22,17 @@
  */
 #include "plugin/provider/device_provider.h"
 
+#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "plugin/provider/board_watch.h"
-#include "plugin/spidar_motion.h"
 
 using spidar::BoardInfo;
 using spidar::BoardWatch;
 
+static constexpr const char* kElement = "spidarmotion";
 static constexpr const char* kDeviceClass = "Sink/Haptic/SPIDAR";
 
 // --- device ------------------------------------------------------------------------------------
@@ -77,14 +78,16 @@ static void give(const BoardInfo& board, GstElement* element) {
 }
 
 static GstElement* gst_spidar_device_create_element(GstDevice* device, const gchar* name) {
-  GstElement* element = gst_element_factory_make("spidarmotion", name);
+  GstElement* element = gst_element_factory_make(kElement, name);
   if (element) give(*GST_SPIDAR_DEVICE(device)->board, element);
   return element;
 }
 
 static gboolean gst_spidar_device_reconfigure_element(GstDevice* device, GstElement* element) {
+  GstElementFactory* const factory = gst_element_get_factory(element);
+  if (!factory || std::strcmp(GST_OBJECT_NAME(factory), kElement) != 0) return FALSE;
   // An element keeps the device that it has opened.
-  if (!GST_IS_SPIDAR_MOTION(element) || GST_STATE(element) != GST_STATE_NULL) return FALSE;
+  if (GST_STATE(element) != GST_STATE_NULL) return FALSE;
   give(*GST_SPIDAR_DEVICE(device)->board, element);
   return TRUE;
 }

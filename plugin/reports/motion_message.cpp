@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/reports/motion_message.h"
 
+#include "plugin/reports/limit_watch.h"
+
 namespace spidar {
 
 void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameReport& report,

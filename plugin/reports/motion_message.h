@@ -5,7 +5,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/engine/motion_engine.h"
+#include "plugin/frame/frame_report.h"
 
 namespace spidar {
 

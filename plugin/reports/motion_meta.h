@@ -5,7 +5,7 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/engine/motion_engine.h"
+#include "plugin/frame/frame_report.h"
 #include "plugin/frame/scene_view.h"
 
 namespace spidar {

@@ -8,9 +8,6 @@ namespace {
 double ms(int64_t ns) {
   return static_cast<double>(ns) * 1e-6;
 }
-double us(int64_t ns) {
-  return static_cast<double>(ns) * 1e-3;
-}
 
 }  // namespace
 
@@ -46,40 +43,6 @@ void MotionStats::describe(GstStructure* structure) const {
                     ms(analysis_.quantile_ns(0.5)), "analysis-ms-p95", G_TYPE_DOUBLE,
                     ms(analysis_.quantile_ns(0.95)), "analysis-ms-max", G_TYPE_DOUBLE,
                     ms(analysis_.max_ns()), nullptr);
-}
-
-void describe_session(const HapticSession& session, GstStructure* structure) {
-  const HapticLoop& loop = session.loop();
-  const LoopSnapshot snapshot = loop.snapshot();
-  const LoopCounters& counters = snapshot.counters;
-  const Scheduling& scheduling = session.scheduling();
-  gst_structure_set(
-      structure, "device", G_TYPE_STRING, session.device().name().c_str(), "device-state",
-      G_TYPE_STRING, to_string(snapshot.last.device), "real-time", G_TYPE_BOOLEAN,
-      scheduling.real_time ? TRUE : FALSE, "scheduling", G_TYPE_STRING, scheduling.detail.c_str(),
-      "ticks", G_TYPE_UINT64, counters.ticks, "overruns", G_TYPE_UINT64, counters.overruns,
-      "exchange-errors", G_TYPE_UINT64, counters.exchange_errors, "pose-errors", G_TYPE_UINT64,
-      counters.pose_errors, "times-lost", G_TYPE_UINT64, counters.times_lost, "pose-trouble",
-      G_TYPE_STRING, to_string(snapshot.pose_trouble), "motor-heat", G_TYPE_DOUBLE,
-      snapshot.motor_heat, "held-back", G_TYPE_BOOLEAN, snapshot.held_back ? TRUE : FALSE,
-      "held-back-ticks", G_TYPE_UINT64, counters.held_back_ticks, "faulty-string", G_TYPE_INT,
-      snapshot.last.faulty_string, "grip-held", G_TYPE_BOOLEAN, snapshot.last.held ? TRUE : FALSE,
-      "grip-speed", G_TYPE_DOUBLE, snapshot.last.velocity.linear_m_s.norm(), "wakeup-us-median",
-      G_TYPE_DOUBLE, us(session.timing().lateness.quantile_ns(0.5)), "wakeup-us-p999",
-      G_TYPE_DOUBLE, us(session.timing().lateness.quantile_ns(0.999)), "skew-ms-median",
-      G_TYPE_DOUBLE, ms(loop.skew().quantile_ns(0.5)), "skew-ms-p99", G_TYPE_DOUBLE,
-      ms(loop.skew().quantile_ns(0.99)), nullptr);
-  const Contact& contact = snapshot.last.contact;
-  gst_structure_set(structure, "touching", G_TYPE_BOOLEAN, contact.touching ? TRUE : FALSE,
-                    "touch-depth-mm", G_TYPE_DOUBLE, 1e3 * contact.depth_m, "touch-force",
-                    G_TYPE_DOUBLE, contact.force_N.norm(), nullptr);
-  const LinkHealth link = session.device().health();
-  gst_structure_set(structure, "link-fault", G_TYPE_STRING, to_string(link.last_fault),
-                    "link-timeouts", G_TYPE_UINT64, link.count(LinkFault::kTimeout), "link-errors",
-                    G_TYPE_UINT64, link.errors(), "link-late-replies", G_TYPE_UINT64,
-                    link.late_replies, "round-trip-us-median", G_TYPE_DOUBLE,
-                    us(link.round_trip_median_ns), "round-trip-us-p99", G_TYPE_DOUBLE,
-                    us(link.round_trip_p99_ns), nullptr);
 }
 
 }  // namespace spidar

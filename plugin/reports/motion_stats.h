@@ -11,7 +11,6 @@
 
 #include "core/analysis/motion_analyzer.h"
 #include "spidar/realtime/latency_histogram.h"
-#include "spidar/session/haptic_session.h"
 
 namespace spidar {
 
@@ -39,18 +38,5 @@ class MotionStats {
   int objects_ = 0;
   AnalysisHistogram analysis_;
 };
-
-/// Adds device, device-state, scheduling (string), real-time (boolean), ticks, overruns,
-/// exchange-errors, pose-errors, times-lost (uint64), pose-trouble (string: why the pose is not
-/// known, 'none' while it is), motor-heat (double: of the warmest motor, 1 is what it may have for
-/// ever), held-back (boolean: less force than wanted because a motor is warm or a string is out),
-/// held-back-ticks (uint64), faulty-string (int, −1 when none),
-/// grip-held (boolean: false when the force rests because nobody holds the grip), grip-speed
-/// (double, m/s),
-/// wakeup-us-median, wakeup-us-p999, skew-ms-median, skew-ms-p99 (double; skew: force at the device
-/// after its frame was due on the screen), link-fault (string: the last one, see LinkFault),
-/// link-timeouts, link-errors (all other faults), link-late-replies (uint64), round-trip-us-median,
-/// round-trip-us-p99 (double; zero for a device without a link).
-void describe_session(const HapticSession& session, GstStructure* structure);
 
 }  // namespace spidar

@@ -2,14 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/timing/step_watch.h"
 
-#include "plugin/engine/motion_engine.h"
-#include "plugin/spidar_motion.h"
 #include "plugin/timing/downstream.h"
 
 namespace spidar {
-namespace {
 
-void on_step_done(GstBus*, GstMessage* message, gpointer element) {
+void StepWatch::on_step_done(GstBus*, GstMessage* message, gpointer watch) {
+  const auto* const self = static_cast<const StepWatch*>(watch);
   gboolean flush = FALSE;
   guint64 duration = GST_CLOCK_TIME_NONE;
   gst_message_parse_step_done(message, nullptr, nullptr, nullptr, &flush, nullptr, &duration,
@@ -17,20 +15,17 @@ void on_step_done(GstBus*, GstMessage* message, gpointer element) {
   // After a step without a flush the pipeline distributes a new base time.
   if (!flush || !GST_CLOCK_TIME_IS_VALID(duration)) return;
   const bool is_behind =
-      !find_path_downstream(GST_ELEMENT(element),
+      !find_path_downstream(self->element_,
                             [message](GstElement* candidate) {
                               return GST_OBJECT(candidate) == GST_MESSAGE_SRC(message);
                             })
            .steps()
            .empty();
-  if (!is_behind) return;
-  gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)).skip(duration);
+  if (is_behind) self->skipped_(duration);
 }
 
-}  // namespace
-
-void StepWatch::begin(GstElement* element) {
-  GstObject* top = GST_OBJECT(gst_object_ref(element));
+void StepWatch::begin() {
+  GstObject* top = GST_OBJECT(gst_object_ref(element_));
   while (GstObject* parent = gst_object_get_parent(top)) {
     gst_object_unref(top);
     top = parent;
@@ -39,8 +34,10 @@ void StepWatch::begin(GstElement* element) {
   gst_object_unref(top);
   if (!bus_) return;
   gst_bus_enable_sync_message_emission(bus_);
-  handler_ = g_signal_connect_object(bus_, "sync-message::step-done", G_CALLBACK(on_step_done),
-                                     element, static_cast<GConnectFlags>(0));
+  // The closure holds a reference to the element, which owns this watch, during each call.
+  GClosure* const closure = g_cclosure_new(G_CALLBACK(on_step_done), this, nullptr);
+  g_object_watch_closure(G_OBJECT(element_), closure);
+  handler_ = g_signal_connect_closure(bus_, "sync-message::step-done", closure, FALSE);
 }
 
 void StepWatch::end() {

@@ -67,7 +67,7 @@ TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
   GstBuffer* const grey = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);
   gst_buffer_memset(grey, 0, 20, 320 * 240);  // 3.4 mm behind the middle
   ASSERT_EQ(h.push(grey, 0), GST_FLOW_OK);
-  const std::shared_ptr<WindowSource> source = make_element_source(h.element());
+  const std::shared_ptr<WindowSource> source = make_element_source(h.element(), h.engine());
   ElementState state;
   const auto look = [&] {
     tick(1500);
@@ -98,7 +98,7 @@ TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
 TEST(TouchView, OtherDevicesHaveNoHandToLead) {
   for (const char* properties : {"device=sim:sh4", "device=none"}) {
     ElementHarness h(properties);
-    const std::shared_ptr<WindowSource> source = make_element_source(h.element());
+    const std::shared_ptr<WindowSource> source = make_element_source(h.element(), h.engine());
     ElementState state;
     ASSERT_TRUE(source->read(state));
     EXPECT_FALSE(state.device && state.device->has_hand) << properties;

@@ -138,7 +138,8 @@ TEST(Layout, TheGripIsSeenFromTheRightAndAbove) {
 TEST(Settings, EachHasAGroupAndItsDefault) {
   init_gstreamer();
   auto* element = GST_ELEMENT(g_object_ref_sink(g_object_new(GST_TYPE_SPIDAR_MOTION, nullptr)));
-  const std::shared_ptr<WindowSource> source = make_element_source(element);
+  const std::shared_ptr<WindowSource> source =
+      make_element_source(element, gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)));
   ElementState state;
   ASSERT_TRUE(source->read(state));
   std::multiset<std::string> there, shown{"mute"};

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""Reads the #include lines: a layer includes only those below it, and in each layer the folders form
+no circle. Prints every #include of a layer above, and those of the shortest circle."""
+
+import re
+import sys
+from pathlib import Path
+
+TOP = Path(__file__).resolve().parent.parent
+BELOW = {"core": [], "spidar": ["core"], "api": ["core", "spidar"], "plugin": ["core", "spidar"]}
+
+
+def includes():
+    """(file, included file) of every #include of another folder."""
+    for layer in BELOW:
+        for file in sorted((TOP / layer).rglob("*.*")):
+            if file.suffix not in (".h", ".cpp"):
+                continue
+            for name in re.findall(r'^#include "(.+)"', file.read_text(encoding="utf-8"), re.MULTILINE):
+                if (TOP / name).parent != file.parent:
+                    yield file.relative_to(TOP), Path(name)
+
+
+def circle(arrows):
+    """The folders of the shortest circle, the first one also at the end; empty when there is none."""
+    shortest = []
+    for start in sorted(arrows):
+        before, waiting = {}, [start]
+        while waiting and start not in before:
+            folder = waiting.pop(0)
+            for other in sorted(arrows.get(folder, ())):
+                if other not in before:
+                    before[other] = folder
+                    waiting.append(other)
+        if start in before:
+            way = [start, before[start]]
+            while way[-1] != start:
+                way.append(before[way[-1]])
+            if not shortest or len(way) < len(shortest):
+                shortest = way[::-1]
+    return shortest
+
+
+def faults():
+    arrows = {}  # folder: {folder: an #include}
+    for file, included in includes():
+        layer, other = file.parts[0], included.parts[0]
+        if other != layer and other not in BELOW[layer]:
+            yield f"{file} includes {included}, but {layer}/ may use {' and '.join(BELOW[layer]) or 'no other layer'}"
+        arrows.setdefault(file.parent, {})[included.parent] = f"{file} includes {included}"
+    way = circle(arrows)
+    for folder, other in zip(way, way[1:]):
+        yield f"in a circle of folders: {arrows[folder][other]}"
+
+
+found = list(faults())
+print("\n".join(found) or "no circle of folders")
+sys.exit(1 if found else 0)
