@@ -8,14 +8,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/api.h"
 #include "core/grip/string_geometry.h"
 #include "spidar/link_fault.h"
 
 namespace spidar {
 
 /// A device that cannot be opened. what() says which, why, and what to do.
-class SPIDAR_API DeviceError : public std::runtime_error {
+class DeviceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -50,7 +49,7 @@ enum class ExchangeStatus {
 };
 
 /// One controller board with its motors. One thread at a time.
-class SPIDAR_API Device {
+class Device {
  public:
   virtual ~Device() = default;
 

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/api.h"
 
 namespace spidar {
 
@@ -32,7 +31,7 @@ struct JsonOptions {
 /// picture. Numbers are written in the "C" locale with as few digits as can be read back exactly. A
 /// number that is not finite becomes null, because JSON cannot express it. Does not allocate when
 /// the capacity of `line` is sufficient.
-SPIDAR_API void append_json(const FrameAnalysis& frame, int64_t running_time_ns,
-                            int64_t stream_time_ns, const JsonOptions& options, std::string& line);
+void append_json(const FrameAnalysis& frame, int64_t running_time_ns, int64_t stream_time_ns,
+                 const JsonOptions& options, std::string& line);
 
 }  // namespace spidar

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/api.h"
 #include "core/motion/scene_motion.h"
 #include "core/wrench.h"
 
@@ -46,20 +45,20 @@ enum class ForceLimit {
 constexpr size_t kForceLimits = static_cast<size_t>(ForceLimit::kNoDevice) + 1;
 
 /// For programs: "none", "camera-only", …
-SPIDAR_API const char* nick(ForceLimit limit) noexcept;
+const char* nick(ForceLimit limit) noexcept;
 /// For people: a whole sentence. Empty for kNone.
-SPIDAR_API const char* sentence(ForceLimit limit) noexcept;
+const char* sentence(ForceLimit limit) noexcept;
 
 /// Size of a wrench as one force, with torque divided by the arm kTorqueArm_m (see
 /// render_motion()).
-SPIDAR_API double size_N(const Wrench& wrench) noexcept;
+double size_N(const Wrench& wrench) noexcept;
 
 /// The reason in the video, for one frame that was analysed for `motion`.
-SPIDAR_API ForceLimit limit_of(const FrameAnalysis& frame, MotionKind motion);
+ForceLimit limit_of(const FrameAnalysis& frame, MotionKind motion);
 
 /// Keeps the latest frames and finds what limited the force in the last second. Not thread-safe.
 /// Allocates nothing.
-class SPIDAR_API ForceLimitHistory {
+class ForceLimitHistory {
  public:
   static constexpr int64_t kWindow_ns = 1'000'000'000;
   /// Older frames are dropped. Room for a second at 60 frames/s and 16 s of frames that wait to be

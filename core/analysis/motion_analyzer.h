@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/api.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 #include "core/force/motion_rendering.h"
@@ -33,7 +32,7 @@ struct AnalyzerSettings {
 
 /// Closest to the paper: mean velocity of the points of OpenCvTracker, unfiltered, nonlinear
 /// controller.
-SPIDAR_API AnalyzerSettings paper_settings();
+AnalyzerSettings paper_settings();
 
 /// The result of one frame.
 struct FrameAnalysis {
@@ -68,7 +67,7 @@ struct FrameAnalysis {
 /// A frame that shows the previous picture again does not tell whether anything moves. It is
 /// reported as `repeated` for up to Cadence::kRest_ns, or for as long as the film has repeated
 /// pictures before; after that it counts as rest.
-class SPIDAR_API MotionAnalyzer {
+class MotionAnalyzer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
   explicit MotionAnalyzer(const AnalyzerSettings& settings = {});

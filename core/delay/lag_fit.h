@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "core/api.h"
 #include "core/delay/response_lines.h"
 
 namespace spidar {
@@ -43,7 +42,7 @@ struct LagFit {
 ///
 /// The model assumes that neither the grip nor the hand resonates between 11 and 83 Hz, and that
 /// the strings stretch little compared with the motion of the grip. A violation appears as misfit.
-class SPIDAR_API LagFitter {
+class LagFitter {
  public:
   /// Half-width of the confidence interval in standard errors: 99.7 %.
   static constexpr double kDeviations = 3;

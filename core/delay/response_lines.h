@@ -7,7 +7,6 @@
 #include <complex>
 #include <vector>
 
-#include "core/api.h"
 #include "core/delay/multisine.h"
 
 namespace spidar {
@@ -24,7 +23,7 @@ struct ResponseLine {
 /// Fourier sums of the force and the motion over one period with a Hann window. The drift of the
 /// hand is not periodic and is large compared with the response; the window reduces its leakage
 /// into the lines.
-class SPIDAR_API PeriodSums {
+class PeriodSums {
  public:
   /// The period begins at `begin_s`.
   explicit PeriodSums(double begin_s) : begin_s_(begin_s) {}
@@ -54,6 +53,6 @@ class SPIDAR_API PeriodSums {
 /// differences. The variance covers the hand, the quantization of encoder and D/A converter, and
 /// nonlinearity (J. Schoukens, R. Pintelon, Y. Rolain, "Mastering System Identification in 100
 /// Exercises", chapter 4). Needs at least three periods.
-SPIDAR_API std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods);
+std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods);
 
 }  // namespace spidar

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/api.h"
 #include "core/image_view.h"
 
 namespace spidar {
@@ -14,16 +13,16 @@ namespace spidar {
 /// Share of pixels that show combs: what moved between two fields jumps back and forth from line to
 /// line. Of every sixteen lines, four are examined. A pixel counts if it differs by kComb_grey from
 /// the lines above and below and hardly from the line after those.
-SPIDAR_API double comb_share(const ImageView& frame, std::vector<uint8_t>& lines);
+double comb_share(const ImageView& frame, std::vector<uint8_t>& lines);
 namespace plain {
-SPIDAR_API double comb_share(const ImageView& frame, std::vector<uint8_t>& lines);
+double comb_share(const ImageView& frame, std::vector<uint8_t>& lines);
 }
 
 /// Finds out from the frames so far whether a film is interlaced or telecined although it is not
 /// flagged. Only one field of such a film should be analysed, because its two fields show different
 /// moments. Fine stripes look the same; a film with such stripes loses some sharpness and nothing
 /// else.
-class SPIDAR_API Combing {
+class Combing {
  public:
   /// Examines the next frame and returns whether to take only one field of it. Large frames need no
   /// answer, because the analysis reads only the lines of one field of them anyway (row_step()).

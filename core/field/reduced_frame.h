@@ -3,7 +3,6 @@
 /// A reduced frame, from which all measurements of motion start.
 #pragma once
 
-#include "core/api.h"
 #include "core/image_view.h"
 #include "core/tracking/padded_image.h"
 #include "core/tracking/repeated_picture.h"
@@ -12,7 +11,7 @@
 namespace spidar {
 
 /// Reduces each frame once, for all parts of the analysis.
-class SPIDAR_API ReducedFrame {
+class ReducedFrame {
  public:
   /// A frame that repeats the picture before is skipped: the next one is compared with that
   /// picture. Throws as require_usable() does.

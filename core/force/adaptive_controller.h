@@ -3,7 +3,6 @@
 /// A controller whose gain follows the scene.
 #pragma once
 
-#include "core/api.h"
 #include "core/force/gain_controller.h"
 
 namespace spidar {
@@ -27,7 +26,7 @@ namespace spidar {
 ///
 /// S starts at 1/α and stays within a factor of kRange of it, so that the noise of a film in which
 /// hardly anything moves is not amplified.
-class SPIDAR_API AdaptiveController final : public GainController {
+class AdaptiveController final : public GainController {
  public:
   AdaptiveController(double max_force_N, double alpha_s_px);
   double force_N(const MeasuredSpeed& speed) override;

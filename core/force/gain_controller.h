@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/wrench.h"
 
 namespace spidar {
@@ -33,7 +32,7 @@ struct MeasuredSpeed {
 
 /// Gain from speed to force. The paper's equations are one-dimensional; here they act on the speed
 /// and the direction is kept, which is the isotropic reading of them.
-class SPIDAR_API GainController {
+class GainController {
  public:
   virtual ~GainController() = default;
 
@@ -49,7 +48,7 @@ class SPIDAR_API GainController {
 };
 
 /// F = k v, k = Fmax / Vmax(T), Vmax(T) the largest speed since reset() (eq. 11–13): k never rises.
-class SPIDAR_API LinearController final : public GainController {
+class LinearController final : public GainController {
  public:
   explicit LinearController(double max_force_N) : max_force_N_(max_force_N) {}
   double force_N(const MeasuredSpeed& speed) override;
@@ -66,7 +65,7 @@ class SPIDAR_API LinearController final : public GainController {
 };
 
 /// F = (2 Fmax / π) atan(α V) (eq. 14–15).
-class SPIDAR_API NonlinearController final : public GainController {
+class NonlinearController final : public GainController {
  public:
   NonlinearController(double max_force_N, double alpha_s_px)
       : max_force_N_(max_force_N), alpha_s_px_(alpha_s_px) {}
@@ -83,14 +82,14 @@ class SPIDAR_API NonlinearController final : public GainController {
 };
 
 /// Throws std::invalid_argument when a value is out of the range given in ControllerSettings.
-SPIDAR_API void validate(const ControllerSettings& settings);
+void validate(const ControllerSettings& settings);
 
 /// The controller of `settings.kind`. Throws as validate() does.
-SPIDAR_API std::unique_ptr<GainController> make_controller(const ControllerSettings& settings);
+std::unique_ptr<GainController> make_controller(const ControllerSettings& settings);
 
 /// Force of an image velocity in the reference frame's px/s (I: y down) on the grip (D: y up);
 /// interval and noise as in MeasuredSpeed.
-SPIDAR_API Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s,
-                                double interval_s = 0, double noise_px_s = 0);
+Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s,
+                     double interval_s = 0, double noise_px_s = 0);
 
 }  // namespace spidar

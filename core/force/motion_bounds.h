@@ -5,7 +5,6 @@
 
 #include <cstdint>
 
-#include "core/api.h"
 #include "core/motion/image_motion.h"
 
 namespace spidar {
@@ -17,6 +16,6 @@ constexpr int64_t kLeastInterval_ns = 500'000;
 /// `motion` over `interval_s` > 0, at most what can be seen of any: a displacement of the frame's
 /// width, lengths twice or half as large, half a turn. Directions are kept. What is not finite is
 /// no motion.
-SPIDAR_API ImageMotion bound_motion(const ImageMotion& motion, int frame_width, double interval_s);
+ImageMotion bound_motion(const ImageMotion& motion, int frame_width, double interval_s);
 
 }  // namespace spidar

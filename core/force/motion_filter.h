@@ -3,7 +3,6 @@
 /// Smooths the motion before it becomes force.
 #pragma once
 
-#include "core/api.h"
 #include "core/force/one_euro_filter.h"
 #include "core/motion/image_motion.h"
 
@@ -20,13 +19,13 @@ struct FilterSettings {
 };
 
 /// Throws std::invalid_argument when a value is out of range.
-SPIDAR_API void validate(const FilterSettings& settings);
+void validate(const FilterSettings& settings);
 
 /// One 1 € filter each for velocity, growth and roll. All are filtered in px/s of the reference
 /// frame, growth and roll as the speed at kRim_px, so that one β fits all. When nothing moves and
 /// the filtered motion is slower than kRest_px_s, the result is exactly zero. The noise of the
 /// velocity is reduced as the filter reduces it.
-class SPIDAR_API MotionFilter {
+class MotionFilter {
  public:
   /// Filters the `motion` of a frame of `frame_height` pixels, `interval_s` > 0 after the previous
   /// frame. With min_cutoff_Hz = 0 it returns `motion` unchanged.

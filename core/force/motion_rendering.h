@@ -3,7 +3,6 @@
 /// Converts the motion of the picture to a wrench in six degrees of freedom.
 #pragma once
 
-#include "core/api.h"
 #include "core/force/gain_controller.h"
 #include "core/motion/image_motion.h"
 #include "core/tracking/tracker.h"
@@ -19,7 +18,7 @@ struct AxisGains {
 };
 
 /// Throws std::invalid_argument when a gain is out of range.
-SPIDAR_API void validate(const AxisGains& gains);
+void validate(const AxisGains& gains);
 
 /// Growth and roll count as the speed at which they move a point at this distance from the centre:
 /// half the height of the reference frame.
@@ -37,7 +36,7 @@ constexpr double kTorqueArm_m = 0.0225;
 /// to the viewer, is −F kTorqueArm_m u₄ / |u|, because a clockwise turn on the screen turns from x
 /// to −y of the device. The force therefore never exceeds F, and the torque never exceeds F times
 /// the arm. `interval_s` is the running time since the previous frame, 0 if unknown.
-SPIDAR_API Wrench render_motion(GainController& controller, const ImageMotion& motion,
-                                const AxisGains& gains, int frame_height, double interval_s = 0);
+Wrench render_motion(GainController& controller, const ImageMotion& motion, const AxisGains& gains,
+                     int frame_height, double interval_s = 0);
 
 }  // namespace spidar

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/api.h"
 #include "core/wrench.h"
 
 namespace spidar {
@@ -50,7 +49,7 @@ struct TimelineResult {
 /// A gap is an interval without frames that is long enough to go to rest and back. In it the wrench
 /// holds and expires as if the next frame were not known, and rises from zero to that of the next
 /// frame before that one is due: a picture that has been standing for long is not felt.
-class SPIDAR_API WrenchTimeline {
+class WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
   /// A frame that is known less than approach_after() ahead of its time is met so long after it is

@@ -3,7 +3,6 @@
 /// The grip's pose from the lengths of its strings.
 #pragma once
 
-#include "core/api.h"
 #include "core/grip/frozen_counts.h"
 #include "core/grip/pose.h"
 #include "core/grip/pose_fit.h"
@@ -40,7 +39,7 @@ struct PoseResult {
 ///   have the same effect are distinguished by the motion and by counts that stand still.
 /// - Two dead encoders leave too few strings. When counts that stand still reveal them, there is no
 ///   pose.
-class SPIDAR_API PoseSolver {
+class PoseSolver {
  public:
   /// A larger residual means that the solution is wrong: a local minimum or a bad length. The error
   /// of a count is at most half an encoder step, and so is the residual of the right pose: 17.4 µm

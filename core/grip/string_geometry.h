@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/grip/pose.h"
 
 namespace spidar {
@@ -27,14 +26,14 @@ struct StringGeometry {
 
   /// Mean distance of the grip points from the grip's origin, metres: the lever ℓ that makes
   /// torques comparable with forces.
-  SPIDAR_API double grip_radius_m() const;
+  double grip_radius_m() const;
 };
 
 /// Lengths from exit to grip point, metres.
-SPIDAR_API StringVector string_lengths_m(const StringGeometry& geometry, const Pose& pose);
+StringVector string_lengths_m(const StringGeometry& geometry, const Pose& pose);
 
 /// W with wrench = W · tensions: column i is [u_i; (R g_i) × u_i], u_i the unit vector from the
 /// grip point to the exit. A string of no length has no direction: its column is zero.
-SPIDAR_API StructureMatrix structure_matrix(const StringGeometry& geometry, const Pose& pose);
+StructureMatrix structure_matrix(const StringGeometry& geometry, const Pose& pose);
 
 }  // namespace spidar

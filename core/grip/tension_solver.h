@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 
@@ -48,7 +47,7 @@ struct TensionResult {
 /// Solves to rounding accuracy at any scale of wrench, tensions and units, even when ε vanishes
 /// beside WᵀS²W. Starts from the last solution, so that one iteration is enough in steady motion;
 /// the result depends on it only by rounding. No allocation, no exceptions.
-class SPIDAR_API TensionSolver {
+class TensionSolver {
  public:
   TensionResult solve(const TensionProblem& problem) noexcept;
 

@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "core/api.h"
 #include "core/motion/motion_models.h"
 #include "core/motion/robust_fit.h"
 
@@ -38,7 +37,7 @@ struct BackgroundVotes {
 /// smallest wins, with hysteresis: a higher rung must be better by kMargin parameters' worth, a
 /// lower one must be better in kPatience frames in succession. Higher rungs are only fitted when
 /// the one in use stops explaining the votes, and not in every frame when that does not help.
-class SPIDAR_API BackgroundEstimator {
+class BackgroundEstimator {
  public:
   BackgroundEstimator();
 

@@ -7,8 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/api.h"
-
 namespace spidar {
 
 /// A film can move although its frames repeat pictures: 24 pictures a second in 60 frames, a
@@ -19,7 +17,7 @@ namespace spidar {
 /// and each is shown when a frame is due: 24 pictures a second in 60 frames are shown for three and
 /// two frames in turn. This class learns the right time from the latest intervals. It also decides
 /// how long a repeated picture may still belong to a motion, and from when on it is at rest.
-class SPIDAR_API Cadence {
+class Cadence {
  public:
   /// A picture that has been shown for this long is at rest, unless longer intervals have been
   /// seen. Together with the 15 ms in which the force of a late frame fades in

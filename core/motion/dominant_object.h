@@ -6,14 +6,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/api.h"
 #include "core/motion/objects.h"
 
 namespace spidar {
 
 /// Stays with an object until another one is clearly more prominent (kClearly times), so that the
 /// force does not jump between similar objects.
-class SPIDAR_API DominantObject {
+class DominantObject {
  public:
   /// Returns one of `objects`, at first the most prominent one; null when there are none. Call this
   /// once for each frame.

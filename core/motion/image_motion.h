@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
@@ -27,6 +26,6 @@ struct ImageMotion {
 /// The paper's frame velocity (eq. 9–10): mean over all tracks of displacement / Δt. `interval_ns`
 /// is the difference of the frames' running times and must be positive. Without tracks the velocity
 /// is 0 and `tracked` is 0.
-SPIDAR_API ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns);
+ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns);
 
 }  // namespace spidar

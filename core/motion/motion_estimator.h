@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/api.h"
 #include "core/field/block_field.h"
 #include "core/field/field_points.h"
 #include "core/field/reduced_frame.h"
@@ -21,7 +20,7 @@ namespace spidar {
 
 /// Computes motion from frames and keeps what it needs of earlier frames. Does not allocate after
 /// the first frames of a size.
-class SPIDAR_API MotionEstimator {
+class MotionEstimator {
  public:
   MotionEstimator();
 

@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
@@ -27,7 +26,7 @@ constexpr int least_points(ModelKind kind) {
   return static_cast<int>(kind);
 }
 /// "still", "translation", "similarity", "affine", "homography".
-SPIDAR_API const char* to_string(ModelKind kind);
+const char* to_string(ModelKind kind);
 
 /// A track, relative to the centre of the frame.
 struct Displacement {
@@ -39,8 +38,8 @@ struct Displacement {
 
 /// The tracks of a frame of `width` × `height` pixels. If there are more than kMostDisplacements,
 /// only every k-th one, which bounds the cost of a frame.
-SPIDAR_API void displacements(const std::vector<Track>& tracks, int width, int height,
-                              std::vector<Displacement>& result);
+void displacements(const std::vector<Track>& tracks, int width, int height,
+                   std::vector<Displacement>& result);
 constexpr size_t kMostDisplacements = 512;
 
 /// p ↦ (p + A p + t) / (1 + h·p), p from the centre of the frame. Parameters that a kind does not
@@ -59,7 +58,7 @@ struct MotionModel {
   /// Relative change of lengths at the centre; 0.01 is one per cent larger.
   double growth() const { return linear.trace() / 2; }
   /// Rotation at the centre from x to y: clockwise as seen on the screen.
-  SPIDAR_API double roll_rad() const;
+  double roll_rad() const;
 };
 
 /// Model of the background in one frame, and its quality.
@@ -73,8 +72,7 @@ struct Background {
 /// Returns nothing when the points do not determine the model: too few, in one place, or on one
 /// line. The homography is found by a fixed number of Gauss–Newton steps from the affine solution,
 /// because the perspective between successive frames is small.
-SPIDAR_API std::optional<MotionModel> fit_model(ModelKind kind,
-                                                const std::vector<Displacement>& points,
-                                                const std::vector<double>& weights);
+std::optional<MotionModel> fit_model(ModelKind kind, const std::vector<Displacement>& points,
+                                     const std::vector<double>& weights);
 
 }  // namespace spidar

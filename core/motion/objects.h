@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/field/block_field.h"
 #include "core/motion/background.h"
 #include "core/motion/layer_evidence.h"
@@ -36,7 +35,7 @@ struct FieldInFrame {
 /// blocks belonged before, or else to an object out of sight that is expected there, so that an
 /// object that passes behind another one keeps its id. An object is dropped when it has been out of
 /// sight for kForgotten_s or at rest for kAtRest_s; until then it may stand still.
-class SPIDAR_API ObjectTracker {
+class ObjectTracker {
  public:
   ObjectTracker();
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/api.h"
 #include "core/motion/motion_models.h"
 
 namespace spidar {
@@ -30,12 +29,12 @@ inline double point_cost(const MotionModel& model, const Displacement& point, do
 }
 
 /// Σ w ρ. Stops when the sum exceeds `limit`, and then returns a value above it.
-SPIDAR_API double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence,
-                              double limit = 1e300);
+double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence,
+                   double limit = 1e300);
 
 /// Finds models with a small robust_cost() in a bounded number of steps. The same evidence gives
 /// the same model, bit for bit. Allocates nothing for up to kMostDisplacements points.
-class SPIDAR_API RobustFitter {
+class RobustFitter {
  public:
   RobustFitter();
 

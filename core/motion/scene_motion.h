@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/motion/image_motion.h"
 #include "core/motion/motion_models.h"
 #include "core/motion/moving_object.h"
@@ -34,8 +33,8 @@ constexpr double kPointerReach = 0.25;
 /// frame's height the factor is 0.61, at half of it 0.14, at the full height 0.0003. A single
 /// object is felt at full strength wherever it is, because the weights are normalised. Objects at
 /// rest count, objects out of sight do not.
-SPIDAR_API ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
-                                         const Eigen::Vector2d& pointer_px, int frame_height);
+ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
+                              const Eigen::Vector2d& pointer_px, int frame_height);
 
 /// Result for two successive frames.
 struct SceneMotion {

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/touch/energy_budget.h"
 #include "core/touch/moving_relief.h"
 #include "core/touch/proxy.h"
@@ -45,12 +44,12 @@ struct ContactSettings {
 };
 
 /// Throws std::invalid_argument naming the setting that is out of range.
-SPIDAR_API void validate(const ContactSettings& settings);
+void validate(const ContactSettings& settings);
 
 /// The sum of a spring to the proxy, a damper, and the texture as a force along the surface,
 /// bounded by EnergyBudget. The texture is not part of the relief because the proxy would then snap
 /// from valley to valley.
-class SPIDAR_API ContactForce {
+class ContactForce {
  public:
   /// Cutoff frequency of the first-order low-pass on the velocity.
   static constexpr double kVelocityCutoff_Hz = 60;

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/api.h"
 #include "core/image_view.h"
 #include "core/touch/cell_average.h"
 #include "core/touch/height_field.h"
@@ -33,8 +32,8 @@ enum class DepthLayout { kRight, kBelow };
 
 /// Return the visible half and the depth half of a packed picture. With an odd width or height the
 /// middle line belongs to neither. Words keep all of their bits, whatever `sample.shift` is.
-SPIDAR_API ImageView picture_half(const ImageView& packed, DepthLayout layout) noexcept;
-SPIDAR_API DepthView depth_half(const ImageView& packed, DepthLayout layout) noexcept;
+ImageView picture_half(const ImageView& packed, DepthLayout layout) noexcept;
+DepthView depth_half(const ImageView& packed, DepthLayout layout) noexcept;
 
 /// Meaning of the samples. A distance has near < far; a disparity, which grows towards the viewer,
 /// has near > far.
@@ -48,7 +47,7 @@ struct DepthSettings {
 
 /// Throws std::invalid_argument naming the error: a value that is not finite or too large, or near
 /// and far in the wrong order.
-SPIDAR_API void validate(const DepthSettings& settings);
+void validate(const DepthSettings& settings);
 
 /// Reads depth images. Allocates only when the size changes. Reads at most four evenly spaced
 /// samples per cell, so that the cost does not grow with the size.
@@ -59,7 +58,7 @@ SPIDAR_API void validate(const DepthSettings& settings);
 /// than half of the cells lie outside the range, as after a cut, or when the settings change. The
 /// range is never narrower than 1/16 of its larger end or 8 samples, so that noise on a flat wall
 /// does not become relief.
-class SPIDAR_API DepthPicture {
+class DepthPicture {
  public:
   static constexpr int kSamplesAcross = 2;  ///< largest number per cell, in x and in y
   static constexpr double kOutside = 0.02;  ///< share of the cells, at each end

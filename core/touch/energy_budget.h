@@ -8,8 +8,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
-
 namespace spidar {
 
 /// Properties of the path from a requested force to the motion of the grip.
@@ -31,7 +29,7 @@ struct ForcePath {
 /// (force on the grip) + F · tick + F² / (2 · slew). On a mass m that moves outwards at v, this
 /// impulse does the work v J + J² / (2 m). The bound is the F for which this work equals the energy
 /// that is left.
-class SPIDAR_API EnergyBudget {
+class EnergyBudget {
  public:
   /// Call once per tick, before choosing the force. `way_m` is the displacement of the grip since
   /// the last tick, from the poses of the last two exchanges. `put_in_J` is the energy added by the

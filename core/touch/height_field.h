@@ -8,8 +8,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
-
 namespace spidar {
 
 /// Height and slope of a surface at one place.
@@ -34,7 +32,7 @@ struct SurfacePoint {
 /// (dz/dy: of a column). A plane is reproduced exactly; elsewhere the surface differs from the
 /// samples by cell²/6 · d²z/dx², and likewise in y. Outside the picture the border heights continue
 /// with zero slope across the border.
-class SPIDAR_API HeightField {
+class HeightField {
  public:
   static constexpr int kColumns = 256;
   static constexpr int kRows = 144;

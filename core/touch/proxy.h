@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/touch/moving_relief.h"
 
 namespace spidar {
@@ -27,7 +26,7 @@ struct Friction {
 /// A surface can jump because of a cut, because playback starts with the grip below it, or because
 /// it moves faster than kFastest_m_s. It is then shifted to the grip and moves to its true height
 /// at kRise_m_s, so cuts need not be signalled.
-class SPIDAR_API TouchProxy {
+class TouchProxy {
  public:
   static constexpr double kFastest_m_s = 0.2;  ///< of a surface in contact
   static constexpr double kRise_m_s = 0.04;

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/api.h"
 #include "core/image_view.h"
 #include "core/touch/cell_average.h"
 #include "core/touch/height_field.h"
@@ -20,7 +19,7 @@ struct ReliefSettings {
 };
 
 /// Throws std::invalid_argument naming the value that is out of range.
-SPIDAR_API void validate(const ReliefSettings& settings);
+void validate(const ReliefSettings& settings);
 
 /// Builds reliefs. Allocates only when the size of the picture changes.
 ///
@@ -29,7 +28,7 @@ SPIDAR_API void validate(const ReliefSettings& settings);
 /// and gets a ramp at its foot: each height becomes the maximum of (height of any cell − slope ·
 /// distance to it), found in two passes over the picture with the distances of the eight neighbours
 /// (G. Borgefors, Distance transformations in digital images, CVGIP 34, 1986).
-class SPIDAR_API ReliefBuilder {
+class ReliefBuilder {
  public:
   static constexpr double kMaxSlope = 1.5;
   /// The standard deviation of the smoothing is limited to this many cells.

@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "core/track/track_format.h"
 
 namespace spidar {
 
 /// Says what was wrong with a file, and where.
-class SPIDAR_API HjifError : public std::runtime_error {
+class HjifError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -25,7 +24,7 @@ class SPIDAR_API HjifError : public std::runtime_error {
 /// keyframes are samples. The curve differs from the other samples by at most `tolerance` of the
 /// full scale, and from the keyframes by half of 1e-5. Amplitudes beyond the full scale are
 /// clipped, as the format requires; NaN becomes 0.
-SPIDAR_API std::string write_hjif(const std::vector<TrackSample>& samples, double tolerance = 4e-4);
+std::string write_hjif(const std::vector<TrackSample>& samples, double tolerance = 4e-4);
 
 /// The longest track that read_hjif() takes: 12 h.
 constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
@@ -34,7 +33,6 @@ constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
 /// Curves of straight lines are evaluated and summed, multiplied by the gain of their channel; an
 /// effect is silent before its first and after its last keyframe. Throws HjifError: not JSON, a
 /// value that is missing or out of range, other bands or curves, or more than `most_samples`.
-SPIDAR_API std::vector<TrackSample> read_hjif(const std::string& text,
-                                              size_t most_samples = kMostHjifSamples);
+std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples = kMostHjifSamples);
 
 }  // namespace spidar

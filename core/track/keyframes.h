@@ -6,15 +6,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/api.h"
-
 namespace spidar {
 
 /// Ascending indices of `values`, including the first and the last one, so that straight lines
 /// between the values there pass all others within `tolerance`. Each line is as long as possible:
 /// the slopes that pass all values so far form a cone, and the last value inside the cone ends the
 /// line. Empty for no values.
-SPIDAR_API std::vector<size_t> choose_keyframes(const std::vector<double>& values,
-                                                double tolerance);
+std::vector<size_t> choose_keyframes(const std::vector<double>& values, double tolerance);
 
 }  // namespace spidar

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/api.h"
 #include "core/force/wrench_timeline.h"
 #include "core/track/track_block.h"
 
@@ -17,7 +16,7 @@ namespace spidar {
 ///
 ///     while (block = oldest block) if (!reader.read(*block, now)) break; else drop the oldest
 ///     result = reader.at(now, block)
-class SPIDAR_API TrackReader {
+class TrackReader {
  public:
   /// How long the last sample holds when the next one is late. With SafetyLimits::ramp_s the force
   /// is zero 45 ms after the last sample of a track of 1 kHz.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "core/api.h"
 #include "core/force/wrench_timeline.h"
 
 namespace spidar {
@@ -14,7 +13,7 @@ namespace spidar {
 /// Samples the curve that the haptic loop renders between frames (WrenchTimeline), every
 /// millisecond of the frames' own time scale. Where no frame follows, the loop leaves a ramp to the
 /// safety chain; here the ramp is part of the samples, so that a track does not step to rest.
-class SPIDAR_API TrackSampler {
+class TrackSampler {
  public:
   /// The first sample is the first whole millisecond at or after `from_ns` >= 0. Forgets all
   /// frames.

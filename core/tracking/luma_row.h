@@ -6,13 +6,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/api.h"
 #include "core/image_view.h"
 
 namespace spidar {
 
 /// Copies `columns` pixels of row `y` from column `x` on, all inside the frame.
-SPIDAR_API void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to);
+void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to);
 
 /// Returns the frame itself if it has 8 bits, otherwise a converted copy in `buffer`.
 ImageView in_8_bits(const ImageView& frame, std::vector<uint8_t>& buffer);

@@ -5,7 +5,6 @@
 
 #include <memory>
 
-#include "core/api.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
@@ -14,7 +13,7 @@ namespace spidar {
 /// reused for the next frame. Drops points that leave the picture, are not found, fail the
 /// forward–backward check, or look different. Selects new points when few are left and every few
 /// frames, so that objects that enter are found.
-class SPIDAR_API OpenCvTracker {
+class OpenCvTracker {
  public:
   /// Throws as validate() does.
   explicit OpenCvTracker(const TrackerSettings& settings = {});

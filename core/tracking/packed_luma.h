@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/api.h"
 #include "core/image_view.h"
 
 namespace spidar {
@@ -17,8 +16,7 @@ enum class PackedOrder { kRgb, kBgr, kRgbx, kBgrx };
 
 /// Luma 0.299 R + 0.587 G + 0.114 B (BT.601) of `height` rows of `width` pixels. Written to
 /// `buffer`, which is resized and must live as long as the view.
-SPIDAR_API ImageView luma_of_packed(const uint8_t* data, int width, int height,
-                                    ptrdiff_t stride_bytes, PackedOrder order,
-                                    std::vector<uint8_t>& buffer);
+ImageView luma_of_packed(const uint8_t* data, int width, int height, ptrdiff_t stride_bytes,
+                         PackedOrder order, std::vector<uint8_t>& buffer);
 
 }  // namespace spidar

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/api.h"
 #include "core/image_view.h"
 
 namespace spidar {
@@ -39,7 +38,7 @@ struct TrackerSettings {
 };
 
 /// Throws std::invalid_argument when a value is out of the range given in TrackerSettings.
-SPIDAR_API void validate(const TrackerSettings& settings);
+void validate(const TrackerSettings& settings);
 
 /// Minimum width and height that a tracker accepts, px.
 constexpr int kMinSide_px = 16;

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/device.h"
 #include "spidar/guardian/last_will.h"
 #include "spidar/link_fault.h"
@@ -15,7 +14,7 @@
 namespace spidar {
 
 /// To be used by one thread at a time.
-class SPIDAR_API Board {
+class Board {
  public:
   virtual ~Board() = default;
 

@@ -10,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
@@ -27,7 +26,7 @@ namespace spidar {
 ///
 /// Motors pull only as long as every connection has its guardian. Without it, they are set to zero
 /// at once, and the device is lost until it is opened again with a new guardian.
-class SPIDAR_API BoardDevice final : public Device {
+class BoardDevice final : public Device {
  public:
   /// Share of a tick of 1 ms; the loop uses the rest.
   static constexpr int64_t kReplyWait_ns = 700'000;

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
-
 namespace spidar {
 
 /// How far a driver has been tested.
@@ -18,7 +16,7 @@ enum class Trial {
 };
 
 /// "tried on hardware", "emulated", "inferred".
-SPIDAR_API const char* to_string(Trial trial) noexcept;
+const char* to_string(Trial trial) noexcept;
 
 /// A device that make_device() can open.
 struct BoardInfo {
@@ -39,15 +37,15 @@ struct BoardInfo {
 /// serial line does not identify the board behind it, so only lines that a udev rule names
 /// /dev/spidar… are listed. Input devices are listed if they have force feedback. A machine without
 /// USB has no USB devices.
-SPIDAR_API std::vector<BoardInfo> list_boards();
+std::vector<BoardInfo> list_boards();
 
 /// Returns the default profile for a device name, which the board can drive, or the general default
 /// profile for an unknown name. Does not access a bus.
-SPIDAR_API std::string default_profile(const std::string& device);
+std::string default_profile(const std::string& device);
 
 /// Returns what is known about a device from its name. The device need not be plugged in, and
 /// nothing is opened. If make_device() does not know the device either, the name in the result is
 /// empty.
-SPIDAR_API BoardInfo board_info(const std::string& device);
+BoardInfo board_info(const std::string& device);
 
 }  // namespace spidar

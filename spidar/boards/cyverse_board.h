@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/digits.h"
 #include "spidar/boards/encoder_counts.h"
@@ -17,7 +16,7 @@
 
 namespace spidar {
 
-class SPIDAR_API CyverseBoard : public Board {
+class CyverseBoard : public Board {
  public:
   /// Throws DeviceError when the profile wants negative volts.
   CyverseBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/stick_effects.h"
 #include "spidar/profiles/encoder_scale.h"
@@ -22,7 +21,7 @@ namespace spidar {
 /// to a grip half way from the middle to the points where the strings leave the frame, which is the
 /// edge of the picture for pointer=grip. The pull of strings at their minimum tension, away from
 /// the middle, is subtracted, so that the stick is at rest anywhere.
-class SPIDAR_API ForceFeedbackBoard final : public Board {
+class ForceFeedbackBoard final : public Board {
  public:
   static constexpr int kUpdate_ms = StickEffects::kUpdate_ms;
   using Updates = StickEffects::Updates;

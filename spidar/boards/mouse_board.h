@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/protocols/spidar_mouse.h"
@@ -18,7 +17,7 @@ namespace spidar {
 
 /// Replaces the strings of any profile. The force is the pull of the strings on a grip at the
 /// centre, the position that this board always reports; only its x and y are felt.
-class SPIDAR_API MouseBoard final : public Board {
+class MouseBoard final : public Board {
  public:
   static constexpr FeltParts kFelt{true, true, false, false, true};
 

@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/boards/cyverse_board.h"
 #include "spidar/protocols/sh4.h"
 
 namespace spidar {
 
-class SPIDAR_API Sh4Board final : public CyverseBoard {
+class Sh4Board final : public CyverseBoard {
  public:
   /// Throws DeviceError when the profile wants negative volts.
   Sh4Board(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);

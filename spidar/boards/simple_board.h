@@ -7,13 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/boards/cyverse_board.h"
 #include "spidar/protocols/usb_simple.h"
 
 namespace spidar {
 
-class SPIDAR_API SimpleBoard final : public CyverseBoard {
+class SimpleBoard final : public CyverseBoard {
  public:
   /// Throws DeviceError when the profile wants negative volts.
   SimpleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);

@@ -13,7 +13,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "spidar/boards/stick_place.h"
 #include "spidar/boards/update_watch.h"
 #include "spidar/guardian/last_will.h"

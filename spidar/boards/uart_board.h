@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/digits.h"
 #include "spidar/boards/encoder_counts.h"
@@ -18,7 +17,7 @@
 namespace spidar {
 
 /// Strings are numbered by line, then by board number, then by motor.
-class SPIDAR_API UartBoard final : public Board {
+class UartBoard final : public Board {
  public:
   UartBoard(std::string name, const Profile& profile,
             std::vector<std::unique_ptr<Transport>> lines);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/usb_kinds.h"
 #include "spidar/profiles/profile.h"
@@ -16,7 +15,7 @@
 namespace spidar {
 
 /// Finds its board in every open(), because the address changes when a board is plugged in again.
-class SPIDAR_API UsbBoard final : public Board {
+class UsbBoard final : public Board {
  public:
   /// `id`: bus path, serial number, or position of the rotary switch, 0 … 15. If empty, there must
   /// be only one board. Throws DeviceError when the boards cannot drive the profile.

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/board_list.h"
 #include "spidar/profiles/profile.h"
@@ -34,12 +33,12 @@ struct UsbBoardKind {
                                  std::unique_ptr<Transport> transport);
 
   /// "0cec:0205"
-  SPIDAR_API std::string id() const;
+  std::string id() const;
 };
 
-SPIDAR_API const std::vector<UsbBoardKind>& usb_kinds();
+const std::vector<UsbBoardKind>& usb_kinds();
 
 /// "usb" or "mouse", for make_device().
-SPIDAR_API const char* device_of(UsbFamily family) noexcept;
+const char* device_of(UsbFamily family) noexcept;
 
 }  // namespace spidar

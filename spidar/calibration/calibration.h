@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "spidar/profiles/profile.h"
@@ -99,8 +98,8 @@ inline constexpr int kMinCalibrationSamples = 20;
 ///
 /// Throws std::invalid_argument when the profile has fewer than seven strings, or a count is not
 /// finite, or there are fewer than kMinCalibrationSamples, or not as many columns as strings.
-SPIDAR_API CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
-                                       const CalibrationSettings& settings = {});
+CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
+                            const CalibrationSettings& settings = {});
 
 /// Calibrates only the offsets, from a grip that is held still at the centre without rotation.
 /// Their standard deviation is that of the counts; it does not include how accurately the hand
@@ -108,8 +107,7 @@ SPIDAR_API CalibrationResult calibrate(const Profile& profile, const CountSample
 ///
 /// Throws std::invalid_argument as calibrate(), with any number of strings, and when a count moves
 /// by more than kMaxHeldRange_m.
-SPIDAR_API CalibrationResult calibrate_at_centre(const Profile& profile,
-                                                 const CountSamples& counts);
+CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples& counts);
 
 /// Tremor of a hand that holds still is smaller than this.
 inline constexpr double kMaxHeldRange_m = 3e-3;
@@ -117,7 +115,7 @@ inline constexpr double kMaxHeldRange_m = 3e-3;
 /// Returns the profile with the result, its standard deviations, residual and provenance. `how`
 /// describes the provenance, for example "moved for 20 s". Throws std::invalid_argument unless the
 /// status is kSolved.
-SPIDAR_API Profile calibrated_profile(const Profile& profile, const CalibrationResult& result,
-                                      const std::string& how);
+Profile calibrated_profile(const Profile& profile, const CalibrationResult& result,
+                           const std::string& how);
 
 }  // namespace spidar

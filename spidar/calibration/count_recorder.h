@@ -5,7 +5,6 @@
 
 #include <functional>
 
-#include "core/api.h"
 #include "spidar/calibration/calibration.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
@@ -28,7 +27,7 @@ using NextTick = std::function<bool(double time_s)>;
 ///
 /// Throws DeviceError when the device cannot be opened or is lost, std::invalid_argument when the
 /// settings are out of range, and whatever `next_tick` throws.
-SPIDAR_API CountSamples record_counts(Device& device, const Profile& profile,
-                                      const RecordingSettings& settings, const NextTick& next_tick);
+CountSamples record_counts(Device& device, const Profile& profile,
+                           const RecordingSettings& settings, const NextTick& next_tick);
 
 }  // namespace spidar

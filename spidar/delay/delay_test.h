@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "core/api.h"
 #include "core/delay/lag_fit.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
@@ -58,9 +57,8 @@ using MonotonicClock = std::function<int64_t()>;
 /// test ends with a ramp to zero. It ends early when the pose is lost, a string is faulty, the
 /// device is lost, or the grip has moved by kFurthest_m. Throws DeviceError when the device cannot
 /// be opened.
-SPIDAR_API DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace,
-                                   const MonotonicClock& now_ns,
-                                   const DelayTestSettings& settings = {});
+DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace,
+                        const MonotonicClock& now_ns, const DelayTestSettings& settings = {});
 
 /// Largest displacement of the grip by drift of the hand and the force together.
 constexpr double kFurthest_m = 0.02;

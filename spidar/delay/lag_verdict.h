@@ -3,7 +3,6 @@
 /// The consequences of a measured lag for a profile and for surfaces.
 #pragma once
 
-#include "core/api.h"
 #include "core/delay/lag_fit.h"
 #include "spidar/profiles/profile.h"
 
@@ -27,6 +26,6 @@ struct LagVerdict {
 
 /// `late_ticks` is the number of additional ticks after which the loop uses the reply of an
 /// exchange during playback, because it does not wait for the reply. They are added to the lag.
-SPIDAR_API LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int late_ticks);
+LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int late_ticks);
 
 }  // namespace spidar

@@ -5,7 +5,6 @@
 
 #include <array>
 
-#include "core/api.h"
 #include "spidar/emulation/emulated_board.h"
 #include "spidar/protocols/force_feedback.h"
 
@@ -14,7 +13,7 @@ namespace spidar {
 /// Its digits are the sum of the playing effects: level to the right, level upwards, and strength
 /// of the rumble. Its counts are the position of the stick, of ff::Position::kFull: to the right
 /// and upwards.
-class SPIDAR_API EmulatedForceFeedback final : public EmulatedBoard {
+class EmulatedForceFeedback final : public EmulatedBoard {
  public:
   /// A stick with two axes, gain, autocentre and room for sixteen effects.
   static ff::Description stick() noexcept;

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <memory>
 
-#include "core/api.h"
 #include "spidar/emulation/emulated_board.h"
 #include "spidar/transports/transport.h"
 
@@ -20,7 +19,7 @@ struct EmulatedWire {
 };
 
 /// No time passes: a reply is available at once or not at all.
-class SPIDAR_API EmulatedTransport final : public Transport {
+class EmulatedTransport final : public Transport {
  public:
   EmulatedTransport(std::unique_ptr<EmulatedBoard> board, std::shared_ptr<EmulatedWire> wire);
 

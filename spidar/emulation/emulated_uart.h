@@ -6,14 +6,13 @@
 #include <array>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/emulation/emulated_board.h"
 #include "spidar/protocols/uart_motor.h"
 
 namespace spidar {
 
 /// Takes the bytes of the line in pieces of any size, as the interrupts of the boards do.
-class SPIDAR_API EmulatedUart final : public EmulatedBoard {
+class EmulatedUart final : public EmulatedBoard {
  public:
   struct Station {
     int id = 0;

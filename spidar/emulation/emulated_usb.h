@@ -5,7 +5,6 @@
 
 #include <array>
 
-#include "core/api.h"
 #include "spidar/emulation/emulated_board.h"
 #include "spidar/protocols/sh4.h"
 #include "spidar/protocols/spidar_mouse.h"
@@ -13,7 +12,7 @@
 
 namespace spidar {
 
-class SPIDAR_API EmulatedSh4 final : public EmulatedBoard {
+class EmulatedSh4 final : public EmulatedBoard {
  public:
   explicit EmulatedSh4(EmulatedMotors& motors) : motors_(motors) {}
   void receive(ByteView bytes) noexcept override;
@@ -25,7 +24,7 @@ class SPIDAR_API EmulatedSh4 final : public EmulatedBoard {
   bool due_ = false;
 };
 
-class SPIDAR_API EmulatedSimple final : public EmulatedBoard {
+class EmulatedSimple final : public EmulatedBoard {
  public:
   explicit EmulatedSimple(EmulatedMotors& motors) : motors_(motors) {}
   void receive(ByteView bytes) noexcept override;
@@ -39,7 +38,7 @@ class SPIDAR_API EmulatedSimple final : public EmulatedBoard {
 };
 
 /// Its digits are the force in millinewtons, x and y.
-class SPIDAR_API EmulatedMouse final : public EmulatedBoard {
+class EmulatedMouse final : public EmulatedBoard {
  public:
   explicit EmulatedMouse(EmulatedMotors& motors) : motors_(motors) {}
   void receive(ByteView bytes) noexcept override;

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "core/api.h"
 #include "spidar/device.h"
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/profiles/profile.h"
@@ -26,7 +25,7 @@ struct SimulatedMechanics {
 /// board. No thread and no guardian is started. `wire` causes faults. Throws DeviceError for
 /// another board, or when the board cannot drive the profile, and std::invalid_argument as
 /// SimulatedDevice does.
-SPIDAR_API std::unique_ptr<Device> make_wire_simulation(
+std::unique_ptr<Device> make_wire_simulation(
     const std::string& board, const Profile& profile,
     std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>(),
     const SimulatedMechanics& mechanics = {});

@@ -8,7 +8,6 @@
 #include <sys/types.h>
 #include <vector>
 
-#include "core/api.h"
 #include "spidar/guardian/last_will.h"
 
 namespace spidar {
@@ -21,7 +20,7 @@ namespace spidar {
 ///
 /// To be used by one thread at a time. In a forked child of the process that created it, it does
 /// nothing.
-class SPIDAR_API Guardian {
+class Guardian {
  public:
   /// Starts a guardian for the connection. Throws DeviceError when the program is not found or does
   /// not answer. The program is $SPIDAR_GUARDIAN, or the installed one. It has a session of its

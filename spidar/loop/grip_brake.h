@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/wrench.h"
 #include "spidar/loop/grip_motion.h"
 #include "spidar/profiles/profile.h"
@@ -23,7 +22,7 @@ namespace spidar {
 ///
 /// A hand that follows the force of a film notices none of them: with 300 N/m and 8 N s/m it moves
 /// at no more than 0.45 m/s when a force of 3 N is reversed.
-class SPIDAR_API GripBrake {
+class GripBrake {
  public:
   static constexpr double kFadeFrom_m_s = 0.6;
   static constexpr double kFadeTo_m_s = 1.0;

@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/grip/pose.h"
 
 namespace spidar {
@@ -24,7 +23,7 @@ struct GripVelocity {
 /// The estimate is kLag_s behind the newest pose. A coordinate with independent errors of standard
 /// deviation σ has a velocity with an error of 0.25 σ per tick; an encoder step of 20 µm (σ = 6 µm)
 /// gives 1.5 mm/s.
-class SPIDAR_API GripMotion {
+class GripMotion {
  public:
   static constexpr double kCutoff_Hz = 60;
   /// Half a tick of the difference, and the time constant of the low-pass.

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 
-#include "core/api.h"
 #include "core/grip/pose.h"
 #include "core/grip/pose_solver.h"
 #include "core/grip/string_geometry.h"
@@ -22,7 +21,7 @@ namespace spidar {
 /// tensions that give a wrench at one pose give a different wrench at another. Trust is lost after
 /// kMaxMisses readings without a good pose and returns after kGoodPoses good poses in a row.
 /// Neither allocates nor throws after construction.
-class SPIDAR_API GripWatch {
+class GripWatch {
  public:
   /// Number of ticks in a row that may pass without a good pose; they use the previous pose.
   static constexpr int kMaxMisses = 5;

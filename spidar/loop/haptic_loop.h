@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstdint>
 
-#include "core/api.h"
 #include "core/force/wrench_timeline.h"
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
@@ -34,7 +33,7 @@ constexpr int64_t kTick_ns = 1'000'000;  ///< 1 kHz
 
 /// The loop without its thread: the owner calls tick(). The object is large (about 2 MB), so do not
 /// put it on the stack.
-class SPIDAR_API HapticLoop {
+class HapticLoop {
  public:
   /// Time in which tensions rise from zero to rest after the device is opened.
   static constexpr double kEnergise_s = 0.2;

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 
-#include "core/api.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
@@ -25,7 +24,7 @@ struct SafetyLimits {
 };
 
 /// Replaces a wrench that is not finite in any component by zero, and counts it.
-class SPIDAR_API FiniteCheck {
+class FiniteCheck {
  public:
   Wrench apply(const Wrench& wanted) noexcept;
   uint64_t rejected() const noexcept { return rejected_; }
@@ -36,11 +35,11 @@ class SPIDAR_API FiniteCheck {
 
 /// Scales force and torque down to their limits without changing their directions. A wrench that is
 /// not finite becomes zero.
-SPIDAR_API Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept;
+Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept;
 
 /// Bounds the change of force and torque per second. The result never exceeds the total limits if
 /// `wanted` does not, so lowered limits take effect at once.
-class SPIDAR_API SlewLimit {
+class SlewLimit {
  public:
   /// Returns the next wrench, `dt_s` after the last one. There is no step towards `wanted` if it is
   /// not finite, or if `dt_s` is zero, negative or not a number.
@@ -57,7 +56,7 @@ class SPIDAR_API SlewLimit {
 /// Ramps the wrench to rest when commands stop, and back when they begin. The ramp is level at both
 /// ends, so that there is neither a step nor a corner, and a command that is a little late makes
 /// hardly any difference.
-class SPIDAR_API StaleRamp {
+class StaleRamp {
  public:
   /// Returns the share of the wrench to apply, 0 … 1, `dt_s` after the last call. `fresh`: there is
   /// a valid command now. A ramp_s of zero switches at once.
@@ -78,7 +77,7 @@ class SPIDAR_API StaleRamp {
 /// maintains a force for longer than ramp_s. On the way back, it comes before the slew limit, so
 /// that both together do not exceed that limit. A fresh command therefore changes by at most
 /// max_slew, and a stale one decreases by at most 1.5 max_force / ramp_s.
-class SPIDAR_API WrenchSafety {
+class WrenchSafety {
  public:
   /// Returns the wrench to apply, `dt_s` after the last call. If not `fresh`, `wanted` is ignored,
   /// and the wrench applied last ramps to exactly zero.
@@ -106,7 +105,7 @@ class SPIDAR_API WrenchSafety {
 /// Bounds the change of tensions per second. At the border of the wrench-closure workspace, the
 /// solution moves nearly the whole tension from some strings to others within a tick
 /// (docs/workspace.md). A hand would feel that as a jerk, and a motor cannot follow it.
-class SPIDAR_API TensionSlew {
+class TensionSlew {
  public:
   /// Shortest time in which a string passes through its whole range.
   static constexpr double kRange_s = 0.02;
@@ -130,10 +129,9 @@ class SPIDAR_API TensionSlew {
 
 /// Limits tensions to the range from zero to each string's largest. A tension that is not a number
 /// becomes zero.
-SPIDAR_API StringVector bound_tensions(const StringVector& tension_N,
-                                       const Profile& profile) noexcept;
+StringVector bound_tensions(const StringVector& tension_N, const Profile& profile) noexcept;
 
 /// Converts tensions to D/A volts with newtons_per_volt and motor_sign, clamped to the D/A range.
-SPIDAR_API MotorVolts to_volts(const StringVector& tension_N, const Profile& profile) noexcept;
+MotorVolts to_volts(const StringVector& tension_N, const Profile& profile) noexcept;
 
 }  // namespace spidar

@@ -3,7 +3,6 @@
 /// From the commanded wrench to the tension of each string.
 #pragma once
 
-#include "core/api.h"
 #include "core/grip/string_geometry.h"
 #include "core/grip/tension_solver.h"
 #include "core/wrench.h"
@@ -16,7 +15,7 @@ namespace spidar {
 /// against each other give a zero wrench only if the assumed pose is right. With a wanted wrench,
 /// the tensions may rise in proportion to its magnitude, so that they do not jump between rest and
 /// a wrench. No function allocates or throws.
-class SPIDAR_API TensionCommand {
+class TensionCommand {
  public:
   /// Limit of each string's tension above its minimum, for each newton of the wrench (torque is
   /// divided by the grip radius). A higher limit does not deliver noticeably more of the wrench

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/api.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {
@@ -26,15 +25,15 @@ struct TraceStatus {
 };
 
 /// Names of the columns, ending in their SI units, separated by commas, without a line end.
-SPIDAR_API std::string trace_header();
+std::string trace_header();
 
 /// Appends `record` as a row with a line end, in the order of trace_header(). Numbers are in the
 /// "C" locale and as short as possible to be read back exactly. A frame_ns of INT64_MIN, which
 /// means no frame, becomes −1.
-SPIDAR_API void append_row(const TickRecord& record, std::string& csv);
+void append_row(const TickRecord& record, std::string& csv);
 
 /// The file. Rows are collected and written by flush(). One thread at a time.
-class SPIDAR_API TickTrace {
+class TickTrace {
  public:
   /// Creates or empties the file. Throws TraceError.
   explicit TickTrace(const std::string& path);

@@ -10,14 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
 #include "core/grip/string_geometry.h"
 
 namespace spidar {
 
 /// A profile that cannot be used. what() names file, line and field, what was wrong and what would
 /// be right.
-class SPIDAR_API ProfileError : public std::runtime_error {
+class ProfileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -88,22 +87,22 @@ struct Profile {
   std::vector<Provenance> provenance;
 
   /// Lengths at which the counters are zero: those at the centre plus home_offset_m.
-  SPIDAR_API StringVector zero_count_length_m() const;
-  SPIDAR_API StringVector min_tension_N() const;
-  SPIDAR_API StringVector max_tension_N() const;
+  StringVector zero_count_length_m() const;
+  StringVector min_tension_N() const;
+  StringVector max_tension_N() const;
   /// The largest residual (root mean square) of a right pose, for PoseSolver: one step of the
   /// coarsest encoder. Counts are off by at most half a step; the other half allows for errors of
   /// the geometry.
-  SPIDAR_API double max_pose_residual_m() const;
+  double max_pose_residual_m() const;
 };
 
 /// `name_or_path`: a name as of list_profiles(), or a path (has a '/' or ends in .toml).
 /// Throws ProfileError.
-SPIDAR_API Profile load_profile(const std::string& name_or_path);
+Profile load_profile(const std::string& name_or_path);
 
 /// Profiles that load_profile() finds by name: those in $SPIDAR_PROFILE_PATH (colon-separated),
 /// then the installed files, then those that are built into the library. Sorted, without ending.
-SPIDAR_API std::vector<std::string> list_profiles();
+std::vector<std::string> list_profiles();
 
 /// Default profile: the desktop SPIDAR-G most common in public sources.
 inline constexpr const char* kDefaultProfile = "spidar-gcc";

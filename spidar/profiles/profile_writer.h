@@ -5,17 +5,16 @@
 
 #include <string>
 
-#include "core/api.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
 
 /// TOML from which load_profile() reads exactly the same profile, except for its name, which is
 /// that of the file. Geometry is in D and metres.
-SPIDAR_API std::string profile_text(const Profile& profile);
+std::string profile_text(const Profile& profile);
 
 /// Writes profile_text() to `path` atomically: an existing file is replaced when the new one is
 /// complete. Throws ProfileError.
-SPIDAR_API void save_profile(const Profile& profile, const std::string& path);
+void save_profile(const Profile& profile, const std::string& path);
 
 }  // namespace spidar

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/api.h"
 #include "spidar/protocols/bytes.h"
 
 namespace spidar::ff {
@@ -70,13 +69,13 @@ constexpr std::array<uint8_t, kPositionSize> kPosition{};
 
 /// FF_CONSTANT for kEffect_ms in a fixed direction; `level` is clamped to −kFullLevel …
 /// kFullLevel.
-SPIDAR_API EffectBytes encode_constant(int16_t number, Direction direction, int level) noexcept;
+EffectBytes encode_constant(int16_t number, Direction direction, int level) noexcept;
 /// FF_RUMBLE for kEffect_ms; `strength` of the strong motor is clamped to 0 … kFullStrength.
-SPIDAR_API EffectBytes encode_rumble(int16_t number, int strength) noexcept;
+EffectBytes encode_rumble(int16_t number, int strength) noexcept;
 /// Starts an effect, from its beginning if it plays already, or stops it.
-SPIDAR_API EventBytes encode_play(int16_t number, bool on) noexcept;
-SPIDAR_API EventBytes encode_gain(int gain) noexcept;
-SPIDAR_API EventBytes encode_autocentre(int strength) noexcept;
+EventBytes encode_play(int16_t number, bool on) noexcept;
+EventBytes encode_gain(int gain) noexcept;
+EventBytes encode_autocentre(int strength) noexcept;
 
 /// An effect as a device receives it.
 struct Effect {
@@ -87,7 +86,7 @@ struct Effect {
   int length_ms = 0;  ///< 0: no limit
 };
 /// Nothing when it is neither FF_CONSTANT nor FF_RUMBLE, or does not have kEffectSize bytes.
-SPIDAR_API std::optional<Effect> decode_effect(ByteView bytes) noexcept;
+std::optional<Effect> decode_effect(ByteView bytes) noexcept;
 
 /// Code of an EV_FF event: the number of an effect, FF_GAIN or FF_AUTOCENTER.
 struct Event {
@@ -95,6 +94,6 @@ struct Event {
   int32_t value = 0;
 };
 /// Nothing when it is not an EV_FF event, or does not have kEventSize bytes.
-SPIDAR_API std::optional<Event> decode_event(ByteView bytes) noexcept;
+std::optional<Event> decode_event(ByteView bytes) noexcept;
 
 }  // namespace spidar::ff

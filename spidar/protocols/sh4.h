@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 
-#include "core/api.h"
 #include "spidar/protocols/bytes.h"
 
 namespace spidar::sh4 {
@@ -39,12 +38,12 @@ struct Reading {
 };
 
 /// The only command: sets the D/A digits and asks for all readings.
-SPIDAR_API void encode_update(const DacDigits& digits, Packet& packet) noexcept;
+void encode_update(const DacDigits& digits, Packet& packet) noexcept;
 /// Returns false when it is not that command, or does not have kPacketSize bytes.
-SPIDAR_API bool decode_update(ByteView packet, DacDigits& digits) noexcept;
+bool decode_update(ByteView packet, DacDigits& digits) noexcept;
 
-SPIDAR_API void encode_reading(const Reading& reading, Packet& packet) noexcept;
+void encode_reading(const Reading& reading, Packet& packet) noexcept;
 /// Returns false when it does not have kPacketSize bytes.
-SPIDAR_API bool decode_reading(ByteView packet, Reading& reading) noexcept;
+bool decode_reading(ByteView packet, Reading& reading) noexcept;
 
 }  // namespace spidar::sh4

@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 
-#include "core/api.h"
 #include "spidar/protocols/bytes.h"
 
 namespace spidar::mouse {
@@ -40,19 +39,19 @@ struct Force {
   double y_N = 0;
 };
 
-SPIDAR_API void encode_query(Report& report) noexcept;
+void encode_query(Report& report) noexcept;
 /// With the published constants from force to duty.
-SPIDAR_API void encode_start(Report& report) noexcept;
+void encode_start(Report& report) noexcept;
 /// Shortened to kMaxForce_N; NaN counts as zero. The position of the grip is sent as the centre.
-SPIDAR_API void encode_force(const Force& force, Report& report) noexcept;
-SPIDAR_API void encode_stop(Report& report) noexcept;
+void encode_force(const Force& force, Report& report) noexcept;
+void encode_stop(Report& report) noexcept;
 
 /// Decodes a report to the device. Returns false when it is none of the commands, or does not have
 /// kReportSize bytes.
-SPIDAR_API bool decode_command(ByteView report, Command& command, Force& force) noexcept;
+bool decode_command(ByteView report, Command& command, Force& force) noexcept;
 
 /// The answer to kQuery begins with its number (inferred).
-SPIDAR_API bool is_state(ByteView report) noexcept;
-SPIDAR_API void encode_state(Report& report) noexcept;
+bool is_state(ByteView report) noexcept;
+void encode_state(Report& report) noexcept;
 
 }  // namespace spidar::mouse

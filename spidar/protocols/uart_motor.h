@@ -9,7 +9,6 @@
 #include <array>
 #include <cstdint>
 
-#include "core/api.h"
 #include "spidar/protocols/bytes.h"
 
 namespace spidar::uart_motor {
@@ -72,32 +71,30 @@ constexpr size_t kMaxCycleLength = current_cycle_length(kMaxMotors, kMaxMotors);
 constexpr size_t kMaxReplyLength = current_reply_length(kMaxMotors, kMaxMotors);
 
 /// Lengths of a board's commands, in the order of their numbers.
-SPIDAR_API std::array<uint8_t, kCommands> command_lengths(size_t motors, size_t forces) noexcept;
+std::array<uint8_t, kCommands> command_lengths(size_t motors, size_t forces) noexcept;
 
-SPIDAR_API void encode_enquiry(int board, std::array<uint8_t, kEnquiryLength>& packet) noexcept;
+void encode_enquiry(int board, std::array<uint8_t, kEnquiryLength>& packet) noexcept;
 /// Returns false when it is not the reply of that board, or its content is invalid.
-SPIDAR_API bool decode_info(ByteView reply, int board, BoardInfo& info) noexcept;
-SPIDAR_API void encode_info(const BoardInfo& info, int board,
-                            std::array<uint8_t, kInfoLength>& reply) noexcept;
+bool decode_info(ByteView reply, int board, BoardInfo& info) noexcept;
+void encode_info(const BoardInfo& info, int board,
+                 std::array<uint8_t, kInfoLength>& reply) noexcept;
 
 /// Tells every board the lengths of the others' packets, so that it can skip them.
-SPIDAR_API void encode_lengths(int board, const BoardInfo& info,
-                               std::array<uint8_t, kSetLengthsLength>& packet) noexcept;
+void encode_lengths(int board, const BoardInfo& info,
+                    std::array<uint8_t, kSetLengthsLength>& packet) noexcept;
 
 /// One servo cycle of one board. Digits are clamped to ±kMaxDigit. Returns the length, 0 when
 /// `packet` is too small or the board has too many motors.
-SPIDAR_API size_t encode_current(int board, const BoardInfo& info,
-                                 const std::array<int, kMaxMotors>& digits,
-                                 MutableBytes packet) noexcept;
+size_t encode_current(int board, const BoardInfo& info, const std::array<int, kMaxMotors>& digits,
+                      MutableBytes packet) noexcept;
 /// Returns false when `command` is not the CURRENT command of that board.
-SPIDAR_API bool decode_current(ByteView command, int board, const BoardInfo& info,
-                               std::array<int, kMaxMotors>& digits) noexcept;
+bool decode_current(ByteView command, int board, const BoardInfo& info,
+                    std::array<int, kMaxMotors>& digits) noexcept;
 
 /// Returns false when it is not that board's reply, or has another length.
-SPIDAR_API bool decode_reading(ByteView reply, int board, const BoardInfo& info,
-                               Reading& reading) noexcept;
+bool decode_reading(ByteView reply, int board, const BoardInfo& info, Reading& reading) noexcept;
 /// Returns the length, 0 when `reply` is too small.
-SPIDAR_API size_t encode_reading(const Reading& reading, int board, const BoardInfo& info,
-                                 MutableBytes reply) noexcept;
+size_t encode_reading(const Reading& reading, int board, const BoardInfo& info,
+                      MutableBytes reply) noexcept;
 
 }  // namespace spidar::uart_motor

@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 
-#include "core/api.h"
 #include "spidar/protocols/bytes.h"
 
 namespace spidar::usb_simple {
@@ -40,10 +39,10 @@ struct Reading {
   int rotary() const noexcept { return inputs >> 4 & 0xF; }
 };
 
-SPIDAR_API void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept;
-SPIDAR_API void encode_clear_counters(uint8_t channels, Packet& packet) noexcept;
-SPIDAR_API void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept;
-SPIDAR_API void encode_latch(Packet& packet) noexcept;
+void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept;
+void encode_clear_counters(uint8_t channels, Packet& packet) noexcept;
+void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept;
+void encode_latch(Packet& packet) noexcept;
 
 /// A packet to the board, decoded.
 struct HostPacket {
@@ -53,11 +52,11 @@ struct HostPacket {
 };
 
 /// Returns false when it is none of the commands, or does not have kPacketSize bytes.
-SPIDAR_API bool decode_command(ByteView packet, HostPacket& command) noexcept;
+bool decode_command(ByteView packet, HostPacket& command) noexcept;
 
 /// Counters are reduced to 24 bits.
-SPIDAR_API void encode_reading(const Reading& reading, Packet& packet) noexcept;
+void encode_reading(const Reading& reading, Packet& packet) noexcept;
 /// Returns false when it does not have kPacketSize bytes.
-SPIDAR_API bool decode_reading(ByteView packet, Reading& reading) noexcept;
+bool decode_reading(ByteView packet, Reading& reading) noexcept;
 
 }  // namespace spidar::usb_simple

@@ -8,7 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "core/api.h"
 #include "spidar/realtime/scheduling.h"
 
 namespace spidar {
@@ -18,7 +17,7 @@ namespace spidar {
 constexpr int kRealTimePriority = 80;
 
 /// Asks for SCHED_FIFO for the calling thread, with kRealTimePriority or as much as is allowed.
-SPIDAR_API Scheduling request_real_time();
+Scheduling request_real_time();
 
 /// Timers of the calling thread fire when they are due. The kernel's default is up to 50 µs later,
 /// so that processors sleep longer. A real-time thread has no slack anyway.
@@ -28,7 +27,7 @@ void request_exact_timers() noexcept;
 void request_background() noexcept;
 
 /// During its lifetime, threads that the calling thread starts have all signals blocked.
-class SPIDAR_API SignalsBlocked {
+class SignalsBlocked {
  public:
   SignalsBlocked() noexcept;
   ~SignalsBlocked();

@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "core/api.h"
 #include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
@@ -26,7 +25,7 @@ namespace spidar {
 ///                           flip=x, y or xy if its driver pushes to the other side
 /// Opens nothing. Throws DeviceError, which lists the valid names or explains why the board cannot
 /// drive the profile. "none" is not a device, because it needs no loop.
-SPIDAR_API std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
-                                               const BoardSettings& settings = {});
+std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
+                                    const BoardSettings& settings = {});
 
 }  // namespace spidar

@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "core/api.h"
 #include "core/force/wrench_timeline.h"
 #include "spidar/device.h"
 #include "spidar/loop/haptic_loop.h"
@@ -26,7 +25,7 @@ struct SessionSettings {
   bool real_time = true;   ///< ask for real-time priority; works without
 };
 
-class SPIDAR_API HapticSession {
+class HapticSession {
  public:
   /// Opens the device and starts the loop. Throws DeviceError, std::invalid_argument when the
   /// profile has fewer than six strings, or TraceError when the trace cannot be written.

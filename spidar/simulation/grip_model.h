@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
@@ -35,7 +34,7 @@ struct GripState {
 
 /// Newton–Euler equations of the grip, integrated by the semi-implicit Euler method with implicit
 /// dampers. All forces are in D; the inertia is a sphere's, so there is no gyroscopic term.
-class SPIDAR_API GripDynamics {
+class GripDynamics {
  public:
   /// `max_tension_N` bounds the tensions that advance() will be given; the step follows from it.
   /// Throws std::invalid_argument when the model is not physical (mass and inertia above zero, the
@@ -72,6 +71,6 @@ class SPIDAR_API GripDynamics {
 };
 
 /// Rotation vector of `rotation`, in radians, with an angle of at most π.
-SPIDAR_API Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept;
+Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept;
 
 }  // namespace spidar

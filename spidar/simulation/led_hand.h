@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/grip/pose.h"
 
 namespace spidar {
@@ -18,7 +17,7 @@ struct HandLead {
 
 /// Moves the hand towards its target at a limited speed. Without a target it returns to its resting
 /// pose, and then stays exactly there.
-class SPIDAR_API LedHand {
+class LedHand {
  public:
   /// Speed of a brisk stroke. People explore surfaces at 0.01 … 0.25 m/s (R. Klatzky and S.
   /// Lederman, Tactile roughness perception with a rigid link interposed between skin and surface,

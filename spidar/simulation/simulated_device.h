@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/grip/pose.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
@@ -31,7 +30,7 @@ struct FeltState {
 };
 
 /// The model of a device with this profile: its motors lag by drive_lag_s, first order.
-SPIDAR_API GripModel grip_model_of(const Profile& profile);
+GripModel grip_model_of(const Profile& profile);
 
 /// Nanoseconds of a clock that never goes back. Does not throw.
 using SimulatedClock = std::function<int64_t()>;
@@ -42,7 +41,7 @@ using SimulatedClock = std::function<int64_t()>;
 /// An exchange takes no time, and its voltages act until the next one. Like a real board, the
 /// device holds the voltages when the host stops sending: with kClock the strings keep pulling
 /// while time passes, with kFixedStep time stands still between exchanges.
-class SPIDAR_API SimulatedDevice final : public Device {
+class SimulatedDevice final : public Device {
  public:
   enum class Time {
     kFixedStep,  ///< each exchange is 1 ms after the last: deterministic

@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "core/api.h"
 #include "spidar/device.h"
 
 namespace spidar {
@@ -23,16 +22,15 @@ struct Miswiring {
   std::array<Channel, kMaxStrings> channel{};
 
   /// Whether everything is connected as it should be.
-  SPIDAR_API Miswiring();
+  Miswiring();
 };
 
 /// `text` lists faults separated by semicolons; channels count from zero: `swap-motors:I,J`,
 /// `swap-encoders:I,J`, `swap-strings:I,J` (both), `reverse-motor:I`, `reverse-encoder:I`,
 /// `cut-motor:I`, `cut-encoder:I`. Throws std::invalid_argument that says what is wrong.
-SPIDAR_API Miswiring parse_miswiring(const std::string& text, int strings);
+Miswiring parse_miswiring(const std::string& text, int strings);
 
 /// Puts `device` behind that wiring.
-SPIDAR_API std::unique_ptr<Device> make_miswired(std::unique_ptr<Device> device,
-                                                 const Miswiring& wiring);
+std::unique_ptr<Device> make_miswired(std::unique_ptr<Device> device, const Miswiring& wiring);
 
 }  // namespace spidar

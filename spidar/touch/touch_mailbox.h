@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/touch/contact_force.h"
 #include "core/touch/height_field.h"
 
@@ -38,7 +37,7 @@ struct TouchFrame {
 /// slot in place and the reader keeps the two frames it interpolates between, so at least three
 /// slots are needed. More slots allow for frames that pass the element long before they are shown,
 /// because GStreamer's queues hold some of them before the sink.
-class SPIDAR_API TouchMailbox {
+class TouchMailbox {
  public:
   static constexpr size_t kLeastSlots = 3;
 

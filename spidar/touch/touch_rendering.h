@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "core/touch/contact_force.h"
 #include "spidar/touch/touch_mailbox.h"
 
@@ -33,7 +32,7 @@ struct Contact {
 /// appears when it is due, and TouchProxy raises it slowly from the grip. The same applies to a
 /// frame that rises under the grip faster than kRise_m_s after compensation of its displacement, as
 /// with a flash, an undetected cut, or an undetected motion.
-class SPIDAR_API TouchRendering {
+class TouchRendering {
  public:
   static constexpr int64_t kShortest_ns = 15'000'000;
   /// A longer pause between two ticks resets the contact.

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
-
 namespace spidar {
 
 struct EvdevInfo {
@@ -21,10 +19,10 @@ struct EvdevInfo {
 
 /// Returns input devices with FF_CONSTANT, then those with only FF_RUMBLE, sorted by number. Reads
 /// the kernel's description in /sys/class/input; opens no device.
-SPIDAR_API std::vector<EvdevInfo> list_force_feedback();
+std::vector<EvdevInfo> list_force_feedback();
 
 /// Returns the name of the kernel driver of an input device ("/dev/input/event5", or a link to it):
 /// "logitech", "iforce", "hid-generic", …; empty when sysfs does not name one.
-SPIDAR_API std::string evdev_driver(const std::string& path);
+std::string evdev_driver(const std::string& path);
 
 }  // namespace spidar

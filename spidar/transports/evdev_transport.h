@@ -5,7 +5,6 @@
 
 #include <string>
 
-#include "core/api.h"
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/transports/transport.h"
 
@@ -14,7 +13,7 @@ namespace spidar {
 /// Accepts the requests of protocols/force_feedback.h. A call takes as long as the driver needs;
 /// deadlines have no effect. The kernel stops and erases all effects when the last process that has
 /// the file open closes it or ends.
-class SPIDAR_API EvdevTransport final : public Transport {
+class EvdevTransport final : public Transport {
  public:
   /// `name` is for messages. An empty `path` means the first device of list_force_feedback(),
   /// determined in every open(). `axes` is 1 for a wheel, 2 for a joystick, and 0 if is_wheel() is

@@ -7,7 +7,6 @@
 #include <initializer_list>
 #include <optional>
 
-#include "core/api.h"
 #include "spidar/guardian/last_will.h"
 #include "spidar/link_fault.h"
 #include "spidar/protocols/bytes.h"
@@ -22,7 +21,7 @@ struct Transfer {
 };
 
 /// One connection, to be used by one thread at a time.
-class SPIDAR_API Transport {
+class Transport {
  public:
   /// How long open() waits for a connection that is in use, and the interval between attempts.
   static constexpr int64_t kBusyPatience_ns = 300'000'000;

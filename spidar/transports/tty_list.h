@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
-
 namespace spidar {
 
 struct TtyLine {
@@ -18,6 +16,6 @@ struct TtyLine {
 
 /// Returns the lines of USB adapters (ttyUSB…, ttyACM…) and the named ones in `folder`, sorted.
 /// Opens none.
-SPIDAR_API std::vector<TtyLine> list_tty_lines(const std::string& folder = "/dev");
+std::vector<TtyLine> list_tty_lines(const std::string& folder = "/dev");
 
 }  // namespace spidar

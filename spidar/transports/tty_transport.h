@@ -5,13 +5,12 @@
 
 #include <string>
 
-#include "core/api.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar {
 
 /// Raw mode, 8N1, no flow control, and low latency if the driver supports it.
-class SPIDAR_API TtyTransport final : public Transport {
+class TtyTransport final : public Transport {
  public:
   /// `baud` is any rate that the driver accepts.
   TtyTransport(std::string path, int baud);

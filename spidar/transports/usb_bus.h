@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/api.h"
-
 struct libusb_context;
 
 namespace spidar {
@@ -25,7 +23,7 @@ struct UsbDeviceInfo {
   bool accessible = false;  ///< this process may write to it
 
   /// "/dev/bus/usb/001/004"
-  SPIDAR_API std::string device_file() const;
+  std::string device_file() const;
 };
 
 struct UsbContextCloser {
@@ -39,6 +37,6 @@ UsbContext make_usb_context();
 
 /// Returns the devices with `vendor` and `product`. Reads descriptors that the system has stored;
 /// nothing is sent to a device. Throws DeviceError when there is no access to the bus.
-SPIDAR_API std::vector<UsbDeviceInfo> list_usb_devices(uint16_t vendor, uint16_t product);
+std::vector<UsbDeviceInfo> list_usb_devices(uint16_t vendor, uint16_t product);
 
 }  // namespace spidar

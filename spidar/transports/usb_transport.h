@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "core/api.h"
 #include "spidar/transports/transport.h"
 #include "spidar/transports/usb_bus.h"
 
@@ -27,7 +26,7 @@ struct UsbPipes {
 /// exchange takes one round trip on the bus. The thread that exchanges also handles the events. At
 /// the deadline it cancels transfers and waits for their end, which may take any time in libusb and
 /// the kernel. Do not use this class in a thread that must not wait; see BoardDevice.
-class SPIDAR_API UsbTransport final : public Transport {
+class UsbTransport final : public Transport {
  public:
   /// `name` is for messages.
   UsbTransport(std::string name, const UsbPipes& pipes);

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <linux/input.h>
 
-#include "core/api.h"
 #include "spidar/transports/evdev_calls.h"
 
 namespace spidar {
@@ -21,13 +20,13 @@ struct EvdevTraits {
   BitSet<KEY_CNT> keys{};
 };
 
-SPIDAR_API EvdevTraits evdev_traits(int file) noexcept;
+EvdevTraits evdev_traits(int file) noexcept;
 
 /// True when the second axis of the device is a pedal or a lever, not the other direction of a
 /// stick. Linux does not say so. On a wheel that is taken for a joystick, forces up and down turn
 /// the wheel; a joystick that is taken for a wheel only lacks them. So this is true in cases of
 /// doubt: a wheel is known by its USB ID, its name, an axis or a button that only wheels have, or
 /// by pedals. Joysticks have ABS_RZ, too, when they can be twisted, but seldom ABS_Z.
-SPIDAR_API bool is_wheel(const EvdevTraits& traits) noexcept;
+bool is_wheel(const EvdevTraits& traits) noexcept;
 
 }  // namespace spidar

@@ -5,7 +5,6 @@
 
 #include <array>
 
-#include "core/api.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/wiring/string_hold.h"
@@ -25,6 +24,6 @@ struct StickTest {
 /// Pushes four times along each axis that the device has, with half of the force that the gain
 /// allows, for 0.2 s: to one side, twice to the other, and back, so that a drift cancels. Throws
 /// DeviceError when the device is lost.
-SPIDAR_API StickTest test_stick(Device& device, const Profile& profile, const Pace& pace);
+StickTest test_stick(Device& device, const Profile& profile, const Pace& pace);
 
 }  // namespace spidar

@@ -5,7 +5,6 @@
 
 #include <functional>
 
-#include "core/api.h"
 #include "core/grip/string_geometry.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
@@ -17,7 +16,7 @@ using Pace = std::function<bool()>;
 
 /// Keeps a device open during its lifetime. Tensions change linearly. Every function throws
 /// DeviceError when the device is lost.
-class SPIDAR_API StringHold {
+class StringHold {
  public:
   /// Opens the device with zero tensions. Throws DeviceError.
   StringHold(Device& device, const Profile& profile, Pace pace);

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "core/api.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/wiring/string_hold.h"
@@ -42,16 +41,16 @@ struct WiringAnswers {
 ///
 /// Throws DeviceError when the device is lost, or when a string runs away: 30 mm are more than a
 /// hand gives way, the motor unwinds the string or nobody holds the grip.
-SPIDAR_API WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pace,
-                                    const WiringTestSettings& settings = {});
+WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pace,
+                         const WiringTestSettings& settings = {});
 
 /// Pulls these motors again, and replaces their answers.
-SPIDAR_API void ask_again(Device& device, const Profile& profile, const Pace& pace,
-                          const WiringTestSettings& settings,
-                          const std::array<bool, kMaxStrings>& motors, WiringAnswers& answers);
+void ask_again(Device& device, const Profile& profile, const Pace& pace,
+               const WiringTestSettings& settings, const std::array<bool, kMaxStrings>& motors,
+               WiringAnswers& answers);
 
 /// Smallest change of length that counts as an answer, metres: some counts, above the tremor of a
 /// hand.
-SPIDAR_API double smallest_answer_m(const Profile& profile);
+double smallest_answer_m(const Profile& profile);
 
 }  // namespace spidar

@@ -6,7 +6,6 @@
 #include <array>
 #include <string>
 
-#include "core/api.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/wiring/wiring_answers.h"
 
@@ -32,12 +31,12 @@ struct WiringReport {
   /// Below kMinCorrelation the answers do not look like this device's, however it is wired.
   static constexpr double kMinCorrelation = 0.8;
   /// The correlation is sufficient, and so is that of each motor's answers, in direction and size.
-  SPIDAR_API bool understood() const noexcept;
+  bool understood() const noexcept;
   /// The wiring is that of the profile.
-  SPIDAR_API bool as_profile() const noexcept;
+  bool as_profile() const noexcept;
   /// A profile can describe the wiring: it differs in signs, and in strings that are at other
   /// channels, motor and encoder together.
-  SPIDAR_API bool fixable() const noexcept;
+  bool fixable() const noexcept;
 };
 
 /// Explains the answers by as few exchanged or reversed channels as will do.
@@ -47,12 +46,11 @@ struct WiringReport {
 /// lengths is known but for C: it is taken to be the same in all directions, with a share of
 /// rotation that is tried out. The wiring whose expected answers correlate best with those measured
 /// is looked for by exchanging two motors, two encoders or both, from the profile's on.
-SPIDAR_API WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);
+WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);
 
 /// The profile with what was found: signs, and strings in the order of the channels. Counts of a
 /// calibrated profile are not those of the new one: it is to be calibrated again. `how` is for the
 /// provenance. Throws std::invalid_argument when the report is not fixable().
-SPIDAR_API Profile rewired_profile(const Profile& profile, const WiringReport& report,
-                                   const std::string& how);
+Profile rewired_profile(const Profile& profile, const WiringReport& report, const std::string& how);
 
 }  // namespace spidar

@@ -6,7 +6,6 @@
 #include <functional>
 #include <string>
 
-#include "core/api.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/wiring/wiring_answers.h"
@@ -25,11 +24,11 @@ struct WiringTest {
 /// ask_wiring() and judge_wiring(). As long as the report is not understood, up to kTries times in
 /// all, and something has moved, calls `repeat`, when all tensions are zero, and asks the motors
 /// again that are unclear, or all if none is. Throws DeviceError like ask_wiring().
-SPIDAR_API WiringTest test_wiring(Device& device, const Profile& profile, const Pace& pace,
-                                  const WiringTestSettings& settings,
-                                  const std::function<void(const WiringReport&)>& repeat = {});
+WiringTest test_wiring(Device& device, const Profile& profile, const Pace& pace,
+                       const WiringTestSettings& settings,
+                       const std::function<void(const WiringReport&)>& repeat = {});
 
 /// Text like " 2, 5": the motors whose answers are unclear.
-SPIDAR_API std::string unclear_motors(const WiringReport& report);
+std::string unclear_motors(const WiringReport& report);
 
 }  // namespace spidar
