@@ -53,6 +53,11 @@ check_layout() {
     else
         checks+=(--failed "layout: run clang-format -i on the files above")
     fi
+    if tests/check_folders.py; then
+        checks+=(--passed folders)
+    else
+        checks+=(--failed "folders: see the includes above")
+    fi
 }
 
 # check_reference FOLDER: Doxygen reads the public headers without a warning.
