@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A board of sixty lines, the example of docs/adding-a-board.md. It does not exist: it takes a
+/// A board of sixty lines, the example of docs/extend.md. It does not exist: it takes a
 /// packet of eight 16-bit digits and answers with eight 16-bit counters.
 #pragma once
 

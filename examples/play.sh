@@ -27,7 +27,7 @@ build() {
     if [[ ! -f $top/build/build.ninja ]]; then
         quietly meson setup "$top/build" "$top"
     fi
-    # The guardian is needed by real boards, and the tutorial goes on with spidar-feel.
+    # The guardian is needed by real boards, and docs/start.md goes on with spidar-feel.
     local targets=(plugin/libgstspidar.so plugin/spidar-feel spidar/spidar-guardian examples/play)
     if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then
         echo "building; the first time, this takes some minutes"

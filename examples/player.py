@@ -5,7 +5,7 @@
 
 Type and return: space pause, + - speed, < > 5 s, . next frame, l loop, f force on and off,
 d40 force 40 ms later, q quit. Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in
-README.md.
+docs/start.md.
 """
 import re
 import sys

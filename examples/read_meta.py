@@ -3,7 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 """Prints what spidarmotion attaches to each frame of FILE, or of the ball of videotestsrc.
 
-Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in README.md.
+Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in docs/start.md.
 """
 import sys
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Measures the table of docs/films.md: pathologies.sh BUILD [CLIP...]. pathologies.py describes what
+# Measures docs/tables-films.md: pathologies.sh BUILD [CLIP...]. pathologies.py describes what
 # is measured; without a CLIP nothing has to be downloaded. Needs ffmpeg.
 set -eu
 cd "$(dirname "$0")/../.."

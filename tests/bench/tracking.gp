@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# docs/figures/tracking.png from the tables of docs/tracking.md, which bench_tracking has printed:
-#   gnuplot -e "page='docs/tracking.md'; picture='docs/figures/tracking.png'" tests/bench/tracking.gp
+# docs/figures/tracking.png from the tables of docs/tables-tracking.md, which bench_tracking has printed:
+#   gnuplot -e "page='docs/tables-tracking.md'; picture='docs/figures/tracking.png'" tests/bench/tracking.gp
 set encoding utf8
 set terminal pngcairo size 1560,520 font "DejaVu Sans,11"
 set output picture

@@ -25,7 +25,9 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,6 +43,7 @@ WORKERS = 2
 LONGEST_S = 50  # of a line that ends; the test has a limit of its own
 ENDLESS_S = 2
 SKIPPED = 77
+NETWORK = re.compile(r"\b(srt|tcp|udp|sdp)\w* ")
 COMMENT = re.compile(r"<!-- (not run|endless|not commands)(?: \((.*?)\))?(?:: (.*?))? -->$")
 
 
@@ -230,7 +233,14 @@ def main():
         make_film(Path(films))
         to_run = [line for line in lines if not line.not_run]
         with ThreadPoolExecutor(WORKERS) as pool:
-            results = pool.map(lambda line: run(line, Path(films), source, build), to_run)
+            # Two lines with the same port would meet: the second of them begins when the first has ended.
+            on_network = threading.Lock()
+
+            def run_alone(line):
+                with on_network if NETWORK.search(line.command) else nullcontext():
+                    return run(line, Path(films), source, build)
+
+            results = pool.map(run_alone, to_run)
             for line, wrong in zip(to_run, results):
                 print(f"{'FAILED' if wrong else 'ok'}: {line.where}: {line.command}", flush=True)
                 if wrong:

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# check_play_script.sh SOURCE: examples/play.sh builds everything that it and the next step of the tutorial use: the
+# check_play_script.sh SOURCE: examples/play.sh builds everything that it and the next step of docs/start.md use: the
 # plugin, the guardian, without which no real board is opened, and spidar-feel. The script runs in a copy of the
 # tree in which ninja only notes what it is asked for.
 set -euo pipefail

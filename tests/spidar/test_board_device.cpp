@@ -70,7 +70,7 @@ TEST(EncoderCounts, AllowWhatAHandCanSinceTheLastReading) {
   EXPECT_TRUE(counts.follow({9096 + 16384}, now_ns += 7 * kMs));
 }
 
-/// The other end of the example in docs/adding-a-board.md.
+/// The other end of the example in docs/extend.md.
 class EmulatedExample final : public EmulatedBoard {
  public:
   explicit EmulatedExample(EmulatedMotors& motors) : motors_(motors) {}

@@ -236,7 +236,7 @@ TEST(Spidarctl, RestAndZeroLeaveTheMotorsAtZero) {
   expect_contains(zero.text, "sim:sh4: the motors are at zero");
 }
 
-/// The line of docs/hardware.md, for the profiles of boards that have a driver.
+/// The line of docs/first-power-on.md, for the profiles of boards that have a driver.
 TEST(Spidarctl, TheFirstPullOfTheGuideSuitsEveryBoard) {
   int tried = 0;
   for (const std::string& name : spidar::list_profiles()) {
