@@ -260,7 +260,7 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
     scene.object_list = &objects;
     // Chosen also while all objects are felt, so that a caller who asks for one object gets a
     // stable choice.
-    scene.dominant = dominant_.choose(objects);
+    scene.dominant = dominant_.choose(objects, interval_s);
     if (kind == MotionKind::kObjects) {
       const Eigen::Vector2d pointer_px((pointer.x() - 0.5) * reduced.width(),
                                        (pointer.y() - 0.5) * reduced.height());
