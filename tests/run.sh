@@ -60,13 +60,14 @@ check_layout() {
     fi
 }
 
-# check_reference FOLDER: Doxygen reads the public headers without a warning.
-check_reference() {
-    say "reference: doxygen $(doxygen --version)"
+# check_site FOLDER: Doxygen reads the public headers, and Sphinx the pages, without a warning. The site stays in
+# FOLDER/docs/site.
+check_site() {
+    say "site: doxygen $(doxygen --version), $(sphinx-build --version)"
     if meson compile -C "$1" docs; then
-        checks+=(--passed reference)
+        checks+=(--passed site)
     else
-        checks+=(--failed "reference: meson compile -C $1 docs")
+        checks+=(--failed "site: meson compile -C $1 docs")
     fi
 }
 
@@ -105,7 +106,7 @@ case ${1-} in
     build_and_test build-ci-address "${sanitized[@]}" \
         -Db_sanitize=address,undefined -Dbenchmarks=disabled -Dexamples=false -- \
         -t 4 --no-suite numerics --no-suite short-films --no-suite kernel
-    check_reference build-ci-address
+    check_site build-ci-address
     say "thread sanitizer: what runs on several threads, and a player to which anything is done at random." \
         "GLib and GStreamer are not built with it: their locks are told to it (tests/support/tsan_glib.cpp)," \
         "what they do between themselves it does not see"
