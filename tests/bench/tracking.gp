@@ -18,12 +18,11 @@ rows(n) = "< awk -F'|' -v n=" . n . " '/^### [0-9]+x/ {split($1, t, /[ x]/); wid
           "{if (row++ == n) print width, $3, $6, $12}' " . page
 name(n) = system("awk -F'|' '/^### [0-9]/ {inside = 1} inside && NF > 10 && !/---/ && !/pipeline/ " . \
                  "{if (row++ == " . n . ") {gsub(/^ +| +$/, \"\", $2); print $2; exit}}' " . page)
-last = 10
+last = 8
 
 # One colour and one shape a pipeline, the same in all three plots.
-array colours[11] = ["#7a7a7a", "#d55e00", "#a03000", "#56b4e9", "#0072b2", "#0b2e59", "#009e73", \
-                     "#7fbf3f", "#cc79a7", "#e69f00", "#000000"]
-array shapes[11] = [5, 7, 7, 9, 9, 9, 11, 11, 13, 4, 6]
+array colours[9] = ["#7a7a7a", "#d55e00", "#a03000", "#56b4e9", "#0072b2", "#0b2e59", "#cc79a7", "#e69f00", "#000000"]
+array shapes[9] = [5, 7, 7, 9, 9, 9, 13, 4, 6]
 
 at_720(n) = rows(n) . " | grep ^1280"
 set xlabel "median time of a frame, ms"
