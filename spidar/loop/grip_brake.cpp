@@ -26,10 +26,6 @@ constexpr double kMostShare = 3;
 /// which it is held.
 constexpr double kLoop_s = 1.5e-3;
 
-double share_after(double dt_s, double time_s) {
-  return time_s > 0 ? 1 - std::exp(-dt_s / time_s) : 1;
-}
-
 /// Of `vector`, the part along `velocity` is reduced to the share that `speed` leaves.
 Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity,
                       double metres) {
@@ -67,17 +63,17 @@ void GripBrake::reset() noexcept {
 
 void GripBrake::pull(const Wrench& strings, double dt_s) noexcept {
   // What was told before acts until now.
-  acting_N_ += share_after(dt_s, drive_lag_s_) * (strings_N_ - acting_N_);
-  late_N_ += share_after(dt_s, GripMotion::kLag_s) * (acting_N_ - late_N_);
+  acting_N_ += share_passed(dt_s, drive_lag_s_) * (strings_N_ - acting_N_);
+  late_N_ += share_passed(dt_s, GripMotion::kLag_s) * (acting_N_ - late_N_);
   given_m_s_ += dt_s / kBareGrip_kg * late_N_;
-  given_m_s_ *= std::exp(-dt_s / kMemory_s);
+  given_m_s_ *= 1 - share_passed(dt_s, kMemory_s);
   strings_N_ = strings.force_N;
 }
 
 void GripBrake::see(const GripMotion& motion, double dt_s) noexcept {
   const Eigen::Vector3d& now_m_s = motion.velocity().linear_m_s;
   seen_m_s_ += now_m_s - last_m_s_;
-  seen_m_s_ *= std::exp(-dt_s / kMemory_s);
+  seen_m_s_ *= 1 - share_passed(dt_s, kMemory_s);
   last_m_s_ = now_m_s;
 }
 

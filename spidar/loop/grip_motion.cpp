@@ -11,9 +11,8 @@ void GripMotion::see(const Pose& pose, int64_t at_ns) noexcept {
   const double dt_s = 1e-9 * static_cast<double>(at_ns - at_ns_);
   if (started_ && !(dt_s > 0)) return;
   if (started_) {
-    std::rotate(velocity_.begin(), velocity_.end() - 1, velocity_.end());
-    velocity_[0] = velocity_[1];
-    const double share = 1 - std::exp(-2 * 3.14159265358979 * kCutoff_Hz * dt_s);
+    std::copy_backward(velocity_.begin(), velocity_.end() - 1, velocity_.end());
+    const double share = share_passed(dt_s, 1 / (2 * 3.14159265358979 * kCutoff_Hz));
     const Eigen::Quaterniond turn = pose.orientation * last_.orientation.conjugate();
     // For the small angles of a tick the rotation vector is twice the vector part.
     const Eigen::Vector3d turn_rad = (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();

@@ -12,6 +12,14 @@
 
 namespace spidar {
 
+/// 1 − exp(−x) for x = `dt_s` / `time_s`: the share of the way that a first-order low-pass goes. By
+/// a series of the third order, because a tick needs five of them; at x = 0.5 it is 0.3 % less.
+inline double share_passed(double dt_s, double time_s) noexcept {
+  if (!(time_s > 0)) return 1;
+  const double x = dt_s / time_s;
+  return 1 - 1 / (1 + x * (1 + x * (0.5 + x / 6)));
+}
+
 /// Linear and angular velocity in the device frame.
 struct GripVelocity {
   Eigen::Vector3d linear_m_s = Eigen::Vector3d::Zero();

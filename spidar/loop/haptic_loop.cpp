@@ -270,27 +270,18 @@ void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
   // Near the end of the ramp to rest the wrench may still be large. If it were solved for, the
   // tensions would not have enough time left to fall.
   const bool fresh = has_wanted(record) && grip_.trusted() && state_ != DeviceState::kClosing;
-  const StringVector wanted_N =
-      fresh ? tensions_within_limits(W, record.commanded) : tension_command_.fade(record.commanded);
+  StringVector wanted_N;
+  if (fresh) {
+    tension_command_.solve(W, record.commanded, heat_.limit_N());
+    wanted_N = tension_command_.limit(W, limits_, grip_.pose(), motion_);
+  } else {
+    wanted_N = tension_command_.fade(record.commanded);
+  }
   const StringVector limited_N = tension_slew_.apply(energised_ * wanted_N, profile_, dt_s);
   record.tension_N = bound_tensions(limited_N, profile_);
   const Eigen::Matrix<double, 6, 1> delivered = W * record.tension_N;
   record.delivered = {delivered.head<3>(), delivered.tail<3>()};
   if (tension_command_.held_back()) ++counters_.held_back_ticks;
-}
-
-/// The tensions act while the grip moves on, and fade out with the lag of the drives: after two
-/// time constants an eighth is left. The structure matrix changes little on that way, so that both
-/// ends of it bound the wrench between them.
-StringVector HapticLoop::tensions_within_limits(const StructureMatrix& W,
-                                                const Wrench& wrench) noexcept {
-  const StringVector tension_N = tension_command_.solve(W, wrench, heat_.limit_N());
-  if (wrench.stacked().isZero(0)) return tension_N;
-  const double ahead_s = 1e-9 * kAhead * static_cast<double>(kTick_ns) + 2 * profile_.drive_lag_s;
-  const Pose there = motion_.pose_in(grip_.pose(), ahead_s);
-  const StructureMatrix ahead = structure_matrix(profile_.geometry, there);
-  return tension_command_.reduce(std::min(tension_command_.share_within(W, limits_),
-                                          tension_command_.share_within(ahead, limits_)));
 }
 
 void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {

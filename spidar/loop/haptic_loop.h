@@ -44,9 +44,6 @@ class HapticLoop {
   /// Upper bound of the time that one tick counts for, however late it is, so that a stall does not
   /// end in a step.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
-  /// The force is limited at the pose of the grip and at the poses that it reaches, at its
-  /// present speed, in so many ticks and the lag of the drives.
-  static constexpr int kAhead = 2;
   /// A wrench enters the timeline this long before the previous one is due, so that the slope there
   /// is known at any frame rate. Later wrenches wait in the ring, so that a long queue of frames
   /// before the screen does not displace the wrench that is due.
@@ -138,7 +135,6 @@ class HapticLoop {
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
   void command(TickRecord& record, double dt_s) noexcept;
   void pull(TickRecord& record, double dt_s) noexcept;
-  StringVector tensions_within_limits(const StructureMatrix& W, const Wrench& wrench) noexcept;
   void exchange(TickRecord& record, double dt_s) noexcept;
   void follow(bool encoders, const Wrench& strings, double dt_s) noexcept;
   void undo(TickRecord& record) noexcept;

@@ -18,14 +18,23 @@ double longest_step(const Eigen::Vector3d& from, const Eigen::Vector3d& step, do
   return std::clamp(s, 0.0, 1.0);
 }
 
+Wrench wrench_of(const StructureMatrix& W, const StringVector& tension_N) {
+  const Eigen::Matrix<double, 6, 1> wrench = W * tension_N;
+  return {wrench.head<3>(), wrench.tail<3>()};
+}
+
 }  // namespace
 
 TensionCommand::TensionCommand(const Profile& profile)
-    : min_N_(profile.min_tension_N()),
+    : geometry_(profile.geometry),
+      ahead_s_(kAhead_s + 2 * profile.drive_lag_s),
+      min_N_(profile.min_tension_N()),
       max_N_(profile.max_tension_N()),
-      rest_N_(min_N_),
       last_N_(min_N_) {
-  problem_.count = profile.geometry.count;
+  const int count = problem_.count = profile.geometry.count;
+  shortest_m_ = string_lengths_m(geometry_, {}).head(count).minCoeff();
+  for (int i = 0; i < count; ++i)
+    reach_m_ = std::max(reach_m_, geometry_.grip_m[static_cast<size_t>(i)].norm());
   const double radius_m = profile.geometry.grip_radius_m();
   // A grip of zero radius cannot transmit torque, so the length that weights torque does not
   // matter.
@@ -68,42 +77,65 @@ StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrenc
                                    const StringVector& limit_N) noexcept {
   share_ = 1;
   const double size = last_size_N_ = size_N(wrench);
-  rest_N_ = last_N_ = min_N_;
+  last_N_ = min_N_;
   if (!(size > 0)) return last_N_;
   problem_.W = W;
-  const Eigen::Matrix<double, 6, 1> rest = (left_out_ < 0 ? 1 : 0) * (W * min_N_);
-  const Wrench at_rest{rest.head<3>(), rest.tail<3>()};
+  const Wrench at_rest = left_out_ < 0 ? wrench_of(W, min_N_) : Wrench();
   // Half of the range counts as all of it: that is at most what a motor may sustain for ever.
   const double denied = std::min(1.0, 2 * pose_problem(wrench, limit_N));
   problem_.wrench = problem_.wrench + at_rest;
   TensionResult result = solver_.solve(problem_);
   if (denied > 0) {
     share_ = std::max(0.0, 1 - denied * result.residual_N / size);
-    // The string that is left out does not get its tension back with the smaller wrench: it may be
-    // broken.
-    const double left_out_N = left_out_ < 0 ? 0 : problem_.t_ref_N[left_out_];
     pose_problem(share_ * wrench, limit_N);
-    if (left_out_ >= 0) {
-      problem_.t_min_N[left_out_] = problem_.t_max_N[left_out_] = problem_.t_ref_N[left_out_] =
-          left_out_N;
-    }
     problem_.wrench = problem_.wrench + at_rest;
     result = solver_.solve(problem_);
   }
   last_N_ = result.tension_N;
-  if (left_out_ >= 0) rest_N_[left_out_] = last_N_[left_out_];
   return last_N_;
+}
+
+double TensionCommand::stray_Nm(const SafetyLimits& limits) const noexcept {
+  return kStrayLever * problem_.torque_length_m * limits.max_force_N;
 }
 
 double TensionCommand::share_within(const StructureMatrix& W,
                                     const SafetyLimits& limits) const noexcept {
-  const Eigen::Vector3d rest_N = W.topRows<3>() * rest_N_;
-  const Eigen::Vector3d added_N = W.topRows<3>() * (last_N_ - rest_N_);
-  return longest_step(rest_N, added_N, limits.max_force_N);
+  const Wrench whole = wrench_of(W, last_N_);
+  const Wrench rest = wrench_of(W, min_N_);
+  const Wrench added = whole - rest;
+  const double max_torque_Nm =
+      std::max(limits.max_torque_Nm, rest.torque_Nm.norm() + stray_Nm(limits));
+  return std::min(longest_step(rest.force_N, added.force_N, limits.max_force_N),
+                  longest_step(rest.torque_Nm, added.torque_Nm, max_torque_Nm));
 }
 
-StringVector TensionCommand::reduce(double share) noexcept {
-  if (share < 1) last_N_ = rest_N_ + share * (last_N_ - rest_N_);
+// A point that moves by w turns a string of length L by w / (L − w) at most. The force changes by
+// that for each newton of a string, the torque by that times the arm, and by the way of the arm.
+bool TensionCommand::stays_within(const StructureMatrix& W, const SafetyLimits& limits,
+                                  const Pose& pose, double way_m) const noexcept {
+  // A point at r is moved by 2 r sin(θ/2) when the grip turns by θ.
+  const double off_m = pose.position_m.norm() + 2 * reach_m_ * pose.orientation.vec().norm();
+  const double length_m = shortest_m_ - off_m - way_m;
+  if (!(length_m > 0)) return false;
+  const double turn = way_m / length_m;
+  const double sum_N = last_N_.sum();
+  const Wrench now = wrench_of(W, last_N_);
+  return now.force_N.norm() + turn * sum_N <= limits.max_force_N &&
+         now.torque_Nm.norm() + (reach_m_ * turn + way_m) * sum_N <=
+             std::max(limits.max_torque_Nm, stray_Nm(limits));
+}
+
+StringVector TensionCommand::limit(const StructureMatrix& W, const SafetyLimits& limits,
+                                   const Pose& pose, const GripMotion& motion) noexcept {
+  if (!(last_size_N_ > 0)) return last_N_;
+  const GripVelocity& now = motion.velocity();
+  const double way_m = ahead_s_ * (now.linear_m_s.norm() + reach_m_ * now.angular_rad_s.norm());
+  if (stays_within(W, limits, pose, way_m)) return last_N_;
+  const StructureMatrix there = structure_matrix(geometry_, motion.pose_in(pose, ahead_s_));
+  // The structure matrix changes little on the way: its ends bound the wrench between them.
+  const double share = std::min(share_within(W, limits), share_within(there, limits));
+  if (share < 1) last_N_ = min_N_ + share * (last_N_ - min_N_);
   return last_N_;
 }
 

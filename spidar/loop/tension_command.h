@@ -6,6 +6,7 @@
 #include "core/grip/string_geometry.h"
 #include "core/grip/tension_solver.h"
 #include "core/wrench.h"
+#include "spidar/loop/grip_motion.h"
 #include "spidar/loop/safety.h"
 #include "spidar/profiles/profile.h"
 
@@ -23,6 +24,13 @@ class TensionCommand {
   /// (docs/safety.md).
   static constexpr double kTensionPerForce = 4;
 
+  /// Two ticks: until the next exchange, and one that is late.
+  static constexpr double kAhead_s = 2e-3;
+  /// Where the strings cannot give a force alone, least squares leaves a torque beside it: within
+  /// 2 cm and 20° that of a lever of 0.3 to 0.6 of the grip's radius. So much of it is never taken
+  /// for too much, because only less force would have less.
+  static constexpr double kStrayLever = 0.5;
+
   explicit TensionCommand(const Profile& profile);
 
   /// Returns the tensions that approximate `wrench` best, with the structure matrix `W` of a
@@ -34,24 +42,26 @@ class TensionCommand {
   StringVector solve(const StructureMatrix& W, const Wrench& wrench,
                      const StringVector& limit_N) noexcept;
 
-  /// Of the last solve(): the share of what its tensions add to those at rest with which the force
-  /// at a pose with the structure matrix `W` is within `limits`, 0 … 1. Least squares may
-  /// overshoot, and the force at rest comes on top. Where that one exceeds the limit by itself, no
-  /// more may be added to its size. The torque has no such bound: a stray torque would take the
-  /// force with it.
-  double share_within(const StructureMatrix& W, const SafetyLimits& limits) const noexcept;
-
-  /// Reduces the tensions of the last solve() to that share, and returns them.
-  StringVector reduce(double share) noexcept;
+  /// Reduces what the tensions of the last solve() add to those at rest until force and torque are
+  /// within `limits`, and returns them. Least squares may overshoot, and the wrench at rest comes
+  /// on top. `W` is that of `pose`. The tensions act while the grip moves on with `motion`, and
+  /// fade out with the lag of the drives: the limits hold at the pose that is reached in kAhead_s
+  /// and two time constants of the drives, too, when an eighth of them is left.
+  ///
+  /// Where the force at rest exceeds the limit by itself, no more is added to its size. A torque
+  /// limit below the torque at rest and that of kStrayLever counts as their sum, because a limit of
+  /// zero must leave the force. With the default limits it is lower in every profile.
+  StringVector limit(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
+                     const GripMotion& motion) noexcept;
 
   /// For an unknown pose: takes `wrench`, which is ramping to zero, as a share of the wrench of the
   /// last solve(), and returns the tensions to rest by the same share, without W.
   StringVector fade(const Wrench& wrench) noexcept;
 
   /// From now on, does not use a string that is broken or slack or whose encoder is dead. As the
-  /// wrench grows, its tension decreases from the minimum to zero. At rest it keeps its minimum
-  /// tension like the others, because it may not really be broken, and then seven strings would
-  /// pull the grip aside. −1: none.
+  /// share of the wrench that is used grows, its tension decreases from the minimum to zero. At
+  /// rest it keeps its minimum tension like the others, because it may not really be broken, and
+  /// then seven strings would pull the grip aside. −1: none.
   void leave_out(int string) noexcept { left_out_ = string; }
 
   /// Share of the wrench that the last solve() used. It is below 1 if a string is left out or
@@ -70,12 +80,24 @@ class TensionCommand {
   /// that strings may not use, 0 … 1.
   double pose_problem(const Wrench& wrench, const StringVector& limit_N) noexcept;
 
+  /// Of what the last solve() adds to rest, the share that is within `limits` at a pose with the
+  /// structure matrix `W`, 0 … 1.
+  double share_within(const StructureMatrix& W, const SafetyLimits& limits) const noexcept;
+  /// Whether the last solve() is within `limits` at all poses that are reached from `pose` when no
+  /// point of the grip moves by more than `way_m`. False when a bound cannot tell.
+  bool stays_within(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
+                    double way_m) const noexcept;
+  double stray_Nm(const SafetyLimits& limits) const noexcept;
+
+  const StringGeometry geometry_;
+  const double ahead_s_;
+  double reach_m_ = 0;     ///< of the farthest point of the grip
+  double shortest_m_ = 0;  ///< of the strings at the centre
   const StringVector min_N_;
   const StringVector max_N_;
   TensionProblem problem_;
   TensionSolver solver_;
   int left_out_ = -1;
-  StringVector rest_N_;  ///< in the last solve(), with a string left out
   StringVector last_N_;  ///< of the last solve()
   double last_size_N_ = 0;
   double share_ = 1;

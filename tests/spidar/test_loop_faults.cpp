@@ -206,6 +206,7 @@ TEST(BrokenString, IsLeftOut) {
 // one than the requested one is from the wanted one, plus the pull of the minimum tensions.
 TEST(BrokenString, TheOthersDeliverOnlyWhatIsCertain) {
   RandomMotion random(14);
+  int nothing = 0;
   for (const std::string name : {"spidar-gcc", "spidar-g6c", "spidar-g6x3-v2-r"}) {
     const Profile profile = load_profile(name);
     TensionCommand command(profile);
@@ -216,9 +217,13 @@ TEST(BrokenString, TheOthersDeliverOnlyWhatIsCertain) {
       const Wrench wanted{3 * random.direction(), Eigen::Vector3d::Zero()};
       const StringVector tension_N = command.solve(W, wanted, profile.max_tension_N());
       const double asked_N = 3 * command.share();
-      ASSERT_LE(tension_N[string], std::max(0.0, profile.min_tension_N()[string] -
-                                                     TensionCommand::kTensionPerForce * asked_N) +
-                                       1e-12);
+      // It falls with what is asked of the others, and is back at its minimum where that is
+      // nothing.
+      ASSERT_NEAR(tension_N[string],
+                  std::max(0.0, profile.min_tension_N()[string] -
+                                    TensionCommand::kTensionPerForce * asked_N),
+                  1e-12);
+      nothing += asked_N == 0;
       // At the optimum the residual is no larger than that of any other tensions: of the least ones
       // it is the wrench asked for and their own pull.
       StringVector least_N = profile.min_tension_N();
@@ -230,6 +235,7 @@ TEST(BrokenString, TheOthersDeliverOnlyWhatIsCertain) {
       ASSERT_LE((force - command.share() * wanted.force_N).norm(), asked_N + pull_N + 1e-9);
     }
   }
+  EXPECT_GT(nothing, 50);  // often on spidar-g6c, whose strings pull hard at rest
 }
 
 TEST(Slew, GoesOnFromWhatTheBoardAcknowledged) {
