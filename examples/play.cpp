@@ -33,9 +33,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kUsage =
-    "usage: play [--output FOLDER] [--headless] VIDEO | URI | --ball [-- name=value ...]\n"
+    "usage: play [--output FOLDER] [--verbose] VIDEO | URI | --ball [-- name=value ...]\n"
     "  --output FOLDER  where spidar-play.png goes; else the current folder\n"
     "  --seconds N      stop after N seconds\n"
+    "  --verbose        end with a table and all fields of the element's stats, too\n"
     "  --headless       no window for the video, even with a display\n"
     "  --window         the debug window: tracks, forces, grip, settings\n"
     "  --window-png FILE  the same, saved as a picture after five seconds of the video\n"
@@ -48,6 +49,7 @@ struct Options {
   bool help = false;
   bool ball = false;
   int seconds = 0;  ///< 0: to the end
+  bool verbose = false;
   bool headless = false;
   bool window = false;
   std::string window_png;
@@ -80,6 +82,8 @@ Options parse(const std::vector<std::string>& arguments) {
       options.help = true;
     } else if (argument == "--ball") {
       options.ball = true;
+    } else if (argument == "--verbose") {
+      options.verbose = true;
     } else if (argument == "--headless") {
       options.headless = true;
     } else if (argument == "--window") {
@@ -230,7 +234,7 @@ int play(const Options& options) {
     throw std::runtime_error(title + ": not one frame was played");
   }
   if (ending == Ending::kInterrupted) std::printf("stopped by the user\n");
-  print_report(record.numbers(), stats);
+  print_report(record.numbers(), stats, options.verbose);
   gst_structure_free(stats);
 
   const std::string png = options.output / "spidar-play.png";

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Plays a video whose motion is felt on a SPIDAR-G, a simulated one by default, and ends with a
-# table and a picture of what was felt. First installs missing packages (Debian) and builds.
+# Plays a video whose motion becomes force on a SPIDAR-G, a simulated one by default, and ends with a
+# summary and a picture of the force. First installs missing packages (Debian) and builds.
 #   examples/play.sh                             people walking across a square
 #   examples/play.sh VIDEO                       a file, or a URI such as https://...
 #   examples/play.sh VIDEO -- controller=linear max-force=2    with properties of spidarmotion

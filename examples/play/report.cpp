@@ -11,6 +11,7 @@
 #include "core/analysis/force_limit.h"
 #include "core/force/motion_rendering.h"
 #include "examples/gnuplot.h"
+#include "examples/play/summary.h"
 #include "examples/play/unfelt.h"
 
 namespace {
@@ -36,23 +37,36 @@ void print_row(const char* name, const Histogram& values) {
             values.quantile(0.999), values.max());
 }
 
-/// Says that there was no force, in place of numbers near zero.
-void print_forces(const SessionRecord::Numbers& numbers) {
-  const auto is_felt = [](const Histogram& force_N) {
-    return force_N.count() > 0 && force_N.max() >= spidar::kFeltForce_N;
-  };
-  if (!is_felt(numbers.wanted_N) && !is_felt(numbers.delivered_N)) {
-    std::printf("%-26snone that a hand feels\n", "force");
-    return;
-  }
-  print_row("force wanted, N", numbers.wanted_N);
-  print_row("force at the grip, N", numbers.delivered_N);
-}
-
 double number_of(const GstStructure* stats, const char* name) {
   double value = NAN;
   gst_structure_get_double(stats, name, &value);
   return value;
+}
+
+uint64_t count_of(const GstStructure* stats, const char* name) {
+  guint64 value = 0;
+  gst_structure_get_uint64(stats, name, &value);
+  return value;
+}
+
+std::string text_of(const GstStructure* stats, const char* name) {
+  const char* const text = gst_structure_get_string(stats, name);
+  return text != nullptr ? text : "";
+}
+
+ElementFacts facts_of(const GstStructure* stats) {
+  ElementFacts facts;
+  facts.analysis_ms_median = number_of(stats, "analysis-ms-median");
+  facts.analysis_ms_max = number_of(stats, "analysis-ms-max");
+  facts.device = text_of(stats, "device");
+  if (facts.device.empty()) return facts;
+  facts.device_state = text_of(stats, "device-state");
+  facts.pose_trouble = text_of(stats, "pose-trouble");
+  facts.times_lost = count_of(stats, "times-lost");
+  facts.exchange_errors = count_of(stats, "exchange-errors");
+  facts.refused_wrenches = count_of(stats, "refused-wrenches");
+  gst_structure_get_int(stats, "faulty-string", &facts.faulty_string);
+  return facts;
 }
 
 std::string to_text(const GValue* value) {
@@ -93,32 +107,21 @@ void write_curve(const Curve& curve, const std::string& path) {
 
 }  // namespace
 
-void print_report(const SessionRecord::Numbers& numbers, const GstStructure* stats) {
-  std::printf("\n%" PRIu64 " frames in %.1f s, %" PRIu64 " of them shown\n\n", numbers.frames,
-              numbers.duration_s, numbers.shown);
-  std::printf("%-26s%10s%10s%10s%10s%10s\n", "", "median", "95 %", "99 %", "99.9 %", "maximum");
+void print_report(const SessionRecord::Numbers& numbers, const GstStructure* stats, bool verbose) {
+  const char* const limit = gst_structure_get_string(stats, "limit");
+  std::printf("\n%s%s", summary_text(numbers, facts_of(stats)).c_str(),
+              unfelt_text(numbers.limits, limit ? limit : "").c_str());
+  if (!verbose) return;
+  std::printf("\n%-26s%10s%10s%10s%10s%10s\n", "", "median", "95 %", "99 %", "99.9 %", "maximum");
   print_row("speed, px/s", numbers.speed_px_s);
-  print_forces(numbers);
+  print_row("force wanted, N", numbers.wanted_N);
+  print_row("force at the grip, N", numbers.delivered_N);
   print_row("analysis, ms a frame", number_of(stats, "analysis-ms-median"),
             number_of(stats, "analysis-ms-p95"), NAN, NAN, number_of(stats, "analysis-ms-max"));
   print_row("loop wakes up late, ms", numbers.lateness_ms);
   print_row("force - picture, ms", numbers.skew.signed_ms());
   print_row("  without its sign", numbers.skew.size_ms());
-
-  if (numbers.ticks > 0) {
-    std::printf(
-        "\nForce above %.2f N, which a hand feels: %.1f %% of the time.\n", spidar::kFeltForce_N,
-        100.0 * static_cast<double>(numbers.felt_ticks) / static_cast<double>(numbers.ticks));
-  }
-  const Histogram& skew_ms = numbers.skew.signed_ms();
-  if (skew_ms.count() > 0) {
-    std::printf("Force - picture: %+.3f to %+.3f ms over %" PRIu64
-                " frames; positive when the force is later.\n",
-                skew_ms.min(), skew_ms.max(), skew_ms.count());
-  }
-  const char* const limit = gst_structure_get_string(stats, "limit");
-  std::printf("%s", unfelt_text(numbers.limits, limit ? limit : "").c_str());
-  std::printf("\nThe element says:\n");
+  std::printf("\nFields of `stats`:\n");
   size_t column = 0;
   gst_structure_foreach(stats, print_field, &column);
   std::printf("\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reports a playback as a table and as a picture.
+/// Reports a playback as text and as a picture.
 #pragma once
 
 #include <string>
@@ -9,8 +9,9 @@
 
 #include "examples/play/session_record.h"
 
-/// Prints the numbers of a playback and of the element's own `stats`.
-void print_report(const SessionRecord::Numbers& numbers, const GstStructure* stats);
+/// Prints five lines, and why nothing was felt where that was so; `verbose` adds a table and all of
+/// the element's own `stats`.
+void print_report(const SessionRecord::Numbers& numbers, const GstStructure* stats, bool verbose);
 
 /// Draws position, velocity, force and string tensions over time into a PNG; force towards the
 /// viewer and torque are included only where a hand could feel them. Axes of force go to ±

@@ -11,6 +11,7 @@
 #include "examples/play/histogram.h"
 #include "examples/play/series.h"
 #include "examples/play/skew.h"
+#include "examples/play/summary.h"
 #include "examples/play/unfelt.h"
 
 namespace {
@@ -148,6 +149,63 @@ TEST(Skew, ForgetsFramesThatWereNeverShown) {
   EXPECT_EQ(skew.signed_ms().count(), 0u);
   skew.shown(9'999, 9'999);
   EXPECT_EQ(skew.signed_ms().count(), 1u);
+}
+
+/// Ten seconds at 30 frames/s in which the force is 1 N three quarters of the time.
+SessionRecord::Numbers numbers_of_ten_seconds() {
+  SessionRecord::Numbers numbers;
+  numbers.duration_s = 10;
+  numbers.frames = 300;
+  numbers.shown = 299;
+  numbers.ticks = 10000;
+  numbers.felt_ticks = 7500;
+  for (int i = 0; i < 4; ++i) numbers.delivered_N.add(i == 0 ? 0.0 : 1.0);
+  numbers.skew.shown(0, 1'000'000);
+  numbers.skew.felt(0, 1'400'000);
+  return numbers;
+}
+
+TEST(Summary, IsFiveLinesOfWhatAPersonWants) {
+  ElementFacts facts;
+  facts.analysis_ms_median = 0.31;
+  facts.analysis_ms_max = 1.2;
+  facts.device = "sim";
+  facts.device_state = "running";
+  // Quantiles are within half a bin of 1 %; the values are rounded to two digits.
+  EXPECT_EQ(summary_text(numbers_of_ten_seconds(), facts),
+            "Video: 10.0 s, 300 frames, 299 of them shown.\n"
+            "Force: 1.00 N in the median, 1.00 N at most; 75 % of the time a hand feels it.\n"
+            "In time: force and picture are 0.40 ms apart in the median, 0.40 ms at 99 %.\n"
+            "Analysis: 0.31 ms a frame in the median, 1.20 ms at most.\n"
+            "Device: sim, no problems found.\n");
+}
+
+TEST(Summary, NamesTheProblemsOfTheDevice) {
+  ElementFacts facts;
+  facts.device = "usb";
+  facts.device_state = "lost";
+  facts.times_lost = 2;
+  facts.exchange_errors = 21;
+  facts.faulty_string = 4;
+  facts.pose_trouble = "the string lengths fit no pose";
+  facts.refused_wrenches = 3;
+  const std::string text = summary_text(numbers_of_ten_seconds(), facts);
+  for (const char* problem :
+       {"it does not answer", "lost 2 times", "21 exchanges failed", "string 4",
+        "the pose is not known: the string lengths", "of 3 frames was not rendered"}) {
+    EXPECT_NE(text.find(problem), std::string::npos) << problem << "\n" << text;
+  }
+  EXPECT_EQ(text.find("no problems"), std::string::npos);
+}
+
+TEST(Summary, SaysWhatWasNotMeasured) {
+  SessionRecord::Numbers numbers;
+  numbers.frames = 5;
+  const std::string text = summary_text(numbers, {});
+  EXPECT_NE(text.find("Force: none"), std::string::npos) << text;
+  EXPECT_NE(text.find("In time: not measured"), std::string::npos) << text;
+  EXPECT_NE(text.find("Device: none."), std::string::npos) << text;
+  EXPECT_EQ(text.find("nan"), std::string::npos) << text;
 }
 
 }  // namespace
