@@ -148,8 +148,7 @@ void draw_controls(const Brush& brush, const Rect& panel, const ElementState& st
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered,
                         muted ? IM_COL32(56, 132, 80, 255) : IM_COL32(204, 60, 60, 255));
   ImGui::PushFont(brush.fonts.bold);
-  if (ImGui::Button(muted ? "Let the force return (space)" : "Take the force to rest (space)",
-                    {-1, brush.px(30)})) {
+  if (ImGui::Button(muted ? "Resume force (space)" : "Stop force (space)", {-1, brush.px(30)})) {
     set("mute", muted ? 0 : 1);
   }
   ImGui::PopFont();
