@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Configuration of Sphinx; `meson compile -C build docs` runs it (docs/site.sh). The pages are the Markdown files of
-docs/, CONTRIBUTING.md and CHANGELOG.md as they are. Nothing is loaded from the net when the site is read."""
+docs/ and some others (`PAGES`) as they are. Nothing is loaded from the net when the site is read."""
 
 import importlib.util
 import posixpath
@@ -23,9 +23,10 @@ version = release = re.search(r"version: '(.*?)'", (ROOT / "meson.build").read_t
 extensions = ["myst_parser"]
 myst_heading_anchors = 4
 root_doc = "docs/README"
-# Only these are read; folders are named so that Sphinx does not walk through builds.
-exclude_patterns = [entry.name for entry in ROOT.iterdir()
-                    if entry.name not in ("docs", "CONTRIBUTING.md", "CHANGELOG.md")]
+PAGES = ["CONTRIBUTING.md", "CHANGELOG.md", "tests/README.md"]
+include_patterns = ["docs/**", *PAGES]
+# Sphinx need not walk through builds.
+exclude_patterns = [entry.name for entry in ROOT.iterdir() if entry.name not in ("docs", "tests", *PAGES)]
 
 html_theme = "furo" if importlib.util.find_spec("furo") else "alabaster"
 html_title = f"gst-spidar {release}"
