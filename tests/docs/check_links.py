@@ -47,7 +47,7 @@ def main():
         name = page.relative_to(source)
         if page.name != "CHANGELOG.md":
             wrong += [f"{name}: {path}: there is no such file" for path in SOURCE_FILE.findall(text)
-                      if not (source / path).exists()]
+                      if not (source / path).exists() and not (page.parent / path).exists()]
         for picture, words, target in LINK.findall(without_code(text)):
             if re.match(r"[a-z]+:", target):
                 continue
