@@ -221,6 +221,9 @@ def main():
         return SKIPPED
     screen = Screen()
     os.environ.pop("SPIDAR_PROFILE_PATH", None)
+    # If no other sink opens on a busy machine, autovideosink tries DirectFB, whose library then crashes in a thread of
+    # its own (libfusion 1.7).
+    os.environ["GST_PLUGIN_FEATURE_RANK"] = "dfbvideosink:NONE"
     os.environ["GST_PLUGIN_PATH"] = str(build / "plugin")
     os.environ["PATH"] = f"{build / 'spidar' / 'tools'}:{build / 'plugin'}:{os.environ['PATH']}"
 
