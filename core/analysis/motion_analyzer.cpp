@@ -8,6 +8,7 @@
 
 #include "core/field/reduced_frame.h"
 #include "core/force/motion_bounds.h"
+#include "core/force/wrench_fade.h"
 #include "core/motion/cadence.h"
 #include "core/motion/motion_estimator.h"
 #include "core/tracking/opencv_tracker.h"
@@ -31,6 +32,14 @@ void validate_rest(const AnalyzerSettings& settings) {
 Cadence::Picture picture_of(bool repeated, bool alike) {
   if (repeated) return Cadence::Picture::kSame;
   return alike ? Cadence::Picture::kAlike : Cadence::Picture::kOther;
+}
+
+/// The id of the object whose motion is felt; 0 when it is none, or not that of one object. An
+/// object that rests is felt as rest.
+uint32_t felt_object(const SceneMotion& scene, MotionKind kind) {
+  if (kind != MotionKind::kObject || !scene.dominant) return 0;
+  const bool is_lost = scene.dominant->tracks == 0 && scene.dominant->relative_px_s.isZero(0);
+  return is_lost ? 0 : scene.dominant->id;
 }
 
 /// The same motion when it takes 1 / `factor` of the time.
@@ -70,6 +79,7 @@ struct MotionAnalyzer::Impl {
   OpenCvTracker tracker;   // for kMean
   MotionEstimator motion;  // for all other kinds
   MotionFilter filter;
+  WrenchFade fade;
   std::unique_ptr<GainController> controller;
   std::optional<int64_t> last_running_time_ns;
   Cadence cadence;
@@ -162,6 +172,7 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   if (analysis.restarted) {
     impl_->cadence.cut(running_time_ns);
     impl_->filter.reset();
+    impl_->fade.reset();
     analysis.interval_ns = 0;
     return impl_->latest = analysis;
   }
@@ -170,6 +181,7 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   ImageMotion felt = scene.felt;
   if (repeated) {
     impl_->filter.stop();
+    impl_->fade.reset();
     felt = ImageMotion();
     felt.tracked = scene.felt.tracked;
   }
@@ -180,10 +192,13 @@ FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_ti
   analysis.tracks = scene.tracks;
   analysis.background = scene.background;
   analysis.object_list = scene.object_list;
+  // The filter does not mix the motions of two objects.
+  if (impl_->fade.turn_to(felt_object(scene, settings.motion))) impl_->filter.reset();
   const ImageMotion steady =
       impl_->filter.filter(analysis.motion, frame.height, interval_s, settings.filter);
-  analysis.wrench =
+  const Wrench wanted =
       render_motion(*impl_->controller, steady, settings.axes, frame.height, interval_s);
+  analysis.wrench = impl_->fade.fade(wanted, interval_s);
   return impl_->latest = analysis;
 }
 
@@ -197,6 +212,7 @@ std::optional<FrameAnalysis> MotionAnalyzer::repeat(int64_t running_time_ns) {
   impl_->last_running_time_ns = running_time_ns;
   if (impl_->cadence.see(Cadence::Picture::kSame, running_time_ns).waits) return impl_->wait();
   impl_->filter.stop();
+  impl_->fade.reset();
   impl_->latest.motion = {};
   impl_->latest.wrench = {};
   impl_->latest.same_picture = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The motion that is felt in rendered scenes of known motion: a camera, and discs in front of it.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
+#include "core/force/wrench_fade.h"
 #include "tests/support/moving_scene.h"
 
 namespace spidar {
@@ -197,6 +199,32 @@ TEST(ObjectMotion, TwoDiscsAreTwoObjectsAndTheHandStaysWithOne) {
     EXPECT_GT(both.motion.velocity_px_s.x() * kFrame_s, 0) << n;
     EXPECT_LT(both.motion.velocity_px_s.x() * kFrame_s, 4) << n;
   }
+}
+
+TEST(ObjectMotion, TheForceOfADiscThatVanishesFades) {
+  MovingScene scene(kWidth, kHeight);
+  scene.add_disc(40);
+  MotionAnalyzer analyzer(with(MotionKind::kObject));
+  constexpr double kShort_s = 0.02;
+  constexpr int kVanishes = 12;
+  double full_N = 0;
+  double before_N = 0;
+  for (int n = 0; n < kVanishes + 12; ++n) {
+    // The camera moves, so that no picture repeats the one before.
+    const Placement background{{-1.5 * n, 0}};
+    const Placement disc{{n < kVanishes ? -60.0 + 4 * n : 10'000.0, 0}};
+    const double now_N =
+        analyzer.analyze(scene.draw(background, {disc}), static_cast<int64_t>(n * kShort_s * 1e9))
+            .wrench.force_N.norm();
+    if (n < kVanishes) {
+      full_N = std::max(full_N, now_N);
+    } else {
+      EXPECT_LT(before_N - now_N, full_N * kShort_s / WrenchFade::kFade_s + 1e-9) << n;
+    }
+    before_N = now_N;
+  }
+  EXPECT_GT(full_N, 1);
+  EXPECT_EQ(before_N, 0);
 }
 
 TEST(ObjectMotion, ADiscThatGrowsAndTurnsGivesForceAndTorque) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A soft transition from the force of one object to that of another.
+#pragma once
+
+#include <cstdint>
+
+#include "core/wrench.h"
+
+namespace spidar {
+
+/// When another object is felt than before, or none any more, the last wrench fades out over
+/// kFade_s while the new one fades in. An object that begins to move while nothing is felt is felt
+/// at once and in full.
+class WrenchFade {
+ public:
+  /// Begins a frame. `object` is what is felt in it: an id that is constant while the object
+  /// exists; 0: none, or the whole picture. Returns whether the last wrench begins to fade out.
+  bool turn_to(uint32_t object);
+
+  /// The wrench to be felt in this frame, `interval_s` > 0 after the one before, if `wrench` is
+  /// that of the object.
+  Wrench fade(const Wrench& wrench, double interval_s);
+
+  /// After a cut or a seek, and when the picture rests: nothing fades.
+  void reset() { *this = WrenchFade(); }
+
+  /// Two or three frames of a film; shorter than the 0.15 s or so that a hand needs to react.
+  static constexpr double kFade_s = 0.1;
+
+ private:
+  uint32_t object_ = 0;
+  double old_share_ = 0;  ///< of `old_`; 0: nothing fades
+  Wrench old_;
+  Wrench felt_;  ///< in the last frame
+};
+
+}  // namespace spidar
