@@ -103,6 +103,10 @@ bool Device::held() const {
   return impl_->session.loop().snapshot().last.held;
 }
 
+double Device::vibration_share() const {
+  return impl_->session.loop().snapshot().vibration.share;
+}
+
 Wrench Device::felt() const {
   const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
   // The strings already pull while the tensions ramp up, and still while they ramp down.

@@ -41,6 +41,10 @@ Wording wording(ForceLimit limit) noexcept {
       return {"grip-released",
               "Nobody holds the grip: it moved as the strings alone would move it, or faster than "
               "1.5 m/s. The force returns by itself."};
+    case ForceLimit::kVibration:
+      return {"vibration",
+              "The force is lowered because it has shaken the hand for long: a day's vibration is "
+              "limited. Calm scenes are felt as before, and the force returns with time."};
     case ForceLimit::kMuted:
       return {"muted", "The force is muted (mute=true)."};
     case ForceLimit::kNotPlaying:

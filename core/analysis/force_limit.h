@@ -18,14 +18,16 @@ struct FrameAnalysis;
 /// 2013, PubMed 24808327.
 constexpr double kFeltForce_N = 0.04;
 
-/// What keeps the force below kFeltForce_N. The reasons up to kNoFrames concern the device and the
-/// playback and hold for any video; the others concern the video or, while touching, the contact.
+/// What keeps the force below kFeltForce_N, or lowers it (kGripReleased, kVibration). The reasons
+/// up to kNoFrames concern the device and the playback and hold for any video; the others concern
+/// the video or, while touching, the contact.
 enum class ForceLimit {
   kNone,  ///< the force is not limited
   kDeviceLost,
   kDeviceStarting,
   kGripUnknown,
   kGripReleased,
+  kVibration,
   kMuted,
   kNotPlaying,
   kNoFrames,

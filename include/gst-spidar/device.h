@@ -77,6 +77,10 @@ class GST_SPIDAR_API Device {
   /// as the strings alone would move it, or faster than 1.5 m/s (docs/safety.md).
   bool held() const;
 
+  /// Share of the wanted wrench that may be exerted. It is 1 unless the force has shaken the hand
+  /// for long: the vibration of a day is limited (docs/safety.md).
+  double vibration_share() const;
+
   /// What the device is told to exert on the grip at present, after all limits, from the first
   /// millisecond on: a device that is kOpening already pulls. Zero while it is kLost, and when its
   /// motors are off. Parts that the device cannot exert are zero: torques and the force towards the

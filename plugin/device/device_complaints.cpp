@@ -48,7 +48,7 @@ void DeviceComplaints::look_at_opened(const HapticSession& session) const {
 
 void DeviceComplaints::start() {
   strings_ = 0;
-  pose_lost_ = held_back_ = false;
+  pose_lost_ = held_back_ = vibrated_ = false;
   haptic_trace_ = false;
   state_ = DeviceState::kClosed;
 }
@@ -98,6 +98,14 @@ void DeviceComplaints::look_at_pose(const HapticSession& session) {
                         ("The motor is at %.2f of its continuous rating (continuous_tension_N of "
                          "the profile). The full force returns when the motor has cooled.",
                          loop.motor_heat));
+  }
+  if (loop.vibration.lowered() && !vibrated_) {
+    vibrated_ = true;
+    GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                        ("The force is lowered because it has shaken the hand for long."),
+                        ("What is left for this day comes back with time (docs/safety.md). Calm "
+                         "scenes are felt as before. A smaller max-force or filter-min-cutoff "
+                         "makes it last longer."));
   }
 }
 

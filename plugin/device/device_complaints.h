@@ -39,6 +39,7 @@ class DeviceComplaints {
   guint strings_ = 0;       // bit i: string i
   bool pose_lost_ = false;  // said, and not come back since
   bool held_back_ = false;  // said
+  bool vibrated_ = false;   // said
   bool haptic_trace_ = false;
   DeviceState state_ = DeviceState::kClosed;
   uint64_t times_lost_ = 0;

@@ -30,10 +30,12 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       snapshot.motor_heat, "held-back", G_TYPE_BOOLEAN, snapshot.held_back ? TRUE : FALSE,
       "held-back-ticks", G_TYPE_UINT64, counters.held_back_ticks, "faulty-string", G_TYPE_INT,
       snapshot.last.faulty_string, "grip-held", G_TYPE_BOOLEAN, snapshot.last.held ? TRUE : FALSE,
-      "grip-speed", G_TYPE_DOUBLE, snapshot.last.velocity.linear_m_s.norm(), "wakeup-us-median",
-      G_TYPE_DOUBLE, us(session.timing().lateness.quantile_ns(0.5)), "wakeup-us-p999",
-      G_TYPE_DOUBLE, us(session.timing().lateness.quantile_ns(0.999)), "skew-ms-median",
-      G_TYPE_DOUBLE, ms(loop.skew().quantile_ns(0.5)), "skew-ms-p99", G_TYPE_DOUBLE,
+      "grip-speed", G_TYPE_DOUBLE, snapshot.last.velocity.linear_m_s.norm(), "vibration-share",
+      G_TYPE_DOUBLE, snapshot.vibration.share, "vibration-left", G_TYPE_DOUBLE,
+      snapshot.vibration.left, "wakeup-us-median", G_TYPE_DOUBLE,
+      us(session.timing().lateness.quantile_ns(0.5)), "wakeup-us-p999", G_TYPE_DOUBLE,
+      us(session.timing().lateness.quantile_ns(0.999)), "skew-ms-median", G_TYPE_DOUBLE,
+      ms(loop.skew().quantile_ns(0.5)), "skew-ms-p99", G_TYPE_DOUBLE,
       ms(loop.skew().quantile_ns(0.99)), nullptr);
   const Contact& contact = snapshot.last.contact;
   gst_structure_set(structure, "touching", G_TYPE_BOOLEAN, contact.touching ? TRUE : FALSE,

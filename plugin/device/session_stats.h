@@ -15,7 +15,8 @@ namespace spidar {
 /// ever), held-back (boolean: less force than wanted because a motor is warm or a string is out),
 /// held-back-ticks (uint64), faulty-string (int, −1 when none),
 /// grip-held (boolean: false when the force rests because nobody holds the grip), grip-speed
-/// (double, m/s),
+/// (double, m/s), vibration-share (double: of the force that is wanted, 1 unless it has shaken the
+/// hand for long), vibration-left (double: of the store of VibrationBudget, 0 … 1),
 /// wakeup-us-median, wakeup-us-p999, skew-ms-median, skew-ms-p99 (double; skew: force at the device
 /// after its frame was due on the screen), link-fault (string: the last one, see LinkFault),
 /// link-timeouts, link-errors (all other faults), link-late-replies (uint64), round-trip-us-median,

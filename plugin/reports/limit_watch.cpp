@@ -33,7 +33,8 @@ ForceLimit limit_of_device(const LoopSnapshot& loop, bool muted) {
   if (loop.untrusted_ns > kGripLost_ns) return ForceLimit::kGripUnknown;
   if (muted) return ForceLimit::kMuted;
   if (!loop.last.playing) return ForceLimit::kNotPlaying;
-  return loop.last.held ? ForceLimit::kNone : ForceLimit::kGripReleased;
+  if (!loop.last.held) return ForceLimit::kGripReleased;
+  return loop.vibration.lowered() ? ForceLimit::kVibration : ForceLimit::kNone;
 }
 
 ForceLimit limit_of_contact(const LoopSnapshot& loop) {

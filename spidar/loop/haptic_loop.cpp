@@ -138,6 +138,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     command(record, dt_s);
     pull(record, dt_s);
     exchange(record, dt_s);
+    vibration_.pass(record.delivered, dt_s, now_ns);
     untrusted_ns_ = grip_.trusted() ? 0 : untrusted_ns_ + passed_ns;
   }
   unfelt_ns_ = size_N(record.commanded) < kFeltForce_N ? unfelt_ns_ + passed_ns : 0;
@@ -259,7 +260,7 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
     state_ = energised_ < 1 ? DeviceState::kOpening : DeviceState::kRunning;
   }
   const bool fresh = wanted && grip_.trusted() && !closing;
-  const Wrench braked = brake_.apply(record.wanted, motion_, dt_s);
+  const Wrench braked = brake_.apply(vibration_.share() * record.wanted, motion_, dt_s);
   record.commanded = safety_.apply(braked, fresh, dt_s, limits_);
   counters_.rejected_wrenches = safety_.rejected();
 }
@@ -335,6 +336,7 @@ void HapticLoop::publish(const TickRecord& record) noexcept {
   snapshot.unfelt_ns = unfelt_ns_;
   snapshot.motor_heat = heat_.hottest();
   snapshot.held_back = tension_command_.held_back();
+  snapshot.vibration = vibration_.state();
   snapshot_.store(snapshot);
 }
 

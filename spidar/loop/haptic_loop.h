@@ -20,6 +20,7 @@
 #include "spidar/loop/safety.h"
 #include "spidar/loop/tension_command.h"
 #include "spidar/loop/tick_record.h"
+#include "spidar/loop/vibration_budget.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/realtime/latency_histogram.h"
 #include "spidar/realtime/seqlock.h"
@@ -95,7 +96,10 @@ class HapticLoop {
   /// From the next tick on, wrench and tensions ramp to zero; see released().
   void begin_close() noexcept { closing_.store(true, std::memory_order_release); }
 
-  // --- loop thread
+  // --- loop thread, or while there is none
+
+  /// What is left for this hand, to be taken over from and by other loops.
+  VibrationBudget& vibration() noexcept { return vibration_; }
 
   /// Opens the device. The following ticks energise its strings. Throws DeviceError.
   void open();
@@ -170,6 +174,7 @@ class HapticLoop {
   TensionCommand tension_command_;
   TensionSlew tension_slew_;
   MotorHeat heat_;
+  VibrationBudget vibration_{profile_.geometry.grip_radius_m()};
   IdleWatch idle_;
   DeviceState state_ = DeviceState::kClosed;
   double energised_ = 0;  // share of the tensions that is output

@@ -12,6 +12,7 @@
 #include "spidar/loop/grip_motion.h"
 #include "spidar/loop/pose_trouble.h"
 #include "spidar/loop/safety.h"
+#include "spidar/loop/vibration_budget.h"
 #include "spidar/touch/touch_rendering.h"
 
 namespace spidar {
@@ -115,6 +116,7 @@ struct LoopSnapshot {
   double motor_heat = 0;  ///< of the warmest motor, see MotorHeat
   /// There is less force than wanted, because a string is left out or a motor is warm.
   bool held_back = false;
+  VibrationState vibration{};
 };
 
 }  // namespace spidar

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/session/haptic_session.h"
 
+#include <atomic>
 #include <optional>
 
 #include "spidar/loop/loop_thread.h"
@@ -9,6 +10,23 @@
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar {
+namespace {
+
+/// When the VibrationBudget of this process's hand is full again, CLOCK_MONOTONIC. A second device
+/// counts for the same hand.
+std::atomic<int64_t>& vibration_memory_ns() noexcept {
+  static std::atomic<int64_t> full_at_ns{INT64_MIN};
+  return full_at_ns;
+}
+
+void remember(int64_t full_at_ns) noexcept {
+  int64_t known_ns = vibration_memory_ns();
+  while (known_ns < full_at_ns &&
+         !vibration_memory_ns().compare_exchange_weak(known_ns, full_at_ns)) {
+  }
+}
+
+}  // namespace
 
 // Members are destroyed in reverse order: the thread has brought the motors to zero before the
 // trace takes its last row.
@@ -16,12 +34,18 @@ struct HapticSession::Impl {
   Impl(const Profile& profile, std::unique_ptr<Device> owned, const SessionSettings& settings)
       : device(std::move(owned)), loop(profile, *device, settings.limits) {
     if (!settings.trace_path.empty()) trace.emplace(settings.trace_path, loop, settings.threaded);
+    if (settings.threaded) loop.vibration().restore(vibration_memory_ns());
     loop.open();
     opened = device->description();
     if (settings.threaded) thread.emplace(loop, settings.real_time);
   }
   ~Impl() {
-    if (!thread) ramp_down();
+    if (thread) {
+      thread.reset();
+      remember(loop.vibration().full_at_ns());
+    } else {
+      ramp_down();
+    }
   }
 
   void ramp_down() noexcept {

@@ -147,6 +147,7 @@ TEST(Device, TheGripOfTheSimulatedOneIsAtTheCentre) {
   ASSERT_TRUE(device.velocity().has_value());
   EXPECT_LT(std::abs(device.velocity()->x), 0.5);  // a hand holds the simulated grip
   EXPECT_TRUE(device.held());
+  EXPECT_EQ(device.vibration_share(), 1);
   // An encoder step of this profile is less than a tenth of a millimetre; the simulated hand is
   // soft.
   EXPECT_LT(std::hypot(pose.position_m.x, pose.position_m.y, pose.position_m.z), 0.005);

@@ -169,5 +169,29 @@ TEST(HapticSession, FullDiskDoesNotStopTheLoop) {
   EXPECT_TRUE(wait_for([&] { return session.loop().snapshot().counters.ticks > ticks; }));
 }
 
+// Another session in the same process is for the same hand.
+TEST(HapticSession, WhatVibratedCountsInTheNextOneToo) {
+  const Profile profile = load_profile(kDefaultProfile);
+  const auto left = [](const HapticSession& session) {
+    return session.loop().snapshot().vibration.left;
+  };
+  double left_before = 1;
+  {
+    HapticSession session(profile, std::make_unique<FakeDevice>(std::make_shared<FakeDeviceLog>()));
+    // ±3 N take a hundredth of the store in 1.3 s.
+    for (int i = 0; i < 100; ++i)
+      session.loop().schedule(
+          {40 * i * kMs, 40 * kMs, {{i % 2 == 0 ? 3.0 : -3.0, 0, 0}, {0, 0, 0}}});
+    session.loop().set_playback_clock({HapticSession::monotonic_now_ns(), 0, 1.0, true});
+    ASSERT_TRUE(wait_for([&] { return left(session) < 0.99; }));
+    left_before = left(session);
+  }
+  HapticSession session(profile, std::make_unique<FakeDevice>(std::make_shared<FakeDeviceLog>()));
+  ASSERT_TRUE(wait_for([&] { return session.loop().snapshot().last.tick > 0; }));
+  // It is refilled within a day: this one would have to begin 14 minutes later.
+  EXPECT_LT(left(session), 1);
+  EXPECT_LT(left_before, 0.99);
+}
+
 }  // namespace
 }  // namespace spidar::test
