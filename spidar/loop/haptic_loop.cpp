@@ -276,7 +276,8 @@ void HapticLoop::pull(TickRecord& record, double dt_s) noexcept {
     tension_command_.solve(W, record.commanded, heat_.limit_N());
     wanted_N = tension_command_.limit(W, limits_, grip_.pose(), motion_);
   } else {
-    wanted_N = tension_command_.fade(record.commanded);
+    const double pace = grip_.trusted() ? 1 : TensionCommand::kLostPace;
+    wanted_N = tension_command_.fade(record.commanded, pace);
   }
   const StringVector limited_N = tension_slew_.apply(energised_ * wanted_N, profile_, dt_s);
   record.tension_N = bound_tensions(limited_N, profile_);

@@ -139,10 +139,11 @@ StringVector TensionCommand::limit(const StructureMatrix& W, const SafetyLimits&
   return last_N_;
 }
 
-StringVector TensionCommand::fade(const Wrench& wrench) noexcept {
+StringVector TensionCommand::fade(const Wrench& wrench, double pace) noexcept {
   share_ = 1;
   if (!(last_size_N_ > 0)) return min_N_;
-  return min_N_ + std::min(1.0, size_N(wrench) / last_size_N_) * (last_N_ - min_N_);
+  const double gone = 1 - size_N(wrench) / last_size_N_;
+  return min_N_ + std::clamp(1 - pace * gone, 0.0, 1.0) * (last_N_ - min_N_);
 }
 
 }  // namespace spidar

@@ -31,6 +31,11 @@ class TensionCommand {
   /// for too much, because only less force would have less.
   static constexpr double kStrayLever = 0.5;
 
+  /// The pace of fade() when the pose is lost: a string may have broken, and the others pull with
+  /// up to three times the force until they are at rest. A ramp of 40 ms becomes one of 13 ms, as
+  /// fast as the tensions of spidar-g6c may fall from 13 N.
+  static constexpr double kLostPace = 4;
+
   explicit TensionCommand(const Profile& profile);
 
   /// Returns the tensions that approximate `wrench` best, with the structure matrix `W` of a
@@ -54,9 +59,10 @@ class TensionCommand {
   StringVector limit(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
                      const GripMotion& motion) noexcept;
 
-  /// For an unknown pose: takes `wrench`, which is ramping to zero, as a share of the wrench of the
-  /// last solve(), and returns the tensions to rest by the same share, without W.
-  StringVector fade(const Wrench& wrench) noexcept;
+  /// Without a wrench that is wanted or a pose that is known: takes `wrench`, which is ramping to
+  /// zero, as a share of the wrench of the last solve(), and returns the tensions to rest by the
+  /// same share, without W. With a `pace` of 4, they are at rest when a quarter of it is gone.
+  StringVector fade(const Wrench& wrench, double pace = 1) noexcept;
 
   /// From now on, does not use a string that is broken or slack or whose encoder is dead. As the
   /// share of the wrench that is used grows, its tension decreases from the minimum to zero. At

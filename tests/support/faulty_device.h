@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A device between the loop and the simulated one, on which strings break, encoders fail and the
+/// link is lost. Like a real board, it keeps its last output while nothing reaches it.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "spidar/device.h"
+#include "spidar/simulation/simulated_device.h"
+#include "tests/support/tampered_device.h"
+
+namespace spidar::test {
+
+class FaultyDevice final : public Device {
+ public:
+  FaultyDevice(SimulatedDevice& inner, const Profile& profile) : inner_(inner), profile_(profile) {}
+
+  /// The string breaks: it pulls no longer, and its motor winds up what is left of it.
+  void cut(int string) { cut_ |= 1u << string; }
+  void stop_encoder(int string) { stopped_ |= 1u << string; }
+  /// Its encoder counts so much more from now on.
+  void shift(int string, int32_t counts) { move(static_cast<size_t>(string), counts); }
+  /// kOk: works again.
+  void set_link(ExchangeStatus link) { link_ = link; }
+
+  /// A millisecond in which nobody talks to the board.
+  void hold() {
+    DeviceReading ignored;
+    pass(ignored);
+  }
+  /// Zero volts from now on, if the link works.
+  void zero() {
+    if (link_ != ExchangeStatus::kTimeout) volts_ = {};
+  }
+  /// What acts at the strings when the motors have followed.
+  StringVector told_N() const { return tensions_N(acting(), profile_); }
+
+  void open() override {
+    if (link_ != ExchangeStatus::kOk) throw DeviceError("sim: the link is down");
+    inner_.close();
+    inner_.open();
+    open_ = true;
+    closing_ = false;
+    volts_ = {};
+  }
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    if (link_ != ExchangeStatus::kTimeout) volts_ = volts;
+    DeviceReading read;
+    const ExchangeStatus status = pass(read);
+    if (link_ != ExchangeStatus::kOk) return link_;
+    for (size_t i = 0; i < kMaxStrings; ++i)
+      if (!(stopped_ >> i & 1)) last_.count[i] = read.count[i];
+    reading = last_;
+    return status;
+  }
+  /// Sends zero; when the link does not work, the guardian does as soon as it works again.
+  void close() noexcept override { closing_ = true; }
+  const std::string& name() const noexcept override { return inner_.name(); }
+
+ private:
+  MotorVolts acting() const {
+    MotorVolts volts = volts_;
+    for (size_t i = 0; i < kMaxStrings; ++i)
+      if (cut_ >> i & 1) volts.volt[i] = 0;
+    return volts;
+  }
+
+  ExchangeStatus pass(DeviceReading& reading) {
+    if (!open_) return ExchangeStatus::kLost;
+    if (closing_) zero();
+    // A free motor winds at 1 m/s while it has a voltage.
+    for (size_t i = 0; i < kMaxStrings; ++i) {
+      if (!(cut_ >> i & 1) || volts_.volt[i] == 0) continue;
+      const StringDrive& drive = profile_.drives[i];
+      move(i, static_cast<int32_t>(-drive.encoder_sign * 1e-3 / drive.metres_per_count));
+    }
+    return inner_.exchange(acting(), reading);
+  }
+
+  void move(size_t string, int32_t counts) {
+    error_[string] += counts;
+    inner_.set_count_error(static_cast<int>(string), error_[string]);
+  }
+
+  SimulatedDevice& inner_;
+  const Profile& profile_;
+  unsigned cut_ = 0;
+  unsigned stopped_ = 0;
+  bool open_ = false;
+  bool closing_ = false;
+  ExchangeStatus link_ = ExchangeStatus::kOk;
+  MotorVolts volts_;
+  DeviceReading last_;
+  std::array<int32_t, kMaxStrings> error_{};
+};
+
+}  // namespace spidar::test
