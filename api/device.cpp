@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -10,6 +12,7 @@
 
 #include "api/vectors.h"
 #include "spidar/boards/board_list.h"
+#include "spidar/profiles/force_range.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 
@@ -47,11 +50,15 @@ void require_limit(double value, const char* what) {
 // A nested class has the visibility of the enclosing class unless it states its own.
 struct __attribute__((visibility("hidden"))) Device::Impl {
   Impl(const std::string& device, const spidar::Profile& profile)
-      : session(profile, spidar::make_device(device, profile)) {
+      : session(profile, spidar::make_device(device, profile)),
+        profile_name(profile.name),
+        largest_force_N(std::floor(10 * spidar::largest_force_N(profile)) / 10) {
     session.loop().set_playback_clock(now_is_now());
   }
 
   HapticSession session;
+  const std::string profile_name;
+  const double largest_force_N;
   int64_t pushed_ns = 0;
 };
 
@@ -80,6 +87,13 @@ void Device::rest() {
 void Device::set_limits(double max_force_N, double max_torque_Nm) {
   require_limit(max_force_N, "the largest force");
   require_limit(max_torque_Nm, "the largest torque");
+  if (max_force_N > impl_->largest_force_N) {
+    std::ostringstream text;
+    text << "the largest force must be " << std::setprecision(3) << impl_->largest_force_N
+         << " N at most, which " << impl_->profile_name << " can give in every direction, got "
+         << max_force_N;
+    throw std::invalid_argument(text.str());
+  }
   spidar::SafetyLimits limits;
   limits.max_force_N = max_force_N;
   limits.max_torque_Nm = max_torque_Nm;

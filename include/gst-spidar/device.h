@@ -63,7 +63,8 @@ class GST_SPIDAR_API Device {
 
   /// Limits the total force (3 N at first) and the total torque (0.1 N m at first) of whatever is
   /// pushed, from the next millisecond on. Throws std::invalid_argument unless both are finite and
-  /// not negative.
+  /// not negative, and the force is one that the profile's strings can give in every direction, or
+  /// 3 N at most.
   void set_limits(double max_force_N, double max_torque_Nm);
 
   /// Where the grip is. Nothing while that is not known: just after opening, and while the readings

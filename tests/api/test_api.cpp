@@ -172,6 +172,11 @@ TEST(Device, WhatIsWrongIsNamed) {
   Device device("sim");
   EXPECT_THROW(device.push(to_the_right(std::nan(""))), std::invalid_argument);
   EXPECT_THROW(device.set_limits(-1, 0), std::invalid_argument);
+  // Eight strings of 4.2 N on spidar-gcc give 7.29 N in the weakest direction.
+  EXPECT_NO_THROW(device.set_limits(7.2, 0.1));
+  EXPECT_EQ(message_of([&] { device.set_limits(7.3, 0.1); }),
+            "the largest force must be 7.2 N at most, which spidar-gcc can give in every "
+            "direction, got 7.3");
   EXPECT_THROW(device.set_limits(1, std::numeric_limits<double>::infinity()),
                std::invalid_argument);
 }
