@@ -103,6 +103,9 @@ void BoardDevice::stop() noexcept {
   if (!thread_.joinable()) return;
   stop_ = true;
   sem_post(&requested_);
+  // Transfers are cancelled at their deadline, and the kernel ends a request to clear a stalled
+  // pipe after 5 s. Meanwhile the guardian, to which this thread no longer answers, sets the motors
+  // to zero.
   thread_.join();
   Request request;
   Reply reply;
