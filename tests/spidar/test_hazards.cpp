@@ -40,13 +40,15 @@ constexpr int kLongestLink_ms = 300;
 constexpr int kGuardian_ms = 50;
 constexpr int kGuardianTry_ms = 10;
 /// A pose that fits no longer is used for GripWatch::kMaxMisses more ticks; then a quarter of the
-/// ramp of 40 ms takes the tensions to rest, as it is level at first (TensionCommand::kLostPace).
+/// ramp of 40 ms, which is level at first, takes the tensions to rest (TensionCommand::kLostPace).
 constexpr int kFade_ms = 14;
 /// Three time constants of the drives, after which a force of three times the limit is within it.
 constexpr int kLag_ms = 6;
 constexpr int kMostAbove_ms = GripWatch::kMaxMisses + 1 + kFade_ms + kLag_ms;
-/// When the pose was lost before the player died.
-constexpr int kMostAfter_ms = kFade_ms + 1 + kGuardian_ms + kGuardianTry_ms;
+/// Where the pose was lost before the player died. A string needs TensionSlew::kRange_s more when
+/// it passes through its whole range.
+constexpr int kSlew_ms = 20;
+constexpr int kMostAfter_ms = kFade_ms + kSlew_ms + kGuardian_ms + kGuardianTry_ms;
 /// Forces that differ by less are the same: rounding of the D/A converter, and the pull at rest
 /// while the motors follow.
 constexpr double kMargin_N = 0.1;
