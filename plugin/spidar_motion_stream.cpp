@@ -206,7 +206,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
       GST_DEBUG_OBJECT(self, "gap from %" GST_TIME_FORMAT ", force ends there",
                        GST_TIME_ARGS(time));
-      engine.run_out(running_time_of(trans->segment, time));
+      engine.begin_gap(running_time_of(trans->segment, time));
       break;
     }
     case GST_EVENT_EOS:

@@ -128,12 +128,29 @@ void MotionEngine::restart_timing() {
   }
   limit_watch_.forget();
   pacer_.restart();
+  gap_ns_.reset();
 }
 
 void MotionEngine::run_out(GstClockTime running_time) {
   restart();
   if (!is_time(running_time)) return;  // scheduled wrenches expire without help
   schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
+}
+
+void MotionEngine::begin_gap(GstClockTime running_time) {
+  if (!is_time(running_time) || !pacer_.has_frame()) {
+    run_out(running_time);
+  } else if (!gap_ns_) {  // while no frame comes, the force ends without help
+    gap_ns_ = static_cast<int64_t>(running_time);
+  }
+}
+
+void MotionEngine::end_gap(int64_t running_ns) {
+  constexpr int64_t kLate_ns = 10'000'000;
+  if (!gap_ns_ || running_ns < *gap_ns_) return;
+  // A frame that comes when the next one was due shows that there was no gap.
+  if (running_ns > pacer_.next_ns() + kLate_ns) run_out(static_cast<GstClockTime>(*gap_ns_));
+  gap_ns_.reset();
 }
 
 void MotionEngine::pass_gap(GstClockTime running_time) {
@@ -223,6 +240,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
     reliefs_.end(schedule_.at_sink_ns(running_ns));
     return report;
   }
+  end_gap(running_ns);
   const FramePacer::Order order = pacer_.order(running_ns, frame, segment);
   if (order == FramePacer::Order::kTooSoon) {
     report.problem = FrameProblem::kSameTimestamp;

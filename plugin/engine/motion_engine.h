@@ -91,8 +91,9 @@ class MotionEngine {
   void restart_timing();
   /// A sink that has skipped something is in time with the segment again.
   void begin_segment();
-  /// Nothing is shown from this running time on: the force runs out.
-  void run_out(GstClockTime running_time);
+  /// There are no frames from this running time on, but for those that the decoder holds: the gap
+  /// event of a demuxer overtakes them, and begins too early when the last one is not the newest.
+  void begin_gap(GstClockTime running_time);
   /// In place of a frame that has no picture.
   void pass_gap(GstClockTime running_time);
   /// Nothing more comes.
@@ -101,6 +102,8 @@ class MotionEngine {
   std::optional<Eigen::Vector2d> grip_place() const;
 
  private:
+  void end_gap(int64_t running_ns);
+  void run_out(GstClockTime running_time);
   void touch_frame(GstBuffer* buffer, const ImageView& luma, const TouchProperties& touch,
                    int64_t running_ns, FrameReport& report);
 
@@ -118,7 +121,8 @@ class MotionEngine {
   FrameLuma luma_;
   FrameTrace trace_;
   FramePacer pacer_;
-  double motion_share_ = 1;  // of the newest frame's wrench
+  std::optional<int64_t> gap_ns_;  // where a gap begins, unless a frame comes there
+  double motion_share_ = 1;        // of the newest frame's wrench
 
   MotionStats stats_;
   LimitWatch limit_watch_;

@@ -136,6 +136,26 @@ TEST_F(Time, GapIsNoMotion) {
   EXPECT_EQ(h.motions()[2].velocity_x, 0);
 }
 
+TEST_F(Time, AGapDoesNotStopTheFramesThatItHasOvertaken) {
+  h.push_moved(0, 0, 0);
+  h.push_moved(2, 0, kFrame);
+  // As matroskademux sends it for pictures that have ended, while the decoder holds two of them.
+  // With B-frames, it begins at the end of the packet that was decoded last.
+  gst_harness_push_event(h.harness(), gst_event_new_gap(2 * kFrame, kFrame));
+  gst_harness_push_event(h.harness(), gst_event_new_gap(4 * kFrame, kFrame));
+  h.push_moved(4, 0, 2 * kFrame);
+  gst_harness_push_event(h.harness(), gst_event_new_gap(4 * kFrame, kFrame));
+  gst_harness_push_event(h.harness(), gst_event_new_gap(5 * kFrame, kFrame));
+  h.push_moved(6, 0, 3 * kFrame);
+  h.push_moved(9, 0, 6 * kFrame);
+  h.push_moved(11, 0, 7 * kFrame);
+  ASSERT_EQ(h.motions().size(), 6u);
+  for (const size_t n : {1, 2, 3, 5}) {
+    EXPECT_NEAR(h.motions()[n].velocity_x, 50, kTolerance_px / 0.04) << n;
+  }
+  EXPECT_EQ(h.motions()[4].velocity_x, 0);
+}
+
 TEST_F(Time, FramesWithoutTimestampAreShownAndComplainedAboutOnce) {
   for (int n = 0; n < 3; ++n) {
     EXPECT_EQ(h.push_moved(2 * n, 0, GST_CLOCK_TIME_NONE), GST_FLOW_OK);
