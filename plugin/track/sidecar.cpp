@@ -51,29 +51,38 @@ std::string find_sidecar(const std::string& film) {
   return {};
 }
 
-std::string other_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {
+FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {
   const FilmFingerprint& fingerprint = notes.film;
+  FilmMatch match;
   // Plus a millisecond, because many containers round durations to milliseconds.
   int64_t tolerance_ns = film.frame_ns + static_cast<int64_t>(GST_MSECOND);
   if (!fingerprint.empty()) {
     const std::optional<int64_t> later_ns = find_pictures(fingerprint, film.packets);
     if (!later_ns) {
-      return "it was recorded from other pictures, or from these before they were encoded anew";
+      match.problem =
+          "it was recorded from other pictures, or from these before they were encoded anew";
+      return match;
     }
-    if (std::llabs(*later_ns) > kMostLater_ns) {
-      return "the film shows its pictures " + seconds(std::llabs(*later_ns)) +
-             (*later_ns > 0 ? " later" : " earlier") + " than when the track was recorded";
-    }
+    match.later_ns = *later_ns;
     tolerance_ns += kMostMissing_ns;
   } else {
     tolerance_ns += film.begin_ns;  // it may begin with the first picture
   }
   const int64_t end_ns = film.end_ns.value_or(film.duration_ns);
-  const int64_t missing_ns = end_ns - track_ns;
+  const int64_t missing_ns = end_ns - match.later_ns - track_ns;
   // Sound may be longer than the pictures.
   const bool is_short = film.end_ns && missing_ns > tolerance_ns;
-  if (end_ns == 0 || (!is_short && -missing_ns <= tolerance_ns)) return {};
-  return "the track lasts " + seconds(track_ns) + ", the film " + seconds(end_ns);
+  if (end_ns != 0 && (is_short || -missing_ns > tolerance_ns)) {
+    match.problem = "the track lasts " + seconds(track_ns) + ", the film " + seconds(end_ns);
+  }
+  return match;
+}
+
+std::string other_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {
+  const FilmMatch match = match_film(film, track_ns, notes);
+  if (!match.problem.empty() || std::llabs(match.later_ns) <= kMostLater_ns) return match.problem;
+  return "the film shows its pictures " + seconds(std::llabs(match.later_ns)) +
+         (match.later_ns > 0 ? " later" : " earlier") + " than when the track was recorded";
 }
 
 std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns) {

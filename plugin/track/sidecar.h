@@ -20,9 +20,18 @@ std::string film_of(GstPad* pad);
 /// films may differ in nothing else.
 std::string find_sidecar(const std::string& film);
 
-/// Empty, or why a track of `track_ns` with `notes` is not that of `film`. A track that knows its
-/// film is recognised by the pictures, any other by its length: it ends where the last picture
-/// does, but for one frame.
+struct FilmMatch {
+  std::string problem;   ///< empty, or why the track is not that of the film
+  int64_t later_ns = 0;  ///< the film shows its pictures so much later than the track says
+};
+
+/// Compares a track of `track_ns` with `notes` with `film`. A track that knows its film is
+/// recognised by the pictures, which may come later in another container; any other by its length:
+/// it ends where the last picture does, but for one frame.
+FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes);
+
+/// The problem for who uses the track as it is: the pictures must not come later or earlier, but
+/// for two or three frames, either.
 std::string other_film(const Film& film, int64_t track_ns, const TrackNotes& notes);
 
 /// For a film that does not come from a file. Empty, or why a track that lasts `track_ns` is not

@@ -17,14 +17,18 @@ namespace {
 /// How long stop() waits for a thread that has been told to stop; it looks every 20 ms.
 constexpr std::chrono::milliseconds kLongestStop{500};
 
-/// Why `track` is not that of the file `film`. Nothing when the film cannot be read.
-std::optional<std::string> compare(const TrackFile& track, const std::string& film,
-                                   const std::atomic<bool>* stopped) {
+/// Nothing when the film cannot be read.
+std::optional<FilmMatch> compare(const TrackFile& track, const std::string& film,
+                                 const std::atomic<bool>* stopped) {
   try {
-    return other_film(read_film(film, stopped), track.duration_ns, track.notes);
+    return match_film(read_film(film, stopped), track.duration_ns, track.notes);
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
+}
+
+void move(TrackFile& track, int64_t later_ns) {
+  for (TrackBlock& block : track.blocks) block.begin_ns += later_ns;
 }
 
 bool has_track(const std::string& film, const std::atomic<bool>* stopped) {
@@ -45,14 +49,17 @@ LoadedTrack load(const std::string& wanted, const std::string& film,
     loaded.track = read_track_file(loaded.path, stopped);
     loaded.problem = loaded.track->missing();
     // A track inside the film is the film's own.
-    std::optional<std::string> other;
+    std::optional<FilmMatch> match;
     if (loaded.path == film) {
-      other = std::string();
+      match.emplace();
     } else if (!film.empty()) {
-      other = compare(*loaded.track, film, stopped);
+      match = compare(*loaded.track, film, stopped);
     }
-    loaded.is_compared = other.has_value();
-    if (loaded.problem.empty() && other) loaded.problem = *other;
+    loaded.is_compared = match.has_value();
+    if (match) {
+      if (loaded.problem.empty()) loaded.problem = match->problem;
+      move(*loaded.track, match->later_ns);
+    }
   } catch (const std::runtime_error& error) {
     loaded.problem = error.what();
   }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A track is accepted for the film that it was recorded from, in any container, and for no other.
+#include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,7 @@
 #include "plugin/track/film_reader.h"
 #include "plugin/track/sidecar.h"
 #include "plugin/track/track_file.h"
+#include "plugin/track/track_loader.h"
 #include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -68,6 +72,30 @@ TEST_F(OwnFilm, IsRecognisedInAnyContainer) {
   ASSERT_TRUE(copy("film.mp4", "copy.ts"));
   expect_contains(other("film.mp4", "copy.ts"), "later than when the track was recorded");
   EXPECT_EQ(other("copy.ts", "copy.ts"), "");
+}
+
+TEST_F(OwnFilm, ATrackMovesWithThePicturesIntoAnotherContainer) {
+  ASSERT_TRUE(make("film.mp4"));
+  ASSERT_TRUE(copy("film.mp4", "copy.ts"));
+  ASSERT_EQ(spidartrack("record " + path("film.mp4")).status, 0);
+  ASSERT_EQ(spidartrack("record " + path("copy.ts")).status, 0);
+  const Film film = read_film(path("film.mp4")), copied = read_film(path("copy.ts"));
+  const int64_t later_ns = copied.begin_ns - film.begin_ns;
+  ASSERT_GT(std::llabs(later_ns), 100'000'000);
+  for (const bool back : {false, true}) {
+    SCOPED_TRACE(back);
+    const std::string track = path(back ? "copy.ts" : "film.mp4") + ".haptic.flac";
+    TrackLoader loader;
+    loader.begin(track, path(back ? "film.mp4" : "copy.ts"));
+    loader.await(std::chrono::hours(1));
+    const std::optional<LoadedTrack> loaded = loader.take();
+    ASSERT_TRUE(loaded);
+    EXPECT_EQ(loaded->problem, "");
+    // Times of MPEG-TS are multiples of 1/90 ms.
+    EXPECT_NEAR(static_cast<double>(loaded->track->blocks.front().begin_ns -
+                                    read_track_file(track).blocks.front().begin_ns),
+                static_cast<double>(back ? -later_ns : later_ns), 1e6 / 90 * 2);
+  }
 }
 
 TEST_F(OwnFilm, AnyOtherIsNot) {
