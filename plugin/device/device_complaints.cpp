@@ -48,7 +48,7 @@ void DeviceComplaints::look_at_opened(const HapticSession& session) const {
 
 void DeviceComplaints::start() {
   strings_ = 0;
-  pose_lost_ = held_back_ = vibrated_ = false;
+  pose_lost_ = held_back_ = vibrated_ = shaken_ = false;
   haptic_trace_ = false;
   state_ = DeviceState::kClosed;
 }
@@ -98,6 +98,14 @@ void DeviceComplaints::look_at_pose(const HapticSession& session) {
                         ("The motor is at %.2f of its continuous rating (continuous_tension_N of "
                          "the profile). The full force returns when the motor has cooled.",
                          loop.motor_heat));
+  }
+  if (loop.last.contact.stiffness_share < 1 && !shaken_) {
+    shaken_ = true;
+    GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                        ("The touched surface shook the grip: its stiffness is lowered."),
+                        ("The drives lag more than the profile says. Measure them with spidarctl "
+                         "conformance, write drive_lag_s into the profile, or set a lower "
+                         "touch-stiffness."));
   }
   if (loop.vibration.lowered() && !vibrated_) {
     vibrated_ = true;

@@ -40,6 +40,7 @@ class DeviceComplaints {
   bool pose_lost_ = false;  // said, and not come back since
   bool held_back_ = false;  // said
   bool vibrated_ = false;   // said
+  bool shaken_ = false;     // said
   bool haptic_trace_ = false;
   DeviceState state_ = DeviceState::kClosed;
   uint64_t times_lost_ = 0;

@@ -40,7 +40,8 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
   const Contact& contact = snapshot.last.contact;
   gst_structure_set(structure, "touching", G_TYPE_BOOLEAN, contact.touching ? TRUE : FALSE,
                     "touch-depth-mm", G_TYPE_DOUBLE, 1e3 * contact.depth_m, "touch-force",
-                    G_TYPE_DOUBLE, contact.force_N.norm(), nullptr);
+                    G_TYPE_DOUBLE, contact.force_N.norm(), "touch-stiffness-share", G_TYPE_DOUBLE,
+                    contact.stiffness_share, nullptr);
   const LinkHealth link = session.device().health();
   gst_structure_set(structure, "link-fault", G_TYPE_STRING, to_string(link.last_fault),
                     "link-timeouts", G_TYPE_UINT64, link.count(LinkFault::kTimeout), "link-errors",

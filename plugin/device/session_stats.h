@@ -17,6 +17,8 @@ namespace spidar {
 /// grip-held (boolean: false when the force rests because nobody holds the grip), grip-speed
 /// (double, m/s), vibration-share (double: of the force that is wanted, 1 unless it has shaken the
 /// hand for long), vibration-left (double: of the store of VibrationBudget, 0 … 1),
+/// touching (boolean), touch-depth-mm, touch-force (double, N), touch-stiffness-share (double: what
+/// is left of the stiffness, 1 unless the surface has shaken the grip),
 /// wakeup-us-median, wakeup-us-p999, skew-ms-median, skew-ms-p99 (double; skew: force at the device
 /// after its frame was due on the screen), link-fault (string: the last one, see LinkFault),
 /// link-timeouts, link-errors (all other faults), link-late-replies (uint64), round-trip-us-median,

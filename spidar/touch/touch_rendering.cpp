@@ -48,8 +48,9 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
     }
   }
   ContactSettings settings = nearest->contact;
-  if (stiffness_N_m_ <= 0) stiffness_N_m_ = settings.stiffness_N_m;
+  if (stiffness_N_m_ <= 0) stiffness_N_m_ = shake_watch_.share() * settings.stiffness_N_m;
   const double most_N_m = kStiffening_N_m_s * std::clamp(dt_s, 0.0, kLongestTick_s);
+  settings.stiffness_N_m *= shake_watch_.share();
   stiffness_N_m_ += std::clamp(settings.stiffness_N_m - stiffness_N_m_, -most_N_m, most_N_m);
   settings.stiffness_N_m = stiffness_N_m_;
   settings.max_force_N = max_force_N_;
@@ -61,7 +62,9 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
                                  settings, grip_m, dt_s);
   const TouchProxy& proxy = contact_.proxy();
   result.touching = proxy.touching();
+  result.stiffness_share = shake_watch_.share();
   if (result.touching) {
+    shake_watch_.see(contact_.velocity_m_s(), proxy.normal(), dt_s);
     result.proxy_m = proxy.position_m();
     result.depth_m = std::max(0.0, proxy.normal().dot(proxy.position_m() - grip_m));
   }

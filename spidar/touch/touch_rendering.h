@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/touch/contact_force.h"
+#include "spidar/touch/shake_watch.h"
 #include "spidar/touch/touch_mailbox.h"
 
 namespace spidar {
@@ -20,6 +21,8 @@ struct Contact {
   /// The touched point of the surface, device frame; 0 unless touching.
   Eigen::Vector3d proxy_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the grip, device frame
+  /// Share of the stiffness that is left after shaking, see ShakeWatch.
+  double stiffness_share = 1;
 };
 
 /// Follows the frames of a mailbox by running time and renders the contact with the surface
@@ -76,6 +79,7 @@ class TouchRendering {
   double max_slew_N_s_ = ContactSettings{}.max_slew_N_s;
   Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();
   ContactForce contact_;
+  ShakeWatch shake_watch_;
 };
 
 }  // namespace spidar

@@ -16,8 +16,11 @@ constexpr double kTick_s = 1e-9 * static_cast<double>(kTick_ns);
 constexpr int64_t kFrame_ns = 33 * kTick_ns;
 
 /// Scales the rotational stiffness and damping of the hand like the translational ones.
-GripModel model_of(const Hand& hand) {
+GripModel model_of(const Hand& hand, const StringTouch& touch) {
   GripModel model;
+  model.motor_time_constant_s += touch.more_lag_s;
+  model.inertia_kg_m2 *= touch.mass_kg / model.mass_kg;
+  model.mass_kg = touch.mass_kg;
   model.hand_stiffness_Nm_rad *= hand.stiffness_N_m / model.hand_stiffness_N_m;
   model.hand_damping_Nm_s_rad *= hand.damping_N_s_m / model.hand_damping_N_s_m;
   model.hand_stiffness_N_m = hand.stiffness_N_m;
@@ -119,7 +122,7 @@ void publish(TouchMailbox& mailbox, const TouchScene& scene, const StringTouch& 
 class Pair {
  public:
   Pair(const TouchScene& scene, const StringTouch& touch, const Hand& hand)
-      : model_(model_of(hand)),
+      : model_(model_of(hand, touch)),
         film_N_(touch.film_N),
         mailbox_(kPictureWidth_m, kPictureHeight_m, TouchMailbox::kLeastSlots) {
     publish(mailbox_, scene, touch);
@@ -148,6 +151,7 @@ class Pair {
     strings_ = now;
   }
 
+  double stiffness_share() const { return loop_->snapshot().last.contact.stiffness_share; }
   bool touching() const { return loop_->snapshot().last.contact.touching; }
   /// Work that the grip has done against the added tensions.
   double given_J() const { return given_J_; }
@@ -195,6 +199,7 @@ ContactEnergy touch_through_strings(const TouchScene& scene, const StringTouch& 
     const double before_J = pair.given_J();
     pair.tick(path_m(kTick_s * static_cast<double>(tick)));
     if (pair.touching()) {
+      result.stiffness_share = pair.stiffness_share();
       if (!in_contact) begin_J = before_J;
       in_contact = true;
       ticks_away = 0;

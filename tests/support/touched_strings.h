@@ -20,6 +20,9 @@ struct StringTouch {
   bool texture = false;
   /// Amplitude of the film's force, which varies as in a film with a moving object.
   double film_N = 0;
+  /// By this the drives lag more than the profile says.
+  double more_lag_s = 0;
+  double mass_kg = 0.1;  ///< of the grip
 };
 
 /// Target position of the hand at a time in seconds.
