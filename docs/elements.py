@@ -1,15 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Writes the reference of the GStreamer elements, docs/elements.md, from the plugin itself.
+"""Writes the reference of the GStreamer elements from the plugin itself: docs/elements.md and docs/elements/.
 
-    meson devenv -C build python3 ../docs/elements.py > docs/elements.md
+    meson devenv -C build python3 ../docs/elements.py
 
-Needs PyGObject. With --check FILE it compares instead, and exits with status 1 if FILE is not what
-it would write."""
+Units and meanings of messages, statistics and traces, which GObject does not know, are in docs/fields.toml; the fields
+themselves are those of a film that this program plays. Needs PyGObject. With --check it writes nothing, and exits with
+status 1 if a page is not what it would write."""
 import argparse
 import difflib
+import json
+import re
 import sys
+import tempfile
+import tomllib
+from pathlib import Path
 
 try:
     import gi
@@ -21,17 +27,14 @@ gi.require_version("Gst", "1.0")
 from gi.repository import GObject, Gst  # noqa: E402
 
 ELEMENTS = ("spidarmotion", "spidarextract", "spidarsink", "spidardepth")
-
-INTRODUCTION = """# Elements
-
-For people who build pipelines. This page is written by `docs/elements.py` from the plugin, as
-`gst-inspect-1.0` shows it, and a test compares the two. "Since" is the version of gst-spidar that had the
-property first.
-"""
+DOCS = Path(__file__).resolve().parent
+WRITTEN = "Written by `docs/elements.py` from the plugin; a test compares the two.\n"
 
 # Of properties that came later than their element: (element, property): version.
 SINCE = {}
 FIRST_VERSION = "0.1"
+TYPES = {"gchararray": "string", "gdouble": "double", "gboolean": "boolean", "guint64": "uint64", "guint": "uint",
+         "gint": "int", "gint64": "int64"}
 
 
 def value_text(value):
@@ -89,14 +92,144 @@ def flags_text(spec):
     return ", ".join(flags)
 
 
+class Fields:
+    """What fields.toml says, and which of it has been used."""
+
+    def __init__(self):
+        with open(DOCS / "fields.toml", "rb") as file:
+            tables = tomllib.load(file)
+        self.tables = {name: table for name, table in tables.items() if name != "stats"}
+        self.tables |= {f"stats.{name}": table for name, table in tables["stats"].items()}
+        self.used = set()
+        self.missing = []
+
+    def row(self, table, name):
+        """Unit and meaning."""
+        if name not in self.tables[table]:
+            self.missing.append(f"[{table}] {name}")
+            return "", ""
+        self.used.add((table, name))
+        return self.tables[table][name]
+
+    def wrong(self):
+        rest = [f"[{table}] {name}" for table, rows in self.tables.items() for name in rows
+                if (table, name) not in self.used]
+        return [f"fields.toml does not describe {name}" for name in self.missing] + [
+            f"fields.toml describes {name}, which no element has" for name in rest]
+
+
+def fields_of(structure):
+    """Name and type of each field, in their order."""
+    names = [structure.nth_field_name(i) for i in range(structure.n_fields())]
+    return {name: TYPES.get(structure.get_field_type(name).name, structure.get_field_type(name).name) for name in names}
+
+
+def json_fields(value, prefix=""):
+    """The names of the fields of a line of JSON, with those inside."""
+    names = []
+    for name, inside in value.items():
+        if isinstance(inside, dict):
+            names += json_fields(inside, f"{prefix}{name}.")
+        elif isinstance(inside, list) and inside and isinstance(inside[0], dict):
+            names += json_fields(inside[0], f"{prefix}{name}[].")
+        else:
+            names.append(prefix + name)
+    return names
+
+
+def play(pipeline):
+    """Messages and statistics of the element `m` while a pipeline plays: {name: type} of the fields of each."""
+    playing = Gst.parse_launch(pipeline)
+    bus, messages, stats = playing.get_bus(), {}, {}
+    element = playing.get_by_name("m")
+    playing.set_state(Gst.State.PLAYING)
+    while True:
+        message = bus.timed_pop_filtered(60 * Gst.SECOND, Gst.MessageType.ELEMENT | Gst.MessageType.EOS | Gst.MessageType.ERROR)
+        if message is None or message.type == Gst.MessageType.ERROR:
+            sys.exit(f"elements.py: this does not play: {pipeline}")
+        if message.type == Gst.MessageType.EOS:
+            break
+        if message.src == element:
+            messages |= fields_of(message.get_structure())
+    stats |= fields_of(element.get_property("stats"))
+    playing.set_state(Gst.State.NULL)
+    return messages, stats
+
+
+def table(columns, rows):
+    return ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"] + ["| " + " | ".join(row) + " |" for row in rows]
+
+
+def field_table(fields, where, names, types=None):
+    rows = []
+    for name in names:
+        unit, meaning = fields.row(where, name)
+        rows.append([f"`{name}`", *([types[name]] if types else []), unit, meaning])
+    return table(["field", *(["type"] if types else []), "unit", "meaning"], rows)
+
+
+def stats_tables(fields, stats, parts):
+    """A table for each part of fields.toml; a field that none of them has belongs to the first."""
+    lines = []
+    for part, words in parts.items():
+        others = {name for other in parts if other != part for name in fields.tables[other]}
+        names = [name for name in stats if name in fields.tables[part] or (part == next(iter(parts)) and name not in others)]
+        lines += ["", words, "", *field_table(fields, part, names, stats)]
+    return lines
+
+
+def shorter(columns):
+    """Columns of a trace that differ only in an axis or a number, as one with a star."""
+    names = []
+    for column in columns:
+        name = re.sub(r"^(\w+?_(?:force|torque|position))_[xyz]_", r"\1_*_", column)
+        name = re.sub(r"^(position)_[xyz]_m$", r"\1_*_m", name)
+        name = re.sub(r"^orientation_[wxyz]$", "orientation_*", re.sub(r"^tension_\d+_N$", "tension_*_N", name))
+        if name not in names:
+            names.append(name)
+    return names
+
+
+def observed(fields):
+    """The sections that GObject does not know, by element. Objects and reasons depend on the film, so it is one in
+    which an object moves, and the camera does not."""
+    ball = "videotestsrc num-buffers=20 pattern=ball ! video/x-raw,width=320,height=240"
+    with tempfile.TemporaryDirectory() as folder:
+        csv, lines, ticks = (f"{folder}/{name}" for name in ("trace.csv", "trace.jsonl", "ticks.csv"))
+        messages, stats = play(f"{ball} ! spidarmotion name=m trace={csv} haptic-trace={ticks} ! fakesink sync=true")
+        more, touching = play(f"{ball} ! spidarmotion name=m touch=luma trace={lines} ! fakesink sync=true")
+        # A film without motion has a reason.
+        still, unfelt = play("videotestsrc num-buffers=5 pattern=black ! spidarmotion name=m ! fakesink sync=true")
+        messages, stats = messages | more | still, stats | touching | unfelt
+        track = "audiotestsrc num-buffers=2 wave=silence ! audio/x-raw,format=F32LE,rate=1000,channels=6,channel-mask=(bitmask)0x3f"
+        _, track_stats = play(f"{track} ! spidarsink name=m")
+        header = Path(csv).read_text(encoding="utf-8").split("\n")[0].split(",")
+        tick_header = Path(ticks).read_text(encoding="utf-8").split("\n")[0].split(",")
+        objects = [json.loads(line) for line in Path(lines).read_text(encoding="utf-8").splitlines()]
+    fullest = max((json_fields(line) for line in objects), key=len)
+    haptic = ["", "### Columns of `haptic-trace`", "",
+              "One line for each millisecond. A star stands for an axis, or for the number of a string.", "",
+              *field_table(fields, "haptic-trace", shorter(tick_header))]
+    motion = ["", "### Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame:", "",
+              *field_table(fields, "message", messages, messages), "", "### Fields of `stats`",
+              *stats_tables(fields, stats, {"stats.video": "Of the video:", "stats.device": "Of the device, while there is one:"}),
+              "", "### Columns of `trace`", "", "CSV, one line for each frame:", "", *field_table(fields, "trace", header),
+              "", "JSON, one line for each frame, if the name ends in `.jsonl`; lists of two or three numbers are vectors:", "",
+              *field_table(fields, "json", fullest), *haptic]
+    sink = ["", "### Fields of `stats`",
+            *stats_tables(fields, track_stats, {"stats.track": "Of the track:", "stats.device": "Of the device:"}), "",
+            "### Columns of `haptic-trace`", "", "Those of [spidarmotion](spidarmotion.md#columns-of-haptic-trace)."]
+    return {"spidarmotion": motion, "spidarsink": sink}
+
+
 def describe(name):
     factory = Gst.ElementFactory.find(name)
     if factory is None:
         return []
     element = factory.create(None)
-    lines = [f"## {name}", "", f"{factory.get_metadata('description')}.", "",
+    lines = [f"# {name}", "", WRITTEN, f"{factory.get_metadata('description')}.", "",
              f"Class: `{factory.get_metadata('klass')}`. Parent: `{GObject.type_name(GObject.type_parent(element.__gtype__))}`.",
-             "", "### Pads", "", "| pad | direction | presence | caps |", "|---|---|---|---|"]
+             "", "## Pads", "", "| pad | direction | presence | caps |", "|---|---|---|---|"]
     # The factory lists them in another order when the registry has just been written.
     templates = sorted(factory.get_static_pad_templates(),
                        key=lambda template: (template.direction != Gst.PadDirection.SINK, template.name_template))
@@ -109,7 +242,7 @@ def describe(name):
                      f"{template.presence.value_nick} | {', '.join(f'`{kind}`' for kind in kinds)} |")
     own = [spec for spec in element.list_properties() if spec.owner_type == element.__gtype__]
     if own:
-        lines += ["", "### Properties", "", "| property | default | values | access | since | meaning |",
+        lines += ["", "## Properties", "", "| property | default | values | access | since | meaning |",
                   "|---|---|---|---|---|---|"]
     for spec in sorted(own, key=lambda spec: spec.name):
         if spec.value_type.is_a(GObject.TYPE_ENUM):
@@ -122,27 +255,51 @@ def describe(name):
             lines += ["", f"Values of `{spec.name}`:", ""]
             lines += [f"- `{value.value_nick}`: {value.value_name}"
                       for value in enum_values(spec).values()]
-    return lines + [""]
+    signals = [GObject.signal_query(signal, element.__gtype__) for signal in GObject.signal_list_names(element.__gtype__)]
+    if signals:
+        lines += ["", "## Signals", "", *table(
+            ["signal", "kind", "arguments", "returns"],
+            [[f"`{signal.signal_name}`", "action" if signal.signal_flags & GObject.SignalFlags.ACTION else "notification",
+              ", ".join(TYPES.get(kind.name, kind.name) for kind in signal.param_types),
+              TYPES.get(signal.return_type.name, signal.return_type.name)] for signal in signals])]
+    return lines
+
+
+def pages(fields):
+    """Text by file name."""
+    written, rows = {}, []
+    sections = observed(fields)
+    for name in ELEMENTS:
+        lines = describe(name)
+        if not lines:
+            sys.exit(f"elements.py: the element {name} was not found; is GST_PLUGIN_PATH set?")
+        lines += [line.replace("### ", "## ", 1) if line.startswith("### ") else line for line in sections.get(name, [])]
+        written[f"elements/{name}.md"] = "\n".join(lines).rstrip("\n") + "\n"
+        rows.append([f"[{name}](elements/{name}.md)", Gst.ElementFactory.find(name).get_metadata("description") + "."])
+    written["elements.md"] = "\n".join([
+        "# Elements", "", WRITTEN, *table(["element", "what it does"], rows), "",
+        '"Since" in the tables of properties is the version of gst-spidar that had the property first.', ""])
+    return written
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--check", metavar="FILE")
+    parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     Gst.init(None)
-    page = "\n".join([INTRODUCTION] + [line for name in ELEMENTS for line in describe(name)])
-    page = page.rstrip("\n") + "\n"
-    if "## spidarmotion" not in page:
-        sys.exit("elements.py: the element spidarmotion was not found; is GST_PLUGIN_PATH set?")
-    if options.check is None:
-        sys.stdout.write(page)
-        return
-    with open(options.check, encoding="utf-8") as file:
-        committed = file.read()
-    if committed != page:
-        sys.stderr.writelines(difflib.unified_diff(committed.splitlines(True), page.splitlines(True),
-                                                   options.check, "the plugin"))
-        sys.exit(f"elements.py: {options.check} does not describe the plugin; write it again, see elements.py")
+    fields = Fields()
+    written = pages(fields)
+    wrong = fields.wrong()
+    for name, text in written.items():
+        path = DOCS / name
+        if not options.check:
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        elif (committed := path.read_text(encoding="utf-8") if path.exists() else "") != text:
+            sys.stderr.writelines(difflib.unified_diff(committed.splitlines(True), text.splitlines(True), name, "the plugin"))
+            wrong.append(f"docs/{name} does not describe the plugin; write it again, see elements.py")
+    if wrong:
+        sys.exit("".join(f"elements.py: {line}\n" for line in wrong))
 
 
 if __name__ == "__main__":
