@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include <gst/gst.h>
 
+#include "plugin/tools/film_end.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/film_reader.h"
@@ -104,8 +106,10 @@ std::string record_film(const std::string& film, const std::string& track,
   Progress progress(tell);
   TrackNotes notes;
   notes.settings = properties.settings;
+  Film read;
   try {
-    notes.film = fingerprint_of(read_film(film).packets);
+    read = read_film(film);
+    notes.film = fingerprint_of(read.packets);
   } catch (const std::runtime_error&) {
     // Recording it will tell why.
   }
@@ -128,8 +132,14 @@ std::string record_film(const std::string& film, const std::string& track,
   } catch (const std::runtime_error& ended) {
     error = ended.what();
   }
-  const std::string problem = watch.problem(error);
+  const FilmEnd end = film_end(film);
+  // Where the file is whole, its duration may be that of sound that goes on after the pictures.
+  const std::string problem = watch.problem(
+      error, end == FilmEnd::kWhole ? std::optional(read.end_ns.value_or(0)) : std::nullopt);
   if (!problem.empty()) throw std::runtime_error(problem);
+  if (end == FilmEnd::kCutOff) {
+    throw std::runtime_error("its end is missing: it is damaged or cut off");
+  }
   return watch.remark();
 }
 

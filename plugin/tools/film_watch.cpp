@@ -18,12 +18,13 @@ constexpr auto kFlow =
 /// the sound, and a last packet whose duration is unknown.
 constexpr gint64 kTolerance_ns = 500'000'000;
 
-/// The demuxers of MPEG streams, which have no header, compute the duration from clock references,
-/// which a cut in the stream makes wrong.
+/// The demuxers of MPEG streams and Ogg, which have no header, compute the duration: from clock
+/// references, which a cut in the stream makes wrong, and from the last page, which may be of
+/// sound.
 bool has_header(GstElement* demuxer) {
   GstElementFactory* const factory = gst_element_get_factory(demuxer);
-  const char* const name = factory ? GST_OBJECT_NAME(factory) : "";
-  return std::strcmp(name, "tsdemux") != 0 && std::strcmp(name, "mpegpsdemux") != 0;
+  const std::string name = factory ? GST_OBJECT_NAME(factory) : "";
+  return name != "tsdemux" && name != "mpegpsdemux" && name != "oggdemux";
 }
 
 /// "H.265 (Main Profile) decoder", if that is what is missing, and it is for pictures.
@@ -149,7 +150,7 @@ void FilmWatch::choose(GstElement* decoder, gpointer user) {
   gst_object_unref(into);
 }
 
-std::string FilmWatch::problem(const std::string& error) const {
+std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> end_ns) const {
   const std::lock_guard<std::mutex> lock(lock_);
   if (!has_video_) {
     return missing_.empty() ? "there is no video in it"
@@ -157,12 +158,16 @@ std::string FilmWatch::problem(const std::string& error) const {
   }
   // What an element warned of comes before what follows from it: "Internal data stream error".
   if (!warning_.empty()) return warning_;
+  if (error.rfind("Internal data stream error", 0) == 0) {
+    return "it cannot be read to its end: it is damaged or cut off";
+  }
   if (!error.empty()) return error;
   if (frames_ == 0) return "no picture of it can be decoded: it is damaged or cut off";
-  if (tells_duration_ && duration_ns_ - end_ns_ > kTolerance_ns) {
-    gchar* const text = g_strdup_printf("it ends at %.3f s of %.3f s: it is damaged or cut off",
-                                        1e-9 * static_cast<double>(end_ns_),
-                                        1e-9 * static_cast<double>(duration_ns_));
+  const int64_t until_ns = tells_duration_ ? end_ns.value_or(duration_ns_) : 0;
+  if (until_ns - end_ns_ > kTolerance_ns) {
+    gchar* const text =
+        g_strdup_printf("it ends at %.3f s of %.3f s: it is damaged or cut off",
+                        1e-9 * static_cast<double>(end_ns_), 1e-9 * static_cast<double>(until_ns));
     const std::string result = text;
     g_free(text);
     return result;

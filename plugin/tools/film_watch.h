@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <gst/gst.h>
@@ -24,8 +25,10 @@ class FilmWatch {
   void begin(GstElement* pipeline);
 
   /// When the pipeline has ended, with `error` or, if that is empty, with the film: a sentence that
-  /// says what is wrong with the film, or nothing. A film without a second frame is wrong, too.
-  std::string problem(const std::string& error) const;
+  /// says what is wrong with the film, or nothing. A film without a second frame is wrong, too, and
+  /// one whose pictures do not come until `end_ns`, stream time, or if that is not known, until the
+  /// end of the container's duration.
+  std::string problem(const std::string& error, std::optional<int64_t> end_ns) const;
   /// What is to be known of the track of a film that is whole; usually empty.
   const std::string& remark() const { return remark_; }
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gst/gst.h>
@@ -60,6 +62,39 @@ TEST_F(FilmRecorder, AFilmThatIsCutOffIsAnErrorAndLeavesNoFile) {
   make_film("flat.mov", "jpegenc ! qtmux faststart=true");
   fs::resize_file(path("flat.mov"), fs::file_size(path("flat.mov")) / 2);
   expect_refused("flat.mov", "it ends at ");
+  // Only the header, of a film with sound.
+  std::ofstream(path("header.flv"), std::ios::binary).write("FLV\1\5\0\0\0\t\0\0\0\0", 13);
+  expect_refused("header.flv", "it cannot be read to its end");
+}
+
+TEST_F(FilmRecorder, WhereAFileIsCutOffDoesNotMatter) {
+  const std::pair<const char*, const char*> kinds[] = {
+      {"avi", "jpegenc ! avimux"},
+      {"ogg", "theoraenc ! oggmux"},
+      {"mkv", "jpegenc ! matroskamux"},
+      {"mov", "jpegenc ! qtmux fragment-duration=200"}};
+  for (const auto& [extension, encoding] : kinds) {
+    const std::string whole = std::string("whole.") + extension, half = "half." + whole;
+    SCOPED_TRACE(whole);
+    make_film(whole, encoding);
+    EXPECT_EQ(spidartrack("record " + path(whole)).status, 0);
+    fs::copy(path(whole), path(half));
+    // In the last page, chunk, segment or box as well as in the middle.
+    for (const uintmax_t size : {fs::file_size(path(whole)) - 1, fs::file_size(path(whole)) / 2}) {
+      fs::resize_file(path(half), size);
+      expect_refused(half, "");
+      fs::copy_file(path(whole), path(half), fs::copy_options::overwrite_existing);
+    }
+  }
+}
+
+TEST_F(FilmRecorder, SoundMayGoOnAfterThePicturesOfAnOgg) {
+  run_pipeline("oggmux name=mux ! filesink location=" + path("long.ogg") +
+               " videotestsrc num-buffers=50 pattern=ball ! video/x-raw,framerate=25/1 ! "
+               "theoraenc ! mux. audiotestsrc num-buffers=300 samplesperbuffer=1024 ! "
+               "audio/x-raw,rate=48000 ! audioconvert ! vorbisenc ! mux.");
+  const CommandResult result = spidartrack("record " + path("long.ogg"));
+  EXPECT_EQ(result.status, 0) << result.text;
 }
 
 TEST_F(FilmRecorder, WhatHasNoMotionSaysSo) {
