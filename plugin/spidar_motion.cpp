@@ -47,6 +47,7 @@
 
 #include <string>
 
+#include "plugin/properties/property_table.h"
 #include "plugin/reports/exceptions.h"
 #include "plugin/reports/motion_meta.h"
 #include "plugin/spidar_motion_private.h"
@@ -175,37 +176,53 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
 
 // --- object ------------------------------------------------------------------------------------
 
+/// What does not read the properties with each frame.
+static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
+    {"ts-offset",
+     [](auto* self, auto* value) { self->engine->output().set_offset(g_value_get_int64(value)); }},
+    {"mute", [](auto* self, auto* value) { self->engine->set_muted(g_value_get_boolean(value)); }},
+    {"touch",
+     [](auto* self, auto* value) {
+       const bool off = g_value_get_enum(value) == static_cast<int>(spidar::TouchKind::kOff);
+       if (off) self->engine->stop_touching();
+     }},
+    {"max-force",
+     [](auto* self, auto* value) {
+       self->engine->output().set_max_force(g_value_get_double(value));
+     }},
+    {"overlay",
+     [](auto* self, auto* value) {
+       gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !g_value_get_boolean(value));
+     }},
+};
+
+/// The window's own thread may wait for `setting`, so these are followed without it.
+static constexpr spidar::PropertyEffect<GstSpidarMotion> kUnlockedEffects[] = {
+    {"debug-window", [](auto* self, auto*) { follow_debug_window(self); }},
+};
+
 static void gst_spidar_motion_set_property(GObject* object, guint id, const GValue* value,
                                            GParamSpec* spec) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
   g_mutex_lock(&self->setting);
   GST_OBJECT_LOCK(self);
-  const bool known = set_motion_property(*self->properties, id, value);
+  const bool known = spidar::motion_properties().set(*self->properties, id, value);
   GST_OBJECT_UNLOCK(self);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  if (id == spidar::kPropTsOffset) self->engine->output().set_offset(g_value_get_int64(value));
-  if (id == spidar::kPropMute) self->engine->set_muted(g_value_get_boolean(value));
-  if (id == spidar::kPropTouch &&
-      g_value_get_enum(value) == static_cast<int>(spidar::TouchKind::kOff)) {
-    self->engine->stop_touching();
-  }
-  if (id == spidar::kPropMaxForce) self->engine->output().set_max_force(g_value_get_double(value));
-  if (id == spidar::kPropOverlay) {
-    gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !g_value_get_boolean(value));
-  }
+  spidar::follow_property(kEffects, self, spec, value);
   g_mutex_unlock(&self->setting);
-  if (id == spidar::kPropDebugWindow) follow_debug_window(self);
+  spidar::follow_property(kUnlockedEffects, self, spec, value);
 }
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
                                            GParamSpec* spec) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
-  if (id == spidar::kPropStats) {
+  if (G_PARAM_SPEC_VALUE_TYPE(spec) == GST_TYPE_STRUCTURE) {  // stats
     g_value_take_boxed(value, self->engine->stats());
     return;
   }
   GST_OBJECT_LOCK(self);
-  const bool known = get_motion_property(*self->properties, id, value);
+  const bool known = spidar::motion_properties().get(*self->properties, id, value);
   GST_OBJECT_UNLOCK(self);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
@@ -244,7 +261,7 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   object_class->set_property = gst_spidar_motion_set_property;
   object_class->get_property = gst_spidar_motion_get_property;
   object_class->finalize = gst_spidar_motion_finalize;
-  spidar::install_motion_properties(object_class);
+  spidar::motion_properties().install(object_class);
   spidar::register_motion_meta();
   // gboolean save-window(const gchar *path): saves the contents of the debug window as a PNG file.
   g_signal_new_class_handler("save-window", GST_TYPE_SPIDAR_MOTION,

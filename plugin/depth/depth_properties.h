@@ -12,6 +12,9 @@
 
 namespace spidar {
 
+template <typename Settings>
+class PropertyTable;
+
 enum class DepthSamples { kAuto, kDistance, kDisparity };
 
 struct DepthProperties {
@@ -27,9 +30,7 @@ struct DepthProperties {
   std::string trouble(GstVideoFormat format) const;
 };
 
-void install_depth_properties(GObjectClass* object_class);
-/// Returns false for an unknown id.
-bool set_depth_property(DepthProperties& properties, guint id, const GValue* value);
-bool get_depth_property(const DepthProperties& properties, guint id, GValue* value);
+/// All of spidardepth.
+const PropertyTable<DepthProperties>& depth_properties();
 
 }  // namespace spidar

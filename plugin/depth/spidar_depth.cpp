@@ -38,6 +38,7 @@
 #include "plugin/depth/depth_gate.h"
 #include "plugin/depth/depth_meta.h"
 #include "plugin/depth/depth_properties.h"
+#include "plugin/properties/property_table.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_depth_debug);
 #define GST_CAT_DEFAULT gst_spidar_depth_debug
@@ -286,7 +287,8 @@ static GstStateChangeReturn gst_spidar_depth_change_state(GstElement* element,
 static void gst_spidar_depth_set_property(GObject* object, guint id, const GValue* value,
                                           GParamSpec* spec) {
   GST_OBJECT_LOCK(object);
-  const bool known = spidar::set_depth_property(*GST_SPIDAR_DEPTH(object)->properties, id, value);
+  const bool known =
+      spidar::depth_properties().set(*GST_SPIDAR_DEPTH(object)->properties, id, value);
   GST_OBJECT_UNLOCK(object);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
@@ -294,7 +296,8 @@ static void gst_spidar_depth_set_property(GObject* object, guint id, const GValu
 static void gst_spidar_depth_get_property(GObject* object, guint id, GValue* value,
                                           GParamSpec* spec) {
   GST_OBJECT_LOCK(object);
-  const bool known = spidar::get_depth_property(*GST_SPIDAR_DEPTH(object)->properties, id, value);
+  const bool known =
+      spidar::depth_properties().get(*GST_SPIDAR_DEPTH(object)->properties, id, value);
   GST_OBJECT_UNLOCK(object);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
@@ -340,7 +343,7 @@ static void gst_spidar_depth_class_init(GstSpidarDepthClass* klass) {
   object_class->set_property = gst_spidar_depth_set_property;
   object_class->get_property = gst_spidar_depth_get_property;
   object_class->finalize = gst_spidar_depth_finalize;
-  spidar::install_depth_properties(object_class);
+  spidar::depth_properties().install(object_class);
   element_class->change_state = gst_spidar_depth_change_state;
   gst_element_class_set_static_metadata(element_class, "SPIDAR depth combiner", "Filter/Video",
                                         "Attaches depth images to the frames of a video",

@@ -7,7 +7,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/properties/motion_properties.h"
+#include "plugin/properties/on_device_error.h"
 #include "spidar/session/haptic_session.h"
 
 namespace spidar {

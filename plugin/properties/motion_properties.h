@@ -10,11 +10,14 @@
 
 #include "core/analysis/motion_analyzer.h"
 #include "plugin/properties/display_properties.h"
+#include "plugin/properties/on_device_error.h"
 #include "plugin/properties/touch_properties.h"
 
 namespace spidar {
 
-enum class OnDeviceError { kWarn, kError };
+template <typename Settings>
+class PropertyTable;
+
 enum class PointerKind { kFixed, kGrip };
 
 struct MotionProperties {
@@ -36,42 +39,7 @@ struct MotionProperties {
   std::string used_profile() const;
 };
 
-enum PropertyId : guint {
-  kPropDevice = 1,
-  kPropProfile,
-  kPropController,
-  kPropMotion,
-  kPropPointer,
-  kPropPointerX,
-  kPropPointerY,
-  kPropMaxForce,
-  kPropAlpha,
-  kPropDepthGain,
-  kPropRollGain,
-  kPropFilterMinCutoff,
-  kPropFilterBeta,
-  kPropQuality,
-  kPropMaxFeatures,
-  kPropQualityLevel,
-  kPropMinDistance,
-  kPropTsOffset,
-  kPropOnDeviceError,
-  kPropPostMessages,
-  kPropTrace,
-  kPropHapticTrace,
-  kPropStats,
-  kPropMute,
-  kPropTrack,
-};
-
-/// Of the property `on-device-error`.
-GType on_device_error_type();
-
-/// Registers all of them, `stats` included.
-void install_motion_properties(GObjectClass* object_class);
-
-/// False for an id that is not a setting (`stats`, unknown).
-bool set_motion_property(MotionProperties& properties, guint id, const GValue* value);
-bool get_motion_property(const MotionProperties& properties, guint id, GValue* value);
+/// All of spidarmotion, `stats` included.
+const PropertyTable<MotionProperties>& motion_properties();
 
 }  // namespace spidar

@@ -5,8 +5,6 @@
 
 #include <optional>
 
-#include <gst/gst.h>
-
 #include "core/touch/depth_picture.h"
 
 namespace spidar {
@@ -38,21 +36,5 @@ struct TouchProperties {
     return kind == TouchKind::kDepth ? packed_layout(depth) : std::nullopt;
   }
 };
-
-enum TouchPropertyId : guint {
-  kPropTouch = 200,  ///< after those of DisplayProperties
-  kPropDepthLayout,
-  kPropTouchRelief,
-  kPropTouchStiffness,
-  kPropTouchFriction,
-  kPropTouchTexture,
-  kPropMotionShare,
-};
-
-void install_touch_properties(GObjectClass* object_class);
-
-/// False for an id that is none of these.
-bool set_touch_property(TouchProperties& properties, guint id, const GValue* value);
-bool get_touch_property(const TouchProperties& properties, guint id, GValue* value);
 
 }  // namespace spidar

@@ -5,11 +5,12 @@
 
 #include <string>
 
-#include <gst/gst.h>
-
-#include "plugin/properties/motion_properties.h"
+#include "plugin/properties/on_device_error.h"
 
 namespace spidar {
+
+template <typename Settings>
+class PropertyTable;
 
 struct SinkProperties {
   std::string device = "sim";
@@ -24,22 +25,7 @@ struct SinkProperties {
   std::string used_profile() const;
 };
 
-enum SinkPropertyId : guint {
-  kSinkDevice = 1,
-  kSinkProfile,
-  kSinkMaxForce,
-  kSinkGain,
-  kSinkMute,
-  kSinkOnDeviceError,
-  kSinkHapticTrace,
-  kSinkStats,
-};
-
-/// Registers all of them, `stats` included; `ts-offset` is that of every sink.
-void install_sink_properties(GObjectClass* object_class);
-
-/// False for an id that is not a setting (`stats`, unknown).
-bool set_sink_property(SinkProperties& properties, guint id, const GValue* value);
-bool get_sink_property(const SinkProperties& properties, guint id, GValue* value);
+/// All of spidarsink, `stats` included; `ts-offset` is that of every sink.
+const PropertyTable<SinkProperties>& sink_properties();
 
 }  // namespace spidar

@@ -29,6 +29,7 @@
 
 #include "plugin/device/device_complaints.h"
 #include "plugin/device/haptic_output.h"
+#include "plugin/properties/property_table.h"
 #include "plugin/reports/exceptions.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/track/block_schedule.h"
@@ -255,16 +256,22 @@ static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
 
 // --- object ------------------------------------------------------------------------------------
 
+static constexpr spidar::PropertyEffect<GstSpidarSink> kEffects[] = {
+    {"mute",
+     [](auto* self, auto* value) { self->schedule->set_muted(g_value_get_boolean(value)); }},
+    {"max-force",
+     [](auto* self, auto* value) { self->output->set_max_force(g_value_get_double(value)); }},
+};
+
 static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue* value,
                                          GParamSpec* spec) {
   GstSpidarSink* self = GST_SPIDAR_SINK(object);
   g_mutex_lock(&self->setting);
   GST_OBJECT_LOCK(self);
-  const bool known = set_sink_property(*self->properties, id, value);
+  const bool known = spidar::sink_properties().set(*self->properties, id, value);
   GST_OBJECT_UNLOCK(self);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  if (id == spidar::kSinkMute) self->schedule->set_muted(g_value_get_boolean(value));
-  if (id == spidar::kSinkMaxForce) self->output->set_max_force(g_value_get_double(value));
+  spidar::follow_property(kEffects, self, spec, value);
   g_mutex_unlock(&self->setting);
 }
 
@@ -284,12 +291,12 @@ static GstStructure* stats(GstSpidarSink* self) {
 static void gst_spidar_sink_get_property(GObject* object, guint id, GValue* value,
                                          GParamSpec* spec) {
   GstSpidarSink* self = GST_SPIDAR_SINK(object);
-  if (id == spidar::kSinkStats) {
+  if (G_PARAM_SPEC_VALUE_TYPE(spec) == GST_TYPE_STRUCTURE) {
     g_value_take_boxed(value, stats(self));
     return;
   }
   GST_OBJECT_LOCK(self);
-  const bool known = get_sink_property(*self->properties, id, value);
+  const bool known = spidar::sink_properties().get(*self->properties, id, value);
   GST_OBJECT_UNLOCK(self);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
@@ -329,7 +336,7 @@ static void gst_spidar_sink_class_init(GstSpidarSinkClass* klass) {
   object_class->set_property = gst_spidar_sink_set_property;
   object_class->get_property = gst_spidar_sink_get_property;
   object_class->finalize = gst_spidar_sink_finalize;
-  spidar::install_sink_properties(object_class);
+  spidar::sink_properties().install(object_class);
   gst_element_class_set_static_metadata(element_class, "SPIDAR sink", "Sink/Hardware",
                                         "Feel a haptic track with a SPIDAR haptic device",
                                         "gst-spidar");

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Properties that every element with a device has.
+#pragma once
+
+#include "plugin/properties/on_device_error.h"
+#include "plugin/properties/property_table.h"
+
+namespace spidar {
+
+/// `Settings` has the members profile and used_profile().
+template <typename Settings>
+Property<Settings> profile_row() {
+  return Property<Settings>::text(
+      {"profile", "Profile",
+       "Geometry and motors of the device: the name of a shipped profile or the path of a .toml "
+       "file. If unset, a profile that fits the board. Read in the change from NULL to READY"},
+      kReady, KEPT_IN(profile), [](const Settings& s) { return s.used_profile(); });
+}
+
+/// `Settings` has the member on_device_error.
+template <typename Settings>
+Property<Settings> on_device_error_row() {
+  return Property<Settings>::template choice<OnDeviceError>(
+      {"on-device-error", "On device error", "What happens when the device fails while playing"},
+      "GstSpidarMotionOnDeviceError",
+      {{OnDeviceError::kWarn,
+        "Post a warning, continue the video, and reopen the device when it returns", "warn"},
+       {OnDeviceError::kError, "Post an error, which stops the pipeline", "error"}},
+      kPlaying, KEPT_IN(on_device_error));
+}
+
+/// `Settings` has the member haptic_trace.
+template <typename Settings>
+Property<Settings> haptic_trace_row() {
+  return Property<Settings>::text(
+      {"haptic-trace", "Haptic trace",
+       "Write one CSV line for each millisecond with forces, string tensions and pose to this "
+       "file. Opened in the change from NULL to READY"},
+      kReady, KEPT_IN(haptic_trace));
+}
+
+}  // namespace spidar

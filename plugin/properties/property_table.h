@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Properties of an element as a table: one row for each.
+#pragma once
+
+#include <cstring>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+constexpr auto kReadOnly = static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS);
+/// Can be changed in READY and below.
+constexpr auto kReady =
+    static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_READY);
+/// Can be changed while playing.
+constexpr auto kPlaying = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
+                                                   GST_PARAM_MUTABLE_PLAYING);
+/// Can be changed while playing, and controlled by a GstController.
+constexpr auto kControllable = static_cast<GParamFlags>(kPlaying | GST_PARAM_CONTROLLABLE);
+
+/// Where the settings of an element keep a property: KEPT_IN(analyzer.axes.depth).
+#define KEPT_IN(member)         \
+  [](auto& settings) -> auto& { \
+    return settings.member;     \
+  }
+
+/// A value of a property of the type `Enum`.
+template <typename Enum>
+struct Choice {
+  Enum value;
+  const char* meaning;
+  const char* nick;
+};
+
+/// Registers the type the first time; several elements may share it. Class initialisation, which
+/// GLib does in one thread at a time.
+template <typename Enum>
+GType enum_type(const char* name, const std::vector<Choice<Enum>>& choices) {
+  if (const GType type = g_type_from_name(name)) return type;
+  auto* const values = g_new0(GEnumValue, choices.size() + 1);  // the type keeps them
+  for (size_t i = 0; i < choices.size(); ++i)
+    values[i] = {static_cast<int>(choices[i].value), choices[i].meaning, choices[i].nick};
+  const GType type = g_enum_register_static(name, values);
+  gst_type_mark_as_plugin_api(type, GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
+  return type;
+}
+
+/// The names of a row are those of its GParamSpec: name, nick and blurb, which are not copied.
+struct PropertyNames {
+  const char* name;
+  const char* nick;
+  const char* blurb;
+};
+
+/// A row. `Settings` is where the element keeps its properties; a Settings that nobody changed has
+/// the defaults.
+template <typename Settings>
+struct Property {
+  std::function<GParamSpec*(const Settings& defaults)> spec;
+  /// Both are empty for a property that is not among the settings.
+  std::function<void(Settings&, const GValue*)> set;
+  std::function<void(const Settings&, GValue*)> get;
+
+  template <typename Field>
+  static Property on_off(PropertyNames n, GParamFlags flags, Field field) {
+    return {[=](const Settings& defaults) {
+              return g_param_spec_boolean(n.name, n.nick, n.blurb, field(defaults), flags);
+            },
+            [=](Settings& s, const GValue* v) { field(s) = g_value_get_boolean(v) != FALSE; },
+            [=](const Settings& s, GValue* v) { g_value_set_boolean(v, field(s)); }};
+  }
+
+  template <typename Field>
+  static Property number(PropertyNames n, double least, double most, GParamFlags flags,
+                         Field field) {
+    return {[=](const Settings& defaults) {
+              return g_param_spec_double(n.name, n.nick, n.blurb, least, most, field(defaults),
+                                         flags);
+            },
+            [=](Settings& s, const GValue* v) { field(s) = g_value_get_double(v); },
+            [=](const Settings& s, GValue* v) { g_value_set_double(v, field(s)); }};
+  }
+
+  /// A number of things, kept as an int.
+  template <typename Field>
+  static Property count(PropertyNames n, guint least, guint most, GParamFlags flags, Field field) {
+    return {
+        [=](const Settings& defaults) {
+          return g_param_spec_uint(n.name, n.nick, n.blurb, least, most,
+                                   static_cast<guint>(field(defaults)), flags);
+        },
+        [=](Settings& s, const GValue* v) { field(s) = static_cast<int>(g_value_get_uint(v)); },
+        [=](const Settings& s, GValue* v) { g_value_set_uint(v, static_cast<guint>(field(s))); }};
+  }
+
+  /// A time in ns that may be negative.
+  template <typename Field>
+  static Property offset(PropertyNames n, gint64 least, gint64 most, GParamFlags flags,
+                         Field field) {
+    return {[=](const Settings& defaults) {
+              return g_param_spec_int64(n.name, n.nick, n.blurb, least, most, field(defaults),
+                                        flags);
+            },
+            [=](Settings& s, const GValue* v) { field(s) = g_value_get_int64(v); },
+            [=](const Settings& s, GValue* v) { g_value_set_int64(v, field(s)); }};
+  }
+
+  /// A time in ns, of any length.
+  template <typename Field>
+  static Property duration(PropertyNames n, GParamFlags flags, Field field) {
+    return {[=](const Settings& defaults) {
+              return g_param_spec_uint64(n.name, n.nick, n.blurb, 0, G_MAXUINT64, field(defaults),
+                                         flags);
+            },
+            [=](Settings& s, const GValue* v) { field(s) = g_value_get_uint64(v); },
+            [=](const Settings& s, GValue* v) { g_value_set_uint64(v, field(s)); }};
+  }
+
+  /// One of `choices`, whose type is registered as `type_name`.
+  template <typename Enum, typename Field>
+  static Property choice(PropertyNames n, const char* type_name,
+                         const std::vector<Choice<Enum>>& choices, GParamFlags flags, Field field) {
+    return {
+        [=](const Settings& defaults) {
+          return g_param_spec_enum(n.name, n.nick, n.blurb, enum_type(type_name, choices),
+                                   static_cast<int>(field(defaults)), flags);
+        },
+        [=](Settings& s, const GValue* v) { field(s) = static_cast<Enum>(g_value_get_enum(v)); },
+        [=](const Settings& s, GValue* v) { g_value_set_enum(v, static_cast<int>(field(s))); }};
+  }
+
+  /// NULL where it is empty.
+  template <typename Field>
+  static Property text(PropertyNames n, GParamFlags flags, Field field) {
+    return text(n, flags, field, [=](const Settings& s) -> std::string { return field(s); });
+  }
+
+  /// What is read may be more than was set: `used` makes it of the settings.
+  template <typename Field, typename Used>
+  static Property text(PropertyNames n, GParamFlags flags, Field field, Used used) {
+    const auto or_null = [](const std::string& s) { return s.empty() ? nullptr : s.c_str(); };
+    return {[=](const Settings& defaults) {
+              return g_param_spec_string(n.name, n.nick, n.blurb, or_null(used(defaults)), flags);
+            },
+            [=](Settings& s, const GValue* v) {
+              const char* const set = g_value_get_string(v);
+              field(s) = set ? set : "";
+            },
+            [=](const Settings& s, GValue* v) { g_value_set_string(v, or_null(used(s))); }};
+  }
+
+  /// A structure that the element makes when it is asked.
+  static Property statistics(PropertyNames n) {
+    return {[=](const Settings&) {
+              return g_param_spec_boxed(n.name, n.nick, n.blurb, GST_TYPE_STRUCTURE, kReadOnly);
+            },
+            {},
+            {}};
+  }
+};
+
+/// All properties of an element, in the order in which tools show them.
+template <typename Settings>
+class PropertyTable {
+ public:
+  using Rows = std::vector<Property<Settings>>;
+  PropertyTable(std::initializer_list<Rows> parts) {
+    for (const Rows& part : parts) rows_.insert(rows_.end(), part.begin(), part.end());
+  }
+
+  /// Class initialisation. The id of a property is its place in the table, from 1 on.
+  void install(GObjectClass* object_class) const {
+    const Settings defaults;
+    guint id = 0;
+    for (const Property<Settings>& row : rows_)
+      g_object_class_install_property(object_class, ++id, row.spec(defaults));
+  }
+
+  /// Both return false for an id that is not a setting: `stats`, or unknown.
+  bool set(Settings& settings, guint id, const GValue* value) const {
+    if (id < 1 || id > rows_.size() || !rows_[id - 1].set) return false;
+    rows_[id - 1].set(settings, value);
+    return true;
+  }
+  bool get(const Settings& settings, guint id, GValue* value) const {
+    if (id < 1 || id > rows_.size() || !rows_[id - 1].get) return false;
+    rows_[id - 1].get(settings, value);
+    return true;
+  }
+
+ private:
+  Rows rows_;
+};
+
+/// What a change of a property does besides, for what does not read the settings by itself.
+template <typename Element>
+struct PropertyEffect {
+  const char* property;
+  void (*follow)(Element*, const GValue*);
+};
+
+template <typename Element, size_t kCount>
+void follow_property(const PropertyEffect<Element> (&effects)[kCount], Element* element,
+                     const GParamSpec* spec, const GValue* value) {
+  for (const PropertyEffect<Element>& effect : effects)
+    if (std::strcmp(effect.property, spec->name) == 0) effect.follow(element, value);
+}
+
+}  // namespace spidar
