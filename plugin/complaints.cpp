@@ -2,6 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/complaints.h"
 
+#include <algorithm>
+#include <vector>
+
+#include "plugin/gobject/bins.h"
 #include "plugin/reports/category.h"
 
 #define GST_CAT_DEFAULT spidar::category_of(element_)
@@ -14,14 +18,10 @@ void Complaints::start() {
 }
 
 void Complaints::look_at_place() {
-  bool in_timeline = false;
-  GstObject* place = gst_object_get_parent(GST_OBJECT(element_));
-  while (place) {
-    in_timeline = in_timeline || g_strcmp0(G_OBJECT_TYPE_NAME(place), "NleComposition") == 0;
-    GstObject* const outer = gst_object_get_parent(place);
-    gst_object_unref(place);
-    place = outer;
-  }
+  const std::vector<Ref<GstObject>> bins = bins_around(element_);
+  const bool in_timeline = std::any_of(bins.begin(), bins.end(), [](const Ref<GstObject>& bin) {
+    return g_strcmp0(G_OBJECT_TYPE_NAME(bin.get()), "NleComposition") == 0;
+  });
   if (!in_timeline) return;
   GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
                       ("As an effect of an editing timeline, most of the video is not felt, or is "

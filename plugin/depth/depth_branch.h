@@ -45,7 +45,7 @@ class DepthBranch {
   GstElement* element_;
   DepthGate& gate_;
   VideoStream stream_;
-  std::unique_ptr<GstCaps, Unref> caps_;
+  Ref<GstCaps> caps_;
   bool complained_ = false;  // about images without timestamps
   std::atomic<int> images_{0};
 };

@@ -3,10 +3,11 @@
 /// Matches depth images to video frames.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include <gst/gst.h>
+
+#include "plugin/gobject/ref.h"
 
 namespace spidar {
 
@@ -23,14 +24,9 @@ struct ShownTime {
 std::optional<ShownTime> shown_time(const GstSegment& segment, GstBuffer* buffer,
                                     GstClockTime frame_ns);
 
-struct Unref {
-  void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
-  void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
-};
-
 struct DepthImage {
-  std::unique_ptr<GstBuffer, Unref> buffer;
-  std::unique_ptr<GstCaps, Unref> caps;
+  Ref<GstBuffer> buffer;
+  Ref<GstCaps> caps;
   ShownTime time;
 };
 

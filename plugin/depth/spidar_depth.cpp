@@ -102,12 +102,11 @@ static void update_latency(GstSpidarDepth* self) {
 static DepthGate::Found find_depth(GstSpidarDepth* self, const spidar::ShownTime& time,
                                    guint64 max_age) {
   update_latency(self);
-  GstClock* clock = self->live ? gst_element_get_clock(GST_ELEMENT(self)) : nullptr;
+  const spidar::Ref<GstClock> clock(self->live ? gst_element_get_clock(GST_ELEMENT(self))
+                                               : nullptr);
   const GstClockTime base = gst_element_get_base_time(GST_ELEMENT(self));
   const auto shown = static_cast<GstClockTime>(std::max<gint64>(time.start_ns, 0));
-  DepthGate::Found found = self->gate->find(time, max_age, clock, base + shown + self->latency);
-  if (clock) gst_object_unref(clock);
-  return found;
+  return self->gate->find(time, max_age, clock.get(), base + shown + self->latency);
 }
 
 static GstFlowReturn gst_spidar_depth_chain(GstPad*, GstObject* parent, GstBuffer* buffer) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin/gobject/ref.h"
 #include "plugin/reports/category.h"
 
 #define GST_CAT_DEFAULT spidar::category_of(held.get())
@@ -12,18 +13,11 @@
 namespace spidar {
 namespace {
 
-/// Holds a reference while the element is read and not longer, because drawing may take long.
-class Held {
- public:
-  explicit Held(GWeakRef& weak) : element_(static_cast<GstElement*>(g_weak_ref_get(&weak))) {}
-  ~Held() { gst_clear_object(&element_); }
-  Held(const Held&) = delete;
-  Held& operator=(const Held&) = delete;
-  GstElement* get() const { return element_; }
-
- private:
-  GstElement* element_;
-};
+/// For as long as the element is read and not longer, because drawing may take long; null when it
+/// is gone.
+Ref<GstElement> hold(GWeakRef& weak) {
+  return Ref<GstElement>(static_cast<GstElement*>(g_weak_ref_get(&weak)));
+}
 
 std::vector<Setting::Choice> choices_of(const GParamSpecEnum* spec) {
   std::vector<Setting::Choice> choices;
@@ -93,8 +87,8 @@ class ElementSource final : public WindowSource {
   ~ElementSource() override { g_weak_ref_clear(&element_); }
 
   bool read(ElementState& state) override {
-    const Held held(element_);
-    if (!held.get()) return false;
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return false;
     state.name = GST_OBJECT_NAME(held.get());
     if (state.settings.empty()) list_settings(held.get(), state.settings);
     for (Setting& setting : state.settings) {
@@ -111,8 +105,8 @@ class ElementSource final : public WindowSource {
   }
 
   void set(const std::string& name, double wanted) override {
-    const Held held(element_);
-    if (!held.get()) return;
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return;
     const GParamSpec* spec =
         g_object_class_find_property(G_OBJECT_GET_CLASS(held.get()), name.c_str());
     Setting setting;
@@ -134,21 +128,21 @@ class ElementSource final : public WindowSource {
   }
 
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) override {
-    const Held held(element_);
-    if (!held.get()) return;
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return;
     engine_.output().lead_hand(to_m);
   }
 
   void complain(const std::string& what, const std::string& advice) override {
-    const Held held(element_);
-    if (!held.get()) return;
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return;
     GST_ELEMENT_WARNING(held.get(), RESOURCE, NOT_FOUND, ("%s", what.c_str()),
                         ("%s The video continues without it.", advice.c_str()));
   }
 
   void closed() override {
-    const Held held(element_);
-    if (held.get()) g_object_set(held.get(), "debug-window", FALSE, nullptr);
+    const Ref<GstElement> held = hold(element_);
+    if (held) g_object_set(held.get(), "debug-window", FALSE, nullptr);
   }
 
  private:

@@ -6,6 +6,9 @@
 
 #include "plugin/feel/feel_caps.h"
 #include "plugin/feel/follow_state.h"
+#include "plugin/gobject/bins.h"
+
+using spidar::Ref;
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_feel_debug);
 #define GST_CAT_DEFAULT gst_spidar_feel_debug
@@ -46,12 +49,9 @@ static void leave_device(GstSpidarFeelBin* self) {
 
 /// Whether the application has put a spidarmotion into the pipeline itself.
 static bool is_felt_already(GstSpidarFeelBin* self) {
-  GstObject* top = GST_OBJECT(gst_object_ref(self));
-  while (GstObject* above = gst_object_get_parent(top)) {
-    gst_object_unref(top);
-    top = above;
-  }
-  GstIterator* all = gst_bin_iterate_all_by_element_factory_name(GST_BIN(top), "spidarmotion");
+  const Ref<GstObject> top = spidar::root_of(self);
+  GstIterator* all =
+      gst_bin_iterate_all_by_element_factory_name(GST_BIN(top.get()), "spidarmotion");
   GValue found = G_VALUE_INIT;
   GstIteratorResult result;
   // The application may add or remove elements meanwhile.
@@ -59,7 +59,6 @@ static bool is_felt_already(GstSpidarFeelBin* self) {
   const bool felt = result == GST_ITERATOR_OK;
   g_value_unset(&found);
   gst_iterator_free(all);
-  gst_object_unref(top);
   return felt;
 }
 
@@ -100,26 +99,24 @@ static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
 
 /// Returns a spidarmotion that has opened its device, or nullptr when it could not. It is in no bin
 /// yet, so its messages are collected on a bus of its own.
-static GstElement* open_motion(GstSpidarFeelBin* self) {
-  GstElement* motion = gst_element_factory_make("spidarmotion", nullptr);
+static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
+  Ref<GstElement> motion = spidar::sunk(gst_element_factory_make("spidarmotion", nullptr));
   if (!motion) return nullptr;
-  gst_object_ref_sink(motion);
-  set_properties(motion, self->properties);
-  GstBus* bus = gst_bus_new();
-  gst_element_set_bus(motion, bus);
-  const bool opened = gst_element_set_state(motion, GST_STATE_READY) != GST_STATE_CHANGE_FAILURE;
+  set_properties(motion.get(), self->properties);
+  const Ref<GstBus> bus(gst_bus_new());
+  gst_element_set_bus(motion.get(), bus.get());
+  const bool opened =
+      gst_element_set_state(motion.get(), GST_STATE_READY) != GST_STATE_CHANGE_FAILURE;
   const auto kinds =
       static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_WARNING | GST_MESSAGE_INFO);
-  while (GstMessage* message = gst_bus_pop_filtered(bus, kinds)) {
+  while (GstMessage* message = gst_bus_pop_filtered(bus.get(), kinds)) {
     pass_on(self, message);
     gst_message_unref(message);
   }
-  gst_element_set_bus(motion, nullptr);
-  gst_bus_set_flushing(bus, TRUE);
-  gst_object_unref(bus);
+  gst_element_set_bus(motion.get(), nullptr);
+  gst_bus_set_flushing(bus.get(), TRUE);
   if (opened) return motion;
-  gst_element_set_state(motion, GST_STATE_NULL);
-  gst_object_unref(motion);
+  gst_element_set_state(motion.get(), GST_STATE_NULL);
   return nullptr;
 }
 
@@ -184,14 +181,12 @@ static GstPadProbeReturn answer_query(GstPad*, GstPadProbeInfo* info, gpointer d
   if (GST_QUERY_TYPE(query) != GST_QUERY_CAPS) return GST_PAD_PROBE_OK;
   GstCaps* filter = nullptr;
   gst_query_parse_caps(query, &filter);
-  GstCaps* wanted = filter ? gst_caps_intersect_full(filter, self->shown, GST_CAPS_INTERSECT_FIRST)
-                           : gst_caps_ref(self->shown);
-  GstPad* pad = gst_element_get_static_pad(self->after, "sink");
-  GstCaps* accepted = gst_pad_query_caps(pad, wanted);
-  gst_query_set_caps_result(query, accepted);
-  gst_caps_unref(accepted);
-  gst_object_unref(pad);
-  gst_caps_unref(wanted);
+  const Ref<GstCaps> wanted(
+      filter ? gst_caps_intersect_full(filter, self->shown, GST_CAPS_INTERSECT_FIRST)
+             : gst_caps_ref(self->shown));
+  const Ref<GstPad> pad(gst_element_get_static_pad(self->after, "sink"));
+  const Ref<GstCaps> accepted(gst_pad_query_caps(pad.get(), wanted.get()));
+  gst_query_set_caps_result(query, accepted.get());
   return GST_PAD_PROBE_HANDLED;
 }
 
@@ -216,23 +211,21 @@ static GstFlowReturn chain_list(GstPad* pad, GstObject* parent, GstBufferList* l
 
 static void begin_to_feel(GstSpidarFeelBin* self) {
   if (self->motion || is_felt_already(self) || !take_device(self)) return;
-  GstElement* motion = open_motion(self);
-  if (motion)
-    g_atomic_pointer_set(&self->motion, motion);
+  if (Ref<GstElement> motion = open_motion(self))
+    g_atomic_pointer_set(&self->motion, motion.release());
   else
     leave_device(self);
 }
 
 /// Called while the pads of all elements are inactive.
 static void stop_feeling(GstSpidarFeelBin* self) {
-  GstElement* motion = self->motion;
-  if (!motion) return;
-  if (has(self, motion)) exchange(self, motion, self->middle);
+  if (!self->motion) return;
+  if (has(self, self->motion)) exchange(self, self->motion, self->middle);
+  const Ref<GstElement> motion(self->motion);
   g_atomic_pointer_set(&self->motion, static_cast<GstElement*>(nullptr));
   self->considered = nullptr;
   self->said = false;
-  gst_element_set_state(motion, GST_STATE_NULL);
-  gst_object_unref(motion);
+  gst_element_set_state(motion.get(), GST_STATE_NULL);
   leave_device(self);
 }
 
@@ -269,16 +262,14 @@ static void gst_spidar_feel_bin_class_init(GstSpidarFeelBinClass* klass) {
 
 static void add_probe(GstSpidarFeelBin* self, const char* name, int what,
                       GstPadProbeCallback callback) {
-  GstPad* pad = gst_element_get_static_pad(self->before, name);
-  gst_pad_add_probe(pad, static_cast<GstPadProbeType>(what), callback, self, nullptr);
-  gst_object_unref(pad);
+  const Ref<GstPad> pad(gst_element_get_static_pad(self->before, name));
+  gst_pad_add_probe(pad.get(), static_cast<GstPadProbeType>(what), callback, self, nullptr);
 }
 
 static GstPad* add_ghost_pad(GstSpidarFeelBin* self, GstElement* element, const char* name) {
-  GstPad* target = gst_element_get_static_pad(element, name);
-  GstPad* pad = gst_ghost_pad_new(name, target);
+  const Ref<GstPad> target(gst_element_get_static_pad(element, name));
+  GstPad* pad = gst_ghost_pad_new(name, target.get());
   gst_element_add_pad(GST_ELEMENT(self), pad);
-  gst_object_unref(target);
   return pad;
 }
 

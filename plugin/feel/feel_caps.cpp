@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/feel/feel_caps.h"
 
+#include "plugin/gobject/ref.h"
+
 namespace spidar {
 namespace {
 
@@ -26,15 +28,14 @@ std::string text_of(const GValue* value) {
 }  // namespace
 
 GstCaps* motion_caps() {
-  GstElementFactory* factory = gst_element_factory_find("spidarmotion");
+  const Ref<GstElementFactory> factory(gst_element_factory_find("spidarmotion"));
   if (!factory) return nullptr;
   GstCaps* caps = nullptr;
-  for (const GList* item = gst_element_factory_get_static_pad_templates(factory); item;
+  for (const GList* item = gst_element_factory_get_static_pad_templates(factory.get()); item;
        item = item->next) {
     auto* pad = static_cast<GstStaticPadTemplate*>(item->data);
     if (pad->direction == GST_PAD_SINK && !caps) caps = gst_static_pad_template_get_caps(pad);
   }
-  gst_object_unref(factory);
   return caps;
 }
 

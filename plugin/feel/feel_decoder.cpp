@@ -2,12 +2,15 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/feel/feel_decoder.h"
 
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "plugin/feel/feel_bin.h"
 #include "plugin/feel/feel_tracer.h"
 #include "plugin/feel/follow_state.h"
 #include "plugin/feel/video_notice.h"
+#include "plugin/gobject/bins.h"
 #include "plugin/timing/downstream.h"
 
 namespace spidar {
@@ -34,15 +37,10 @@ bool has_other_filters(GstElement* element) {
 
 bool is_outermost_decoder(GstElement* element) {
   if (!is_decoder(element)) return false;
-  bool outermost = true;
-  GstObject* above = gst_object_get_parent(GST_OBJECT(element));
-  while (above) {
-    if (GST_IS_ELEMENT(above) && has_other_filters(GST_ELEMENT(above))) outermost = false;
-    GstObject* next = gst_object_get_parent(above);
-    gst_object_unref(above);
-    above = next;
-  }
-  return outermost;
+  const std::vector<Ref<GstObject>> bins = bins_around(element);
+  return std::none_of(bins.begin(), bins.end(), [](const Ref<GstObject>& bin) {
+    return GST_IS_ELEMENT(bin.get()) && has_other_filters(GST_ELEMENT(bin.get()));
+  });
 }
 
 bool is_screen(GstElement* element) {
@@ -52,20 +50,19 @@ bool is_screen(GstElement* element) {
 
 /// Whether `pad` has video that software can read.
 bool has_raw_video(GstPad* pad) {
-  GstCaps* caps = gst_pad_get_current_caps(pad);
+  const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
   if (!caps) return false;
-  const bool raw = gst_structure_has_name(gst_caps_get_structure(caps, 0), "video/x-raw");
-  const bool readable = gst_caps_features_is_equal(gst_caps_get_features(caps, 0),
+  const bool raw = gst_structure_has_name(gst_caps_get_structure(caps.get(), 0), "video/x-raw");
+  const bool readable = gst_caps_features_is_equal(gst_caps_get_features(caps.get(), 0),
                                                    GST_CAPS_FEATURES_MEMORY_SYSTEM_MEMORY);
   if (raw && !readable) {
-    gchar* text = gst_caps_features_to_string(gst_caps_get_features(caps, 0));
+    gchar* text = gst_caps_features_to_string(gst_caps_get_features(caps.get(), 0));
     g_printerr(
         "spidar-feel: the video is not felt, because its frames are not in system memory but in "
         "%s; let the player ask the decoder for video/x-raw\n",
         text);
     g_free(text);
   }
-  gst_caps_unref(caps);
   return raw && readable;
 }
 
@@ -78,71 +75,58 @@ gpointer with_reference(gpointer object, gpointer) {
   return object ? gst_object_ref(object) : nullptr;
 }
 
-/// The filter that `pad` has, with a new reference, or nullptr.
-GstElement* get_filter(GstPad* pad) {
-  return static_cast<GstElement*>(
-      g_object_dup_qdata(G_OBJECT(pad), filter_of_pad(), with_reference, nullptr));
+/// The filter that `pad` has, or none.
+Ref<GstElement> get_filter(GstPad* pad) {
+  return Ref<GstElement>(static_cast<GstElement*>(
+      g_object_dup_qdata(G_OBJECT(pad), filter_of_pad(), with_reference, nullptr)));
 }
 
 /// A ghost pad of a decoder and the filter that goes before it.
 struct Place {
-  GstGhostPad* pad;
-  GstElement* filter;  ///< nullptr: not made yet
+  Ref<GstGhostPad> pad;
+  Ref<GstElement> filter;  ///< null: not made yet
 };
 
-Place* place_new(GstGhostPad* pad, GstElement* filter) {
-  return new Place{GST_GHOST_PAD(gst_object_ref(pad)),
-                   filter ? GST_ELEMENT(gst_object_ref(filter)) : nullptr};
-}
-
 void place_free(gpointer data) {
-  Place* place = static_cast<Place*>(data);
-  gst_object_unref(place->pad);
-  gst_clear_object(&place->filter);
-  delete place;
+  delete static_cast<Place*>(data);
 }
 
 /// Calls `found` when the next buffer is about to leave the target of `pad`, and none is between
 /// them.
 void at_next_frame(GstGhostPad* pad, GstElement* filter, GstPadProbeCallback found) {
-  GstPad* target = gst_ghost_pad_get_target(pad);
+  const Ref<GstPad> target(gst_ghost_pad_get_target(pad));
   if (!target) return;
   gst_pad_add_probe(
-      target,
+      target.get(),
       static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BLOCK | GST_PAD_PROBE_TYPE_BUFFER |
                                    GST_PAD_PROBE_TYPE_BUFFER_LIST),
-      found, place_new(pad, filter), place_free);
-  gst_object_unref(target);
+      found, new Place{new_ref(pad), new_ref(filter)}, place_free);
 }
 
 /// Links `target` to `in`, which is that of the filter. False when its video does not fit.
 bool link_filter(GstPad* target, GstPad* in, GstElement* filter) {
-  GstCaps* caps = gst_pad_get_current_caps(target);
+  const Ref<GstCaps> caps(gst_pad_get_current_caps(target));
   if (!caps) return false;
   // The decoder need not allocate its frames in another way.
-  const bool quietly = gst_spidar_feel_bin_passes(GST_SPIDAR_FEEL_BIN(filter), caps);
+  const bool quietly = gst_spidar_feel_bin_passes(GST_SPIDAR_FEEL_BIN(filter), caps.get());
   const bool linked =
       gst_pad_link_full(target, in, quietly ? kLinkQuietly : GST_PAD_LINK_CHECK_DEFAULT) ==
       GST_PAD_LINK_OK;
-  GstCaps* accepted = gst_pad_query_caps(in, caps);
-  const bool fits = linked && !gst_caps_is_empty(accepted);
-  gst_caps_unref(accepted);
-  gst_caps_unref(caps);
-  return fits;
+  const Ref<GstCaps> accepted(gst_pad_query_caps(in, caps.get()));
+  return linked && !gst_caps_is_empty(accepted.get());
 }
 
 /// Puts the filter between `target` and `pad`, whose target it is. Leaves them as they were and
 /// returns false when their video does not fit through the filter.
 bool insert(GstGhostPad* pad, GstPad* target, GstElement* filter) {
-  GstPad* in = gst_element_get_static_pad(filter, "sink");
-  GstPad* out = gst_element_get_static_pad(filter, "src");
-  const bool inserted = gst_ghost_pad_set_target(pad, out) && link_filter(target, in, filter);
+  const Ref<GstPad> in(gst_element_get_static_pad(filter, "sink"));
+  const Ref<GstPad> out(gst_element_get_static_pad(filter, "src"));
+  const bool inserted =
+      gst_ghost_pad_set_target(pad, out.get()) && link_filter(target, in.get(), filter);
   if (!inserted) {
-    gst_pad_unlink(target, in);
+    gst_pad_unlink(target, in.get());
     gst_ghost_pad_set_target(pad, target);
   }
-  gst_object_unref(in);
-  gst_object_unref(out);
   return inserted;
 }
 
@@ -159,76 +143,64 @@ bool was_undone(GstElement* filter, GstPad* target) {
 /// Closes the device, too.
 void remove_filter(GstElement* filter) {
   gst_element_set_state(filter, GST_STATE_NULL);
-  GstObject* decoder = gst_object_get_parent(GST_OBJECT(filter));
-  if (!decoder) return;
-  gst_bin_remove(GST_BIN(decoder), filter);
-  gst_object_unref(decoder);
+  const Ref<GstObject> decoder(gst_object_get_parent(GST_OBJECT(filter)));
+  if (decoder) gst_bin_remove(GST_BIN(decoder.get()), filter);
 }
 
 /// Removes the filter of `pad`, if it has one.
 void forget(GstPad* pad) {
-  auto* filter = static_cast<GstElement*>(g_object_steal_qdata(G_OBJECT(pad), filter_of_pad()));
-  if (!filter) return;
-  remove_filter(filter);
-  gst_object_unref(filter);
+  const Ref<GstElement> filter(
+      static_cast<GstElement*>(g_object_steal_qdata(G_OBJECT(pad), filter_of_pad())));
+  if (filter) remove_filter(filter.get());
 }
 
 GstPadProbeReturn put_in(GstPad* target, GstPadProbeInfo*, gpointer data) {
   const Place* place = static_cast<Place*>(data);
   // Meanwhile, the pad may have been removed, or the decoder may have given it another target.
-  GstElement* filter = get_filter(GST_PAD(place->pad));
-  GstPad* now = gst_ghost_pad_get_target(place->pad);
-  if (filter == place->filter && now == target &&
-      (was_undone(filter, target) || !insert(place->pad, target, filter))) {
+  const Ref<GstElement> filter = get_filter(GST_PAD(place->pad.get()));
+  const Ref<GstPad> now(gst_ghost_pad_get_target(place->pad.get()));
+  if (filter == place->filter && now.get() == target &&
+      (was_undone(filter.get(), target) || !insert(place->pad.get(), target, filter.get()))) {
     g_printerr("spidar-feel: the video does not fit through the filter and is not felt\n");
-    forget(GST_PAD(place->pad));
+    forget(GST_PAD(place->pad.get()));
   }
-  gst_clear_object(&now);
-  gst_clear_object(&filter);
   return GST_PAD_PROBE_REMOVE;
 }
 
 /// Adds a filter for `pad` to `decoder`, opens the device, and lets the next frame put the filter
 /// in. Without a device nothing is added.
 void add_filter(GstElement* decoder, GstPad* pad) {
-  GstElement* filter = gst_spidar_feel_bin_new(g_getenv(SPIDAR_FEEL_VARIABLE));
+  const Ref<GstElement> filter = sunk(gst_spidar_feel_bin_new(g_getenv(SPIDAR_FEEL_VARIABLE)));
   if (!filter) return;
-  gst_object_ref_sink(filter);
-  if (g_object_replace_qdata(G_OBJECT(pad), filter_of_pad(), nullptr, gst_object_ref(filter),
-                             gst_object_unref, nullptr)) {
-    gst_bin_add(GST_BIN(decoder), filter);
-    follow_state(decoder, filter);
-    if (gst_spidar_feel_bin_is_felt(GST_SPIDAR_FEEL_BIN(filter)))
-      at_next_frame(GST_GHOST_PAD(pad), filter, put_in);
-    else
-      forget(pad);
-  } else {
-    gst_object_unref(filter);
-  }
-  gst_object_unref(filter);
+  Ref<GstElement> of_pad = new_ref(filter.get());
+  if (!g_object_replace_qdata(G_OBJECT(pad), filter_of_pad(), nullptr, of_pad.get(),
+                              gst_object_unref, nullptr))
+    return;
+  of_pad.release();
+  gst_bin_add(GST_BIN(decoder), filter.get());
+  follow_state(decoder, filter.get());
+  if (gst_spidar_feel_bin_is_felt(GST_SPIDAR_FEEL_BIN(filter.get())))
+    at_next_frame(GST_GHOST_PAD(pad), filter.get(), put_in);
+  else
+    forget(pad);
 }
 
 bool is_shown(GstPad* pad) {
-  return !find_path_downstream(pad, is_screen).steps().empty();
+  return !find_path_downstream(pad, is_screen).empty();
 }
 
 void feel_pad(GstElement* decoder, GstPad* pad) {
   if (!GST_IS_GHOST_PAD(pad)) return;
-  GstElement* filter = get_filter(pad);
-  if (!filter && is_shown(pad)) {
-    notice_video();
-    if (has_raw_video(pad)) add_filter(decoder, pad);
-  }
-  gst_clear_object(&filter);
+  if (get_filter(pad) || !is_shown(pad)) return;
+  notice_video();
+  if (has_raw_video(pad)) add_filter(decoder, pad);
 }
 
 /// The pad of a decoder that was linked while the decoder plays.
 GstPadProbeReturn feel_late(GstPad*, GstPadProbeInfo*, gpointer data) {
-  GstPad* pad = GST_PAD(static_cast<Place*>(data)->pad);
-  if (GstElement* decoder = gst_pad_get_parent_element(pad)) {
-    feel_pad(decoder, pad);
-    gst_object_unref(decoder);
-  }
+  GstPad* pad = GST_PAD(static_cast<Place*>(data)->pad.get());
+  const Ref<GstElement> decoder(gst_pad_get_parent_element(pad));
+  if (decoder) feel_pad(decoder.get(), pad);
   return GST_PAD_PROBE_REMOVE;
 }
 
@@ -236,17 +208,15 @@ GstPadProbeReturn feel_late(GstPad*, GstPadProbeInfo*, gpointer data) {
 void feel_linked(GstObject* source, bool new_target) {
   if (!GST_IS_GHOST_PAD(source) || !GST_PAD_IS_SRC(source)) return;
   GstPad* pad = GST_PAD(source);
-  GstElement* decoder = gst_pad_get_parent_element(pad);
-  if (!decoder) return;
-  if (is_outermost_decoder(decoder) && state_of(decoder) == GST_STATE_PLAYING) {
-    GstElement* filter = get_filter(pad);
-    if (!filter)
-      at_next_frame(GST_GHOST_PAD(pad), nullptr, feel_late);
-    else if (new_target)
-      at_next_frame(GST_GHOST_PAD(pad), filter, put_in);
-    gst_clear_object(&filter);
-  }
-  gst_object_unref(decoder);
+  const Ref<GstElement> decoder(gst_pad_get_parent_element(pad));
+  if (!decoder || !is_outermost_decoder(decoder.get()) ||
+      state_of(decoder.get()) != GST_STATE_PLAYING)
+    return;
+  const Ref<GstElement> filter = get_filter(pad);
+  if (!filter)
+    at_next_frame(GST_GHOST_PAD(pad), nullptr, feel_late);
+  else if (new_target)
+    at_next_frame(GST_GHOST_PAD(pad), filter.get(), put_in);
 }
 
 }  // namespace
@@ -265,24 +235,18 @@ void feel_decoder(GstElement* element) {
 void feel_linked_pad(GstPad* source, GstPad* sink) {
   feel_linked(GST_OBJECT(source), false);
   // The pad inside a ghost pad is linked to the target: by the decoder, or by insert().
-  GstObject* inserted = gst_object_get_parent(GST_OBJECT(source));
-  GstObject* outer = gst_object_get_parent(GST_OBJECT(sink));
-  if (outer && !(inserted && GST_IS_SPIDAR_FEEL_BIN(inserted))) feel_linked(outer, true);
-  gst_clear_object(&inserted);
-  gst_clear_object(&outer);
+  const Ref<GstObject> inserted(gst_object_get_parent(GST_OBJECT(source)));
+  const Ref<GstObject> outer(gst_object_get_parent(GST_OBJECT(sink)));
+  if (outer && !(inserted && GST_IS_SPIDAR_FEEL_BIN(inserted.get())))
+    feel_linked(outer.get(), true);
 }
 
 void free_unlinked_target(GstPad* source) {
-  GstObject* filter = gst_object_get_parent(GST_OBJECT(source));
-  if (filter && GST_IS_SPIDAR_FEEL_BIN(filter)) {
-    GstPad* in = gst_element_get_static_pad(GST_ELEMENT(filter), "sink");
-    if (GstPad* target = gst_pad_get_peer(in)) {
-      gst_pad_unlink(target, in);
-      gst_object_unref(target);
-    }
-    gst_object_unref(in);
-  }
-  gst_clear_object(&filter);
+  const Ref<GstObject> filter(gst_object_get_parent(GST_OBJECT(source)));
+  if (!filter || !GST_IS_SPIDAR_FEEL_BIN(filter.get())) return;
+  const Ref<GstPad> in(gst_element_get_static_pad(GST_ELEMENT(filter.get()), "sink"));
+  const Ref<GstPad> target(gst_pad_get_peer(in.get()));
+  if (target) gst_pad_unlink(target.get(), in.get());
 }
 
 void forget_removed_pad(GstElement* element, GstPad* pad) {

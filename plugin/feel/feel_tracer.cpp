@@ -23,6 +23,7 @@
 #include "plugin/feel/feel_bin.h"
 #include "plugin/feel/feel_decoder.h"
 #include "plugin/feel/video_notice.h"
+#include "plugin/gobject/ref.h"
 
 struct GstSpidarFeelTracer {
   GstTracer parent;
@@ -43,15 +44,13 @@ static bool is_playbin(GstElement* element) {
 
 static void set_filter(GstElement* element) {
   spidar::notice_video();
-  GstElement* filter = nullptr;
+  GstElement* before = nullptr;
   guint flags = 0;
-  g_object_get(element, "video-filter", &filter, "flags", &flags, nullptr);
-  if (filter || (flags & kPlayVideo) == 0) {
-    // The application's own, or the one that this tracer set for the previous film.
-    gst_clear_object(&filter);
-    return;
-  }
-  filter = gst_spidar_feel_bin_new(g_getenv(SPIDAR_FEEL_VARIABLE));
+  g_object_get(element, "video-filter", &before, "flags", &flags, nullptr);
+  const spidar::Ref<GstElement> own(before);
+  // The application's own, or the one that this tracer set for the previous film.
+  if (own || (flags & kPlayVideo) == 0) return;
+  GstElement* filter = gst_spidar_feel_bin_new(g_getenv(SPIDAR_FEEL_VARIABLE));
   if (filter) g_object_set(element, "video-filter", filter, nullptr);
 }
 

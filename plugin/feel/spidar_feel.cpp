@@ -16,6 +16,7 @@
 #include "plugin/feel/feel_tracer.h"
 #include "plugin/feel/property_check.h"
 #include "plugin/feel/video_notice.h"
+#include "plugin/gobject/ref.h"
 #include "spidar/install_folder.h"
 
 namespace {
@@ -85,9 +86,9 @@ std::string plugin_folder() {
 /// An older version of the plugin has no tracer.
 bool has_plugin() {
   for (const char* name : {"spidarmotion", "spidarfeel"}) {
-    GstPluginFeature* feature = gst_registry_lookup_feature(gst_registry_get(), name);
+    const spidar::Ref<GstPluginFeature> feature(
+        gst_registry_lookup_feature(gst_registry_get(), name));
     if (!feature) return false;
-    gst_object_unref(feature);
   }
   return true;
 }
@@ -105,10 +106,8 @@ void search_first(const std::string& folder) {
   g_setenv(variable, path.c_str(), TRUE);
   GstRegistry* registry = gst_registry_get();
   // A plugin that was found first stays.
-  if (GstPlugin* older = gst_registry_find_plugin(registry, "spidar")) {
-    gst_registry_remove_plugin(registry, older);
-    gst_object_unref(older);
-  }
+  const spidar::Ref<GstPlugin> older(gst_registry_find_plugin(registry, "spidar"));
+  if (older) gst_registry_remove_plugin(registry, older.get());
   gst_registry_scan_path(registry, folder.c_str());
 }
 
@@ -126,15 +125,13 @@ void find_plugin() {
 }
 
 void check(const std::vector<std::string>& properties) {
-  GstElement* element = gst_element_factory_make("spidarmotion", nullptr);
+  const auto element = spidar::sunk(gst_element_factory_make("spidarmotion", nullptr));
   if (!element) fail(kCannotRun, "the plugin of gst-spidar cannot be loaded");
-  gst_object_ref_sink(element);
   try {
-    spidar::check_properties(element, properties);
+    spidar::check_properties(element.get(), properties);
   } catch (const spidar::PropertyError& error) {
     fail(kUsage, error.what());
   }
-  gst_object_unref(element);
 }
 
 void set_environment(const std::vector<std::string>& properties) {

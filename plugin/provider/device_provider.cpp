@@ -27,10 +27,12 @@
 #include <utility>
 #include <vector>
 
+#include "plugin/gobject/ref.h"
 #include "plugin/provider/board_watch.h"
 
 using spidar::BoardInfo;
 using spidar::BoardWatch;
+using spidar::Ref;
 
 static constexpr const char* kElement = "spidarmotion";
 static constexpr const char* kDeviceClass = "Sink/Haptic/SPIDAR";
@@ -62,11 +64,10 @@ static GstStructure* properties_of(const BoardInfo& board) {
 static GstDevice* device_of(const BoardInfo& board) {
   const std::string name = board.path.empty() ? board.name : board.name + " (" + board.device + ")";
   GstStructure* properties = properties_of(board);
-  GstCaps* caps = gst_caps_new_empty_simple("video/x-raw");
+  const Ref<GstCaps> caps(gst_caps_new_empty_simple("video/x-raw"));
   auto* device = static_cast<GstSpidarDevice*>(
       g_object_new(GST_TYPE_SPIDAR_DEVICE, "display-name", name.c_str(), "device-class",
-                   kDeviceClass, "caps", caps, "properties", properties, nullptr));
-  gst_caps_unref(caps);
+                   kDeviceClass, "caps", caps.get(), "properties", properties, nullptr));
   gst_structure_free(properties);
   device->board = new BoardInfo(board);
   return GST_DEVICE(device);
@@ -124,13 +125,13 @@ static GList* gst_spidar_device_provider_probe(GstDeviceProvider*) {
   return devices;
 }
 
-/// The provider's device for that board, with a reference; nullptr when there is none.
-static GstDevice* find_device(GstDeviceProvider* provider, const BoardInfo& board) {
-  GstDevice* found = nullptr;
+/// The provider's device for that board, or none.
+static Ref<GstDevice> find_device(GstDeviceProvider* provider, const BoardInfo& board) {
+  Ref<GstDevice> found;
   GST_OBJECT_LOCK(provider);
   for (GList* item = provider->devices; item && !found; item = item->next)
     if (GST_SPIDAR_DEVICE(item->data)->board->device == board.device)
-      found = GST_DEVICE(gst_object_ref(item->data));
+      found = spidar::new_ref(GST_DEVICE(item->data));
   GST_OBJECT_UNLOCK(provider);
   return found;
 }
@@ -138,10 +139,8 @@ static GstDevice* find_device(GstDeviceProvider* provider, const BoardInfo& boar
 static void add_and_remove(GstDeviceProvider* provider, const std::vector<BoardInfo>& gone,
                            const std::vector<BoardInfo>& come) {
   for (const BoardInfo& board : gone) {
-    if (GstDevice* device = find_device(provider, board)) {
-      gst_device_provider_device_remove(provider, device);
-      gst_object_unref(device);
-    }
+    const Ref<GstDevice> device = find_device(provider, board);
+    if (device) gst_device_provider_device_remove(provider, device.get());
   }
   for (const BoardInfo& board : come) gst_device_provider_device_add(provider, device_of(board));
 }

@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/timing/downstream.h"
 
+#include <utility>
+
 namespace spidar {
 namespace {
 
@@ -12,15 +14,16 @@ class Search {
   /// Whether the wanted element can be reached from `from`: downstream from a source pad, upstream
   /// from a sink pad.
   bool reaches(GstPad* from) {
-    GstPad* peer = --pads_left_ > 0 ? gst_pad_get_peer(from) : nullptr;
-    if (!peer) return false;
-    path.add(GST_PAD(gst_object_ref(from)), nullptr);
+    Ref<GstPad> own_peer(--pads_left_ > 0 ? gst_pad_get_peer(from) : nullptr);
+    if (!own_peer) return false;
+    GstPad* const peer = own_peer.get();
+    path.push_back({new_ref(from), nullptr});
     // A ghost pad continues inside the bin, and a pad inside a ghost pad has no parent element.
-    GstElement* element = gst_pad_get_parent_element(peer);
-    path.add(peer, element);
+    Ref<GstElement> own_element(gst_pad_get_parent_element(peer));
+    GstElement* const element = own_element.get();
+    path.push_back({std::move(own_peer), std::move(own_element)});
     if ((element && wanted_(element)) || is_passed_to(peer)) return true;
-    path.drop_last();
-    path.drop_last();
+    path.resize(path.size() - 2);
     return false;
   }
 
@@ -47,16 +50,6 @@ class Search {
 
 }  // namespace
 
-DownstreamPath::~DownstreamPath() {
-  while (!steps_.empty()) drop_last();
-}
-
-void DownstreamPath::drop_last() {
-  gst_object_unref(steps_.back().pad);
-  if (steps_.back().element) gst_object_unref(steps_.back().element);
-  steps_.pop_back();
-}
-
 DownstreamPath find_path_downstream(GstPad* source,
                                     const std::function<bool(GstElement*)>& wanted) {
   Search search(wanted);
@@ -66,11 +59,8 @@ DownstreamPath find_path_downstream(GstPad* source,
 
 DownstreamPath find_path_downstream(GstElement* element,
                                     const std::function<bool(GstElement*)>& wanted) {
-  GstPad* source = gst_element_get_static_pad(element, "src");
-  if (!source) return {};
-  DownstreamPath path = find_path_downstream(source, wanted);
-  gst_object_unref(source);
-  return path;
+  const Ref<GstPad> source(gst_element_get_static_pad(element, "src"));
+  return source ? find_path_downstream(source.get(), wanted) : DownstreamPath();
 }
 
 bool is_upstream(GstPad* sink, const std::function<bool(GstElement*)>& wanted) {

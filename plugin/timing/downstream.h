@@ -4,39 +4,21 @@
 #pragma once
 
 #include <functional>
-#include <utility>
 #include <vector>
 
-#include <gst/gst.h>
+#include "plugin/gobject/ref.h"
 
 namespace spidar {
 
 /// A pad that frames pass. `element`: the one they enter by it; null where they leave one, or at
 /// the inner side of a ghost pad.
 struct DownstreamStep {
-  GstPad* pad;
-  GstElement* element;
+  Ref<GstPad> pad;
+  Ref<GstElement> element;
 };
 
-/// The pads from an element to another one, with a reference to each.
-class DownstreamPath {
- public:
-  DownstreamPath() = default;
-  ~DownstreamPath();
-  DownstreamPath(DownstreamPath&& other) noexcept : steps_(std::exchange(other.steps_, {})) {}
-  DownstreamPath& operator=(DownstreamPath&& other) noexcept {
-    std::swap(steps_, other.steps_);
-    return *this;
-  }
-
-  const std::vector<DownstreamStep>& steps() const { return steps_; }
-  /// Takes both references.
-  void add(GstPad* pad, GstElement* element) { steps_.push_back({pad, element}); }
-  void drop_last();
-
- private:
-  std::vector<DownstreamStep> steps_;
-};
+/// The pads from an element to another one.
+using DownstreamPath = std::vector<DownstreamStep>;
 
 /// The way from `element` to the first one behind it, through bins, for which `wanted` says yes;
 /// empty without such. Links that change meanwhile end the search.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "plugin/gobject/ref.h"
+
 namespace spidar {
 
 void PlaybackSync::add_reading(int64_t monotonic_ns, int64_t clock_ns) {
@@ -72,21 +74,15 @@ void PlaybackSync::expect_base_time(GstElement* element) {
 PlaybackClock PlaybackSync::observe(GstElement* element) {
   PlaybackClock result;
   const GstClockTime base_time = gst_element_get_base_time(element);
-  GstClock* clock = playing_ ? gst_element_get_clock(element) : nullptr;
-  if (!clock || !GST_CLOCK_TIME_IS_VALID(base_time)) {
-    if (clock) gst_object_unref(clock);
-    return result;  // not playing: there must be no force
-  }
+  const Ref<GstClock> clock(playing_ ? gst_element_get_clock(element) : nullptr);
+  // Not playing: there must be no force.
+  if (!clock || !GST_CLOCK_TIME_IS_VALID(base_time)) return result;
   const int64_t before_ns = now_(now_user_);
-  if (base_time == outdated_base_time_ && before_ns < outdated_until_ns_) {
-    gst_object_unref(clock);
-    return result;
-  }
+  if (base_time == outdated_base_time_ && before_ns < outdated_until_ns_) return result;
   outdated_base_time_ = GST_CLOCK_TIME_NONE;
-  follow(clock);
-  const GstClockTime time = gst_clock_get_time(clock);
+  follow(clock.get());
+  const GstClockTime time = gst_clock_get_time(clock.get());
   const int64_t after_ns = now_(now_user_);
-  gst_object_unref(clock);
 
   // If this thread was interrupted during a reading, the time of the reading is uncertain.
   constexpr int64_t kMaxReading_ns = 200 * 1000;

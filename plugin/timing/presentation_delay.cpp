@@ -48,19 +48,19 @@ GstClockTimeDiff latency_before(GstPad* sink_pad) {
 
 void PresentationDelay::follow(GstElement* element) {
   path_ = find_path_downstream(element, waits_for_clock);
-  if (path_.steps().empty()) {
+  if (path_.empty()) {
     path_ = find_path_downstream(
         element, [](GstElement* candidate) { return offset_of_waiting(candidate).has_value(); });
   }
   latency_ns_.clear();
-  for (const DownstreamStep& step : path_.steps()) {
-    const bool waits = step.element && offset_of_waiting(step.element);
-    latency_ns_.push_back(waits ? latency_before(step.pad) : 0);
+  for (const DownstreamStep& step : path_) {
+    const bool waits = step.element && offset_of_waiting(step.element.get());
+    latency_ns_.push_back(waits ? latency_before(step.pad.get()) : 0);
   }
 }
 
 void PresentationDelay::forget() {
-  path_ = {};
+  path_.clear();
   latency_ns_.clear();
 }
 
@@ -74,15 +74,15 @@ GstClockTimeDiff PresentationDelay::value_ns() const {
   const auto wait_until = [&shown_ns](GstClockTimeDiff ns) {
     shown_ns = shown_ns ? std::max(*shown_ns, ns) : ns;
   };
-  for (size_t i = 0; i < path_.steps().size(); ++i) {
-    const DownstreamStep& step = path_.steps()[i];
-    pads_ns += gst_pad_get_offset(step.pad);
+  for (size_t i = 0; i < path_.size(); ++i) {
+    const DownstreamStep& step = path_[i];
+    pads_ns += gst_pad_get_offset(step.pad.get());
     if (!step.element) continue;
-    if (waits_for_clock(step.element)) {
-      GstBaseSink* sink = GST_BASE_SINK(step.element);
+    if (waits_for_clock(step.element.get())) {
+      GstBaseSink* sink = GST_BASE_SINK(step.element.get());
       wait_until(pads_ns + static_cast<GstClockTimeDiff>(gst_base_sink_get_latency(sink)) +
                  gst_base_sink_get_ts_offset(sink));
-    } else if (const auto offset_ns = offset_of_waiting(step.element)) {
+    } else if (const auto offset_ns = offset_of_waiting(step.element.get())) {
       wait_until(pads_ns + latency_ns_[i] + *offset_ns);
     }
   }

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/timing/step_watch.h"
 
+#include "plugin/gobject/bins.h"
 #include "plugin/timing/downstream.h"
 
 namespace spidar {
@@ -14,38 +15,27 @@ void StepWatch::on_step_done(GstBus*, GstMessage* message, gpointer watch) {
                               nullptr);
   // After a step without a flush the pipeline distributes a new base time.
   if (!flush || !GST_CLOCK_TIME_IS_VALID(duration)) return;
-  const bool is_behind =
-      !find_path_downstream(self->element_,
-                            [message](GstElement* candidate) {
-                              return GST_OBJECT(candidate) == GST_MESSAGE_SRC(message);
-                            })
-           .steps()
-           .empty();
+  const bool is_behind = !find_path_downstream(self->element_, [message](GstElement* candidate) {
+                            return GST_OBJECT(candidate) == GST_MESSAGE_SRC(message);
+                          }).empty();
   if (is_behind) self->skipped_(duration);
 }
 
 void StepWatch::begin() {
-  GstObject* top = GST_OBJECT(gst_object_ref(element_));
-  while (GstObject* parent = gst_object_get_parent(top)) {
-    gst_object_unref(top);
-    top = parent;
-  }
-  bus_ = gst_element_get_bus(GST_ELEMENT(top));
-  gst_object_unref(top);
+  bus_.reset(gst_element_get_bus(GST_ELEMENT(root_of(element_).get())));
   if (!bus_) return;
-  gst_bus_enable_sync_message_emission(bus_);
+  gst_bus_enable_sync_message_emission(bus_.get());
   // The closure holds a reference to the element, which owns this watch, during each call.
   GClosure* const closure = g_cclosure_new(G_CALLBACK(on_step_done), this, nullptr);
   g_object_watch_closure(G_OBJECT(element_), closure);
-  handler_ = g_signal_connect_closure(bus_, "sync-message::step-done", closure, FALSE);
+  handler_ = g_signal_connect_closure(bus_.get(), "sync-message::step-done", closure, FALSE);
 }
 
 void StepWatch::end() {
   if (!bus_) return;
-  g_signal_handler_disconnect(bus_, handler_);
-  gst_bus_disable_sync_message_emission(bus_);
-  gst_object_unref(bus_);
-  bus_ = nullptr;
+  g_signal_handler_disconnect(bus_.get(), handler_);
+  gst_bus_disable_sync_message_emission(bus_.get());
+  bus_.reset();
 }
 
 }  // namespace spidar

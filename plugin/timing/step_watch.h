@@ -8,6 +8,8 @@
 
 #include <gst/gst.h>
 
+#include "plugin/gobject/ref.h"
+
 namespace spidar {
 
 /// A sink that steps over frames with a flush shows what follows as much earlier: it moves its own
@@ -29,7 +31,7 @@ class StepWatch {
 
   GstElement* const element_;
   const std::function<void(GstClockTime)> skipped_;
-  GstBus* bus_ = nullptr;
+  Ref<GstBus> bus_;
   gulong handler_ = 0;
 };
 

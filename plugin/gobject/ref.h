@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// References to objects of GStreamer that are given back by themselves.
+#pragma once
+
+#include <memory>
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+struct Unref {
+  void operator()(gpointer object) const { g_object_unref(object); }
+  void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
+  void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
+};
+
+/// A reference to a GObject, a buffer or caps, or none. Made of a pointer, it takes over the
+/// reference that the caller has: `const Ref<GstPad> pad(gst_element_get_static_pad(…))`.
+template <typename Object>
+using Ref = std::unique_ptr<Object, Unref>;
+
+/// Another reference to `object`, which may be null.
+template <typename Object>
+Ref<Object> new_ref(Object* object) {
+  return Ref<Object>(object ? static_cast<Object*>(g_object_ref(object)) : nullptr);
+}
+
+/// Takes a new object, which nobody has a reference to, for its owner.
+template <typename Object>
+Ref<Object> sunk(Object* object) {
+  return Ref<Object>(object ? static_cast<Object*>(g_object_ref_sink(object)) : nullptr);
+}
+
+}  // namespace spidar
