@@ -8,6 +8,7 @@ tells the time. In every other film the picture is mirrored: these are other fil
 import hashlib
 import json
 import math
+import re
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,7 +24,7 @@ HIDDEN_S = 0.2  # at the beginning, by an edit list
 START_S = 2.7
 TURNED = "turned by 90"
 MS = 0.001
-RECIPE = 3  # of the masters: films that were made by another one are made anew
+RECIPE = 4  # of the masters: films that were made by another one are made anew
 
 
 def angle(number):
@@ -64,10 +65,17 @@ class Film:
         return ", ".join(value for value in self.kind.values())
 
 
+class NoEncoder(Exception):
+    """This ffmpeg cannot make such a film."""
+
+
 def run(command):
-    done = subprocess.run(list(map(str, command)), stdin=subprocess.DEVNULL, capture_output=True, timeout=120)
+    done = subprocess.run(list(map(str, command)), stdin=subprocess.DEVNULL, capture_output=True, timeout=600)
+    said = done.stderr.decode(errors="replace").strip()
+    if done.returncode and (unknown := re.search("Unknown encoder '.*'", said)):
+        raise NoEncoder(f"ffmpeg: {unknown[0]}")
     if done.returncode:
-        raise RuntimeError(f"{command}: {done.stderr.decode(errors='replace').strip()}")
+        raise RuntimeError(f"{command}: {said}")
     return done.stdout
 
 
@@ -140,15 +148,12 @@ def arguments(kind, master, common):
 
 
 def turn(film, copied):
-    """Copies the film so that it is shown turned by 90 degrees clockwise. Newer releases of ffmpeg have -display_rotation
-    in place of rotate=270, which ffmpeg 5.1 follows only when it copies."""
+    """Copies the film so that it is shown turned by 90 degrees clockwise. Newer releases of ffmpeg have
+    -display_rotation in place of rotate=270, which ffmpeg 5.1 follows only when it copies."""
     try:
         ffmpeg("-display_rotation", -90, "-i", film, *copied)
     except RuntimeError:
         ffmpeg("-i", film, "-metadata:s:v:0", "rotate=270", *copied)
-    rotation = probed(copied[-1], "stream_side_data=rotation")["streams"][0]["side_data_list"][0]["rotation"]
-    if rotation != -90:
-        raise RuntimeError(f"ffmpeg has turned {copied[-1]} by {rotation} degrees counterclockwise")
 
 
 def encode(kind, master, common, to):
@@ -167,36 +172,34 @@ def probed(path, entries):
     return json.loads(run(["ffprobe", "-v", "error", "-show_entries", entries, "-of", "json", path]))
 
 
-def shown_times(path, fps):
-    """When the pictures are shown by a player that obeys the edit list."""
-    frames = json.loads(run(["ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
-                             "frame=best_effort_timestamp_time", "-of", "json", path]))["frames"]
+def look_into(kind, path):
+    """When the pictures are shown by a player that obeys the edit list, where the film is cut off, and its streams."""
+    found = probed(path, "stream=index,codec_type:stream_side_data=rotation:packet=codec_type,pos,size"
+                         ":frame=stream_index,best_effort_timestamp_time")
+    streams, mixed = found["streams"], found["packets_and_frames"]
+    video = next(stream for stream in streams if stream["codec_type"] == "video")
+    if kind["extra"] == TURNED and (turned := video["side_data_list"][0]["rotation"]) != -90:
+        raise RuntimeError(f"ffmpeg has turned {path} by {turned} degrees counterclockwise")
+    fps = 24000 / 1001 if kind["times"] == "23.976" else RATE_HZ
+    frames = [item for item in mixed if item["type"] == "frame" and item["stream_index"] == video["index"]]
     # AVI counts pictures; ffprobe gives some of them no time.
     times = sorted(float(frame.get("best_effort_timestamp_time", i / fps)) for i, frame in enumerate(frames))
-    return [time for time in times if time > -MS]
-
-
-def cut_at(kind, path):
-    size = path.stat().st_size
-    if kind["cut"] == "half":
-        return size // 2
-    if kind["cut"] == "5 kB":
-        return min(5000, size // 2)
-    packets = probed(path, "packet=codec_type,pos,size")["packets"]
-    first = min((p for p in packets if "pos" in p and p["codec_type"] == "video"), key=lambda p: int(p["pos"]))
-    return min(int(first["pos"]) + int(first["size"]), size // 2)
+    packets = [item for item in mixed if item["type"] == "packet" and item["codec_type"] == "video" and "pos" in item]
+    first = min(packets, key=lambda packet: int(packet["pos"]))
+    half = path.stat().st_size // 2
+    cut_bytes = {"half": half, "5 kB": 5000, "after the first picture": int(first["pos"]) + int(first["size"])}
+    return [time for time in times if time > -MS], min(half, cut_bytes[kind["cut"]]), [s["codec_type"] for s in streams]
 
 
 def make(kind, mirrored, folder):
     """The film of this kind, from `folder` if it is there."""
     master = folder / ("mirrored.mkv" if mirrored else "plain.mkv")
-    recipe = str([RECIPE, kind, mirrored, arguments(kind, master.name, Path()), CONTAINERS[kind["container"]]])
+    what = {name: value for name, value in kind.items() if name not in ("player", "tool")}
+    recipe = str([RECIPE, what, mirrored, arguments(kind, master.name, Path()), CONTAINERS[kind["container"]]])
     place = folder / hashlib.sha1(recipe.encode()).hexdigest()[:12]
     path, facts = place / (NAMES[kind["name"]] + "." + CONTAINERS[kind["container"]][1]), place / "facts.json"
     if not facts.exists():
         place.mkdir(exist_ok=True)
         encode(kind, master, folder, path)
-        fps = 24000 / 1001 if kind["times"] == "23.976" else RATE_HZ
-        streams = [stream["codec_type"] for stream in probed(path, "stream=codec_type")["streams"]]
-        facts.write_text(json.dumps([shown_times(path, fps), cut_at(kind, path), streams]))
+        facts.write_text(json.dumps(look_into(kind, path)))
     return Film(kind, mirrored, path, *json.loads(facts.read_text()))

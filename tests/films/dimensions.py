@@ -46,9 +46,10 @@ CONTAINERS = {  # arguments, extension, pictures, sounds beside "none"
     "ogg": ("", "ogg", "Theora", "Opus,Vorbis,FLAC"),
     "3gp": ("", "3gp", "H.264,H.264 B,MPEG-4", "AAC"),
 }
+EARLY = "begins 300 ms before"
 SOUND_TIMES = {  # when it begins, and how much later than the pictures it ends, in s
     "as long": (0.0, 0.0),
-    "begins 300 ms before": (-0.3, 0.0),
+    EARLY: (-0.3, 0.0),
     "begins 30 ms after": (0.03, 0.0),
     "begins 500 ms after": (0.5, 0.0),
     "ends 500 ms before": (0.0, -0.5),
@@ -61,10 +62,16 @@ NAMES = {"plain": "film", "space": "a film", "quotes": "it's \"a\" film", "perce
          "newline": "two\nlines", "not UTF-8": b"na\xefve".decode(errors="surrogateescape")}
 CUTS = ("half", "after the first picture", "5 kB")
 PLAYERS = ("playbin", "playbin3", "gapless", "decodebin", "track=auto", "spidar-feel")
+TOOLS = ("info", "convert", "plot", "merge")  # of which each film goes through one
 
 DIMENSIONS = {"container": tuple(CONTAINERS), "pictures": tuple(PICTURES), "sound": tuple(SOUNDS),
               "sound time": tuple(SOUND_TIMES), "times": TIMES, "extra": EXTRAS, "name": tuple(NAMES),
-              "cut": CUTS, "player": PLAYERS}
+              "cut": CUTS, "player": PLAYERS, "tool": TOOLS}
+# Every day, all pairs of values of these: the container with everything, and what meets in a demuxer or a player.
+# Pictures and sound, for example, meet in the container only.
+EVERYDAY = {frozenset(pair) for pair in (
+    *(("container", name) for name in DIMENSIONS if name != "container"),
+    ("sound", "sound time"), ("times", "player"), ("name", "tool"))}
 
 EXTRA_CONTAINERS = {"turned by 90": ("mp4", "mov", "3gp"), "poster": ("mp4", "mov", "mkv"),
                     "second video": ("mkv", "mp4", "mov", "ts"), "SRT": ("mkv",), "ASS": ("mkv",),
@@ -74,7 +81,6 @@ TIME_CONTAINERS = {"from 2.7 s": ("mkv", "mp4", "mov", "ts", "m2ts", "webm", "fl
                    "variable rate": ("mkv", "mp4", "fragmented mp4", "mov", "ts", "webm", "flv"),
                    "23.976": ("mkv", "mp4", "fragmented mp4", "mov", "ts", "m2ts", "webm", "avi", "flv", "ogg")}
 
-
 RULES = {  # pairs of values that go together
     ("container", "pictures"): lambda c, p: p in CONTAINERS[c][2].split(","),
     ("container", "sound"): lambda c, s: s == "none" or s in CONTAINERS[c][3].split(","),
@@ -83,8 +89,9 @@ RULES = {  # pairs of values that go together
     ("container", "times"): lambda c, t: t == "from 0" or c in TIME_CONTAINERS[t],
     # These encoders know a fixed rate only.
     ("pictures", "times"): lambda p, t: not (t == "variable rate" and p in ("MPEG-2", "Theora")),
-    # Muxers place a sound that begins before the pictures by a time at which the film begins.
-    ("sound time", "times"): lambda s, t: t in ("from 0", "23.976") or "before" not in s,
+    # Muxers place a sound that begins before the pictures by a time at which the film begins, which AVI does not have.
+    ("sound time", "times"): lambda s, t: t in ("from 0", "23.976") or s != EARLY,
+    ("container", "sound time"): lambda c, s: c != "avi" or s != EARLY,
 }
 
 
@@ -110,16 +117,18 @@ def completed(film, left, wanted):
     return None
 
 
-def cover(starts):
+def cover(starts, meet):
     """Films that begin with each of `starts` (some values of a film) and together contain every pair of values
-    that some film can have. The same films in every run."""
+    that some film can have, of the pairs of dimensions for which `meet` is true. The same films in every run."""
     names = list(DIMENSIONS)
-    wanted = {pair for a, b in itertools.combinations(names, 2)
+    wanted = {pair for a, b in itertools.combinations(names, 2) if meet(a, b)
               for pair in itertools.product([(a, v) for v in DIMENSIONS[a]], [(b, v) for v in DIMENSIONS[b]])}
     wanted = {tuple(sorted(pair)) for pair in wanted}
     films, order = [], random.Random(1)
+
     def rarity(pair):  # pairs of many values first: most others come along with them
         return -len(DIMENSIONS[pair[0][0]]) * len(DIMENSIONS[pair[1][0]]), pair
+
     for start in itertools.chain(starts, map(dict, sorted(wanted, key=rarity))):
         if start not in starts and not wanted & pairs(start):
             continue  # another film has this pair
@@ -134,6 +143,15 @@ def cover(starts):
             wanted -= pairs(film)
             films.append({name: film[name] for name in names})
     return films
+
+
+def every_day():
+    return cover([], lambda a, b: frozenset((a, b)) in EVERYDAY)
+
+
+def whole(names):
+    """Every combination of the values of these dimensions, and every pair of all."""
+    return cover(product(names) if names else [], lambda a, b: True)
 
 
 def product(names):

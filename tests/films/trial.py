@@ -1,20 +1,39 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """A film in a folder of its own, what the programs make of it, and what was found in what they wrote."""
+import bisect
+import collections
 import csv
 import json
 import os
+import select
 import shutil
 import struct
 import subprocess
 import sys
+import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from corpus import MS
+
 FULL_SCALE_N = 10
-QUICK_PLAYERS = ("playbin", "playbin3", "decodebin")
-PLAY_FILM = Path(__file__).with_name("play_film.py")
-SLOWEST_S = 100  # of a command that does not hang
+SLOWEST_S = 400  # of a command that does not hang
+MOST_HANGS = 3
+
+
+def read_samples(wav):
+    """The force of each millisecond, N, from a WAV file of floating-point numbers."""
+    data = wav.read_bytes()
+    begin = data.index(b"data") + 8
+    count = (len(data) - begin) // 24
+    values = struct.unpack_from(f"<{6 * count}f", data, begin)
+    return [(FULL_SCALE_N * values[i], FULL_SCALE_N * values[i + 1]) for i in range(0, len(values), 6)]
+
+
+def environment():
+    """With criticals that are not fatal: GStreamer's own are found in what is printed."""
+    return {name: value for name, value in os.environ.items() if name != "G_DEBUG"}
 
 
 @dataclass
@@ -26,12 +45,55 @@ class Outcome:
         return self.status == 0
 
 
+class Player:
+    """A process of player.py, which is started again after it has crashed."""
+
+    def __init__(self):
+        self.process, self.log, self.hangs = None, tempfile.TemporaryFile(), collections.Counter()
+
+    def play(self, play):
+        """What player.py prints; criticals are warnings. A playbin3 of GStreamer 1.22 hangs in one of a hundred plays,
+        without our element, too: only what hangs each time is an error."""
+        for hangs in range(MOST_HANGS):
+            result = self.play_once(play)
+            if not result["error"] or "no picture and no end" not in result["error"]:
+                break
+            self.hangs[play["player"]] += 1
+        return result
+
+    def play_once(self, play):
+        if not self.process:
+            self.process = subprocess.Popen([sys.executable, Path(__file__).with_name("player.py")], text=True,
+                                            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.log,
+                                            env=environment())
+        self.log.truncate(0)
+        self.log.seek(0)
+        self.process.stdin.write(json.dumps(play) + "\n")
+        self.process.stdin.flush()
+        if not select.select([self.process.stdout], [], [], SLOWEST_S)[0]:
+            self.process.kill()
+        answer = self.process.stdout.readline()
+        self.log.seek(0)
+        said = self.log.read().decode(errors="replace").strip()
+        if not answer:
+            status, self.process = self.process.wait(), None
+            raise RuntimeError(f"{play['player']} ended with status {status}: {said[-300:]}")
+        result = json.loads(answer)
+        result["warnings"] += [line for line in said.splitlines() if "CRITICAL" in line]
+        return result
+
+    def close(self):
+        if self.process:
+            self.process.communicate()
+
+
 @dataclass
 class Trial:
     film: object
     other: object  # a film with other pictures, at the same times
     folder: Path
     programs: dict  # spidartrack, spidar-feel
+    player: Player
     plays: dict = field(default_factory=dict)
 
     def __post_init__(self):
@@ -45,11 +107,10 @@ class Trial:
         shutil.copy(film.path, path)
         return path
 
-    def run(self, *command, env=None):
-        command = [str(word) for word in command]
+    def run(self, *command):
         try:
-            done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                  timeout=SLOWEST_S, env={**os.environ, **(env or {})})
+            done = subprocess.run(list(map(str, command)), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, timeout=SLOWEST_S, env=environment())
         except subprocess.TimeoutExpired:
             return Outcome(-1, f"still running after {SLOWEST_S} s")
         text = done.stdout.decode(errors="surrogateescape").strip()
@@ -58,64 +119,69 @@ class Trial:
     def spidartrack(self, *arguments):
         return self.run(self.programs["spidartrack"], *arguments)
 
-    def play(self, *plays):
-        """See play_film.py; results are kept under the names of the plays."""
-        outcome = self.run(sys.executable, PLAY_FILM, self.folder, *map(json.dumps, plays))
-        lines = [line for line in outcome.text.splitlines() if line.startswith("{")]
-        if not outcome or not lines:
-            raise RuntimeError(f"playing ended with status {outcome.status}: {outcome.text[-300:]}")
-        results = json.loads(lines[-1])
-        self.plays.update(results)
-        return results
-
-    def play_quickly(self, player, film, properties):
+    def play_quickly(self, player, film, properties=None):
         """As fast as the machine can."""
-        return self.play({"name": "quick", "player": player, "film": str(film), "properties": properties})["quick"]
+        play = {"player": player, "film": str(film)}
+        return self.player.play({**play, "properties": properties} if properties else play)
 
     def look(self):
         """What every player shows, and the force of each picture."""
-        plays = [{"name": player, "player": player, "film": str(self.path)} for player in QUICK_PLAYERS]
         forces = self.folder / "forces.csv"
-        plays.append({"name": "analysed", "player": "decodebin", "film": str(self.path),
-                      "properties": {"device": "none", "trace": str(forces)}})
-        self.play(*plays)
+        analyse = {"device": "none", "trace": str(forces)}
+        own = self.film.kind["player"]
+        for player in ("playbin", "decodebin", *(["playbin3"] if own in ("playbin3", "gapless") else [])):
+            self.plays[player] = self.play_quickly(player, self.path, analyse if player == "decodebin" else None)
         with open(forces, newline="") as rows:
             self.forces = [(1e-9 * int(row["stream_time_ns"]), float(row["force_x_N"]), float(row["force_y_N"]))
                            for row in csv.DictReader(rows)]
         forces.unlink()
+        if not self.forces:
+            raise RuntimeError(f"no picture is analysed: {self.plays['decodebin']['error']}")
         self.numbers = [self.film.number_at(force[0] - self.forces[0][0]) for force in self.forces]
+
+    def force_at(self, stream_s):
+        """That of the track, N, at this time; nothing after its end."""
+        place = stream_s / MS
+        at = int(place)
+        if at + 1 >= len(self.samples):
+            return (0.0, 0.0)
+        return tuple(a + (place - at) * (b - a) for a, b in zip(self.samples[at], self.samples[at + 1]))
 
     def play_in_time(self, player):
         """In real time, with a trace of what is felt. Stops where only sound is left, except in the middle of two."""
-        name = "in time"
-        if player == "spidar-feel":
-            return self.feel_gst_play()
-        play = {"name": name, "player": "playbin" if player == "track=auto" else player, "film": str(self.path),
-                "sync": True, "properties": {"track": "auto"} if player == "track=auto" else {}}
+        ticks = self.folder / "ticks.csv"
+        properties = {"haptic-trace": str(ticks), **({"track": "auto"} if player == "track=auto" else {})}
+        play = {"player": "playbin" if player == "track=auto" else player, "film": str(self.path),
+                "properties": properties, "ticks": str(ticks), "pictures": len(self.forces)}
         if player != "gapless":
             play["until_s"] = self.plays["playbin"]["frames"][-1][1]
-        result = self.play(play)[name]
+        result = self.player.play(play)
+        ticks.unlink()
         if result["error"]:
-            raise RuntimeError(result["error"])
+            raise RuntimeError(f"{player}: {result['error']}")
         return result
 
     def feel_gst_play(self):
-        ticks = self.folder / "felt.csv"
+        ticks = self.folder / "ticks.csv"
         outcome = self.run(self.programs["spidar-feel"], f"haptic-trace={ticks}", "device=sim", "--",
                            "gst-play-1.0", "--quiet", "--no-interactive", "--audiosink=fakesink sync=true",
                            "--videosink=queue max-size-buffers=8 ! fakesink sync=true",
                            self.path)
         if not outcome:
             raise RuntimeError(f"gst-play-1.0 ended with status {outcome.status}: {outcome.text[-300:]}")
-        from play_film import read_ticks
+        from player import read_ticks
         result = {"frames": self.plays["playbin"]["frames"], "ticks": list(read_ticks(ticks)), "warnings": []}
         ticks.unlink()
         return result
 
-    def read_samples(self, wav):
-        """The force of each millisecond, N, from a WAV file of floating-point numbers."""
-        data = wav.read_bytes()
-        begin = data.index(b"data") + 8
-        count = (len(data) - begin) // 24
-        values = struct.unpack_from(f"<{6 * count}f", data, begin)
-        return [(FULL_SCALE_N * values[i], FULL_SCALE_N * values[i + 1]) for i in range(0, len(values), 6)]
+
+class Screen:
+    """Which picture of a film is on the screen when, from what a player has shown."""
+
+    def __init__(self, frames):
+        self.stream_s, self.due_s = zip(*frames)
+
+    def stream_at(self, running_s):
+        """Stream time; nothing before the first picture."""
+        at = bisect.bisect_right(self.due_s, running_s) - 1
+        return None if at < 0 else self.stream_s[at] + running_s - self.due_s[at]
