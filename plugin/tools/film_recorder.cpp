@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/film_recorder.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -12,33 +11,13 @@
 
 #include "plugin/tools/film_end.h"
 #include "plugin/tools/film_watch.h"
+#include "plugin/tools/stream_time.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/film_reader.h"
 #include "plugin/track/track_notes.h"
 
 namespace spidar {
 namespace {
-
-/// Moves a segment so that running time is stream time, which a player shows as the position in the
-/// film, and which the track is found by when it is replayed. They differ where a film does not
-/// begin at 0: MPEG-TS, MPEG-PS, FLV.
-GstPadProbeReturn follow_stream_time(GstPad*, GstPadProbeInfo* info, gpointer) {
-  GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
-  if (GST_EVENT_TYPE(event) != GST_EVENT_SEGMENT) return GST_PAD_PROBE_OK;
-  GstSegment segment;
-  gst_event_copy_segment(event, &segment);
-  if (segment.format != GST_FORMAT_TIME || segment.time <= segment.base) return GST_PAD_PROBE_OK;
-  // As much as possible by an earlier beginning, so that the track begins with the film.
-  const GstClockTime earlier = std::min(segment.start, segment.time - segment.base);
-  segment.start -= earlier;
-  segment.time -= earlier;
-  segment.base = segment.time;
-  GstEvent* const moved = gst_event_new_segment(&segment);
-  gst_event_set_seqnum(moved, gst_event_get_seqnum(event));
-  gst_event_unref(event);
-  GST_PAD_PROBE_INFO_DATA(info) = moved;
-  return GST_PAD_PROBE_OK;
-}
 
 /// Reports `percent` of the film as recorded, in steps of ten.
 class Progress {
@@ -51,8 +30,7 @@ class Progress {
     sink_ = gst_element_get_static_pad(extract, "sink");
     GstPad* wrench = gst_element_get_static_pad(extract, "wrench");
     gst_pad_add_probe(wrench, GST_PAD_PROBE_TYPE_BUFFER, passes, this, nullptr);
-    gst_pad_add_probe(sink_, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, follow_stream_time, nullptr,
-                      nullptr);
+    follow_stream_time(sink_);
     gst_object_unref(wrench);
     gst_object_unref(sink_);  // the pipeline has it
     gst_object_unref(extract);

@@ -8,6 +8,7 @@
 #include "plugin/tools/part_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/track/film_reader.h"
 #include "plugin/track/sidecar.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
@@ -67,17 +68,19 @@ int merge_track_command(int argc, char** argv) {
   const bool is_sound =
       !ends_with(track, ".hjif") && !ends_with(track, ".csv") && !ends_with(track, ".jsonl");
   if (!is_sound) save_track(sound.path(), samples);
+  std::string lost;
   try {
     const std::string other = other_film(
         read_film(film), static_cast<int64_t>(samples.size()) * kTrackPeriod_ns, condition.notes);
     if (!other.empty()) {
       throw std::runtime_error("The track is that of another film: " + other + ".");
     }
-    merge_film(film, is_sound ? track : sound.path(), condition.notes, part.path());
+    lost = merge_film(film, is_sound ? track : sound.path(), condition.notes, part.path());
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(film + ": " + error.what());
   }
   part.publish();
+  if (!lost.empty()) std::cerr << "spidartrack: " << out << ": " << lost << '\n';
   return kDone;
 }
 

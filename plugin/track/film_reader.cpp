@@ -31,8 +31,9 @@ class FilmReader {
  public:
   FilmReader(const std::string& path, const std::atomic<bool>* stopped)
       : file_("filesrc name=source ! parsebin name=parse", path, stopped),
-        parser_(file_.find("parse")),
-        streams_(parser_, [this] { choose_stream(); }) {}
+        parser_(file_.find("parse")) {
+    g_signal_connect(parser_, "pad-added", G_CALLBACK(add_stream), this);
+  }
   ~FilmReader() { file_.stop(); }
   FilmReader(const FilmReader&) = delete;
   FilmReader& operator=(const FilmReader&) = delete;
@@ -85,33 +86,48 @@ class FilmReader {
     return std::move(film_);
   }
 
-  /// Called when all streams of the film are known.
-  void choose_stream() {
-    GstPad* chosen = nullptr;
-    for (GList* i = parser_->srcpads; i; i = i->next) {
-      auto* const pad = static_cast<GstPad*>(i->data);
-      GstCaps* caps = caps_of(pad);
-      const StreamKind kind = kind_of(caps);
-      film_.has_track = film_.has_track || kind == StreamKind::kHapticTrack;
-      if (kind == StreamKind::kVideo && !chosen) {
-        chosen = pad;
-        framing_ = framing_of(caps);
-      }
-      gst_caps_unref(caps);
+  static void add_stream(GstElement*, GstPad* pad, gpointer user) {
+    auto& self = *static_cast<FilmReader*>(user);
+    GstCaps* caps = caps_of(pad);
+    {
+      const std::lock_guard<std::mutex> lock(self.mutex_);
+      self.film_.has_track = self.film_.has_track || kind_of(caps) == StreamKind::kHapticTrack;
     }
-    for (GList* i = parser_->srcpads; i; i = i->next) {
-      GstElement* const sink = file_.add_fakesink();
-      if (i->data == chosen) {
-        sink_ = sink;
-        g_object_set(sink, "signal-handoffs", TRUE, nullptr);
-        g_signal_connect(sink, "handoff", G_CALLBACK(take_packet), this);
-      }
-      GstPad* into = gst_element_get_static_pad(sink, "sink");
-      gst_pad_link(static_cast<GstPad*>(i->data), into);
-      gst_object_unref(into);
+    gst_caps_unref(caps);
+    constexpr auto kFlow =
+        static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
+                                     GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
+    gst_pad_add_probe(pad, kFlow, link_stream, user, nullptr);
+  }
+
+  /// A stream may begin, and be found, while the others flow. It is linked when it flows, so that
+  /// its parser leaves the pictures as they are in the file.
+  static GstPadProbeReturn link_stream(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+    auto& self = *static_cast<FilmReader*>(user);
+    self.file_.advance();
+    if (gst_pad_is_linked(pad)) return GST_PAD_PROBE_OK;
+    if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
+      const GstEventType type = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info));
+      if (type != GST_EVENT_EOS && type != GST_EVENT_GAP) return GST_PAD_PROBE_OK;
     }
-    if (chosen) return;
-    GST_ELEMENT_ERROR(parser_, STREAM, WRONG_TYPE, ("there are no pictures in it"), ("No video."));
+    GstPad* into = gst_element_get_static_pad(self.add_sink(pad), "sink");
+    gst_pad_link(pad, into);
+    gst_object_unref(into);
+    return GST_PAD_PROBE_OK;
+  }
+
+  GstElement* add_sink(GstPad* pad) {
+    GstElement* const sink = file_.add_fakesink();
+    GstCaps* caps = caps_of(pad);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (kind_of(caps) == StreamKind::kVideo && !sink_) {
+      sink_ = sink;
+      framing_ = framing_of(caps);
+      g_object_set(sink, "signal-handoffs", TRUE, nullptr);
+      g_signal_connect(sink, "handoff", G_CALLBACK(take_packet), this);
+    }
+    gst_caps_unref(caps);
+    return sink;
   }
 
   static void take_packet(GstElement*, GstBuffer* packet, GstPad* pad, gpointer user) {
@@ -120,7 +136,6 @@ class FilmReader {
 
   void take(GstBuffer* packet, GstPad* pad) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    file_.advance();
     if (part_ == Part::kNone) return;
     const GstClockTime time = stream_time(packet, pad);
     if (GST_CLOCK_TIME_IS_VALID(time)) take_time(static_cast<int64_t>(time), packet);
@@ -174,7 +189,6 @@ class FilmReader {
   std::vector<int64_t> times_ns_;
   int64_t last_ns_ = 0, last_length_ns_ = 0;
   Film film_;
-  const StreamsWatch streams_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gst/gst.h>
@@ -99,6 +100,16 @@ class TrackMerge : public testing::Test {
     return spidartrack("merge " + path(film) + " " + path(track) + " " + path(out));
   }
 
+  static bool has_ffmpeg() { return std::system("ffmpeg -version > /dev/null 2>&1") == 0; }
+  static bool ffmpeg(const std::string& arguments) {
+    return std::system(("ffmpeg -nostdin -v error -y " + arguments).c_str()) == 0;
+  }
+  int packets(const std::string& film, const std::string& stream) const {
+    return std::atoi(run("ffprobe -v error -count_packets -select_streams " + stream +
+                         " -show_entries stream=nb_read_packets -of csv=p=0 " + path(film))
+                         .text.c_str());
+  }
+
   Heard play(const std::string& player, const std::string& film) const {
     Heard heard;
     gchar* uri = gst_filename_to_uri(path(film).c_str(), nullptr);
@@ -157,9 +168,7 @@ TEST_F(TrackMerge, TheTrackIsNeitherDefaultNorEnabled) {
 }
 
 TEST_F(TrackMerge, TheTrackHasNoLanguageAndTheFilmKeepsWhatItHas) {
-  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) {
-    GTEST_SKIP() << "ffmpeg is not installed";
-  }
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   std::ofstream(path("film.srt")) << "1\n00:00:00,100 --> 00:00:01,000\nThis & that\n";
   ASSERT_EQ(
       std::system(("ffmpeg -nostdin -v error -i " + path("film.avi") + " -i " + path("film.srt") +
@@ -186,6 +195,64 @@ TEST_F(TrackMerge, TheTrackHasNoLanguageAndTheFilmKeepsWhatItHas) {
   EXPECT_TRUE(notes.film.empty()) << "the track was made by hand";
   // Beside H.264 and AAC, whose parsers tell their caps later.
   expect_contains(merge("felt.mkv", "track.flac", "twice.mkv").text, "has a haptic track already");
+}
+
+/// So that the streams of a film end at times that differ by more than any queue holds.
+TEST_F(TrackMerge, SoundMayBeMuchLongerOrShorterThanThePictures) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  const std::tuple<const char*, int, int> films[] = {
+      // GStreamer ignores a stream of MP4 that is shorter than a fifth of the film.
+      {"long.mkv", 2, 22}, {"long.mkv", 2, 122}, {"long.mkv", 122, 2},
+      {"long.mp4", 2, 7},  {"long.mp4", 7, 2},
+  };
+  for (const auto& [film, pictures_s, sound_s] : films) {
+    SCOPED_TRACE(film + (": " + std::to_string(pictures_s)) + " s, sound " +
+                 std::to_string(sound_s));
+    ASSERT_TRUE(ffmpeg("-f lavfi -i testsrc2=s=64x48:r=5:d=" + std::to_string(pictures_s) +
+                       " -f lavfi -i sine=r=48000:d=" + std::to_string(sound_s) +
+                       " -c:v libx264 -preset ultrafast -c:a aac " + path(film)));
+    save_track(path("long.flac"), samples(pictures_s * 1000));
+    const CommandResult merged = merge(film, "long.flac", "felt.mkv");
+    ASSERT_EQ(merged.status, 0) << merged.text;
+    EXPECT_EQ(packets("felt.mkv", "v:0"), 5 * pictures_s);
+    // The edit list of MP4 hides the packets that only begin or end the coding of the sound.
+    EXPECT_NEAR(packets("felt.mkv", "a:0"), packets(film, "a:0"), 2);
+    ASSERT_EQ(spidartrack("extract " + path("felt.mkv") + " " + path("out.wav")).status, 0);
+    EXPECT_EQ(load_track(path("out.wav")).size(), static_cast<size_t>(pictures_s) * 1000);
+  }
+}
+
+/// FLV tells its streams as they come, and MP3 is known by its data only.
+TEST_F(TrackMerge, SoundMayBeFoundLate) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  for (const char* codec : {"libmp3lame", "aac"}) {
+    SCOPED_TRACE(codec);
+    ASSERT_TRUE(ffmpeg("-i " + path("film.avi") + " -itsoffset 1 -i " + path("film.avi") +
+                       " -map 0:v -map 1:a -t 2 -c:v libx264 -preset ultrafast -ar 44100 -c:a " +
+                       codec + " " + path("film.flv")));
+    const CommandResult merged = merge("film.flv", "track.flac", "felt.mkv");
+    ASSERT_EQ(merged.status, 0) << merged.text;
+    for (const char* stream : {"v:0", "a:0"}) {
+      EXPECT_EQ(packets("felt.mkv", stream), packets("film.flv", stream)) << stream;
+    }
+  }
+  ASSERT_TRUE(ffmpeg("-i " + path("film.avi") + " -an -c:v libx264 " + path("film.flv")));
+  expect_contains(merge("film.flv", "track.flac", "felt.mkv").text, "has no sound");
+}
+
+TEST_F(TrackMerge, ARotationThatIsLostIsSaid) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  ASSERT_TRUE(ffmpeg("-i " + path("film.avi") +
+                     " -frames:v 50 -c:v libx264 -preset ultrafast -c:a aac " +
+                     path("upright.mp4")));
+  ASSERT_TRUE(ffmpeg("-i " + path("upright.mp4") + " -c copy -metadata:s:v rotate=90 " +
+                     path("turned.mp4")));
+  const CommandResult upright = merge("upright.mp4", "track.flac", "felt.mkv");
+  EXPECT_EQ(upright.status, 0);
+  EXPECT_EQ(upright.text, "");
+  const CommandResult turned = merge("turned.mp4", "track.flac", "felt.mkv");
+  EXPECT_EQ(turned.status, 0);
+  expect_contains(turned.text, "The pictures are turned (rotate-270)");
 }
 
 TEST_F(TrackMerge, TheTrackComesBackSampleBySample) {
