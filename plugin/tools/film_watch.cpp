@@ -141,8 +141,10 @@ void FilmWatch::choose(GstElement* decoder, gpointer user) {
     if (chosen) gst_pad_add_probe(chosen, kFlow, decoded, user, nullptr);
     if (!chosen || gst_pad_link(chosen, into) != GST_PAD_LINK_OK) {
       {
+        const std::string why = why_missing(decoder);
         const std::lock_guard<std::mutex> lock(self.lock_);
         self.has_video_ = false;
+        self.why_no_video_ = why;
       }
       GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("There is no video in it."), (nullptr));
     }
@@ -153,7 +155,7 @@ void FilmWatch::choose(GstElement* decoder, gpointer user) {
 std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> end_ns) const {
   const std::lock_guard<std::mutex> lock(lock_);
   if (!has_video_) {
-    return missing_.empty() ? "there is no video in it"
+    return missing_.empty() ? "there is no video in it" + why_no_video_
                             : "its video cannot be decoded: install a " + missing_;
   }
   // What an element warned of comes before what follows from it: "Internal data stream error".

@@ -51,11 +51,12 @@ class FilmWatch {
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
   std::map<GstPad*, Stream> streams_;
-  bool failed_ = false;          // with an error; warnings after it follow from it
-  std::string warning_;          // the first one
-  std::string remark_;           // the first warning of spidarmotion
-  std::string missing_;          // the decoder of the video that is not installed
-  bool has_video_ = true;        // unknown until chosen
+  bool failed_ = false;    // with an error; warnings after it follow from it
+  std::string warning_;    // the first one
+  std::string remark_;     // the first warning of spidarmotion
+  std::string missing_;    // the decoder of the video that is not installed
+  bool has_video_ = true;  // unknown until chosen
+  std::string why_no_video_;
   bool tells_duration_ = false;  // in a header, so that a film that is cut off has it, too
   gint64 duration_ns_ = 0;
   gint64 end_ns_ = 0;  // of what was demuxed

@@ -48,6 +48,7 @@ class FilmReader {
       if (ended || film_.duration_ns <= before_ns) break;
       ended = read_from(film_.duration_ns - before_ns);
     }
+    missing_ = why_missing(parser_);
     file_.stop();
     return result(ended);
   }
@@ -74,7 +75,7 @@ class FilmReader {
   }
 
   Film result(bool ended) {
-    if (film_.packets.empty()) throw std::runtime_error("there are no pictures in it");
+    if (film_.packets.empty()) throw std::runtime_error("there are no pictures in it" + missing_);
     std::sort(times_ns_.begin(), times_ns_.end());
     if (!times_ns_.empty()) film_.begin_ns = times_ns_.front();
     for (size_t i = 1; i < times_ns_.size(); ++i) {
@@ -189,6 +190,7 @@ class FilmReader {
   std::vector<int64_t> times_ns_;
   int64_t last_ns_ = 0, last_length_ns_ = 0;
   Film film_;
+  std::string missing_;  // why there are no pictures
 };
 
 }  // namespace

@@ -2,8 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/track/film_streams.h"
 
-#include <utility>
-
 #include "core/track/track_format.h"
 #include "plugin/track/track_input.h"
 
@@ -41,26 +39,22 @@ std::string describe_sound(const GstCaps* caps) {
   return std::to_string(sound.channels) + " channels, " + std::to_string(sound.rate_Hz) + " Hz";
 }
 
-StreamsWatch::StreamsWatch(GstElement* parsebin, std::function<void()> known)
-    : known_(std::move(known)) {
-  g_signal_connect(parsebin, "pad-added", G_CALLBACK(added), this);
-}
-
-void StreamsWatch::added(GstElement*, GstPad* pad, gpointer self) {
-  constexpr auto kData =
-      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
-                                   GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
-  gst_pad_add_probe(pad, kData, flows, self, nullptr);
-}
-
-GstPadProbeReturn StreamsWatch::flows(GstPad*, GstPadProbeInfo* info, gpointer self) {
-  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
-    const GstEventType type = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info));
-    if (type != GST_EVENT_EOS && type != GST_EVENT_GAP) return GST_PAD_PROBE_OK;
+std::string why_missing(GstElement* bin) {
+  bool is_mp4 = false;
+  GstIterator* elements = gst_bin_iterate_recurse(GST_BIN(bin));
+  GValue item = G_VALUE_INIT;
+  while (gst_iterator_next(elements, &item) == GST_ITERATOR_OK) {
+    GstElementFactory* const factory =
+        gst_element_get_factory(GST_ELEMENT(g_value_get_object(&item)));
+    is_mp4 = is_mp4 || (factory && g_strcmp0(GST_OBJECT_NAME(factory), "qtdemux") == 0);
+    g_value_reset(&item);
   }
-  auto& watch = *static_cast<StreamsWatch*>(self);
-  std::call_once(watch.once_, [&watch] { watch.known_(); });
-  return GST_PAD_PROBE_REMOVE;
+  g_value_unset(&item);
+  gst_iterator_free(elements);
+  if (!is_mp4) return {};
+  return " (GStreamer leaves out what is shorter than a fifth of an MP4 or MOV film; in a copy "
+         "made "
+         "by ffmpeg -i FILM -c copy FILM.mkv it is there)";
 }
 
 GstCaps* caps_of(GstPad* pad) {

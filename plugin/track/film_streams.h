@@ -3,8 +3,6 @@
 /// What kind of stream it is that a film has.
 #pragma once
 
-#include <functional>
-#include <mutex>
 #include <string>
 
 #include <gst/gst.h>
@@ -24,22 +22,9 @@ StreamKind kind_of(const GstCaps* caps);
 /// "2 channels, 48000 Hz"; empty when the caps do not say so.
 std::string describe_sound(const GstCaps* caps);
 
-/// Calls `known` once, in a streaming thread, when all streams that a parsebin has found have
-/// become pads and the first of them begins to flow. What is linked then loses nothing.
-class StreamsWatch {
- public:
-  /// Outlived by this.
-  StreamsWatch(GstElement* parsebin, std::function<void()> known);
-  StreamsWatch(const StreamsWatch&) = delete;
-  StreamsWatch& operator=(const StreamsWatch&) = delete;
-
- private:
-  static void added(GstElement* parsebin, GstPad* pad, gpointer self);
-  static GstPadProbeReturn flows(GstPad* pad, GstPadProbeInfo* info, gpointer self);
-
-  const std::function<void()> known_;
-  std::once_flag once_;
-};
+/// Why no pictures, or no sound, come from the demuxers in `bin`, as the rest of a sentence; empty
+/// unless there is a known reason.
+std::string why_missing(GstElement* bin);
 
 /// Current caps, else what the pad could have. Owned by the caller.
 GstCaps* caps_of(GstPad* pad);

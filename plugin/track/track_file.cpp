@@ -3,6 +3,7 @@
 #include "plugin/track/track_file.h"
 
 #include <algorithm>
+#include <atomic>
 #include <stdexcept>
 #include <utility>
 
@@ -14,51 +15,65 @@
 namespace spidar {
 namespace {
 
+/// Which stream of a file is taken for the track.
+enum class Wanted { kHapticTrack, kFirstSound };
+
 struct Reading {
   const FilePipeline& file;
   const bool only_notes;
+  const Wanted wanted;
   TrackInput input;
   TrackFile track;
   std::string problem;
   bool has_caps = false;
-  bool is_alone = true;  // the file has no other stream
+  std::atomic<bool> is_chosen{false};
+  std::atomic<bool> has_sound{false};
+  std::atomic<int> ended{0};  // streams
 };
 
-/// Called when all streams of the file are known: decodes the haptic track, or else the first
-/// sound, so that the reason for refusing it can be reported. All other streams are ignored.
-void choose_stream(Reading& reading, GstElement* parser) {
-  reading.is_alone = parser->numsrcpads == 1;
-  GstPad* chosen = nullptr;
-  StreamKind kind = StreamKind::kOther;
-  for (GList* i = parser->srcpads; i; i = i->next) {
-    auto* const pad = static_cast<GstPad*>(i->data);
-    GstCaps* caps = caps_of(pad);
-    const StreamKind this_kind = kind_of(caps);
-    gst_caps_unref(caps);
-    const bool is_better = this_kind == StreamKind::kHapticTrack
-                               ? kind != StreamKind::kHapticTrack
-                               : this_kind == StreamKind::kSound && !chosen;
-    if (!is_better) continue;
-    chosen = pad;
-    kind = this_kind;
-  }
-  for (GList* i = parser->srcpads; i; i = i->next) {
-    auto* const pad = static_cast<GstPad*>(i->data);
-    GstElement* taker = pad == chosen ? reading.file.find("decode") : reading.file.add_fakesink();
-    GstPad* sink = gst_element_get_static_pad(taker, "sink");
-    gst_pad_link(pad, sink);
-    gst_object_unref(sink);
-  }
-  if (chosen) return;
-  GST_ELEMENT_ERROR(parser, STREAM, WRONG_TYPE, ("There is no haptic track in it, and no sound."),
-                    ("No stream of sound."));
-}
-
-/// Ends reading before the end of the file.
-void give_up(GstPad* pad) {
-  GstElement* const element = GST_PAD_PARENT(pad);
+/// Ends reading before the end of the file, or where no stream is decoded.
+void give_up(GstElement* element) {
   gst_element_post_message(
       element, gst_message_new_application(GST_OBJECT(element), gst_structure_new_empty("enough")));
+}
+
+bool is_wanted(const Reading& reading, StreamKind kind) {
+  if (reading.is_chosen) return false;
+  return kind == StreamKind::kHapticTrack ||
+         (reading.wanted == Wanted::kFirstSound && kind == StreamKind::kSound);
+}
+
+/// Links a stream when it begins to flow: it may be found while others flow already. The first
+/// that is wanted is decoded, and all others are ignored.
+GstPadProbeReturn link_stream(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  auto& reading = *static_cast<Reading*>(user);
+  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
+    const GstEventType type = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info));
+    if (type != GST_EVENT_EOS && type != GST_EVENT_GAP) return GST_PAD_PROBE_OK;
+    GstElement* const parser = GST_PAD_PARENT(pad);
+    const bool all = type == GST_EVENT_EOS && ++reading.ended == parser->numsrcpads;
+    if (all && !reading.is_chosen) give_up(parser);
+  }
+  reading.file.advance();
+  if (gst_pad_is_linked(pad)) return GST_PAD_PROBE_OK;
+  GstCaps* caps = caps_of(pad);
+  const StreamKind kind = kind_of(caps);
+  gst_caps_unref(caps);
+  if (kind == StreamKind::kSound) reading.has_sound = true;
+  const bool chosen = is_wanted(reading, kind);
+  if (chosen) reading.is_chosen = true;
+  GstElement* taker = chosen ? reading.file.find("decode") : reading.file.add_fakesink();
+  GstPad* sink = gst_element_get_static_pad(taker, "sink");
+  gst_pad_link(pad, sink);
+  gst_object_unref(sink);
+  return GST_PAD_PROBE_OK;
+}
+
+void add_stream(GstElement*, GstPad* pad, gpointer user) {
+  constexpr auto kFlow =
+      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
+                                   GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
+  gst_pad_add_probe(pad, kFlow, link_stream, user, nullptr);
 }
 
 /// Runs in the streaming thread of the pipeline that reads the file.
@@ -70,7 +85,7 @@ void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
     reading.problem = reading.input.set_caps(caps);
     gst_caps_unref(caps);
     reading.has_caps = true;
-    if (reading.only_notes || !reading.problem.empty()) give_up(pad);
+    if (reading.only_notes || !reading.problem.empty()) give_up(GST_PAD_PARENT(pad));
   }
   if (reading.only_notes || !reading.problem.empty()) return;
   GstSegment segment;
@@ -82,7 +97,7 @@ void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
     }
     reading.problem = "its samples reach to " + std::to_string(block.begin_ns / GST_SECOND) +
                       " s, and a track lasts at most 24 h: is a timestamp in it wrong?";
-    give_up(pad);
+    give_up(GST_PAD_PARENT(pad));
     return GST_FLOW_EOS;
   });
 }
@@ -109,16 +124,17 @@ void finish(Reading& reading) {
   reading.track.faults = reading.input.faults();
 }
 
-TrackFile read(const std::string& path, bool only_notes, const std::atomic<bool>* stopped) {
+TrackFile read(const std::string& path, bool only_notes, const std::atomic<bool>* stopped,
+               Wanted wanted = Wanted::kHapticTrack) {
   const FilePipeline file(
       "filesrc name=source ! parsebin name=parse decodebin name=decode ! audio/x-raw ! "
       "fakesink name=out signal-handoffs=true sync=false",
       path, stopped);
-  Reading reading{file, only_notes, {}, {}, {}};
+  Reading reading{file, only_notes, wanted, {}, {}, {}};
   GstElement* const out = file.find("out");
   GstElement* const parser = file.find("parse");
   g_signal_connect(out, "handoff", G_CALLBACK(take_buffer), &reading);
-  const StreamsWatch streams(parser, [&] { choose_stream(reading, parser); });
+  g_signal_connect(parser, "pad-added", G_CALLBACK(add_stream), &reading);
   struct Stop {
     const FilePipeline& file;
     ~Stop() { file.stop(); }
@@ -129,12 +145,18 @@ TrackFile read(const std::string& path, bool only_notes, const std::atomic<bool>
   gst_object_unref(pad);
   gint64 promised_ns = 0;
   // For a film this is the duration of its longest stream.
-  if (reading.is_alone &&
+  if (parser->numsrcpads == 1 &&
       gst_element_query_duration(file.pipeline(), GST_FORMAT_TIME, &promised_ns)) {
     reading.track.promised_ns = promised_ns;
   }
   file.stop();
   if (!reading.problem.empty()) throw std::runtime_error(reading.problem);
+  if (!reading.is_chosen) {
+    if (!reading.has_sound) {
+      throw std::runtime_error("There is no haptic track in it, and no sound.");
+    }
+    return read(path, only_notes, stopped, Wanted::kFirstSound);  // which tells why it is none
+  }
   if (!only_notes) finish(reading);
   return std::move(reading.track);
 }

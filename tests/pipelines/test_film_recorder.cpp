@@ -101,6 +101,12 @@ TEST_F(FilmRecorder, WhatHasNoMotionSaysSo) {
   run_pipeline("audiotestsrc num-buffers=20 ! matroskamux ! filesink location=" +
                path("sound.mkv"));
   expect_refused("sound.mkv", "there is no video in it");
+  // qtdemux takes such pictures for a preview.
+  run_pipeline("qtmux name=mux ! filesink location=" + path("short.mp4") +
+               " videotestsrc num-buffers=25 ! video/x-raw,framerate=25/1 ! jpegenc ! mux. "
+               "audiotestsrc num-buffers=300 samplesperbuffer=1000 ! "
+               "audio/x-raw,rate=48000 ! mux.");
+  expect_refused("short.mp4", "there is no video in it (GStreamer leaves out what is shorter");
   run_pipeline("videotestsrc num-buffers=1 ! pngenc ! filesink location=" + path("picture.png"));
   expect_refused("picture.png", "it is a single picture");
 }
