@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <filesystem>
 #include <iostream>
 
 #include "plugin/tools/spidartrack_commands.h"
@@ -14,7 +15,8 @@ namespace {
 constexpr const char* kHelp = R"(usage: spidartrack convert FROM TO [OPTION]...
 
 FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), or a trace of
-spidarmotion (.csv, .jsonl). TO is what its name ends in: .flac, .mka, .wav, .hjif or .funscript.
+spidarmotion (.csv, .jsonl). TO is what its name ends in: .flac, .mka, .wav, .hjif or .funscript;
+a file of this name is replaced when the new one is complete. A funscript is only written.
 
   --tolerance SHARE  of the full scale, by which HJIF may differ between its keyframes; 0.0004
   --axis CHANNEL     that a funscript has: fx, fy, fz, tx, ty or tz; fy
@@ -46,6 +48,10 @@ int convert_track_command(int argc, char** argv) {
     return kDone;
   }
   if (operands.size() != 2) throw UsageError("FROM and TO are needed, and nothing else");
+  std::error_code none;
+  if (std::filesystem::equivalent(operands[0], operands[1], none)) {
+    throw UsageError(operands[1] + ": is to be another file than " + operands[0]);
+  }
   TrackCondition condition;
   const std::vector<TrackSample> samples = load_track(operands[0], &condition);
   options.notes = condition.notes;

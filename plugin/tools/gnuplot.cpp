@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/gnuplot.h"
 
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -14,7 +15,8 @@
 
 namespace spidar {
 
-Gnuplot::Gnuplot(int out) {
+Gnuplot::Gnuplot(int out) : complaints_(std::tmpfile(), std::fclose) {
+  if (!complaints_) throw std::runtime_error(std::string("gnuplot: ") + std::strerror(errno));
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) {
     throw std::runtime_error(std::string("gnuplot: ") + std::strerror(errno));
@@ -23,6 +25,7 @@ Gnuplot::Gnuplot(int out) {
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, ends[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&files, fileno(complaints_.get()), STDERR_FILENO);
   // The signals that this program blocks or ignores are to end gnuplot.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -52,7 +55,20 @@ Gnuplot::~Gnuplot() {
 }
 
 void Gnuplot::finish() {
-  if (end() != 0) throw std::runtime_error("gnuplot could not draw the picture");
+  if (end() != 0) throw std::runtime_error("gnuplot could not draw the picture" + complaint());
+}
+
+/// The last line that it wrote. Its warnings, of fonts for example, do not matter if it succeeds.
+std::string Gnuplot::complaint() const {
+  std::rewind(complaints_.get());
+  std::string last;
+  char line[256];
+  while (std::fgets(line, sizeof line, complaints_.get())) {
+    std::string text = line;
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+    if (!text.empty()) last = ": " + text;
+  }
+  return last;
 }
 
 /// Its status, as waitpid() reports it; 0 when it has ended before.

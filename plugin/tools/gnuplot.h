@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdio>
+#include <memory>
+#include <string>
 #include <sys/types.h>
 
 namespace spidar {
@@ -27,8 +29,10 @@ class Gnuplot {
 
  private:
   int end();
+  std::string complaint() const;
 
   FILE* input_ = nullptr;
+  std::unique_ptr<FILE, int (*)(FILE*)> complaints_;  // what it writes to its standard error
   pid_t process_ = -1;
 };
 

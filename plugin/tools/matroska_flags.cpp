@@ -39,13 +39,13 @@ void clear_track_flags(const std::string& path, const std::string& name) {
   const size_t tracks = head.find("\x16\x54\xAE\x6B");
   const size_t at = tracks == std::string::npos ? tracks : head.find(before, tracks);
   if (at == std::string::npos) {
-    throw std::runtime_error(path + ": there is no track \"" + name + "\" to be marked");
+    throw std::runtime_error("there is no track \"" + name + "\" to be marked in the result");
   }
   const std::string after = name_element(name) + std::string(kFlags, sizeof kFlags);
   file.seekp(static_cast<std::streamoff>(at));
   file.write(after.data(), static_cast<std::streamsize>(after.size()));
   file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
+  if (!file) throw std::runtime_error("the result cannot be written; the disk may be full");
 }
 
 }  // namespace spidar

@@ -33,8 +33,16 @@ Registry& registry() {
   return *all;
 }
 
-std::runtime_error failure(const std::string& path, int error) {
-  return std::runtime_error(path + ": " + std::strerror(error));
+std::runtime_error failure(const fs::path& target, int error) {
+  const fs::path folder = target.parent_path();
+  std::error_code none;
+  if (!folder.empty() && !fs::is_directory(folder, none)) {
+    return std::runtime_error(target.string() + ": there is no folder " + folder.string() +
+                              (target.string().find("://") == std::string::npos
+                                   ? ""
+                                   : "; a file name is needed, not a URI"));
+  }
+  return std::runtime_error(target.string() + ": cannot be written: " + std::strerror(error));
 }
 
 /// Whether the open file is still the one of this name: its last owner may have renamed or removed
@@ -46,11 +54,12 @@ bool is_at(int descriptor, const std::string& path) {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// An open and locked file; −1 when another process has locked it. Throws std::runtime_error.
-int open_locked(const std::string& path) {
+/// An open and locked file; −1 when another process has locked it. Throws std::runtime_error, which
+/// names `target`.
+int open_locked(const std::string& path, const fs::path& target) {
   for (;;) {
     const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor < 0) throw failure(path, errno);
+    if (descriptor < 0) throw failure(target, errno);
     // Some network file systems have no locks: only this process is then kept from writing it
     // twice.
     const bool taken = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
@@ -101,16 +110,16 @@ bool PartFile::take(const fs::path& target) {
   path_ = (target.parent_path() / (".part-" + target.filename().string())).string();
   const std::lock_guard<std::mutex> lock(registry().mutex);
   if (registry().paths.count(path_) > 0) return false;
-  descriptor_ = open_locked(path_);
+  descriptor_ = open_locked(path_, target);
   if (descriptor_ < 0) return false;
   registry().paths.insert(path_);
-  if (ftruncate(descriptor_, 0) != 0) throw failure(path_, errno);
+  if (ftruncate(descriptor_, 0) != 0) throw failure(target_, errno);
   return true;
 }
 
 void PartFile::publish(Existing existing) {
   // Some file systems notice only now that the disk is full.
-  if (fsync(descriptor_) != 0 && errno != EINVAL) throw failure(path_, errno);
+  if (fsync(descriptor_) != 0 && errno != EINVAL) throw failure(target_, errno);
   const std::lock_guard<std::mutex> lock(registry().mutex);
   const unsigned flags = existing == Existing::kKeep ? RENAME_NOREPLACE : 0;
   int status = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), flags);

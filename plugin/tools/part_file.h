@@ -25,6 +25,8 @@ class PartFile {
   static std::unique_ptr<PartFile> claim(const std::filesystem::path& target);
 
   const std::string& path() const { return path_; }
+  /// The name that it will have, for messages.
+  const std::string& target() const { return target_; }
   /// Open for reading and writing.
   int descriptor() const { return descriptor_; }
 

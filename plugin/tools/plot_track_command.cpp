@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <unistd.h>
@@ -155,6 +156,10 @@ int plot_track_command(int argc, char** argv) {
     return kDone;
   }
   if (operands.size() != 2) throw UsageError("TRACK and PNG are needed, and nothing else");
+  const std::string ending = std::filesystem::path(operands[1]).extension().string();
+  if (!ending.empty() && ending != ".png") {
+    throw UsageError(operands[1] + ": the picture is a PNG, and its name ends in .png");
+  }
   TrackCondition condition;
   const std::vector<TrackSample> samples = load_track(operands[0], &condition);
   if (samples.empty()) throw std::runtime_error(operands[0] + ": has no samples to draw");

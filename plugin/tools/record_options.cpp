@@ -65,6 +65,11 @@ RecordOptions parse_record_options(int argc, char** argv) {
     return options;
   }
   if (options.films.empty()) throw UsageError("no FILM given");
+  for (const std::string& film : options.films) {
+    if (film.find('=') == std::string::npos || fs::exists(film)) continue;
+    throw UsageError(film + ": there is no such film; properties follow --: spidartrack record " +
+                     "FILM -- " + film);
+  }
   if (encoder_of("." + options.format).empty()) {
     throw UsageError("--format: \"" + options.format + "\" is none of flac, mka, wav");
   }

@@ -57,6 +57,12 @@ void RecordReport::there(size_t film, const std::string& what) {
   print(std::cout, film, what);
 }
 
+void RecordReport::given_twice(size_t film) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++twice_;
+  print(std::cout, film, "is given twice");
+}
+
 void RecordReport::failed(size_t film, const std::string& cause) {
   const std::lock_guard<std::mutex> lock(mutex_);
   failures_.emplace_back(film, cause);
@@ -72,8 +78,9 @@ void RecordReport::note(size_t film, const std::string& text) {
 bool RecordReport::finish() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (films_.size() > 1) {
-    std::cout << recorded_ << " recorded, " << there_ << " there, " << failures_.size() << " failed"
-              << (failures_.empty() ? "" : ":") << '\n';
+    std::cout << recorded_ << " recorded, " << there_ << " there, "
+              << (twice_ > 0 ? std::to_string(twice_) + " given twice, " : "") << failures_.size()
+              << " failed" << (failures_.empty() ? "" : ":") << '\n';
     for (const auto& [film, cause] : failures_) {
       std::cout << "  " << one_line(films_[film]) << ": " << one_line(cause) << '\n';
     }
@@ -91,7 +98,7 @@ void RecordReport::print(std::ostream& out, size_t film, const std::string& text
 
 void RecordReport::draw() const {
   if (!is_terminal_ || in_work_.empty()) return;
-  std::string line = std::to_string(recorded_ + there_ + failures_.size()) + " of " +
+  std::string line = std::to_string(recorded_ + there_ + twice_ + failures_.size()) + " of " +
                      std::to_string(films_.size()) + " done";
   for (const auto& [film, percent] : in_work_) {
     const std::string& name = films_[film];

@@ -23,6 +23,7 @@ class RecordReport {
   void recorded(size_t film, const std::string& track);
   /// There is nothing to do for it: `what` says so.
   void there(size_t film, const std::string& what);
+  void given_twice(size_t film);
   void failed(size_t film, const std::string& cause);
   /// Something else about a film that is not done.
   void note(size_t film, const std::string& text);
@@ -39,7 +40,7 @@ class RecordReport {
   const bool is_terminal_;
   std::mutex mutex_;
   std::map<size_t, int> in_work_;  // film and percent
-  size_t recorded_ = 0, there_ = 0;
+  size_t recorded_ = 0, there_ = 0, twice_ = 0;
   std::vector<std::pair<size_t, std::string>> failures_;
 };
 

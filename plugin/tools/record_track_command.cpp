@@ -79,7 +79,7 @@ class FilmBatch {
       if (is_new) {
         waiting_.push_back({i});
       } else if (fs::equivalent(film, other, none)) {
-        report_.there(i, "is given twice");
+        report_.given_twice(i);
       } else {
         report_.failed(i, options_.track_of(film).string() + " is for " + other +
                               "; give films of the same name different folders");

@@ -49,7 +49,12 @@ class TraceSampler {
     take_until(sampler_.settled_ns(INT64_MAX / 4));
   }
 
-  std::vector<TrackSample> finish() {
+  /// Throws std::runtime_error when there was no frame.
+  std::vector<TrackSample> finish(const std::string& path) {
+    if (last_ns_ < 0) {
+      throw std::runtime_error(path +
+                               ": is a trace without frames; a film has to be played for it");
+    }
     sampler_.add({last_ns_ + interval_ns_, 0, Wrench(), false});
     take_until(last_ns_ + interval_ns_);
     return std::move(samples_);
@@ -90,7 +95,7 @@ std::vector<TrackSample> read_csv_trace(const std::string& path, const std::stri
     sampler.add(static_cast<int64_t>(cells[1]),
                 {{value[0], value[1], value[2]}, {value[3], value[4], value[5]}}, false, false);
   }
-  return sampler.finish();
+  return sampler.finish(path);
 }
 
 std::vector<TrackSample> read_json_trace(const std::string& path, const std::string& text) {
@@ -119,7 +124,7 @@ std::vector<TrackSample> read_json_trace(const std::string& path, const std::str
     }
   }
   if (line == 0) throw std::runtime_error(path + ": is empty, and no trace of spidarmotion");
-  return sampler.finish();
+  return sampler.finish(path);
 }
 
 }  // namespace spidar

@@ -2,18 +2,24 @@
 // Copyright 2026 the gst-spidar authors
 #include <iomanip>
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
+#include "plugin/track/film_reader.h"
+#include "plugin/track/sidecar.h"
+#include "plugin/track/track_file.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
 
 namespace spidar {
 namespace {
 
-constexpr const char* kInfoHelp = R"(usage: spidartrack info TRACK [--json]
+constexpr const char* kInfoHelp = R"(usage: spidartrack info TRACK|FILM [--json]
 
+Of a film: whether a haptic track is inside it or beside it, and belongs to it; then as of the track.
 How long a track is, and how large: largest force and torque, steepest change, peak and mean square
 of each channel in shares of the full scale (10 N, 1 N m), and how much of its energy is above 30 Hz.
 )";
@@ -36,9 +42,47 @@ std::string only_operand(const std::vector<std::string>& operands) {
   return operands[0];
 }
 
-void print_json(const std::string& path, size_t count, const TrackFaults& faults,
+/// A JSON string; bytes that are not UTF-8 become U+FFFD.
+std::string json_string(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// A film that was given instead of a track.
+struct FilmOfTrack {
+  std::string film;   ///< empty: a track was given
+  std::string track;  ///< the film itself when the track is inside it
+  std::string other;  ///< why the track is that of another film; empty when it is not
+};
+
+/// Throws std::runtime_error when `path` is a film without a track.
+FilmOfTrack find_track(const std::string& path) {
+  for (const char* end : {".flac", ".wav", ".mka", ".hjif", ".csv", ".jsonl", ".funscript"}) {
+    if (ends_with(path, end)) return {{}, path, {}};
+  }
+  Film film;
+  try {
+    film = read_film(path);
+  } catch (const std::runtime_error&) {
+    return {{}, path, {}};  // reading the track will tell why
+  }
+  if (film.has_track) return {path, path, {}};
+  const std::string sidecar = find_sidecar(path);
+  if (sidecar.empty()) {
+    throw std::runtime_error(path + ": is a film without a haptic track, inside it or beside it; " +
+                             "spidartrack record makes one");
+  }
+  const TrackFile track = read_track_file(sidecar);
+  return {path, sidecar, other_film(film, track.duration_ns, track.notes)};
+}
+
+void print_json(const FilmOfTrack& found, size_t count, const TrackFaults& faults,
                 const TrackSummary& summary) {
-  std::cout << "{\"track\":" << std::quoted(path) << ",\"samples\":" << count
+  std::cout << "{";
+  if (!found.film.empty()) {
+    std::cout << "\"film\":" << json_string(found.film)
+              << ",\"belongs\":" << (found.other.empty() ? "true" : "false") << ",";
+  }
+  std::cout << "\"track\":" << json_string(found.track) << ",\"samples\":" << count
             << ",\"rate_Hz\":" << kTrackRate_Hz
             << ",\"largest_force_N\":" << summary.largest_force_N
             << ",\"largest_torque_Nm\":" << summary.largest_torque_Nm
@@ -63,14 +107,21 @@ int track_info_command(int argc, char** argv) {
     std::cout << kInfoHelp;
     return kDone;
   }
-  const std::string path = only_operand(operands);
+  const FilmOfTrack found = find_track(only_operand(operands));
+  const std::string& path = found.track;
   TrackCondition condition;
   const std::vector<TrackSample> samples = load_track(path, &condition);
   const TrackFaults& faults = condition.faults;
   const TrackSummary summary = summarise(samples);
   if (json) {
-    print_json(path, samples.size(), faults, summary);
+    print_json(found, samples.size(), faults, summary);
     return kDone;
+  }
+  if (!found.film.empty()) {
+    std::cout << found.film << ": the haptic track is "
+              << (found.film == path ? "inside the film" : "beside the film")
+              << (found.other.empty() ? "" : ", but is that of another film: " + found.other)
+              << '\n';
   }
   std::cout << path << ": " << samples.size() << " samples, "
             << static_cast<double>(samples.size()) / kTrackRate_Hz << " s\n"

@@ -51,11 +51,11 @@ std::vector<TrackSample> samples_of(const TrackFile& track) {
   return samples;
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
+void write_text(const PartFile& part, const std::string& text) {
+  std::ofstream file(part.path(), std::ios::binary);
   file << text;
   file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
+  if (!file) throw std::runtime_error(part.target() + ": cannot be written; the disk may be full");
 }
 
 /// Positions from 0 to 100 with 50 in the middle, wherever a straight line between the neighbouring
@@ -79,11 +79,11 @@ std::string funscript(const std::vector<TrackSample>& samples, size_t axis) {
   return out.str();
 }
 
-void write_sound(const std::string& path, const std::string& encoder,
+void write_sound(const PartFile& part, const std::string& encoder,
                  const std::vector<TrackSample>& samples, const TrackNotes& notes) {
-  const PartFile raw(path + ".raw");
+  const PartFile raw(part.target() + ".raw");
   const auto* bytes = reinterpret_cast<const char*>(samples.data());
-  write_text(raw.path(), std::string(bytes, samples.size() * sizeof(TrackSample)));
+  write_text(raw, std::string(bytes, samples.size() * sizeof(TrackSample)));
   run_pipeline(
       "filesrc name=raw_file ! "
       "rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
@@ -91,7 +91,7 @@ void write_sound(const std::string& path, const std::string& encoder,
           encoder + " ! filesink name=file",
       [&](GstElement* pipeline) {
         set_location(pipeline, "raw_file", raw.path());
-        set_location(pipeline, "file", path);
+        set_location(pipeline, "file", part.path());
         GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "samples");
         GstPad* pad = gst_element_get_static_pad(element, "src");
         tag_track(pad, notes);
@@ -183,6 +183,11 @@ void await_message(GstElement* pipeline, GstMessageType awaited, GstClockTime li
 
 std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition) {
   if (condition) *condition = {};
+  if (ends_with(path, ".funscript")) {
+    throw std::runtime_error(path +
+                             ": a funscript has one of the six channels of a track, so it is "
+                             "written, but not read; use the track that it was made from");
+  }
   if (ends_with(path, ".hjif")) return read_hjif(read_text(path));
   if (ends_with(path, ".csv")) return read_csv_trace(path, read_text(path));
   if (ends_with(path, ".jsonl")) return read_json_trace(path, read_text(path));
@@ -200,11 +205,11 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
   }
   PartFile part(path);
   if (!encoder.empty()) {
-    write_sound(part.path(), encoder, samples, options.notes);
+    write_sound(part, encoder, samples, options.notes);
   } else if (is_hjif) {
-    write_text(part.path(), write_hjif(samples, options.hjif_tolerance));
+    write_text(part, write_hjif(samples, options.hjif_tolerance));
   } else {
-    write_text(part.path(), funscript(samples, options.funscript_axis));
+    write_text(part, funscript(samples, options.funscript_axis));
   }
   part.publish();
 }

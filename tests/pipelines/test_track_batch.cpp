@@ -83,6 +83,7 @@ TEST_F(TrackBatch, FilmsOfOneNameHaveTracksOfTheirOwn) {
   const CommandResult twice = record("A/y.avi ./A/y.avi");
   EXPECT_EQ(twice.status, 0) << twice.text;
   expect_contains(twice.text, "is given twice");
+  expect_contains(twice.text, "there, 1 given twice, 0 failed\n");
   expect_no_part_files();
 }
 

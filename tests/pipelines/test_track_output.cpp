@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <thread>
@@ -188,6 +189,91 @@ TEST_F(TrackOutput, ATraceWithAWildTimeIsRefused) {
       run(BOUNDED SPIDARTRACK " convert " + path("wild.jsonl") + " " + path("a.wav"));
   EXPECT_EQ(json.status, 1);
   expect_contains(json.text, "wild.jsonl:1: the stream time is 1e+06 s");
+}
+
+TEST_F(TrackOutput, MessagesNameTheOutputThatWasGiven) {
+  save("a.flac");
+  std::vector<std::string> commands = {"convert a.flac none/b.flac", "convert a.flac none/b.hjif"};
+  if (has_gnuplot()) commands.emplace_back("plot a.flac none/b.png");
+  for (const std::string& command : commands) {
+    SCOPED_TRACE(command);
+    const CommandResult result = run("cd " + path("") + " && " SPIDARTRACK " " + command);
+    EXPECT_EQ(result.status, 1);
+    expect_contains(result.text, "spidartrack: none/b.");
+    expect_contains(result.text, ": there is no folder none\n");
+  }
+  const CommandResult uri = spidartrack("convert " + path("a.flac") + " file:///tmp/b.flac");
+  EXPECT_EQ(uri.status, 1);
+  expect_contains(uri.text, "file:///tmp/b.flac: there is no folder file:///tmp; a file name is");
+}
+
+TEST_F(TrackOutput, MistakesAreNamed) {
+  save("a.flac");
+  const std::string a = path("a.flac");
+  const CommandResult jpeg = spidartrack("plot " + a + " " + path("a.jpg"));
+  EXPECT_EQ(jpeg.status, 2);
+  expect_contains(jpeg.text, "a.jpg: the picture is a PNG");
+  const CommandResult same = run("cd " + path("") + " && " SPIDARTRACK " convert a.flac ./a.flac");
+  EXPECT_EQ(same.status, 2);
+  expect_contains(same.text, "./a.flac: is to be another file than a.flac");
+  const CommandResult property = spidartrack("record film.mp4 motion=camera");
+  EXPECT_EQ(property.status, 2);
+  expect_contains(property.text, "spidartrack record FILM -- motion=camera");
+
+  ASSERT_EQ(spidartrack("convert " + a + " " + path("a.funscript")).status, 0);
+  const CommandResult funscript = spidartrack("info " + path("a.funscript"));
+  EXPECT_EQ(funscript.status, 1);
+  expect_contains(funscript.text, "written, but not read");
+
+  std::ofstream(path("empty.csv"))
+      << "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
+         "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit\n";
+  const CommandResult empty = spidartrack("convert " + path("empty.csv") + " " + path("b.flac"));
+  EXPECT_EQ(empty.status, 1);
+  expect_contains(empty.text, "empty.csv: is a trace without frames");
+}
+
+TEST_F(TrackOutput, WhatGnuplotSaysIsPartOfTheMessage) {
+  save("a.flac");
+  fs::create_directory(path("bin"));
+  std::ofstream(path("bin/gnuplot")) << "#!/bin/sh\necho some warning >&2\ncat > /dev/null\n"
+                                        "echo no terminal >&2\nexit 1\n";
+  fs::permissions(path("bin/gnuplot"), fs::perms::owner_all);
+  EXPECT_EQ(run("PATH=" + path("bin") + ":$PATH " SPIDARTRACK " plot " + path("a.flac") + " " +
+                path("a.png"))
+                .text,
+            "spidartrack: gnuplot could not draw the picture: no terminal\n");
+}
+
+TEST_F(TrackOutput, InfoOfAFilmIsThatOfItsTrack) {
+  for (const std::string name : {"film.avi", "two\nlines.avi", "a\"b\\.avi", "\xff\xfe.avi"}) {
+    SCOPED_TRACE(name);
+    run_pipeline(
+        "videotestsrc num-buffers=25 ! video/x-raw,width=64,height=48,framerate=25/1 ! jpegenc ! "
+        "avimux ! filesink location=" +
+        quoted(path("made.film")));
+    fs::rename(path("made.film"), path(name));
+    const auto info = [&](const std::string& options) {
+      return spidartrack("info " + shell_word(path(name)) + options);
+    };
+    EXPECT_EQ(info("").status, 1);
+    expect_contains(info("").text, "a film without a haptic track, inside it or beside it");
+    for (const bool belongs : {true, false}) {
+      save("made.wav", belongs ? 1000 : 1500);
+      fs::rename(path("made.wav"), path(name + ".haptic.wav"));
+      const CommandResult plain = info("");
+      EXPECT_EQ(plain.status, 0) << plain.text;
+      expect_contains(plain.text, "the haptic track is beside the film");
+      EXPECT_EQ(plain.text.find("of another film") == std::string::npos, belongs) << plain.text;
+      const CommandResult json = info(" --json");
+      const nlohmann::json read = nlohmann::json::parse(json.text, nullptr, false);
+      ASSERT_FALSE(read.is_discarded()) << json.text;
+      EXPECT_EQ(read["belongs"], belongs);
+      if (name[0] != '\xff') {
+        EXPECT_EQ(read["film"], path(name));
+      }
+    }
+  }
 }
 
 }  // namespace
