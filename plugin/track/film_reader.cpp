@@ -121,6 +121,7 @@ class FilmReader {
     GstElement* const sink = file_.add_fakesink();
     GstCaps* caps = caps_of(pad);
     const std::lock_guard<std::mutex> lock(mutex_);
+    film_.has_track = film_.has_track || kind_of(caps) == StreamKind::kHapticTrack;
     if (kind_of(caps) == StreamKind::kVideo && !sink_) {
       sink_ = sink;
       framing_ = framing_of(caps);
