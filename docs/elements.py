@@ -224,8 +224,6 @@ def observed(fields):
 
 def describe(name):
     factory = Gst.ElementFactory.find(name)
-    if factory is None:
-        return []
     element = factory.create(None)
     lines = [f"# {name}", "", WRITTEN, f"{factory.get_metadata('description')}.", "",
              f"Class: `{factory.get_metadata('klass')}`. Parent: `{GObject.type_name(GObject.type_parent(element.__gtype__))}`.",
@@ -268,11 +266,12 @@ def describe(name):
 def pages(fields):
     """Text by file name."""
     written, rows = {}, []
+    for name in ELEMENTS:
+        if Gst.ElementFactory.find(name) is None:
+            sys.exit(f"elements.py: the element {name} was not found; is GST_PLUGIN_PATH set?")
     sections = observed(fields)
     for name in ELEMENTS:
         lines = describe(name)
-        if not lines:
-            sys.exit(f"elements.py: the element {name} was not found; is GST_PLUGIN_PATH set?")
         lines += [line.replace("### ", "## ", 1) if line.startswith("### ") else line for line in sections.get(name, [])]
         written[f"elements/{name}.md"] = "\n".join(lines).rstrip("\n") + "\n"
         rows.append([f"[{name}](elements/{name}.md)", Gst.ElementFactory.find(name).get_metadata("description") + "."])
