@@ -2,11 +2,16 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/device/haptic_output.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "plugin/device/session_stats.h"
+#include "plugin/reports/category.h"
+#include "spidar/profiles/force_range.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/simulation/simulated_device.h"
+
+#define GST_CAT_DEFAULT spidar::category_of(element_)
 
 namespace spidar {
 namespace {
@@ -56,13 +61,19 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
         refreshed_();
       },
       now_ ? now_ : monotonic_now, now_user_, settings.threaded);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  loop.set_limits(limits_);
-  follower->set_latency(latency_);
-  follower->set_offset(offset_ns_);
-  profile_ = profile;
-  session_ = std::move(session);
-  follower_ = std::move(follower);
+  double max_force_N = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    most_force_N_ = largest_force_N(profile);
+    said_too_much_ = false;
+    max_force_N = limits_.max_force_N;
+    follower->set_latency(latency_);
+    follower->set_offset(offset_ns_);
+    profile_ = profile;
+    session_ = std::move(session);
+    follower_ = std::move(follower);
+  }
+  set_max_force(max_force_N);
   return trace_problem;
 }
 
@@ -93,9 +104,25 @@ void HapticOutput::set_offset(GstClockTimeDiff offset_ns) {
 }
 
 void HapticOutput::set_max_force(double max_force_N) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  limits_.max_force_N = max_force_N;
-  if (session_) session_->loop().set_limits(limits_);
+  std::string too_much_for;
+  double most_N = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    limits_.max_force_N = max_force_N;
+    if (!session_) return;
+    SafetyLimits limits = limits_;
+    limits.max_force_N = std::min(max_force_N, most_force_N_);
+    session_->loop().set_limits(limits);
+    if (!(max_force_N > most_force_N_) || said_too_much_) return;
+    said_too_much_ = true;
+    too_much_for = profile_.name;
+    most_N = most_force_N_;
+  }
+  GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                      ("max-force=%g is more than the %.1f N that %s can give in every direction: "
+                       "the force is limited to these.",
+                       max_force_N, most_N, too_much_for.c_str()),
+                      ("Set max-force to %.1f at most.", most_N));
 }
 
 void HapticOutput::set_skipped(int64_t skipped_ns) {

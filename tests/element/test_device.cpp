@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The device while the video plays: it may fail and return, and is always brought to rest.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/profiles/force_range.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
@@ -82,6 +84,26 @@ TEST_F(DeviceTest, IsAtRestWhileAGapIsShown) {
   }
   tick(2 * 40);
   EXPECT_GT(force_N(), 0.1) << "there were two frames again to compare";
+}
+
+TEST_F(DeviceTest, MaxForceIsBoundedByWhatTheProfileCanGive) {
+  open("device=sim max-force=20 controller=nonlinear alpha=1");
+  const double most_N = largest_force_N(h->engine().output().profile());
+  ASSERT_LT(most_N, 20);
+  ASSERT_EQ(h->warnings().size(), 1u);
+  EXPECT_NE(h->warnings()[0].find("max-force=20 is more than the"), std::string::npos)
+      << h->warnings()[0];
+  for (int n = 0; n < 12; ++n) push_next();
+  play();
+  double largest_N = 0;
+  for (int ms = 0; ms < 10 * 40; ++ms) {
+    tick();
+    largest_N = std::max(largest_N, force_N());
+  }
+  EXPECT_LE(largest_N, most_N + 1e-9);
+  EXPECT_GT(largest_N, 0.9 * most_N) << "the limit is not far below what can be given";
+  g_object_set(h->element(), "max-force", 19.0, nullptr);
+  EXPECT_EQ(h->warnings().size(), 1u) << "said once";
 }
 
 TEST_F(DeviceTest, ALossIsAWarningAndTheVideoContinues) {
