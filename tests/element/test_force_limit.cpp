@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Why nothing is felt: each reason in the message, in the stats and in the trace.
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <random>
@@ -291,6 +292,35 @@ GstBuffer* level_frame(const GstVideoInfo& info, int grey) {
   GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
   gst_buffer_memset(buffer, 0, static_cast<guint8>(grey), GST_VIDEO_INFO_SIZE(&info));
   return buffer;
+}
+
+// The store is empty from the beginning.
+TEST_F(ForceLimitTest, TheFilmShakesTheHand) {
+  const auto drain = [&] { loop().vibration().restore(time_ns + 24 * 3600 * 1'000'000'000LL); };
+  // A strobe: the whole picture jumps to and fro.
+  open("device=sim motion=camera filter-min-cutoff=0");
+  play();
+  drain();
+  const auto strobe = [&](int n) { return make_frame(h->info(), n % 2 == 0 ? 0 : 4, 0); };
+  show(kFrames, strobe);
+  expect_everywhere("vibration");
+  ASSERT_EQ(h->warnings().size(), 1u);
+  EXPECT_NE(h->warnings()[0].find("shaken"), std::string::npos) << h->warnings()[0];
+  show(kFrames, strobe);
+  EXPECT_EQ(h->warnings().size(), 1u) << "is said once";
+
+  // A flicker, whose surface comes and goes under the grip: because surfaces rise slowly, this is
+  // less than the action value, which may last for eight hours.
+  frames = 0;
+  open("device=sim touch=luma");
+  play();
+  const int64_t begin_ns = time_ns;
+  loop().vibration().restore(begin_ns + 3600 * 1'000'000'000LL);
+  show(kFrames, [&](int n) { return level_frame(h->info(), n % 2 == 0 ? 20 : 235); });
+  const int64_t taken_ns = loop().vibration().full_at_ns() - begin_ns - 3600 * 1'000'000'000LL;
+  const double mean_m2_s4 = VibrationBudget::kRefill_m2_s4 * static_cast<double>(taken_ns) /
+                            static_cast<double>(time_ns - begin_ns);
+  EXPECT_LT(std::sqrt(mean_m2_s4), VibrationBudget::kActionValue_m_s2);
 }
 
 TEST_F(ForceLimitTest, TouchingTheReasonsAreThoseOfTheContact) {

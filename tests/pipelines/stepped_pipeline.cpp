@@ -134,9 +134,12 @@ void SteppedPipeline::retime(std::function<GstClockTime(int, GstClockTime)> pts)
   gst_object_unref(pad);
 }
 
+HapticLoop& SteppedPipeline::loop() {
+  return engine_->output().session()->loop();
+}
+
 TickRecord SteppedPipeline::tick() {
-  HapticLoop& loop = engine_->output().session()->loop();
-  return watch_.tick(loop, monotonic_ns(this));
+  return watch_.tick(loop(), monotonic_ns(this));
 }
 
 GstClockTime SteppedPipeline::await(guint waiters) {

@@ -73,6 +73,8 @@ class SteppedPipeline {
   /// Drops entries of wrenches() before this running time.
   void forget_before(GstClockTime running_time);
 
+  /// The loop of the element, which step() and idle() tick.
+  HapticLoop& loop();
   GstElement* element() const { return element_; }
   GstElement* sink() const { return sink_; }
   GstElement* pipeline() const { return pipeline_; }

@@ -35,6 +35,14 @@ class TrackReplay : public testing::Test {
     write_track(path, samples);
     return path;
   }
+  double number(const char* name) const {
+    GstStructure* stats = nullptr;
+    double value = 0;
+    g_object_get(pipeline->element(), "stats", &stats, nullptr);
+    EXPECT_TRUE(gst_structure_get_double(stats, name, &value)) << name;
+    gst_structure_free(stats);
+    return value;
+  }
   uint64_t stat(const char* name) const {
     GstStructure* stats = nullptr;
     guint64 value = 0;
@@ -132,6 +140,46 @@ TEST_F(TrackReplay, WithoutASidecarAutoIsAnalysis) {
   pipeline->set_state(GST_STATE_PLAYING);
   for (int i = 0; i < 5; ++i) pipeline->step();
   EXPECT_GE(stat("frames"), 5u);
+}
+
+// ±3 N and ±0.1 N m, which on the default profile's grip of 32.5 mm are another 3 N, turn over 25
+// times a second.
+TEST_F(TrackReplay, ATrackThatShakesIsLoweredAndSaysSo) {
+  const std::string path = (folder.path / "film.wav").string();
+  write_track(path, kFrames * kFrame_ms, [](double ms) {
+    const float sign = std::fmod(ms, 80) < 40 ? 1 : -1;
+    return TrackSample{3 * sign, 0, 0, 0, 0, 0.1F * sign};
+  });
+  open(path);
+  pipeline->set_state(GST_STATE_PLAYING);
+  const auto play = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      pipeline->step();
+      pipeline->idle(39 * GST_MSECOND);
+    }
+  };
+  play(10);
+  EXPECT_LT(number("vibration-left"), 1);
+  EXPECT_EQ(number("vibration-share"), 1);
+  // As after some minutes: the store is empty.
+  const int64_t now_ns = pipeline->loop().snapshot().last.monotonic_ns;
+  pipeline->loop().vibration().restore(now_ns + 24 * 3600 * 1'000'000'000LL);
+  play(30);
+  const double left = number("vibration-left"), share = number("vibration-share");
+  EXPECT_LT(share, 0.1);
+  GstStructure* stats = nullptr;
+  g_object_get(pipeline->element(), "stats", &stats, nullptr);
+  EXPECT_STREQ(gst_structure_get_string(stats, "limit"), "vibration");
+  gst_structure_free(stats);
+  pipeline->await_message(GST_MESSAGE_WARNING);
+  // Neither a seek nor a pause gives anything back, except what comes back with time.
+  pipeline->set_state(GST_STATE_PAUSED);
+  pipeline->idle(10 * GST_MSECOND);
+  pipeline->seek(GST_SECOND);
+  pipeline->set_state(GST_STATE_PLAYING);
+  pipeline->step();
+  EXPECT_LT(number("vibration-left"), left + 1e-4);
+  EXPECT_LT(number("vibration-share"), 0.97);
 }
 
 }  // namespace

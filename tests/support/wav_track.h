@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include "core/track/track_format.h"
@@ -17,8 +18,9 @@ inline TrackSample sample_at(double ms) {
   return {share, -share / 2, share / 3, share / 100, 0, -share / 50};
 }
 
-/// A WAV file (IEEE float) of so many samples, sample_at() every millisecond.
-inline void write_track(const std::string& path, int count) {
+/// A WAV file (IEEE float) of so many samples, one every millisecond.
+inline void write_track(const std::string& path, int count,
+                        const std::function<TrackSample(double)>& sample_of = sample_at) {
   std::string wav = "RIFF....WAVEfmt ";
   const auto put = [&wav](uint32_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) wav += static_cast<char>(value >> (8 * i) & 0xff);
@@ -33,7 +35,7 @@ inline void write_track(const std::string& path, int count) {
   wav += "data";
   put(static_cast<uint32_t>(count) * sizeof(TrackSample), 4);
   for (int i = 0; i < count; ++i) {
-    const TrackSample sample = sample_at(i);
+    const TrackSample sample = sample_of(i);
     wav.append(reinterpret_cast<const char*>(sample.data()), sizeof sample);
   }
   std::ofstream(path, std::ios::binary) << wav;
