@@ -84,9 +84,10 @@ std::string record_film(const std::string& film, const std::string& track,
   Progress progress(tell);
   TrackNotes notes;
   notes.settings = properties.settings;
-  Film read;
+  int64_t pictures_end_ns = 0;
   try {
-    read = read_film(film);
+    const Film read = read_film(film);
+    pictures_end_ns = read.end_ns.value_or(0);
     notes.film = fingerprint_of(read.packets);
   } catch (const std::runtime_error&) {
     // Recording it will tell why.
@@ -112,8 +113,9 @@ std::string record_film(const std::string& film, const std::string& track,
   }
   const FilmEnd end = film_end(film);
   // Where the file is whole, its duration may be that of sound that goes on after the pictures.
-  const std::string problem = watch.problem(
-      error, end == FilmEnd::kWhole ? std::optional(read.end_ns.value_or(0)) : std::nullopt);
+  std::optional<int64_t> end_ns;
+  if (end == FilmEnd::kWhole) end_ns = pictures_end_ns;
+  const std::string problem = watch.problem(error, end_ns);
   if (!problem.empty()) throw std::runtime_error(problem);
   if (end == FilmEnd::kCutOff) {
     throw std::runtime_error("its end is missing: it is damaged or cut off");
