@@ -19,6 +19,9 @@
 namespace spidar {
 namespace {
 
+/// A film that could not be read is hardly worth waiting for: decodebin may lose the error.
+constexpr GstClockTime kUnreadStart = 10 * GST_SECOND;
+
 /// Reports `percent` of the film as recorded, in steps of ten.
 class Progress {
  public:
@@ -85,12 +88,13 @@ std::string record_film(const std::string& film, const std::string& track,
   TrackNotes notes;
   notes.settings = properties.settings;
   int64_t pictures_end_ns = 0;
+  std::string unread;
   try {
     const Film read = read_film(film);
     pictures_end_ns = read.end_ns.value_or(0);
     notes.film = fingerprint_of(read.packets);
-  } catch (const std::runtime_error&) {
-    // Recording it will tell why.
+  } catch (const std::runtime_error& why) {
+    unread = why.what();  // recording it may tell more
   }
   FilmWatch watch;
   std::string error;
@@ -107,7 +111,10 @@ std::string record_film(const std::string& film, const std::string& track,
           watch.begin(pipeline);
           progress.watch(pipeline);
           tag_samples(pipeline, notes);
-        });
+        },
+        unread.empty() ? kLongestStart : kUnreadStart);
+  } catch (const SilentFailure& ended) {
+    error = unread.empty() ? ended.what() : unread;
   } catch (const std::runtime_error& ended) {
     error = ended.what();
   }

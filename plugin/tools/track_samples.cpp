@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -131,8 +132,8 @@ std::string encoder_of(const std::string& path) {
   return {};
 }
 
-void run_pipeline(const std::string& line,
-                  const std::function<void(GstElement* pipeline)>& prepare) {
+void run_pipeline(const std::string& line, const std::function<void(GstElement* pipeline)>& prepare,
+                  GstClockTime start_limit) {
   GError* error = nullptr;
   GstElement* pipeline = gst_parse_launch(line.c_str(), &error);
   if (error) {
@@ -143,15 +144,15 @@ void run_pipeline(const std::string& line,
   }
   if (prepare) prepare(pipeline);
   gst_element_set_state(pipeline, GST_STATE_PLAYING);
-  std::string problem;
+  std::exception_ptr problem;
   try {
-    await_message(pipeline, GST_MESSAGE_EOS);
-  } catch (const std::runtime_error& e) {
-    problem = e.what();
+    await_message(pipeline, GST_MESSAGE_EOS, GST_CLOCK_TIME_NONE, start_limit);
+  } catch (const std::runtime_error&) {
+    problem = std::current_exception();
   }
   gst_element_set_state(pipeline, GST_STATE_NULL);
   gst_object_unref(pipeline);
-  if (!problem.empty()) throw std::runtime_error(problem);
+  if (problem) std::rethrow_exception(problem);
 }
 
 void await_message(GstElement* pipeline, GstMessageType awaited, GstClockTime limit,
@@ -168,16 +169,18 @@ void await_message(GstElement* pipeline, GstMessageType awaited, GstClockTime li
     message = gst_bus_timed_pop_filtered(bus, kLook, types);
   }
   gst_object_unref(bus);
-  std::string problem;
   if (!message) {
-    problem = "it cannot be played, and GStreamer does not say why: it may be damaged or cut off";
-  } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
+    throw SilentFailure(
+        "it cannot be played, and GStreamer does not say why: it may be damaged or cut off");
+  }
+  std::string problem;
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
     GError* error = nullptr;
     gst_message_parse_error(message, &error, nullptr);
     problem = error->message;
     g_error_free(error);
   }
-  if (message) gst_message_unref(message);
+  gst_message_unref(message);
   if (!problem.empty()) throw std::runtime_error(problem);
 }
 

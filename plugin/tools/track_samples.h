@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -43,18 +44,25 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
 /// empty when it cannot.
 std::string encoder_of(const std::string& path);
 
-/// Runs a pipeline to its end. `prepare` is called with it before it starts. Throws
-/// std::runtime_error with the pipeline's error message.
-void run_pipeline(const std::string& line,
-                  const std::function<void(GstElement* pipeline)>& prepare = {});
-
 /// Much longer than a pipeline needs for its first buffers, also on a slow share.
 constexpr GstClockTime kLongestStart = 60 * GST_SECOND;
 
-/// Returns when `awaited` was posted. Throws std::runtime_error with what went wrong: an error that
-/// was posted, a change of state that failed or took longer than `start_limit`, or nothing for as
-/// long as `limit`. decodebin keeps an error of a demuxer to itself when it comes at the wrong
-/// moment, and then waits for ever.
+/// A pipeline failed without an error message.
+class SilentFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Runs a pipeline to its end. `prepare` is called with it before it starts. Throws as
+/// await_message().
+void run_pipeline(const std::string& line,
+                  const std::function<void(GstElement* pipeline)>& prepare = {},
+                  GstClockTime start_limit = kLongestStart);
+
+/// Returns when `awaited` was posted. Throws std::runtime_error with an error that was posted, and
+/// SilentFailure after a change of state that failed or took longer than `start_limit`, or nothing
+/// for as long as `limit`. decodebin keeps an error of a demuxer to itself when it comes at the
+/// wrong moment, and then waits for ever.
 void await_message(GstElement* pipeline, GstMessageType awaited,
                    GstClockTime limit = GST_CLOCK_TIME_NONE,
                    GstClockTime start_limit = kLongestStart);
