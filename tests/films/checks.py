@@ -238,6 +238,8 @@ def felt(trial):
     player = trial.film.kind["player"]
     if player == "spidar-feel":
         return felt_under_spidar_feel(trial)
+    if player == "gapless" and trial.film.kind["container"] == "flv":
+        player = "playbin3"  # which hangs between two FLV more often than not, also without the element
     count = len(trial.forces)
     problem = f"{player}: in {MOST_TRIES} tries, the machine was too busy to tell what is felt"
     for _ in range(MOST_TRIES):  # the machine may be too busy to give the loop its time
