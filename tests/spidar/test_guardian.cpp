@@ -176,7 +176,10 @@ TEST(Guardian, ItsEndIsNoticedWhenItIsKilledOrStopped) {
       EXPECT_TRUE(port.at_rest());
       EXPECT_EQ(device->exchange(one_volt(), reading), ExchangeStatus::kLost);
       EXPECT_TRUE(port.at_rest());
-      EXPECT_EQ(device->health().last_fault, LinkFault::kUnguarded);
+      // On a busy machine, the guardian may have found that this process stood still before.
+      const LinkFault fault = device->health().last_fault;
+      EXPECT_TRUE(fault == LinkFault::kUnguarded || fault == LinkFault::kStoodStill)
+          << to_string(fault);
       device->close();
       EXPECT_EQ(guardian_process(), 0);
       device->open();
