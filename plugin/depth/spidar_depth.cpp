@@ -43,7 +43,7 @@
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_depth_debug);
 #define GST_CAT_DEFAULT gst_spidar_depth_debug
 
-using spidar::DepthBranch;
+using spidar::depth_properties;
 using spidar::DepthGate;
 using spidar::DepthProperties;
 
@@ -61,7 +61,7 @@ struct _GstSpidarDepth {
   gboolean live;
   GstClockTime latency;
   guint64 attached;
-  DepthBranch* depth;
+  spidar::DepthBranch* depth;
 };
 
 static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -286,8 +286,7 @@ static GstStateChangeReturn gst_spidar_depth_change_state(GstElement* element,
 static void gst_spidar_depth_set_property(GObject* object, guint id, const GValue* value,
                                           GParamSpec* spec) {
   GST_OBJECT_LOCK(object);
-  const bool known =
-      spidar::depth_properties().set(*GST_SPIDAR_DEPTH(object)->properties, id, value);
+  const bool known = depth_properties().set(*GST_SPIDAR_DEPTH(object)->properties, id, value);
   GST_OBJECT_UNLOCK(object);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
@@ -295,8 +294,7 @@ static void gst_spidar_depth_set_property(GObject* object, guint id, const GValu
 static void gst_spidar_depth_get_property(GObject* object, guint id, GValue* value,
                                           GParamSpec* spec) {
   GST_OBJECT_LOCK(object);
-  const bool known =
-      spidar::depth_properties().get(*GST_SPIDAR_DEPTH(object)->properties, id, value);
+  const bool known = depth_properties().get(*GST_SPIDAR_DEPTH(object)->properties, id, value);
   GST_OBJECT_UNLOCK(object);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
@@ -317,7 +315,7 @@ static GstPad* add_pad(GstSpidarDepth* self, GstStaticPadTemplate* pad_template)
 
 static void gst_spidar_depth_init(GstSpidarDepth* self) {
   self->gate = new DepthGate(GST_OBJECT(self));
-  self->depth = new DepthBranch(GST_ELEMENT(self), *self->gate);
+  self->depth = new spidar::DepthBranch(GST_ELEMENT(self), *self->gate);
   self->properties = new DepthProperties();
   self->sink = add_pad(self, &sink_template);
   gst_pad_set_chain_function(self->sink, gst_spidar_depth_chain);
@@ -342,7 +340,7 @@ static void gst_spidar_depth_class_init(GstSpidarDepthClass* klass) {
   object_class->set_property = gst_spidar_depth_set_property;
   object_class->get_property = gst_spidar_depth_get_property;
   object_class->finalize = gst_spidar_depth_finalize;
-  spidar::depth_properties().install(object_class);
+  depth_properties().install(object_class);
   element_class->change_state = gst_spidar_depth_change_state;
   gst_element_class_set_static_metadata(element_class, "SPIDAR depth combiner", "Filter/Video",
                                         "Attaches depth images to the frames of a video",

@@ -42,7 +42,7 @@ class FilmMerger {
   FilmMerger& operator=(const FilmMerger&) = delete;
 
   void run(const std::vector<FilmStream>& streams) {
-    sources_ = {file_.find("source"), file_.find("parse")};
+    sources_ = {file_.find("parse"), file_.find("source")};
     for (const FilmStream& stream : streams) add_stream(stream);
     add_track();
     // What takes data is ready before anything is read.
@@ -214,7 +214,7 @@ class FilmMerger {
   const TrackNotes notes_;
   const FilePipeline file_;
   GstElement* const mux_;
-  std::vector<GstElement*> sources_;
+  std::vector<GstElement*> sources_;  // each after what takes its data
   std::deque<Reader> readers_;
   GstPad* samples_ = nullptr;
   gulong hold_ = 0;

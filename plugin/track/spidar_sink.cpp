@@ -43,8 +43,6 @@ GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
 using spidar::BlockSchedule;
 using spidar::HapticOutput;
 using spidar::SinkProperties;
-using spidar::TrackBlock;
-using spidar::TrackFaults;
 
 /// Samples are handed to the haptic loop this long before they are felt.
 static constexpr gint64 kAhead_ns = 200 * 1000 * 1000;
@@ -54,7 +52,7 @@ struct _GstSpidarSink {
 
   GMutex setting;              // settings reach the output in the order in which they were made
   SinkProperties* properties;  // object lock
-  TrackFaults faults;          // object lock; of the stream so far
+  spidar::TrackFaults faults;  // object lock; of the stream so far
   guint64 samples;             // object lock
   BlockSchedule* schedule;
   HapticOutput* output;
@@ -131,8 +129,8 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
   const spidar::OnDeviceError policy = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
   const guint64 samples_before = self->input->samples();
-  const GstFlowReturn flow =
-      self->input->read(buffer, sink->segment, gain, [self, buffer](const TrackBlock& block) {
+  const GstFlowReturn flow = self->input->read(
+      buffer, sink->segment, gain, [self, buffer](const spidar::TrackBlock& block) {
         const GstFlowReturn waited =
             wait_until(self, GST_MINI_OBJECT_CAST(buffer), block.begin_ns, kAhead_ns);
         if (waited == GST_FLOW_OK) self->schedule->add(block);
@@ -257,10 +255,8 @@ static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
 // --- object ------------------------------------------------------------------------------------
 
 static constexpr spidar::PropertyEffect<GstSpidarSink> kEffects[] = {
-    {"mute",
-     [](auto* self, auto* value) { self->schedule->set_muted(g_value_get_boolean(value)); }},
-    {"max-force",
-     [](auto* self, auto* value) { self->output->set_max_force(g_value_get_double(value)); }},
+    {"mute", [](auto* self, auto* v) { self->schedule->set_muted(g_value_get_boolean(v)); }},
+    {"max-force", [](auto* self, auto* v) { self->output->set_max_force(g_value_get_double(v)); }},
 };
 
 static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue* value,
@@ -277,7 +273,7 @@ static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue
 
 static GstStructure* stats(GstSpidarSink* self) {
   GST_OBJECT_LOCK(self);
-  const TrackFaults faults = self->faults;
+  const spidar::TrackFaults faults = self->faults;
   const guint64 samples = self->samples;
   GST_OBJECT_UNLOCK(self);
   GstStructure* structure = gst_structure_new(

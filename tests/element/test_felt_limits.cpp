@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Why little is felt of what the film or the picture would give: vibration, and touch.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "spidar/loop/vibration_budget.h"
+#include "tests/element/force_limit_test.h"
+
+namespace spidar::test {
+namespace {
+
+/// Grey levels below 128 are behind the grip, which a hand holds in the middle.
+GstBuffer* level_frame(const GstVideoInfo& info, int grey) {
+  GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
+  gst_buffer_memset(buffer, 0, static_cast<guint8>(grey), GST_VIDEO_INFO_SIZE(&info));
+  return buffer;
+}
+
+// The store is empty from the beginning.
+TEST_F(ForceLimitTest, TheFilmShakesTheHand) {
+  const auto drain = [&] { loop().vibration().restore(time_ns + 24 * 3600 * 1'000'000'000LL); };
+  // A strobe: the whole picture jumps to and fro.
+  open("device=sim motion=camera filter-min-cutoff=0");
+  play();
+  drain();
+  const auto strobe = [&](int n) { return make_frame(h->info(), n % 2 == 0 ? 0 : 4, 0); };
+  show(kFrames, strobe);
+  expect_everywhere("vibration");
+  ASSERT_EQ(h->warnings().size(), 1u);
+  EXPECT_NE(h->warnings()[0].find("shaken"), std::string::npos) << h->warnings()[0];
+  show(kFrames, strobe);
+  EXPECT_EQ(h->warnings().size(), 1u) << "is said once";
+
+  // A flicker, whose surface comes and goes under the grip: because surfaces rise slowly, this is
+  // less than the action value, which may last for eight hours.
+  frames = 0;
+  open("device=sim touch=luma");
+  play();
+  const int64_t begin_ns = time_ns;
+  loop().vibration().restore(begin_ns + 3600 * 1'000'000'000LL);
+  show(kFrames, [&](int n) { return level_frame(h->info(), n % 2 == 0 ? 20 : 235); });
+  const int64_t taken_ns = loop().vibration().full_at_ns() - begin_ns - 3600 * 1'000'000'000LL;
+  const double mean_m2_s4 = VibrationBudget::kRefill_m2_s4 * static_cast<double>(taken_ns) /
+                            static_cast<double>(time_ns - begin_ns);
+  EXPECT_LT(std::sqrt(mean_m2_s4), VibrationBudget::kActionValue_m_s2);
+}
+
+TEST_F(ForceLimitTest, TouchingTheReasonsAreThoseOfTheContact) {
+  open("device=sim touch=luma");
+  play();
+  show(kFrames, [&](int) { return level_frame(h->info(), 20); });
+  expect_everywhere("not-touching");
+  show(kFrames, [&](int) { return level_frame(h->info(), 235); });
+  EXPECT_EQ(stats_field("limit"), "none") << "a picture that never moves is felt";
+  g_object_set(h->element(), "max-force", kFeltForce_N / 2, nullptr);
+  show(kFrames, [&](int) { return level_frame(h->info(), 235); });
+  expect_everywhere("light-touch");
+  g_object_set(h->element(), "max-force", 3.0, nullptr);
+  Pose hand;
+  hand.position_m.z() = 0.02;
+  device().set_hand(hand);
+  show(15, [&](int) { return level_frame(h->info(), 235); });
+  EXPECT_EQ(stats_field("limit"), "none") << "felt until 0.6 s ago at most";
+  show(kFrames, [&](int) { return level_frame(h->info(), 235); });
+  expect_everywhere("not-touching");
+  gst_harness_push_event(h->harness(), gst_event_new_eos());
+  tick(100);
+  EXPECT_EQ(stats_field("limit"), "no-relief") << "the video has ended";
+}
+
+TEST_F(ForceLimitTest, TouchingNeedsADeviceAndARelief) {
+  open("device=none touch=luma motion=object");
+  show_moved(kFrames, 2);
+  expect_everywhere("no-device");
+  open("device=sim touch=depth");
+  frames = 0;
+  play();
+  show_moved(kFrames, 2);
+  expect_everywhere("no-relief");
+}
+
+}  // namespace
+}  // namespace spidar::test
