@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Measures whether the right motion is felt in real films. real_films.py BUILD FOLDER [OLDER_BUILD] runs the
-spidarmotion of a meson build folder on the films of FOLDER and writes three tables into docs/tracking.md: a row for
-each of its settings, and one for OLDER_BUILD, the build folder of an older version; films of which a
+spidarmotion of a meson build folder on the films of FOLDER and writes three tables into docs/tables-tracking.md: a row
+for each of its settings, and one for OLDER_BUILD, the build folder of an older version; films of which a
 corner is cut off; methods with the processor time that each takes, see bench_real_film.cpp. The last is
 also written to BUILD/real_films.csv, for real_films.gp. real_films.py BUILD --calm FILM... prints how
 calm the force is in films of which no truth is known.
@@ -49,7 +49,7 @@ SETTINGS = [
     ["motion=mean", "filter-min-cutoff=0"],
 ]
 NAMES = {"motion=mean filter-min-cutoff=0": "closest to the paper"}
-PAGE = Path("docs/tracking.md")
+PAGE = Path("docs/tables-tracking.md")
 # Of bench_real_film, and their names in the table.
 METHODS = {
     "default": "`motion=object`",
@@ -62,7 +62,7 @@ METHODS = {
 
 
 class Table:
-    """Rows that are printed as they come and then take the place of those of docs/tracking.md between
+    """Rows that are printed as they come and then take the place of those of docs/tables-tracking.md between
     `<!-- real films: NAME -->` and `<!-- end -->`."""
 
     def __init__(self, name, *columns):
@@ -133,7 +133,7 @@ def size_px(film):
 
 
 def compare_corners(build, films):
-    table = Table("corners", "cut off", "right %", "wrong %", "felt %", "false %", "jitter (true)")
+    table = Table("corners", "cut off", "right %", "wrong %", "any force %", "false %", "jitter (true)")
     together = Tally()
     for name, x, y in corners():
         tally = Tally()
@@ -273,7 +273,7 @@ def measure(program, method, film):
 
 def compare_methods(build, films):
     program = build / "tests" / "bench" / "bench_real_film"
-    table = Table("methods", "method", "ms a frame", "right %", "wrong %", "felt %", "false %", "jitter (true)")
+    table = Table("methods", "method", "ms a frame", "right %", "wrong %", "any force %", "false %", "jitter (true)")
     rows = []
     for method, name in METHODS.items():
         tally, times_ms = Tally(), []
@@ -293,7 +293,7 @@ def compare_methods(build, films):
 
 
 def compare_settings(build, older, films):
-    table = Table("settings", "settings", "right %", "wrong %", "felt %", "false %", "jitter (true), px")
+    table = Table("settings", "settings", "right %", "wrong %", "any force %", "false %", "jitter (true), px")
     runs = [(build, properties, " ".join(properties) or "default") for properties in SETTINGS]
     if older:
         runs.append((older, [], "an older version"))
