@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/film_stills.h"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
@@ -94,12 +95,17 @@ Film read(const std::string& film) {
 FilmStills film_stills(const std::string& film, int64_t track_ns, const TrackNotes& notes,
                        int count, int width) {
   FilmStills stills;
-  const std::string other = other_film(read(film), track_ns, notes);
-  if (!other.empty()) throw std::runtime_error(film + " is another film: " + other);
+  const Film compared = read(film);
+  const FilmMatch match = match_film(compared, track_ns, notes);
+  if (!match.problem.empty()) {
+    throw std::runtime_error(film + " is another film: " + match.problem);
+  }
   const StillFilm still(film, width);
   still.await();
   for (int i = 0; i < count; ++i) {
-    still.seek(track_ns / count * i + track_ns / count / 2);
+    const int64_t time_ns = track_ns / count * i + track_ns / count / 2 + match.later_ns;
+    // There is nothing to see before the first picture.
+    still.seek(std::max(time_ns, compared.begin_ns));
     still.take(stills);
   }
   return stills;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -22,7 +25,9 @@ constexpr const char* kMergeHelp = R"(usage: spidartrack merge FILM TRACK OUT.mk
 
 Writes the film with its haptic track in it; neither is encoded anew. The film needs sound of its own,
 or players would play the track through the loudspeakers; the track is marked as not default,
-not enabled, and of no language (zxx). OUT.mkv is replaced when the new one is complete. A track in HJIF or a trace becomes F32.
+not enabled, and of no language (zxx). OUT.mkv is replaced when the new one is complete. A track in HJIF or a trace becomes F32, and so
+does one whose film shows its pictures later or earlier than when it was recorded: it is moved by as
+much.
 )";
 
 constexpr const char* kExtractHelp = R"(usage: spidartrack extract FILM OUT
@@ -45,6 +50,16 @@ std::vector<std::string> parse(int argc, char** argv, const char* help_text, siz
   return operands;
 }
 
+/// For a film that shows its pictures later by so many samples, or earlier.
+std::vector<TrackSample> shifted(const std::vector<TrackSample>& samples, int64_t later) {
+  std::vector<TrackSample> result(static_cast<size_t>(std::max<int64_t>(0, later)));
+  const auto skipped = static_cast<size_t>(std::max<int64_t>(0, -later));
+  if (skipped < samples.size()) {
+    result.insert(result.end(), samples.begin() + static_cast<ptrdiff_t>(skipped), samples.end());
+  }
+  return result;
+}
+
 }  // namespace
 
 int merge_track_command(int argc, char** argv) {
@@ -63,19 +78,27 @@ int merge_track_command(int argc, char** argv) {
     }
   }
   TrackCondition condition;
-  const std::vector<TrackSample> samples = load_track(track, &condition);
+  std::vector<TrackSample> samples = load_track(track, &condition);
   PartFile part(out), sound(out + ".mka");
-  const bool is_sound =
+  bool is_sound =
       !ends_with(track, ".hjif") && !ends_with(track, ".csv") && !ends_with(track, ".jsonl");
-  if (!is_sound) save_track(sound.path(), samples);
+  TrackNotes& notes = condition.notes;
   std::string lost;
   try {
-    const std::string other = other_film(
-        read_film(film), static_cast<int64_t>(samples.size()) * kTrackPeriod_ns, condition.notes);
-    if (!other.empty()) {
-      throw std::runtime_error("The track is that of another film: " + other + ".");
+    const FilmMatch match =
+        match_film(read_film(film), static_cast<int64_t>(samples.size()) * kTrackPeriod_ns, notes);
+    if (!match.problem.empty()) {
+      throw std::runtime_error("The track is that of another film: " + match.problem + ".");
     }
-    lost = merge_film(film, is_sound ? track : sound.path(), condition.notes, part.path());
+    const int64_t later =
+        std::llround(static_cast<double>(match.later_ns) / static_cast<double>(kTrackPeriod_ns));
+    if (later != 0) {
+      is_sound = false;
+      samples = shifted(samples, later);
+      notes.film.time_ns += later * kTrackPeriod_ns;
+    }
+    if (!is_sound) save_track(sound.path(), samples);
+    lost = merge_film(film, is_sound ? track : sound.path(), notes, part.path());
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(film + ": " + error.what());
   }

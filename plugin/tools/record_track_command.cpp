@@ -38,10 +38,12 @@ void check_track(const std::string& film, const fs::path& track, const std::stri
                              ", and not with " + shown(settings) + again);
   }
   if (notes.film.empty()) return;
-  const Film read = read_film(film);
-  const std::string other = other_film(read, read.end_ns.value_or(read.duration_ns), notes);
-  if (!other.empty()) {
-    throw std::runtime_error(track.string() + " is the track of another film: " + other + again);
+  if (!find_pictures(notes.film, read_film(film).packets)) {
+    throw std::runtime_error(
+        track.string() +
+        " is the track of another film: it was recorded from other pictures, or from these before "
+        "they were encoded anew" +
+        again);
   }
 }
 

@@ -72,7 +72,7 @@ FilmOfTrack find_track(const std::string& path) {
                              "spidartrack record makes one");
   }
   const TrackFile track = read_track_file(sidecar);
-  return {path, sidecar, other_film(film, track.duration_ns, track.notes)};
+  return {path, sidecar, match_film(film, track.duration_ns, track.notes).problem};
 }
 
 void print_json(const FilmOfTrack& found, size_t count, const TrackFaults& faults,

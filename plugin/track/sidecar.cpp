@@ -9,9 +9,6 @@
 namespace spidar {
 namespace {
 
-/// Copying a film into another container may shift its pictures against the beginning by two or
-/// three frames.
-constexpr int64_t kMostLater_ns = 100'000'000;
 /// So much may be missing at the end of a film that is known by its pictures.
 constexpr int64_t kMostMissing_ns = 500'000'000;
 
@@ -76,13 +73,6 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes
     match.problem = "the track lasts " + seconds(track_ns) + ", the film " + seconds(end_ns);
   }
   return match;
-}
-
-std::string other_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {
-  const FilmMatch match = match_film(film, track_ns, notes);
-  if (!match.problem.empty() || std::llabs(match.later_ns) <= kMostLater_ns) return match.problem;
-  return "the film shows its pictures " + seconds(std::llabs(match.later_ns)) +
-         (match.later_ns > 0 ? " later" : " earlier") + " than when the track was recorded";
 }
 
 std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns) {

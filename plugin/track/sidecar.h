@@ -30,10 +30,6 @@ struct FilmMatch {
 /// it ends where the last picture does, but for one frame.
 FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes);
 
-/// The problem for who uses the track as it is: the pictures must not come later or earlier, but
-/// for two or three frames, either.
-std::string other_film(const Film& film, int64_t track_ns, const TrackNotes& notes);
-
 /// For a film that does not come from a file. Empty, or why a track that lasts `track_ns` is not
 /// that of the film that comes to `pad`: a film whose duration is known lasts as long, but for one
 /// of its frames.

@@ -61,6 +61,11 @@ class Film:
     def has_sound(self):
         return self.kind["sound"] != "none"
 
+    @property
+    def sound_goes_on(self):
+        """So long after the pictures that it would take the test's time."""
+        return SOUND_TIMES[self.kind["sound time"]][1] > 1
+
     def __str__(self):
         return ", ".join(value for value in self.kind.values())
 

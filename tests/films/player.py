@@ -7,9 +7,14 @@ so that GStreamer is loaded once and not for each film.
 A play has "player" (playbin, playbin3, gapless, decodebin) and "film", and optionally "properties" of a spidarmotion
 that is its filter, and "pictures": the film is played in real time, when so many pictures or all wait for the screen.
 "ticks" names the file for the trace of what is felt then. "until_s" is the running time at which a film whose sound
-goes on is stopped."""
+goes on is stopped.
+
+playbin3 of GStreamer 1.22 loses the end of some plays, with and without a filter, and gst_element_set_state(NULL) then
+crashes in its decodebin3 more often than not. A play that does not end is therefore "hung": of it, only the element is
+stopped, and this process ends after its line. Every other play is stopped as applications do, and a crash is one."""
 import csv
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -20,7 +25,9 @@ from gi.repository import GLib, Gst  # noqa: E402
 
 GRACE_S = 0.4  # for what is felt after the last picture
 LOOK_S, SILENT_S = 10, 60  # how often it looks for progress, and after which time it hangs
+END_S = 20  # the same, when all that is to be seen and felt was there
 HANGS = f"no picture and no end for {SILENT_S} s"
+LOSE_END = ("playbin3", "gapless")  # whose plays are good without an end if all else was there
 UNLIMITED = "queue max-size-buffers=0 max-size-bytes=0 max-size-time=0"
 
 
@@ -41,6 +48,7 @@ class Play:
         self.seen, self.warnings, self.error, self.done = [], [], None, False
         self.in_time = "pictures" in play
         self.hurried = False  # played before all pictures waited
+        self.hung = False
         self.waiting = 0  # pictures that have come to the screen
         self.pictures = self.looks_in_vain = 0  # that have come and were shown, when looked at last
         self.motion = self.stats = None
@@ -138,6 +146,10 @@ class Play:
             self.stop()
         return not self.done
 
+    def has_shown_all(self):
+        films = 2 if self.play["player"] == "gapless" else 1
+        return self.in_time and len(self.seen) >= films * self.play["pictures"]
+
     def message(self, _, message):
         if message.type == Gst.MessageType.ERROR:
             self.error = message.parse_error()[0].message
@@ -150,11 +162,14 @@ class Play:
         pictures = self.waiting + len(self.seen)
         self.looks_in_vain = self.looks_in_vain + 1 if pictures == self.pictures else 0
         self.pictures = pictures
-        if self.looks_in_vain == 1 and self.in_time:
+        silent_s = self.looks_in_vain * LOOK_S
+        has_lost_end = self.play["player"] in LOSE_END and self.has_shown_all() and silent_s >= END_S
+        if self.looks_in_vain == 1 and self.in_time and not self.has_shown_all():
             self.hurried = True  # some demuxers wait for the sink
             self.begin()
-        elif self.looks_in_vain * LOOK_S >= SILENT_S:
-            self.error = HANGS
+        elif has_lost_end or silent_s >= SILENT_S:
+            self.error = None if has_lost_end else HANGS
+            self.hung = True
             self.stop()
         return True  # it is removed by the caller
 
@@ -164,14 +179,20 @@ class Play:
         self.done = True
         self.stats = self.motion.get_property("stats") if self.motion else None
         self.pipeline.get_bus().remove_signal_watch()
-        self.pipeline.set_state(Gst.State.NULL)
+        if not self.hung:
+            self.pipeline.set_state(Gst.State.NULL)
+        elif self.motion:
+            self.motion.set_locked_state(True)
+            self.motion.set_state(Gst.State.NULL)
         self.ended()
 
     def result(self):
         count = (lambda name: self.stats.get_value(name)) if self.stats else (lambda name: None)
+        has_ticks = "ticks" in self.play and not self.error  # a play that hangs may not have opened the device
         return {"frames": [[1e-9 * s, 1e-9 * r] for s, r in self.seen], "warnings": self.warnings, "error": self.error,
-                "hurried": self.hurried, "analysed": count("frames"), "of track": count("track-frames"),
-                "ticks": list(read_ticks(self.play["ticks"])) if "ticks" in self.play else []}
+                "hurried": self.hurried, "hung": self.hung,
+                "analysed": count("frames"), "of track": count("track-frames"),
+                "ticks": list(read_ticks(self.play["ticks"])) if has_ticks else []}
 
 
 def main():
@@ -184,6 +205,8 @@ def main():
         loop.run()
         GLib.source_remove(limit)
         print(json.dumps(play.result()), flush=True)
+        if play.hung:
+            os._exit(0)
 
 
 if __name__ == "__main__":

@@ -52,13 +52,13 @@ class Player:
         self.process, self.log, self.hangs = None, tempfile.TemporaryFile(), collections.Counter()
 
     def play(self, play):
-        """What player.py prints; criticals are warnings. A playbin3 of GStreamer 1.22 hangs in one of a hundred plays,
-        without our element, too: only what hangs each time is an error."""
-        for hangs in range(MOST_HANGS):
+        """What player.py prints; criticals are warnings. A playbin3 of GStreamer 1.22 hangs in some plays, without our
+        element, too: only what hangs each time is an error. A crash always is one."""
+        for _ in range(MOST_HANGS):
             result = self.play_once(play)
-            if not result["error"] or "no picture and no end" not in result["error"]:
+            self.hangs[play["player"]] += result["hung"]
+            if not (result["hung"] and result["error"]):
                 break
-            self.hangs[play["player"]] += 1
         return result
 
     def play_once(self, play):
@@ -79,6 +79,9 @@ class Player:
             status, self.process = self.process.wait(), None
             raise RuntimeError(f"{play['player']} ended with status {status}: {said[-300:]}")
         result = json.loads(answer)
+        if result["hung"]:  # then it has ended
+            self.process.communicate()
+            self.process = None
         result["warnings"] += [line for line in said.splitlines() if "CRITICAL" in line]
         return result
 
@@ -153,10 +156,12 @@ class Trial:
         properties = {"haptic-trace": str(ticks), **({"track": "auto"} if player == "track=auto" else {})}
         play = {"player": "playbin" if player == "track=auto" else player, "film": str(self.path),
                 "properties": properties, "ticks": str(ticks), "pictures": len(self.forces)}
-        if player != "gapless":
+        if player != "gapless" and self.film.sound_goes_on:
             play["until_s"] = self.plays["playbin"]["frames"][-1][1]
-        result = self.player.play(play)
-        ticks.unlink()
+        try:
+            result = self.player.play(play)
+        finally:
+            ticks.unlink(missing_ok=True)
         if result["error"]:
             raise RuntimeError(f"{player}: {result['error']}")
         return result

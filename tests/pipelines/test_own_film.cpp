@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // A track is accepted for the film that it was recorded from, in any container, and for no other.
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -48,13 +49,16 @@ class OwnFilm : public testing::Test {
   bool copy(const std::string& from, const std::string& to, const std::string& options = "") const {
     return ffmpeg("-i " + path(from) + " -c copy " + options + " " + path(to));
   }
-  /// Empty, or why a track of two seconds, recorded from the film `own`, is not that of `film`.
-  std::string other(const std::string& own, const std::string& film) const {
+  /// A track of two seconds, recorded from the film `own`, compared with `film`.
+  FilmMatch match(const std::string& own, const std::string& film) const {
     const Film recorded = read_film(path(own));
     TrackNotes notes;
     notes.film = parse_fingerprint(to_text(fingerprint_of(recorded.packets)));
     EXPECT_FALSE(notes.film.empty());
-    return other_film(read_film(path(film)), recorded.end_ns.value_or(0), notes);
+    return match_film(read_film(path(film)), recorded.end_ns.value_or(0), notes);
+  }
+  std::string other(const std::string& own, const std::string& film) const {
+    return match(own, film).problem;
   }
 
   TemporaryFolder folder;
@@ -70,8 +74,12 @@ TEST_F(OwnFilm, IsRecognisedInAnyContainer) {
   }
   // In a transport stream the pictures begin later: the bytes are the same, the times are not.
   ASSERT_TRUE(copy("film.mp4", "copy.ts"));
-  expect_contains(other("film.mp4", "copy.ts"), "later than when the track was recorded");
-  EXPECT_EQ(other("copy.ts", "copy.ts"), "");
+  for (const auto& [own, film] : {std::pair{"film.mp4", "copy.ts"}, {"copy.ts", "film.mp4"}}) {
+    const FilmMatch copied = match(own, film);
+    EXPECT_EQ(copied.problem, "") << film;
+    EXPECT_GT(std::llabs(copied.later_ns), 100'000'000) << film;
+  }
+  EXPECT_EQ(match("copy.ts", "copy.ts").later_ns, 0);
 }
 
 TEST_F(OwnFilm, ATrackMovesWithThePicturesIntoAnotherContainer) {
@@ -95,6 +103,44 @@ TEST_F(OwnFilm, ATrackMovesWithThePicturesIntoAnotherContainer) {
     EXPECT_NEAR(static_cast<double>(loaded->track->blocks.front().begin_ns -
                                     read_track_file(track).blocks.front().begin_ns),
                 static_cast<double>(back ? -later_ns : later_ns), 1e6 / 90 * 2);
+  }
+}
+
+/// `merge` and `plot` accept what track=auto accepts.
+TEST_F(OwnFilm, ATrackIsMergedIntoAnotherContainerInTime) {
+  ASSERT_TRUE(make("film.mp4"));
+  ASSERT_TRUE(copy("film.mp4", "copy.ts"));
+  for (const auto& [own, film] : {std::pair{"film.mp4", "copy.ts"}, {"copy.ts", "film.mp4"}}) {
+    SCOPED_TRACE(film);
+    const std::string track = path(own) + ".haptic.flac", merged = path("felt.mkv");
+    ASSERT_EQ(spidartrack("record " + path(own)).status, 0);
+    const CommandResult result = spidartrack("merge " + path(film) + " " + track + " " + merged);
+    ASSERT_EQ(result.status, 0) << result.text;
+    const Film felt = read_film(merged);
+    ASSERT_TRUE(felt.has_track);
+    // The pictures of the merged film are where those of `film` are: Matroska counts milliseconds.
+    const double moved_ms = 1e-6 * static_cast<double>(match(film, "felt.mkv").later_ns);
+    EXPECT_NEAR(moved_ms, 0, 1);
+    // Samples are moved by whole milliseconds: half of one is rounded.
+    const double later_ms = 1e-6 * static_cast<double>(match(own, film).later_ns);
+    const auto later = static_cast<int64_t>(std::llround(later_ms));
+    const std::vector<TrackSample> before = load_track(track);
+    TrackCondition condition;
+    const std::vector<TrackSample> after = load_track(merged, &condition);
+    ASSERT_EQ(static_cast<int64_t>(after.size()), static_cast<int64_t>(before.size()) + later);
+    for (size_t i = 0; i < after.size(); ++i) {
+      const auto from = static_cast<int64_t>(i) - later;
+      ASSERT_EQ(after[i], from < 0 ? TrackSample{} : before[static_cast<size_t>(from)]) << i;
+    }
+    // The merged film knows its track by the pictures, at the times that they have in it.
+    EXPECT_NEAR(
+        1e-6 * static_cast<double>(
+                   find_pictures(condition.notes.film, felt.packets).value_or(1'000'000'000)),
+        0, 1.5);
+    if (std::system("gnuplot --version > /dev/null 2>&1") != 0) continue;
+    const CommandResult plotted =
+        spidartrack("plot " + track + " " + path("plot.png") + " --film " + path(film));
+    EXPECT_EQ(plotted.status, 0) << plotted.text;
   }
 }
 
@@ -147,9 +193,9 @@ TEST_F(OwnFilm, ItsSoundMayBeLonger) {
       const auto track_ns =
           static_cast<int64_t>(load_track(track.string(), &condition).size()) * kTrackPeriod_ns;
       EXPECT_FALSE(condition.notes.film.empty());
-      EXPECT_EQ(other_film(film, track_ns, condition.notes), "");
+      EXPECT_EQ(match_film(film, track_ns, condition.notes).problem, "");
       // Without notes, as made by hand or by older versions.
-      EXPECT_EQ(other_film(film, track_ns, {}), "");
+      EXPECT_EQ(match_film(film, track_ns, {}).problem, "");
       std::filesystem::remove(track);
     }
   }
