@@ -22,17 +22,16 @@ void discard(GstElement*, GstPad* pad, gpointer user) {
   gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, count_packet, user, nullptr);
 }
 
-std::string orientation_of(GstPad* pad) {
-  std::string orientation;
+void read_tags(GstPad* pad, FilmStream& stream) {
   for (guint i = 0; GstEvent* event = gst_pad_get_sticky_event(pad, GST_EVENT_TAG, i); ++i) {
     GstTagList* tags = nullptr;
     gst_event_parse_tag(event, &tags);
     gchar* text = nullptr;
-    if (gst_tag_list_get_string(tags, GST_TAG_IMAGE_ORIENTATION, &text)) orientation = text;
+    if (gst_tag_list_get_string(tags, GST_TAG_IMAGE_ORIENTATION, &text)) stream.orientation = text;
     g_free(text);
+    stream.has_cover = stream.has_cover || gst_tag_list_get_tag_size(tags, GST_TAG_IMAGE) > 0;
     gst_event_unref(event);
   }
-  return orientation;
 }
 
 }  // namespace
@@ -54,7 +53,8 @@ std::vector<FilmStream> list_streams(const std::string& film) {
     auto* const pad = static_cast<GstPad*>(i->data);
     GstCaps* const caps = gst_pad_get_current_caps(pad);
     if (!caps) continue;  // announced, but not there
-    streams.push_back({stream_id(pad), kind_of(caps), {caps, gst_caps_unref}, orientation_of(pad)});
+    streams.push_back({stream_id(pad), kind_of(caps), {caps, gst_caps_unref}, {}, false});
+    read_tags(pad, streams.back());
   }
   file.stop();
   std::stable_sort(streams.begin(), streams.end(),

@@ -18,6 +18,7 @@ struct FilmStream {
   StreamKind kind = StreamKind::kOther;
   std::shared_ptr<GstCaps> caps;  ///< as a parser gives them
   std::string orientation;        ///< GST_TAG_IMAGE_ORIENTATION; empty when the film has none
+  bool has_cover = false;         ///< the film has cover art, GST_TAG_IMAGE
 };
 
 /// The streams of `film` that have anything in them, pictures first, then sound. Reads the whole

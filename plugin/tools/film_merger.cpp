@@ -240,6 +240,24 @@ void judge_film(const std::vector<FilmStream>& streams) {
   }
 }
 
+/// In sentences; GStreamer's muxer writes neither rotations nor attachments.
+std::string what_is_lost(const std::vector<FilmStream>& streams) {
+  std::string turned, cover;
+  for (const FilmStream& stream : streams) {
+    if (turned.empty() && !stream.orientation.empty() && stream.orientation != "rotate-0") {
+      turned = "The pictures are turned (" + stream.orientation +
+               "), which GStreamer cannot write into Matroska: players show them unturned, and the "
+               "force no longer fits. Leave the track beside the film, where track=auto finds it.";
+    }
+    if (stream.has_cover) {
+      cover =
+          "The cover art is lost, because GStreamer cannot write it into Matroska: "
+          "mkvpropedit --add-attachment adds a picture.";
+    }
+  }
+  return turned + (turned.empty() || cover.empty() ? "" : " ") + cover;
+}
+
 }  // namespace
 
 std::string merge_film(const std::string& film, const std::string& track, const TrackNotes& notes,
@@ -248,13 +266,7 @@ std::string merge_film(const std::string& film, const std::string& track, const 
   judge_film(streams);
   FilmMerger(film, track, notes, out).run(streams);
   clear_track_flags(out, kTrackName);
-  for (const FilmStream& stream : streams) {
-    if (stream.orientation.empty() || stream.orientation == "rotate-0") continue;
-    return "The pictures are turned (" + stream.orientation +
-           "), which GStreamer cannot write into Matroska: players show them unturned, and the "
-           "force no longer fits. Leave the track beside the film, where track=auto finds it.";
-  }
-  return {};
+  return what_is_lost(streams);
 }
 
 }  // namespace spidar

@@ -11,7 +11,7 @@ namespace spidar {
 
 /// Copies the streams of `film` without decoding them, together with the sound of the file `track`,
 /// which says `notes` of itself, into the Matroska file `out`. Returns what of the film is lost, in
-/// a sentence; usually nothing. Throws std::runtime_error, whose message says what would be right,
+/// sentences; usually nothing. Throws std::runtime_error, whose message says what would be right,
 /// when the film has no sound, has a haptic track already, or has a stream that Matroska does not
 /// accept. `out` is then incomplete.
 std::string merge_film(const std::string& film, const std::string& track, const TrackNotes& notes,

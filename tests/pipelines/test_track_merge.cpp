@@ -262,7 +262,7 @@ TEST_F(TrackMerge, SoundMayBeFoundLate) {
   expect_contains(merge("film.flv", "track.flac", "felt.mkv").text, "has no sound");
 }
 
-TEST_F(TrackMerge, ARotationThatIsLostIsSaid) {
+TEST_F(TrackMerge, WhatIsLostIsSaid) {
   if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   ASSERT_TRUE(ffmpeg("-i " + path("film.avi") +
                      " -frames:v 50 -c:v libx264 -preset ultrafast -c:a aac " +
@@ -275,6 +275,11 @@ TEST_F(TrackMerge, ARotationThatIsLostIsSaid) {
   const CommandResult turned = merge("turned.mp4", "track.flac", "felt.mkv");
   EXPECT_EQ(turned.status, 0);
   expect_contains(turned.text, "The pictures are turned (rotate-270)");
+  ASSERT_TRUE(ffmpeg("-i " + path("upright.mp4") + " -i " + path("upright.mp4") +
+                     " -map 0 -map 1:v -c copy -c:v:1 png -frames:v:1 1 -disposition:v:1 "
+                     "attached_pic " +
+                     path("cover.mp4")));
+  expect_contains(merge("cover.mp4", "track.flac", "felt.mkv").text, "The cover art is lost");
 }
 
 TEST_F(TrackMerge, TheTrackComesBackSampleBySample) {
