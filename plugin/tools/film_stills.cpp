@@ -34,6 +34,9 @@ class StillFilm {
     }
     set_location(pipeline_, "film", film);
     sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
+    GstPad* const pad = gst_element_get_static_pad(sink_, "sink");
+    gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, drop_gaps, nullptr, nullptr);
+    gst_object_unref(pad);
     gst_element_set_state(pipeline_, GST_STATE_PAUSED);
   }
   ~StillFilm() {
@@ -77,6 +80,13 @@ class StillFilm {
   }
 
  private:
+  /// A sink that has a gap instead of a picture is in PAUSED, too. After a seek, matroskademux
+  /// tells gaps of pictures that it comes to later.
+  static GstPadProbeReturn drop_gaps(GstPad*, GstPadProbeInfo* info, gpointer) {
+    const bool is_gap = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) == GST_EVENT_GAP;
+    return is_gap ? GST_PAD_PROBE_DROP : GST_PAD_PROBE_OK;
+  }
+
   const std::string film_;
   GstElement* pipeline_ = nullptr;
   GstElement* sink_ = nullptr;

@@ -26,18 +26,11 @@ KNOWN = (
     *((check, B_FRAMES, "", NO_TIMES) for check in ("pictures", "analysed", "own_track", "felt")),
 )
 # That only films of the suite `films` have.
-LATE_FLV = "film_reader does not find the pictures of an FLV whose sound comes first"
 RARE = (
-    ("pictures", of(container="fragmented mp4", pictures="AV1"), "pictures of",
-     "the last picture is lost in qtdemux or av1dec"),
+    *((check, of(container="fragmented mp4", pictures="AV1"), words, "the last picture is lost in qtdemux or av1dec")
+      for check, words in (("pictures", "pictures of"), ("felt", "off the track"))),
     ("track_in_time", B_FRAMES, "", NO_TIMES),
     *((check, of(pictures="MPEG-4"), "reader->size", CRITICAL) for check in ("record", "own_track", "felt")),
     # Of spidartrack.
-    ("info", of(name="newline"), "JSON", "info --json writes a newline in a name as it is"),
-    ("merge", of(sound="FLAC|Vorbis"), "Sound of 2 channels", "extract takes the sound of the film for the track"),
-    ("merge", of(name="not UTF-8"), "could not set property", "the name of a film has to be UTF-8"),
-    ("merge", of(extra="poster"), "streams of video", "the cover art of a film is lost"),
     ("merge", ANY, "Could not multiplex", "matroskamux fails, and merge does not say why"),
-    ("plot", of(times="from 2.7 s"), "has no picture at a time", "plot shows pictures of times before the first one"),
-    *((check, of(container="flv"), "", LATE_FLV) for check in ("merge", "plot", "own_track", "other_film")),
 )
