@@ -233,6 +233,27 @@ TEST_F(BadTracks, WhatMayNeverEndIsNotRead) {
   EXPECT_EQ(film.motions, kFrames) << "analysed";
 }
 
+/// Reading would block for ever, and stopping with it.
+TEST_F(BadTracks, AFifoBesideTheFilmIsNamedAndDelaysNothing) {
+  launch("videotestsrc num-buffers=" + std::to_string(kFrames) +
+         " ! video/x-raw,width=64,height=48,framerate=25/1 ! jpegenc ! avimux ! filesink "
+         "location=" +
+         path("film.avi"));
+  ASSERT_EQ(mkfifo(path("film.avi.haptic.flac").c_str(), 0600), 0);
+  const std::string line = "filesrc location=" + path("film.avi") +
+                           " ! avidemux ! jpegdec ! videoconvert ! spidarmotion track=auto ! "
+                           "fakesink sync=true";
+  for (const GstState state : {GST_STATE_PAUSED, GST_STATE_PLAYING}) {
+    GstElement* pipeline = gst_parse_launch(line.c_str(), nullptr);
+    gst_element_set_state(pipeline, state);
+    EXPECT_EQ(gst_element_set_state(pipeline, GST_STATE_NULL), GST_STATE_CHANGE_SUCCESS);
+    gst_object_unref(pipeline);
+  }
+  const Outcome film = launch(line);
+  EXPECT_TRUE(film.eos) << film.error;
+  expect_said(film, "not a regular file");
+}
+
 TEST_F(BadTracks, TheTrackOfAnotherFilmMayDifferByAFrameAndNoMore) {
   const auto lasting = [&](int samples) {
     std::vector<float> values = second();

@@ -104,6 +104,9 @@ TEST_F(TrackChannels, OfTheTrackBesideTheFilmAndOfTheOneInIt) {
   }
   expect_felt(kVideo + "spidarmotion track=" + quoted(path("felt.mkv")) + trace() +
               " ! fakesink sync=true");
+  expect_felt("filesrc location=" + quoted(path("felt.mkv")) +
+              " ! matroskademux ! jpegdec ! videoconvert ! spidarmotion track=auto" + trace() +
+              " ! fakesink sync=true");
 }
 
 TEST_F(TrackChannels, OfEveryConversion) {

@@ -191,6 +191,23 @@ TEST_F(TrackOutput, ATraceWithAWildTimeIsRefused) {
   expect_contains(json.text, "wild.jsonl:1: the stream time is 1e+06 s");
 }
 
+TEST_F(TrackOutput, AJumpOfDaysIsNamedAndNotFilledWithSilence) {
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "ffmpeg is not installed";
+  }
+  save("a.wav", 1000);
+  // The second half is 10^6 s later.
+  ASSERT_EQ(run("ffmpeg -nostdin -v error -i " + path("a.wav") +
+                " -af 'asetnsamples=100,asetpts=PTS+gte(N\\,5)*1000000000' -c:a pcm_f32le " +
+                path("jump.mka"))
+                .text,
+            "");
+  const CommandResult result =
+      run(BOUNDED SPIDARTRACK " convert " + path("jump.mka") + " " + path("b.wav"));
+  EXPECT_EQ(result.status, 1);
+  expect_contains(result.text, "reach to 1000000 s, and a track lasts at most 24 h");
+}
+
 TEST_F(TrackOutput, MessagesNameTheOutputThatWasGiven) {
   save("a.flac");
   std::vector<std::string> commands = {"convert a.flac none/b.flac", "convert a.flac none/b.hjif"};
@@ -205,6 +222,21 @@ TEST_F(TrackOutput, MessagesNameTheOutputThatWasGiven) {
   const CommandResult uri = spidartrack("convert " + path("a.flac") + " file:///tmp/b.flac");
   EXPECT_EQ(uri.status, 1);
   expect_contains(uri.text, "file:///tmp/b.flac: there is no folder file:///tmp; a file name is");
+}
+
+/// Players would play the track through the loudspeakers.
+TEST_F(TrackOutput, ATrackThatIsTheOnlySoundOfAFilmIsNotMergedAgain) {
+  save("a.wav", 1000);
+  run_pipeline(
+      "matroskamux name=mux ! filesink location=" + quoted(path("film.mkv")) +
+      " videotestsrc num-buffers=25 ! video/x-raw,width=64,height=48,framerate=25/1 ! jpegenc ! "
+      "mux. filesrc location=" +
+      quoted(path("a.wav")) + " ! wavparse ! mux.");
+  const CommandResult merged =
+      spidartrack("merge " + path("film.mkv") + " " + path("a.wav") + " " + path("felt.mkv"));
+  EXPECT_EQ(merged.status, 1);
+  expect_contains(merged.text, "has a haptic track already");
+  EXPECT_EQ(files(), (std::set<std::string>{"a.wav", "film.mkv"}));
 }
 
 TEST_F(TrackOutput, MistakesAreNamed) {
