@@ -8,6 +8,7 @@
 #include "plugin/gobject/bins.h"
 #include "plugin/reports/category.h"
 
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
 
 namespace spidar {

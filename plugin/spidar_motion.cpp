@@ -53,6 +53,7 @@
 #include "plugin/spidar_motion_private.h"
 
 GST_DEBUG_CATEGORY(gst_spidar_motion_debug);
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
 
 using spidar::MotionDisplay;
@@ -65,9 +66,9 @@ using spidar::MotionProperties;
   ", framerate = (fraction) [ 0, max ]"
 #define CAPS CAPS_OF(SPIDAR_VIDEO_FORMATS) "; " CAPS_OF(SPIDAR_UNPACKED_FORMATS)
 
-static GstStaticPadTemplate sink_template =
+static GstStaticPadTemplate motion_sink_template =
     GST_STATIC_PAD_TEMPLATE("sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
-static GstStaticPadTemplate src_template =
+static GstStaticPadTemplate motion_src_template =
     GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
 
 G_DEFINE_TYPE_WITH_CODE(GstSpidarMotion, gst_spidar_motion, GST_TYPE_VIDEO_FILTER,
@@ -272,8 +273,8 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   gst_element_class_set_static_metadata(
       element_class, "SPIDAR motion", "Filter/Analyzer/Video/Hardware",
       "Feel the motion of a video with a SPIDAR haptic device", "gst-spidar");
-  gst_element_class_add_static_pad_template(element_class, &sink_template);
-  gst_element_class_add_static_pad_template(element_class, &src_template);
+  gst_element_class_add_static_pad_template(element_class, &motion_sink_template);
+  gst_element_class_add_static_pad_template(element_class, &motion_src_template);
   element_class->change_state = gst_spidar_motion_change_state;
 
   gst_spidar_motion_install_stream(klass);

@@ -11,6 +11,7 @@
 #include "plugin/spidar_motion_private.h"
 #include "plugin/track/sidecar.h"
 
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
 
 using spidar::FrameReport;

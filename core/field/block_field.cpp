@@ -15,8 +15,6 @@ namespace {
 constexpr float kMostStep_px = 1;
 /// Pixels of the picture to one pixel of the coarse picture.
 constexpr int kCoarser = 4;
-/// How far around a block difference_if_moved() may read.
-constexpr int kReach_px = PaddedImage::kPad_px - 2;
 
 /// Mean brightness of two pictures of the same size, grey levels, and the ratio of their contrasts.
 struct LightChange {
@@ -254,8 +252,7 @@ void BlockField::refine(size_t index) {
                               {before_.row(y_px + match.dy) + x_px + match.dx, before_.stride()});
 
   // Derivatives are 1/4 of the sums' units. An offset common to all pixels is not motion.
-  constexpr float kPixels = kBlockArea_px;
-  const auto mean = [](int32_t sum) { return static_cast<float>(sum) / kPixels; };
+  const auto mean = [](int32_t sum) { return static_cast<float>(sum) / kBlockArea_px; };
   const float gx = mean(s.x);
   const float gy = mean(s.y);
   const float d = mean(s.difference);
@@ -288,9 +285,9 @@ void BlockField::refine(size_t index) {
 
 /// Whether a block may begin between this pixel and the next ones in both directions.
 bool BlockField::is_in_reach(int left_px, int top_px) const {
-  return left_px >= -kReach_px && top_px >= -kReach_px &&
-         left_px + 1 + kBlock_px <= now_.width() + kReach_px &&
-         top_px + 1 + kBlock_px <= now_.height() + kReach_px;
+  return left_px >= -kBlockReach_px && top_px >= -kBlockReach_px &&
+         left_px + 1 + kBlock_px <= now_.width() + kBlockReach_px &&
+         top_px + 1 + kBlock_px <= now_.height() + kBlockReach_px;
 }
 
 int BlockField::difference_if_moved(int block, float x_px, float y_px) const {

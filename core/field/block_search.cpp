@@ -25,9 +25,6 @@ constexpr int kBadDifference = 8 * kBlockArea_px;
 constexpr int kFarthest_px = 16;
 constexpr int kNearest_px = 4;
 constexpr int kMostSteps = 8;
-/// How far blocks may extend beyond the picture: the padding, less the pixels that compare_blocks()
-/// and the interpolation read around them.
-constexpr int kReach_px = PaddedImage::kPad_px - 2;
 
 struct Vector {
   int dx;
@@ -46,9 +43,9 @@ class Walk {
       : before_(before),
         block_(block),
         origin_(before.row(y_px) + x_px),
-        low_{-x_px - kReach_px, -y_px - kReach_px},
-        high_{before.width() + kReach_px - kBlock_px - x_px,
-              before.height() + kReach_px - kBlock_px - y_px} {}
+        low_{-x_px - kBlockReach_px, -y_px - kBlockReach_px},
+        high_{before.width() + kBlockReach_px - kBlock_px - x_px,
+              before.height() + kBlockReach_px - kBlock_px - y_px} {}
 
   void expect(Vector expected) { expected_ = expected; }
 

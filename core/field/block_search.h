@@ -10,6 +10,10 @@
 
 namespace spidar {
 
+/// How far blocks may extend beyond the picture: the padding, less the pixels that compare_blocks()
+/// and the interpolation read around them.
+constexpr int kBlockReach_px = PaddedImage::kPad_px - 2;
+
 /// Blocks side by side, centred on the picture. The strip that is left at each border is narrower
 /// than a block.
 struct BlockGrid {

@@ -20,7 +20,7 @@ constexpr float kLeastStrength = 2;
 constexpr int kWindow_px = 16;
 /// A point that is further than this from where its block went shows something else, px of the
 /// field's picture.
-constexpr float kReach_px = 1;
+constexpr float kMostFromBlock_px = 1;
 constexpr MatchSettings kMatch{4, 0.02f, 2};
 
 /// Block of the grid at a place of the base; outside the grid, the nearest block.
@@ -69,7 +69,7 @@ bool FieldPoints::find(Point& point, const FineWindow& fine, const ImageView& fr
   WindowMatch match;
   match.centre = expected(field, point.at);
   MatchSettings settings = kMatch;
-  settings.reach_px = kReach_px * static_cast<float>(field.scale());
+  settings.reach_px = kMostFromBlock_px * static_cast<float>(field.scale());
   if (!window.find(ReadablePixels(reduced.base()), settings, match)) return false;
   if (match.residual > FineWindow::kSameThing) return false;
   const auto inside = [](float px, int size) {

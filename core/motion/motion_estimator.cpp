@@ -10,9 +10,9 @@ namespace {
 
 /// Blocks this close to the border of the picture count as being at the border.
 constexpr int kBorderBlocks = 2;
-/// Smaller eigenvalue of the structure tensor, (grey / px)²: a block may vote from kLeastTexture
-/// on, and its vote approaches a full one well above kFullTexture.
-constexpr double kLeastTexture = 6;
+/// Smaller eigenvalue of the structure tensor, (grey / px)²: a block may vote from
+/// kLeastVoteTexture on, and its vote approaches a full one well above kFullTexture.
+constexpr double kLeastVoteTexture = 6;
 constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
@@ -108,7 +108,7 @@ void MotionEstimator::collect_votes() {
       const auto i = static_cast<size_t>(row * grid.columns + column);
       const MotionBlock& block = field_.blocks()[i];
       const double texture = static_cast<double>(block.weakest_texture());
-      if (texture < kLeastTexture || votes_.points.size() >= kMostDisplacements) continue;
+      if (texture < kLeastVoteTexture || votes_.points.size() >= kMostDisplacements) continue;
       if (objects_.is_burned_in(i)) continue;
       double weight = texture / (texture + kFullTexture) /
                       (1 + static_cast<double>(block.residual) / kBadResidual);
@@ -209,8 +209,8 @@ void MotionEstimator::report_tracks(const ReducedFrame& reduced) {
   for (const PlacedPoint& point : placed_) has_point_[point.block] = 1;
   for (size_t i = 0; i < field_.blocks().size(); ++i) {
     const MotionBlock& block = field_.blocks()[i];
-    const bool shows_motion =
-        objects_.is_measured(i) || static_cast<double>(block.weakest_texture()) >= kLeastTexture;
+    const bool shows_motion = objects_.is_measured(i) ||
+                              static_cast<double>(block.weakest_texture()) >= kLeastVoteTexture;
     if (has_point_[i] != 0 || !shows_motion) continue;
     const ImagePoint to{middle_x + scale * block.x_px, middle_y + scale * block.y_px};
     const ImagePoint from{to.x_px - scale * block.moved_x_px, to.y_px - scale * block.moved_y_px};

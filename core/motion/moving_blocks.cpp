@@ -15,7 +15,7 @@ constexpr float kLeastMotion_px = 0.35f;
 constexpr float kLeastMotionWhileStill_px = 0.15f;
 constexpr float kMotionSigmas = 3;
 /// Below this sum of the tensor's eigenvalues, (grey / px)², a block has too little texture.
-constexpr float kLeastTexture = 4;
+constexpr float kLeastBlockTexture = 4;
 /// By how many squared grey levels the background's motion must fit worse on average, according to
 /// the structure tensor, and by how many more for each unit of residual of the block's own motion.
 constexpr float kLeastEvidence = 3;
@@ -45,7 +45,7 @@ constexpr int kNeighboursOfUnknown = 4;
 constexpr int kNeighboursOfStill = 7;
 
 /// A block that stood out in two of the last frames needs only one moving neighbour.
-constexpr float kLasting = 0.5f;
+constexpr float kLeastLasting = 0.5f;
 constexpr int kNeighboursOfLasting = 1;
 /// Weights of the newest frame in the memory of earlier ones. kBeside: weight of a block that stood
 /// out next to the one from which this block came.
@@ -109,7 +109,7 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     relative.background_y_px = moved_px.y();
     relative.x_px = block.moved_x_px - moved_px.x();
     relative.y_px = block.moved_y_px - moved_px.y();
-    relative.has_texture = block.texture() > kLeastTexture;
+    relative.has_texture = block.texture() > kLeastBlockTexture;
     relative.is_new = seen_before(field, i, relative) < kSeenBefore;
     residuals_.push_back(block.residual);
   }
@@ -179,7 +179,7 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
       switch (judgements_[index]) {
         case Judgement::kMoves:
           moves = moving >= kLeastNeighbours ||
-                  (moving >= kNeighboursOfLasting && stood_out_[index] > kLasting);
+                  (moving >= kNeighboursOfLasting && stood_out_[index] > kLeastLasting);
           break;
         case Judgement::kUnknown:
           moves = moving >= kNeighboursOfUnknown && 3 * moving >= 2 * known;

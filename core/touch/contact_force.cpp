@@ -7,14 +7,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/touch/require.h"
+
 namespace spidar {
 namespace {
-
-void require(bool right, const char* name, const char* rule, double value) {
-  if (right) return;
-  throw std::invalid_argument("Contact: " + std::string(name) + " must be " + rule + ", but is " +
-                              std::to_string(value));
-}
 
 /// Slope of the texture at the position of the grip, not of the proxy, which friction can hold
 /// back.
@@ -42,22 +38,25 @@ ForcePath path_of(const ContactSettings& settings, double dt_s) noexcept {
 }  // namespace
 
 void validate(const ContactSettings& s) {
-  require(s.stiffness_N_m > 0 && s.stiffness_N_m <= ContactSettings::kMostStiffness_N_m,
+  require(s.stiffness_N_m > 0 && s.stiffness_N_m <= ContactSettings::kMostStiffness_N_m, "Contact",
           "stiffness_N_m", "above 0 and at most 800", s.stiffness_N_m);
-  require(std::isfinite(s.delay_s) && s.delay_s >= 0, "delay_s", "finite and ≥ 0", s.delay_s);
-  require(std::isfinite(s.damping) && s.damping >= 1, "damping", "finite and ≥ 1", s.damping);
-  require(std::isfinite(s.lateral_damping) && s.lateral_damping >= 0.5, "lateral_damping",
-          "finite and ≥ 0.5", s.lateral_damping);
-  require(std::isfinite(s.friction.fixed) && s.friction.fixed >= 0, "friction.fixed",
+  require(std::isfinite(s.delay_s) && s.delay_s >= 0, "Contact", "delay_s", "finite and ≥ 0",
+          s.delay_s);
+  require(std::isfinite(s.damping) && s.damping >= 1, "Contact", "damping", "finite and ≥ 1",
+          s.damping);
+  require(std::isfinite(s.lateral_damping) && s.lateral_damping >= 0.5, "Contact",
+          "lateral_damping", "finite and ≥ 0.5", s.lateral_damping);
+  require(std::isfinite(s.friction.fixed) && s.friction.fixed >= 0, "Contact", "friction.fixed",
           "finite and ≥ 0", s.friction.fixed);
-  require(s.friction.dynamic >= 0 && s.friction.dynamic <= s.friction.fixed, "friction.dynamic",
-          "≥ 0 and at most friction.fixed", s.friction.dynamic);
-  require(std::isfinite(s.texture) && s.texture >= 0, "texture", "finite and ≥ 0", s.texture);
-  require(s.max_force_N > 0, "max_force_N", "above 0", s.max_force_N);
-  require(std::isfinite(s.max_slew_N_s) && s.max_slew_N_s > 0, "max_slew_N_s", "finite and above 0",
-          s.max_slew_N_s);
-  require(s.beside_N.allFinite(), "beside_N", "finite", s.beside_N.norm());
-  require(std::isfinite(s.least_mass_kg) && s.least_mass_kg > 0, "least_mass_kg",
+  require(s.friction.dynamic >= 0 && s.friction.dynamic <= s.friction.fixed, "Contact",
+          "friction.dynamic", "≥ 0 and at most friction.fixed", s.friction.dynamic);
+  require(std::isfinite(s.texture) && s.texture >= 0, "Contact", "texture", "finite and ≥ 0",
+          s.texture);
+  require(s.max_force_N > 0, "Contact", "max_force_N", "above 0", s.max_force_N);
+  require(std::isfinite(s.max_slew_N_s) && s.max_slew_N_s > 0, "Contact", "max_slew_N_s",
+          "finite and above 0", s.max_slew_N_s);
+  require(s.beside_N.allFinite(), "Contact", "beside_N", "finite", s.beside_N.norm());
+  require(std::isfinite(s.least_mass_kg) && s.least_mass_kg > 0, "Contact", "least_mass_kg",
           "finite and above 0", s.least_mass_kg);
 }
 

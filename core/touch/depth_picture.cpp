@@ -8,18 +8,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/touch/require.h"
+
 namespace spidar {
 namespace {
 
 constexpr int kMostSample = 65535;
 constexpr auto kCells = static_cast<size_t>(HeightField::kCells);
 constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
-
-void require(bool right, const std::string& name, const char* rule, double value) {
-  if (right) return;
-  throw std::invalid_argument("Depth: " + name + " must be " + rule + ", but is " +
-                              std::to_string(value));
-}
 
 /// Index of the n-th of `wanted` evenly spaced lines out of `count`.
 int chosen(int n, int wanted, int count) noexcept {
@@ -58,18 +54,18 @@ DepthView depth_half(const ImageView& packed, DepthLayout layout) noexcept {
 }
 
 void validate(const DepthSettings& s) {
-  require(std::isfinite(s.near_sample) && s.near_sample <= kMostSample, "near",
+  require(std::isfinite(s.near_sample) && s.near_sample <= kMostSample, "Depth", "near",
           "at most 65535, or -1 to be found", s.near_sample);
-  require(std::isfinite(s.far_sample) && s.far_sample <= kMostSample, "far",
+  require(std::isfinite(s.far_sample) && s.far_sample <= kMostSample, "Depth", "far",
           "at most 65535, or -1 to be found", s.far_sample);
   if (s.near_sample < 0 || s.far_sample < 0) return;
   const std::string far = "far (" + std::to_string(s.far_sample) + ")";
   if (s.disparity) {
-    require(s.near_sample > s.far_sample, "near", ("more than " + far + " in a disparity").c_str(),
-            s.near_sample);
+    require(s.near_sample > s.far_sample, "Depth", "near",
+            ("more than " + far + " in a disparity").c_str(), s.near_sample);
   } else {
-    require(s.near_sample < s.far_sample, "near", ("less than " + far + " in a distance").c_str(),
-            s.near_sample);
+    require(s.near_sample < s.far_sample, "Depth", "near",
+            ("less than " + far + " in a distance").c_str(), s.near_sample);
   }
 }
 

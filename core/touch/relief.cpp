@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/touch/require.h"
 #include "core/tracking/luma_row.h"
 
 namespace spidar {
@@ -16,12 +17,6 @@ namespace {
 
 constexpr int kColumns = HeightField::kColumns;
 constexpr int kRows = HeightField::kRows;
-
-void require(bool right, const char* name, const char* rule, double value) {
-  if (right) return;
-  throw std::invalid_argument("Relief: " + std::string(name) + " must be " + rule + ", but is " +
-                              std::to_string(value));
-}
 
 bool finite_and_not_negative(double value) {
   return std::isfinite(value) && value >= 0;
@@ -112,10 +107,10 @@ void limit_slope(HeightField& field) noexcept {
 }  // namespace
 
 void validate(const ReliefSettings& settings) {
-  require(std::isfinite(settings.floor_z_m), "floor_z_m", "finite", settings.floor_z_m);
-  require(finite_and_not_negative(settings.relief_m), "relief_m", "finite and ≥ 0",
+  require(std::isfinite(settings.floor_z_m), "Relief", "floor_z_m", "finite", settings.floor_z_m);
+  require(finite_and_not_negative(settings.relief_m), "Relief", "relief_m", "finite and ≥ 0",
           settings.relief_m);
-  require(finite_and_not_negative(settings.smoothing_m), "smoothing_m", "finite and ≥ 0",
+  require(finite_and_not_negative(settings.smoothing_m), "Relief", "smoothing_m", "finite and ≥ 0",
           settings.smoothing_m);
 }
 

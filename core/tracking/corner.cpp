@@ -55,9 +55,9 @@ float strength(const Tensor& t) {
   return smaller > kLeastRoundness * larger ? 0.5f / (kTwice * kPixels) * smaller : 0.0f;
 }
 
-constexpr int kBlock_px = kCornerStep_px;
-constexpr int kMostBlocks = kMostCornerBox_px / kBlock_px;
-using BlockRow = std::array<Tensor, kMostBlocks>;
+constexpr int kTensorBlock_px = kCornerStep_px;
+constexpr int kMostBlocks = kMostCornerBox_px / kTensorBlock_px;
+using TensorRow = std::array<Tensor, kMostBlocks>;
 
 #if CV_SIMD128
 /// Tensors of two blocks side by side.
@@ -69,7 +69,7 @@ void two_blocks(const uint8_t* pixels, ptrdiff_t stride, Tensor* to) {
   cv::v_int32x4 sy = xx;
   const cv::v_int16x8 ones = cv::v_setall_s16(1);
   const auto load = [](const uint8_t* p) { return cv::v_reinterpret_as_s16(cv::v_load_expand(p)); };
-  for (int y = 0; y < kBlock_px; ++y) {
+  for (int y = 0; y < kTensorBlock_px; ++y) {
     const uint8_t* row = pixels + y * stride;
     const cv::v_int16x8 gx = load(row + 1) - load(row - 1);
     const cv::v_int16x8 gy = load(row + stride) - load(row - stride);
@@ -96,8 +96,8 @@ void two_blocks(const uint8_t* pixels, ptrdiff_t stride, Tensor* to) {
 
 Tensor one_block(const uint8_t* pixels, ptrdiff_t stride) {
   Tensor sum;
-  for (int y = 0; y < kBlock_px; ++y) {
-    for (int x = 0; x < kBlock_px; ++x) {
+  for (int y = 0; y < kTensorBlock_px; ++y) {
+    for (int x = 0; x < kTensorBlock_px; ++x) {
       const uint8_t* p = pixels + y * stride + x;
       sum.add(p[1] - p[-1], p[stride] - p[-stride]);
     }
@@ -105,15 +105,15 @@ Tensor one_block(const uint8_t* pixels, ptrdiff_t stride) {
   return sum;
 }
 
-void row_of_blocks(const uint8_t* pixels, ptrdiff_t stride, int blocks, BlockRow& to) {
+void row_of_blocks(const uint8_t* pixels, ptrdiff_t stride, int blocks, TensorRow& to) {
   int k = 0;
 #if CV_SIMD128
   for (; k + 2 <= blocks; k += 2) {
-    two_blocks(pixels + k * kBlock_px, stride, &to[static_cast<size_t>(k)]);
+    two_blocks(pixels + k * kTensorBlock_px, stride, &to[static_cast<size_t>(k)]);
   }
 #endif
   for (; k < blocks; ++k) {
-    to[static_cast<size_t>(k)] = one_block(pixels + k * kBlock_px, stride);
+    to[static_cast<size_t>(k)] = one_block(pixels + k * kTensorBlock_px, stride);
   }
 }
 
@@ -126,17 +126,17 @@ ImagePoint window_centre(int x0, int y0) {
 }  // namespace
 
 Corner best_corner(const PaddedImage& image, const PixelBox& box) {
-  const int columns = std::min(box.x1 - box.x0, kMostCornerBox_px) / kBlock_px;
-  const int rows = std::min(box.y1 - box.y0, kMostCornerBox_px) / kBlock_px;
+  const int columns = std::min(box.x1 - box.x0, kMostCornerBox_px) / kTensorBlock_px;
+  const int rows = std::min(box.y1 - box.y0, kMostCornerBox_px) / kTensorBlock_px;
   Corner best;
   if (columns < 2) return best;
-  std::array<BlockRow, 2> bands;
+  std::array<TensorRow, 2> bands;
   for (int j = 0; j < rows; ++j) {
-    const int y0 = box.y0 + j * kBlock_px;
-    BlockRow& below = bands[static_cast<size_t>(j % 2)];
+    const int y0 = box.y0 + j * kTensorBlock_px;
+    TensorRow& below = bands[static_cast<size_t>(j % 2)];
     row_of_blocks(image.row(y0) + box.x0, image.stride(), columns, below);
     if (j == 0) continue;
-    const BlockRow& above = bands[static_cast<size_t>((j + 1) % 2)];
+    const TensorRow& above = bands[static_cast<size_t>((j + 1) % 2)];
     for (size_t i = 0; i + 1 < static_cast<size_t>(columns); ++i) {
       Tensor window = above[i];
       window += above[i + 1];
@@ -144,7 +144,8 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box) {
       window += below[i + 1];
       const float found = strength(window);
       if (found <= best.strength) continue;
-      best = {window_centre(box.x0 + static_cast<int>(i) * kBlock_px, y0 - kBlock_px), found};
+      best = {window_centre(box.x0 + static_cast<int>(i) * kTensorBlock_px, y0 - kTensorBlock_px),
+              found};
     }
   }
   return best;

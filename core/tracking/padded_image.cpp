@@ -69,7 +69,7 @@ void store_means(const v_uint16x8& sums, unsigned count, uint8_t* to) {
 constexpr int kRowsAhead = 2;
 
 /// One row of blocks.
-struct BlockRow {
+struct SourceRows {
   ptrdiff_t step;  ///< between the rows that are used
   int factor;
   int rows;     ///< number of rows used per block
@@ -81,7 +81,7 @@ struct BlockRow {
 };
 
 template <typename Reader>
-uint8_t block_mean(const Reader& reader, const BlockRow& row, int x) {
+uint8_t block_mean(const Reader& reader, const SourceRows& row, int x) {
   unsigned sum = 0;
   for (int k = 0; k < row.rows; ++k) {
     const uint8_t* pixels = row.pixels + k * row.step + x * row.factor * Reader::kBytes;
@@ -94,7 +94,7 @@ uint8_t block_mean(const Reader& reader, const BlockRow& row, int x) {
 
 #if CV_SIMD128
 template <int kFactor, typename Reader>
-int reduce_by_power_of_2(const Reader& reader, const BlockRow& row, uint8_t* to) {
+int reduce_by_power_of_2(const Reader& reader, const SourceRows& row, uint8_t* to) {
   constexpr int kCacheLine = 64;
   constexpr int kBlock = kFactor * Reader::kBytes;
   int x = 0;
@@ -113,7 +113,7 @@ int reduce_by_power_of_2(const Reader& reader, const BlockRow& row, uint8_t* to)
 
 /// Returns the number of blocks processed, from the left; the caller processes the rest.
 template <typename Reader>
-int reduce_with_vectors(const Reader& reader, const BlockRow& row, uint8_t* to) {
+int reduce_with_vectors(const Reader& reader, const SourceRows& row, uint8_t* to) {
   switch (row.factor) {
     case 2:
       return reduce_by_power_of_2<2>(reader, row, to);
@@ -170,7 +170,7 @@ void PaddedImage::repeat_border() {
 
 void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
   reduced.resize(frame.width / factor, frame.height / factor);
-  BlockRow row{row_step(factor) * frame.stride_bytes, factor, rows_used(factor), reduced.width()};
+  SourceRows row{row_step(factor) * frame.stride_bytes, factor, rows_used(factor), reduced.width()};
   for (int y = 0; y < reduced.height(); ++y) {
     const int ahead = std::min(y + kRowsAhead, reduced.height() - 1);
     row.pixels = frame.data + y * factor * frame.stride_bytes;

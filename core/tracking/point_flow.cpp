@@ -16,8 +16,8 @@ constexpr int kWindow_px = 15;
 constexpr int kMaxLevel = 3;  // a level reaches about half a window: 7 px · 2³ in all
 
 /// OpenCV's smallest eigenvalue is the mean squared gradient (grey levels per pixel) / 1024.
-constexpr double kMinGradient = 1.0;
-constexpr double kMinEigenvalue = kMinGradient * kMinGradient / 1024;
+constexpr double kMinMeanGradient = 1.0;
+constexpr double kMinEigenvalue = kMinMeanGradient * kMinMeanGradient / 1024;
 
 /// Largest forward–backward error, px. Correct matches return to within a few hundredths of a
 /// pixel, wrong ones to anywhere.

@@ -10,16 +10,16 @@
 namespace spidar {
 namespace {
 
-constexpr int kBlock_px = 3;  // neighbourhood of eq. 1
+constexpr int kNeighbourhood_px = 3;  // neighbourhood of eq. 1
 constexpr int kSobel_px = 3;
 
 /// Minimum RMS gradient in the weakest direction, grey levels per pixel. Weaker structure is noise
 /// and rounding, whatever the rest of the picture contains.
-constexpr double kMinGradient = 1.0;
+constexpr double kMinWeakestGradient = 1.0;
 
 /// cornerMinEigenVal() scales the Sobel sums by 1 / (4 · block · 255) before it adds block²
 /// squares: a gradient of g grey levels per pixel in both directions gives (2 g / 255)².
-constexpr double kMinResponse = (2 * kMinGradient / 255) * (2 * kMinGradient / 255);
+constexpr double kMinResponse = (2 * kMinWeakestGradient / 255) * (2 * kMinWeakestGradient / 255);
 
 struct Candidate {
   Feature feature;
@@ -109,13 +109,13 @@ std::vector<Candidate> rate(const std::vector<Feature>& features, const cv::Mat&
 
 void select_features(const cv::Mat& image, const SelectionSettings& settings, cv::Mat& response,
                      std::vector<Feature>& features, uint32_t& next_id) {
-  cv::cornerMinEigenVal(image, response, kBlock_px, kSobel_px);
+  cv::cornerMinEigenVal(image, response, kNeighbourhood_px, kSobel_px);
   double strongest = 0;
   cv::minMaxLoc(response, nullptr, &strongest);
   const double threshold = std::max(kMinResponse, settings.quality_level * strongest);
 
   // Closer to the border the eigenvalues include mirrored pixels.
-  const int border_px = std::max(settings.border_px, kBlock_px / 2 + kSobel_px / 2);
+  const int border_px = std::max(settings.border_px, kNeighbourhood_px / 2 + kSobel_px / 2);
 
   const auto limit = static_cast<size_t>(settings.max_features);
   // A distance beyond the picture's diagonal has no further effect; the bound keeps it within an

@@ -13,7 +13,7 @@
 namespace spidar {
 namespace {
 
-constexpr int kBlock_px = 16;
+constexpr int kComparedBlock_px = 16;
 
 /// Σ |a − b| over a block.
 unsigned block_change(const ImageView& a, const ImageView& b, int x, int y, int columns, int rows) {
@@ -29,10 +29,10 @@ unsigned block_change(const ImageView& a, const ImageView& b, int x, int y, int 
 unsigned whole_block_change(const ImageView& a, const ImageView& b, int x, int y) {
 #if CV_SIMD128
   DifferenceSum sum;
-  for (int j = 0; j < kBlock_px; ++j) sum.add(a.at(x, y + j), b.at(x, y + j));
+  for (int j = 0; j < kComparedBlock_px; ++j) sum.add(a.at(x, y + j), b.at(x, y + j));
   return sum.total();
 #else
-  return block_change(a, b, x, y, kBlock_px, kBlock_px);
+  return block_change(a, b, x, y, kComparedBlock_px, kComparedBlock_px);
 #endif
 }
 
@@ -61,10 +61,10 @@ template <typename Change>
 float largest(const ImageView& now, Change&& change) {
   LargestMean most;
   size_t blocks = 0;
-  for (int y = 0; y < now.height; y += kBlock_px) {
-    const int rows = std::min(kBlock_px, now.height - y);
-    for (int x = 0; x < now.width; x += kBlock_px) {
-      const int columns = std::min(kBlock_px, now.width - x);
+  for (int y = 0; y < now.height; y += kComparedBlock_px) {
+    const int rows = std::min(kComparedBlock_px, now.height - y);
+    for (int x = 0; x < now.width; x += kComparedBlock_px) {
+      const int columns = std::min(kComparedBlock_px, now.width - x);
       const auto sum = static_cast<float>(change(x, y, columns, rows));
       most.add(sum / static_cast<float>(rows * columns));
       ++blocks;
@@ -77,7 +77,7 @@ float largest(const ImageView& now, Change&& change) {
 
 float largest_change(const ImageView& before, const ImageView& now) {
   return largest(now, [&](int x, int y, int columns, int rows) {
-    return columns == kBlock_px && rows == kBlock_px
+    return columns == kComparedBlock_px && rows == kComparedBlock_px
                ? whole_block_change(before, now, x, y)
                : block_change(before, now, x, y, columns, rows);
   });

@@ -49,13 +49,14 @@ typedef struct {
   gdouble torque_x;     /*!< Wanted torque about the x axis, N m, right-handed. */
   gdouble torque_y;     /*!< Wanted torque about the y axis, N m, right-handed. */
   gdouble torque_z;     /*!< Wanted torque about the z axis, N m, right-handed. */
-} GstSpidarMotion;
+} GstSpidarFrameMotion;
 
 /*! Reads the motion of the frame in `buffer` into `motion`.
  *
  * Returns FALSE if the buffer has no such meta, because it was not analysed or attach-meta is not
  * set, or if the meta lacks a field; `motion` is then not to be used. */
-static inline gboolean gst_buffer_get_spidar_motion(GstBuffer* buffer, GstSpidarMotion* motion) {
+static inline gboolean gst_buffer_get_spidar_motion(GstBuffer* buffer,
+                                                    GstSpidarFrameMotion* motion) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   memset(motion, 0, sizeof *motion);
   if (meta == NULL) return FALSE;

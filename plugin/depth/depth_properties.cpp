@@ -27,27 +27,30 @@ std::string DepthProperties::trouble(GstVideoFormat format) const {
 }
 
 const PropertyTable<DepthProperties>& depth_properties() {
-  using Row = Property<DepthProperties>;
+  using DepthRow = Property<DepthProperties>;
   // Never destroyed: a thread may still set a property while the process ends.
   static const auto& table = *new PropertyTable<DepthProperties>{{
-      Row::choice<DepthSamples>(
+      DepthRow::choice<DepthSamples>(
           {"samples", "Samples", "What the samples of depth mean"}, "GstSpidarDepthSamples",
           {{DepthSamples::kAuto, "GRAY8 is disparity, GRAY16 is distance", "auto"},
            {DepthSamples::kDistance, "Larger samples are farther", "distance"},
            {DepthSamples::kDisparity, "Larger samples are nearer", "disparity"}},
           kReady, KEPT_IN(samples)),
-      Row::number({"near", "Near",
-                   "Sample that stands for the nearest depth, in units of the samples (often mm); "
-                   "-1: find it by percentiles"},
-                  -1, 65535, kReady, KEPT_IN(near_sample)),
-      Row::number({"far", "Far",
-                   "Sample that stands for the farthest depth, in units of the samples; -1: find "
-                   "it by percentiles"},
-                  -1, 65535, kReady, KEPT_IN(far_sample)),
-      Row::duration({"max-age", "Maximum age",
-                     "How long after its end a depth image is still attached while the next one is "
-                     "missing, ns; the largest value is for ever"},
-                    kPlaying, KEPT_IN(max_age_ns)),
+      DepthRow::number(
+          {"near", "Near",
+           "Sample that stands for the nearest depth, in units of the samples (often mm); "
+           "-1: find it by percentiles"},
+          -1, 65535, kReady, KEPT_IN(near_sample)),
+      DepthRow::number(
+          {"far", "Far",
+           "Sample that stands for the farthest depth, in units of the samples; -1: find "
+           "it by percentiles"},
+          -1, 65535, kReady, KEPT_IN(far_sample)),
+      DepthRow::duration(
+          {"max-age", "Maximum age",
+           "How long after its end a depth image is still attached while the next one is "
+           "missing, ns; the largest value is for ever"},
+          kPlaying, KEPT_IN(max_age_ns)),
   }};
   return table;
 }

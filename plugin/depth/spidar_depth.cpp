@@ -41,6 +41,7 @@
 #include "plugin/properties/property_table.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_depth_debug);
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_depth_debug
 
 using spidar::depth_properties;
@@ -64,12 +65,12 @@ struct _GstSpidarDepth {
   spidar::DepthBranch* depth;
 };
 
-static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
+static GstStaticPadTemplate depth_sink_template = GST_STATIC_PAD_TEMPLATE(
     "sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
 static GstStaticPadTemplate depth_template = GST_STATIC_PAD_TEMPLATE(
     "depth_sink", GST_PAD_SINK, GST_PAD_ALWAYS,
     GST_STATIC_CAPS(GST_VIDEO_CAPS_MAKE("{ GRAY16_LE, GRAY16_BE, GRAY8 }")));
-static GstStaticPadTemplate src_template = GST_STATIC_PAD_TEMPLATE(
+static GstStaticPadTemplate depth_src_template = GST_STATIC_PAD_TEMPLATE(
     "src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
 
 G_DEFINE_TYPE_WITH_CODE(GstSpidarDepth, gst_spidar_depth, GST_TYPE_ELEMENT,
@@ -317,7 +318,7 @@ static void gst_spidar_depth_init(GstSpidarDepth* self) {
   self->gate = new DepthGate(GST_OBJECT(self));
   self->depth = new spidar::DepthBranch(GST_ELEMENT(self), *self->gate);
   self->properties = new DepthProperties();
-  self->sink = add_pad(self, &sink_template);
+  self->sink = add_pad(self, &depth_sink_template);
   gst_pad_set_chain_function(self->sink, gst_spidar_depth_chain);
   gst_pad_set_event_function(self->sink, gst_spidar_depth_sink_event);
   gst_pad_set_query_function(self->sink, gst_spidar_depth_sink_query);
@@ -327,7 +328,7 @@ static void gst_spidar_depth_init(GstSpidarDepth* self) {
   gst_pad_set_query_function(self->depth_sink, gst_spidar_depth_depth_query);
   gst_pad_set_link_function(self->depth_sink, gst_spidar_depth_depth_link);
   gst_pad_set_unlink_function(self->depth_sink, gst_spidar_depth_depth_unlink);
-  self->src = add_pad(self, &src_template);
+  self->src = add_pad(self, &depth_src_template);
   gst_pad_set_event_function(self->src, gst_spidar_depth_src_event);
   gst_pad_set_query_function(self->src, gst_spidar_depth_src_query);
   gst_spidar_depth_reset(self);
@@ -345,6 +346,7 @@ static void gst_spidar_depth_class_init(GstSpidarDepthClass* klass) {
   gst_element_class_set_static_metadata(element_class, "SPIDAR depth combiner", "Filter/Video",
                                         "Attaches depth images to the frames of a video",
                                         "gst-spidar");
-  for (GstStaticPadTemplate* pad_template : {&sink_template, &depth_template, &src_template})
+  for (GstStaticPadTemplate* pad_template :
+       {&depth_sink_template, &depth_template, &depth_src_template})
     gst_element_class_add_static_pad_template(element_class, pad_template);
 }

@@ -5,6 +5,7 @@
 #include "plugin/reports/category.h"
 #include "spidar/loop/motor_heat.h"
 
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
 
 namespace spidar {

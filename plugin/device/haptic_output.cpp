@@ -11,6 +11,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/simulation/simulated_device.h"
 
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
 
 namespace spidar {

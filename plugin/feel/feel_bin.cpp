@@ -11,6 +11,7 @@
 using spidar::Ref;
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_feel_debug);
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_feel_debug
 
 struct _GstSpidarFeelBin {

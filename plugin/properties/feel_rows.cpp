@@ -4,10 +4,9 @@
 
 namespace spidar {
 
-std::vector<Property<MotionProperties>> feel_rows() {
-  using Row = Property<MotionProperties>;
+std::vector<MotionRow> feel_rows() {
   return {
-      Row::choice<ControllerKind>(
+      MotionRow::choice<ControllerKind>(
           {"controller", "Controller", "How speed is converted to force"},
           "GstSpidarMotionController",
           {{ControllerKind::kLinear, "Linear: full force at the largest speed so far (eq. 11-13)",
@@ -19,7 +18,7 @@ std::vector<Property<MotionProperties>> feel_rows() {
             "ten times the one that is set) and no force below the measurement's noise",
             "adaptive"}},
           kControllable, KEPT_IN(analyzer.controller.kind)),
-      Row::choice<MotionKind>(
+      MotionRow::choice<MotionKind>(
           {"motion", "Motion", "Which motion in the picture is rendered as force"},
           "GstSpidarMotionMotion",
           {{MotionKind::kMean,
@@ -36,7 +35,7 @@ std::vector<Property<MotionProperties>> feel_rows() {
            {MotionKind::kCamera, "The motion of the camera, as if the viewer moved with it",
             "camera"}},
           kControllable, KEPT_IN(analyzer.motion)),
-      Row::choice<PointerKind>(
+      MotionRow::choice<PointerKind>(
           {"pointer", "Pointer", "Which position weights the objects of motion=objects"},
           "GstSpidarMotionPointer",
           {{PointerKind::kFixed, "At pointer-x, pointer-y", "fixed"},
@@ -45,40 +44,47 @@ std::vector<Property<MotionProperties>> feel_rows() {
             "picture",
             "grip"}},
           kControllable, KEPT_IN(pointer)),
-      Row::number({"pointer-x", "Pointer x",
-                   "Horizontal position of the pointer: 0 is the left edge of the picture, 1 the "
-                   "right edge. pointer=grip uses it while no device runs"},
-                  0, 1, kControllable, KEPT_IN(analyzer.pointer.x())),
-      Row::number({"pointer-y", "Pointer y",
-                   "Vertical position of the pointer: 0 is the top of the picture, 1 the bottom"},
-                  0, 1, kControllable, KEPT_IN(analyzer.pointer.y())),
-      Row::number({"max-force", "Maximum force",
-                   "Largest force on the grip, in newtons (Fmax of eq. 12 and 15)"},
-                  0, 20, kControllable, KEPT_IN(analyzer.controller.max_force_N)),
-      Row::number({"alpha", "Alpha",
-                   "How quickly force rises with speed (nonlinear and adaptive controller), in "
-                   "seconds per pixel of a frame 480 lines high: half of the maximum force is "
-                   "reached at 1/alpha px/s"},
-                  1e-6, 10, kControllable, KEPT_IN(analyzer.controller.alpha_s_px)),
-      Row::number({"depth-gain", "Depth gain",
-                   "Force towards the viewer when the object grows. With 1, growth counts as the "
-                   "speed that it causes at half a frame's height from the centre; 0 turns it "
-                   "off"},
-                  0, 100, kControllable, KEPT_IN(analyzer.axes.depth)),
-      Row::number({"roll-gain", "Roll gain",
-                   "Torque about the view axis when the object turns. With 1, rotation counts as "
-                   "the speed that it causes at half a frame's height from the centre; 0 turns it "
-                   "off"},
-                  0, 100, kControllable, KEPT_IN(analyzer.axes.roll)),
-      Row::number({"filter-min-cutoff", "Filter minimum cutoff",
-                   "Cutoff frequency of the motion's One-Euro filter while the motion is steady, "
-                   "in Hz. Lower values are smoother and delay by 1/(2 pi cutoff) seconds; 0 turns "
-                   "the filter off"},
-                  0, 1000, kControllable, KEPT_IN(analyzer.filter.min_cutoff_Hz)),
-      Row::number({"filter-beta", "Filter beta",
-                   "How much the One-Euro filter's cutoff rises with the motion's rate of change, "
-                   "in Hz per px/s^2 of a frame 480 lines high"},
-                  0, 10, kControllable, KEPT_IN(analyzer.filter.beta_s_px)),
+      MotionRow::number(
+          {"pointer-x", "Pointer x",
+           "Horizontal position of the pointer: 0 is the left edge of the picture, 1 the "
+           "right edge. pointer=grip uses it while no device runs"},
+          0, 1, kControllable, KEPT_IN(analyzer.pointer.x())),
+      MotionRow::number(
+          {"pointer-y", "Pointer y",
+           "Vertical position of the pointer: 0 is the top of the picture, 1 the bottom"},
+          0, 1, kControllable, KEPT_IN(analyzer.pointer.y())),
+      MotionRow::number({"max-force", "Maximum force",
+                         "Largest force on the grip, in newtons (Fmax of eq. 12 and 15)"},
+                        0, 20, kControllable, KEPT_IN(analyzer.controller.max_force_N)),
+      MotionRow::number(
+          {"alpha", "Alpha",
+           "How quickly force rises with speed (nonlinear and adaptive controller), in "
+           "seconds per pixel of a frame 480 lines high: half of the maximum force is "
+           "reached at 1/alpha px/s"},
+          1e-6, 10, kControllable, KEPT_IN(analyzer.controller.alpha_s_px)),
+      MotionRow::number(
+          {"depth-gain", "Depth gain",
+           "Force towards the viewer when the object grows. With 1, growth counts as the "
+           "speed that it causes at half a frame's height from the centre; 0 turns it "
+           "off"},
+          0, 100, kControllable, KEPT_IN(analyzer.axes.depth)),
+      MotionRow::number(
+          {"roll-gain", "Roll gain",
+           "Torque about the view axis when the object turns. With 1, rotation counts as "
+           "the speed that it causes at half a frame's height from the centre; 0 turns it "
+           "off"},
+          0, 100, kControllable, KEPT_IN(analyzer.axes.roll)),
+      MotionRow::number(
+          {"filter-min-cutoff", "Filter minimum cutoff",
+           "Cutoff frequency of the motion's One-Euro filter while the motion is steady, "
+           "in Hz. Lower values are smoother and delay by 1/(2 pi cutoff) seconds; 0 turns "
+           "the filter off"},
+          0, 1000, kControllable, KEPT_IN(analyzer.filter.min_cutoff_Hz)),
+      MotionRow::number(
+          {"filter-beta", "Filter beta",
+           "How much the One-Euro filter's cutoff rises with the motion's rate of change, "
+           "in Hz per px/s^2 of a frame 480 lines high"},
+          0, 10, kControllable, KEPT_IN(analyzer.filter.beta_s_px)),
   };
 }
 

@@ -10,11 +10,13 @@
 
 namespace spidar {
 
+using MotionRow = Property<MotionProperties>;
+
 /// Which motion is felt, and how: from `controller` to `filter-beta`.
-std::vector<Property<MotionProperties>> feel_rows();
+std::vector<MotionRow> feel_rows();
 /// How motion and force are shown.
-std::vector<Property<MotionProperties>> display_rows();
+std::vector<MotionRow> display_rows();
 /// What is touched in the picture.
-std::vector<Property<MotionProperties>> touch_rows();
+std::vector<MotionRow> touch_rows();
 
 }  // namespace spidar

@@ -12,17 +12,16 @@ constexpr double kMostTexture = 10;
 
 }  // namespace
 
-std::vector<Property<MotionProperties>> touch_rows() {
-  using Row = Property<MotionProperties>;
+std::vector<MotionRow> touch_rows() {
   return {
-      Row::choice<TouchKind>(
+      MotionRow::choice<TouchKind>(
           {"touch", "Touch", "Which surface the grip touches in the picture"},
           "GstSpidarMotionTouch",
           {{TouchKind::kOff, "No surface: the motion of the film is felt", "off"},
            {TouchKind::kLuma, "A relief of the frame's brightness: bright is near", "luma"},
            {TouchKind::kDepth, "A relief of the frame's depth, see depth-layout", "depth"}},
           kControllable, KEPT_IN(touch.kind)),
-      Row::choice<DepthSource>(
+      MotionRow::choice<DepthSource>(
           {"depth-layout", "Depth layout", "Where touch=depth finds the depth"},
           "GstSpidarMotionDepthLayout",
           {{DepthSource::kMeta, "A depth image that spidardepth has attached", "meta"},
@@ -31,27 +30,32 @@ std::vector<Property<MotionProperties>> touch_rows() {
            {DepthSource::kBelow,
             "The lower half of the frame is the depth of the upper half; bright is near", "below"}},
           kControllable, KEPT_IN(touch.depth)),
-      Row::number({"touch-relief", "Touch relief",
-                   "Height of the relief from black to white, or from far to near, in millimetres. "
-                   "Its middle is in the centre of the workspace"},
-                  0, kMostRelief_mm, kControllable, KEPT_IN(touch.relief_mm)),
-      Row::number({"touch-stiffness", "Touch stiffness",
-                   "Stiffness of the surface, in newtons per metre. A device with slow drives gets "
-                   "less, with a warning"},
-                  kLeastStiffness_N_m, ContactSettings::kMostStiffness_N_m, kControllable,
-                  KEPT_IN(touch.stiffness_N_m)),
-      Row::number({"touch-friction", "Touch friction",
-                   "Coefficient of static friction of the surface; that of kinetic friction is "
-                   "four fifths of it"},
-                  0, 1, kControllable, KEPT_IN(touch.friction)),
-      Row::number({"touch-texture", "Touch texture",
-                   "Lateral force of the picture's fine detail, as a multiple of the slope that it "
-                   "has in the relief; 0 turns it off"},
-                  0, kMostTexture, kControllable, KEPT_IN(touch.texture)),
-      Row::number({"motion-share", "Motion share",
-                   "With touch, the share of the force of the film's motion that is added to the "
-                   "contact force. Without touch, all of it is felt"},
-                  0, 1, kControllable, KEPT_IN(touch.motion_share)),
+      MotionRow::number(
+          {"touch-relief", "Touch relief",
+           "Height of the relief from black to white, or from far to near, in millimetres. "
+           "Its middle is in the centre of the workspace"},
+          0, kMostRelief_mm, kControllable, KEPT_IN(touch.relief_mm)),
+      MotionRow::number(
+          {"touch-stiffness", "Touch stiffness",
+           "Stiffness of the surface, in newtons per metre. A device with slow drives gets "
+           "less, with a warning"},
+          kLeastStiffness_N_m, ContactSettings::kMostStiffness_N_m, kControllable,
+          KEPT_IN(touch.stiffness_N_m)),
+      MotionRow::number(
+          {"touch-friction", "Touch friction",
+           "Coefficient of static friction of the surface; that of kinetic friction is "
+           "four fifths of it"},
+          0, 1, kControllable, KEPT_IN(touch.friction)),
+      MotionRow::number(
+          {"touch-texture", "Touch texture",
+           "Lateral force of the picture's fine detail, as a multiple of the slope that it "
+           "has in the relief; 0 turns it off"},
+          0, kMostTexture, kControllable, KEPT_IN(touch.texture)),
+      MotionRow::number(
+          {"motion-share", "Motion share",
+           "With touch, the share of the force of the film's motion that is added to the "
+           "contact force. Without touch, all of it is felt"},
+          0, 1, kControllable, KEPT_IN(touch.motion_share)),
   };
 }
 

@@ -9,6 +9,7 @@ namespace spidar {
 
 /// The category with the name of the element's factory. For files that several elements share:
 ///
+///     #undef GST_CAT_DEFAULT  // of another file, where several are compiled as one
 ///     #define GST_CAT_DEFAULT spidar::category_of(element)
 inline GstDebugCategory* category_of(GstElement* element) {
   GstElementFactory* const factory = gst_element_get_factory(element);

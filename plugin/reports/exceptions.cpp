@@ -6,6 +6,7 @@
 #include "spidar/device.h"
 #include "spidar/profiles/profile_file.h"
 
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element)
 
 namespace spidar {

@@ -34,7 +34,7 @@ void set_tracks(GstStructure* structure, const std::vector<GstSpidarMotionTrack>
   gst_structure_set(structure, "tracks", G_TYPE_VARIANT, array, nullptr);
 }
 
-void set_values(GstStructure* structure, const GstSpidarMotion& m) {
+void set_values(GstStructure* structure, const GstSpidarFrameMotion& m) {
   gst_structure_set(structure, "width", G_TYPE_UINT, m.width, "height", G_TYPE_UINT, m.height,
                     "running-time", G_TYPE_UINT64, m.running_time, "interval", G_TYPE_UINT64,
                     m.interval, "velocity-x", G_TYPE_DOUBLE, m.velocity_x, "velocity-y",
@@ -48,7 +48,7 @@ void set_values(GstStructure* structure, const GstSpidarMotion& m) {
 /// Copies the meta of `from` to `to`, whose picture is `scale_x` × `scale_y` times as large.
 bool copy_scaled(GstBuffer* to, GstBuffer* from, double scale_x, double scale_y, guint width,
                  guint height) {
-  GstSpidarMotion motion;
+  GstSpidarFrameMotion motion;
   GArray* tracks = gst_buffer_get_spidar_tracks(from);
   if (!tracks || !gst_buffer_get_spidar_motion(from, &motion)) {
     g_clear_pointer(&tracks, g_array_unref);
@@ -122,7 +122,7 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, const Scen
   if (before) gst_buffer_remove_meta(buffer, reinterpret_cast<GstMeta*>(before));
   const ImageMotion& felt = scene.motion;
   const Eigen::Vector3d &force = scene.wrench.force_N, &torque = scene.wrench.torque_Nm;
-  GstSpidarMotion motion{};
+  GstSpidarFrameMotion motion{};
   motion.width = static_cast<guint>(width);
   motion.height = static_cast<guint>(height);
   motion.running_time = report.running_time;

@@ -12,7 +12,7 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidartrack convert FROM TO [OPTION]...
+constexpr const char* kConvertTrackHelp = R"(usage: spidartrack convert FROM TO [OPTION]...
 
 FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), or a trace of
 spidarmotion (.csv, .jsonl). TO is what its name ends in: .flac, .mka, .wav, .hjif or .funscript;
@@ -44,7 +44,7 @@ int convert_track_command(int argc, char** argv) {
        {"axis", true, [&](const std::string& text) { options.funscript_axis = parse_axis(text); }},
        {"help", false, [&](const std::string&) { help = true; }}});
   if (help) {
-    std::cout << kHelp;
+    std::cout << kConvertTrackHelp;
     return kDone;
   }
   if (operands.size() != 2) throw UsageError("FROM and TO are needed, and nothing else");

@@ -18,7 +18,7 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidartrack plot TRACK PNG [--film FILM]
+constexpr const char* kPlotTrackHelp = R"(usage: spidartrack plot TRACK PNG [--film FILM]
 
 Draws force and torque over time. Needs gnuplot.
 
@@ -152,7 +152,7 @@ int plot_track_command(int argc, char** argv) {
                     {{"film", true, [&](const std::string& text) { film = text; }},
                      {"help", false, [&](const std::string&) { help = true; }}});
   if (help) {
-    std::cout << kHelp;
+    std::cout << kPlotTrackHelp;
     return kDone;
   }
   if (operands.size() != 2) throw UsageError("TRACK and PNG are needed, and nothing else");

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHelp =
+constexpr const char* kRecordOptionsHelp =
     R"(usage: spidartrack record FILM... [OPTION]... [-- PROPERTY=VALUE...]
 
 Analyses films as fast as they can be decoded, and writes the haptic track of FILM.mp4 beside it, as
@@ -61,7 +61,7 @@ RecordOptions parse_record_options(int argc, char** argv) {
        {"force", false, [&](const std::string&) { options.force = true; }},
        {"help", false, [&](const std::string&) { options.help = true; }}});
   if (options.help) {
-    std::cout << kHelp;
+    std::cout << kRecordOptionsHelp;
     return options;
   }
   if (options.films.empty()) throw UsageError("no FILM given");

@@ -21,7 +21,7 @@ const std::vector<Command> kCommands = {
     {"extract", extract_track_command},
 };
 
-constexpr const char* kHelp = R"(usage: spidartrack COMMAND
+constexpr const char* kSpidartrackHelp = R"(usage: spidartrack COMMAND
 
   record   record the haptic tracks of films, into files beside them
   info     print the length and size of a track
@@ -41,5 +41,5 @@ spidartrack COMMAND --help explains a command.
 int main(int argc, char** argv) {
   remove_part_files_on_signals();
   gst_init(nullptr, nullptr);
-  return run_program("spidartrack", kCommands, kHelp, argc, argv);
+  return run_program("spidartrack", kCommands, kSpidartrackHelp, argc, argv);
 }

@@ -37,6 +37,7 @@
 #include "plugin/track/track_stream.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_extract_debug
 
 using spidar::FrameWrench;
@@ -56,9 +57,9 @@ struct _GstSpidarExtract {
   gboolean complained;  // about them
 };
 
-static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
+static GstStaticPadTemplate track_sink_template = GST_STATIC_PAD_TEMPLATE(
     "sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
-static GstStaticPadTemplate src_template = GST_STATIC_PAD_TEMPLATE(
+static GstStaticPadTemplate track_src_template = GST_STATIC_PAD_TEMPLATE(
     "src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
 static GstStaticPadTemplate wrench_template = GST_STATIC_PAD_TEMPLATE(
     "wrench", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(SPIDAR_TRACK_CAPS));
@@ -75,7 +76,7 @@ static FrameWrench read_frame(GstBuffer* buffer, const Wrench& last) {
   FrameWrench frame;
   frame.pts = GST_BUFFER_PTS(buffer);
   frame.duration = GST_BUFFER_DURATION(buffer);
-  GstSpidarMotion motion;
+  GstSpidarFrameMotion motion;
   if (gst_buffer_get_spidar_motion(buffer, &motion)) {
     frame.known = true;
     frame.compared = motion.interval > 0;
@@ -228,11 +229,11 @@ static GstPad* add_pad(GstSpidarExtract* self, GstStaticPadTemplate* pad_templat
 }
 
 static void gst_spidar_extract_init(GstSpidarExtract* self) {
-  self->sink = add_pad(self, &sink_template);
+  self->sink = add_pad(self, &track_sink_template);
   gst_pad_set_chain_function(self->sink, gst_spidar_extract_chain);
   gst_pad_set_event_function(self->sink, gst_spidar_extract_sink_event);
   gst_pad_set_query_function(self->sink, gst_spidar_extract_sink_query);
-  self->src = add_pad(self, &src_template);
+  self->src = add_pad(self, &track_src_template);
   gst_pad_set_query_function(self->src, gst_spidar_extract_src_query);
   self->wrench = add_pad(self, &wrench_template);
   gst_pad_set_query_function(self->wrench, gst_spidar_extract_wrench_query);
@@ -250,7 +251,8 @@ static void gst_spidar_extract_class_init(GstSpidarExtractClass* klass) {
   gst_element_class_set_static_metadata(
       element_class, "SPIDAR track extractor", "Extracter/Video/Metadata",
       "Outputs the force and torque of spidarmotion as a track of six channels", "gst-spidar");
-  for (GstStaticPadTemplate* pad_template : {&sink_template, &src_template, &wrench_template}) {
+  for (GstStaticPadTemplate* pad_template :
+       {&track_sink_template, &track_src_template, &wrench_template}) {
     gst_element_class_add_static_pad_template(element_class, pad_template);
   }
 }

@@ -38,6 +38,7 @@
 #include "plugin/track/track_input.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_sink_debug
 
 using spidar::BlockSchedule;
@@ -62,7 +63,7 @@ struct _GstSpidarSink {
   spidar::TrackComplaints* track_complaints;
 };
 
-static GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
+static GstStaticPadTemplate haptic_sink_template = GST_STATIC_PAD_TEMPLATE(
     "sink", GST_PAD_SINK, GST_PAD_ALWAYS,
     GST_STATIC_CAPS(
         "audio/x-raw, format = (string) { F32LE, S16LE, S24LE, S24_32LE, S32LE }, layout = "
@@ -336,7 +337,7 @@ static void gst_spidar_sink_class_init(GstSpidarSinkClass* klass) {
   gst_element_class_set_static_metadata(element_class, "SPIDAR sink", "Sink/Hardware",
                                         "Feel a haptic track with a SPIDAR haptic device",
                                         "gst-spidar");
-  gst_element_class_add_static_pad_template(element_class, &sink_template);
+  gst_element_class_add_static_pad_template(element_class, &haptic_sink_template);
   element_class->change_state = gst_spidar_sink_change_state;
   element_class->send_event = gst_spidar_sink_send_event;
   sink_class->set_caps = gst_spidar_sink_set_caps;

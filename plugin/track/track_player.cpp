@@ -7,6 +7,7 @@
 #include "plugin/reports/category.h"
 #include "plugin/track/sidecar.h"
 
+#undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element)
 
 namespace spidar {

@@ -6,8 +6,12 @@
 #include <cstdlib>
 #include <utility>
 
+#include "plugin/reports/category.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/track/track_notes.h"
+
+#undef GST_CAT_DEFAULT
+#define GST_CAT_DEFAULT spidar::category_of(GST_PAD_PARENT(pad_))
 
 namespace spidar {
 namespace {

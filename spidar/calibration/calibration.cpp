@@ -21,7 +21,7 @@ namespace spidar {
 namespace {
 
 constexpr int kMinStrings = 7;
-constexpr int kMaxIterations = 50;
+constexpr int kMaxFitIterations = 50;
 constexpr int kMaxRescalings = 5;
 constexpr double kSameSigma = 0.02;
 // exp(-12.5): four in a million of the good samples are outside.
@@ -68,7 +68,7 @@ void refine(double floor_m, Fit& fit) {
   fit.look_at_errors(floor_m);
   for (int i = 0; i < kMaxRescalings; ++i) {
     const double before_m = fit.sigma_m;
-    adjust(fit.model, fit.lengths_m, before_m, Adjust::kAll, kMaxIterations, fit.bundle);
+    adjust(fit.model, fit.lengths_m, before_m, Adjust::kAll, kMaxFitIterations, fit.bundle);
     fit.look_at_errors(floor_m);
     if (std::abs(fit.sigma_m - before_m) <= kSameSigma * before_m) break;
   }
@@ -76,8 +76,8 @@ void refine(double floor_m, Fit& fit) {
 
 void remove_bias(double noise_m, double floor_m, Fit& fit) {
   fit.bundle.parameters -=
-      noise_bias(fit.model, fit.lengths_m, noise_m, kMaxIterations, fit.bundle);
-  adjust(fit.model, fit.lengths_m, fit.sigma_m, Adjust::kPoses, kMaxIterations, fit.bundle);
+      noise_bias(fit.model, fit.lengths_m, noise_m, kMaxFitIterations, fit.bundle);
+  adjust(fit.model, fit.lengths_m, fit.sigma_m, Adjust::kPoses, kMaxFitIterations, fit.bundle);
   fit.look_at_errors(floor_m);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPlain = std::numeric_limits<double>::infinity();
 constexpr size_t kFew = 40;
-constexpr int kMaxIterations = 100;
+constexpr int kMaxStartIterations = 100;
 constexpr int kMaxRepairs = 4;
 // A sample that has converged to a wrong minimum has a residual far above the others.
 constexpr double kBad = 2.0;
@@ -91,7 +91,7 @@ class Search {
 
  private:
   Candidate fitted(Bundle bundle) const {
-    adjust(model_, samples_, kPlain, Adjust::kAll, kMaxIterations, bundle);
+    adjust(model_, samples_, kPlain, Adjust::kAll, kMaxStartIterations, bundle);
     Candidate candidate{std::move(bundle), {}, 0};
     candidate.errors = errors_m(model_, samples_, candidate.bundle);
     candidate.rms = rms_m(model_, candidate.errors);
@@ -135,7 +135,7 @@ Bundle find_bundle(const CalibrationModel& model, const std::vector<StringVector
   const auto any = [](size_t) { return true; };
   for (const StringVector& lengths : paid_out_m)
     all.poses.push_back(best.bundle.poses[nearest(few, lengths, any)]);
-  adjust(model, paid_out_m, kPlain, Adjust::kPoses, kMaxIterations, all);
+  adjust(model, paid_out_m, kPlain, Adjust::kPoses, kMaxStartIterations, all);
   return all;
 }
 

@@ -20,23 +20,23 @@ constexpr size_t kFlush_bytes = 1 << 16;
 constexpr size_t kMaxRow_bytes = 2048;  // 49 fields of at most 32 characters
 
 /// Appends fields and the commas between them.
-class Row {
+class TickRow {
  public:
-  explicit Row(std::string& csv) : csv_(csv), begin_(csv.size()) {}
+  explicit TickRow(std::string& csv) : csv_(csv), begin_(csv.size()) {}
 
   template <typename Number>
-  Row& number(Number value) {
+  TickRow& number(Number value) {
     std::array<char, 32> text;
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
     return field({text.data(), static_cast<size_t>(end - text.data())});
   }
-  Row& field(std::string_view text) {
+  TickRow& field(std::string_view text) {
     if (csv_.size() > begin_) csv_ += ',';
     csv_ += text;
     return *this;
   }
-  Row& vector(const Eigen::Vector3d& v) { return number(v.x()).number(v.y()).number(v.z()); }
-  Row& wrench(const Wrench& w) { return vector(w.force_N).vector(w.torque_Nm); }
+  TickRow& vector(const Eigen::Vector3d& v) { return number(v.x()).number(v.y()).number(v.z()); }
+  TickRow& wrench(const Wrench& w) { return vector(w.force_N).vector(w.torque_Nm); }
 
  private:
   std::string& csv_;
@@ -47,7 +47,7 @@ class Row {
 
 std::string trace_header() {
   std::string header;
-  Row row(header);
+  TickRow row(header);
   for (const char* name : {"tick", "monotonic_ns", "lateness_ns", "running_ns", "frame_ns", "found",
                            "playing", "device"}) {
     row.field(name);
@@ -69,7 +69,7 @@ std::string trace_header() {
 }
 
 void append_row(const TickRecord& record, std::string& csv) {
-  Row row(csv);
+  TickRow row(csv);
   row.number(record.tick).number(record.monotonic_ns).number(record.lateness_ns);
   row.number(record.running_ns).number(record.frame_ns == INT64_MIN ? -1 : record.frame_ns);
   row.field(to_string(record.found)).number(record.playing ? 1 : 0).field(to_string(record.device));

@@ -14,12 +14,6 @@
 namespace spidar {
 namespace {
 
-std::string shown(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 int run_command(const std::string& program, const std::vector<Command>& commands, const char* help,
                 int argc, char** argv) {
   const std::string name = argc > 1 ? argv[1] : "";
@@ -41,6 +35,12 @@ int run_command(const std::string& program, const std::vector<Command>& commands
 }
 
 }  // namespace
+
+std::string shown(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
 
 int run_program(const std::string& program, const std::vector<Command>& commands, const char* help,
                 int argc, char** argv) {

@@ -40,6 +40,9 @@ std::vector<std::string> split_at_commas(const std::string& text);
 /// Throws UsageError when `file` does not end in .toml, as profile files do.
 std::string parse_profile_file(const std::string& what, const std::string& file);
 
+/// A number as a person writes it: with up to six digits, without zeros at the end.
+std::string shown(double value);
+
 /// Arguments of every command that opens a device.
 struct DeviceOptions {
   std::string device;

@@ -5,7 +5,6 @@
 #include <future>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -24,7 +23,7 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidarctl conformance DEVICE [OPTION]...
+constexpr const char* kConformanceHelp = R"(usage: spidarctl conformance DEVICE [OPTION]...
 
 Tests a board and writes a report that you can send in. The report contains the identification of
 the board, the results of a thousand exchanges a second while you move the grip and press all
@@ -91,12 +90,6 @@ ConformanceOptions parse(int argc, char** argv) {
        {"yes", false, [&](const std::string&) { options.yes = true; }},
        sim_wiring_option(options.sim_wiring)});
   return options;
-}
-
-std::string shown(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
 }
 
 /// The motors may be energised.
@@ -174,7 +167,7 @@ void write(const std::string& file, const Conformance& found) {
 int conformance_command(int argc, char** argv) {
   const ConformanceOptions options = parse(argc, argv);
   if (options.common.help) {
-    std::cout << kHelp;
+    std::cout << kConformanceHelp;
     return kDone;
   }
   ChosenDevice chosen = choose_device(options.common);

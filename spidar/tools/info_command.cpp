@@ -11,19 +11,19 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidarctl info DEVICE [--profile NAME] [--json]
+constexpr const char* kInfoHelp = R"(usage: spidarctl info DEVICE [--profile NAME] [--json]
 
 Opens DEVICE, reads it for a tenth of a second with the motors at zero, and prints what it found.
 )";
 
-struct Found {
+struct FoundBoard {
   DeviceReading reading;
   LinkHealth health;
   std::string description;  // reported by the open device
 };
 
-Found read(ChosenDevice& chosen) {
-  Found found;
+FoundBoard read(ChosenDevice& chosen) {
+  FoundBoard found;
   bool read = false;
   {
     StringHold hold(*chosen.device, chosen.profile, every_millisecond());
@@ -40,7 +40,7 @@ Found read(ChosenDevice& chosen) {
   return found;
 }
 
-void print(const ChosenDevice& chosen, const Found& found) {
+void print(const ChosenDevice& chosen, const FoundBoard& found) {
   const Profile& profile = chosen.profile;
   std::cout << "device    " << chosen.board.device << "\nboard     " << chosen.board.name
             << "\nevidence  " << to_string(chosen.board.trial);
@@ -74,7 +74,7 @@ void print(const ChosenDevice& chosen, const Found& found) {
   }
 }
 
-void print_json(const ChosenDevice& chosen, const Found& found) {
+void print_json(const ChosenDevice& chosen, const FoundBoard& found) {
   toml::array counts;
   for (int i = 0; i < chosen.profile.geometry.count; ++i)
     counts.push_back(found.reading.count[static_cast<size_t>(i)]);
@@ -100,13 +100,13 @@ int info_command(int argc, char** argv) {
   bool json = false;
   const DeviceOptions options = parse_device_options(argc, argv, {json_option(json)});
   if (options.help) {
-    std::cout << kHelp;
+    std::cout << kInfoHelp;
     return kDone;
   }
   // Shows the counts as the board gives them, without a new zero.
   ChosenDevice chosen = choose_device(options, CountZero::kNever);
   catch_signals();
-  const Found found = read(chosen);
+  const FoundBoard found = read(chosen);
   if (interrupted()) return kInterrupted;
   (json ? print_json : print)(chosen, found);
   return kDone;

@@ -13,7 +13,7 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidarctl list [--json]
+constexpr const char* kListHelp = R"(usage: spidarctl list [--json]
 
 Lists the devices, how far the driver of each has been tested, the serial lines to which motor
 boards may be connected, and the profiles. No device is opened.
@@ -91,7 +91,7 @@ int list_command(int argc, char** argv) {
       argc, argv, {json_option(json), {"help", false, [&](const std::string&) { help = true; }}});
   if (!rest.empty()) throw UsageError(rest.front() + ": list takes no arguments");
   if (help) {
-    std::cout << kHelp;
+    std::cout << kListHelp;
   } else if (json) {
     print_json();
   } else {

@@ -16,7 +16,7 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidarctl monitor DEVICE [OPTION]...
+constexpr const char* kMonitorHelp = R"(usage: spidarctl monitor DEVICE [OPTION]...
 
 Prints the pose of the grip ten times a second: position (millimetres), rotation vector (degrees),
 inputs, string lengths (millimetres). The motors stay at zero, so strings may be slack.
@@ -106,7 +106,7 @@ int monitor_command(int argc, char** argv) {
                              }},
                             json_option(json)});
   if (options.help) {
-    std::cout << kHelp;
+    std::cout << kMonitorHelp;
     return kDone;
   }
   ChosenDevice chosen = choose_device(options);

@@ -15,7 +15,7 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidarctl pull DEVICE STRING NEWTON SECONDS [OPTION]...
+constexpr const char* kPullHelp = R"(usage: spidarctl pull DEVICE STRING NEWTON SECONDS [OPTION]...
 
 Pulls one string (numbered from 0) with NEWTON for SECONDS; the other strings keep their minimum
 tension. NEWTON must be from the smallest to the largest tension that the profile has for that string
@@ -129,7 +129,7 @@ int pull_command(int argc, char** argv) {
       argc, argv, {{"yes", false, [&](const std::string&) { yes = true; }}, json_option(json)},
       {"STRING", "NEWTON", "SECONDS"});
   if (options.help) {
-    std::cout << kHelp;
+    std::cout << kPullHelp;
     return kDone;
   }
   ChosenDevice chosen = choose_device(options);
@@ -145,7 +145,11 @@ int pull_command(int argc, char** argv) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;
   }
-  (json ? print_json : print)(pull, chosen.profile, lengths);
+  if (json) {
+    print_json(pull, chosen.profile, lengths);
+  } else {
+    print(pull, chosen.profile, lengths);
+  }
   return kDone;
 }
 

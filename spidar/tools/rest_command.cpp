@@ -11,7 +11,7 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidarctl rest DEVICE [--seconds S] [--profile NAME]
+constexpr const char* kRestHelp = R"(usage: spidarctl rest DEVICE [--seconds S] [--profile NAME]
 
 Holds the strings at their minimum tension for S seconds, or until it is interrupted, and then
 releases them by a ramp.
@@ -26,7 +26,7 @@ int rest_command(int argc, char** argv) {
                       seconds = parse_number("--seconds", text, 0.001, 86400, "s");
                     }}});
   if (options.help) {
-    std::cout << kHelp;
+    std::cout << kRestHelp;
     return kDone;
   }
   ChosenDevice chosen = choose_device(options);

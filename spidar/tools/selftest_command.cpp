@@ -15,7 +15,7 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidarctl selftest DEVICE [OPTION]...
+constexpr const char* kSelftestHelp = R"(usage: spidarctl selftest DEVICE [OPTION]...
 
 Pulls one string after the other, for a second each, or longer if the hand moves. From the responses
 of the encoders, it determines which motor and which encoder are connected to which string, and which
@@ -125,7 +125,7 @@ int test_stick_command(const SelftestOptions& options, ChosenDevice& chosen) {
 int selftest_command(int argc, char** argv) {
   const SelftestOptions options = parse(argc, argv);
   if (options.common.help) {
-    std::cout << kHelp;
+    std::cout << kSelftestHelp;
     return kDone;
   }
   ChosenDevice chosen = choose_device(options.common);

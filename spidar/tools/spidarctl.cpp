@@ -19,7 +19,7 @@ const std::vector<Command> kCommands = {
     {"calibrate", calibrate_command},
 };
 
-constexpr const char* kHelp = R"(usage: spidarctl COMMAND
+constexpr const char* kSpidarctlHelp = R"(usage: spidarctl COMMAND
 
   list         list devices and profiles
   info         identify a device and read it once
@@ -39,5 +39,5 @@ spidarctl COMMAND --help describes the options of a command.
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_program("spidarctl", kCommands, kHelp, argc, argv);
+  return run_program("spidarctl", kCommands, kSpidarctlHelp, argc, argv);
 }

@@ -9,7 +9,7 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kHelp = R"(usage: spidarctl zero DEVICE [--profile NAME]
+constexpr const char* kZeroHelp = R"(usage: spidarctl zero DEVICE [--profile NAME]
 
 Sets every motor to zero volts at once. This is useful because a board keeps its last value when the
 program that drove it has ended.
@@ -20,7 +20,7 @@ program that drove it has ended.
 int zero_command(int argc, char** argv) {
   const DeviceOptions options = parse_device_options(argc, argv);
   if (options.help) {
-    std::cout << kHelp;
+    std::cout << kZeroHelp;
     return kDone;
   }
   ChosenDevice chosen = choose_device(options);

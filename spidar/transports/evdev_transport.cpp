@@ -29,7 +29,7 @@ namespace {
 /// zero, the others leave it alone. Linux provides no way to read it.
 constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
 
-LinkFault fault_of(int error) noexcept {
+LinkFault fault_of_input(int error) noexcept {
   switch (error) {
     case ENODEV:
     case ENXIO:
@@ -154,19 +154,19 @@ LinkFault EvdevTransport::send(ByteView packet, MutableBytes reply, size_t& rece
   }
   if (packet.size == ff::kPositionSize) {
     ff::Position position;
-    if (!read_position(position)) return fault_of(errno);
+    if (!read_position(position)) return fault_of_input(errno);
     received = put(position, reply);
     return LinkFault::kNone;
   }
   if (packet.size == ff::kEffectSize) {
     ff_effect effect{};
     std::memcpy(&effect, packet.data, sizeof effect);
-    if (call_ioctl(file_, EVIOCSFF, &effect) < 0) return fault_of(errno);
+    if (call_ioctl(file_, EVIOCSFF, &effect) < 0) return fault_of_input(errno);
     received = put(effect.id, reply);
     return LinkFault::kNone;
   }
   const ssize_t written = uninterrupted([&] { return ::write(file_, packet.data, packet.size); });
-  if (written < 0) return fault_of(errno);
+  if (written < 0) return fault_of_input(errno);
   return written == static_cast<ssize_t>(packet.size) ? LinkFault::kNone : LinkFault::kShort;
 }
 

@@ -19,7 +19,7 @@
 namespace spidar {
 namespace {
 
-LinkFault fault_of(int error) noexcept {
+LinkFault fault_of_line(int error) noexcept {
   // A USB adapter that was pulled out gives EIO or ENXIO.
   return error == EIO || error == ENXIO || error == ENODEV || error == EBADF ? LinkFault::kGone
                                                                              : LinkFault::kBusError;
@@ -92,7 +92,7 @@ LinkFault TtyTransport::wait_for(short events, int64_t deadline_ns) noexcept {
     const timespec wait{static_cast<time_t>(left_ns / kSecond_ns),
                         static_cast<long>(left_ns % kSecond_ns)};
     const int ready = ppoll(&file, 1, &wait, nullptr);
-    if (ready < 0 && errno != EINTR) return fault_of(errno);
+    if (ready < 0 && errno != EINTR) return fault_of_line(errno);
     if (ready <= 0) continue;
     if (file.revents & events) return LinkFault::kNone;
     return LinkFault::kGone;  // hung up
@@ -109,7 +109,7 @@ Transfer TtyTransport::exchange(std::initializer_list<ByteView> packets, Mutable
   for (ByteView packet : packets) {
     while (packet.size > 0) {
       const ssize_t sent = write(file_, packet.data, packet.size);
-      if (sent < 0 && errno != EAGAIN && errno != EINTR) return {fault_of(errno), 0};
+      if (sent < 0 && errno != EAGAIN && errno != EINTR) return {fault_of_line(errno), 0};
       if (sent <= 0) {
         const LinkFault fault = wait_for(POLLOUT, deadline_ns);
         if (fault != LinkFault::kNone) return {fault, 0};
@@ -125,7 +125,7 @@ Transfer TtyTransport::exchange(std::initializer_list<ByteView> packets, Mutable
     if (fault == LinkFault::kTimeout && received > 0) return {LinkFault::kShort, received};
     if (fault != LinkFault::kNone) return {fault, received};
     const ssize_t got = read(file_, reply.data + received, reply.size - received);
-    if (got < 0 && errno != EAGAIN && errno != EINTR) return {fault_of(errno), received};
+    if (got < 0 && errno != EAGAIN && errno != EINTR) return {fault_of_line(errno), received};
     if (got > 0) received += static_cast<size_t>(got);
     if (got == 0) return {LinkFault::kGone, received};
   }

@@ -21,7 +21,7 @@ HEADERS = {"device.h", "export.h", "gstspidardepthmeta.h", "gstspidarmotionmeta.
 MANUALS = ("spidar-feel.1", "spidarctl.1", "spidartrack.1")
 META_PROGRAM = """
 #include <gst-spidar/gstspidarmotionmeta.h>
-int main (void) { GstBuffer *b = gst_buffer_new (); GstSpidarMotion m;
+int main (void) { GstBuffer *b = gst_buffer_new (); GstSpidarFrameMotion m;
   int found = gst_buffer_get_spidar_motion (b, &m); gst_buffer_unref (b); return found; }
 """
 

@@ -3,11 +3,11 @@
 /* A program in C that reads the meta. */
 #include <gst-spidar/gstspidarmotionmeta.h>
 
-gboolean read_motion_in_c (GstBuffer * buffer, GstSpidarMotion * motion);
+gboolean read_motion_in_c (GstBuffer * buffer, GstSpidarFrameMotion * motion);
 GArray *read_tracks_in_c (GstBuffer * buffer);
 
 gboolean
-read_motion_in_c (GstBuffer * buffer, GstSpidarMotion * motion)
+read_motion_in_c (GstBuffer * buffer, GstSpidarFrameMotion * motion)
 {
   return gst_buffer_get_spidar_motion (buffer, motion);
 }

@@ -13,11 +13,11 @@
 #include "tests/support/video_frames.h"
 
 extern "C" {
-gboolean read_motion_in_c(GstBuffer* buffer, GstSpidarMotion* motion);
+gboolean read_motion_in_c(GstBuffer* buffer, GstSpidarFrameMotion* motion);
 GArray* read_tracks_in_c(GstBuffer* buffer);
 }
 
-namespace spidar::test {
+namespace spidar::test::meta_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -57,7 +57,7 @@ TEST_F(Meta, HasTheValuesOfTheMessageAndTheTracks) {
   open("attach-meta=true");
   gst_buffer_unref(push_next());
   GstBuffer* out = push_next();
-  GstSpidarMotion motion;
+  GstSpidarFrameMotion motion;
   ASSERT_TRUE(read_motion_in_c(out, &motion));
   const MotionMessage& message = h->motions().back();
   EXPECT_EQ(motion.width, 320u);
@@ -96,7 +96,7 @@ TEST_F(Meta, SaysWhichFramesRepeatThePictureBefore) {
 TEST_F(Meta, TheFirstFrameHasNothingToCompareWith) {
   open("attach-meta=true");
   GstBuffer* out = push_next();
-  GstSpidarMotion motion;
+  GstSpidarFrameMotion motion;
   ASSERT_TRUE(read_motion_in_c(out, &motion));
   EXPECT_EQ(motion.interval, 0u);
   EXPECT_TRUE(tracks_of(out).empty());
@@ -109,7 +109,7 @@ TEST_F(Meta, NeitherCopiesNorTouchesThePicture) {
   GstBuffer* out = push_next(&frame);  // held by somebody else: not writable
   EXPECT_NE(out, frame);
   EXPECT_EQ(gst_buffer_peek_memory(out, 0), gst_buffer_peek_memory(frame, 0));
-  GstSpidarMotion motion;
+  GstSpidarFrameMotion motion;
   EXPECT_FALSE(read_motion_in_c(frame, &motion)) << "not ours to change";
   EXPECT_EQ(read_tracks_in_c(frame), nullptr);
   EXPECT_TRUE(read_motion_in_c(out, &motion));
@@ -125,7 +125,7 @@ TEST_F(Meta, NeitherCopiesNorTouchesThePicture) {
 
 TEST_F(Meta, IsThereOnlyWhenAskedForAndWithTheOverlayToo) {
   open("");
-  GstSpidarMotion motion;
+  GstSpidarFrameMotion motion;
   for (const auto& [meta, overlay] :
        {std::pair{false, false}, {true, false}, {true, true}, {false, true}}) {
     g_object_set(h->element(), "attach-meta", meta, "overlay", overlay, nullptr);
@@ -148,7 +148,7 @@ TEST_F(Meta, ReplacesTheMetaOfAnEarlierElement) {
     metas += gst_meta_info_is_custom(meta->info) != FALSE;
   }
   EXPECT_EQ(metas, 1);
-  GstSpidarMotion motion;
+  GstSpidarFrameMotion motion;
   read_motion_in_c(out, &motion);
   EXPECT_EQ(motion.running_time, kFrame);
   gst_buffer_unref(out);
@@ -162,7 +162,7 @@ TEST_F(Meta, IsCopiedWithAFrameButNotWithAPartOfIt) {
   GstBuffer* part = gst_buffer_copy_region(
       out, static_cast<GstBufferCopyFlags>(GST_BUFFER_COPY_META | GST_BUFFER_COPY_MEMORY), 100,
       100);
-  GstSpidarMotion a, b;
+  GstSpidarFrameMotion a, b;
   ASSERT_TRUE(read_motion_in_c(out, &a));
   ASSERT_TRUE(read_motion_in_c(copy, &b));
   EXPECT_EQ(a.velocity_x, b.velocity_x);
@@ -186,7 +186,7 @@ TEST_F(Meta, IsScaledWithThePicture) {
   GstBuffer* scaled = gst_buffer_new();
   EXPECT_TRUE(meta->info->transform_func(scaled, meta, out,
                                          gst_video_meta_transform_scale_get_quark(), &scale));
-  GstSpidarMotion before, after;
+  GstSpidarFrameMotion before, after;
   ASSERT_TRUE(read_motion_in_c(out, &before));
   ASSERT_TRUE(read_motion_in_c(scaled, &after));
   EXPECT_EQ(after.width, 640u);
@@ -209,4 +209,4 @@ TEST_F(Meta, IsScaledWithThePicture) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::meta_test

@@ -12,7 +12,7 @@
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::packed_film_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -24,7 +24,7 @@ constexpr double kTolerance_px = 0.1;
 
 struct Played {
   double velocity_x = 0;
-  GstSpidarMotion motion{};
+  GstSpidarFrameMotion motion{};
   std::vector<GstSpidarMotionTrack> tracks;
 };
 
@@ -111,4 +111,4 @@ TEST(PackedFilm, AHalfThatIsTooSmallIsNotAnalysedAndComplainedAboutOnce) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::packed_film_test
