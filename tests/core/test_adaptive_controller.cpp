@@ -10,7 +10,7 @@
 
 #include "core/force/adaptive_controller.h"
 
-namespace spidar {
+namespace spidar::test::adaptive_controller_test {
 namespace {
 
 using Adaptive = AdaptiveController;
@@ -209,4 +209,4 @@ TEST(AdaptiveController, NewLimitsKeepTheScaleAndResetForgetsIt) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::adaptive_controller_test

@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/analysis_json.h"
-#include "count_allocations.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/moving_scene.h"
 
-namespace spidar::test {
+namespace spidar::test::analysis_json_test {
 namespace {
 
 using nlohmann::json;
@@ -124,10 +124,10 @@ TEST(AnalysisJson, DoesNotAllocateWhereThereIsRoom) {
   std::string line;
   append_json(frame, 1, 1, kWithPoints, line);
   line.clear();
-  const size_t before = allocations;
+  const long before = allocations;
   append_json(frame, 1, 1, kWithPoints, line);
   EXPECT_EQ(allocations, before);
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::analysis_json_test

@@ -9,7 +9,7 @@
 #include "core/motion/background.h"
 #include "track_samples.h"
 
-namespace spidar {
+namespace spidar::test::background_test {
 namespace {
 
 using test::sample_model;
@@ -259,4 +259,4 @@ TEST(Background, IsTheSameBitForBit) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::background_test

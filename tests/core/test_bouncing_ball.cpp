@@ -19,7 +19,7 @@
 #include "tests/support/ball_scene.h"
 #include "tests/support/picture.h"
 
-namespace spidar {
+namespace spidar::test::bouncing_ball_test {
 namespace {
 
 using test::BallScene;
@@ -311,4 +311,4 @@ TEST(BouncingBall, TheMeanIsBiasedByTheShareOfBackgroundPoints) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::bouncing_ball_test

@@ -16,7 +16,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::burned_in_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -295,4 +295,4 @@ INSTANTIATE_TEST_SUITE_P(Captions, BurnedIn, testing::ValuesIn(captions()),
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::burned_in_test

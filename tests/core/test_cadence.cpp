@@ -10,7 +10,7 @@
 
 #include "core/motion/cadence.h"
 
-namespace spidar {
+namespace spidar::test::cadence_test {
 namespace {
 
 using Shows = Cadence::Picture;
@@ -112,4 +112,4 @@ TEST(Cadence, WaitsNoLongerThanAMotionDoes) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::cadence_test

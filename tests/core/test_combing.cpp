@@ -13,7 +13,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::combing_test {
 namespace {
 
 using test::Picture;
@@ -75,4 +75,4 @@ TEST(Combing, LargeFramesAreReducedByOneFieldAnyway) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::combing_test

@@ -12,7 +12,7 @@
 #include "core/analysis/motion_analyzer.h"
 #include "tests/support/picture.h"
 
-namespace spidar {
+namespace spidar::test::compressed_disc_test {
 namespace {
 
 using test::Picture;
@@ -104,4 +104,4 @@ TEST_P(CompressedDisc, IsFollowed) {
 INSTANTIATE_TEST_SUITE_P(Qualities, CompressedDisc, testing::Values(50, 70, 85, 95));
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::compressed_disc_test

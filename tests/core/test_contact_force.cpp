@@ -10,12 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "core/touch/contact_force.h"
-#include "count_allocations.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/tap.h"
 #include "tests/support/touch_surfaces.h"
 #include "tests/support/touched_grip.h"
 
-namespace spidar::test {
+namespace spidar::test::contact_force_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
@@ -233,7 +233,7 @@ TEST(ContactForce, TakesNothingFromTheHeap) {
   for (int n = 0; n < 2000; ++n) {
     const MovingRelief moving{&scenes[4].relief, &scenes[5].relief, n % 33 / 33.0, {0.001, 0}};
     const Eigen::Vector3d grip_m = hand.at_m(n * kTick_s);
-    const size_t before = allocations;
+    const long before = allocations;
     force.tick(moving, &scenes[4].texture, settings, grip_m, kTick_s);
     ASSERT_EQ(allocations, before);
   }
@@ -270,4 +270,4 @@ TEST(ContactForce, SaysWhichSettingIsWrong) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::contact_force_test

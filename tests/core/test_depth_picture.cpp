@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "core/touch/depth_picture.h"
-#include "count_allocations.h"
+#include "tests/support/allocation_count.h"
 
-namespace spidar::test {
+namespace spidar::test::depth_picture_test {
 namespace {
 
 constexpr int kColumns = HeightField::kColumns;
@@ -276,7 +276,7 @@ TEST(DepthPicture, TakesNothingFromTheHeapAfterTheFirst) {
   const DepthView view = samples.view();
   DepthPicture picture;
   picture.read(view, {}, kFrame_s);
-  const size_t before = allocations;
+  const long before = allocations;
   for (int n = 0; n < 3; ++n) picture.read(view, {}, kFrame_s);
   EXPECT_EQ(allocations, before);
 }
@@ -303,4 +303,4 @@ TEST(DepthPicture, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::depth_picture_test

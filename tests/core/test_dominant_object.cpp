@@ -7,7 +7,7 @@
 
 #include "core/motion/dominant_object.h"
 
-namespace spidar {
+namespace spidar::test::dominant_object_test {
 namespace {
 
 /// A fifth of kMean_s: a frame is 0.2 of a mean, and 0.8 of it is from before.
@@ -107,4 +107,4 @@ TEST(DominantObject, ALoneOneIsFollowedAtOnce) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::dominant_object_test

@@ -7,7 +7,7 @@
 
 #include "core/touch/energy_budget.h"
 
-namespace spidar::test {
+namespace spidar::test::energy_budget_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
@@ -131,4 +131,4 @@ TEST(EnergyBudget, AllowsAForceThatPressesOnASpringAtRest) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::energy_budget_test

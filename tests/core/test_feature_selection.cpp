@@ -14,7 +14,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::feature_selection_test {
 namespace {
 
 using test::Picture;
@@ -200,4 +200,4 @@ TEST(FeatureSelection, AMirroredPictureHasMirroredPoints) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::feature_selection_test

@@ -16,7 +16,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::field_steps_test {
 namespace {
 
 using test::Picture;
@@ -296,4 +296,4 @@ TEST(Salience, ASingleEdgeHasNone) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::field_steps_test

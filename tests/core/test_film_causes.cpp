@@ -12,7 +12,7 @@
 #include "tests/support/scene_film.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::film_causes_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -280,4 +280,4 @@ TEST(FilmCauses, ANewShotIsFeltWithinThreeFrames) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::film_causes_test

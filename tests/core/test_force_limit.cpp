@@ -11,7 +11,7 @@
 #include "core/analysis/motion_analyzer.h"
 #include "core/force/motion_rendering.h"
 
-namespace spidar::test {
+namespace spidar::test::force_limit_test {
 namespace {
 
 constexpr int64_t kFrame_ns = 40'000'000;
@@ -107,4 +107,4 @@ TEST(ForceLimitHistory, KeepsTheLatestFramesWhenThereAreTooMany) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::force_limit_test

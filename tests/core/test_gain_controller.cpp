@@ -10,7 +10,7 @@
 #include "core/force/adaptive_controller.h"
 #include "core/force/gain_controller.h"
 
-namespace spidar {
+namespace spidar::test::gain_controller_test {
 namespace {
 
 const double kPi = std::acos(-1.0);
@@ -146,4 +146,4 @@ TEST(RenderMotion, NoVelocityIsNoForce) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::gain_controller_test

@@ -9,7 +9,7 @@
 #include "core/tracking/opencv_tracker.h"
 #include "tests/support/motion_cases.h"
 
-namespace spidar {
+namespace spidar::test::hard_frames_test {
 namespace {
 
 constexpr int kWidth = 480;
@@ -63,4 +63,4 @@ TEST(HardFrames, ACutIsNoMotion) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::hard_frames_test

@@ -12,7 +12,7 @@
 
 #include "core/touch/height_field.h"
 
-namespace spidar {
+namespace spidar::test::height_field_test {
 namespace {
 
 constexpr double kWidth_m = 0.06;
@@ -116,4 +116,4 @@ TEST(HeightField, SaysWhichExtentIsWrong) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::height_field_test

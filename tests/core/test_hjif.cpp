@@ -12,7 +12,7 @@
 #include "core/track/hjif.h"
 #include "core/track/keyframes.h"
 
-namespace spidar {
+namespace spidar::test::hjif_test {
 namespace {
 
 std::vector<TrackSample> track(size_t count, unsigned seed = 1) {
@@ -183,4 +183,4 @@ TEST(Hjif, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::hjif_test

@@ -7,7 +7,7 @@
 
 #include "core/motion/image_motion.h"
 
-namespace spidar {
+namespace spidar::test::image_motion_test {
 namespace {
 
 Track moved(float dx, float dy, float x = 100, float y = 50) {
@@ -61,4 +61,4 @@ TEST(MeanMotion, RefusesAnIntervalThatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::image_motion_test

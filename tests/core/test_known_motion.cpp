@@ -12,7 +12,7 @@
 #include "tests/support/motion_cases.h"
 #include "tests/support/photo_sheet.h"
 
-namespace spidar::test {
+namespace spidar::test::known_motion_test {
 namespace {
 
 using Eigen::Affine2d;
@@ -218,4 +218,4 @@ TEST(MotionCases, StillIsTheSameFrameAndNamesAreKnown) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::known_motion_test

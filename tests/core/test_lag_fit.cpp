@@ -9,7 +9,7 @@
 
 #include "core/delay/lag_fit.h"
 
-namespace spidar::test {
+namespace spidar::test::lag_fit_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -119,4 +119,4 @@ TEST(LagFit, GivesNoNumberWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::lag_fit_test

@@ -11,7 +11,7 @@
 #include "tests/support/texture.h"
 #include "tests/support/word_picture.h"
 
-namespace spidar {
+namespace spidar::test::luma_formats_test {
 namespace {
 
 using test::kWordSamples;
@@ -72,4 +72,4 @@ TEST(LumaSample, WhatCannotBeLumaIsRefused) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::luma_formats_test

@@ -15,7 +15,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/word_picture.h"
 
-namespace spidar {
+namespace spidar::test::luma_words_test {
 namespace {
 
 using test::kWordSamples;
@@ -132,4 +132,4 @@ TEST(LumaWords, AWindowIsReadAndFoundWhereBytesAre) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::luma_words_test

@@ -9,7 +9,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::motion_analyzer_test {
 namespace {
 
 using test::Picture;
@@ -303,4 +303,4 @@ TEST(MotionAnalyzer, ABadFrameIsRefused) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::motion_analyzer_test

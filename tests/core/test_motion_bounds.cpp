@@ -7,7 +7,7 @@
 
 #include "core/force/motion_bounds.h"
 
-namespace spidar {
+namespace spidar::test::motion_bounds_test {
 namespace {
 
 constexpr int kWidth = 640;
@@ -56,4 +56,4 @@ TEST(MotionBounds, NanIsNoMotion) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::motion_bounds_test

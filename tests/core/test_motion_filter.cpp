@@ -15,7 +15,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::motion_filter_test {
 namespace {
 
 constexpr double kFrame_s = 0.04;
@@ -266,4 +266,4 @@ TEST(StillHand, FeelsNothingOnANoisyStillPicture) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::motion_filter_test

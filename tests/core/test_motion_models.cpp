@@ -11,7 +11,7 @@
 #include "core/motion/robust_fit.h"
 #include "track_samples.h"
 
-namespace spidar {
+namespace spidar::test::motion_models_test {
 namespace {
 
 using test::sample_model;
@@ -228,4 +228,4 @@ TEST(MotionModels, DisplacementsAreAboutTheCentreAndBounded) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::motion_models_test

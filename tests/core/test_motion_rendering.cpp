@@ -9,7 +9,7 @@
 #include "core/force/motion_rendering.h"
 #include "core/force/wrench_fade.h"
 
-namespace spidar {
+namespace spidar::test::motion_rendering_test {
 namespace {
 
 /// A few operations on numbers near 1.
@@ -147,4 +147,4 @@ TEST(WrenchFade, AnObjectThatIsLostFadesInTheSameTimeAtEveryFrameRate) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::motion_rendering_test

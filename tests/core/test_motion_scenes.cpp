@@ -12,7 +12,7 @@
 #include "core/force/wrench_fade.h"
 #include "tests/support/moving_scene.h"
 
-namespace spidar {
+namespace spidar::test::motion_scenes_test {
 namespace {
 
 using test::MovingScene;
@@ -252,4 +252,4 @@ TEST(ObjectMotion, ADiscThatGrowsAndTurnsGivesForceAndTorque) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::motion_scenes_test

@@ -12,12 +12,12 @@
 #include "core/grip/pose_solver.h"
 #include "core/grip/tension_solver.h"
 #include "core/motion/motion_estimator.h"
-#include "count_allocations.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/tension_cases.h"
 #include "track_samples.h"
 
-namespace spidar::test {
+namespace spidar::test::no_allocation_test {
 namespace {
 
 TEST(NoAllocation, TheCounterCounts) {
@@ -25,7 +25,7 @@ TEST(NoAllocation, TheCounterCounts) {
   // Volatile, because a compiler that knows the callee may leave out the call, or take the counter
   // for constant.
   void* (*volatile take)(size_t) = ::operator new;
-  const size_t before = allocations;
+  const long before = allocations;
   void* something = take(800);
   EXPECT_GT(allocations, before);
   ::operator delete(something);
@@ -37,7 +37,7 @@ TEST(NoAllocation, TensionSolver) {
   for (int n = 0; n < 12 * 200; ++n) {
     TensionProblem p = random_problem(random, static_cast<TensionCase>(n % kTensionCases));
     if (n % 100 == 0) p.W(0, 0) = std::numeric_limits<double>::quiet_NaN();
-    const size_t before = allocations;
+    const long before = allocations;
     solver.solve(p);
     ASSERT_EQ(allocations, before) << "case " << n;
   }
@@ -52,7 +52,7 @@ TEST(NoAllocation, PoseSolver) {
     if (n % 3 == 0) lengths[n % 8] += 0.01;     // one is wrong
     if (n % 7 == 0) lengths.setConstant(0.01);  // all are
     if (n % 50 == 0) lengths[0] = std::numeric_limits<double>::quiet_NaN();
-    const size_t before = allocations;
+    const long before = allocations;
     solver.solve(lengths);
     ASSERT_EQ(allocations, before) << "case " << n;
   }
@@ -78,7 +78,7 @@ TEST(NoAllocation, Motion) {
       const double x_px = -300 + 10 * t;
       const ImageView picture = scene.draw(camera, {{{x_px, 100}}, {{-x_px, -100}}, {{x_px, -20}}});
       if (t == kTurn - 1) estimator.reset();
-      const size_t before = allocations;
+      const long before = allocations;
       reduced.read(picture);
       const SceneMotion found = estimator.estimate(kind, picture, reduced, {}, 40'000'000);
       if (n >= kTurn) {
@@ -100,7 +100,7 @@ TEST(NoAllocation, AFrameOfVideo) {
   for (int n = 0; n < 60; ++n) {
     const double x_px = -250 + 8 * n;
     const ImageView picture = scene.draw({{1.5 * n, 0}}, {{{x_px, 20.0}}});
-    const size_t before = allocations;
+    const long before = allocations;
     analyzer.analyze(picture, (n + 1) * int64_t{33'333'333});
     if (n >= kFirstFrames) {
       ASSERT_EQ(allocations, before) << "frame " << n;
@@ -109,4 +109,4 @@ TEST(NoAllocation, AFrameOfVideo) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::no_allocation_test

@@ -18,7 +18,7 @@
 #include "tests/support/scene_film.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::object_identity_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -338,4 +338,4 @@ TEST(ObjectTracker, WhatMovesNoMoreThanTheLayersAroundItIsNoObject) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::object_identity_test

@@ -11,7 +11,7 @@
 #include "core/motion/motion_estimator.h"
 #include "tests/support/moving_scene.h"
 
-namespace spidar {
+namespace spidar::test::pointer_test {
 namespace {
 
 constexpr int kHeight = 400;
@@ -155,4 +155,4 @@ TEST(MotionKinds, ObjectsAreKeptButNotReportedWhileTheCameraIsFelt) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::pointer_test

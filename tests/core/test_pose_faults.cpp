@@ -11,7 +11,7 @@
 #include "core/grip/pose_solver.h"
 #include "tests/support/string_samples.h"
 
-namespace spidar::test {
+namespace spidar::test::pose_faults_test {
 namespace {
 
 constexpr double kStep_m = 1.66555e-5;  // the SPIDAR-G6X3's encoder
@@ -197,4 +197,4 @@ TEST(PoseFaults, AJumpAtRestIsNamed) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::pose_faults_test

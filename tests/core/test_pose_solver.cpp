@@ -10,7 +10,7 @@
 #include "core/grip/pose_solver.h"
 #include "tests/support/string_samples.h"
 
-namespace spidar::test {
+namespace spidar::test::pose_solver_test {
 namespace {
 
 // A search stops at steps of 1 nm, from where a Gauss–Newton step leaves far less (its error is of
@@ -208,4 +208,4 @@ TEST(PoseSolver, RefusesGeometriesThatCannotTellAPose) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::pose_solver_test

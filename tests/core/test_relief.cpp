@@ -11,10 +11,10 @@
 
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
-#include "count_allocations.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/picture.h"
 
-namespace spidar::test {
+namespace spidar::test::relief_test {
 namespace {
 
 constexpr int kColumns = HeightField::kColumns;
@@ -243,7 +243,7 @@ TEST(Relief, TakesNothingFromTheHeapAfterTheFirst) {
   from_picture.from_brightness(picture.view(), {}, field);
   depth_picture.read(depth.view(), {}, 0.04);
   from_depth.from_levels(depth_picture.levels(), {}, field);
-  const size_t before = allocations;
+  const long before = allocations;
   from_picture.from_brightness(picture.view(), {}, field);
   from_picture.fine_detail({}, field);
   depth_picture.read(depth.view(), {}, 0.04);
@@ -260,4 +260,4 @@ TEST(Relief, SaysWhichSettingIsWrong) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::relief_test

@@ -16,7 +16,7 @@
 #include "tests/support/felt_film.h"
 #include "tests/support/film_studio.h"
 
-namespace spidar {
+namespace spidar::test::repeated_frames_test {
 namespace {
 
 using test::compare_felt;
@@ -191,4 +191,4 @@ TEST(CodedRepeats, AreFeltAsThePlainFilm) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::repeated_frames_test

@@ -12,7 +12,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::repeated_picture_test {
 namespace {
 
 using test::Picture;
@@ -134,4 +134,4 @@ TEST(RepeatedPicture, OneBlockIsNoiseAndSeveralAreAnObject) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::repeated_picture_test

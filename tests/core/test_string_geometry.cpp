@@ -5,7 +5,7 @@
 #include "core/grip/string_geometry.h"
 #include "tests/support/string_samples.h"
 
-namespace spidar::test {
+namespace spidar::test::string_geometry_test {
 namespace {
 
 TEST(StringGeometry, HomeLengthsAreThePublishedOnes) {
@@ -67,4 +67,4 @@ TEST(StringGeometry, StringWithoutLengthHasNoDirection) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::string_geometry_test

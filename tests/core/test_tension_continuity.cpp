@@ -17,7 +17,7 @@
 #include "tests/support/tension_cases.h"
 #include "tests/support/tension_step.h"
 
-namespace spidar::test {
+namespace spidar::test::tension_continuity_test {
 namespace {
 
 constexpr double kTick_s = 0.001;
@@ -130,4 +130,4 @@ TEST(TensionStep, JumpOfBalancedTensionsIsAboveTheBound) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::tension_continuity_test

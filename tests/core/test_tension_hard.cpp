@@ -7,7 +7,7 @@
 #include "tension_reference.h"
 #include "tests/support/tension_cases.h"
 
-namespace spidar::test {
+namespace spidar::test::tension_hard_test {
 namespace {
 
 class TensionSolverHard : public testing::TestWithParam<int> {};
@@ -69,4 +69,4 @@ TEST(TensionSolverPath, StepsAreWithinTheConditioning) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::tension_hard_test

@@ -8,7 +8,7 @@
 #include "tension_reference.h"
 #include "tests/support/tension_cases.h"
 
-namespace spidar::test {
+namespace spidar::test::tension_solver_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -139,4 +139,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::tension_solver_test

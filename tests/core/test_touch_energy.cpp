@@ -10,7 +10,7 @@
 #include "tests/support/touch_surfaces.h"
 #include "tests/support/touched_grip.h"
 
-namespace spidar::test {
+namespace spidar::test::touch_energy_test {
 namespace {
 
 /// For each scene and hand; bench_touch runs a million.
@@ -114,4 +114,4 @@ TEST(TouchEnergy, WithoutDampingItIsSeen) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::touch_energy_test

@@ -11,7 +11,7 @@
 #include "core/touch/proxy.h"
 #include "tests/support/touch_surfaces.h"
 
-namespace spidar::test {
+namespace spidar::test::touch_proxy_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
@@ -218,4 +218,4 @@ TEST(MovingRelief, WithItsDisplacementLeavesNoGhost) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::touch_proxy_test

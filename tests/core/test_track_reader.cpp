@@ -7,7 +7,7 @@
 #include "core/track/track_reader.h"
 #include "core/track/track_thinner.h"
 
-namespace spidar {
+namespace spidar::test::track_reader_test {
 namespace {
 
 constexpr int64_t kMs = 1'000'000;
@@ -129,4 +129,4 @@ TEST(TrackThinner, GivesMeansOfAsManySamplesAsComeInAMillisecond) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::track_reader_test

@@ -9,7 +9,7 @@
 #include "core/track/track_format.h"
 #include "core/track/track_sampler.h"
 
-namespace spidar {
+namespace spidar::test::track_sampler_test {
 namespace {
 
 constexpr int64_t kLookAhead_ns = 100'000'000;
@@ -108,4 +108,4 @@ TEST(TrackFormat, FullScaleIsTenNewtonsAndOneNewtonMetre) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::track_sampler_test

@@ -14,7 +14,7 @@
 
 #include "tests/core/moving_texture.h"
 
-namespace spidar::test {
+namespace spidar::test::tracker_test {
 namespace {
 
 struct Translation {
@@ -301,4 +301,4 @@ TEST(OpenCvTracker, WorksFromTheSmallestFrameToTheLargest) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::tracker_test

@@ -9,7 +9,7 @@
 #include "tests/core/moving_texture.h"
 #include "tests/support/ball_scene.h"
 
-namespace spidar::test {
+namespace spidar::test::tracker_objects_test {
 namespace {
 
 /// Tracks that begin on the ball and follow it.
@@ -87,4 +87,4 @@ TEST(OpenCvTracker, IndependentNoiseIsNotMotion) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::tracker_objects_test

@@ -16,7 +16,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
-namespace spidar {
+namespace spidar::test::window_steps_test {
 namespace {
 
 using test::Picture;
@@ -241,4 +241,4 @@ TEST(WindowSteps, UnrelatedWindowsHaveALargeResidual) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::window_steps_test

@@ -11,7 +11,7 @@
 
 #include "tests/core/timeline_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::wrench_timeline_test {
 namespace {
 
 WrenchTimeline two_frames() {
@@ -298,4 +298,4 @@ TEST(WrenchTimeline, SpansTheWholeRangeOfTime) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::wrench_timeline_test

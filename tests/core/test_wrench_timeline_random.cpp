@@ -11,7 +11,7 @@
 
 #include "tests/core/timeline_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::wrench_timeline_random_test {
 namespace {
 
 /// Frames at uneven times, also very uneven ones, with jumps and rests.
@@ -125,4 +125,4 @@ TEST_P(RandomFrames, BecomeKnownWithoutAStepNorACorner) {
 INSTANTIATE_TEST_SUITE_P(WrenchTimeline, RandomFrames, testing::Range(1u, 6u));
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::wrench_timeline_random_test

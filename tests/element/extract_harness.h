@@ -19,8 +19,9 @@
 
 namespace spidar::test {
 
-inline constexpr GstClockTime kFrame = 40 * GST_MSECOND;
-inline constexpr const char* kVideo = "video/x-raw,format=GRAY8,width=16,height=16,framerate=25/1";
+inline constexpr GstClockTime kExtractedFrame = 40 * GST_MSECOND;
+inline constexpr const char* kExtractedVideo =
+    "video/x-raw,format=GRAY8,width=16,height=16,framerate=25/1";
 
 inline Wrench wrench_of(double k) {
   return {{3 * std::sin(0.3 * k), std::cos(0.2 * k), 0.5 - k * 1e-3}, {0.1 * std::sin(k), 0, 0.02}};
@@ -29,7 +30,7 @@ inline Wrench wrench_of(double k) {
 inline GstBuffer* bare_frame(GstClockTime pts) {
   GstBuffer* frame = gst_buffer_new_allocate(nullptr, 256, nullptr);
   GST_BUFFER_PTS(frame) = pts;
-  GST_BUFFER_DURATION(frame) = kFrame;
+  GST_BUFFER_DURATION(frame) = kExtractedFrame;
   return frame;
 }
 
@@ -37,7 +38,7 @@ inline GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench) {
   GstBuffer* frame = bare_frame(pts);
   FrameReport report;
   report.running_time = pts;
-  report.analysis.interval_ns = kFrame;
+  report.analysis.interval_ns = kExtractedFrame;
   SceneView scene;
   scene.wrench = wrench;
   attach_motion_meta(frame, report, scene, 16, 16);
@@ -63,7 +64,7 @@ class Extract : public testing::Test {
     bus = gst_bus_new();
     gst_element_set_bus(element, bus);
     h = gst_harness_new_with_element(element, "sink", pad);
-    gst_harness_set_src_caps_str(h, kVideo);
+    gst_harness_set_src_caps_str(h, kExtractedVideo);
   }
 
   void close() {
@@ -96,7 +97,7 @@ class Extract : public testing::Test {
 
   /// Frames number `first` to `last`, with the time stamps of the film `at` and one frame later.
   void push_frames(int first, int last, GstClockTime at) {
-    for (int i = first; i <= last; ++i, at += kFrame)
+    for (int i = first; i <= last; ++i, at += kExtractedFrame)
       ASSERT_EQ(gst_harness_push(h, make_frame(at, wrench_of(i))), GST_FLOW_OK);
   }
 

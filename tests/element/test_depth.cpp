@@ -7,7 +7,7 @@
 
 #include "depth_harness.h"
 
-namespace spidar::test {
+namespace spidar::test::depth_test {
 namespace {
 
 class Depth : public DepthHarness {};
@@ -145,4 +145,4 @@ TEST_F(Depth, ChangedCapsOfTheVideoPass) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::depth_test

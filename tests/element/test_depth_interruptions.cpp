@@ -7,7 +7,7 @@
 
 #include "depth_harness.h"
 
-namespace spidar::test {
+namespace spidar::test::depth_interruptions_test {
 namespace {
 
 class DepthInterruptions : public DepthHarness {};
@@ -157,4 +157,4 @@ TEST_F(DepthInterruptions, NearBehindFarIsAnError) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::depth_interruptions_test

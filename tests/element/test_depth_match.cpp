@@ -7,7 +7,7 @@
 
 #include "plugin/depth/depth_match.h"
 
-namespace spidar::test {
+namespace spidar::test::depth_match_test {
 namespace {
 
 constexpr gint64 kMs = GST_MSECOND;
@@ -146,4 +146,4 @@ TEST(DepthMatch, BackwardsTheEndIsShownFirst) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::depth_match_test

@@ -15,7 +15,7 @@
 #include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::device_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -319,4 +319,4 @@ TEST_F(DeviceTest, StatesMayBeRepeatedManyTimes) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::device_test

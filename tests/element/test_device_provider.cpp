@@ -12,7 +12,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/element_harness.h"
 
-namespace spidar::test {
+namespace spidar::test::device_provider_test {
 namespace {
 
 std::string text_in(GstDevice* device, const char* field) {
@@ -218,4 +218,4 @@ TEST_F(DeviceProvider, TellsWhatComesAndGoes) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::device_provider_test

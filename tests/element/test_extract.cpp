@@ -7,13 +7,14 @@
 
 #include "tests/element/extract_harness.h"
 
-namespace spidar::test {
+namespace spidar::test::extract_test {
 namespace {
 
 TEST_F(Extract, AMinuteOfFilmGivesSixtyThousandSamplesThatMeetEveryFrame) {
   constexpr int kFrames = 1500;
   for (int i = 0; i < kFrames; ++i) {
-    ASSERT_EQ(gst_harness_push(h, make_frame(static_cast<GstClockTime>(i) * kFrame, wrench_of(i))),
+    ASSERT_EQ(gst_harness_push(
+                  h, make_frame(static_cast<GstClockTime>(i) * kExtractedFrame, wrench_of(i))),
               GST_FLOW_OK);
   }
   gst_harness_push_event(h, gst_event_new_eos());
@@ -36,14 +37,14 @@ TEST_F(Extract, PassesTheVideoOnUntouched) {
   EXPECT_EQ(out, frame);
   gst_buffer_unref(out);
   GstCaps* caps = gst_pad_get_current_caps(h->sinkpad);
-  GstCaps* given = gst_caps_from_string(kVideo);
+  GstCaps* given = gst_caps_from_string(kExtractedVideo);
   EXPECT_TRUE(gst_caps_is_equal(caps, given));
   gst_caps_unref(given);
   gst_caps_unref(caps);
 }
 
 TEST_F(Extract, IsSilentWithOneWarningWhereFramesHaveNoMeta) {
-  for (GstClockTime i = 0; i < 25; ++i) gst_harness_push(h, bare_frame(i * kFrame));
+  for (GstClockTime i = 0; i < 25; ++i) gst_harness_push(h, bare_frame(i * kExtractedFrame));
   gst_harness_push_event(h, gst_event_new_eos());
   take_all();
   EXPECT_EQ(samples.size(), 1000u);
@@ -53,12 +54,12 @@ TEST_F(Extract, IsSilentWithOneWarningWhereFramesHaveNoMeta) {
 
 TEST_F(Extract, BeginsWhereASeekLeads) {
   gst_harness_push(h, make_frame(0, wrench_of(1)));
-  gst_harness_push(h, make_frame(kFrame, wrench_of(2)));
+  gst_harness_push(h, make_frame(kExtractedFrame, wrench_of(2)));
   gst_harness_push_event(h, gst_event_new_flush_start());
   gst_harness_push_event(h, gst_event_new_flush_stop(TRUE));
   begin_segment(1, 4320 * GST_MSECOND);
   for (GstClockTime i = 108; i < 120; ++i) {
-    gst_harness_push(h, make_frame(i * kFrame, wrench_of(static_cast<double>(i))));
+    gst_harness_push(h, make_frame(i * kExtractedFrame, wrench_of(static_cast<double>(i))));
   }
   gst_harness_push_event(h, gst_event_new_eos());
   take_all();
@@ -70,8 +71,8 @@ TEST_F(Extract, BeginsWhereASeekLeads) {
 }
 
 TEST_F(Extract, ATrackBeginsWithItsSegmentAndNotWithTheFirstFrame) {
-  gst_harness_push(h, make_frame(2 * kFrame, wrench_of(1)));
-  gst_harness_push(h, make_frame(3 * kFrame, wrench_of(2)));
+  gst_harness_push(h, make_frame(2 * kExtractedFrame, wrench_of(1)));
+  gst_harness_push(h, make_frame(3 * kExtractedFrame, wrench_of(2)));
   gst_harness_push_event(h, gst_event_new_eos());
   take_all();
   EXPECT_EQ(begin, 0u);
@@ -82,16 +83,19 @@ TEST_F(Extract, ATrackBeginsWithItsSegmentAndNotWithTheFirstFrame) {
 
 TEST_F(Extract, EndsWithTheSegment) {
   begin_segment(1, 0, 100 * GST_MSECOND);
-  for (GstClockTime i = 0; i < 10; ++i) gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
+  for (GstClockTime i = 0; i < 10; ++i)
+    gst_harness_push(h, make_frame(i * kExtractedFrame, wrench_of(1)));
   gst_harness_push_event(h, gst_event_new_eos());
   take_all();
   EXPECT_EQ(samples.size(), 100u);
 }
 
 TEST_F(Extract, AGapOfTheVideoIsRest) {
-  for (GstClockTime i = 0; i < 5; ++i) gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
-  gst_harness_push_event(h, gst_event_new_gap(5 * kFrame, 10 * kFrame));
-  for (GstClockTime i = 15; i < 20; ++i) gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
+  for (GstClockTime i = 0; i < 5; ++i)
+    gst_harness_push(h, make_frame(i * kExtractedFrame, wrench_of(1)));
+  gst_harness_push_event(h, gst_event_new_gap(5 * kExtractedFrame, 10 * kExtractedFrame));
+  for (GstClockTime i = 15; i < 20; ++i)
+    gst_harness_push(h, make_frame(i * kExtractedFrame, wrench_of(1)));
   gst_harness_push_event(h, gst_event_new_eos());
   take_all();
   ASSERT_EQ(samples.size(), 800u);
@@ -100,8 +104,9 @@ TEST_F(Extract, AGapOfTheVideoIsRest) {
 }
 
 TEST_F(Extract, BackwardsThereAreGapsOnly) {
-  begin_segment(-1, 0, 10 * kFrame);
-  for (GstClockTime i = 10; i-- > 0;) gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
+  begin_segment(-1, 0, 10 * kExtractedFrame);
+  for (GstClockTime i = 10; i-- > 0;)
+    gst_harness_push(h, make_frame(i * kExtractedFrame, wrench_of(1)));
   take_all();
   EXPECT_TRUE(samples.empty());
   int gaps = 0;
@@ -122,9 +127,9 @@ TEST_F(Extract, ReportsTheLatencyOfSamples) {
 
 TEST_F(Extract, NoSampleExceedsTheLatency) {
   for (GstClockTime i = 0; i < 50; ++i) {
-    gst_harness_push(h, make_frame(i * kFrame, wrench_of(1)));
+    gst_harness_push(h, make_frame(i * kExtractedFrame, wrench_of(1)));
     take_all();
-    EXPECT_GE(samples.size() * kTrackPeriod_ns + TrackStream::latency_ns(), i * kFrame);
+    EXPECT_GE(samples.size() * kTrackPeriod_ns + TrackStream::latency_ns(), i * kExtractedFrame);
   }
 }
 
@@ -145,4 +150,4 @@ TEST_F(Extract, TakesTheMaskThatDownstreamWants) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::extract_test

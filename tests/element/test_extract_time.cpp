@@ -7,7 +7,7 @@
 
 #include "tests/element/extract_harness.h"
 
-namespace spidar::test {
+namespace spidar::test::extract_time_test {
 namespace {
 
 using ExtractTime = Extract;
@@ -19,7 +19,7 @@ TEST_F(ExtractTime, ASegmentThatMovesAfterTheFirstFrameDoesNotBeginTheTrackAgain
   push_segment({1, kFirst, GST_CLOCK_TIME_NONE, 0, 0});
   push_frames(0, 0, kFirst);
   push_segment({1, 0, GST_CLOCK_TIME_NONE, 0, 0});
-  push_frames(1, 24, kFirst + kFrame);
+  push_frames(1, 24, kFirst + kExtractedFrame);
   gst_harness_push_event(h, gst_event_new_eos());
   take_all();
   EXPECT_EQ(begin, 0u);
@@ -32,11 +32,13 @@ TEST_F(ExtractTime, ASegmentThatMovesAfterTheFirstFrameDoesNotBeginTheTrackAgain
 
 // qtdemux for an edit list: nothing for 200 ms, then the media from 80 ms on, then a part again.
 TEST_F(ExtractTime, EditsLieWhereThePlayerShowsThem) {
-  push_segment({1, 0, 5 * kFrame, 0, 0});
-  push_segment({1, 2 * kFrame, 12 * kFrame, 5 * kFrame, 5 * kFrame});
-  push_frames(5, 14, 2 * kFrame);
-  push_segment({1, 4 * kFrame, 9 * kFrame, 15 * kFrame, 15 * kFrame});
-  push_frames(15, 19, 4 * kFrame);
+  push_segment({1, 0, 5 * kExtractedFrame, 0, 0});
+  push_segment(
+      {1, 2 * kExtractedFrame, 12 * kExtractedFrame, 5 * kExtractedFrame, 5 * kExtractedFrame});
+  push_frames(5, 14, 2 * kExtractedFrame);
+  push_segment(
+      {1, 4 * kExtractedFrame, 9 * kExtractedFrame, 15 * kExtractedFrame, 15 * kExtractedFrame});
+  push_frames(15, 19, 4 * kExtractedFrame);
   gst_harness_push_event(h, gst_event_new_eos());
   take_all();
   EXPECT_EQ(begin, 0u);
@@ -49,8 +51,8 @@ TEST_F(ExtractTime, EditsLieWhereThePlayerShowsThem) {
 
 TEST_F(ExtractTime, WhereStreamTimeBeginsAnewSamplesGoOn) {
   push_frames(0, 9, 0);
-  push_segment({1, kFrame, GST_CLOCK_TIME_NONE, 0, 12 * kFrame});
-  push_frames(12, 19, kFrame);
+  push_segment({1, kExtractedFrame, GST_CLOCK_TIME_NONE, 0, 12 * kExtractedFrame});
+  push_frames(12, 19, kExtractedFrame);
   gst_harness_push_event(h, gst_event_new_eos());
   take_all();
   ASSERT_EQ(samples.size(), 800u);
@@ -59,8 +61,10 @@ TEST_F(ExtractTime, WhereStreamTimeBeginsAnewSamplesGoOn) {
   for (size_t ms = 400; ms < 440; ++ms) EXPECT_EQ(samples[ms], TrackSample{}) << ms;
   const std::vector<GstSegment> segments = take_segments();
   ASSERT_EQ(segments.size(), 2u);
-  EXPECT_EQ(gst_segment_to_stream_time(&segments[1], GST_FORMAT_TIME, 13 * kFrame), kFrame);
-  EXPECT_EQ(gst_segment_to_running_time(&segments[1], GST_FORMAT_TIME, 13 * kFrame), 13 * kFrame);
+  EXPECT_EQ(gst_segment_to_stream_time(&segments[1], GST_FORMAT_TIME, 13 * kExtractedFrame),
+            kExtractedFrame);
+  EXPECT_EQ(gst_segment_to_running_time(&segments[1], GST_FORMAT_TIME, 13 * kExtractedFrame),
+            13 * kExtractedFrame);
 }
 
 TEST_F(ExtractTime, AtTwiceTheRateThereAreHalfAsManySamples) {
@@ -71,19 +75,20 @@ TEST_F(ExtractTime, AtTwiceTheRateThereAreHalfAsManySamples) {
   ASSERT_EQ(samples.size(), 500u);
   for (size_t i = 0; i < 25; ++i)
     EXPECT_EQ(samples[20 * i], to_track_sample(wrench_of(static_cast<double>(i)))) << i;
-  EXPECT_EQ(gst_segment_to_stream_time(&take_segments().back(), GST_FORMAT_TIME, 5 * kFrame),
-            10 * kFrame);
+  EXPECT_EQ(
+      gst_segment_to_stream_time(&take_segments().back(), GST_FORMAT_TIME, 5 * kExtractedFrame),
+      10 * kExtractedFrame);
 }
 
 TEST_F(ExtractTime, OneWildTimeStampIsLeftOutWithAWarning) {
   constexpr GstClockTime kWild = 1'000'000 * GST_SECOND;
-  for (const GstClockTime from : {0 * kFrame, 5 * kFrame}) {
+  for (const GstClockTime from : {0 * kExtractedFrame, 5 * kExtractedFrame}) {
     open("wrench");
     samples.clear();
-    push_frames(0, static_cast<int>(from / kFrame) - 1, 0);
+    push_frames(0, static_cast<int>(from / kExtractedFrame) - 1, 0);
     push_frames(0, 0, kWild);
     EXPECT_EQ(warnings(), 1);
-    push_frames(static_cast<int>(from / kFrame), 9, from);
+    push_frames(static_cast<int>(from / kExtractedFrame), 9, from);
     gst_harness_push_event(h, gst_event_new_eos());
     take_all();
     EXPECT_EQ(begin, 0u);
@@ -98,17 +103,18 @@ TEST_F(ExtractTime, AfterAJumpOfDaysTheTrackGoesOnWithoutDaysOfSilence) {
   constexpr GstClockTime kLater = 1'000'000 * GST_SECOND;
   push_frames(0, 4, 0);
   push_frames(0, 9, kLater);
-  GstBuffer* frame = make_frame(kLater + 10 * kFrame, Wrench());
+  GstBuffer* frame = make_frame(kLater + 10 * kExtractedFrame, Wrench());
   GST_BUFFER_DURATION(frame) = kLater;
   ASSERT_EQ(gst_harness_push(h, frame), GST_FLOW_OK);
-  gst_harness_push_event(h, gst_event_new_gap(3 * kLater, kFrame));
+  gst_harness_push_event(h, gst_event_new_gap(3 * kLater, kExtractedFrame));
   gst_harness_push_event(h, gst_event_new_eos());
   size_t count = 0;
   GstClockTime last = 0;
   while (GstBuffer* buffer = gst_harness_try_pull(h)) {
-    if (GST_BUFFER_PTS(buffer) > last + kFrame) {
+    if (GST_BUFFER_PTS(buffer) > last + kExtractedFrame) {
       EXPECT_EQ(count, 200u);
-      EXPECT_EQ(GST_BUFFER_PTS(buffer), kLater + kFrame) << "the first frame might have been alone";
+      EXPECT_EQ(GST_BUFFER_PTS(buffer), kLater + kExtractedFrame)
+          << "the first frame might have been alone";
       EXPECT_TRUE(GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_DISCONT));
     }
     last = GST_BUFFER_PTS(buffer);
@@ -121,4 +127,4 @@ TEST_F(ExtractTime, AfterAJumpOfDaysTheTrackGoesOnWithoutDaysOfSilence) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::extract_time_test

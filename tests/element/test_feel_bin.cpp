@@ -61,7 +61,7 @@ GstStateChangeReturn gst_element_set_state(GstElement* element, GstState state) 
 }
 }
 
-namespace spidar::test {
+namespace spidar::test::feel_bin_test {
 namespace {
 
 GstFlowReturn drop(GstPad*, GstObject*, GstBuffer* frame) {
@@ -313,4 +313,4 @@ TEST_P(FeelBinFlushes, DuringTheExchangeAreNoError) {
 INSTANTIATE_TEST_SUITE_P(All, FeelBinFlushes, testing::Values(GST_EVENT_CAPS, GST_EVENT_SEGMENT));
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::feel_bin_test

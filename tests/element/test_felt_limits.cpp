@@ -8,7 +8,7 @@
 #include "spidar/loop/vibration_budget.h"
 #include "tests/element/force_limit_test.h"
 
-namespace spidar::test {
+namespace spidar::test::felt_limits_test {
 namespace {
 
 /// Grey levels below 128 are behind the grip, which a hand holds in the middle.
@@ -82,4 +82,4 @@ TEST_F(ForceLimitTest, TouchingNeedsADeviceAndARelief) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::felt_limits_test

@@ -12,7 +12,7 @@
 #include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::force_feedback_pointer_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -103,4 +103,4 @@ TEST_F(StickTest, TheSimulatedOnePointsAtTheCentre) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::force_feedback_pointer_test

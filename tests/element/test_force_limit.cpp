@@ -9,7 +9,7 @@
 #include "core/analysis/force_limit.h"
 #include "tests/element/force_limit_test.h"
 
-namespace spidar::test {
+namespace spidar::test::force_limit_test {
 namespace {
 
 TEST_F(ForceLimitTest, IsNoneWhileTheForceIsFelt) {
@@ -194,4 +194,4 @@ TEST_F(ForceLimitTest, WithoutADeviceTheVideosReasonsComeFirst) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::force_limit_test

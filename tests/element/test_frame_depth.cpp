@@ -12,7 +12,7 @@
 #include "plugin/depth/depth_meta.h"
 #include "plugin/depth/frame_depth.h"
 
-namespace spidar::test {
+namespace spidar::test::frame_depth_test {
 namespace {
 
 /// A frame with depth of this format: `near_half` on the right, `far_half` on the left.
@@ -85,4 +85,4 @@ TEST(FrameDepth, AFrameWithoutDepthHasNone) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::frame_depth_test

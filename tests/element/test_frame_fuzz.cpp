@@ -20,7 +20,7 @@
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::frame_fuzz_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -236,4 +236,4 @@ TEST(FrameFuzz, AFrameThatHasLessThanItSaysIsPassedOnWithAWarning) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::frame_fuzz_test

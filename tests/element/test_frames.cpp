@@ -14,7 +14,7 @@
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::frames_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -253,4 +253,4 @@ TEST(Frames, OfMixedStreamsThoseThatAreFlaggedAreMeasuredByOneField) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::frames_test

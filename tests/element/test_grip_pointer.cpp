@@ -6,7 +6,7 @@
 #include "plugin/frame/grip_pointer.h"
 #include "spidar/profiles/profile.h"
 
-namespace spidar {
+namespace spidar::test::grip_pointer_test {
 namespace {
 
 /// A few operations on numbers up to 1.
@@ -36,4 +36,4 @@ TEST(GripPointer, WithoutADeviceItIsTheMiddle) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::grip_pointer_test

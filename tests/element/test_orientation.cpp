@@ -12,7 +12,7 @@
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::orientation_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -150,4 +150,4 @@ TEST(Orientation, ReliefIsTurnedLikeThePicture) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::orientation_test

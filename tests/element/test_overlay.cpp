@@ -14,7 +14,7 @@
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::overlay_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -232,4 +232,4 @@ TEST(OverlayElement, DrawsWithinTheVisiblePart) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::overlay_test

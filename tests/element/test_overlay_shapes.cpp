@@ -9,7 +9,7 @@
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/canvas.h"
 
-namespace spidar::test {
+namespace spidar::test::overlay_shapes_test {
 namespace {
 
 TEST(Overlay, TheFeltArrowHasABorderOfOneWidthAllAround) {
@@ -121,4 +121,4 @@ TEST(OverlayElement, ShowsTheFingerOnlyWhileThePictureIsTouched) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::overlay_shapes_test

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::passthrough_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -257,4 +257,4 @@ TEST_F(Allocation, IsAnsweredByTheSinkAsWithIdentity) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::passthrough_test

@@ -11,7 +11,7 @@
 #include "plugin/timing/playback_sync.h"
 #include "tests/support/element_harness.h"
 
-namespace spidar::test {
+namespace spidar::test::playback_sync_test {
 namespace {
 
 constexpr int64_t kSecond = 1'000'000'000;
@@ -245,4 +245,4 @@ TEST_F(Sync, ACardThatIsReadInWholePeriodsDoesNotStandStill) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::playback_sync_test

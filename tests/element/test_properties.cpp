@@ -22,7 +22,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::properties_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -322,4 +322,4 @@ TEST(Stats, CountFramesAndNameTheDevice) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::properties_test

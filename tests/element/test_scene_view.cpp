@@ -7,7 +7,7 @@
 
 #include "plugin/frame/scene_view.h"
 
-namespace spidar::test {
+namespace spidar::test::scene_view_test {
 namespace {
 
 FrameAnalysis analysis_of(const std::vector<Track>& tracks) {
@@ -70,4 +70,4 @@ TEST(Scene, TellsTheBackgroundFromObjects) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::scene_view_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/element_harness.h"
 
-namespace spidar::test {
+namespace spidar::test::states_test {
 namespace {
 
 constexpr GstState kNull = GST_STATE_NULL;
@@ -48,4 +48,4 @@ TEST(States, EachIsReachedFromEachOther) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::states_test

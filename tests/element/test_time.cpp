@@ -11,7 +11,7 @@
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::time_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -320,4 +320,4 @@ TEST_F(Time, FramesOutsideTheSegmentAreNotShownAndNotFelt) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::time_test

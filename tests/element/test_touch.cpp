@@ -10,11 +10,11 @@
 #include "plugin/touch/relief_stream.h"
 #include "plugin/touch/touched_motion.h"
 #include "spidar/simulation/simulated_device.h"
-#include "tests/core/count_allocations.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::touch_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -194,7 +194,7 @@ TEST(ReliefStream, TakesNothingFromTheHeapAfterTheFirstFrame) {
   touch.kind = TouchKind::kLuma;
   touch.texture = 1;
   int64_t now_ns = 0;
-  size_t before = 0;
+  long before = 0;
   for (int n = 0; n < 100; ++n) {
     if (n == 1) before = allocations;
     reliefs.stream.add(nullptr, {grey.data(), 1920, 1080, 1920}, some_analysis(), n, touch,
@@ -338,4 +338,4 @@ TEST(ReliefStream, ADeviceWithoutAWorkspaceIsAnErrorThatSaysSo) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::touch_test

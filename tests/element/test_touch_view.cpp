@@ -14,7 +14,7 @@
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::touch_view_test {
 namespace {
 
 int64_t read_time(void* time) {
@@ -108,4 +108,4 @@ TEST(TouchView, OtherDevicesHaveNoHandToLead) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::touch_view_test

@@ -12,7 +12,7 @@
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::unpacked_formats_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -149,4 +149,4 @@ INSTANTIATE_TEST_SUITE_P(All, UnpackedFormats, testing::ValuesIn(unpacked_format
                          [](const auto& p) { return p.param; });
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::unpacked_formats_test

@@ -7,7 +7,7 @@
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tick_watch.h"
 
-namespace spidar::test {
+namespace spidar::test::wrench_schedule_test {
 namespace {
 
 constexpr int64_t kFrame = 40 * kMs;
@@ -75,4 +75,4 @@ TEST_F(Schedule, CountsWhatItRefuses) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::wrench_schedule_test

@@ -32,7 +32,7 @@ namespace spidar::test {
 namespace {
 
 constexpr const char* kDev = "/dev/input/";
-constexpr const char* kSysfs = "/sys/class/input";
+constexpr const char* kInputDevices = "/sys/class/input";
 
 const std::string& folder();
 
@@ -119,10 +119,10 @@ std::string evdev_path(const char* path) {
   const auto begins = [path](const char* with) {
     return std::strncmp(path, with, std::strlen(with)) == 0;
   };
-  if (!begins(kDev) && !begins(kSysfs)) return path;
+  if (!begins(kDev) && !begins(kInputDevices)) return path;
   bus();  // what $SPIDAR_EMULATED_BUS plugs in
   if (begins(kDev)) return folder() + "/dev/" + (path + std::strlen(kDev));
-  return folder() + "/sys" + (path + std::strlen(kSysfs));
+  return folder() + "/sys" + (path + std::strlen(kInputDevices));
 }
 
 bool evdev_ioctl(int file, unsigned long request, void* argument, int& result) {

@@ -15,7 +15,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/felt_player.h"
 
-namespace spidar::test {
+namespace spidar::test::kernel_evdev_test {
 namespace {
 
 constexpr int64_t kMs = kSecond_ns / 1000;
@@ -123,4 +123,4 @@ TEST(KernelEvdev, ASlowDeviceDelaysNothing) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::kernel_evdev_test

@@ -15,7 +15,7 @@
 #include "tests/kernel/uinput_device.h"
 #include "tests/support/felt_player.h"
 
-namespace spidar::test {
+namespace spidar::test::kernel_evdev_faults_test {
 namespace {
 
 std::unique_ptr<Device> board(const Profile& profile, const std::string& name = "uinput device") {
@@ -115,4 +115,4 @@ TEST_F(KernelEvdevFaults, OpenSaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::kernel_evdev_faults_test

@@ -18,7 +18,7 @@
 #include "tests/kernel/uinput_device.h"
 #include "tests/support/felt_player.h"
 
-namespace spidar::test {
+namespace spidar::test::kernel_film_test {
 namespace {
 
 constexpr int64_t kMs = kSecond_ns / 1000;
@@ -193,4 +193,4 @@ TEST(KernelFilm, APauseIsAtZeroWithin60Ms) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::kernel_film_test

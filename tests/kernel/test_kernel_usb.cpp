@@ -26,7 +26,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/recorded_motors.h"
 
-namespace spidar::test {
+namespace spidar::test::kernel_usb_test {
 namespace {
 
 constexpr const char* kProfile = "spidar-g6x3-v2-r";
@@ -243,4 +243,4 @@ TEST_F(KernelUsb, SpidarctlFindsThatTheBoardConforms) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::kernel_usb_test

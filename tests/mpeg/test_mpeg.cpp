@@ -22,7 +22,7 @@
 #include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::mpeg_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,13 +159,13 @@ TEST_F(Mpeg, AFileThatIsWrongIsNoticed) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::mpeg_test
 
 int main(int argc, char** argv) {
   for (const char* name : {"Encoder", "Synthesizer"}) {
-    if (!spidar::test::program(name).empty()) continue;
-    std::printf("skipped: no %s found: %s\n", name, spidar::test::kHelp);
-    return spidar::test::kSkipped;
+    if (!spidar::test::mpeg_test::program(name).empty()) continue;
+    std::printf("skipped: no %s found: %s\n", name, spidar::test::mpeg_test::kHelp);
+    return spidar::test::mpeg_test::kSkipped;
   }
   gst_init(&argc, &argv);
   testing::InitGoogleTest(&argc, argv);

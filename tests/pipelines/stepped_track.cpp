@@ -11,7 +11,7 @@ namespace spidar::test {
 namespace {
 
 // Any time will do that is not zero: a base time of zero would hide a forgotten one.
-constexpr GstClockTime kStart = 1000 * GST_SECOND;
+constexpr GstClockTime kTrackStart = 1000 * GST_SECOND;
 
 int64_t now_of(void* clock) {
   return static_cast<int64_t>(gst_clock_get_time(static_cast<GstClock*>(clock)));
@@ -22,7 +22,7 @@ int64_t now_of(void* clock) {
 SteppedTrack::SteppedTrack(const std::string& properties, const std::string& caps) {
   init_gstreamer();
   GST_ELEMENT_REGISTER(spidarsink, nullptr);
-  clock_ = GST_TEST_CLOCK(gst_test_clock_new_with_start_time(kStart));
+  clock_ = GST_TEST_CLOCK(gst_test_clock_new_with_start_time(kTrackStart));
   GError* error = nullptr;
   sink_ = gst_parse_launch(("spidarsink " + properties).c_str(), &error);
   if (!sink_ || error) g_error("%s", error ? error->message : "no sink");

@@ -19,7 +19,7 @@
 #include "tests/pipelines/launched.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::bad_tracks_test {
 namespace {
 
 constexpr int kFrames = 25;  // 1 s
@@ -276,4 +276,4 @@ TEST_F(BadTracks, TheTrackOfAnotherFilmMayDifferByAFrameAndNoMore) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::bad_tracks_test

@@ -9,7 +9,7 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-namespace spidar::test {
+namespace spidar::test::depth_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -168,4 +168,4 @@ TEST_F(DepthPipeline, WithoutDepthTheVideoPasses) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::depth_test

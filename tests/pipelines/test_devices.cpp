@@ -8,7 +8,7 @@
 #include "plugin/spidar_motion.h"
 #include "tests/pipelines/shown_motion.h"
 
-namespace spidar::test {
+namespace spidar::test::devices_test {
 namespace {
 
 const std::string kPaper =
@@ -92,4 +92,4 @@ TEST(Devices, TwoInOneProcessHaveTimesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::devices_test

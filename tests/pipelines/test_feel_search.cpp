@@ -9,7 +9,7 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::feel_search_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ TEST_F(FeelSearch, AnOldVersionOfThePluginIsNotUsed) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::feel_search_test

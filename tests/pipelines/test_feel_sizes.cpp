@@ -12,7 +12,7 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::feel_sizes_test {
 namespace {
 
 using Size = std::pair<int, int>;
@@ -82,4 +82,4 @@ TEST_F(FeelSizes, WhatFitsIsFeltBeforeAndAfterFramesThatDoNot) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::feel_sizes_test

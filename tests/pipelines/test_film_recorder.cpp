@@ -17,7 +17,7 @@
 #include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::film_recorder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -218,4 +218,4 @@ TEST_F(FilmRecorder, AFilmThatIsTurnedWhenItIsShownIsFeltAsItIsShown) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::film_recorder_test

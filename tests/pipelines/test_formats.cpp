@@ -9,7 +9,7 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-namespace spidar::test {
+namespace spidar::test::formats_test {
 namespace {
 
 constexpr int kFrames = 30;
@@ -160,4 +160,4 @@ TEST(FrameRates, WhatVideorateRepeatsIsFeltAsThePlainFilm) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::formats_test

@@ -8,7 +8,7 @@
 
 #include "tests/pipelines/shown_motion.h"
 
-namespace spidar::test {
+namespace spidar::test::frozen_picture_test {
 namespace {
 
 /// Held for 100 ms, at rest 40 ms later, and ten more until the clock has been read again.
@@ -83,4 +83,4 @@ TEST(FrozenPicture, ForceTenSecondsAfterThePicture) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::frozen_picture_test

@@ -13,7 +13,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wav_track.h"
 
-namespace spidar::test {
+namespace spidar::test::gapless_test {
 namespace {
 
 struct Film {
@@ -160,4 +160,4 @@ TEST_F(GaplessTrack, SecondFilmOnly) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::gapless_test

@@ -8,7 +8,7 @@
 
 #include "tests/pipelines/launched.h"
 
-namespace spidar::test {
+namespace spidar::test::gl_test {
 namespace {
 
 constexpr int kFrames = 10;
@@ -70,4 +70,4 @@ TEST_F(Gl, GlMemoryItselfIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::gl_test

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::interruptions_test {
 namespace {
 
 constexpr GstClockTime kMinute = 60 * GST_SECOND;
@@ -207,4 +207,4 @@ TEST(Interruptions, AClockThatIsLostAndReplaced) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::interruptions_test

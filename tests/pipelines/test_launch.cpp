@@ -13,7 +13,7 @@
 
 #include "tests/pipelines/launched.h"
 
-namespace spidar::test {
+namespace spidar::test::launch_test {
 namespace {
 
 class Launch : public testing::Test {
@@ -188,4 +188,4 @@ TEST_F(Launch, TheSimulatedDeviceOfTheMonitorPlays) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::launch_test

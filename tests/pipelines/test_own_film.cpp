@@ -22,7 +22,7 @@
 #include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::own_film_test {
 namespace {
 
 /// Whether ffmpeg made the film.
@@ -202,4 +202,4 @@ TEST_F(OwnFilm, ItsSoundMayBeLonger) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::own_film_test

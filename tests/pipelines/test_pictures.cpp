@@ -16,7 +16,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/texture.h"
 
-namespace spidar::test {
+namespace spidar::test::pictures_test {
 namespace {
 
 constexpr int kWidth = 160;
@@ -199,4 +199,4 @@ TEST(Pictures, TurnedByAnElementBeforeOrAfter) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::pictures_test

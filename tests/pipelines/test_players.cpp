@@ -15,7 +15,7 @@
 #include "tests/pipelines/launched.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::players_test {
 namespace {
 
 /// A picture that goes to the left as a whole: JPEG leaves little of a ball to follow.
@@ -199,4 +199,4 @@ TEST_F(Players, StoppedByAnotherThreadAtAnyMoment) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::players_test

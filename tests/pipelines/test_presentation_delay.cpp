@@ -8,7 +8,7 @@
 
 #include "tests/pipelines/shown_motion.h"
 
-namespace spidar::test {
+namespace spidar::test::presentation_delay_test {
 namespace {
 
 constexpr GstClockTime kDelay = 100 * GST_MSECOND;
@@ -122,4 +122,4 @@ TEST(PresentationDelay, PutIntoALivePipelineThatPlays) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::presentation_delay_test

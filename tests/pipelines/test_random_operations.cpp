@@ -15,7 +15,7 @@
 
 #include "tests/pipelines/random_operations.h"
 
-namespace spidar::test {
+namespace spidar::test::random_operations_test {
 namespace {
 
 uint64_t number_from(const char* variable, uint64_t otherwise) {
@@ -80,4 +80,4 @@ TEST(RandomOperations, DoNoHarm) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::random_operations_test

@@ -16,7 +16,7 @@
 #include "tests/support/felt_film.h"
 #include "tests/support/film_studio.h"
 
-namespace spidar::test {
+namespace spidar::test::repeated_frames_test {
 namespace {
 
 constexpr int kWidth = 480, kHeight = 272;
@@ -292,4 +292,4 @@ TEST(RepeatedFrames, ThatStayAreExactRestWithin100Ms) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::repeated_frames_test

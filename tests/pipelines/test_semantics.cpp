@@ -12,7 +12,7 @@
 #include "tests/pipelines/shown_motion.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::semantics_test {
 namespace {
 
 /// A loop of 6 frames: shown, to its end.
@@ -262,4 +262,4 @@ TEST(Semantics, AfterAnErrorUpstreamNothingIsFelt) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::semantics_test

@@ -15,7 +15,7 @@
 
 #include "tests/pipelines/stepped_pipeline.h"
 
-namespace spidar::test {
+namespace spidar::test::soak_test {
 namespace {
 
 constexpr int kFrames_Hz = 10;
@@ -116,4 +116,4 @@ TEST(Soak, RealTimeReportsLatenessAndMisses) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::soak_test

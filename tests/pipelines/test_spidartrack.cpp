@@ -20,7 +20,7 @@
 #include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::spidartrack_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -300,4 +300,4 @@ TEST_F(Spidartrack, APipelineThatNeverBeginsIsNotAwaitedForEver) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::spidartrack_test

@@ -9,7 +9,7 @@
 
 #include "tests/pipelines/shown_motion.h"
 
-namespace spidar::test {
+namespace spidar::test::synchronisation_test {
 namespace {
 
 const std::string kScene =
@@ -179,4 +179,4 @@ TEST(Synchronisation, TwiceTheRateIsTwiceTheVelocityAndInTime) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::synchronisation_test

@@ -18,7 +18,7 @@
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/support/rest_force.h"
 
-namespace spidar::test {
+namespace spidar::test::touch_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -337,4 +337,4 @@ TEST(Touch, AStillPictureIsTouched) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::touch_test

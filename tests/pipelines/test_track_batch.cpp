@@ -25,7 +25,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::track_batch_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -244,4 +244,4 @@ TEST_F(TrackBatch, ABatchEndsWithASummary) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::track_batch_test

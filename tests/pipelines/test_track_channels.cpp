@@ -19,7 +19,7 @@
 #include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::track_channels_test {
 namespace {
 
 constexpr int kFrames = 10;
@@ -190,4 +190,4 @@ TEST_F(TrackChannels, OfTheTraceOfSpidarmotion) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::track_channels_test

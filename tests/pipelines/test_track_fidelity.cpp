@@ -18,7 +18,7 @@
 #include "tests/pipelines/stepped_track.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::track_fidelity_test {
 namespace {
 
 /// Ticks of a playback by running time in microseconds.
@@ -180,4 +180,4 @@ TEST_F(TrackFidelity, HoldsForFramesBetweenMilliseconds) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::track_fidelity_test

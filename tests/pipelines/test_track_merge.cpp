@@ -21,7 +21,7 @@
 #include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::track_merge_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -347,4 +347,4 @@ TEST_F(TrackMerge, OtherMistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::track_merge_test

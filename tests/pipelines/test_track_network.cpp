@@ -12,7 +12,7 @@
 
 #include "tests/pipelines/track_network.h"
 
-namespace spidar::test {
+namespace spidar::test::track_network_test {
 namespace {
 
 /// A second of packets arrives but for three, then none for 0.8 s, then all.
@@ -112,4 +112,4 @@ TEST_F(TrackNetwork, MatroskaOverTcpIsFelt) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::track_network_test

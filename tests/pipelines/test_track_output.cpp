@@ -24,7 +24,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::track_output_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -309,4 +309,4 @@ TEST_F(TrackOutput, InfoOfAFilmIsThatOfItsTrack) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::track_output_test

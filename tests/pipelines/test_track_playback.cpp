@@ -12,7 +12,7 @@
 #include "tests/pipelines/stepped_track.h"
 #include "tests/support/wav_track.h"
 
-namespace spidar::test {
+namespace spidar::test::track_playback_test {
 namespace {
 
 /// One second in which sample n is sample_at(first + n · step).
@@ -306,4 +306,4 @@ TEST(TrackPlayback, GainMuteAndOffset) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::track_playback_test

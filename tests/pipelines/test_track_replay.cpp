@@ -13,7 +13,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wav_track.h"
 
-namespace spidar::test {
+namespace spidar::test::track_replay_test {
 namespace {
 
 constexpr int kFrames = 100;  // 4 s
@@ -183,4 +183,4 @@ TEST_F(TrackReplay, ATrackThatShakesIsLoweredAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::track_replay_test

@@ -11,7 +11,7 @@
 #include "tests/pipelines/cut_link.h"
 #include "tests/pipelines/track_network.h"
 
-namespace spidar::test {
+namespace spidar::test::track_srt_test {
 namespace {
 
 class TrackSrt : public TrackNetwork {
@@ -84,4 +84,4 @@ TEST_F(TrackSrt, ASenderThatIsStartedAgainIsFeltAgain) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::track_srt_test

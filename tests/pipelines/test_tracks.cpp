@@ -18,7 +18,7 @@
 #include "tests/pipelines/launched.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::tracks_test {
 namespace {
 
 constexpr const char* kFilm =
@@ -171,4 +171,4 @@ TEST_F(Tracks, VideoAndTrackPlayTogether) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::tracks_test

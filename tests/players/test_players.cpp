@@ -26,7 +26,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/virtual_display.h"
 
-namespace spidar::test {
+namespace spidar::test::players_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -298,7 +298,7 @@ INSTANTIATE_TEST_SUITE_P(Desktop, LookerTest, testing::ValuesIn(kLookers),
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::players_test
 
 static int run_tests(int argc, char** argv) {
   const spidar::test::SharedBus shared;

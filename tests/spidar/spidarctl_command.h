@@ -13,7 +13,7 @@
 
 namespace spidar::test {
 
-inline CommandResult run(const std::string& arguments) {
+inline CommandResult run_spidarctl(const std::string& arguments) {
   return run_shell(std::string(SPIDARCTL) + " " + arguments + " 2>&1");
 }
 

@@ -15,7 +15,7 @@
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/board_bench.h"
 
-namespace spidar::test {
+namespace spidar::test::board_device_test {
 namespace {
 
 TEST(Mouse, PullsAsTheStringsWouldWithinItsLimit) {
@@ -211,4 +211,4 @@ TEST(WireSimulation, HoldsTheGripWhereTheSimulationDoes) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::board_device_test

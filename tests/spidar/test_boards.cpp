@@ -15,7 +15,7 @@
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/board_bench.h"
 
-namespace spidar::test {
+namespace spidar::test::boards_test {
 namespace {
 
 class Boards : public testing::TestWithParam<Kind>, public BoardBench {
@@ -311,4 +311,4 @@ TEST_P(Boards, ForceLastsWhereNothingIsCounted) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::boards_test

@@ -12,8 +12,7 @@
 
 #include "tests/spidar/calibration_samples.h"
 
-using namespace spidar;
-using namespace spidar::test;
+namespace spidar::test::calibration_test {
 
 namespace {
 
@@ -291,3 +290,5 @@ TEST(Calibration, CentreMakesTheCountsThereZero) {
     EXPECT_LT(result.home_offset_sd_m[i], 2 * profile.drives[0].metres_per_count);
   }
 }
+
+}  // namespace spidar::test::calibration_test

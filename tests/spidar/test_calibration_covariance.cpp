@@ -10,8 +10,7 @@
 
 #include "tests/spidar/calibration_samples.h"
 
-using namespace spidar;
-using namespace spidar::test;
+namespace spidar::test::calibration_covariance_test {
 
 namespace {
 
@@ -82,3 +81,5 @@ TEST(CalibrationCovariance, AgreesWithCeres) {
     EXPECT_NEAR(result.home_offset_m[i], offsets[i], sd_m) << "string " << i;
   }
 }
+
+}  // namespace spidar::test::calibration_covariance_test

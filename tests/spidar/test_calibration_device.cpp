@@ -18,8 +18,7 @@
 #include "tests/spidar/calibration_samples.h"
 #include "tests/support/fake_device.h"
 
-using namespace spidar;
-using namespace spidar::test;
+namespace spidar::test::calibration_device_test {
 
 namespace {
 
@@ -138,3 +137,5 @@ TEST(CalibrationDevice, SettingsOutOfRangeAreRefused) {
     EXPECT_THROW(record_counts(device, profile, settings, never), std::invalid_argument);
   EXPECT_EQ(device.log().opened, 0);
 }
+
+}  // namespace spidar::test::calibration_device_test

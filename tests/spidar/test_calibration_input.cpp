@@ -11,8 +11,7 @@
 
 #include "tests/spidar/calibration_samples.h"
 
-using namespace spidar;
-using namespace spidar::test;
+namespace spidar::test::calibration_input_test {
 
 namespace {
 
@@ -91,3 +90,5 @@ TEST(CalibrationInput, OnlyASolvedResultMakesAProfile) {
   result.status = CalibrationStatus::kUndetermined;
   expect_contains(error_of([&] { calibrated_profile(profile, result, "a test"); }), "not solved");
 }
+
+}  // namespace spidar::test::calibration_input_test

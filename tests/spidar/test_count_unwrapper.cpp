@@ -9,7 +9,7 @@
 
 #include "spidar/protocols/count_unwrapper.h"
 
-namespace spidar {
+namespace spidar::test::count_unwrapper_test {
 namespace {
 
 using Raw = std::array<uint32_t, kMaxStrings>;
@@ -73,4 +73,4 @@ TEST(CountUnwrapper, RefusesJumpsAndKeepsWhatItHad) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::count_unwrapper_test

@@ -18,7 +18,7 @@
 #include "spidar/loop/stiffness_limit.h"
 #include "tests/support/tampered_device.h"
 
-namespace spidar::test {
+namespace spidar::test::delay_test {
 namespace {
 
 GripModel light_hand() {
@@ -305,4 +305,4 @@ TEST(StiffnessLimit, IsThatOfTheDelay) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::delay_test

@@ -12,7 +12,7 @@
 #include "tests/support/released_grip.h"
 #include "tests/support/rest_force.h"
 
-namespace spidar::test {
+namespace spidar::test::delivered_limit_test {
 namespace {
 
 constexpr double kReach_m = 0.02;
@@ -172,4 +172,4 @@ TEST(DeliveredLimit, HoldsWhereTheGripGoes) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::delivered_limit_test

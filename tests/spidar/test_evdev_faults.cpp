@@ -18,7 +18,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
 
-namespace spidar::test {
+namespace spidar::test::evdev_faults_test {
 namespace {
 
 class EvdevFaults : public testing::Test {
@@ -294,4 +294,4 @@ TEST_F(EvdevFaults, NoTickWaitsForADriverThatHangs) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::evdev_faults_test

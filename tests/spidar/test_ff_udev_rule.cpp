@@ -14,7 +14,7 @@
 
 #include "tests/emulated_bus/bus_state.h"
 
-namespace spidar::test {
+namespace spidar::test::ff_udev_rule_test {
 namespace {
 
 struct Condition {
@@ -88,4 +88,4 @@ TEST(ForceFeedbackUdevRule, IsReadBeforeTheRuleThatActsOnItsTag) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::ff_udev_rule_test

@@ -21,7 +21,7 @@
 #include "tests/support/felt_player.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::force_feedback_test {
 namespace {
 
 constexpr int64_t kMs = 1'000'000;
@@ -334,4 +334,4 @@ TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::force_feedback_test

@@ -26,7 +26,7 @@
 #include "tests/spidar/board_bench.h"
 #include "tests/support/felt_player.h"
 
-namespace spidar::test {
+namespace spidar::test::force_feedback_faults_test {
 namespace {
 
 constexpr int64_t kMs = kSecond_ns / 1000;
@@ -345,4 +345,4 @@ TEST_F(ForceFeedbackFaults, UpdatesHaveRealTimePriorityWhereItIsAllowed) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::force_feedback_faults_test

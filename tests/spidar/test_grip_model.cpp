@@ -15,7 +15,7 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/simulation/grip_model.h"
 
-using namespace spidar;
+namespace spidar::test::grip_model_test {
 
 namespace {
 
@@ -266,3 +266,5 @@ INSTANTIATE_TEST_SUITE_P(All, EveryProfile, testing::ValuesIn(list_profiles()),
                              if (c == '-') c = '_';
                            return name;
                          });
+
+}  // namespace spidar::test::grip_model_test

@@ -28,7 +28,7 @@
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test {
+namespace spidar::test::guardian_pairs_test {
 namespace {
 
 void sleep_ms(int ms) {
@@ -336,4 +336,4 @@ TEST(GuardianPairs, AServiceBehindASocketCanBeTheGuardian) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::guardian_pairs_test

@@ -7,7 +7,7 @@
 
 #include "tests/spidar/loop_driver.h"
 
-namespace spidar::test {
+namespace spidar::test::haptic_loop_test {
 namespace {
 
 constexpr int64_t kFrame = 40 * kMs;
@@ -248,4 +248,4 @@ TEST(HapticLoop, RecordsEveryTick) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::haptic_loop_test

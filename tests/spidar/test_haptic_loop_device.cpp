@@ -10,7 +10,7 @@
 #include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
 
-namespace spidar::test {
+namespace spidar::test::haptic_loop_device_test {
 namespace {
 
 double largest_volt(const MotorVolts& volts) {
@@ -244,4 +244,4 @@ TEST(HapticLoopDevice, KnowsWhereTheGripIs) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::haptic_loop_device_test

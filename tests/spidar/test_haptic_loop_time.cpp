@@ -6,7 +6,7 @@
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tick_watch.h"
 
-namespace spidar::test {
+namespace spidar::test::haptic_loop_time_test {
 namespace {
 
 constexpr int64_t kHold = 100 * kMs;
@@ -73,4 +73,4 @@ TEST(HapticLoopTime, AGapWhoseEndIsKnownIsRest) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::haptic_loop_time_test

@@ -9,7 +9,7 @@
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tick_watch.h"
 
-namespace spidar::test {
+namespace spidar::test::haptic_loop_track_test {
 namespace {
 
 float share_at(int64_t ms) {
@@ -146,4 +146,4 @@ TEST(HapticLoopTrack, WhereThereIsATrackFramesAreNotFelt) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::haptic_loop_track_test

@@ -15,7 +15,7 @@
 #include "spidar/session/haptic_session.h"
 #include "tests/support/fake_device.h"
 
-namespace spidar::test {
+namespace spidar::test::haptic_session_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,4 +194,4 @@ TEST(HapticSession, WhatVibratedCountsInTheNextOneToo) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::haptic_session_test

@@ -20,7 +20,7 @@
 #include "tests/support/released_grip.h"
 #include "tests/support/rest_force.h"
 
-namespace spidar::test {
+namespace spidar::test::hazards_test {
 namespace {
 
 constexpr int64_t kFrame_ns = 10 * kTick_ns;
@@ -276,4 +276,4 @@ TEST(Hazards, InPairs) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::hazards_test

@@ -7,7 +7,7 @@
 
 #include "spidar/install_folder.h"
 
-namespace spidar {
+namespace spidar::test::install_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,4 +36,4 @@ TEST(InstallFolder, OfABuildFolderThePrefixIsWhereItWouldBeInstalled) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::install_folder_test

@@ -4,7 +4,7 @@
 
 #include "spidar/realtime/latency_histogram.h"
 
-namespace spidar {
+namespace spidar::test::latency_histogram_test {
 namespace {
 
 TEST(LatencyHistogram, Empty) {
@@ -39,4 +39,4 @@ TEST(LatencyHistogram, KeepsTheLargestOfAll) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::latency_histogram_test

@@ -10,7 +10,7 @@
 #include "spidar/simulation/led_hand.h"
 #include "tests/spidar/simulated_device_test.h"
 
-namespace spidar::test {
+namespace spidar::test::led_hand_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
@@ -108,4 +108,4 @@ TEST_F(SimulatedDeviceTest, AHandMayBeLedByAnotherThread) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::led_hand_test

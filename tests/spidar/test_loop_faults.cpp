@@ -12,7 +12,7 @@
 #include "tests/support/random_motion.h"
 #include "tests/support/tampered_device.h"
 
-namespace spidar::test {
+namespace spidar::test::loop_faults_test {
 namespace {
 
 /// A simulated device whose encoders can be stopped, a loop that plays 1 N to the right on it, or
@@ -291,4 +291,4 @@ TEST(Idle, SwitchesTheMotorsOffAndOnAgain) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::loop_faults_test

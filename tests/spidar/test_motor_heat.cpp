@@ -7,7 +7,7 @@
 #include "spidar/loop/motor_heat.h"
 #include "tests/spidar/loop_driver.h"
 
-namespace spidar::test {
+namespace spidar::test::motor_heat_test {
 namespace {
 
 constexpr double kStep_s = 1e-3;
@@ -93,4 +93,4 @@ TEST(MotorHeat, TheLoopReducesTheForceInsteadOfOverheating) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::motor_heat_test

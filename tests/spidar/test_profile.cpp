@@ -16,7 +16,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using namespace spidar;
+namespace spidar::test::profile_test {
 using spidar::test::TemporaryFolder;
 
 namespace {
@@ -285,3 +285,5 @@ INSTANTIATE_TEST_SUITE_P(
                {"source[0].fields[0]", "\"geometri\""}},
         Broken{"\"contradicted\"", "\"heard\"", {"source[0].evidence", "\"heard\"", "inferred"}},
         Broken{"source = \"a book\"\n", "", {"source[0].source", "missing"}, "[[source]]"}));
+
+}  // namespace spidar::test::profile_test

@@ -9,7 +9,7 @@
 #include "profile_tension_cases.h"
 #include "tests/core/tension_reference.h"
 
-namespace spidar::test {
+namespace spidar::test::profile_tensions_test {
 namespace {
 
 class ProfileTensions : public testing::TestWithParam<std::string> {};
@@ -47,4 +47,4 @@ INSTANTIATE_TEST_SUITE_P(EveryShippedOne, ProfileTensions, testing::ValuesIn(lis
                          test_name);
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::profile_tensions_test

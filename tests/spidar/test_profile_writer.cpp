@@ -15,8 +15,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using namespace spidar;
-using namespace spidar::test;
+namespace spidar::test::profile_writer_test {
 
 namespace {
 
@@ -151,3 +150,5 @@ TEST(ProfileWriter, BadCalibrationIsRefusedByName) {
   EXPECT_NE(load_error(folder.file("c.toml"), profile_text(profile)).find("residual_m"),
             std::string::npos);
 }
+
+}  // namespace spidar::test::profile_writer_test

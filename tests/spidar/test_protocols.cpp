@@ -16,7 +16,7 @@
 #include "spidar/protocols/uart_motor.h"
 #include "spidar/protocols/usb_simple.h"
 
-namespace spidar {
+namespace spidar::test::protocols_test {
 namespace {
 
 template <size_t N>
@@ -310,4 +310,4 @@ TEST(SpidarMouse, TotalForceIsLimited) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::protocols_test

@@ -19,7 +19,7 @@
 #include "tests/support/seam_watch.h"
 #include "tests/support/tampered_device.h"
 
-namespace spidar::test {
+namespace spidar::test::random_safety_test {
 namespace {
 
 constexpr int64_t kMs = 1'000'000;
@@ -224,4 +224,4 @@ TEST(RandomSafety, HoldsWhateverHappens) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::random_safety_test

@@ -15,7 +15,7 @@
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 
-namespace spidar::test {
+namespace spidar::test::released_grip_test {
 namespace {
 
 constexpr double kFastest_m_s = 1.0;
@@ -208,4 +208,4 @@ TEST(GripMotion, IsAsLateAndAsNoisyAsItSays) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::released_grip_test

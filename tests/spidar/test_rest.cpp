@@ -12,7 +12,7 @@
 #include "tests/support/random_motion.h"
 #include "tests/support/tampered_device.h"
 
-namespace spidar::test {
+namespace spidar::test::rest_test {
 namespace {
 
 constexpr int kSeed = 14;
@@ -112,4 +112,4 @@ TEST(Rest, NothingJumpsBetweenItAndAWrench) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::rest_test

@@ -9,7 +9,7 @@
 
 #include "spidar/loop/safety.h"
 
-namespace spidar {
+namespace spidar::test::safety_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -283,4 +283,4 @@ TEST(ToVolts, UsesGainSignAndRange) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::safety_test

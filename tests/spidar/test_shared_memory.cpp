@@ -9,7 +9,7 @@
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
 
-namespace spidar {
+namespace spidar::test::shared_memory_test {
 namespace {
 
 /// Torn when its words differ. Large, so that a thread is likely to be held up within it.
@@ -106,4 +106,4 @@ TEST(SpscRing, LosesNothingBetweenThreads) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::shared_memory_test

@@ -14,7 +14,7 @@
 
 #include "spidar/profiles/profile.h"
 
-using namespace spidar;
+namespace spidar::test::shipped_profiles_test {
 
 namespace {
 
@@ -226,3 +226,5 @@ TEST(ShippedProfiles, ElectricalNumbersAreAsPublished) {
     EXPECT_EQ(drive.max_tension_N, row.max_N);
   }
 }
+
+}  // namespace spidar::test::shipped_profiles_test

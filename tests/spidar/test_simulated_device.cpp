@@ -10,8 +10,7 @@
 
 #include "tests/spidar/simulated_device_test.h"
 
-using namespace spidar;
-using namespace spidar::test;
+namespace spidar::test::simulated_device_test {
 
 TEST_F(SimulatedDeviceTest, CountsAreZeroAtTheCentreAndSignedAsTheProfileSays) {
   SimulatedDevice device(profile, kFixedStep);
@@ -217,3 +216,5 @@ TEST_F(SimulatedDeviceTest, HandThatIsNotFiniteIsIgnored) {
   device.exchange({}, reading);
   EXPECT_TRUE(device.felt().angular_velocity_rad_s.isZero(0));
 }
+
+}  // namespace spidar::test::simulated_device_test

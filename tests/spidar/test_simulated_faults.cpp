@@ -16,8 +16,7 @@
 #include "tests/spidar/simulated_device_test.h"
 #include "tests/support/allocation_count.h"
 
-using namespace spidar;
-using namespace spidar::test;
+namespace spidar::test::simulated_faults_test {
 
 TEST_F(SimulatedDeviceTest, SilentHostLeavesTheStringsPulling) {
   SimulatedDevice device(profile, kFixedStep);
@@ -164,3 +163,5 @@ TEST(DeviceFactory, KnowsTheSimulatedDevice) {
   const auto device = make_device("sim", profile);
   EXPECT_EQ(device->name(), "sim");
 }
+
+}  // namespace spidar::test::simulated_faults_test

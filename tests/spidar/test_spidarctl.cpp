@@ -17,13 +17,13 @@
 
 namespace fs = std::filesystem;
 
-namespace spidar::test {
+namespace spidar::test::spidarctl_test {
 namespace {
 
 TEST(Spidarctl, HelpAndListSucceed) {
-  expect_contains(run("--help").text, "usage: spidarctl COMMAND");
-  expect_contains(run("calibrate --help").text, "--sim-start");
-  const CommandResult list = run("list");
+  expect_contains(run_spidarctl("--help").text, "usage: spidarctl COMMAND");
+  expect_contains(run_spidarctl("calibrate --help").text, "--sim-start");
+  const CommandResult list = run_spidarctl("list");
   EXPECT_EQ(list.status, 0);
   expect_contains(list.text, "sim ");
   expect_contains(list.text, "spidar-gcc ");
@@ -79,7 +79,7 @@ TEST(Spidarctl, WrongUsageIsNamed) {
   };
   for (const auto& [arguments, message] : cases) {
     SCOPED_TRACE(arguments);
-    const CommandResult outcome = run(arguments);
+    const CommandResult outcome = run_spidarctl(arguments);
     EXPECT_EQ(outcome.status, 2);
     expect_contains(outcome.text, message);
   }
@@ -105,7 +105,7 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
   };
   for (const auto& [arguments, message] : cases) {
     SCOPED_TRACE(arguments);
-    const CommandResult outcome = run(arguments);
+    const CommandResult outcome = run_spidarctl(arguments);
     EXPECT_EQ(outcome.status, 1);
     expect_contains(outcome.text, message);
     EXPECT_EQ(outcome.text.find("Move and turn"), std::string::npos);
@@ -117,7 +117,7 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
 TEST(Spidarctl, MotionFindsWhereTheCountersWereCleared) {
   const OutputFile file;
   const CommandResult outcome =
-      run("calibrate sim --move 4 --sim-start 20,-30,10,0,40,0 --output " + file.path());
+      run_spidarctl("calibrate sim --move 4 --sim-start 20,-30,10,0,40,0 --output " + file.path());
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "solved");
   const spidar::Profile profile = spidar::load_profile(file.path());
@@ -141,15 +141,15 @@ TEST(Spidarctl, SelftestOfADeviceThatIsRightSucceeds) {
 TEST(Spidarctl, SelftestSaysWhenTheMotorsHaveNoSupply) {
   std::string cut = "cut-motor:0";
   for (int i = 1; i < 8; ++i) cut += ";cut-motor:" + std::to_string(i);
-  const CommandResult outcome = run("selftest sim:simple --sim-wiring '" + cut + "'");
+  const CommandResult outcome = run_spidarctl("selftest sim:simple --sim-wiring '" + cut + "'");
   EXPECT_EQ(outcome.status, 1);
   expect_contains(outcome.text, "Switch on the supply of the motors");
 }
 
 TEST(Spidarctl, CalibrateRefusesADeviceThatIsWiredDifferently) {
   const OutputFile file;
-  const CommandResult outcome =
-      run("calibrate sim --sim-wiring swap-encoders:1,2 --centre --output " + file.path());
+  const CommandResult outcome = run_spidarctl(
+      "calibrate sim --sim-wiring swap-encoders:1,2 --centre --output " + file.path());
   EXPECT_EQ(outcome.status, 3) << outcome.text;
   expect_contains(outcome.text, "encoders 1 and 2 are swapped");
   expect_contains(outcome.text, "nothing is calibrated");
@@ -166,10 +166,10 @@ TEST(Spidarctl, JsonIsOneObject) {
 }
 
 TEST(Spidarctl, ListTellsDevicesApart) {
-  const CommandResult list = run("list");
+  const CommandResult list = run_spidarctl("list");
   expect_contains(list.text, "sim:sh4 ");
   expect_contains(list.text, "; emulated");
-  const CommandResult json = run("list --json");
+  const CommandResult json = run_spidarctl("list --json");
   EXPECT_EQ(json.status, 0);
   expect_contains(json.text, "\"device\" : \"sim:uart\"");
   expect_contains(json.text, "\"evidence\" : \"emulated\"");
@@ -179,22 +179,22 @@ TEST(Spidarctl, InfoReadsEachBoard) {
   for (const std::string device :
        {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff"}) {
     SCOPED_TRACE(device);
-    const CommandResult outcome = run("info " + device);
+    const CommandResult outcome = run_spidarctl("info " + device);
     EXPECT_EQ(outcome.status, 0);
     expect_contains(outcome.text, "device    " + device + "\n");
     expect_contains(outcome.text, "inputs    0x0000");
   }
-  expect_contains(run("info sim:ff").text,
+  expect_contains(run_spidarctl("info sim:ff").text,
                   "found     emulated stick at 20 % of its strength, force feedback on two axes");
-  expect_contains(run("info sim:sh4 --json").text, "\"profile\" : \"spidar-g6x3-v2-r\"");
+  expect_contains(run_spidarctl("info sim:sh4 --json").text, "\"profile\" : \"spidar-g6x3-v2-r\"");
 }
 
 TEST(Spidarctl, MonitorShowsTheGrip) {
-  const CommandResult text = run("monitor sim:uart --taut --seconds 0.15");
+  const CommandResult text = run_spidarctl("monitor sim:uart --taut --seconds 0.15");
   EXPECT_EQ(text.status, 0);
   expect_contains(text.text, "inputs");
   expect_contains(text.text, "   0.1 ");
-  const CommandResult json = run("monitor sim --seconds 0.15 --json");
+  const CommandResult json = run_spidarctl("monitor sim --seconds 0.15 --json");
   EXPECT_EQ(json.status, 0);
   EXPECT_EQ(std::count(json.text.begin(), json.text.end(), '\n'), 2) << json.text;
   // The motors are at zero, so that the simulated hand holds the grip at the centre.
@@ -202,11 +202,11 @@ TEST(Spidarctl, MonitorShowsTheGrip) {
 }
 
 TEST(Spidarctl, RestAndZeroLeaveTheMotorsAtZero) {
-  const CommandResult rest = run("rest sim:simple --seconds 0.05");
+  const CommandResult rest = run_spidarctl("rest sim:simple --seconds 0.05");
   EXPECT_EQ(rest.status, 0);
   expect_contains(rest.text, "at rest\n");
   expect_contains(rest.text, "the strings are released\n");
-  const CommandResult zero = run("zero sim:sh4");
+  const CommandResult zero = run_spidarctl("zero sim:sh4");
   EXPECT_EQ(zero.status, 0);
   expect_contains(zero.text, "sim:sh4: the motors are at zero");
 }
@@ -220,7 +220,7 @@ TEST(Spidarctl, TheFirstPullOfTheGuideSuitsEveryBoard) {
     if (board == "ahs") continue;
     ++tried;
     // Asked for confirmation, so string, force and time were accepted.
-    expect_contains(run("pull sim 0 2 2 --profile " + name + " </dev/null").text,
+    expect_contains(run_spidarctl("pull sim 0 2 2 --profile " + name + " </dev/null").text,
                     "no terminal to ask for confirmation");
   }
   EXPECT_GT(tried, 0);
@@ -228,7 +228,7 @@ TEST(Spidarctl, TheFirstPullOfTheGuideSuitsEveryBoard) {
 
 TEST(Spidarctl, CalibrateTakesTheProfileOfTheBoard) {
   // The general default profile, spidar-gcc, wants negative volts, which this board does not have.
-  const CommandResult outcome = run("calibrate sim:sh4 --untested --centre");
+  const CommandResult outcome = run_spidarctl("calibrate sim:sh4 --untested --centre");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "spidar-g6x3-v2-r");
 }
@@ -250,10 +250,10 @@ TEST(Spidarctl, PullShortensItsString) {
 
 TEST(Spidarctl, SelftestWritesHowTheDeviceIsWired) {
   const OutputFile file;
-  const CommandResult outcome =
-      run("selftest sim:uart --sim-wiring 'swap-strings:1,6;reverse-motor:0;reverse-encoder:3' "
-          "--write-profile " +
-          file.path());
+  const CommandResult outcome = run_spidarctl(
+      "selftest sim:uart --sim-wiring 'swap-strings:1,6;reverse-motor:0;reverse-encoder:3' "
+      "--write-profile " +
+      file.path());
   EXPECT_EQ(outcome.status, 1) << outcome.text;
   expect_contains(outcome.text, "strings 1 and 6 are swapped\n");
   expect_contains(outcome.text, "motor 0 is reversed\n");
@@ -280,4 +280,4 @@ TEST(Spidarctl, InterruptReleasesTheStrings) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::spidarctl_test

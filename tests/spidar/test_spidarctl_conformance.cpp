@@ -12,13 +12,13 @@
 
 namespace fs = std::filesystem;
 
-namespace spidar::test {
+namespace spidar::test::spidarctl_conformance_test {
 namespace {
 
 TEST(Spidarctl, ConformanceWritesAReportToSendIn) {
   const OutputFile file;
   const CommandResult outcome =
-      run("conformance sim:sh4 --seconds 0.1 --no-shake --report " + file.path());
+      run_spidarctl("conformance sim:sh4 --seconds 0.1 --no-shake --report " + file.path());
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "conforms; written: " + file.path());
   std::stringstream report;
@@ -35,7 +35,7 @@ TEST(Spidarctl, ConformanceWritesAReportToSendIn) {
 // figures, in simulated time.
 TEST(Spidarctl, ConformanceMeasuresTheLagOfTheDrives) {
   const CommandResult outcome =
-      run("conformance sim:sh4 --seconds 0.1 --shake-seconds 6 --sim-lag 4");
+      run_spidarctl("conformance sim:sh4 --seconds 0.1 --shake-seconds 6 --sim-lag 4");
   expect_contains(outcome.text, "\ndrive lag   ");
   if (outcome.text.find("not measured: ") != std::string::npos) {
     expect_contains(outcome.text, "lag         not measured\n");
@@ -51,12 +51,12 @@ TEST(Spidarctl, ConformanceMeasuresTheLagOfTheDrives) {
 
 TEST(Spidarctl, ConformanceReportsWhatIsNotRight) {
   const CommandResult wired =
-      run("conformance sim:uart --seconds 0.1 --sim-wiring 'reverse-encoder:3'");
+      run_spidarctl("conformance sim:uart --seconds 0.1 --sim-wiring 'reverse-encoder:3'");
   EXPECT_EQ(wired.status, 1);
   expect_contains(wired.text, "encoder 3 is reversed\n");
   expect_contains(wired.text, "motors      do not conform\nlag         not tried\n");
   // Whether this machine has no USB or only no board: nothing is plugged in.
-  const CommandResult gone = run("conformance usb:no-such-board --no-pull");
+  const CommandResult gone = run_spidarctl("conformance usb:no-such-board --no-pull");
   EXPECT_EQ(gone.status, 1);
   expect_contains(gone.text, "ended by    usb");
   expect_contains(gone.text, "link        does not conform\n");
@@ -64,11 +64,11 @@ TEST(Spidarctl, ConformanceReportsWhatIsNotRight) {
 
 // The motors stay at zero: nothing moves, which is no fault.
 TEST(Spidarctl, ConformanceWithoutPullsLeavesTheMotorsAtZero) {
-  const CommandResult outcome = run("conformance sim:simple --no-pull --seconds 0.1");
+  const CommandResult outcome = run_spidarctl("conformance sim:simple --no-pull --seconds 0.1");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "counters    0 of 8 moved\nmotors      not tried\n");
-  EXPECT_EQ(run("conformance sim:mouse --seconds 0.1").status, 0);
+  EXPECT_EQ(run_spidarctl("conformance sim:mouse --seconds 0.1").status, 0);
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::spidarctl_conformance_test

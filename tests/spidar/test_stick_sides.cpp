@@ -16,7 +16,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
 
-namespace spidar::test {
+namespace spidar::test::stick_sides_test {
 namespace {
 
 /// 20 % of 0xFFFF.
@@ -95,4 +95,4 @@ TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::stick_sides_test

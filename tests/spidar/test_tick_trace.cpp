@@ -13,7 +13,7 @@
 #include "spidar/loop/tick_trace.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar {
+namespace spidar::test::tick_trace_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,4 +138,4 @@ TEST(TickTrace, FullDiskEndsTheTrace) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::tick_trace_test

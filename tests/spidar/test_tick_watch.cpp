@@ -8,7 +8,7 @@
 
 #include "tests/support/tick_watch.h"
 
-namespace spidar::test {
+namespace spidar::test::tick_watch_test {
 namespace {
 
 /// Counted from the tick with which a frame came: 100 until it is too old, 51 to rest, and 41 in
@@ -124,4 +124,4 @@ TEST(TickWatch, MissesTheTrace) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::tick_watch_test

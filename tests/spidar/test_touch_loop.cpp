@@ -9,13 +9,13 @@
 
 #include "spidar/loop/tick_trace.h"
 #include "spidar/simulation/simulated_device.h"
-#include "tests/core/count_allocations.h"
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/rest_force.h"
 #include "tests/support/tick_watch.h"
 #include "tests/support/touch_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::touch_loop_test {
 namespace {
 
 constexpr int64_t kFrame = 40 * kMs;
@@ -285,7 +285,7 @@ TEST(TouchLoop, ATickTakesNothingFromTheHeap) {
                     frames++ > 0 ? After::kFrame : After::kCut);
     }
     hand.now_ns += kTick_ns;
-    const size_t before = allocations;
+    const long before = allocations;
     hand.loop->tick(hand.now_ns, hand.now_ns);
     ASSERT_EQ(allocations, before) << n;
   }
@@ -293,4 +293,4 @@ TEST(TouchLoop, ATickTakesNothingFromTheHeap) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::touch_loop_test

@@ -10,7 +10,7 @@
 
 #include "spidar/touch/touch_mailbox.h"
 
-namespace spidar {
+namespace spidar::test::touch_mailbox_test {
 namespace {
 
 constexpr double kWidth_m = 0.06;
@@ -158,4 +158,4 @@ TEST(TouchMailbox, ForgettingReachesTheReaderFromAnyThread) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::test::touch_mailbox_test

@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "spidar/touch/touch_rendering.h"
-#include "tests/core/count_allocations.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/touch_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::touch_rendering_test {
 namespace {
 
 constexpr int64_t kMs = 1'000'000;
@@ -268,11 +268,11 @@ TEST(TouchRendering, TakesNothingFromTheHeap) {
       ++next;
     }
     if (tick % 700 == 0) touched.mailbox.forget();
-    const size_t before = allocations;
+    const long before = allocations;
     touched.tick();
     ASSERT_EQ(allocations, before) << tick;
   }
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::touch_rendering_test

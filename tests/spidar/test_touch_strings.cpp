@@ -11,7 +11,7 @@
 #include "spidar/touch/shake_watch.h"
 #include "tests/support/touched_strings.h"
 
-namespace spidar::test {
+namespace spidar::test::touch_strings_test {
 namespace {
 
 /// For each scene and hand; bench_touch_strings runs a million.
@@ -147,4 +147,4 @@ TEST(TouchStrings, WithoutDampingItIsSeen) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::touch_strings_test

@@ -17,7 +17,7 @@
 #include "spidar/session/haptic_session.h"
 #include "tests/emulated_bus/bus_state.h"
 
-namespace spidar::test {
+namespace spidar::test::usb_boards_test {
 namespace {
 
 MotorVolts all_volts(double volt) {
@@ -288,4 +288,4 @@ TEST(UsbKinds, EachHasAUdevRule) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::usb_boards_test

@@ -11,7 +11,7 @@
 #include "spidar/loop/vibration_budget.h"
 #include "tests/support/released_grip.h"
 
-namespace spidar::test {
+namespace spidar::test::vibration_test {
 namespace {
 
 using Budget = VibrationBudget;
@@ -259,4 +259,4 @@ TEST(Vibration, OfASlowFilmIsNeverTouched) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::vibration_test

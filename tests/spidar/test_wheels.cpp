@@ -13,7 +13,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
 
-namespace spidar::test {
+namespace spidar::test::wheels_test {
 namespace {
 
 constexpr const char* kOneAxis =
@@ -145,4 +145,4 @@ TEST_F(Wheels, BadNumbersOfAxesAreRefused) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::wheels_test

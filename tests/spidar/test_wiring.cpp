@@ -17,7 +17,7 @@
 #include "spidar/wiring/wiring_answers.h"
 #include "spidar/wiring/wiring_report.h"
 
-namespace spidar::test {
+namespace spidar::test::wiring_test {
 namespace {
 
 /// "2 reads 5" for every channel that is not as in the profile.
@@ -317,4 +317,4 @@ TEST(Miswiring, BadFaultsAreNamed) {
   }
 }
 
-}  // namespace spidar::test
+}  // namespace spidar::test::wiring_test

@@ -13,7 +13,7 @@
 #include "spidar/tools/miswired_device.h"
 #include "spidar/wiring/wiring_test.h"
 
-namespace spidar::test {
+namespace spidar::test::wiring_hand_test {
 namespace {
 
 /// Of the hand.
@@ -118,4 +118,4 @@ TEST(Wiring, OnlyDoubtfulMotorsArePulledAgain) {
   EXPECT_EQ(answers.counts.col(3).maxCoeff(), 1);
 }
 
-}  // namespace spidar::test
+}  // namespace spidar::test::wiring_hand_test

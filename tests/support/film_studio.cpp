@@ -14,15 +14,15 @@ using Eigen::Matrix2d;
 using Eigen::Translation2d;
 using Eigen::Vector2d;
 
-Pose still() {
+SheetPath still() {
   return [](double) { return Affine2d::Identity(); };
 }
 
-Pose straight(const Vector2d& start_px, const Vector2d& step_px) {
+SheetPath straight(const Vector2d& start_px, const Vector2d& step_px) {
   return [=](double t) { return Affine2d(Translation2d(start_px + t * step_px)); };
 }
 
-Pose growing(const Matrix2d& generator) {
+SheetPath growing(const Matrix2d& generator) {
   return [=](double t) {
     Matrix2d term = Matrix2d::Identity();
     Matrix2d sum = term;
@@ -38,14 +38,14 @@ Film FilmStudio::still_film() {
   return behind(background(), still());
 }
 
-Film FilmStudio::behind(std::shared_ptr<const SplineSheet> sheet, Pose pose) const {
+Film FilmStudio::behind(std::shared_ptr<const SplineSheet> sheet, SheetPath pose) const {
   Film film(width_, height_);
   film.background = {std::move(sheet), std::move(pose)};
   film.noise_seed = seed_ * 1000;
   return film;
 }
 
-Film FilmStudio::camera(Pose pose) {
+Film FilmStudio::camera(SheetPath pose) {
   return behind(background(), std::move(pose));
 }
 
@@ -65,13 +65,13 @@ Film FilmStudio::pan_with_object() {
   return film;
 }
 
-FilmObject FilmStudio::object(double share, Pose pose, const std::string& name) {
+FilmObject FilmStudio::object(double share, SheetPath pose, const std::string& name) {
   constexpr double kPi = 3.14159265358979323846;
   const double radius_px = std::sqrt(share * width_ * height_ / kPi);
   return {sheet(name, 0.6), {radius_px, radius_px}, std::move(pose)};
 }
 
-Pose FilmStudio::crossing(const Vector2d& step, const Vector2d& middle) const {
+SheetPath FilmStudio::crossing(const Vector2d& step, const Vector2d& middle) const {
   return straight(unit_ * (middle - (kFilmFrames - 1) / 2.0 * step), unit_ * step);
 }
 

@@ -13,11 +13,11 @@
 namespace spidar::test {
 
 /// Stays in place.
-Pose still();
+SheetPath still();
 /// From `start_px` by `step_px` a frame.
-Pose straight(const Eigen::Vector2d& start_px, const Eigen::Vector2d& step_px);
+SheetPath straight(const Eigen::Vector2d& start_px, const Eigen::Vector2d& step_px);
 /// About the middle by exp(t · generator), |t · generator| < 1.
-Pose growing(const Eigen::Matrix2d& generator);
+SheetPath growing(const Eigen::Matrix2d& generator);
 
 /// Lengths given to its functions are at a width of 640 px: a wider film shows the same with more
 /// detail. Sheets are drawn when a film first needs them and kept for the next ones: they take
@@ -32,8 +32,8 @@ class FilmStudio {
 
   /// A still film.
   Film still_film();
-  Film behind(std::shared_ptr<const SplineSheet> sheet, Pose pose) const;
-  Film camera(Pose pose);
+  Film behind(std::shared_ptr<const SplineSheet> sheet, SheetPath pose) const;
+  Film camera(SheetPath pose);
   Film pan(double x, double y);
   /// A disc of kShare of the frame.
   Film usual_object(double x, double y);
@@ -41,10 +41,10 @@ class FilmStudio {
   Film pan_with_object();
 
   /// A disc that covers `share` of the frame. A different name gives a different picture.
-  FilmObject object(double share, Pose pose, const std::string& name = "object");
+  FilmObject object(double share, SheetPath pose, const std::string& name = "object");
   static constexpr double kShare = 0.08;
   /// Moves by `step` a frame, and passes through `middle` when half of the frames have passed.
-  Pose crossing(const Eigen::Vector2d& step, const Eigen::Vector2d& middle = {0, 0}) const;
+  SheetPath crossing(const Eigen::Vector2d& step, const Eigen::Vector2d& middle = {0, 0}) const;
 
   std::shared_ptr<const SplineSheet> background(const std::string& name = "background");
   std::shared_ptr<const SplineSheet> plain() const;

@@ -10,7 +10,7 @@ namespace spidar::test {
 namespace {
 
 /// Displacement between two frames of what is at `at_px` in the first one.
-Eigen::Vector2d moved_px(const Pose& pose, int frame, const Eigen::Vector2d& at_px) {
+Eigen::Vector2d moved_px(const SheetPath& pose, int frame, const Eigen::Vector2d& at_px) {
   return pose(frame) * (pose(frame - 1).inverse() * at_px) - at_px;
 }
 
@@ -142,7 +142,7 @@ void Film::develop(int frame) {
 int Film::exposures_at(int frame) const {
   constexpr double kStep_px = 2;
   if (shutter == 0) return 1;
-  const auto path_px = [&](const Pose& pose) {
+  const auto path_px = [&](const SheetPath& pose) {
     return (pose(frame + shutter / 2).translation() - pose(frame - shutter / 2).translation())
         .norm();
   };

@@ -18,20 +18,20 @@ namespace spidar::test {
 
 /// Position of something at a time, in frames: maps its own pixels to those of the picture, both
 /// relative to the centre of the frame, x right, y down.
-using Pose = std::function<Eigen::Affine2d(double frame)>;
+using SheetPath = std::function<Eigen::Affine2d(double frame)>;
 
 /// A textured ellipse.
 struct FilmObject {
   std::shared_ptr<const SplineSheet> sheet;
   Eigen::Vector2d radii_px;
-  Pose pose;
+  SheetPath pose;
 
   Eigen::Vector2d centre_px(double frame) const { return pose(frame).translation(); }
 };
 
 struct FilmBackground {
   std::shared_ptr<const SplineSheet> sheet;
-  Pose pose;
+  SheetPath pose;
 };
 
 /// Grey levels become gain · grey + offset.

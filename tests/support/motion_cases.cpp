@@ -38,7 +38,7 @@ Matrix2d matrix(double xx, double xy, double yx, double yy) {
 
 Film rotating_object(FilmStudio& s) {
   Film film = s.still_film();
-  const Pose path = s.crossing({7, -2});
+  const SheetPath path = s.crossing({7, -2});
   film.objects = {s.object(FilmStudio::kShare, [path](double t) {
     return Affine2d(path(t) * Rotation2Dd(3 * kDegree * t));
   })};

@@ -7,7 +7,7 @@
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::no_window_test {
 namespace {
 
 TEST(NoWindow, IsOneWarningAndTheVideoGoesOn) {
@@ -24,4 +24,4 @@ TEST(NoWindow, IsOneWarningAndTheVideoGoesOn) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::no_window_test

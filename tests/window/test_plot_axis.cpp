@@ -9,7 +9,7 @@
 
 #include "plugin/window/model/plot_axis.h"
 
-namespace spidar::test {
+namespace spidar::test::plot_axis_test {
 namespace {
 
 TEST(PlotAxis, TicksAreRoundNumbersWithinTheRange) {
@@ -85,4 +85,4 @@ TEST(RobustLargest, HasNoTroubleWithFewValues) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::plot_axis_test

@@ -8,7 +8,7 @@
 
 #include "plugin/window/model/timeline.h"
 
-namespace spidar::test {
+namespace spidar::test::timeline_test {
 namespace {
 
 constexpr double kRounding = 1e-9;
@@ -142,4 +142,4 @@ TEST(Still, AveragesSquares) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::timeline_test

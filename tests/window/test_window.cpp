@@ -21,7 +21,7 @@ extern "C" int __lsan_is_turned_off() {
   return 1;
 }
 
-namespace spidar::test {
+namespace spidar::test::window_test {
 namespace {
 
 TEST_F(WindowTest, KeysChangeSettingsAndQClosesTheWindow) {
@@ -162,4 +162,4 @@ TEST_F(WindowDeathTest, WithoutOpenGl33IsAComplaint) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::window_test

@@ -16,7 +16,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/virtual_display.h"
 
-namespace spidar::test {
+namespace spidar::test::window_application_test {
 namespace {
 
 /// Ends the process with a message.
@@ -160,4 +160,4 @@ TEST_F(WindowApplication, MayBeginToUseGlfwAfterTheDebugWindow) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::window_application_test

@@ -19,7 +19,7 @@
 #include "tests/support/video_frames.h"
 #include "tests/support/virtual_display.h"
 
-namespace spidar::test {
+namespace spidar::test::window_element_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
@@ -222,4 +222,4 @@ TEST_F(WindowElement, MayOutliveItsElement) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::window_element_test

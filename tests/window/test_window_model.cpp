@@ -18,7 +18,7 @@
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
-namespace spidar::test {
+namespace spidar::test::window_model_test {
 namespace {
 
 constexpr double kRounding = 1e-9;
@@ -233,4 +233,4 @@ TEST(FrameFeed, GivesTheNewestFrameOnce) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::window_model_test

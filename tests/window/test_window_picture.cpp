@@ -12,7 +12,7 @@
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
 
-namespace spidar::test {
+namespace spidar::test::window_picture_test {
 namespace {
 
 TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
@@ -133,4 +133,4 @@ TEST_F(WindowTest, APauseHoldsThePictureAndLooksBack) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::window_picture_test

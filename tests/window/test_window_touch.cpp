@@ -13,7 +13,7 @@
 #include "plugin/window/model/window_model.h"
 #include "spidar/profiles/profile.h"
 
-namespace spidar::test {
+namespace spidar::test::window_touch_test {
 namespace {
 
 /// A few operations on numbers up to 1000.
@@ -189,4 +189,4 @@ TEST(FeltLine, SaysThatASlowDeviceIsTouchedWithLess) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::window_touch_test

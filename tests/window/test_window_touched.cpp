@@ -10,7 +10,7 @@
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
 
-namespace spidar::test {
+namespace spidar::test::window_touched_test {
 namespace {
 
 bool is_orange(const Color& c) {
@@ -145,4 +145,4 @@ TEST_F(WindowTest, TheMouseLeadsNoOtherHandAndNoneInAPause) {
 }
 
 }  // namespace
-}  // namespace spidar::test
+}  // namespace spidar::test::window_touched_test
