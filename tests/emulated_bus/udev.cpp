@@ -109,7 +109,8 @@ BUS_API const char* udev_list_entry_get_name(udev_list_entry* entry) {
 
 BUS_API udev_device* udev_device_new_from_syspath(udev*, const char* path) {
   for (size_t i = 0; i < kPorts; ++i)
-    if (path == kUsbDevices + ("1-" + std::to_string(i + 1)) && bus().port[i].kind != UsbKind::kNone)
+    if (path == kUsbDevices + ("1-" + std::to_string(i + 1)) &&
+        bus().port[i].kind != UsbKind::kNone)
       return device_in(i);
   return nullptr;
 }
