@@ -19,12 +19,12 @@ struct ScreenClass {
   GstVideoSinkClass parent_class;
 };
 
-GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
+GstStaticPadTemplate screen_template = GST_STATIC_PAD_TEMPLATE(
     "sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw, format=(string)I420"));
 
 G_DEFINE_TYPE(Screen, screen, GST_TYPE_VIDEO_SINK)
 
-Screen* cast(gpointer object) {
+Screen* screen_of(gpointer object) {
   return G_TYPE_CHECK_INSTANCE_CAST(object, screen_get_type(), Screen);
 }
 
@@ -41,19 +41,19 @@ GstFlowReturn screen_render(GstBaseSink* sink, GstBuffer* buffer) {
           gst_clock_get_time(clock)) -
       gst_base_sink_get_ts_offset(sink);
   gst_object_unref(clock);
-  (*cast(sink)->on_shown)({static_cast<int64_t>(running_time), now_ns, now_ns - late_ns});
+  (*screen_of(sink)->on_shown)({static_cast<int64_t>(running_time), now_ns, now_ns - late_ns});
   return GST_FLOW_OK;
 }
 
 void screen_finalize(GObject* object) {
-  delete cast(object)->on_shown;
+  delete screen_of(object)->on_shown;
   G_OBJECT_CLASS(screen_parent_class)->finalize(object);
 }
 
 void screen_class_init(ScreenClass* klass) {
   G_OBJECT_CLASS(klass)->finalize = screen_finalize;
   GST_BASE_SINK_CLASS(klass)->render = screen_render;
-  gst_element_class_add_static_pad_template(GST_ELEMENT_CLASS(klass), &sink_template);
+  gst_element_class_add_static_pad_template(GST_ELEMENT_CLASS(klass), &screen_template);
   gst_element_class_set_static_metadata(GST_ELEMENT_CLASS(klass), "Screen", "Sink/Video",
                                         "Says when it shows a frame", "gst-spidar");
 }

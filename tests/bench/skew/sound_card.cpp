@@ -79,14 +79,14 @@ struct SoundCardClass {
   GstAudioSinkClass parent_class;
 };
 
-GstStaticPadTemplate sink_template = GST_STATIC_PAD_TEMPLATE(
+GstStaticPadTemplate sound_template = GST_STATIC_PAD_TEMPLATE(
     "sink", GST_PAD_SINK, GST_PAD_ALWAYS,
     GST_STATIC_CAPS("audio/x-raw, format=(string)S16LE, layout=(string)interleaved, "
                     "rate=(int)[ 8000, 192000 ], channels=(int)[ 1, 2 ]"));
 
 G_DEFINE_TYPE(SoundCard, sound_card, GST_TYPE_AUDIO_SINK)
 
-SoundCard* cast(gpointer object) {
+SoundCard* sound_card_of(gpointer object) {
   return G_TYPE_CHECK_INSTANCE_CAST(object, sound_card_get_type(), SoundCard);
 }
 
@@ -95,7 +95,7 @@ gboolean sound_card_open(GstAudioSink*) {
 }
 
 gboolean sound_card_prepare(GstAudioSink* sink, GstAudioRingBufferSpec* spec) {
-  SoundCard* const card = cast(sink);
+  SoundCard* const card = sound_card_of(sink);
   card->bytes_per_sample = GST_AUDIO_INFO_BPF(&spec->info);
   card->buffer->prepare(GST_AUDIO_INFO_RATE(&spec->info) * (1 + card->drift),
                         spec->segsize * spec->segtotal / card->bytes_per_sample);
@@ -103,17 +103,17 @@ gboolean sound_card_prepare(GstAudioSink* sink, GstAudioRingBufferSpec* spec) {
 }
 
 gint sound_card_write(GstAudioSink* sink, gpointer, guint length) {
-  SoundCard* const card = cast(sink);
+  SoundCard* const card = sound_card_of(sink);
   card->buffer->write(static_cast<gint>(length) / card->bytes_per_sample);
   return static_cast<gint>(length);
 }
 
 guint sound_card_delay(GstAudioSink* sink) {
-  return static_cast<guint>(cast(sink)->buffer->delay());
+  return static_cast<guint>(sound_card_of(sink)->buffer->delay());
 }
 
 void sound_card_reset(GstAudioSink* sink) {
-  cast(sink)->buffer->drop();
+  sound_card_of(sink)->buffer->drop();
 }
 
 gboolean sound_card_close(GstAudioSink*) {
@@ -121,7 +121,7 @@ gboolean sound_card_close(GstAudioSink*) {
 }
 
 void sound_card_finalize(GObject* object) {
-  delete cast(object)->buffer;
+  delete sound_card_of(object)->buffer;
   G_OBJECT_CLASS(sound_card_parent_class)->finalize(object);
 }
 
@@ -135,7 +135,7 @@ void sound_card_class_init(SoundCardClass* klass) {
   audio_class->write = sound_card_write;
   audio_class->delay = sound_card_delay;
   audio_class->reset = sound_card_reset;
-  gst_element_class_add_static_pad_template(GST_ELEMENT_CLASS(klass), &sink_template);
+  gst_element_class_add_static_pad_template(GST_ELEMENT_CLASS(klass), &sound_template);
   gst_element_class_set_static_metadata(GST_ELEMENT_CLASS(klass), "Sound card", "Sink/Audio",
                                         "Keeps the time of a sound card", "gst-spidar");
 }
