@@ -62,13 +62,13 @@ check_layout() {
 }
 
 # check_site FOLDER: Doxygen reads the public headers, and Sphinx the pages, without a warning. The site stays in
-# FOLDER/docs/site.
+# FOLDER/docs/site, the report in FOLDER/docs/report.pdf.
 check_site() {
     say "site: doxygen $(doxygen --version), $(sphinx-build --version)"
-    if meson compile -C "$1" docs; then
-        checks+=(--passed site)
+    if meson compile -C "$1" docs report; then
+        checks+=(--passed "site and report")
     else
-        checks+=(--failed "site: meson compile -C $1 docs")
+        checks+=(--failed "site and report: meson compile -C $1 docs report")
     fi
 }
 
