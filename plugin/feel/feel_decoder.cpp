@@ -84,7 +84,8 @@ Ref<GstElement> get_filter(GstPad* pad) {
 /// A ghost pad of a decoder and the filter that goes before it.
 struct Place {
   Ref<GstGhostPad> pad;
-  Ref<GstElement> filter;  ///< null: not made yet
+  Ref<GstElement> filter;     ///< null: not made yet
+  GstPadProbeCallback found;  ///< what the next frame calls
 };
 
 void place_free(gpointer data) {
@@ -100,7 +101,28 @@ void at_next_frame(GstGhostPad* pad, GstElement* filter, GstPadProbeCallback fou
       target.get(),
       static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BLOCK | GST_PAD_PROBE_TYPE_BUFFER |
                                    GST_PAD_PROBE_TYPE_BUFFER_LIST),
-      found, new Place{new_ref(pad), new_ref(filter)}, place_free);
+      found, new Place{new_ref(pad), new_ref(filter), found}, place_free);
+}
+
+/// at_next_frame(), from the moment when data flow. decodebin blocks its pads until it has shown
+/// them, and so long the decoder waits with its allocation query. It is only woken when no probe
+/// blocks the pad any more, so a second probe that waits for a frame would stop both for good.
+void when_data_flow(GstGhostPad* pad, GstElement* filter, GstPadProbeCallback found) {
+  const Ref<GstPad> target(gst_ghost_pad_get_target(pad));
+  if (!target) return;
+  gst_pad_add_probe(
+      target.get(),
+      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
+                                   GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM),
+      [](GstPad*, GstPadProbeInfo* info, gpointer data) {
+        const bool is_query = (info->type & GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM) != 0;
+        if (is_query && GST_QUERY_TYPE(GST_PAD_PROBE_INFO_QUERY(info)) != GST_QUERY_ALLOCATION)
+          return GST_PAD_PROBE_OK;
+        const Place* place = static_cast<Place*>(data);
+        at_next_frame(place->pad.get(), place->filter.get(), place->found);
+        return GST_PAD_PROBE_REMOVE;
+      },
+      new Place{new_ref(pad), new_ref(filter), found}, place_free);
 }
 
 /// Links `target` to `in`, which is that of the filter. False when its video does not fit.
@@ -214,9 +236,9 @@ void feel_linked(GstObject* source, bool new_target) {
     return;
   const Ref<GstElement> filter = get_filter(pad);
   if (!filter)
-    at_next_frame(GST_GHOST_PAD(pad), nullptr, feel_late);
+    when_data_flow(GST_GHOST_PAD(pad), nullptr, feel_late);
   else if (new_target)
-    at_next_frame(GST_GHOST_PAD(pad), filter.get(), put_in);
+    when_data_flow(GST_GHOST_PAD(pad), filter.get(), put_in);
 }
 
 }  // namespace
