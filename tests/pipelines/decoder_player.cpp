@@ -67,4 +67,11 @@ void refuse_caps(GstElement* player) {
   gst_object_unref(video);
 }
 
+void take_time_with_pads(GstElement* player) {
+  GstElement* decoder = gst_bin_get_by_name(GST_BIN(player), "decoder");
+  const auto wait = +[](GstElement*, GstPad*, gpointer) { g_usleep(200 * 1000); };
+  g_signal_connect(decoder, "pad-added", G_CALLBACK(wait), nullptr);
+  gst_object_unref(decoder);
+}
+
 }  // namespace spidar::test

@@ -21,4 +21,8 @@ void add_own_motion(GstElement* player);
 /// From now on the sink refuses all caps when it is asked, but takes the frames that come.
 void refuse_caps(GstElement* player);
 
+/// From now on the player takes 200 ms for each new pad of the decoder. Meanwhile the decoder has a
+/// frame.
+void take_time_with_pads(GstElement* player);
+
 }  // namespace spidar::test

@@ -10,6 +10,7 @@
 //   window                  uses a sink that accepts what a window accepts, without a converter;
 //   needs playbin
 //   refuse                  lets its sink refuse all caps from now on; needs a decoder
+//   slow-pads               takes its time with each new pad from now on; needs a decoder
 //   preroll, play, pause, ready, stop
 //   seek                    to the beginning
 //   other                   uses a second player from now on
@@ -167,6 +168,8 @@ int main(int argc, char** argv) {
           nullptr);
     } else if (name == "refuse") {
       spidar::test::refuse_caps(player);
+    } else if (name == "slow-pads") {
+      spidar::test::take_time_with_pads(player);
     } else if (name == "seek") {
       gst_element_seek_simple(player, GST_FORMAT_TIME, GST_SEEK_FLAG_FLUSH, 0);
     } else if (name == "end") {

@@ -84,6 +84,8 @@ TEST_F(FeelDecoders, AreFeltWhenTheirPadIsReplacedWhileTheyPlay) {
     EXPECT_EQ(alone.text.find("30 frames, "), 0u) << alone.text;
     EXPECT_EQ(run_all(felt_player({"play", "end"}, decoder, chain)).text, alone.text);
     EXPECT_EQ(opened() - before, 2u);
+    // The second part's decoder waits for its pad when the filter is to be put in.
+    EXPECT_EQ(run_all(felt_player({"slow-pads", "play", "end"}, decoder, chain)).text, alone.text);
     // That of the second part; the first part's was replaced.
     EXPECT_GT(largest_N(read_trace(trace())), 0.1);
     EXPECT_TRUE(port.at_rest());
