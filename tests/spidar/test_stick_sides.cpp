@@ -54,18 +54,31 @@ TEST_F(StickSides, AFifthOfTheStrengthIsUsedUnlessMoreIsAskedFor) {
 }
 
 /// A stick without a hand, by a thread of its own: the position follows the level, or its opposite.
+class MovingStick {
+ public:
+  MovingStick(EvdevPort& port, int right, int up)
+      : thread_([this, &port, right, up] {
+          while (!stop_) {
+            const EvdevLevels levels = evdev_levels(0);
+            port.axis[0] = right * levels.right / 100;
+            port.axis[1] = -up * levels.up / 100;  // y of a stick points down
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          }
+        }) {}
+  ~MovingStick() {
+    stop_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
 TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
   const auto moved_m = [](const std::string& spec, int right, int up) {
     EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-    std::atomic<bool> stop{false};
-    std::thread stick([&] {
-      while (!stop) {
-        const EvdevLevels levels = evdev_levels(0);
-        port.axis[0] = right * levels.right / 100;
-        port.axis[1] = -up * levels.up / 100;  // y of a stick points down
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      }
-    });
+    const MovingStick stick(port, right, up);
     BoardSettings settings;
     settings.guardian = false;
     const Profile profile = load_profile(kDefaultProfile);
@@ -74,8 +87,6 @@ TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       return true;
     });
-    stop = true;
-    stick.join();
     EXPECT_TRUE(test.complete);
     return test.moved_m;
   };

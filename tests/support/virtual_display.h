@@ -17,9 +17,11 @@ namespace spidar::test {
 class VirtualDisplay {
  public:
   VirtualDisplay() {
-    // Two servers that start at the same time may choose the same display; one of them then gives
-    // up.
-    for (int attempt = 0; attempt < 5 && name_.empty(); ++attempt) start();
+    // Servers that start at the same time may choose the same display; one of them then gives up.
+    for (int attempt = 0; attempt < 20 && name_.empty(); ++attempt) {
+      if (attempt > 0) usleep(50'000);
+      start();
+    }
     if (name_.empty()) return;
     setenv("DISPLAY", name_.c_str(), 1);
     unsetenv("WAYLAND_DISPLAY");
