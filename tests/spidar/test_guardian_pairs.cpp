@@ -312,6 +312,7 @@ TEST(GuardianPairs, AServiceBehindASocketCanBeTheGuardian) {
   ASSERT_EQ(bind(listening, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
   ASSERT_EQ(listen(listening, 4), 0);
   pid_t service = -1;
+  const Variable variable("SPIDAR_GUARDIAN", path);
   std::thread accepting([&] {
     const int connection = accept(listening, nullptr, nullptr);
     posix_spawn_file_actions_t actions;
@@ -323,7 +324,6 @@ TEST(GuardianPairs, AServiceBehindASocketCanBeTheGuardian) {
     close(connection);
   });
   plug(0, UsbKind::kSh4);
-  const Variable variable("SPIDAR_GUARDIAN", path);
   Victim victim("usb", kUsbProfile);
   UsbPort& port = pulling_board(victim);
   accepting.join();
