@@ -102,8 +102,8 @@ case ${1-} in
     say "address sanitizer: GLib's table of quarks is left out, which it never frees; plugins are read" \
         "in the test itself, for GStreamer's own process for that is not built with the sanitizer"
     echo "left out: examples, programs of their own; numerics, tests that sample thousands of cases of" \
-        "arithmetic and are 10 to 70 times slower here, or count what is taken from the heap; short-films, whose" \
-        "films of 1 s are over before a player that is built with the sanitizer gives force. All have run above."
+        "arithmetic and are 10 to 70 times slower here, or count what is taken from the heap; short-films, players" \
+        "whose film is over or paused before one that is built with the sanitizer gives force. All have run above."
     export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
     export ASAN_OPTIONS=fast_unwind_on_malloc=0  # else stacks end in GLib
     export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
