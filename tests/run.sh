@@ -27,10 +27,10 @@ build_and_test() {
         setup+=("$1")
         shift
     done
-    # With -Dunity=on, several files are compiled as one, which takes a third of the time.
     # Results of an earlier run would stand for a test program that crashes in this one.
     rm -f "$folder"/*.xml "$folder"/meson-logs/testlog*
     say "building in $folder/"
+    # With -Dunity=on, several files are compiled as one, which takes a third of the time.
     if { [[ -f $folder/build.ninja ]] || meson setup "$folder" -Dunity=on "${setup[@]}"; } &&
         { [[ " $* " == *"suite "* ]] || ninja -C "$folder" -j"$(nproc)" "${targets[@]}"; }; then
         say "testing $folder/"
@@ -94,9 +94,9 @@ case ${1-} in
     run_on_bare_debian build-ci-bare
     # Line numbers without variables and the lowest optimisation: the compiler needs a third of the
     # time. Without any, Eigen is too slow for the tests that sample many poses. Four checks of every
-    # use of a pointer would double the compiler's time, for what the address sanitizer finds as well
-    # (null, object-size) or what x86 allows (alignment). With a sanitizer, GCC takes variables of
-    # std::regex for uninitialised.
+    # use of a pointer would double the compiler's time: null and object-size, where the address
+    # sanitizer finds most of the same; alignment, which x86 does not need; and vptr, wrong casts
+    # between classes. With a sanitizer, GCC takes variables of std::regex for uninitialised.
     unchecked=-fno-sanitize=null,object-size,alignment,vptr
     sanitized=(-Doptimization=1 -Ddebug=false "-Dcpp_args=['-g1','$unchecked','-Wno-maybe-uninitialized']" -Db_lundef=false)
     say "address sanitizer: GLib's table of quarks is left out, which it never frees; plugins are read" \

@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 #include "core/touch/require.h"
 #include "core/tracking/luma_row.h"

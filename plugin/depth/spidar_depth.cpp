@@ -38,6 +38,7 @@
 #include "plugin/depth/depth_gate.h"
 #include "plugin/depth/depth_meta.h"
 #include "plugin/depth/depth_properties.h"
+#include "plugin/gobject/pads.h"
 #include "plugin/properties/property_table.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_depth_debug);
@@ -65,12 +66,12 @@ struct _GstSpidarDepth {
   spidar::DepthBranch* depth;
 };
 
-static GstStaticPadTemplate depth_sink_template = GST_STATIC_PAD_TEMPLATE(
+static GstStaticPadTemplate frame_sink_template = GST_STATIC_PAD_TEMPLATE(
     "sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
 static GstStaticPadTemplate depth_template = GST_STATIC_PAD_TEMPLATE(
     "depth_sink", GST_PAD_SINK, GST_PAD_ALWAYS,
     GST_STATIC_CAPS(GST_VIDEO_CAPS_MAKE("{ GRAY16_LE, GRAY16_BE, GRAY8 }")));
-static GstStaticPadTemplate depth_src_template = GST_STATIC_PAD_TEMPLATE(
+static GstStaticPadTemplate frame_src_template = GST_STATIC_PAD_TEMPLATE(
     "src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
 
 G_DEFINE_TYPE_WITH_CODE(GstSpidarDepth, gst_spidar_depth, GST_TYPE_ELEMENT,
@@ -308,27 +309,21 @@ static void gst_spidar_depth_finalize(GObject* object) {
   G_OBJECT_CLASS(gst_spidar_depth_parent_class)->finalize(object);
 }
 
-static GstPad* add_pad(GstSpidarDepth* self, GstStaticPadTemplate* pad_template) {
-  GstPad* pad = gst_pad_new_from_static_template(pad_template, pad_template->name_template);
-  gst_element_add_pad(GST_ELEMENT(self), pad);
-  return pad;
-}
-
 static void gst_spidar_depth_init(GstSpidarDepth* self) {
   self->gate = new DepthGate(GST_OBJECT(self));
   self->depth = new spidar::DepthBranch(GST_ELEMENT(self), *self->gate);
   self->properties = new DepthProperties();
-  self->sink = add_pad(self, &depth_sink_template);
+  self->sink = spidar::add_pad(GST_ELEMENT(self), &frame_sink_template);
   gst_pad_set_chain_function(self->sink, gst_spidar_depth_chain);
   gst_pad_set_event_function(self->sink, gst_spidar_depth_sink_event);
   gst_pad_set_query_function(self->sink, gst_spidar_depth_sink_query);
-  self->depth_sink = add_pad(self, &depth_template);
+  self->depth_sink = spidar::add_pad(GST_ELEMENT(self), &depth_template);
   gst_pad_set_chain_function(self->depth_sink, gst_spidar_depth_depth_chain);
   gst_pad_set_event_function(self->depth_sink, gst_spidar_depth_depth_event);
   gst_pad_set_query_function(self->depth_sink, gst_spidar_depth_depth_query);
   gst_pad_set_link_function(self->depth_sink, gst_spidar_depth_depth_link);
   gst_pad_set_unlink_function(self->depth_sink, gst_spidar_depth_depth_unlink);
-  self->src = add_pad(self, &depth_src_template);
+  self->src = spidar::add_pad(GST_ELEMENT(self), &frame_src_template);
   gst_pad_set_event_function(self->src, gst_spidar_depth_src_event);
   gst_pad_set_query_function(self->src, gst_spidar_depth_src_query);
   gst_spidar_depth_reset(self);
@@ -347,6 +342,6 @@ static void gst_spidar_depth_class_init(GstSpidarDepthClass* klass) {
                                         "Attaches depth images to the frames of a video",
                                         "gst-spidar");
   for (GstStaticPadTemplate* pad_template :
-       {&depth_sink_template, &depth_template, &depth_src_template})
+       {&frame_sink_template, &depth_template, &frame_src_template})
     gst_element_class_add_static_pad_template(element_class, pad_template);
 }

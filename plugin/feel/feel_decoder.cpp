@@ -92,37 +92,41 @@ void place_free(gpointer data) {
   delete static_cast<Place*>(data);
 }
 
+/// Adds a probe of the target of `pad`, whose data is a Place.
+void add_probe(GstGhostPad* pad, GstElement* filter, int type, GstPadProbeCallback callback,
+               GstPadProbeCallback found) {
+  const Ref<GstPad> target(gst_ghost_pad_get_target(pad));
+  if (!target) return;
+  gst_pad_add_probe(target.get(), static_cast<GstPadProbeType>(type), callback,
+                    new Place{new_ref(pad), new_ref(filter), found}, place_free);
+}
+
 /// Calls `found` when the next buffer is about to leave the target of `pad`, and none is between
 /// them.
 void at_next_frame(GstGhostPad* pad, GstElement* filter, GstPadProbeCallback found) {
-  const Ref<GstPad> target(gst_ghost_pad_get_target(pad));
-  if (!target) return;
-  gst_pad_add_probe(
-      target.get(),
-      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BLOCK | GST_PAD_PROBE_TYPE_BUFFER |
-                                   GST_PAD_PROBE_TYPE_BUFFER_LIST),
-      found, new Place{new_ref(pad), new_ref(filter), found}, place_free);
+  add_probe(pad, filter,
+            GST_PAD_PROBE_TYPE_BLOCK | GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST,
+            found, found);
 }
 
-/// at_next_frame(), from the moment when data flow. decodebin blocks its pads until it has shown
-/// them, and so long the decoder waits with its allocation query. It is only woken when no probe
-/// blocks the pad any more, so a second probe that waits for a frame would stop both for good.
-void when_data_flow(GstGhostPad* pad, GstElement* filter, GstPadProbeCallback found) {
-  const Ref<GstPad> target(gst_ghost_pad_get_target(pad));
-  if (!target) return;
-  gst_pad_add_probe(
-      target.get(),
-      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
-                                   GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM),
-      [](GstPad*, GstPadProbeInfo* info, gpointer data) {
-        const bool is_query = (info->type & GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM) != 0;
-        if (is_query && GST_QUERY_TYPE(GST_PAD_PROBE_INFO_QUERY(info)) != GST_QUERY_ALLOCATION)
-          return GST_PAD_PROBE_OK;
-        const Place* place = static_cast<Place*>(data);
-        at_next_frame(place->pad.get(), place->filter.get(), place->found);
-        return GST_PAD_PROBE_REMOVE;
-      },
-      new Place{new_ref(pad), new_ref(filter), found}, place_free);
+GstPadProbeReturn begin_to_wait(GstPad*, GstPadProbeInfo* info, gpointer data) {
+  const bool is_query = (info->type & GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM) != 0;
+  if (is_query && GST_QUERY_TYPE(GST_PAD_PROBE_INFO_QUERY(info)) != GST_QUERY_ALLOCATION)
+    return GST_PAD_PROBE_OK;
+  const Place* place = static_cast<Place*>(data);
+  at_next_frame(place->pad.get(), place->filter.get(), place->found);
+  return GST_PAD_PROBE_REMOVE;
+}
+
+/// As at_next_frame(), for a pad that its decoder may still block. decodebin blocks a pad until it
+/// has added it to itself, and a decoder that has a frame then waits in its allocation query.
+/// GStreamer wakes it when the last blocking probe is removed. A blocking probe that waits for the
+/// frame would keep it waiting for good, so that probe is added when the query has passed.
+void at_next_frame_of_new_pad(GstGhostPad* pad, GstElement* filter, GstPadProbeCallback found) {
+  add_probe(pad, filter,
+            GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
+                GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM,
+            begin_to_wait, found);
 }
 
 /// Links `target` to `in`, which is that of the filter. False when its video does not fit.
@@ -236,9 +240,9 @@ void feel_linked(GstObject* source, bool new_target) {
     return;
   const Ref<GstElement> filter = get_filter(pad);
   if (!filter)
-    when_data_flow(GST_GHOST_PAD(pad), nullptr, feel_late);
+    at_next_frame_of_new_pad(GST_GHOST_PAD(pad), nullptr, feel_late);
   else if (new_target)
-    when_data_flow(GST_GHOST_PAD(pad), filter.get(), put_in);
+    at_next_frame_of_new_pad(GST_GHOST_PAD(pad), filter.get(), put_in);
 }
 
 }  // namespace

@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMergeHelp = R"(usage: spidartrack merge FILM TRACK OUT.mkv
 
-Writes the film with its haptic track in it; neither is encoded anew. The film needs sound of its own,
-or players would play the track through the loudspeakers; the track is marked as not default,
-not enabled, and of no language (zxx). OUT.mkv is replaced when the new one is complete. A track in HJIF or a trace becomes F32, and so
-does one whose film shows its pictures later or earlier than when it was recorded: it is moved by as
-much.
+Writes the film with its haptic track in it; neither is encoded anew. The film needs sound of its
+own, or players would play the track through the loudspeakers; the track is marked as not default,
+not enabled, and of no language (zxx). OUT.mkv is replaced when the new one is complete. Where the
+film shows its pictures later or earlier than when the track was recorded, the track is moved by as
+much. Such a track, one in HJIF, and a trace are written as F32.
 )";
 
 constexpr const char* kExtractHelp = R"(usage: spidartrack extract FILM OUT
