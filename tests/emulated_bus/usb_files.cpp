@@ -199,12 +199,14 @@ int bulk(UsbFile& f, usbdevfs_bulktransfer& transfer) {
   return static_cast<int>(transfer.len);
 }
 
-/// 0 when it locks or unlocks the port for all holders of a copy of the descriptor.
-int lock_port(int file, size_t port, short type) {
+/// 0 when it locks or unlocks the board with this address for all holders of a copy of the
+/// descriptor. Not the port: a board that is plugged in is claimed by nobody, whoever still holds
+/// files of the one before.
+int lock_board(int file, int address, short type) {
   struct flock lock {};
   lock.l_type = type;
   lock.l_whence = SEEK_SET;
-  lock.l_start = static_cast<off_t>(port);
+  lock.l_start = address;
   lock.l_len = 1;
   return fcntl(file, F_OFD_SETLK, &lock);
 }
@@ -218,14 +220,14 @@ int claim(UsbFile& f, bool detach) {
   f.port.has_driver = false;
   for (const auto& entry : files()) {
     const UsbFile* other = entry.load();
-    if (other && other != &f && other->port_number == f.port_number && other->shared.claimed)
+    if (other && other != &f && other->shared.address == f.shared.address && other->shared.claimed)
       return -EBUSY;
   }
   if (lock_file() >= 0) {
     // A separate lock, because a lock shared by copies of a descriptor ends with the last of them.
     const std::string path = "/proc/self/fd/" + std::to_string(lock_file());
     const int own = real_open(path.c_str(), O_RDWR | O_CLOEXEC, 0);
-    if (own < 0 || lock_port(own, f.port_number, F_WRLCK) != 0) {
+    if (own < 0 || lock_board(own, f.shared.address, F_WRLCK) != 0) {
       syscall(SYS_close, own);
       return -EBUSY;
     }
@@ -238,7 +240,7 @@ int claim(UsbFile& f, bool detach) {
 int release(UsbFile& f) {
   f.shared.claimed = false;
   if (f.claim_lock < 0) return 0;
-  lock_port(f.claim_lock, f.port_number, F_UNLCK);
+  lock_board(f.claim_lock, f.shared.address, F_UNLCK);
   syscall(SYS_close, f.claim_lock);
   f.claim_lock = -1;
   return 0;

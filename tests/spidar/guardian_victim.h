@@ -43,6 +43,17 @@ void wait_for(const Condition& condition) {
   while (!condition()) sleep_1ms();
 }
 
+/// Exchanges until the condition holds. Opens the device again when it is lost: on a busy machine,
+/// the guardian may have found that this process stood still.
+template <typename Condition>
+void exchange_until(Device& device, const MotorVolts& volts, const Condition& condition) {
+  DeviceReading reading;
+  wait_for([&] {
+    if (device.exchange(volts, reading) == ExchangeStatus::kLost) device.open();
+    return condition();
+  });
+}
+
 /// The guardian that a process, by default this one, has started; 0 when there is none.
 inline pid_t guardian_process(pid_t of = getpid()) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {

@@ -167,10 +167,7 @@ TEST(Guardian, ItsEndIsNoticedWhenItIsKilledOrStopped) {
       const auto device = make_device("usb", load_profile(kUsbProfile), settings);
       device->open();
       DeviceReading reading;
-      wait_for([&] {
-        device->exchange(one_volt(), reading);
-        return port.digit[7] != 0;
-      });
+      exchange_until(*device, one_volt(), [&] { return port.digit[7] != 0; });
       kill(guardian_process(), signal);
       wait_for([&] { return device->exchange(one_volt(), reading) == ExchangeStatus::kLost; });
       EXPECT_TRUE(port.at_rest());
@@ -184,10 +181,7 @@ TEST(Guardian, ItsEndIsNoticedWhenItIsKilledOrStopped) {
       EXPECT_EQ(guardian_process(), 0);
       device->open();
       EXPECT_NE(guardian_process(), 0);
-      wait_for([&] {
-        device->exchange(one_volt(), reading);
-        return port.digit[7] != 0;
-      });
+      exchange_until(*device, one_volt(), [&] { return port.digit[7] != 0; });
       device->close();
       EXPECT_TRUE(port.at_rest());
       clear_bus();
@@ -199,18 +193,12 @@ TEST(Guardian, LeavesAHostAloneThatIsSilentAtRest) {
   UsbPort& port = plug(0, UsbKind::kSh4);
   const auto device = make_device("usb", load_profile(kUsbProfile));
   device->open();
-  DeviceReading reading;
-  const auto pulls_or_rests = [&](const MotorVolts& volts, bool rests) {
-    wait_for([&] {
-      device->exchange(volts, reading);
-      return port.at_rest() == rests;
-    });
-  };
   for (int times = 0; times < 3; ++times) {
-    pulls_or_rests(one_volt(), false);
-    pulls_or_rests({}, true);
+    exchange_until(*device, one_volt(), [&] { return !port.at_rest(); });
+    exchange_until(*device, {}, [&] { return port.at_rest(); });
     std::this_thread::sleep_for(std::chrono::milliseconds(2 * kSilence_ms));
   }
+  DeviceReading reading;
   wait_for([&] { return device->exchange(one_volt(), reading) != ExchangeStatus::kTimeout; });
   EXPECT_EQ(device->health().count(LinkFault::kUnguarded), 0u);
   device->close();

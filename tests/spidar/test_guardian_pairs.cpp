@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <spawn.h>
+#include <stdexcept>
 #include <string>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -70,9 +71,10 @@ struct FakeSystemd {
 /// Replaces itself by the command after "--", as systemd-run --scope does.
 constexpr const char* kRunCommand = R"(while [ "$1" != -- ]; do shift; done; shift; exec "$@")";
 
-UsbPort& pulling_board(const Victim&) {
+UsbPort& pulling_board(Victim& victim) {
   UsbPort& port = bus().port[0];
-  wait_for([&] { return port.digit[7] != 0; });
+  wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });
+  if (!victim.lives()) throw std::runtime_error("the player has ended");
   return port;
 }
 
@@ -274,20 +276,14 @@ TEST(GuardianPairs, SleepIsInhibitedWhileTheMotorsPull) {
   const auto is_held = [&] { return std::filesystem::exists(held); };
   UsbPort& port = plug(0, UsbKind::kSh4);
   const auto device = make_device("usb", load_profile(kUsbProfile));
-  DeviceReading reading;
-  const auto exchange_until = [&](const MotorVolts& volts, const auto& condition) {
-    wait_for([&] {
-      if (device->exchange(volts, reading) == ExchangeStatus::kLost) device->open();
-      return condition();
-    });
-  };
   device->open();
-  exchange_until({}, [&] { return reading.count[0] == 0; });
+  DeviceReading reading;
+  wait_for([&] { return device->exchange({}, reading) == ExchangeStatus::kOk; });
   EXPECT_FALSE(is_held());
-  exchange_until(one_volt(), [&] { return !port.at_rest() && !text_of(held).empty(); });
+  exchange_until(*device, one_volt(), [&] { return !port.at_rest() && !text_of(held).empty(); });
   EXPECT_NE(text_of(held).find("--what=sleep:handle-lid-switch --mode=block"), std::string::npos);
-  exchange_until({}, [&] { return port.at_rest() && !is_held(); });
-  exchange_until(one_volt(), is_held);
+  exchange_until(*device, {}, [&] { return port.at_rest() && !is_held(); });
+  exchange_until(*device, one_volt(), is_held);
   device->close();
   wait_for([&] { return !is_held(); });
   {
@@ -325,8 +321,8 @@ TEST(GuardianPairs, AServiceBehindASocketCanBeTheGuardian) {
   });
   plug(0, UsbKind::kSh4);
   Victim victim("usb", kUsbProfile);
-  UsbPort& port = pulling_board(victim);
   accepting.join();
+  UsbPort& port = pulling_board(victim);
   EXPECT_EQ(guardian_process(victim.id()), 0);
   victim.end(SIGKILL);
   wait_for([&] { return port.at_rest(); });
