@@ -107,6 +107,15 @@ void Complaints::look_at_touch(const FrameReport& report, const TouchProperties&
            wanted.stiffness_N_m, report.stiffness_N_m),
           ("The profile's drive_lag_s sets how stiff a surface may be (docs/touch.md)."));
       break;
+    case TouchProblem::kLagUnknown:
+      GST_ELEMENT_WARNING(
+          element_, RESOURCE, SETTINGS,
+          ("touch-stiffness is %g N/m, but nobody has measured how late this device's force is; it "
+           "is touched with %.0f N/m.",
+           wanted.stiffness_N_m, report.stiffness_N_m),
+          ("Measure it with spidarctl conformance, and write drive_lag_s into the profile "
+           "(docs/touch.md)."));
+      break;
     case TouchProblem::kNoDepth:
       GST_ELEMENT_WARNING(
           element_, STREAM, FORMAT,

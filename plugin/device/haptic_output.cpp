@@ -37,7 +37,8 @@ void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
 
 std::string HapticOutput::open(const std::string& device, const std::string& profile_name,
                                const std::string& haptic_trace) {
-  const Profile profile = load_profile(profile_name);
+  Profile profile = load_profile(profile_name);
+  if (is_simulated(device)) profile.drive_lag_known = true;
   SessionSettings settings;
   settings.trace_path = haptic_trace;
   settings.threaded = now_ == nullptr;

@@ -206,7 +206,10 @@ void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
     report.touch_mark = touch_mark(report.touch, loop->last);
   }
   report.stiffness_N_m = most_stiffness_N_m(output_.profile());
-  if (touch.stiffness_N_m > report.stiffness_N_m) report.touch_problem = TouchProblem::kTooStiff;
+  if (touch.stiffness_N_m > report.stiffness_N_m) {
+    report.touch_problem =
+        output_.profile().drive_lag_known ? TouchProblem::kTooStiff : TouchProblem::kLagUnknown;
+  }
   if (!found) report.touch_problem = TouchProblem::kNoDepth;
 }
 

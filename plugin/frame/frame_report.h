@@ -32,10 +32,11 @@ const char* to_string(FrameProblem problem);
 /// Why a frame cannot be touched as the properties say.
 enum class TouchProblem {
   kNone,
-  kNoDevice,  ///< device=none
-  kTrack,     ///< a haptic track is played, and no frame is looked at
-  kTooStiff,  ///< for the drives of this device: it is touched with less
-  kNoDepth,   ///< touch=depth, and the frame has none: the last relief stays
+  kNoDevice,    ///< device=none
+  kTrack,       ///< a haptic track is played, and no frame is looked at
+  kTooStiff,    ///< for the drives of this device: it is touched with less
+  kLagUnknown,  ///< of the drives: it is touched with less
+  kNoDepth,     ///< touch=depth, and the frame has none: the last relief stays
 };
 
 /// What became of one frame.
@@ -50,7 +51,7 @@ struct FrameReport {
   int64_t took_ns = 0;                   ///< the analysis
   ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame
   TouchProblem touch_problem = TouchProblem::kNone;
-  double stiffness_N_m = 0;  ///< that is rendered, with TouchProblem::kTooStiff
+  double stiffness_N_m = 0;  ///< that is rendered, with TouchProblem::kTooStiff and kLagUnknown
   TouchScene touch;
   std::optional<TouchMark> touch_mark;  ///< where the grip is when the frame passes the element
   bool trace_failed = false;            ///< the trace could not be written and was closed

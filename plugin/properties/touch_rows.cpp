@@ -37,8 +37,8 @@ std::vector<MotionRow> touch_rows() {
           0, kMostRelief_mm, kControllable, KEPT_IN(touch.relief_mm)),
       MotionRow::number(
           {"touch-stiffness", "Touch stiffness",
-           "Stiffness of the surface, in newtons per metre. A device with slow drives gets "
-           "less, with a warning"},
+           "Stiffness of the surface, in newtons per metre. A device whose drives are slow, or "
+           "were not measured, gets less, with a warning"},
           kLeastStiffness_N_m, ContactSettings::kMostStiffness_N_m, kControllable,
           KEPT_IN(touch.stiffness_N_m)),
       MotionRow::number(

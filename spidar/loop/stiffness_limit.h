@@ -10,6 +10,12 @@
 
 namespace spidar {
 
+/// The largest stiffness for drives whose lag nobody has measured, N/m, and the lag to assume for
+/// them. Together, they give no energy to a hand that hardly damps, 0.05 N s/m, with lags from 2 to
+/// 5 ms and grips of 0.05 to 0.3 kg (bench_touch_strings).
+constexpr double kUnmeasuredStiffness_N_m = 200;
+constexpr double kUnmeasuredLag_s = 0.005;
+
 /// Half a tick for the zero-order hold of the force, and one tick because the pose comes from the
 /// last exchange.
 constexpr double kLoopDelay_s = 1.5e-9 * static_cast<double>(kTick_ns);

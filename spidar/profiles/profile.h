@@ -83,6 +83,7 @@ struct Profile {
   double dac_max_V = 10.0;                        ///< D/A range is 0 … this, times motor_sign
   /// From a command to the tension that follows, s: amplifier, motor and what the board holds back.
   double drive_lag_s = kDriveLag_s;
+  bool drive_lag_known = false;  ///< stated by the file, or that of a simulation
   std::optional<CalibrationRecord> calibration;
   std::vector<Provenance> provenance;
 

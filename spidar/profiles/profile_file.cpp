@@ -241,7 +241,8 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
   profile.board = root["board"].one_of({"usb-sh4", "usb-simple", "uart", "ahs", "unknown"});
   profile.dac_bits = root["dac_bits"].integer(8, 24);
   profile.dac_max_V = root["dac_max_V"].positive();
-  if (root.has("drive_lag_s")) profile.drive_lag_s = drive_lag_s(root["drive_lag_s"]);
+  profile.drive_lag_known = root.has("drive_lag_s");
+  if (profile.drive_lag_known) profile.drive_lag_s = drive_lag_s(root["drive_lag_s"]);
   profile.geometry = read_geometry(root["geometry"]);
   read_strings(root["strings"], profile);
   if (root.has("calibration"))

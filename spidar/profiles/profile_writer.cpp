@@ -96,9 +96,9 @@ std::string profile_text(const Profile& profile) {
   std::ostringstream out;
   write_text(out, "description", profile.description);
   write_text(out, "board", profile.board);
-  out << "dac_bits = " << profile.dac_bits << "\ndac_max_V = " << number(profile.dac_max_V)
-      << "\ndrive_lag_s = " << number(profile.drive_lag_s)
-      << "\n\n[geometry]\nframe = \"right-handed\"  # x right, y up, z towards the user\n"
+  out << "dac_bits = " << profile.dac_bits << "\ndac_max_V = " << number(profile.dac_max_V) << "\n";
+  if (profile.drive_lag_known) out << "drive_lag_s = " << number(profile.drive_lag_s) << "\n";
+  out << "\n[geometry]\nframe = \"right-handed\"  # x right, y up, z towards the user\n"
       << "unit = \"m\"\n";
   write_points(out, "exit", geometry.exit_m, static_cast<size_t>(geometry.count));
   write_points(out, "grip", geometry.grip_m, static_cast<size_t>(geometry.count));

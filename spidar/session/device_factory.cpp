@@ -102,6 +102,10 @@ BoardSettings resolved(BoardSettings settings, const Profile& profile) {
 
 }  // namespace
 
+bool is_simulated(const std::string& spec) {
+  return spec == "sim" || spec.compare(0, 4, "sim:") == 0;
+}
+
 std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
                                     const BoardSettings& settings) {
   const size_t colon = spec.find(':');

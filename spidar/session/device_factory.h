@@ -12,6 +12,9 @@
 
 namespace spidar {
 
+/// Whether this device moves nothing real: "sim", "sim:sh4", …
+bool is_simulated(const std::string& spec);
+
 /// `spec` is one of
 ///   sim                     the simulated device
 ///   sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff

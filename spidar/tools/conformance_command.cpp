@@ -12,6 +12,7 @@
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
+#include "spidar/session/device_factory.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/conformance_report.h"

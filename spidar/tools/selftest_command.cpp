@@ -4,6 +4,7 @@
 #include <string>
 
 #include "spidar/profiles/profile_writer.h"
+#include "spidar/session/device_factory.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/selftest_report.h"

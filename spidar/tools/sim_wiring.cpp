@@ -10,10 +10,6 @@
 
 namespace spidar {
 
-bool is_simulated(const std::string& device) {
-  return device == "sim" || device.compare(0, 4, "sim:") == 0;
-}
-
 CommandOption sim_wiring_option(std::string& faults) {
   return {"sim-wiring", true, [&faults](const std::string& text) { faults = text; }};
 }

@@ -9,8 +9,6 @@
 
 namespace spidar {
 
-bool is_simulated(const std::string& device);
-
 /// Adds --sim-wiring to `options`. `faults` must outlive the result.
 CommandOption sim_wiring_option(std::string& faults);
 

@@ -80,6 +80,8 @@ TEST(TouchProperties, WithoutADeviceThereIsAWarningOnce) {
 
 TEST(TouchProperties, ASlowDriveGetsLessStiffnessAndAWarning) {
   Profile profile = load_profile(kDefaultProfile);
+  EXPECT_EQ(most_stiffness_N_m(profile), 200) << "until the lag was measured";
+  profile.drive_lag_known = true;
   EXPECT_EQ(most_stiffness_N_m(profile), ContactSettings::kMostStiffness_N_m);
   profile.drive_lag_s = 0.0055;  // twice the delay of 3.5 ms
   EXPECT_NEAR(most_stiffness_N_m(profile), ContactSettings::kMostStiffness_N_m / 2, 1e-9);
@@ -89,6 +91,13 @@ TEST(TouchProperties, ASlowDriveGetsLessStiffnessAndAWarning) {
   EXPECT_NEAR(contact.stiffness_N_m, 400, 1e-9);
   EXPECT_NEAR(contact.delay_s, 0.007, 1e-12);
   EXPECT_NEAR(contact.damping_N_s_m(), 1.5 * 400 * 0.007, 1e-9);
+}
+
+/// With the lag that the simulated device has.
+Profile profile_of_simulation() {
+  Profile profile = load_profile(kDefaultProfile);
+  profile.drive_lag_known = true;
+  return profile;
 }
 
 /// Of a frame of 320 × 240 that is 40 ms after the one before.
@@ -152,7 +161,7 @@ struct Reliefs {
   Reliefs() : loop(std::make_unique<HapticLoop>(profile, device)) {
     stream.connect(loop.get(), profile, {0.03, 0.03});
   }
-  const Profile profile = load_profile(kDefaultProfile);
+  const Profile profile = profile_of_simulation();
   SimulatedDevice device{profile, SimulatedDevice::Time::kFixedStep};
   std::unique_ptr<HapticLoop> loop;
   ReliefStream stream;

@@ -89,6 +89,36 @@ TEST_P(UsbPipeline, PlaysOnWhenTheBoardIsPulledOutAndTakesItBack) {
   gst_object_unref(pipeline);
 }
 
+/// A real device begins gently; a simulated one has exactly the lag of its profile.
+TEST(UsbPipelines, ABoardWhoseLagNobodyMeasuredIsTouchedGently) {
+  plug(0, UsbKind::kSh4);
+  const auto touched_N_m = [](const std::string& device, const std::string& warning) {
+    GstElement* pipeline = gst_parse_launch(
+        ("videotestsrc num-buffers=3 ! video/x-raw,width=160,height=120 ! spidarmotion name=m "
+         "profile=spidar-g6x3-v2-r touch=luma device=" +
+         device + " ! fakesink")
+            .c_str(),
+        nullptr);
+    GstBus* bus = gst_element_get_bus(pipeline);
+    gst_element_set_state(pipeline, GST_STATE_PLAYING);
+    EXPECT_EQ(next_warning(bus).substr(0, warning.size()), warning);
+    GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "m");
+    GstStructure* stats = nullptr;
+    g_object_get(element, "stats", &stats, nullptr);
+    double stiffness_N_m = 0;
+    gst_structure_get_double(stats, "touch-stiffness", &stiffness_N_m);
+    gst_structure_free(stats);
+    gst_element_set_state(pipeline, GST_STATE_NULL);
+    gst_object_unref(element);
+    gst_object_unref(bus);
+    gst_object_unref(pipeline);
+    return stiffness_N_m;
+  };
+  EXPECT_EQ(touched_N_m("usb", "touch-stiffness is 500 N/m, but nobody has measured"), 200);
+  EXPECT_EQ(touched_N_m("sim:sh4", "eos"), 500);
+  clear_bus();
+}
+
 TEST_P(UsbPipeline, TheSecondToAskForABoardGetsAnErrorAndTheFirstPlaysOn) {
   UsbPort& port = plug(0, GetParam());
   const std::string launch =

@@ -34,6 +34,7 @@ void expect_same(const Profile& a, const Profile& b) {
   EXPECT_EQ(a.dac_bits, b.dac_bits);
   EXPECT_EQ(a.dac_max_V, b.dac_max_V);
   EXPECT_EQ(a.drive_lag_s, b.drive_lag_s);
+  EXPECT_EQ(a.drive_lag_known, b.drive_lag_known);
   ASSERT_EQ(a.geometry.count, b.geometry.count);
   for (size_t i = 0; i < static_cast<size_t>(a.geometry.count); ++i) {
     EXPECT_EQ(a.geometry.exit_m[i], b.geometry.exit_m[i]);
@@ -85,6 +86,18 @@ TEST(ProfileWriter, EveryShippedProfileComesBack) {
     save_profile(profile, path);
     expect_same(profile, load_profile(path));
   }
+}
+
+/// Calibration must not make a measured lag of one that nobody has measured.
+TEST(ProfileWriter, ALagIsWrittenWhenItIsKnown) {
+  const Folder folder;
+  const std::string path = folder.file("copy.toml");
+  Profile profile = load_profile("spidar-gcc");
+  EXPECT_FALSE(profile.drive_lag_known);
+  EXPECT_EQ(profile_text(profile).find("drive_lag_s"), std::string::npos);
+  profile.drive_lag_known = true;
+  save_profile(profile, path);
+  expect_same(profile, load_profile(path));
 }
 
 TEST(ProfileWriter, CalibrationComesBack) {
