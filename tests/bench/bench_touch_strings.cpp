@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Measures the energy that a contact adds through the strings of the simulated device. The first
-// argument sets the number of ticks for each scene and hand, the second one selects the case.
+// argument sets the number of ticks for each scene and hand, the second one selects the case:
+// "lag" stands for drives that lag more than the profile says.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
+#include "spidar/loop/stiffness_limit.h"
 #include "tests/support/touched_strings.h"
 
 namespace {
@@ -67,11 +70,51 @@ void explore(const Case& c, long ticks) {
   std::fflush(stdout);
 }
 
+/// Hands that hardly damp, grips of several masses, and drives that lag more than stated.
+void explore_lags(long ticks) {
+  constexpr test::Hand kHands[] = {
+      {"0.05 N s/m", 100, 0.05}, {"0.5 N s/m", 100, 0.5}, {"2 N s/m", 100, 2}};
+  std::puts(
+      "stiffness  more lag  grip     damping of the hand: contacts that gave out energy, worst, "
+      "stiffness left");
+  for (const double stiffness_N_m : {kUnmeasuredStiffness_N_m, 500.0, 800.0}) {
+    for (const double more_lag_s : {0.0, 0.001, 0.003}) {
+      for (const double mass_kg : {0.05, 0.3}) {
+        std::printf("%3.0f N/m    %1.0f ms      %.2f kg", stiffness_N_m, 1e3 * more_lag_s, mass_kg);
+        for (const test::Hand& hand : kHands) {
+          test::StringTouch touch;
+          touch.contact.stiffness_N_m = stiffness_N_m;
+          touch.contact.friction = {0.3, 0.24};
+          touch.more_lag_s = more_lag_s;
+          if (stiffness_N_m == kUnmeasuredStiffness_N_m)
+            touch.contact.delay_s = surface_delay_s(kUnmeasuredLag_s);
+          touch.mass_kg = mass_kg;
+          test::ContactEnergy all;
+          double left = 1;
+          for (const test::TouchScene& scene : test::touch_scenes()) {
+            const test::ContactEnergy e =
+                test::explore_through_strings(scene, touch, hand, ticks, 7);
+            all.contacts += e.contacts;
+            all.generating += e.generating;
+            all.worst_J = std::max(all.worst_J, e.worst_J);
+            left = std::min(left, e.stiffness_share);
+          }
+          std::printf("  %s: %d of %d, %.4f mJ, %.2f", hand.name, all.generating, all.contacts,
+                      1e3 * all.worst_J, left);
+          std::fflush(stdout);
+        }
+        std::puts("");
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const long ticks = argc > 1 ? std::atol(argv[1]) : 1'000'000;
   const std::string only = argc > 2 ? argv[2] : "";
+  if (only == "lag") return explore_lags(ticks), 0;
   std::printf("Energy that contacts gave out, %ld ticks for each scene and hand:\n", ticks);
   for (const Case& c : kCases) {
     if (only.empty() || only == c.name) explore(c, ticks);

@@ -152,6 +152,8 @@ class Pair {
   }
 
   double stiffness_share() const { return loop_->snapshot().last.contact.stiffness_share; }
+  /// The grip counts as released in one of the loops, in which the film's force rests, too.
+  bool apart() const { return loop_->snapshot().last.held != untouched_->snapshot().last.held; }
   bool touching() const { return loop_->snapshot().last.contact.touching; }
   /// Work that the grip has done against the added tensions.
   double given_J() const { return given_J_; }
@@ -192,12 +194,13 @@ ContactEnergy touch_through_strings(const TouchScene& scene, const StringTouch& 
   constexpr long kArrived = 1000;  // ticks until the strings are taut and the hand has arrived
   Pair pair(scene, touch, hand);
   ContactEnergy result;
-  bool in_contact = false;
+  bool in_contact = false, apart = false;
   int ticks_away = 0;
   double begin_J = 0;
   for (long tick = 0; tick < ticks; ++tick) {
     const double before_J = pair.given_J();
     pair.tick(path_m(kTick_s * static_cast<double>(tick)));
+    apart |= pair.apart();
     if (pair.touching()) {
       result.stiffness_share = pair.stiffness_share();
       if (!in_contact) begin_J = before_J;
@@ -205,7 +208,8 @@ ContactEnergy touch_through_strings(const TouchScene& scene, const StringTouch& 
       ticks_away = 0;
     } else if (in_contact && ++ticks_away == kFaded) {
       in_contact = false;
-      if (tick > kArrived) result.add(begin_J - pair.given_J());
+      if (tick > kArrived && !apart) result.add(begin_J - pair.given_J());
+      apart = false;
     }
   }
   return result;

@@ -33,7 +33,8 @@ using HandPath = std::function<Eigen::Vector3d(double)>;
 /// A second loop runs with the same film, clock and encoder counts, but without a surface. The work
 /// of a contact is that of the difference between the tensions of the two loops on the strings of
 /// the grip in contact, so it includes neither the work of the film nor that of the rest tensions.
-/// A contact ends when its force has faded.
+/// A contact ends when its force has faded. It does not count if the grip was taken for released in
+/// one loop only, because the work is then that of the film's force, which rests there.
 ContactEnergy touch_through_strings(const TouchScene& scene, const StringTouch& touch,
                                     const Hand& hand, long ticks, const HandPath& path_m);
 
