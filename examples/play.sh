@@ -28,7 +28,7 @@ build() {
         quietly meson setup "$top/build" "$top" -Dunity=on  # several files compiled as one: faster
     fi
     # The guardian is needed by real boards, and docs/start.md goes on with spidar-feel.
-    local targets=(plugin/libgstspidar.so plugin/spidar-feel spidar/spidar-guardian examples/play)
+    local targets=(plugin/libgstspidar.so plugin/spidar-feel spidar/spidar-guardian apps/play)
     if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then
         echo "building; the first time, this takes some minutes"
         quietly ninja -C "$top/build" "${targets[@]}"
@@ -107,4 +107,4 @@ fi
 
 export GST_PLUGIN_PATH=$top/build/plugin${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
 export GST_REGISTRY=$top/build/gst-registry.bin
-exec "$top/build/examples/play" "${options[@]}" "${video[@]}" "${properties[@]}"
+exec "$top/build/apps/play" "${options[@]}" "${video[@]}" "${properties[@]}"

@@ -48,7 +48,7 @@ build_and_test() {
 check_layout() {
     say "layout: $(clang-format --version)"
     local files
-    mapfile -t files < <(find include api core spidar plugin tests examples -name "*.cpp" -o -name "*.h")
+    mapfile -t files < <(find include api core spidar plugin tests apps examples -name "*.cpp" -o -name "*.h")
     if clang-format --dry-run --Werror "${files[@]}"; then
         checks+=(--passed layout)
     else
@@ -101,7 +101,7 @@ case ${1-} in
     sanitized=(-Doptimization=1 -Ddebug=false "-Dcpp_args=['-g1','$unchecked','-Wno-maybe-uninitialized']" -Db_lundef=false)
     say "address sanitizer: GLib's table of quarks is left out, which it never frees; plugins are read" \
         "in the test itself, for GStreamer's own process for that is not built with the sanitizer"
-    echo "left out: examples, programs of their own; numerics, tests that sample thousands of cases of" \
+    echo "left out: apps, programs of their own; numerics, tests that sample thousands of cases of" \
         "arithmetic and are 10 to 70 times slower here, or count what is taken from the heap; short-films, players" \
         "whose film is over or paused before one that is built with the sanitizer gives force. All have run above."
     export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
@@ -109,7 +109,7 @@ case ${1-} in
     export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
     export GST_REGISTRY_FORK=no
     build_and_test build-ci-address "${sanitized[@]}" \
-        -Db_sanitize=address,undefined -Dbenchmarks=disabled -Dexamples=false \
+        -Db_sanitize=address,undefined -Dbenchmarks=disabled -Dapps=false \
         -Dtest_suites=api,core,element,pipelines,spidar,window -- \
         -t 4 --no-suite short-films
     check_site build-ci-address
@@ -122,11 +122,11 @@ case ${1-} in
         "hour; suite validate, which needs gst-validate; suite valgrind. Each by meson test -C build --suite NAME"
     threaded=(haptic_session shared_memory simulated_faults tick_trace touch_mailbox boards usb_boards force_feedback
         uart_line guardian)
-    targets=(tests/spidar/test_{spidar,usb,guardian} tests/examples/test_play_{numbers,traces}
+    targets=(tests/spidar/test_{spidar,usb,guardian} tests/apps/test_play_{numbers,traces}
         tests/pipelines/test_pipelines_random_operations)
     build_and_test build-ci-thread "${sanitized[@]}" \
         -Db_sanitize=thread -Dbenchmarks=disabled -Dwindow=disabled \
-        -Dtest_suites=examples,pipelines,spidar -- \
+        -Dtest_suites=apps,pipelines,spidar -- \
         -t 8 "${threaded[@]}" play_numbers play_traces pipelines_random_operations
     ;;
 *)

@@ -25,9 +25,9 @@ run() { # NAME
     films) tests/bench/pathologies.sh "$build" ;;
     tension_hard) program bench_tension_hard "$build/tests/bench/bench_tension_hard" ;;
     calibration) program bench_calibration "$build/tests/bench/bench_calibration" 6 ;;
-    workspace) program workspace_map meson devenv -C "$build" examples/workspace_map --table ;;
+    workspace) program workspace_map meson devenv -C "$build" apps/workspace_map --table ;;
     hazards) meson test -C "$build" --suite hazards --verbose ;;
-    paper) mkdir -p "$folder/paper" && program paper_figures "$build/examples/paper_figures" "$folder/paper" ;;
+    paper) mkdir -p "$folder/paper" && program paper_figures "$build/apps/paper_figures" "$folder/paper" ;;
     *) benchmark "$1" ;;
     esac
 }

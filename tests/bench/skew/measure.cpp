@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/play/trace_reader.h"
 #include "core/track/track_format.h"
-#include "examples/play/trace_reader.h"
 #include "spidar/realtime/monotonic.h"
 #include "tests/bench/skew/player.h"
 #include "tests/support/temporary_folder.h"

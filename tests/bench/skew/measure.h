@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "examples/play/histogram.h"
-#include "examples/play/skew.h"
+#include "apps/play/histogram.h"
+#include "apps/play/skew.h"
 #include "tests/bench/skew/scenario.h"
 
 namespace spidar::bench {
