@@ -11,11 +11,7 @@
 #include "core/force/require_not_negative.h"
 
 namespace spidar {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
+namespace {}  // namespace
 
 double LinearController::force_N(const MeasuredSpeed& measured) {
   const double speed_px_s = measured.speed_px_s;
@@ -29,7 +25,7 @@ double LinearController::gain_N_s_px() const {
 }
 
 double NonlinearController::force_N(const MeasuredSpeed& measured) {
-  return 2 * max_force_N_ / kPi * std::atan(alpha_s_px_ * measured.speed_px_s);
+  return 2 * max_force_N_ / M_PI * std::atan(alpha_s_px_ * measured.speed_px_s);
 }
 
 void validate(const ControllerSettings& settings) {

@@ -15,7 +15,6 @@ double bounded(double value, double bound) {
 }  // namespace
 
 ImageMotion bound_motion(const ImageMotion& motion, int frame_width, double interval_s) {
-  constexpr double kPi = 3.14159265358979323846;
   const double frames_1_s = 1 / interval_s;
   ImageMotion possible = motion;
   const double speed_px_s = motion.velocity_px_s.stableNorm();
@@ -26,7 +25,7 @@ ImageMotion bound_motion(const ImageMotion& motion, int frame_width, double inte
     possible.velocity_px_s *= fastest_px_s / speed_px_s;
   }
   possible.growth_1_s = bounded(motion.growth_1_s, frames_1_s);
-  possible.roll_rad_s = bounded(motion.roll_rad_s, kPi * frames_1_s);
+  possible.roll_rad_s = bounded(motion.roll_rad_s, M_PI * frames_1_s);
   return possible;
 }
 

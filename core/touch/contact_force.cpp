@@ -27,8 +27,7 @@ ForcePath path_of(const ContactSettings& settings, double dt_s) noexcept {
   path.max_force_N = settings.max_force_N;
   path.max_slew_N_s = settings.max_slew_N_s;
   path.lag_s = std::max(0.0, settings.delay_s - 1.5 * dt_s);
-  path.velocity_lag_s =
-      settings.delay_s + 1 / (2 * std::acos(-1.0) * ContactForce::kVelocityCutoff_Hz);
+  path.velocity_lag_s = settings.delay_s + 1 / (2 * M_PI * ContactForce::kVelocityCutoff_Hz);
   path.least_mass_kg = settings.least_mass_kg;
   return path;
 }
@@ -60,7 +59,7 @@ void validate(const ContactSettings& s) {
 
 void ContactForce::follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept {
   if (started_ && dt_s > 0) {
-    const double turns = 2 * std::acos(-1.0) * kVelocityCutoff_Hz * dt_s;
+    const double turns = 2 * M_PI * kVelocityCutoff_Hz * dt_s;
     velocity_m_s_ += (1 - std::exp(-turns)) * ((grip_m - last_m_) / dt_s - velocity_m_s_);
   }
   last_m_ = grip_m;

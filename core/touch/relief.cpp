@@ -93,7 +93,7 @@ void limit_slope(HeightField& field) noexcept {
   // Distances over eight neighbours turn a circle into an octagon. With square cells its flanks are
   // steeper than along an axis by 1 / cos(22.5°). The slope is reduced by that factor, so along an
   // axis it is slightly flatter than allowed.
-  const double slope = ReliefBuilder::kMaxSlope * std::cos(std::acos(-1.0) / 8);
+  const double slope = ReliefBuilder::kMaxSlope * std::cos(M_PI / 8);
   const double across_m = slope * field.cell_x_m();
   const double down_m = slope * field.cell_y_m();
   const Envelope envelope{static_cast<float>(across_m), static_cast<float>(down_m),

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     device.set_limits(2.0, 0.05);
     double strongest_N = 0;
     for (int tenth = 0; tenth < 100; ++tenth) {
-      const double angle = 2 * std::acos(-1.0) * tenth / 100;
+      const double angle = 2 * M_PI * tenth / 100;
       gst_spidar::Wrench wrench;
       wrench.force_N = {std::cos(angle), std::sin(angle), 0};
       device.push(wrench);

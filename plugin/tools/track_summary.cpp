@@ -9,13 +9,12 @@ namespace spidar {
 namespace {
 
 constexpr double kCorner_Hz = 30;
-constexpr double kPi = 3.14159265358979323846;
 
 /// Second-order Butterworth high-pass filter, by the bilinear transform.
 class HighPass {
  public:
   HighPass() {
-    const double k = std::tan(kPi * kCorner_Hz / kTrackRate_Hz);
+    const double k = std::tan(M_PI * kCorner_Hz / kTrackRate_Hz);
     const double scale = 1 / (1 + std::sqrt(2.0) * k + k * k);
     b_ = scale;
     a1_ = 2 * (k * k - 1) * scale;

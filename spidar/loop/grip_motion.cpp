@@ -12,7 +12,7 @@ void GripMotion::see(const Pose& pose, int64_t at_ns) noexcept {
   if (started_ && !(dt_s > 0)) return;
   if (started_) {
     std::copy_backward(velocity_.begin(), velocity_.end() - 1, velocity_.end());
-    const double share = share_passed(dt_s, 1 / (2 * 3.14159265358979 * kCutoff_Hz));
+    const double share = share_passed(dt_s, 1 / (2 * M_PI * kCutoff_Hz));
     const Eigen::Quaterniond turn = pose.orientation * last_.orientation.conjugate();
     // For the small angles of a tick the rotation vector is twice the vector part.
     const Eigen::Vector3d turn_rad = (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();

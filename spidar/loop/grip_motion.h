@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -35,7 +36,7 @@ class GripMotion {
  public:
   static constexpr double kCutoff_Hz = 60;
   /// Half a tick of the difference, and the time constant of the low-pass.
-  static constexpr double kLag_s = 0.5e-3 + 1 / (2 * 3.14159265358979 * kCutoff_Hz);
+  static constexpr double kLag_s = 0.5e-3 + 1 / (2 * M_PI * kCutoff_Hz);
 
   /// The grip was at `pose` at `at_ns`. The same time again is no new pose.
   void see(const Pose& pose, int64_t at_ns) noexcept;

@@ -10,7 +10,7 @@ namespace {
 
 // W_h of ISO 5349-1, exact values as in ISO 8041. Its low-pass of 1259 Hz takes 1.2 % at 500 Hz,
 // the highest frequency here, and is left out.
-constexpr double kHighPass_rad_s = 2 * 3.14159265358979 * 6.309573445;
+constexpr double kHighPass_rad_s = 2 * M_PI * 6.309573445;
 constexpr double kHighPassQ = 0.7071067812;
 constexpr double kTransition_rad_s = 100;
 constexpr double kTransitionQ = 0.64;

@@ -13,8 +13,6 @@ namespace {
 static_assert(sizeof(input_event) == kEventSize && sizeof(ff_effect) == kEffectSize,
               "the kernel's structures have another size on this architecture");
 
-constexpr double kPi = 3.14159265358979323846;
-
 template <typename Bytes, typename Structure>
 Bytes as_bytes(const Structure& structure) noexcept {
   Bytes bytes;
@@ -75,7 +73,7 @@ std::optional<Effect> decode_effect(ByteView bytes) noexcept {
     result.rumble = double{1} * effect.u.rumble.strong_magnitude / kFullStrength;
   } else if (effect.type == FF_CONSTANT) {
     // 0 is down; then clockwise: left, up, right.
-    const double angle_rad = effect.direction * 2 * kPi / 0x10000;
+    const double angle_rad = effect.direction * 2 * M_PI / 0x10000;
     const double level = double{1} * effect.u.constant.level / kFullLevel;
     result.right = -std::sin(angle_rad) * level;
     result.up = -std::cos(angle_rad) * level;

@@ -225,8 +225,8 @@ TEST(MotionToWrench, ThePictureMovesToTheRightAndSoDoesTheHand) {
   EXPECT_NEAR(found.velocity_y_px_s, 0, 0.03 / 0.04);
   // Equation 15 of the paper with α = 0.01 s/px for a picture of 480 lines, which has twice as
   // many.
-  const double expected_N = 2 * 3 / std::acos(-1.0) * std::atan(0.01 * 200);
-  EXPECT_NEAR(found.wrench.force_N.x, expected_N, 2 * 3 / std::acos(-1.0) * 0.01 * 2 * 0.03 / 0.04);
+  const double expected_N = 2 * 3 / M_PI * std::atan(0.01 * 200);
+  EXPECT_NEAR(found.wrench.force_N.x, expected_N, 2 * 3 / M_PI * 0.01 * 2 * 0.03 / 0.04);
 }
 
 TEST(MotionToWrench, SettingsAreThoseOfTheElement) {

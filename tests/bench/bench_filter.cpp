@@ -22,7 +22,6 @@ using spidar::ImageMotion;
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;  // the reference frame: px/s need no scale
 constexpr double kNoise = 2;  // grey levels, as of a camera indoors
-const double kPi = std::acos(-1.0);
 
 /// A path of something, and its motion as it was measured frame by frame.
 struct Clip {
@@ -144,10 +143,10 @@ double jitter_px_s(const std::vector<Eigen::Vector2d>& found) {
 int main() {
   const Clip crawl = disc("crawl", 25, [](double t) { return Eigen::Vector2d(-90 + 30 * t, 0); });
   const Clip slow = disc("slow sway", 25, [](double t) {
-    return Eigen::Vector2d(30 * std::sin(2 * kPi * 0.4 * t), 0);
+    return Eigen::Vector2d(30 * std::sin(2 * M_PI * 0.4 * t), 0);
   });
   const Clip sway = disc(
-      "sway", 25, [](double t) { return Eigen::Vector2d(120 * std::sin(2 * kPi * 0.8 * t), 0); });
+      "sway", 25, [](double t) { return Eigen::Vector2d(120 * std::sin(2 * M_PI * 0.8 * t), 0); });
   const Clip falls = ball("ball", 30);
 
   std::printf(

@@ -18,7 +18,6 @@ using spidar::WrenchTimeline;
 constexpr int kTicks = 8000;  // of 1 ms; the bins of the spectrum are 1/8 Hz apart
 constexpr double kTick_s = 1e-3;
 constexpr double kFelt_Hz = 30;
-const double kPi = std::acos(-1.0);
 
 using Force = std::function<double(double time_s)>;
 
@@ -67,7 +66,7 @@ double power_above(const std::vector<double>& force_N) {
   static const std::vector<double> wave = [] {
     std::vector<double> cosine(kTicks);
     for (size_t i = 0; i < kTicks; ++i) {
-      cosine[i] = std::cos(2 * kPi * static_cast<double>(i) / kTicks);
+      cosine[i] = std::cos(2 * M_PI * static_cast<double>(i) / kTicks);
     }
     return cosine;
   }();
@@ -107,10 +106,10 @@ int main() {
     const char* name;
     Force force;
   } motions[] = {
-      {"sway, 1 N at 1.3 Hz", [](double t) { return std::sin(2 * kPi * 1.3 * t); }},
-      {"shake, 1 N at 4.7 Hz", [](double t) { return std::sin(2 * kPi * 4.7 * t); }},
+      {"sway, 1 N at 1.3 Hz", [](double t) { return std::sin(2 * M_PI * 1.3 * t); }},
+      {"shake, 1 N at 4.7 Hz", [](double t) { return std::sin(2 * M_PI * 4.7 * t); }},
       // Twice a second the velocity turns round within 50 ms.
-      {"bounce, 1 N", [](double t) { return std::tanh(60 * std::sin(2 * kPi * t) / (2 * kPi)); }},
+      {"bounce, 1 N", [](double t) { return std::tanh(60 * std::sin(2 * M_PI * t) / (2 * M_PI)); }},
   };
   Timeline player(0.1);
   Timeline due(1e-9);

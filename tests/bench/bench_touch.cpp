@@ -161,7 +161,7 @@ void tap() {
 /// Real part of the impedance (K / jω + B / (1 + jω / ω60)) exp(−jω t_d), in units of K t_d.
 double resistance(double frequency_Hz, double damping) {
   constexpr double kDelay_s = 0.0035;
-  const double w = 2 * std::acos(-1.0) * frequency_Hz;
+  const double w = 2 * M_PI * frequency_Hz;
   const double lag = frequency_Hz / ContactForce::kVelocityCutoff_Hz;
   const double angle = w * kDelay_s;
   return -std::sin(angle) / angle +

@@ -20,7 +20,6 @@ constexpr double kAlpha_s_px = 0.01;
 constexpr double kFrame_s = 0.04;
 /// A few operations on numbers below 10.
 constexpr double kRounding = 1e-13;
-const double kPi = std::acos(-1.0);
 
 /// Plays a film with the given speed in each frame, and returns the last force.
 double play(Adaptive& controller, double speed_px_s, double duration_s,
@@ -33,7 +32,7 @@ double play(Adaptive& controller, double speed_px_s, double duration_s,
 }
 
 double force_N(double excess_px_s, double scale_px_s) {
-  return 2 * kMax_N / kPi * std::atan(excess_px_s / scale_px_s);
+  return 2 * kMax_N / M_PI * std::atan(excess_px_s / scale_px_s);
 }
 
 TEST(AdaptiveController, StartsLikeTheNonlinearOneBeyondTheDeadZone) {
@@ -81,7 +80,7 @@ TEST(AdaptiveController, OneOutlierDoesNotWeakenTheFilm) {
     EXPECT_LT(std::log(controller.scale_px_s() / scale_px_s),
               kFrame_s / Adaptive::kAttack_s + kRounding);
     const double after_N = controller.force_N({50, kFrame_s});
-    EXPECT_NEAR(after_N, before_N, kMax_N / kPi * kFrame_s / Adaptive::kAttack_s) << outlier_px_s;
+    EXPECT_NEAR(after_N, before_N, kMax_N / M_PI * kFrame_s / Adaptive::kAttack_s) << outlier_px_s;
     EXPECT_LT(after_N, before_N);
   }
   // What eq. 12 makes of the smallest of them.
@@ -97,7 +96,7 @@ TEST(AdaptiveController, ASlowFilmIsFeltAndAFastOneIsNotAllAtTheLimit) {
     std::vector<double> forces_N;
     for (int n = 0; n < 60 * 25; ++n) {
       const double t_s = n * kFrame_s;
-      const double speed = speed_px_s * std::exp2(std::sin(2 * kPi * t_s));
+      const double speed = speed_px_s * std::exp2(std::sin(2 * M_PI * t_s));
       forces_N.push_back(controller.force_N({speed, kFrame_s}));
     }
     std::sort(forces_N.begin(), forces_N.end());
@@ -135,7 +134,7 @@ TEST(AdaptiveController, TheDeadZoneHasNoStep) {
     for (double v = edge_px_s - 1; v < edge_px_s + 30; v += step_px_s) {
       const double now_N = controller.force_N({v, 0, noise_px_s});
       // dF / dV is 2 Fmax / (π S) at most.
-      ASSERT_LE(std::fabs(now_N - last_N), 2 * kMax_N / kPi / 100 * step_px_s + kRounding) << v;
+      ASSERT_LE(std::fabs(now_N - last_N), 2 * kMax_N / M_PI / 100 * step_px_s + kRounding) << v;
       ASSERT_EQ(now_N > 0, v > edge_px_s) << v;
       last_N = now_N;
     }
@@ -145,8 +144,8 @@ TEST(AdaptiveController, TheDeadZoneHasNoStep) {
 
 TEST(AdaptiveController, TheForceOfAMotionDoesNotDependOnTheFrameRate) {
   // ln V wanders about by 1.5 nepers at 0.5 Hz: its slope is 4.7 nepers a second at most.
-  const auto speed = [](double t_s) { return 120 * std::exp(1.5 * std::sin(kPi * t_s)); };
-  const double slope_1_s = 1.5 * kPi;
+  const auto speed = [](double t_s) { return 120 * std::exp(1.5 * std::sin(M_PI * t_s)); };
+  const double slope_1_s = 1.5 * M_PI;
   Adaptive slow(kMax_N, kAlpha_s_px);
   Adaptive fast(kMax_N, kAlpha_s_px);
   const auto advance = [&](Adaptive& controller, int rate_Hz, int second) {
@@ -164,7 +163,7 @@ TEST(AdaptiveController, TheForceOfAMotionDoesNotDependOnTheFrameRate) {
     // Following does not increase a difference of inputs, and dF / d ln S is Fmax / π at most.
     const double scales = slope_1_s / 24;
     EXPECT_NEAR(std::log(slow.scale_px_s()), std::log(fast.scale_px_s()), scales) << second;
-    EXPECT_NEAR(slow_N, fast_N, kMax_N / kPi * scales) << second;
+    EXPECT_NEAR(slow_N, fast_N, kMax_N / M_PI * scales) << second;
   }
   // If the speed is constant between the frames of both, only rounding differs.
   Adaptive coarse(kMax_N, kAlpha_s_px);

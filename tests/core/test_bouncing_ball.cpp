@@ -29,7 +29,6 @@ using test::Picture;
 constexpr int kFrames = 120;  // 4 s: five impacts
 constexpr int64_t kFrame_ns = 1'000'000'000 / 30;
 constexpr double kFrame_s = static_cast<double>(kFrame_ns) * 1e-9;
-constexpr double kPi = 3.14159265358979323846;
 
 /// Error of a mean displacement on the ball, px of the reduced picture (640 × 360 is not reduced).
 /// A single point is right to 0.1 px (tracker's test); the mean over the ball's points averages
@@ -219,10 +218,10 @@ TEST(BouncingBall, NonlinearForceIsEquation15OfTheAnalyticVelocity) {
   const std::vector<FrameAnalysis> frames = analyze(scene);
   const double to_reference = kReferenceHeight_px / scene.settings().height;
   // As a map of vectors, F(|v|) v / |v| is nowhere steeper than at 0: 2 Fmax α / π.
-  const double tolerance_N = 2 * 3.0 * 0.01 / kPi * kVelocity_px_s * to_reference;
+  const double tolerance_N = 2 * 3.0 * 0.01 / M_PI * kVelocity_px_s * to_reference;
   for (int n = 1; n < kFrames; ++n) {
     const Eigen::Vector2d v = to_reference * mean_velocity(scene, n);
-    const double force_N = 2 * 3.0 / kPi * std::atan(0.01 * v.norm());
+    const double force_N = 2 * 3.0 / M_PI * std::atan(0.01 * v.norm());
     const Eigen::Vector3d expected_N =
         force_N * Eigen::Vector3d(v.x(), -v.y(), 0) / v.norm();  // device: y up
     EXPECT_LT((frames[n].wrench.force_N - expected_N).norm(), tolerance_N) << n;
@@ -300,7 +299,7 @@ TEST(BouncingBall, TheMeanIsBiasedByTheShareOfBackgroundPoints) {
   }
   ASSERT_GT(moving, kFrames / 2);
   const BallSettings& s = scene.settings();
-  const double area_share = kPi * s.radius_px * s.radius_px / (s.width * s.height);
+  const double area_share = M_PI * s.radius_px * s.radius_px / (s.width * s.height);
   RecordProperty("area_of_the_ball_percent", std::to_string(100 * area_share));
   RecordProperty("points_on_the_ball_percent", std::to_string(100 * share_sum / moving));
   RecordProperty("speed_that_is_left_percent", std::to_string(100 * ratio_sum / moving));

@@ -30,7 +30,7 @@ constexpr int64_t kFrame_ns = 40'000'000;
 constexpr double kFrame_s = 0.04;
 /// An object is felt from the second pair of frames on in which it moves.
 constexpr int kFelt = 3;
-const double kDegree_rad = std::acos(-1.0) / 180;
+const double kDegree_rad = M_PI / 180;
 
 constexpr double kWhite = 235;
 constexpr double kBlack = 16;

@@ -26,7 +26,7 @@ Picture fields(double step_px, int width = 640, int height = 480) {
   Picture picture(width, height);
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 3);
-  const double radius_px = std::sqrt(0.05 * width * height / std::acos(-1.0));
+  const double radius_px = std::sqrt(0.05 * width * height / M_PI);
   picture.fill([&](double x, double y) {
     const double moved_px = static_cast<int>(y) % 2 == 0 ? 0 : step_px;
     const bool inside = std::hypot(x - width / 2.0 - moved_px, y - height / 2.0) < radius_px;

@@ -19,7 +19,6 @@ namespace spidar::test::contact_force_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
-constexpr double kPi = 3.14159265358979323846;
 
 ContactSettings settings_of(double stiffness_N_m, double friction = 0) {
   ContactSettings settings;
@@ -135,7 +134,7 @@ TEST(ContactForce, OfAMovingPlaneChangesAsFastAsItMoves) {
   constexpr int kFrame_ticks = 33;
   std::vector<HeightField> frames;
   for (int f = 0; f < 62; ++f) {
-    frames.push_back(plane_field(0.004 * std::sin(kPi * f * kFrame_ticks * kTick_s)));
+    frames.push_back(plane_field(0.004 * std::sin(M_PI * f * kFrame_ticks * kTick_s)));
   }
   ContactForce force;
   const ContactSettings settings = settings_of(500);
@@ -150,7 +149,7 @@ TEST(ContactForce, OfAMovingPlaneChangesAsFastAsItMoves) {
     if (n > 500) fastest_N_s = std::max(fastest_N_s, std::abs(now_N - last_N) / kTick_s);
     last_N = now_N;
   }
-  const double expected_N_s = 500 * 0.004 * kPi;  // K v
+  const double expected_N_s = 500 * 0.004 * M_PI;  // K v
   EXPECT_LE(fastest_N_s, 2 * expected_N_s);
   EXPECT_GT(fastest_N_s, 0.9 * expected_N_s) << "it is felt at all";
 }
@@ -162,7 +161,7 @@ TEST(ContactForce, OfTextureHasItsFrequencyAndMostOfItsAmplitude) {
   constexpr double kSlope = 0.1;
   const HeightField plane = plane_field(0);
   const HeightField stripes = sampled_field([](double x_m, double) {
-    return kSlope * kWave_m / (2 * kPi) * std::sin(2 * kPi * x_m / kWave_m);
+    return kSlope * kWave_m / (2 * M_PI) * std::sin(2 * M_PI * x_m / kWave_m);
   });
   const ContactSettings settings = settings_of(500);
   const double lag = 1 - std::exp(-kTick_s / TouchedGrip::kDriveLag_s);
@@ -188,7 +187,7 @@ TEST(ContactForce, OfTextureHasItsFrequencyAndMostOfItsAmplitude) {
       double c = 0;
       double s = 0;
       for (size_t i = 0; i < felt_N.size(); ++i) {
-        const double a = 2 * kPi * f_Hz * kTick_s * static_cast<double>(i);
+        const double a = 2 * M_PI * f_Hz * kTick_s * static_cast<double>(i);
         c += (felt_N[i] - mean_N) * std::cos(a);
         s += (felt_N[i] - mean_N) * std::sin(a);
       }

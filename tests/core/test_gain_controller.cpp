@@ -13,8 +13,6 @@
 namespace spidar::test::gain_controller_test {
 namespace {
 
-const double kPi = std::acos(-1.0);
-
 // Each result is a handful of roundings of 2^-53 on numbers below 10.
 constexpr double kRounding = 1e-14;
 
@@ -79,7 +77,7 @@ TEST(NonlinearController, FollowsEquation15) {
   EXPECT_NEAR(controller.force_N(100 * std::sqrt(3.0)), 2.0, kRounding);
   EXPECT_NEAR(controller.force_N(100 / std::sqrt(3.0)), 1.0, kRounding);
   for (double speed = 1; speed < 1e7; speed *= 3) {
-    EXPECT_NEAR(controller.force_N(speed), 2 * 3.0 / kPi * std::atan(0.01 * speed), kRounding);
+    EXPECT_NEAR(controller.force_N(speed), 2 * 3.0 / M_PI * std::atan(0.01 * speed), kRounding);
   }
 }
 

@@ -62,7 +62,7 @@ TEST(HeightField, NormalOfASphereIsExactToATenthOfADegree) {
       const double z_m = std::sqrt(kRadius_m * kRadius_m - x_m * x_m - y_m * y_m);
       const Eigen::Vector3d exact = Eigen::Vector3d(x_m, y_m, z_m) / kRadius_m;
       const double angle_rad = std::acos(std::min(1.0, field.at(x_m, y_m).normal().dot(exact)));
-      EXPECT_LT(angle_rad * 180 / std::acos(-1.0), 0.1) << x_m << ' ' << y_m;
+      EXPECT_LT(angle_rad * 180 / M_PI, 0.1) << x_m << ' ' << y_m;
     }
   }
 }

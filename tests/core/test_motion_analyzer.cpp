@@ -131,7 +131,7 @@ TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
 
     // 0.01 · 480 px in 40 ms: 120 px/s of the reference frame. No slope of eq. 15 is above that at
     // 0.
-    const double slope_N_s_px = 2 * 3.0 / std::acos(-1.0) * 0.01;
+    const double slope_N_s_px = 2 * 3.0 / M_PI * 0.01;
     EXPECT_NEAR(analysis.wrench.force_N.x(), controller.force_N(120),
                 slope_N_s_px * tolerance_px_s * kReferenceHeight_px / size.height)
         << size.width << "x" << size.height;

@@ -42,7 +42,7 @@ TEST(MotionBounds, NothingIsFasterThanAFramesWidthAFrame) {
 TEST(MotionBounds, NothingGrowsOrTurnsFasterThanCanBeSeen) {
   const ImageMotion bounded = bound_motion(motion_of(0, 0, 1e9, -1e9), kWidth, kInterval_s);
   EXPECT_EQ(bounded.growth_1_s, 1 / kInterval_s);
-  EXPECT_NEAR(bounded.roll_rad_s, -std::acos(-1.0) / kInterval_s, 1e-12);
+  EXPECT_NEAR(bounded.roll_rad_s, -M_PI / kInterval_s, 1e-12);
 }
 
 TEST(MotionBounds, NanIsNoMotion) {

@@ -22,7 +22,7 @@ constexpr double kFrame_s = 0.04;
 constexpr int kHeight = 480;
 /// A few operations on numbers up to 1000.
 constexpr double kRounding = 1e-11;
-const double kTwoPi = 2 * std::acos(-1.0);
+const double kTwoPi = 2 * M_PI;
 
 using Filter1 = OneEuroFilter<1>;
 using Filter2 = OneEuroFilter<2>;

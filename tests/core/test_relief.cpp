@@ -19,7 +19,6 @@ namespace {
 
 constexpr int kColumns = HeightField::kColumns;
 constexpr int kRows = HeightField::kRows;
-constexpr double kPi = 3.14159265358979323846;
 
 HeightField empty_field() {
   return HeightField(0.06, 0.03375);  // square cells of 0.23 mm
@@ -111,7 +110,7 @@ TEST(Relief, IsNowhereSteeperThanTheLimit) {
   // An edge in each direction, from black to white. Unlimited, its slope would be 8 mm over the
   // Gaussian of 0.5 mm: 8 / (0.5 √(2π)) = 6.4.
   for (int degrees = 0; degrees < 360; degrees += 15) {
-    const double a = degrees * kPi / 180;
+    const double a = degrees * M_PI / 180;
     Picture picture(512, 288);
     picture.fill([&](double x, double y) {
       return std::cos(a) * (x - 256) + std::sin(a) * (y - 144) > 0 ? 255 : 0;
@@ -209,7 +208,8 @@ TEST(Relief, FineDetailIsWhatSmoothingTookOut) {
   // 10 waves across, 25.6 cells each, and 85 of 3 cells. The Gaussian of 2 cells leaves
   // exp(−2 (π σ / λ)²) of them: 0.886 and 2e-4.
   picture.fill([](double x, double) {
-    return 127.5 + 50 * std::sin(2 * kPi * 10 * x / 1024) + 50 * std::sin(2 * kPi * 85 * x / 1024);
+    return 127.5 + 50 * std::sin(2 * M_PI * 10 * x / 1024) +
+           50 * std::sin(2 * M_PI * 85 * x / 1024);
   });
   HeightField field = empty_field();
   HeightField fine = empty_field();
@@ -220,8 +220,8 @@ TEST(Relief, FineDetailIsWhatSmoothingTookOut) {
   double coarse = 0;
   double detail = 0;
   for (int x = 0; x < kColumns; ++x) {
-    coarse += fine.row(70)[x] * std::sin(2 * kPi * 10 * (x + 0.5) / kColumns) * 2 / kColumns;
-    detail += fine.row(70)[x] * std::sin(2 * kPi * 85 * (x + 0.5) / kColumns) * 2 / kColumns;
+    coarse += fine.row(70)[x] * std::sin(2 * M_PI * 10 * (x + 0.5) / kColumns) * 2 / kColumns;
+    detail += fine.row(70)[x] * std::sin(2 * M_PI * 85 * (x + 0.5) / kColumns) * 2 / kColumns;
   }
   const double amplitude_m = 0.008 * 50 / 255;
   EXPECT_NEAR(coarse, (1 - 0.886) * amplitude_m, 0.03 * amplitude_m);

@@ -31,7 +31,7 @@ constexpr double kPicture_Hz = 24;
 constexpr int64_t kAhead_ns = 150'000'000;  // a queue of a few frames
 /// By then the rhythm is known.
 constexpr size_t kLearnt_ms = 700;
-const double kDegree_rad = std::acos(-1.0) / 180;
+const double kDegree_rad = M_PI / 180;
 
 /// Copies of the frames, because a film reuses its memory.
 std::vector<Picture> pictures_of(test::Film film) {

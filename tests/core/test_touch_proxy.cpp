@@ -15,7 +15,6 @@ namespace spidar::test::touch_proxy_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
-constexpr double kPi = 3.14159265358979323846;
 
 /// Moves straight to `to_m` in so many ticks.
 void go(TouchProxy& proxy, const MovingRelief& surface, const Friction& friction,
@@ -39,7 +38,7 @@ TEST(TouchProxy, IsTheNearestPointOfASphere) {
   const HeightField sphere = sphere_field(0, 0, kRadius_m, 0);
   const Eigen::Vector3d centre_m(0, 0, -kRadius_m);
   for (double degrees = 0; degrees < 360; degrees += 17) {
-    const double a = degrees * kPi / 180;
+    const double a = degrees * M_PI / 180;
     const Eigen::Vector3d out =
         Eigen::Vector3d(0.5 * std::cos(a), 0.5 * std::sin(a), std::sqrt(0.75));
     TouchProxy proxy;
@@ -49,7 +48,7 @@ TEST(TouchProxy, IsTheNearestPointOfASphere) {
     go(proxy, {&sphere}, {}, end_m, end_m, 50);
     ASSERT_TRUE(proxy.touching());
     const Eigen::Vector3d force = (proxy.position_m() - end_m).normalized();
-    EXPECT_LT(std::acos(std::min(1.0, force.dot(out))) * 180 / kPi, 0.1) << degrees;
+    EXPECT_LT(std::acos(std::min(1.0, force.dot(out))) * 180 / M_PI, 0.1) << degrees;
   }
 }
 

@@ -70,7 +70,7 @@ TEST(OpenCvTracker, TheFirstFrameHasNothingToCompareWith) {
 TEST(OpenCvTracker, APeriodicTextureDoesNotJumpAPeriod) {
   // Every 12 px the picture is the same: of all displacements that explain it the smallest is
   // meant.
-  constexpr double kWave_px = 2 * 3.14159265358979323846 / 12;
+  constexpr double kWave_px = 2 * M_PI / 12;
   Picture picture(640, 360);
   OpenCvTracker tracker;
   for (int n = 0; n < 4; ++n) {

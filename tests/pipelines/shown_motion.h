@@ -41,7 +41,7 @@ inline void expect_wrench_of_frame(SteppedPipeline& pipeline, const TickRecord& 
 
 /// The velocity that gives this force, px/s in a frame of 480 lines: equation 15, solved for it.
 inline Eigen::Vector3d velocity_px_s(const Eigen::Vector3d& force_N) {
-  const double speed = std::tan(std::acos(-1.0) / 2 * force_N.norm() / 3) / 0.0005;
+  const double speed = std::tan(M_PI / 2 * force_N.norm() / 3) / 0.0005;
   return speed > 0 ? Eigen::Vector3d(speed * force_N.normalized()) : Eigen::Vector3d::Zero();
 }
 

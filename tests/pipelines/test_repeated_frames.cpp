@@ -22,7 +22,7 @@ namespace {
 constexpr int kWidth = 480, kHeight = 272;
 /// A rhythm is known by then.
 constexpr int64_t kLearnt_ms = 700;
-const double kDegree_rad = std::acos(-1.0) / 180;
+const double kDegree_rad = M_PI / 180;
 
 /// Something that circles in front of a still background 0.4 times a second, as it is at `time_s`
 /// or, after `stop_s`, then.

@@ -32,11 +32,10 @@ namespace {
 constexpr int64_t kMs = kSecond_ns / 1000;
 /// 20 % of 0xFFFF.
 constexpr int kGain = 13107;
-constexpr double kPi = 3.14159265358979323846;
 
 /// A stick that is moved from stop to stop, 118 mm apart, in `half_ms`.
 ff::Position swinging(int64_t now_ns, int half_ms) {
-  const double phase = kPi * static_cast<double>(now_ns) / static_cast<double>(half_ms * kMs);
+  const double phase = M_PI * static_cast<double>(now_ns) / static_cast<double>(half_ms * kMs);
   return {static_cast<int16_t>(std::lround(ff::Position::kFull * std::sin(phase))), 0};
 }
 
@@ -107,7 +106,7 @@ TEST(StickPlace, MovesAtTheSpeedOfTheHand) {
     }
     EXPECT_GT(largest_read_m, GripWatch::kMaxSpeed_m_s * 1e-3);
     // The fastest hand: pi / 35 ms x 29.5 mm = 2.6 m/s; a reading is rounded to 3 um.
-    const double fastest_m = reach_m * kPi / half_ms + reach_m / ff::Position::kFull;
+    const double fastest_m = reach_m * M_PI / half_ms + reach_m / ff::Position::kFull;
     EXPECT_LE(largest_m, fastest_m);
   }
 }

@@ -66,8 +66,7 @@ Film FilmStudio::pan_with_object() {
 }
 
 FilmObject FilmStudio::object(double share, SheetPath pose, const std::string& name) {
-  constexpr double kPi = 3.14159265358979323846;
-  const double radius_px = std::sqrt(share * width_ * height_ / kPi);
+  const double radius_px = std::sqrt(share * width_ * height_ / M_PI);
   return {sheet(name, 0.6), {radius_px, radius_px}, std::move(pose)};
 }
 

@@ -22,7 +22,7 @@ using Eigen::Vector2d;
 
 /// σ of what a good camera adds, grey levels.
 constexpr double kSensorNoise = 1.5;
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = M_PI / 180;
 
 /// An object at a speed, px a frame at a width of 640.
 Film object_at(FilmStudio& s, double speed) {

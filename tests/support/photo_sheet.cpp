@@ -13,8 +13,6 @@
 namespace spidar::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// 0 … 1, one after the other.
 class Uniform {
  public:
@@ -93,7 +91,7 @@ Leaf fall(Uniform& uniform, const SplineSheet& sheet) {
   const double radius = 1 / std::sqrt(inverse_square);
   const double slenderness = 1 + uniform();  // of the same area
   leaf.to_unit = Eigen::Vector2d(1 / slenderness, slenderness).asDiagonal() *
-                 Eigen::Rotation2Dd(kPi * uniform()).toRotationMatrix() / radius;
+                 Eigen::Rotation2Dd(M_PI * uniform()).toRotationMatrix() / radius;
   leaf.round = uniform() < 0.5;
   leaf.reach = std::sqrt(2.0) * radius * slenderness;
   leaf.grey = static_cast<float>(40 + 170 * uniform());
@@ -174,7 +172,7 @@ SplineSheet edge_sheet(double width_px, double height_px, const Eigen::Vector2d&
 SplineSheet periodic_sheet(double width_px, double height_px, double period_px) {
   SplineSheet sheet(width_px, height_px);
   sheet.fill([period_px](double x, double y) {
-    return 128 + 50 * (std::cos(2 * kPi * x / period_px) + std::cos(2 * kPi * y / period_px));
+    return 128 + 50 * (std::cos(2 * M_PI * x / period_px) + std::cos(2 * M_PI * y / period_px));
   });
   return sheet;
 }

@@ -82,7 +82,7 @@ struct TouchScene {
 /// What energy is looked for on. Those of pictures come with their fine detail; the others have a
 /// wave of 2 mm for a texture.
 inline std::vector<TouchScene> touch_scenes() {
-  const double two_pi = 2 * std::acos(-1.0);
+  const double two_pi = 2 * M_PI;
   const HeightField wave = sampled_field([&](double x_m, double y_m) {
     return 5e-5 * std::sin(two_pi * x_m / 0.002) * std::sin(two_pi * y_m / 0.002);
   });

@@ -91,8 +91,8 @@ class RandomHand {
     std::uniform_real_distribution<double> uniform(0, 1);
     for (int axis = 0; axis < 3; ++axis) {
       for (Sine& s : sines_[axis]) {
-        s.rad_s = 2 * std::acos(-1.0) * 0.15 * std::pow(20.0, uniform(random));
-        s.phase_rad = 2 * std::acos(-1.0) * uniform(random);
+        s.rad_s = 2 * M_PI * 0.15 * std::pow(20.0, uniform(random));
+        s.phase_rad = 2 * M_PI * uniform(random);
         s.amplitude_m = (axis == 2 ? 0.007 : 0.012) * uniform(random) / std::sqrt(s.rad_s);
       }
     }

@@ -101,7 +101,7 @@ double work_J(const Strings& from, const Strings& to, double lag_s) {
 }
 
 Wrench film_wrench(double amplitude_N, double time_s) {
-  const double turn = 2 * std::acos(-1.0) * time_s;
+  const double turn = 2 * M_PI * time_s;
   return {
       amplitude_N / std::sqrt(3.0) *
           Eigen::Vector3d(std::sin(0.7 * turn), std::sin(1.1 * turn + 1), std::sin(0.9 * turn + 2)),
