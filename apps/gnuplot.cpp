@@ -51,7 +51,7 @@ void run_gnuplot(const std::string& script, const GnuplotStrings& files,
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
 
-  setenv("LC_ALL", "C.UTF-8", 1);  // else gnuplot complains about the units in its scripts
+  setenv("LC_ALL", "C.UTF-8", 1);  // else gnuplot does not know the units in its scripts
 
   pid_t child = 0;
   int status = posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ);

@@ -139,7 +139,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The video and the force continue without it."));
     }
-    self->complaints->look_at_opened(engine);
+    self->warnings->check_opened(engine);
     set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
     self->steps->begin();
@@ -230,7 +230,7 @@ static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* va
 
 static void gst_spidar_motion_finalize(GObject* object) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
-  delete self->complaints;
+  delete self->warnings;
   delete self->steps;
   delete self->display;
   delete self->loader;
@@ -248,7 +248,7 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->loader = new spidar::TrackLoader;
   self->steps = new spidar::StepWatch(
       GST_ELEMENT(self), [self](GstClockTime skipped) { self->engine->skip(skipped); });
-  self->complaints = new spidar::Complaints(GST_ELEMENT(self));
+  self->warnings = new spidar::BusWarnings(GST_ELEMENT(self));
   // GstVideoFilter would drop late frames before they are analysed; here the application decides
   // that with `qos`.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);

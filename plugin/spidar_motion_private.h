@@ -5,7 +5,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/complaints.h"
+#include "plugin/bus_warnings.h"
 #include "plugin/display/motion_display.h"
 #include "plugin/engine/motion_engine.h"
 #include "plugin/spidar_motion.h"
@@ -25,7 +25,7 @@ struct _GstSpidarMotion {
   gint unread_messages;  // atomic: that an application has not read
   gint window_changes;   // atomic: how many the window has still to follow
   spidar::StepWatch* steps;
-  spidar::Complaints* complaints;
+  spidar::BusWarnings* warnings;
 };
 
 /// Class initialisation: frames and events on their way.

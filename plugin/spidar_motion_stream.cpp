@@ -110,14 +110,14 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
                      GST_TIME_ARGS(GST_BUFFER_PTS(frame->buffer)), to_string(report.problem));
   }
-  self->complaints->look_at_frame(report);
-  self->complaints->look_at_touch(report, touch);
-  if (display.overlay) self->complaints->look_at_overlay(frame->info);
+  self->warnings->check_frame(report);
+  self->warnings->check_touch(report, touch);
+  if (display.overlay) self->warnings->check_overlay(frame->info);
   if (report.analyzed && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, report, &self->unread_messages);
   }
-  return self->complaints->look_at_device(*self->engine, on_device_error) ? GST_FLOW_OK
-                                                                          : GST_FLOW_ERROR;
+  return self->warnings->check_device(*self->engine, on_device_error) ? GST_FLOW_OK
+                                                                      : GST_FLOW_ERROR;
 }
 
 /// A frame without a picture is not mapped, because mapping may have to wait for its memory.
@@ -133,9 +133,8 @@ static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, Gst
     self->engine->pass_gap(running_time_of(trans->segment, GST_BUFFER_PTS(buffer)));
   });
   self->display->skip();
-  return passed && self->complaints->look_at_device(*self->engine, on_device_error)
-             ? GST_FLOW_OK
-             : GST_FLOW_ERROR;
+  return passed && self->warnings->check_device(*self->engine, on_device_error) ? GST_FLOW_OK
+                                                                                : GST_FLOW_ERROR;
 }
 
 /// In passthrough the buffer may not be writable. A meta belongs to the buffer and not to its
@@ -180,7 +179,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       break;
     }
     case GST_EVENT_STREAM_START:
-      self->complaints->begin_stream();
+      self->warnings->begin_stream();
       spidar::guarded(GST_ELEMENT(self), "looking for a track",
                       [self] { begin_to_load_track(self); });
       engine.begin_stream();
@@ -246,8 +245,8 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   const std::string trace = self->properties->trace;
   GST_OBJECT_UNLOCK(self);
   GST_DEBUG_OBJECT(self, "start; trace: %s", trace.empty() ? "none" : trace.c_str());
-  self->complaints->start();
-  self->complaints->look_at_place();
+  self->warnings->start();
+  self->warnings->check_bins();
   const std::string reason = self->engine->start(trace);
   if (!reason.empty()) {
     GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
@@ -267,7 +266,7 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   }
   // Reported here, because messages during the change to NULL are discarded.
   if (self->engine->output().session()) self->engine->output().session()->drain_trace();
-  self->complaints->look_at_haptic_trace(*self->engine);
+  self->warnings->check_haptic_trace(*self->engine);
   return TRUE;
 }
 

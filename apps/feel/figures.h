@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/feel/film.h"
-#include "core/analysis/force_limit.h"
+#include "core/analysis/no_force_reason.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 

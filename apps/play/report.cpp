@@ -11,7 +11,7 @@
 #include "apps/gnuplot.h"
 #include "apps/play/summary.h"
 #include "apps/play/unfelt.h"
-#include "core/analysis/force_limit.h"
+#include "core/analysis/no_force_reason.h"
 #include "core/force/motion_rendering.h"
 
 namespace {

@@ -42,7 +42,7 @@ class SessionRecord {
     uint64_t frames = 0;  ///< analysed
     uint64_t shown = 0;
     double duration_s = 0;  ///< of the video that was played
-    /// Number of frames, by the nick of spidar::ForceLimit.
+    /// Number of frames, by the nick of spidar::NoForceReason.
     std::map<std::string, uint64_t> limits;
     Histogram speed_px_s;
     Histogram wanted_N;       ///< output of the controller, for each frame

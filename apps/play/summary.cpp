@@ -5,7 +5,7 @@
 #include <cinttypes>
 #include <cstdio>
 
-#include "core/analysis/force_limit.h"
+#include "core/analysis/no_force_reason.h"
 
 namespace {
 

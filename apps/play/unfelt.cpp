@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/analysis/force_limit.h"
+#include "core/analysis/no_force_reason.h"
 
 namespace {
 
@@ -15,8 +15,8 @@ namespace {
 constexpr double kWorthALine = 0.005;
 
 std::string sentence_of(const std::string& nick) {
-  for (size_t i = 0; i < spidar::kForceLimits; ++i) {
-    const auto limit = static_cast<spidar::ForceLimit>(i);
+  for (size_t i = 0; i < spidar::kNoForceReasons; ++i) {
+    const auto limit = static_cast<spidar::NoForceReason>(i);
     if (nick == spidar::nick(limit)) return spidar::sentence(limit);
   }
   return nick;
@@ -31,14 +31,14 @@ std::string percent(double share) {
 }  // namespace
 
 std::string unfelt_text(const std::map<std::string, uint64_t>& frames, const std::string& last) {
-  const std::string felt = spidar::nick(spidar::ForceLimit::kNone);
+  const std::string felt = spidar::nick(spidar::NoForceReason::kNone);
   double all = 0;
   double unfelt = 0;
   std::vector<std::pair<std::string, double>> reasons;
   for (const auto& [nick, count] : frames) {
     // The first frames are analysed before the pipeline plays and the device runs.
-    if (nick == spidar::nick(spidar::ForceLimit::kNotPlaying) ||
-        nick == spidar::nick(spidar::ForceLimit::kDeviceStarting)) {
+    if (nick == spidar::nick(spidar::NoForceReason::kNotPlaying) ||
+        nick == spidar::nick(spidar::NoForceReason::kDeviceStarting)) {
       continue;
     }
     all += static_cast<double>(count);

@@ -30,7 +30,7 @@ GstFlowReturn DepthBranch::add(GstBuffer* buffer) {
   if (!caps_) return GST_FLOW_NOT_NEGOTIATED;
   const auto time = shown_time(stream_.segment, buffer, stream_.frame_ns());
   if (!time) {
-    if (!std::exchange(complained_, true)) {
+    if (!std::exchange(warned_, true)) {
       GST_ELEMENT_WARNING(
           element_, STREAM, FORMAT,
           ("Depth images without timestamps are left out: they belong to no frame."),
@@ -101,7 +101,7 @@ gboolean DepthBranch::take(GstEvent* event, const DepthProperties& properties) {
 void DepthBranch::reset() {
   stream_.reset();
   caps_.reset();
-  complained_ = false;
+  warned_ = false;
   images_ = 0;
 }
 

@@ -46,7 +46,7 @@ class DepthBranch {
   DepthGate& gate_;
   VideoStream stream_;
   Ref<GstCaps> caps_;
-  bool complained_ = false;  // about images without timestamps
+  bool warned_ = false;  // about images without timestamps
   std::atomic<int> images_{0};
 };
 

@@ -96,7 +96,7 @@ class ElementSource final : public WindowSource {
       setting.value = get_value(G_OBJECT(held.get()), setting);
     }
     DeviceView device;
-    state.limit = engine_.force_limit();
+    state.limit = engine_.no_force_reason();
     if (engine_.output().look_at_device(device)) {
       state.device = std::move(device);
     } else {
@@ -134,7 +134,7 @@ class ElementSource final : public WindowSource {
     engine_.output().lead_hand(to_m);
   }
 
-  void complain(const std::string& what, const std::string& advice) override {
+  void warn(const std::string& what, const std::string& advice) override {
     const Ref<GstElement> held = hold(element_);
     if (!held) return;
     GST_ELEMENT_WARNING(held.get(), RESOURCE, NOT_FOUND, ("%s", what.c_str()),

@@ -85,7 +85,7 @@ void MotionEngine::take_tags(const GstTagList* tags) {
 GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
-  describe_limit(force_limit(), structure);
+  describe_limit(no_force_reason(), structure);
   gst_structure_set(structure, "track-frames", G_TYPE_UINT64, player_.frames(), nullptr);
   reliefs_.describe(structure);
   output_.describe(structure);
@@ -96,7 +96,7 @@ GstStructure* MotionEngine::stats() const {
   return structure;
 }
 
-ForceLimit MotionEngine::force_limit() const {
+NoForceReason MotionEngine::no_force_reason() const {
   return limit_watch_.limit(output_.snapshot(), true);
 }
 

@@ -68,7 +68,7 @@ class MotionEngine {
   void skip(GstClockTime duration);
   GstStructure* stats() const;
   /// What has kept the force from being felt in the last second of what is on the screen.
-  ForceLimit force_limit() const;
+  NoForceReason no_force_reason() const;
 
   // --- streaming thread
 

@@ -8,8 +8,8 @@
 
 #include <gst/gst.h>
 
-#include "core/analysis/force_limit.h"
 #include "core/analysis/motion_analyzer.h"
+#include "core/analysis/no_force_reason.h"
 #include "core/picture_turn.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/touch_view.h"
@@ -45,11 +45,11 @@ struct FrameReport {
   bool analyzed = false;
   GstClockTime running_time = GST_CLOCK_TIME_NONE;
   GstClockTime stream_time = GST_CLOCK_TIME_NONE;
-  FrameAnalysis analysis;                ///< its wrench is turned
-  PictureTurn turn;                      ///< of the frame before it is shown
-  VisiblePart part;                      ///< of the frame that was analysed
-  int64_t took_ns = 0;                   ///< the analysis
-  ForceLimit limit = ForceLimit::kNone;  ///< of the last second up to this frame
+  FrameAnalysis analysis;                      ///< its wrench is turned
+  PictureTurn turn;                            ///< of the frame before it is shown
+  VisiblePart part;                            ///< of the frame that was analysed
+  int64_t took_ns = 0;                         ///< the analysis
+  NoForceReason limit = NoForceReason::kNone;  ///< of the last second up to this frame
   TouchProblem touch_problem = TouchProblem::kNone;
   double stiffness_N_m = 0;  ///< that is rendered, with TouchProblem::kTooStiff and kLagUnknown
   TouchScene touch;

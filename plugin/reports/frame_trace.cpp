@@ -46,7 +46,7 @@ std::string FrameTrace::open(const std::string& path) {
 }
 
 void FrameTrace::append_csv(int64_t running_time_ns, int64_t stream_time_ns,
-                            const FrameAnalysis& frame, ForceLimit limit) {
+                            const FrameAnalysis& frame, NoForceReason limit) {
   append(line_, running_time_ns);
   append(line_, stream_time_ns);
   append(line_, frame.features);
@@ -62,7 +62,7 @@ void FrameTrace::append_csv(int64_t running_time_ns, int64_t stream_time_ns,
 }
 
 bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
-                       ForceLimit limit) {
+                       NoForceReason limit) {
   line_.clear();
   if (json_) {
     append_json(frame, running_time_ns, stream_time_ns, {}, line_);

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <string>
 
-#include "core/analysis/force_limit.h"
 #include "core/analysis/motion_analyzer.h"
+#include "core/analysis/no_force_reason.h"
 
 namespace spidar {
 
@@ -25,14 +25,14 @@ class FrameTrace {
 
   /// False when the disk is full or gone: the trace is closed then.
   bool write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
-             ForceLimit limit);
+             NoForceReason limit);
 
   /// False when the last rows could not be written.
   bool close();
 
  private:
   void append_csv(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
-                  ForceLimit limit);
+                  NoForceReason limit);
 
   std::FILE* file_ = nullptr;
   bool json_ = false;

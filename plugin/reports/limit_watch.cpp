@@ -12,40 +12,40 @@ constexpr int64_t kGripLost_ns = 100'000'000;
 
 /// Whether nothing was felt in the whole interval and no frame was due in it.
 bool is_late(const LoopSnapshot& loop) {
-  return loop.unfelt_ns >= ForceLimitHistory::kWindow_ns &&
+  return loop.unfelt_ns >= NoForceHistory::kWindow_ns &&
          (loop.last.found == Found::kExpired || loop.last.found == Found::kNothing);
 }
 
 }  // namespace
 
-ForceLimit limit_of_device(const LoopSnapshot& loop, bool muted) {
+NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted) {
   switch (loop.last.device) {
     case DeviceState::kLost:
-      return ForceLimit::kDeviceLost;
+      return NoForceReason::kDeviceLost;
     case DeviceState::kOpening:
     case DeviceState::kClosing:
     case DeviceState::kClosed:
-      return ForceLimit::kDeviceStarting;
+      return NoForceReason::kDeviceStarting;
     case DeviceState::kRunning:
     case DeviceState::kIdle:
       break;
   }
-  if (loop.untrusted_ns > kGripLost_ns) return ForceLimit::kGripUnknown;
-  if (muted) return ForceLimit::kMuted;
-  if (!loop.last.playing) return ForceLimit::kNotPlaying;
-  if (!loop.last.held) return ForceLimit::kGripReleased;
-  return loop.vibration.lowered() ? ForceLimit::kVibration : ForceLimit::kNone;
+  if (loop.untrusted_ns > kGripLost_ns) return NoForceReason::kGripUnknown;
+  if (muted) return NoForceReason::kMuted;
+  if (!loop.last.playing) return NoForceReason::kNotPlaying;
+  if (!loop.last.held) return NoForceReason::kGripReleased;
+  return loop.vibration.lowered() ? NoForceReason::kVibration : NoForceReason::kNone;
 }
 
-ForceLimit limit_of_contact(const LoopSnapshot& loop) {
-  if (loop.unfelt_ns < ForceLimitHistory::kWindow_ns) return ForceLimit::kNone;
+NoForceReason limit_of_contact(const LoopSnapshot& loop) {
+  if (loop.unfelt_ns < NoForceHistory::kWindow_ns) return NoForceReason::kNone;
   const Contact& contact = loop.last.contact;
-  if (!contact.has_surface) return ForceLimit::kNoRelief;
-  return contact.touching ? ForceLimit::kLightTouch : ForceLimit::kNotTouching;
+  if (!contact.has_surface) return NoForceReason::kNoRelief;
+  return contact.touching ? NoForceReason::kLightTouch : NoForceReason::kNotTouching;
 }
 
 void LimitWatch::add(int64_t shown_ns, const FrameAnalysis& frame, MotionKind motion) {
-  const ForceLimit limit = limit_of(frame, motion);
+  const NoForceReason limit = limit_of(frame, motion);
   const std::lock_guard<std::mutex> lock(mutex_);
   frames_.add(shown_ns, size_N(frame.wrench), limit);
   newest_ns_ = shown_ns;
@@ -53,7 +53,7 @@ void LimitWatch::add(int64_t shown_ns, const FrameAnalysis& frame, MotionKind mo
 
 void LimitWatch::repeat(int64_t shown_ns, const Wrench& wrench) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  frames_.add(shown_ns, size_N(wrench), ForceLimit::kRepeatedFrames);
+  frames_.add(shown_ns, size_N(wrench), NoForceReason::kRepeatedFrames);
   newest_ns_ = shown_ns;
 }
 
@@ -73,26 +73,27 @@ void LimitWatch::set_touching(bool touching) {
   touching_ = touching;
 }
 
-ForceLimit LimitWatch::limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const {
+NoForceReason LimitWatch::limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!loop) {
-    if (touching_) return ForceLimit::kNoDevice;
-    const ForceLimit of_video = frames_.limit(newest_ns_);
-    return of_video == ForceLimit::kNone ? ForceLimit::kNoDevice : of_video;
+    if (touching_) return NoForceReason::kNoDevice;
+    const NoForceReason of_video = frames_.limit(newest_ns_);
+    return of_video == NoForceReason::kNone ? NoForceReason::kNoDevice : of_video;
   }
-  const ForceLimit of_device = limit_of_device(*loop, muted_);
-  if (of_device != ForceLimit::kNone) return of_device;
+  const NoForceReason of_device = limit_of_device(*loop, muted_);
+  if (of_device != NoForceReason::kNone) return of_device;
   if (touching_) return limit_of_contact(*loop);
   const int64_t screen_ns = loop->last.running_ns;
   const int64_t now_ns = up_to_screen ? screen_ns : newest_ns_;
-  const ForceLimit of_video = frames_.limit(now_ns);
+  const NoForceReason of_video = frames_.limit(now_ns);
   const bool due = now_ns <= screen_ns;
-  return of_video == ForceLimit::kNone && due && is_late(*loop) ? ForceLimit::kLate : of_video;
+  return of_video == NoForceReason::kNone && due && is_late(*loop) ? NoForceReason::kLate
+                                                                   : of_video;
 }
 
-void describe_limit(ForceLimit limit, GstStructure* structure) {
+void describe_limit(NoForceReason limit, GstStructure* structure) {
   gst_structure_set(structure, "limit", G_TYPE_STRING, nick(limit), nullptr);
-  if (limit == ForceLimit::kNone) return;
+  if (limit == NoForceReason::kNone) return;
   gst_structure_set(structure, "limit-reason", G_TYPE_STRING, sentence(limit), nullptr);
 }
 

@@ -8,8 +8,8 @@
 
 #include <gst/gst.h>
 
-#include "core/analysis/force_limit.h"
 #include "core/analysis/motion_analyzer.h"
+#include "core/analysis/no_force_reason.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {
@@ -17,11 +17,11 @@ namespace spidar {
 /// A reason of the device or of the playback, which holds whatever the video shows; kNone when
 /// there is none. A device that is off because nothing was to be felt for minutes is none: it comes
 /// back with the force.
-ForceLimit limit_of_device(const LoopSnapshot& loop, bool muted);
+NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted);
 
 /// The reason in the contact of the last tick, while `touch` is on and nothing has been felt for a
 /// second; kNone before.
-ForceLimit limit_of_contact(const LoopSnapshot& loop);
+NoForceReason limit_of_contact(const LoopSnapshot& loop);
 
 /// Thread-safe.
 class LimitWatch {
@@ -39,17 +39,17 @@ class LimitWatch {
   /// Of the last second up to the frame added last, or to the picture on the screen when that is
   /// `up_to_screen`. `loop` is nothing while no device is open: then the reasons of the video come
   /// first, for the device is missing by choice. What is touched is that of the last tick.
-  ForceLimit limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const;
+  NoForceReason limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const;
 
  private:
   mutable std::mutex mutex_;
-  ForceLimitHistory frames_;
+  NoForceHistory frames_;
   int64_t newest_ns_ = 0;
   bool muted_ = false;
   bool touching_ = false;
 };
 
 /// Adds limit (string, see nick()) and, unless that is "none", limit-reason (string: a sentence).
-void describe_limit(ForceLimit limit, GstStructure* structure);
+void describe_limit(NoForceReason limit, GstStructure* structure);
 
 }  // namespace spidar

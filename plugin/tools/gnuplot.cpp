@@ -15,8 +15,8 @@
 
 namespace spidar {
 
-Gnuplot::Gnuplot(int out) : complaints_(std::tmpfile(), std::fclose) {
-  if (!complaints_) throw std::runtime_error(std::string("gnuplot: ") + std::strerror(errno));
+Gnuplot::Gnuplot(int out) : warnings_(std::tmpfile(), std::fclose) {
+  if (!warnings_) throw std::runtime_error(std::string("gnuplot: ") + std::strerror(errno));
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) {
     throw std::runtime_error(std::string("gnuplot: ") + std::strerror(errno));
@@ -25,7 +25,7 @@ Gnuplot::Gnuplot(int out) : complaints_(std::tmpfile(), std::fclose) {
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, ends[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&files, fileno(complaints_.get()), STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&files, fileno(warnings_.get()), STDERR_FILENO);
   // The signals that this program blocks or ignores are to end gnuplot.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -55,15 +55,15 @@ Gnuplot::~Gnuplot() {
 }
 
 void Gnuplot::finish() {
-  if (end() != 0) throw std::runtime_error("gnuplot could not draw the picture" + complaint());
+  if (end() != 0) throw std::runtime_error("gnuplot could not draw the picture" + warning());
 }
 
 /// The last line that it wrote. Its warnings, of fonts for example, do not matter if it succeeds.
-std::string Gnuplot::complaint() const {
-  std::rewind(complaints_.get());
+std::string Gnuplot::warning() const {
+  std::rewind(warnings_.get());
   std::string last;
   char line[256];
-  while (std::fgets(line, sizeof line, complaints_.get())) {
+  while (std::fgets(line, sizeof line, warnings_.get())) {
     std::string text = line;
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
     if (!text.empty()) last = ": " + text;

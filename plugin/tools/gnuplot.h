@@ -29,10 +29,10 @@ class Gnuplot {
 
  private:
   int end();
-  std::string complaint() const;
+  std::string warning() const;
 
   FILE* input_ = nullptr;
-  std::unique_ptr<FILE, int (*)(FILE*)> complaints_;  // what it writes to its standard error
+  std::unique_ptr<FILE, int (*)(FILE*)> warnings_;  // what it writes to its standard error
   pid_t process_ = -1;
 };
 

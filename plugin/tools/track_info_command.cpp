@@ -162,31 +162,30 @@ int check_track_command(int argc, char** argv) {
   const TrackFaults& faults = condition.faults;
   const TrackSummary summary = summarise(samples);
   int problems = 0;
-  const auto complain = [&problems, &path]() -> std::ostream& {
+  const auto problem = [&problems, &path]() -> std::ostream& {
     ++problems;
     return std::cout << path << ": ";
   };
-  if (!condition.missing.empty()) complain() << condition.missing << '\n';
-  if (faults.not_finite > 0) complain() << faults.not_finite << " samples are not numbers\n";
-  if (faults.beyond_full > 0)
-    complain() << faults.beyond_full << " samples are beyond full scale\n";
+  if (!condition.missing.empty()) problem() << condition.missing << '\n';
+  if (faults.not_finite > 0) problem() << faults.not_finite << " samples are not numbers\n";
+  if (faults.beyond_full > 0) problem() << faults.beyond_full << " samples are beyond full scale\n";
   if (summary.largest_force_N > max_force_N) {
-    complain() << "the largest force is " << summary.largest_force_N << " N, more than "
-               << max_force_N << " N\n";
+    problem() << "the largest force is " << summary.largest_force_N << " N, more than "
+              << max_force_N << " N\n";
   }
   if (summary.largest_torque_Nm > max_torque_Nm) {
-    complain() << "the largest torque is " << summary.largest_torque_Nm << " N m, more than "
-               << max_torque_Nm << " N m\n";
+    problem() << "the largest torque is " << summary.largest_torque_Nm << " N m, more than "
+              << max_torque_Nm << " N m\n";
   }
   if (summary.steepest_N_s > kMaxSlew_N_s) {
-    complain() << "the force changes by " << summary.steepest_N_s << " N/s, more than "
-               << kMaxSlew_N_s << " N/s\n";
+    problem() << "the force changes by " << summary.steepest_N_s << " N/s, more than "
+              << kMaxSlew_N_s << " N/s\n";
   }
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const double share = summary.channels[i].above_30_Hz;
     if (share > kMostFast) {
-      complain() << 100 * share << " % of the energy of " << channel_name(i)
-                 << " is above 30 Hz: is it sound for ears?\n";
+      problem() << 100 * share << " % of the energy of " << channel_name(i)
+                << " is above 30 Hz: is it sound for ears?\n";
     }
   }
   if (problems == 0) std::cout << path << ": well\n";

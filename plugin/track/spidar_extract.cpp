@@ -54,8 +54,8 @@ struct _GstSpidarExtract {
   // Streaming thread.
   TrackStream* track;
   GstFlowCombiner* flows;
-  guint without_meta;   // how many frames in succession
-  gboolean complained;  // about them
+  guint without_meta;  // how many frames in succession
+  gboolean warned;     // about them
 };
 
 static GstStaticPadTemplate track_sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -102,8 +102,8 @@ static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuf
   // time, spidarmotion analyses only the first, and says so.
   const bool is_missing = !frame.known && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP);
   self->without_meta = is_missing ? self->without_meta + 1 : 0;
-  if (self->without_meta == 2 && !self->complained) {
-    self->complained = TRUE;
+  if (self->without_meta == 2 && !self->warned) {
+    self->warned = TRUE;
     GST_ELEMENT_WARNING(
         self, STREAM, FORMAT,
         ("Frames come without the data of spidarmotion: the haptic track is silent "
@@ -204,7 +204,7 @@ static GstStateChangeReturn gst_spidar_extract_change_state(GstElement* element,
                                                             GstStateChange transition) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(element);
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
-    self->complained = FALSE;
+    self->warned = FALSE;
     self->without_meta = 0;
   }
   const GstStateChangeReturn result =

@@ -27,15 +27,15 @@
 
 #include <string>
 
-#include "plugin/device/device_complaints.h"
+#include "plugin/device/device_warnings.h"
 #include "plugin/device/haptic_output.h"
 #include "plugin/properties/property_table.h"
 #include "plugin/reports/exceptions.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/track/block_schedule.h"
 #include "plugin/track/sink_properties.h"
-#include "plugin/track/track_complaints.h"
 #include "plugin/track/track_input.h"
+#include "plugin/track/track_warnings.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
 #undef GST_CAT_DEFAULT
@@ -59,8 +59,8 @@ struct _GstSpidarSink {
   HapticOutput* output;
   // Streaming thread.
   spidar::TrackInput* input;
-  spidar::DeviceComplaints* complaints;
-  spidar::TrackComplaints* track_complaints;
+  spidar::DeviceWarnings* warnings;
+  spidar::TrackWarnings* track_warnings;
 };
 
 static GstStaticPadTemplate haptic_sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -143,8 +143,8 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
   self->faults = self->input->faults();
   self->samples = self->input->samples();
   GST_OBJECT_UNLOCK(self);
-  self->track_complaints->look_at(self->input->faults(), has_time);
-  if (!self->complaints->look_at(self->output->session(), policy)) return GST_FLOW_ERROR;
+  self->track_warnings->check(self->input->faults(), has_time);
+  if (!self->warnings->check(self->output->session(), policy)) return GST_FLOW_ERROR;
   return flow;
 }
 
@@ -173,7 +173,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
       break;
     }
     case GST_EVENT_STREAM_START:
-      self->track_complaints->start();
+      self->track_warnings->start();
       break;
     case GST_EVENT_SEGMENT:
       self->input->restart();
@@ -186,7 +186,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
 
 static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  self->complaints->start();
+  self->warnings->start();
   delete self->input;
   self->input = new spidar::TrackInput;
   self->schedule->forget();
@@ -198,7 +198,7 @@ static gboolean gst_spidar_sink_stop(GstBaseSink* sink) {
   self->schedule->forget();
   // Reported here, because messages during the change to NULL are discarded.
   if (self->output->session()) self->output->session()->drain_trace();
-  self->complaints->look_at_haptic_trace(self->output->session());
+  self->warnings->check_haptic_trace(self->output->session());
   return TRUE;
 }
 
@@ -225,7 +225,7 @@ static bool open_device(GstSpidarSink* self) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The force continues without it."));
     }
-    self->complaints->look_at_opened(*self->output->session());
+    self->warnings->check_opened(*self->output->session());
     self->schedule->connect(&self->output->session()->loop());
   });
 }
@@ -304,8 +304,8 @@ static void follow_ts_offset(GObject* object, GParamSpec*, gpointer) {
 
 static void gst_spidar_sink_finalize(GObject* object) {
   GstSpidarSink* self = GST_SPIDAR_SINK(object);
-  delete self->track_complaints;
-  delete self->complaints;
+  delete self->track_warnings;
+  delete self->warnings;
   delete self->input;
   delete self->output;
   delete self->schedule;
@@ -320,8 +320,8 @@ static void gst_spidar_sink_init(GstSpidarSink* self) {
   self->schedule = new BlockSchedule;
   self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->schedule->hand_on(); });
   self->input = new spidar::TrackInput;
-  self->complaints = new spidar::DeviceComplaints(GST_ELEMENT(self), "The haptic track");
-  self->track_complaints = new spidar::TrackComplaints(GST_ELEMENT(self));
+  self->warnings = new spidar::DeviceWarnings(GST_ELEMENT(self), "The haptic track");
+  self->track_warnings = new spidar::TrackWarnings(GST_ELEMENT(self));
   g_signal_connect(self, "notify::ts-offset", G_CALLBACK(follow_ts_offset), nullptr);
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/analysis/force_limit.h"
+#include "core/analysis/no_force_reason.h"
 #include "plugin/overlay/arrow.h"
 #include "plugin/window/panels.h"
 

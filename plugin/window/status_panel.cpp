@@ -14,7 +14,7 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   const ImFont* font = brush.fonts.body;
   const ImFont* small = brush.fonts.small;
   const double middle = panel.y + panel.height / 2;
-  const bool is_felt = state.limit == ForceLimit::kNone;
+  const bool is_felt = state.limit == NoForceReason::kNone;
   const ImU32 color = is_felt ? kGoodColor : kFeltColor;
   const float radius = brush.px(5);
   ImVec2 at = im(panel.x + 10 * brush.scale, middle);

@@ -29,7 +29,7 @@ std::string write_png(const Screenshot& picture, const std::string& path);
 bool windows_are_built_in();
 
 /// One window, drawn by the thread that all windows of the process share. Opening returns at once;
-/// what goes wrong then is said by source->complain(). Any thread.
+/// what goes wrong then is said by source->warn(). Any thread.
 class Window {
  public:
   Window(std::shared_ptr<WindowSource> source, std::shared_ptr<FrameFeed> feed);

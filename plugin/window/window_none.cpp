@@ -16,8 +16,8 @@ bool windows_are_built_in() {
 }
 
 Window::Window(std::shared_ptr<WindowSource> source, std::shared_ptr<FrameFeed>) {
-  source->complain("This build has no debug window.",
-                   "Install GLFW and Dear ImGui (libglfw3-dev, libimgui-dev) and build again.");
+  source->warn("This build has no debug window.",
+               "Install GLFW and Dear ImGui (libglfw3-dev, libimgui-dev) and build again.");
 }
 
 Window::~Window() = default;

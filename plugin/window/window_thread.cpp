@@ -119,7 +119,7 @@ void WindowThread::fail_all(const std::string& what, const std::string& advice) 
     failed.swap(entries_);
   }
   for (const auto& entry : failed) {
-    entry->source->complain(what, advice);
+    entry->source->warn(what, advice);
     finish(*entry);
   }
 }
@@ -151,7 +151,7 @@ bool WindowThread::create(Window::Entry& entry) {
     entry.window = std::make_unique<DebugWindow>(entry.source, entry.feed);
     return true;
   } catch (const std::exception& e) {
-    entry.source->complain(
+    entry.source->warn(
         std::string("The debug window cannot be opened with OpenGL 3.3: ") + e.what() + ".",
         "Is there a driver for it, or Mesa's software renderer (libgl1-mesa-dri)?");
     return false;

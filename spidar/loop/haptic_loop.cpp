@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/analysis/force_limit.h"
+#include "core/analysis/no_force_reason.h"
 
 namespace spidar {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/loop/vibration_budget.h"
-#include "tests/element/force_limit_test.h"
+#include "tests/element/no_force_reason_test.h"
 
 namespace spidar::test::felt_limits_test {
 namespace {

@@ -95,7 +95,7 @@ TEST(PackedFilm, WithoutTouchingDepthTheWholeFrameIsThePicture) {
   }
 }
 
-TEST(PackedFilm, AHalfThatIsTooSmallIsNotAnalysedAndComplainedAboutOnce) {
+TEST(PackedFilm, AHalfThatIsTooSmallIsNotAnalysedAndWarnedAboutOnce) {
   for (const auto& [layout, width, height] :
        {std::tuple{"right", 30, 240}, std::tuple{"below", 240, 30}}) {
     SCOPED_TRACE(layout);

@@ -156,7 +156,7 @@ TEST_F(Time, AGapDoesNotStopTheFramesThatItHasOvertaken) {
   EXPECT_EQ(h.motions()[4].velocity_x, 0);
 }
 
-TEST_F(Time, FramesWithoutTimestampAreShownAndComplainedAboutOnce) {
+TEST_F(Time, FramesWithoutTimestampAreShownAndWarnedAboutOnce) {
   for (int n = 0; n < 3; ++n) {
     EXPECT_EQ(h.push_moved(2 * n, 0, GST_CLOCK_TIME_NONE), GST_FLOW_OK);
   }
@@ -216,7 +216,7 @@ TEST_F(Time, FramesAtEightTimesTheRateOfTheCapsAreFelt) {
   EXPECT_TRUE(h.warnings().empty());
 }
 
-TEST_F(Time, AnAccurateSeekBetweenTwoFramesIsNoReasonToComplain) {
+TEST_F(Time, AnAccurateSeekBetweenTwoFramesGivesNoWarning) {
   // Durations are rounded up in Matroska: two frames begin before the segment and reach into it.
   const auto push = [this](double dx, GstClockTime pts) {
     GstBuffer* frame = make_frame(h.info(), dx, 0);

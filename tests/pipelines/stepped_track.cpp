@@ -127,16 +127,16 @@ bool SteppedTrack::ended() {
       gst_message_parse_error(message, &error, nullptr);
       failed_ = true;
     }
-    if (error) complaints_.emplace_back(error->message);
+    if (error) warnings_.emplace_back(error->message);
     g_clear_error(&error);
     gst_message_unref(message);
   }
   return ended_;
 }
 
-std::vector<std::string> SteppedTrack::complaints() {
+std::vector<std::string> SteppedTrack::warnings() {
   ended();
-  return std::exchange(complaints_, {});
+  return std::exchange(warnings_, {});
 }
 
 void SteppedTrack::let_through() {

@@ -54,7 +54,7 @@ class SteppedTrack {
   /// Whether EOS was posted.
   bool ended();
   /// Texts of warnings and errors since the last call.
-  std::vector<std::string> complaints();
+  std::vector<std::string> warnings();
 
   GstElement* sink() const { return sink_; }
   GstElement* pipeline() const { return pipeline_; }
@@ -76,7 +76,7 @@ class SteppedTrack {
   bool ended_ = false;
   bool failed_ = false;
   bool flushing_ = false;
-  std::vector<std::string> complaints_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace spidar::test

@@ -46,7 +46,7 @@ TEST(TrackPlayback, FeelsTheSampleWhoseRunningTimeItIs) {
   EXPECT_TRUE(track.ended());
   EXPECT_EQ(track.stat("samples"), 3000u);
   EXPECT_EQ(track.stat("samples-refused"), 0u);
-  EXPECT_TRUE(track.complaints().empty());
+  EXPECT_TRUE(track.warnings().empty());
 }
 
 TEST(TrackPlayback, TakesEveryFormatAndMask) {
@@ -260,10 +260,10 @@ TEST(TrackPlayback, BadSamplesAreRestAndAreNamedOnce) {
   }
   EXPECT_EQ(track.stat("samples-not-finite"), 2u);
   EXPECT_EQ(track.stat("samples-beyond-full-scale"), 100u);
-  const std::vector<std::string> complaints = track.complaints();
-  ASSERT_EQ(complaints.size(), 2u);
-  EXPECT_NE(complaints[0].find("not numbers"), std::string::npos) << complaints[0];
-  EXPECT_NE(complaints[1].find("full scale"), std::string::npos) << complaints[1];
+  const std::vector<std::string> warnings = track.warnings();
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find("not numbers"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("full scale"), std::string::npos) << warnings[1];
 }
 
 TEST(TrackPlayback, WhatIsNoTrackIsRefusedWithASentence) {
@@ -280,9 +280,9 @@ TEST(TrackPlayback, WhatIsNoTrackIsRefusedWithASentence) {
     track.push(std::vector<float>(480), 0);
     track.end();
     track.send();
-    std::vector<std::string> complaints;
-    while (complaints.empty()) complaints = track.complaints();
-    EXPECT_NE(complaints[0].find(word), std::string::npos) << complaints[0];
+    std::vector<std::string> warnings;
+    while (warnings.empty()) warnings = track.warnings();
+    EXPECT_NE(warnings[0].find(word), std::string::npos) << warnings[0];
   }
 }
 

@@ -40,9 +40,9 @@ class FakeSource final : public WindowSource {
     led_.push_back(to_m);
     changed_.notify_all();
   }
-  void complain(const std::string& what, const std::string&) override {
+  void warn(const std::string& what, const std::string&) override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    complaints_.push_back(what);
+    warnings_.push_back(what);
     changed_.notify_all();
   }
   void closed() override {
@@ -83,10 +83,10 @@ class FakeSource final : public WindowSource {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [&] { return is_closed_; });
   }
-  std::vector<std::string> wait_for_complaint() {
+  std::vector<std::string> wait_for_warning() {
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait(lock, [&] { return !complaints_.empty(); });
-    return complaints_;
+    changed_.wait(lock, [&] { return !warnings_.empty(); });
+    return warnings_;
   }
 
  private:
@@ -95,7 +95,7 @@ class FakeSource final : public WindowSource {
   ElementState state_;
   Sets sets_;
   Led led_;
-  std::vector<std::string> complaints_;
+  std::vector<std::string> warnings_;
   bool is_closed_ = false;
   static constexpr uint64_t kAll = std::numeric_limits<uint64_t>::max();
   uint64_t reads_ = 0, reads_let_through_ = kAll;

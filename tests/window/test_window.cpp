@@ -130,7 +130,7 @@ void open_without_a_display() {
   auto source = std::make_shared<FakeSource>();
   {
     Window window(source, std::make_shared<FrameFeed>());
-    std::fprintf(stderr, "%s", source->wait_for_complaint()[0].c_str());
+    std::fprintf(stderr, "%s", source->wait_for_warning()[0].c_str());
     if (window.screenshot(kLong)) _exit(1);
   }
   setenv("DISPLAY", name.c_str(), 1);
@@ -138,7 +138,7 @@ void open_without_a_display() {
   _exit(next.screenshot(kLong) ? 0 : 2);
 }
 
-TEST_F(WindowTest, WithoutADisplayIsAComplaintAndTheNextOneIsNotConcerned) {
+TEST_F(WindowTest, WithoutADisplayIsAWarningAndTheNextOneIsNotConcerned) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(open_without_a_display(), testing::ExitedWithCode(0), "DISPLAY");
 }
@@ -149,13 +149,13 @@ void open_without_opengl_33() {
   auto source = std::make_shared<FakeSource>();
   {
     const Window window(source, std::make_shared<FrameFeed>());
-    std::fprintf(stderr, "%s", source->wait_for_complaint()[0].c_str());
+    std::fprintf(stderr, "%s", source->wait_for_warning()[0].c_str());
   }
   std::_Exit(0);
 }
 
 using WindowDeathTest = WindowTest;
-TEST_F(WindowDeathTest, WithoutOpenGl33IsAComplaint) {
+TEST_F(WindowDeathTest, WithoutOpenGl33IsAWarning) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(open_without_opengl_33(), testing::ExitedWithCode(0),
               "cannot be opened with OpenGL 3.3: ");

@@ -26,8 +26,8 @@ constexpr double kRounding = 1e-9;
 TEST(FeltLine, SaysWhyNothingIsFelt) {
   ElementState state;
   EXPECT_EQ(felt_line(state), "felt");
-  state.limit = ForceLimit::kCameraOnly;
-  EXPECT_EQ(felt_line(state), std::string("not felt: ") + sentence(ForceLimit::kCameraOnly));
+  state.limit = NoForceReason::kCameraOnly;
+  EXPECT_EQ(felt_line(state), std::string("not felt: ") + sentence(NoForceReason::kCameraOnly));
 }
 
 TEST(CountOf, OneIsNotMany) {

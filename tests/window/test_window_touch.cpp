@@ -183,9 +183,9 @@ TEST(FeltLine, SaysThatASlowDeviceIsTouchedWithLess) {
             "felt, at 400 N/m instead of 700: the device's drives are slow");
   touch.stiffness_N_m = 700;
   EXPECT_EQ(felt_line(state, touch), "felt");
-  state.limit = ForceLimit::kNotTouching;
+  state.limit = NoForceReason::kNotTouching;
   EXPECT_EQ(felt_line(state, touch),
-            std::string("not felt: ") + sentence(ForceLimit::kNotTouching));
+            std::string("not felt: ") + sentence(NoForceReason::kNotTouching));
 }
 
 }  // namespace

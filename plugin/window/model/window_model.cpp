@@ -42,7 +42,7 @@ std::vector<uint32_t> felt_objects(const FrameFacts& facts) {
 }
 
 std::string felt_line(const ElementState& state, const TouchScene& touch) {
-  if (state.limit != ForceLimit::kNone) return std::string("not felt: ") + sentence(state.limit);
+  if (state.limit != NoForceReason::kNone) return std::string("not felt: ") + sentence(state.limit);
   const double wanted_N_m = state.value("touch-stiffness", 0);
   if (!touch.on || touch.stiffness_N_m >= wanted_N_m) return "felt";
   char text[96];

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/analysis/force_limit.h"
 #include "core/analysis/motion_analyzer.h"
+#include "core/analysis/no_force_reason.h"
 #include "plugin/device/device_view.h"
 #include "plugin/frame/scene_view.h"
 #include "plugin/frame/touch_view.h"
@@ -38,7 +38,7 @@ struct ElementState {
   std::string name;
   std::optional<DeviceView> device;  ///< nothing with device=none or while it is closed
   std::vector<Setting> settings;
-  ForceLimit limit = ForceLimit::kNone;  ///< of the force in the last second
+  NoForceReason limit = NoForceReason::kNone;  ///< of the force in the last second
 
   /// Null when there is none of this name.
   const Setting* setting(const std::string& setting_name) const;

@@ -24,7 +24,7 @@ class WindowSource {
   /// Where the hand of the simulated device goes, device frame; nothing: it lets go.
   virtual void lead_hand(const std::optional<Eigen::Vector3d>& to_m) = 0;
   /// The window cannot be opened or goes on no more: `what` happened, `advice` to do.
-  virtual void complain(const std::string& what, const std::string& advice) = 0;
+  virtual void warn(const std::string& what, const std::string& advice) = 0;
   /// The user has closed the window.
   virtual void closed() = 0;
 };

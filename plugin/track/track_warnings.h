@@ -10,14 +10,14 @@
 namespace spidar {
 
 /// Posts each warning once per stream. Streaming thread.
-class TrackComplaints {
+class TrackWarnings {
  public:
-  explicit TrackComplaints(GstElement* element) : element_(element) {}
+  explicit TrackWarnings(GstElement* element) : element_(element) {}
 
   /// A new stream begins: every warning may be posted again.
-  void start() { *this = TrackComplaints(element_); }
+  void start() { *this = TrackWarnings(element_); }
   /// Looks at the faults so far, and at whether the last buffer had a time at which to feel it.
-  void look_at(const TrackFaults& faults, bool has_time);
+  void check(const TrackFaults& faults, bool has_time);
 
  private:
   GstElement* element_;

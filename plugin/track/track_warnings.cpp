@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/track/track_complaints.h"
+#include "plugin/track/track_warnings.h"
 
 #include "plugin/reports/category.h"
 
@@ -9,7 +9,7 @@
 
 namespace spidar {
 
-void TrackComplaints::look_at(const TrackFaults& faults, bool has_time) {
+void TrackWarnings::check(const TrackFaults& faults, bool has_time) {
   if (faults.not_finite > 0 && !not_finite_) {
     not_finite_ = true;
     GST_ELEMENT_WARNING(

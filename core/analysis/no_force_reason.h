@@ -21,7 +21,7 @@ constexpr double kFeltForce_N = 0.04;
 /// What keeps the force below kFeltForce_N, or lowers it (kGripReleased, kVibration). The reasons
 /// up to kNoFrames concern the device and the playback and hold for any video; the others concern
 /// the video or, while touching, the contact.
-enum class ForceLimit {
+enum class NoForceReason {
   kNone,  ///< the force is not limited
   kDeviceLost,
   kDeviceStarting,
@@ -44,23 +44,23 @@ enum class ForceLimit {
   kLate,
   kNoDevice,
 };
-constexpr size_t kForceLimits = static_cast<size_t>(ForceLimit::kNoDevice) + 1;
+constexpr size_t kNoForceReasons = static_cast<size_t>(NoForceReason::kNoDevice) + 1;
 
 /// For programs: "none", "camera-only", …
-const char* nick(ForceLimit limit) noexcept;
+const char* nick(NoForceReason limit) noexcept;
 /// For people: a whole sentence. Empty for kNone.
-const char* sentence(ForceLimit limit) noexcept;
+const char* sentence(NoForceReason limit) noexcept;
 
 /// Size of a wrench as one force, with torque divided by the arm kTorqueArm_m (see
 /// render_motion()).
 double size_N(const Wrench& wrench) noexcept;
 
 /// The reason in the video, for one frame that was analysed for `motion`.
-ForceLimit limit_of(const FrameAnalysis& frame, MotionKind motion);
+NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion);
 
 /// Keeps the latest frames and finds what limited the force in the last second. Not thread-safe.
 /// Allocates nothing.
-class ForceLimitHistory {
+class NoForceHistory {
  public:
   static constexpr int64_t kWindow_ns = 1'000'000'000;
   /// Older frames are dropped. Room for a second at 60 frames/s and 16 s of frames that wait to be
@@ -69,12 +69,12 @@ class ForceLimitHistory {
 
   /// Adds a frame that is shown at `shown_ns`, with the size of its force. Frames that were added
   /// before and are not earlier are dropped.
-  void add(int64_t shown_ns, double force_N, ForceLimit limit) noexcept;
+  void add(int64_t shown_ns, double force_N, NoForceReason limit) noexcept;
 
   /// Of the frames shown in the second up to `now_ns`: kNone when one of them has a force that is
   /// felt; kRepeatedFrames when all of them show the same picture; else the reason that most
   /// pictures have.
-  ForceLimit limit(int64_t now_ns) const noexcept;
+  NoForceReason limit(int64_t now_ns) const noexcept;
 
   void forget() noexcept { count_ = 0; }
 
@@ -82,7 +82,7 @@ class ForceLimitHistory {
   struct Frame {
     int64_t shown_ns = 0;
     double force_N = 0;
-    ForceLimit limit = ForceLimit::kNone;
+    NoForceReason limit = NoForceReason::kNone;
   };
   const Frame& latest(size_t i) const noexcept {
     return frames_[(next_ + 2 * kFrames - 1 - i) % kFrames];

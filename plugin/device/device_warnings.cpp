@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/device/device_complaints.h"
+#include "plugin/device/device_warnings.h"
 
 #include "plugin/reports/category.h"
 #include "spidar/loop/motor_heat.h"
@@ -31,7 +31,7 @@ std::string why_lost(const HapticSession& session) {
 
 }  // namespace
 
-void DeviceComplaints::look_at_opened(const HapticSession& session) const {
+void DeviceWarnings::check_opened(const HapticSession& session) const {
   const FeltParts felt = session.device().felt_parts();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.
@@ -47,14 +47,14 @@ void DeviceComplaints::look_at_opened(const HapticSession& session) const {
                       : ""));
 }
 
-void DeviceComplaints::start() {
+void DeviceWarnings::start() {
   strings_ = 0;
   pose_lost_ = held_back_ = vibrated_ = shaken_ = false;
   haptic_trace_ = false;
   state_ = DeviceState::kClosed;
 }
 
-void DeviceComplaints::look_at_haptic_trace(const HapticSession* session) {
+void DeviceWarnings::check_haptic_trace(const HapticSession* session) {
   const int error = session ? session->trace_error() : 0;
   if (error == 0 || haptic_trace_) return;
   haptic_trace_ = true;
@@ -63,7 +63,7 @@ void DeviceComplaints::look_at_haptic_trace(const HapticSession* session) {
                       ("%s and the force continue without it.", what_.c_str()));
 }
 
-void DeviceComplaints::look_at_strings(const HapticSession& session) {
+void DeviceWarnings::check_strings(const HapticSession& session) {
   const int string = session.loop().snapshot().last.faulty_string;
   if (string < 0 || (strings_ & 1u << string) != 0) return;
   strings_ |= 1u << string;
@@ -76,7 +76,7 @@ void DeviceComplaints::look_at_strings(const HapticSession& session) {
        "the device (spidarctl calibrate)."));
 }
 
-void DeviceComplaints::look_at_pose(const HapticSession& session) {
+void DeviceWarnings::check_pose(const HapticSession& session) {
   const LoopSnapshot loop = session.loop().snapshot();
   if (loop.untrusted_ns == 0 && pose_lost_) {
     GST_INFO_OBJECT(element_, "the pose of the grip is known again");
@@ -118,11 +118,11 @@ void DeviceComplaints::look_at_pose(const HapticSession& session) {
   }
 }
 
-bool DeviceComplaints::look_at(const HapticSession* session, OnDeviceError policy) {
+bool DeviceWarnings::check(const HapticSession* session, OnDeviceError policy) {
   if (session) {
-    look_at_strings(*session);
-    look_at_pose(*session);
-    look_at_haptic_trace(session);
+    check_strings(*session);
+    check_pose(*session);
+    check_haptic_trace(session);
   }
   const LoopSnapshot loop = session ? session->loop().snapshot() : LoopSnapshot{};
   const DeviceState state = session ? loop.last.device : DeviceState::kClosed;

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/analysis/force_limit.h"
-#include "tests/element/force_limit_test.h"
+#include "core/analysis/no_force_reason.h"
+#include "tests/element/no_force_reason_test.h"
 
-namespace spidar::test::force_limit_test {
+namespace spidar::test::no_force_reason_test {
 namespace {
 
 TEST_F(ForceLimitTest, IsNoneWhileTheForceIsFelt) {
@@ -194,4 +194,4 @@ TEST_F(ForceLimitTest, WithoutADeviceTheVideosReasonsComeFirst) {
 }
 
 }  // namespace
-}  // namespace spidar::test::force_limit_test
+}  // namespace spidar::test::no_force_reason_test

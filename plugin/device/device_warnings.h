@@ -14,25 +14,25 @@ namespace spidar {
 
 /// Says each thing once a stream. Streaming thread, and start() before it. Sessions are null while
 /// the element has no device.
-class DeviceComplaints {
+class DeviceWarnings {
  public:
   /// `what` goes on without the device: "The video".
-  DeviceComplaints(GstElement* element, std::string what)
+  DeviceWarnings(GstElement* element, std::string what)
       : element_(element), what_(std::move(what)) {}
 
   /// Posts an information message if a device that was just opened renders only a part of what is
   /// to be seen in the picture.
-  void look_at_opened(const HapticSession& session) const;
+  void check_opened(const HapticSession& session) const;
   /// The element begins: everything may be said again.
   void start();
   /// Looks at the device. False when the stream is to end, and then says why.
-  bool look_at(const HapticSession* session, OnDeviceError policy);
+  bool check(const HapticSession* session, OnDeviceError policy);
   /// Once a device, also at its end: the haptic trace cannot be written any more.
-  void look_at_haptic_trace(const HapticSession* session);
+  void check_haptic_trace(const HapticSession* session);
 
  private:
-  void look_at_strings(const HapticSession& session);
-  void look_at_pose(const HapticSession& session);
+  void check_strings(const HapticSession& session);
+  void check_pose(const HapticSession& session);
 
   GstElement* const element_;
   const std::string what_;

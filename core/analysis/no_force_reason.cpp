@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/analysis/force_limit.h"
+#include "core/analysis/no_force_reason.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,73 +26,73 @@ struct Wording {
   const char* sentence;
 };
 
-Wording wording(ForceLimit limit) noexcept {
+Wording wording(NoForceReason limit) noexcept {
   switch (limit) {
-    case ForceLimit::kNone:
+    case NoForceReason::kNone:
       return {"none", ""};
-    case ForceLimit::kDeviceLost:
+    case NoForceReason::kDeviceLost:
       return {"device-lost", "The device does not answer. The force returns when it does."};
-    case ForceLimit::kDeviceStarting:
+    case NoForceReason::kDeviceStarting:
       return {"device-starting", "The device is not running yet: its strings are being tightened."};
-    case ForceLimit::kGripUnknown:
+    case NoForceReason::kGripUnknown:
       return {"grip-unknown",
               "The device is at rest because of a fault: the position of the grip is not known."};
-    case ForceLimit::kGripReleased:
+    case NoForceReason::kGripReleased:
       return {"grip-released",
               "Nobody holds the grip: it moved as the strings alone would move it, or faster than "
               "1.5 m/s. The force returns by itself."};
-    case ForceLimit::kVibration:
+    case NoForceReason::kVibration:
       return {"vibration",
               "The force is lowered because it has shaken the hand for long: a day's vibration is "
               "limited. Calm scenes are felt as before, and the force returns with time."};
-    case ForceLimit::kMuted:
+    case NoForceReason::kMuted:
       return {"muted", "The force is muted (mute=true)."};
-    case ForceLimit::kNotPlaying:
+    case NoForceReason::kNotPlaying:
       return {"not-playing",
               "The video is not playing: it is paused, it is seeking, or its clock stands still."};
-    case ForceLimit::kNoFrames:
+    case NoForceReason::kNoFrames:
       return {"no-frames",
               "No frame was measured in the last second: the video has ended or stalls, or its "
               "frames have no timestamps."};
-    case ForceLimit::kNothingToCompare:
+    case NoForceReason::kNothingToCompare:
       return {"nothing-to-compare",
               "There was nothing to compare a picture with: it is the first one, or each picture "
               "shows another scene."};
-    case ForceLimit::kRepeatedFrames:
+    case NoForceReason::kRepeatedFrames:
       return {"repeated-frames", "All frames of the last second show the same picture."};
-    case ForceLimit::kFewPictures:
+    case NoForceReason::kFewPictures:
       return {"few-pictures",
               "The pictures come too seldom, less than six a second: hardly any motion can be "
               "followed from one to the next."};
-    case ForceLimit::kTooFewPoints:
+    case NoForceReason::kTooFewPoints:
       return {"too-few-points", "The picture has too little texture to measure motion by."};
-    case ForceLimit::kCameraOnly:
+    case NoForceReason::kCameraOnly:
       return {"camera-only",
               "Only the camera moves, and motion=object and motion=objects leave that out; with "
               "motion=camera it is felt."};
-    case ForceLimit::kNothingMoves:
+    case NoForceReason::kNothingMoves:
       return {"nothing-moves", "Nothing moves in the picture."};
-    case ForceLimit::kTooWeak:
+    case NoForceReason::kTooWeak:
       return {"too-weak",
               "The force is weaker than a hand feels (0.04 N): the motion is slow, or alpha, "
               "depth-gain, roll-gain or max-force is small."};
-    case ForceLimit::kNoRelief:
+    case NoForceReason::kNoRelief:
       return {"no-relief",
               "There is no surface to touch: no frame with a relief is on the screen, or the video "
               "has ended. With touch=depth, frames need depth."};
-    case ForceLimit::kNotTouching:
+    case NoForceReason::kNotTouching:
       return {"not-touching",
               "The grip does not touch the surface: it is in front of it. Push it away from you, "
               "into the picture."};
-    case ForceLimit::kLightTouch:
+    case NoForceReason::kLightTouch:
       return {"light-touch",
               "The grip touches the surface, but the force is weaker than a hand feels (0.04 N): "
               "press deeper, or touch-stiffness or max-force is small."};
-    case ForceLimit::kLate:
+    case NoForceReason::kLate:
       return {"late",
               "The frames come too late: their force is known only after they should have been "
               "shown."};
-    case ForceLimit::kNoDevice:
+    case NoForceReason::kNoDevice:
       return {"no-device", "No device is open: with device=none the video is only analysed."};
   }
   return {"unknown", ""};
@@ -109,11 +109,11 @@ double speed_px_s(const ImageMotion& motion, int frame_height) {
 
 }  // namespace
 
-const char* nick(ForceLimit limit) noexcept {
+const char* nick(NoForceReason limit) noexcept {
   return wording(limit).nick;
 }
 
-const char* sentence(ForceLimit limit) noexcept {
+const char* sentence(NoForceReason limit) noexcept {
   return wording(limit).sentence;
 }
 
@@ -121,49 +121,50 @@ double size_N(const Wrench& wrench) noexcept {
   return std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / kTorqueArm_m);
 }
 
-ForceLimit limit_of(const FrameAnalysis& frame, MotionKind motion) {
-  if (frame.restarted) return ForceLimit::kNothingToCompare;
-  if (size_N(frame.wrench) >= kFeltForce_N) return ForceLimit::kNone;
-  if (frame.same_picture) return ForceLimit::kRepeatedFrames;
+NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion) {
+  if (frame.restarted) return NoForceReason::kNothingToCompare;
+  if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
+  if (frame.same_picture) return NoForceReason::kRepeatedFrames;
   if (frame.height > 0 && speed_px_s(frame.motion, frame.height) >= kMoving_px_s) {
-    return ForceLimit::kTooWeak;
+    return NoForceReason::kTooWeak;
   }
-  if (frame.interval_ns > Cadence::kLongest_ns) return ForceLimit::kFewPictures;
-  if (frame.features < kFewestPoints) return ForceLimit::kTooFewPoints;
+  if (frame.interval_ns > Cadence::kLongest_ns) return NoForceReason::kFewPictures;
+  if (frame.features < kFewestPoints) return NoForceReason::kTooFewPoints;
   const bool leaves_out_camera = motion == MotionKind::kObject || motion == MotionKind::kObjects;
   const bool camera_moves = frame.model && *frame.model != ModelKind::kStill;
-  return leaves_out_camera && camera_moves ? ForceLimit::kCameraOnly : ForceLimit::kNothingMoves;
+  return leaves_out_camera && camera_moves ? NoForceReason::kCameraOnly
+                                           : NoForceReason::kNothingMoves;
 }
 
-void ForceLimitHistory::add(int64_t shown_ns, double force_N, ForceLimit limit) noexcept {
+void NoForceHistory::add(int64_t shown_ns, double force_N, NoForceReason limit) noexcept {
   if (count_ > 0 && shown_ns <= latest(0).shown_ns) forget();
   frames_[next_] = {shown_ns, force_N, limit};
   next_ = (next_ + 1) % kFrames;
   count_ = std::min(count_ + 1, kFrames);
 }
 
-ForceLimit ForceLimitHistory::limit(int64_t now_ns) const noexcept {
-  std::array<size_t, kForceLimits> pictures{};
+NoForceReason NoForceHistory::limit(int64_t now_ns) const noexcept {
+  std::array<size_t, kNoForceReasons> pictures{};
   bool repeats = false;
   for (size_t i = 0; i < count_; ++i) {
     const Frame& frame = latest(i);
     if (frame.shown_ns > now_ns) continue;
     if (frame.shown_ns <= now_ns - kWindow_ns) break;
-    if (frame.force_N >= kFeltForce_N) return ForceLimit::kNone;
-    if (frame.limit == ForceLimit::kRepeatedFrames) {
+    if (frame.force_N >= kFeltForce_N) return NoForceReason::kNone;
+    if (frame.limit == NoForceReason::kRepeatedFrames) {
       repeats = true;
     } else {
       ++pictures[static_cast<size_t>(frame.limit)];
     }
   }
   // What had nothing to be compared with says nothing where others do.
-  size_t& incomparable = pictures[static_cast<size_t>(ForceLimit::kNothingToCompare)];
+  size_t& incomparable = pictures[static_cast<size_t>(NoForceReason::kNothingToCompare)];
   const bool any_incomparable = incomparable > 0;
   incomparable = 0;
   const auto most = std::max_element(pictures.begin(), pictures.end());
-  if (*most > 0) return static_cast<ForceLimit>(most - pictures.begin());
-  if (repeats) return ForceLimit::kRepeatedFrames;
-  return any_incomparable ? ForceLimit::kNothingToCompare : ForceLimit::kNoFrames;
+  if (*most > 0) return static_cast<NoForceReason>(most - pictures.begin());
+  if (repeats) return NoForceReason::kRepeatedFrames;
+  return any_incomparable ? NoForceReason::kNothingToCompare : NoForceReason::kNoFrames;
 }
 
 }  // namespace spidar

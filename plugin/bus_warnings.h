@@ -5,16 +5,16 @@
 
 #include <gst/gst.h>
 
-#include "plugin/device/device_complaints.h"
+#include "plugin/device/device_warnings.h"
 #include "plugin/engine/motion_engine.h"
 #include "plugin/properties/motion_properties.h"
 
 namespace spidar {
 
 /// Says each thing once a stream, not once a frame. Streaming thread, and start() before it.
-class Complaints {
+class BusWarnings {
  public:
-  explicit Complaints(GstElement* element) : element_(element), device_(element, "The video") {}
+  explicit BusWarnings(GstElement* element) : element_(element), device_(element, "The video") {}
 
   /// The element begins: everything may be said again.
   void start();
@@ -26,20 +26,20 @@ class Complaints {
   }
 
   /// Looks at the bins around the element, which may have a running time of their own.
-  void look_at_place();
-  void look_at_frame(const FrameReport& report);
-  void look_at_touch(const FrameReport& report, const TouchProperties& wanted);
+  void check_bins();
+  void check_frame(const FrameReport& report);
+  void check_touch(const FrameReport& report, const TouchProperties& wanted);
   /// The overlay is on: can it be drawn into such frames?
-  void look_at_overlay(const GstVideoInfo& info);
-  /// See DeviceComplaints.
-  void look_at_opened(const MotionEngine& engine) const {
-    if (const HapticSession* session = engine.output().session()) device_.look_at_opened(*session);
+  void check_overlay(const GstVideoInfo& info);
+  /// See DeviceWarnings.
+  void check_opened(const MotionEngine& engine) const {
+    if (const HapticSession* session = engine.output().session()) device_.check_opened(*session);
   }
-  void look_at_haptic_trace(const MotionEngine& engine) {
-    device_.look_at_haptic_trace(engine.output().session());
+  void check_haptic_trace(const MotionEngine& engine) {
+    device_.check_haptic_trace(engine.output().session());
   }
-  bool look_at_device(const MotionEngine& engine, OnDeviceError policy) {
-    return device_.look_at(engine.output().session(), policy);
+  bool check_device(const MotionEngine& engine, OnDeviceError policy) {
+    return device_.check(engine.output().session(), policy);
   }
 
  private:
@@ -47,7 +47,7 @@ class Complaints {
   guint frame_problems_ = 0;  // bit i: FrameProblem i was said
   bool overlay_ = false;      // said
   guint touch_problems_ = 0;  // bit i: TouchProblem i was said
-  DeviceComplaints device_;
+  DeviceWarnings device_;
 };
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/complaints.h"
+#include "plugin/bus_warnings.h"
 
 #include <algorithm>
 #include <vector>
@@ -13,12 +13,12 @@
 
 namespace spidar {
 
-void Complaints::start() {
+void BusWarnings::start() {
   begin_stream();
   device_.start();
 }
 
-void Complaints::look_at_place() {
+void BusWarnings::check_bins() {
   const std::vector<Ref<GstObject>> bins = bins_around(element_);
   const bool in_timeline = std::any_of(bins.begin(), bins.end(), [](const Ref<GstObject>& bin) {
     return g_strcmp0(G_OBJECT_TYPE_NAME(bin.get()), "NleComposition") == 0;
@@ -32,7 +32,7 @@ void Complaints::look_at_place() {
                        "with ges-launch-1.0 --videosink=\"spidarmotion ! autovideosink\"."));
 }
 
-void Complaints::look_at_frame(const FrameReport& report) {
+void BusWarnings::check_frame(const FrameReport& report) {
   if (report.trace_failed) {
     GST_ELEMENT_WARNING(element_, RESOURCE, WRITE, ("The trace can no longer be written."),
                         ("The disk may be full. The video continues without the trace."));
@@ -84,7 +84,7 @@ void Complaints::look_at_frame(const FrameReport& report) {
   }
 }
 
-void Complaints::look_at_touch(const FrameReport& report, const TouchProperties& wanted) {
+void BusWarnings::check_touch(const FrameReport& report, const TouchProperties& wanted) {
   const guint bit = 1u << static_cast<guint>(report.touch_problem);
   if (touch_problems_ & bit) return;
   touch_problems_ |= bit;
@@ -128,7 +128,7 @@ void Complaints::look_at_touch(const FrameReport& report, const TouchProperties&
   }
 }
 
-void Complaints::look_at_overlay(const GstVideoInfo& info) {
+void BusWarnings::check_overlay(const GstVideoInfo& info) {
   if (overlay_ || !is_unpacked(*info.finfo)) return;
   overlay_ = true;
   GST_ELEMENT_WARNING(

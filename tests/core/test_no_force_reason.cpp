@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Reasons why there is no force: their texts, and which of them a second of frames has.
+#include <cstring>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/analysis/motion_analyzer.h"
+#include "core/analysis/no_force_reason.h"
+#include "core/force/motion_rendering.h"
+
+namespace spidar::test::no_force_reason_test {
+namespace {
+
+constexpr int64_t kFrame_ns = 40'000'000;
+
+TEST(NoForceReason, EachHasANickOfItsOwnAndASentence) {
+  std::set<std::string> nicks;
+  for (size_t i = 0; i < kNoForceReasons; ++i) {
+    const auto limit = static_cast<NoForceReason>(i);
+    EXPECT_TRUE(nicks.insert(nick(limit)).second) << nick(limit);
+    if (limit == NoForceReason::kNone) continue;
+    EXPECT_EQ(sentence(limit)[std::strlen(sentence(limit)) - 1], '.') << nick(limit);
+  }
+  EXPECT_STREQ(sentence(NoForceReason::kNone), "");
+  EXPECT_EQ(nicks.count("unknown"), 0u);
+}
+
+TEST(NoForceReason, TorqueCountsByItsArm) {
+  Wrench wrench;
+  wrench.force_N = {3, 0, 0};
+  wrench.torque_Nm = {0, 0, 4 * kTorqueArm_m};
+  EXPECT_NEAR(size_N(wrench), 5, 1e-12);
+}
+
+/// Frames of one reason, 40 ms apart.
+class Second {
+ public:
+  Second& show(int count, NoForceReason limit, double force_N = 0) {
+    for (int i = 0; i < count; ++i) history.add(kFrame_ns * frames_++, force_N, limit);
+    return *this;
+  }
+  NoForceReason limit() const { return history.limit(kFrame_ns * (frames_ - 1)); }
+
+  NoForceHistory history;
+
+ private:
+  int frames_ = 0;
+};
+
+TEST(NoForceHistory, KnowsNothingWithoutFrames) {
+  EXPECT_EQ(NoForceHistory().limit(0), NoForceReason::kNoFrames);
+}
+
+TEST(NoForceHistory, TakesTheReasonThatMostPicturesHave) {
+  Second second;
+  second.show(4, NoForceReason::kNothingMoves).show(3, NoForceReason::kCameraOnly);
+  EXPECT_EQ(second.limit(), NoForceReason::kNothingMoves);
+  second.show(2, NoForceReason::kCameraOnly);
+  EXPECT_EQ(second.limit(), NoForceReason::kCameraOnly);
+}
+
+TEST(NoForceHistory, RepeatedFramesCountOnlyWhereThereIsNothingElse) {
+  Second second;
+  second.show(20, NoForceReason::kRepeatedFrames);
+  EXPECT_EQ(second.limit(), NoForceReason::kRepeatedFrames);
+  second.show(1, NoForceReason::kCameraOnly);
+  EXPECT_EQ(second.limit(), NoForceReason::kCameraOnly) << "as a film with repeated frames has it";
+}
+
+TEST(NoForceHistory, ACutCountsOnlyIfNoOtherFrameHasAReason) {
+  Second second;
+  second.show(3, NoForceReason::kNothingToCompare);
+  EXPECT_EQ(second.limit(), NoForceReason::kNothingToCompare);
+  second.show(1, NoForceReason::kTooWeak, kFeltForce_N / 2);
+  EXPECT_EQ(second.limit(), NoForceReason::kTooWeak);
+}
+
+TEST(NoForceHistory, LooksBackForASecond) {
+  Second second;
+  second.show(1, NoForceReason::kNone, kFeltForce_N).show(24, NoForceReason::kNothingMoves);
+  EXPECT_EQ(second.limit(), NoForceReason::kNone) << "0.96 s ago";
+  second.show(1, NoForceReason::kNothingMoves);
+  EXPECT_EQ(second.limit(), NoForceReason::kNothingMoves) << "a second ago";
+}
+
+TEST(NoForceHistory, CountsShownFramesAndNotWaitingOnes) {
+  Second second;
+  second.show(5, NoForceReason::kNothingMoves).show(5, NoForceReason::kNone, 1);
+  EXPECT_EQ(second.history.limit(4 * kFrame_ns), NoForceReason::kNothingMoves);
+  EXPECT_EQ(second.history.limit(5 * kFrame_ns), NoForceReason::kNone);
+}
+
+TEST(NoForceHistory, ForgetsEarlierFramesWhenTheTimeFalls) {
+  Second second;
+  second.show(20, NoForceReason::kNone, 1);
+  second.history.add(0, 0, NoForceReason::kNothingMoves);
+  EXPECT_EQ(second.history.limit(kFrame_ns), NoForceReason::kNothingMoves);
+}
+
+TEST(NoForceHistory, KeepsTheLatestFramesWhenThereAreTooMany) {
+  Second second;
+  second.show(2 * static_cast<int>(NoForceHistory::kFrames), NoForceReason::kNothingMoves);
+  EXPECT_EQ(second.limit(), NoForceReason::kNothingMoves);
+}
+
+}  // namespace
+}  // namespace spidar::test::no_force_reason_test
