@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Speed and error of trackers on films of known motion; docs/tracking.md explains the columns.
+// Speed and error of trackers on films of known motion; docs/tables-tracking.md explains the
+// columns.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
