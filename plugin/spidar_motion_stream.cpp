@@ -87,7 +87,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   FrameReport report;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
     take_track(self, frame->info);
-    self->engine->want_relief(self->display->wants_relief());
+    self->engine->want_relief(self->display->window_waits());
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch);
     self->display->show(report, display, settings, *frame);
   });

@@ -21,7 +21,7 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   const VisiblePart& visible = report.part;
   const SceneView& scene = viewer_.see(report.analysis, visible, report.turn);
   // Before the overlay draws into the frame, because the window draws arrows of its own.
-  if (window_feed && window_feed->wanted()) {
+  if (window_feed && window_waits_) {
     FrameFacts facts;
     facts.running_ns = static_cast<int64_t>(report.running_time);
     facts.analysis_ms = 1e-6 * static_cast<double>(report.took_ns);
@@ -45,9 +45,10 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   }
 }
 
-bool MotionDisplay::wants_relief() const {
+bool MotionDisplay::window_waits() {
   const std::shared_ptr<FrameFeed> window_feed = feed();
-  return window_feed && window_feed->wanted();
+  window_waits_ = window_feed && window_feed->wanted();
+  return window_waits_;
 }
 
 std::shared_ptr<FrameFeed> MotionDisplay::feed() const {

@@ -25,13 +25,14 @@ class MotionDisplay {
 
   // --- streaming thread
 
+  /// Call before a frame is processed. Returns whether show() will give it to the window, which
+  /// then needs its relief, too. A window that asks for a frame later gets the next one.
+  bool window_waits();
+
   /// `report` as process() just gave it of `frame`, which is mapped for writing when the overlay is
   /// on, and whose buffer is writable when metas are attached.
   void show(const FrameReport& report, const DisplayProperties& properties,
             const AnalyzerSettings& settings, GstVideoFrame& frame);
-
-  /// Whether show() will have use for the relief of the next frame.
-  bool wants_relief() const;
 
   /// Instead, of a frame that nobody looked at.
   void skip() { viewer_.reset(); }
@@ -51,7 +52,9 @@ class MotionDisplay {
 
   GstElement* const element_;
   MotionEngine& engine_;
-  SceneViewer viewer_;  // streaming thread
+  // Streaming thread.
+  SceneViewer viewer_;
+  bool window_waits_ = false;
 
   mutable std::mutex mutex_;  // never held while a window opens or closes
   std::shared_ptr<Window> window_;
