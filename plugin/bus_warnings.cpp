@@ -110,8 +110,8 @@ void BusWarnings::check_touch(const FrameReport& report, const TouchProperties& 
     case TouchProblem::kLagUnknown:
       GST_ELEMENT_WARNING(
           element_, RESOURCE, SETTINGS,
-          ("touch-stiffness is %g N/m, but nobody has measured how late this device's force is; it "
-           "is touched with %.0f N/m.",
+          ("touch-stiffness is %g N/m, but the lag of this device's drives has not been measured; "
+           "the surface has %.0f N/m.",
            wanted.stiffness_N_m, report.stiffness_N_m),
           ("Measure it with spidarctl conformance, and write drive_lag_s into the profile "
            "(docs/touch.md)."));

@@ -35,8 +35,7 @@ ContactSettings contact_settings(const TouchProperties& properties, const Profil
   ContactSettings contact;
   contact.stiffness_N_m = std::min(properties.stiffness_N_m, most_stiffness_N_m(profile));
   contact.delay_s =
-      surface_delay_s(profile.drive_lag_known ? profile.drive_lag_s
-                                              : std::max(profile.drive_lag_s, kUnmeasuredLag_s));
+      surface_delay_s(profile.drive_lag_known ? profile.drive_lag_s : kUnmeasuredLag_s);
   contact.friction = {properties.friction, kSliding * properties.friction};
   contact.texture = properties.texture;
   validate(contact);

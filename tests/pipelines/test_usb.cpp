@@ -114,7 +114,7 @@ TEST(UsbPipelines, ABoardWhoseLagNobodyMeasuredIsTouchedGently) {
     gst_object_unref(pipeline);
     return stiffness_N_m;
   };
-  EXPECT_EQ(touched_N_m("usb", "touch-stiffness is 500 N/m, but nobody has measured"), 200);
+  EXPECT_EQ(touched_N_m("usb", "touch-stiffness is 500 N/m, but the lag of this device"), 200);
   EXPECT_EQ(touched_N_m("sim:sh4", "eos"), 500);
   clear_bus();
 }
