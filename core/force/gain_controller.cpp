@@ -11,6 +11,7 @@
 #include "core/force/require_not_negative.h"
 
 namespace spidar {
+
 double LinearController::force_N(const MeasuredSpeed& measured) {
   const double speed_px_s = measured.speed_px_s;
   max_speed_px_s_ = std::max(max_speed_px_s_, speed_px_s);
