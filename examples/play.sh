@@ -28,7 +28,7 @@ build() {
         quietly meson setup "$top/build" "$top" -Dunity=on  # several files compiled as one: faster
     fi
     # The guardian is needed by real boards, and docs/start.md goes on with spidar-feel.
-    local targets=(plugin/libgstspidar.so plugin/spidar-feel spidar/spidar-guardian apps/play)
+    local targets=(plugin/libgstspidar{,feel}.so plugin/spidar-feel spidar/spidar-guardian apps/play)
     if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then
         echo "building; the first time, this takes some minutes"
         quietly ninja -C "$top/build" "${targets[@]}"

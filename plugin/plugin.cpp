@@ -3,7 +3,6 @@
 #include <gst/gst.h>
 
 #include "plugin/depth/spidar_depth.h"
-#include "plugin/feel/feel_tracer.h"
 #include "plugin/provider/device_provider.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/track/spidar_extract.h"
@@ -13,8 +12,7 @@ static gboolean plugin_init(GstPlugin* plugin) {
   return GST_ELEMENT_REGISTER(spidarmotion, plugin) &&
          GST_ELEMENT_REGISTER(spidarextract, plugin) && GST_ELEMENT_REGISTER(spidarsink, plugin) &&
          GST_ELEMENT_REGISTER(spidardepth, plugin) &&
-         GST_DEVICE_PROVIDER_REGISTER(spidardeviceprovider, plugin) &&
-         gst_spidar_feel_tracer_register(plugin);
+         GST_DEVICE_PROVIDER_REGISTER(spidardeviceprovider, plugin);
 }
 
 #define PACKAGE "gst-spidar"

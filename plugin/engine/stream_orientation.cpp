@@ -4,7 +4,7 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/timing/downstream.h"
+#include "plugin/gobject/downstream.h"
 
 namespace spidar {
 namespace {

@@ -11,7 +11,7 @@
 #include "plugin/feel/follow_state.h"
 #include "plugin/feel/video_notice.h"
 #include "plugin/gobject/bins.h"
-#include "plugin/timing/downstream.h"
+#include "plugin/gobject/downstream.h"
 
 namespace spidar {
 namespace {

@@ -73,22 +73,22 @@ Wish parse(int argc, char** argv) {
   return wish;
 }
 
-/// Folder of the plugin when GStreamer does not search it by default: in the build tree, beside
-/// this program; else where the plugin was installed.
+/// Folder of the plugins when GStreamer does not search it by default: in the build tree, beside
+/// this program; else where they were installed.
 std::string plugin_folder() {
   std::error_code error;
   const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const fs::path& folder : {beside, spidar::installed(SPIDAR_PLUGIN_DIR)})
-    if (fs::exists(folder / "libgstspidar.so", error)) return folder.string();
+    if (fs::exists(folder / "libgstspidarfeel.so", error)) return folder.string();
   return {};
 }
 
-/// An older version of the plugin has no tracer.
-bool has_plugin() {
-  for (const char* name : {"spidarmotion", "spidarfeel"}) {
-    const spidar::Ref<GstPluginFeature> feature(
-        gst_registry_lookup_feature(gst_registry_get(), name));
-    if (!feature) return false;
+/// Whether GStreamer finds the element and the tracer, both of this version.
+bool has_plugins() {
+  for (const char* name : {"spidar", "spidarfeel"}) {
+    const spidar::Ref<GstPlugin> plugin(gst_registry_find_plugin(gst_registry_get(), name));
+    if (!plugin || std::strcmp(gst_plugin_get_version(plugin.get()), PACKAGE_VERSION) != 0)
+      return false;
   }
   return true;
 }
@@ -106,22 +106,25 @@ void search_first(const std::string& folder) {
   g_setenv(variable, path.c_str(), TRUE);
   GstRegistry* registry = gst_registry_get();
   // A plugin that was found first stays.
-  const spidar::Ref<GstPlugin> older(gst_registry_find_plugin(registry, "spidar"));
-  if (older) gst_registry_remove_plugin(registry, older.get());
+  for (const char* name : {"spidar", "spidarfeel"}) {
+    const spidar::Ref<GstPlugin> older(gst_registry_find_plugin(registry, name));
+    if (older) gst_registry_remove_plugin(registry, older.get());
+  }
   gst_registry_scan_path(registry, folder.c_str());
 }
 
-/// Sets up the environment so that GStreamer finds the plugin.
-void find_plugin() {
+/// Sets up the environment so that GStreamer finds the plugins.
+void find_plugins() {
   gst_init(nullptr, nullptr);
-  if (has_plugin()) return;
+  if (has_plugins()) return;
   const std::string folder = plugin_folder();
   if (!folder.empty()) search_first(folder);
-  if (!has_plugin())
-    fail(kCannotRun,
-         std::string("GStreamer does not find this version of the plugin of gst-spidar, with ") +
-             "spidarmotion and the tracer spidarfeel; name its folder in " +
-             plugin_path_variable());
+  if (!has_plugins())
+    fail(
+        kCannotRun,
+        std::string(
+            "GStreamer does not find this version of the plugins of gst-spidar, libgstspidar.so ") +
+            "and libgstspidarfeel.so; name their folder in " + plugin_path_variable());
 }
 
 void check(const std::vector<std::string>& properties) {
@@ -169,7 +172,7 @@ void warn_of_nothing_felt(const Wish& wish) {
 
 int main(int argc, char** argv) {
   const Wish wish = parse(argc, argv);
-  find_plugin();
+  find_plugins();
   check(wish.properties);
   set_environment(wish.properties);
   warn_of_nothing_felt(wish);

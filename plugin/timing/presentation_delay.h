@@ -7,7 +7,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/timing/downstream.h"
+#include "plugin/gobject/downstream.h"
 
 namespace spidar {
 

@@ -3,7 +3,7 @@
 #include "plugin/timing/step_watch.h"
 
 #include "plugin/gobject/bins.h"
-#include "plugin/timing/downstream.h"
+#include "plugin/gobject/downstream.h"
 
 namespace spidar {
 

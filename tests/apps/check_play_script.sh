@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 # check_play_script.sh SOURCE: examples/play.sh builds everything that it and the next step of docs/start.md use: the
-# plugin, the guardian, without which no real board is opened, and spidar-feel. The script runs in a copy of the
+# plugins, the guardian, without which no real board is opened, and spidar-feel. The script runs in a copy of the
 # tree in which ninja only notes what it is asked for.
 set -euo pipefail
 tree=$(mktemp -d)
@@ -15,7 +15,7 @@ printf '#!/bin/sh\necho "$@" >>"%s/asked"; echo no work to do\n' "$tree" >"$tree
 printf '#!/bin/sh\nexit 0\n' >"$tree/build/apps/play"
 chmod +x "$tree/bin/ninja" "$tree/build/apps/play"
 env -u DISPLAY -u WAYLAND_DISPLAY PATH="$tree/bin:$PATH" "$tree/examples/play.sh" --ball
-for target in plugin/libgstspidar.so plugin/spidar-feel spidar/spidar-guardian apps/play; do
+for target in plugin/libgstspidar{,feel}.so plugin/spidar-feel spidar/spidar-guardian apps/play; do
     grep -qw -- "$target" "$tree/asked" || {
         echo "play.sh does not build $target, but only: $(<"$tree/asked")"
         exit 1

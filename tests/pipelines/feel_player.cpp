@@ -129,7 +129,7 @@ void wait_for_end(GstElement* player) {
 bool is_loaded() {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);)
-    if (line.find("libgstspidar.so") != std::string::npos) return true;
+    if (line.find("libgstspidarfeel.so") != std::string::npos) return true;
   return false;
 }
 

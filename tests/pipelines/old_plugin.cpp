@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Stands for an installed version of the plugin from before spidar-feel: it has no tracer.
+// Stands for another version of the plugin that is installed.
 #include <gst/gst.h>
 
 static gboolean plugin_init(GstPlugin* plugin) {
