@@ -125,7 +125,7 @@ Wrench Device::felt() const {
   const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
   // The strings already pull while the tensions ramp up, and still while they ramp down.
   if (tick.device == spidar::DeviceState::kLost) return {};
-  const spidar::FeltParts parts = impl_->session.device().felt_parts();
+  const spidar::FeltParts parts = impl_->session.grip().felt_parts();
   Wrench felt = to_api(tick.delivered);
   if (!parts.x) felt.force_N.x = 0;
   if (!parts.y) felt.force_N.y = 0;
@@ -148,7 +148,7 @@ DeviceState Device::state() const {
 }
 
 const std::string& Device::name() const {
-  return impl_->session.device().name();
+  return impl_->session.grip().name();
 }
 
 std::vector<std::string> list_devices() {

@@ -20,6 +20,7 @@
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
 #include "plugin/frame/grip_pointer.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 
@@ -98,7 +99,7 @@ Felt stroke(TouchMailbox& mailbox, const Profile& profile, double half_width_m,
   std::ofstream out(path);
   out << "time_s,grip_x_mm,grip_y_mm,grip_z_mm,surface_z_mm,force_x_N,force_y_N,force_z_N\n";
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
-  const auto loop = std::make_unique<HapticLoop>(profile, device);
+  const auto loop = std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device));
   loop->connect_touch(&mailbox);
   loop->open();
   int64_t now_ns = kTick_ns;

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The interface between the haptic loop and a board: volts out, counts in.
+/// The interface of a device with strings: volts out, counts in.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 
 #include "core/grip/string_geometry.h"
+#include "spidar/device_error.h"
 #include "spidar/link_fault.h"
 
 namespace spidar {
-
-/// A device that cannot be opened. what() says which, why, and what to do.
-class DeviceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct MotorVolts {
   std::array<double, kMaxStrings> volt{};  ///< signed as the D/A puts it out
@@ -39,13 +33,6 @@ struct FeltParts {
   bool torque = true;
   /// Otherwise only the size of the force is felt, in the axes that are felt.
   bool direction = true;
-};
-
-enum class ExchangeStatus {
-  kOk,
-  kTimeout,   ///< no answer in time; may come back
-  kBadReply,  ///< short, garbled or mismatched answer; may come back
-  kLost,      ///< unplugged or closed: open() again
 };
 
 /// One controller board with its motors. One thread at a time.

@@ -3,7 +3,7 @@
 #include "plugin/device/device_warnings.h"
 
 #include "plugin/reports/category.h"
-#include "spidar/loop/motor_heat.h"
+#include "spidar/grip/motor_heat.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
@@ -16,7 +16,7 @@ constexpr int64_t kPoseLost_ns = 500'000'000;
 
 /// Why the device was lost, with the last fault of the link, if there is a link.
 std::string why_lost(const HapticSession& session) {
-  const LinkFault fault = session.device().health().last_fault;
+  const LinkFault fault = session.grip().health().last_fault;
   switch (fault) {
     case LinkFault::kNone:
       return "The haptic device does not answer.";
@@ -32,10 +32,10 @@ std::string why_lost(const HapticSession& session) {
 }  // namespace
 
 void DeviceWarnings::check_opened(const HapticSession& session) const {
-  const FeltParts felt = session.device().felt_parts();
+  const FeltParts felt = session.grip().felt_parts();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.
-  const bool force_feedback = session.device().name().compare(0, 2, "ff") == 0;
+  const bool force_feedback = session.grip().name().compare(0, 2, "ff") == 0;
   const bool whole = felt.x && felt.y && felt.direction;
   if (whole && !force_feedback) return;
   GST_ELEMENT_INFO(

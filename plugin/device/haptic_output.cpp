@@ -42,9 +42,11 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
   SessionSettings settings;
   settings.trace_path = haptic_trace;
   settings.threaded = now_ == nullptr;
+  SimulatedDevice* simulated = nullptr;
   const auto make_session = [&] {
-    return std::make_unique<HapticSession>(profile, device_for(device, profile, settings.threaded),
-                                           settings);
+    auto made = device_for(device, profile, settings.threaded);
+    simulated = dynamic_cast<SimulatedDevice*>(made.get());
+    return std::make_unique<HapticSession>(profile, std::move(made), settings);
   };
   std::string trace_problem;
   std::unique_ptr<HapticSession> session;
@@ -73,6 +75,7 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
     follower->set_offset(offset_ns_);
     profile_ = profile;
     session_ = std::move(session);
+    simulated_ = simulated;
     follower_ = std::move(follower);
   }
   set_max_force(max_force_N);
@@ -85,6 +88,7 @@ void HapticOutput::close() {
   // Both are destroyed after the lock is released, because the ramp to rest takes 60 ms.
   const std::lock_guard<std::mutex> lock(mutex_);
   session = std::move(session_);
+  simulated_ = nullptr;
   follower = std::move(follower_);
 }
 
@@ -161,8 +165,8 @@ DeviceState HapticOutput::device_state() const {
 bool HapticOutput::look_at_device(DeviceView& view) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!session_) return false;
-  view.name = session_->device().name();
-  view.has_hand = dynamic_cast<const SimulatedDevice*>(&session_->device()) != nullptr;
+  view.name = session_->grip().name();
+  view.has_hand = simulated_ != nullptr;
   view.loop = session_->loop().snapshot();
   view.geometry = profile_.geometry;
   view.min_tension_N = profile_.min_tension_N();
@@ -172,9 +176,8 @@ bool HapticOutput::look_at_device(DeviceView& view) const {
 
 bool HapticOutput::lead_hand(const std::optional<Eigen::Vector3d>& to_m) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  auto* const simulated = session_ ? dynamic_cast<SimulatedDevice*>(&session_->device()) : nullptr;
-  if (!simulated) return false;
-  simulated->lead_hand(to_m);
+  if (!simulated_) return false;
+  simulated_->lead_hand(to_m);
   return true;
 }
 

@@ -17,6 +17,8 @@
 
 namespace spidar {
 
+class SimulatedDevice;
+
 /// Haptic session and playback clock of one element. Thread-safe, but for session(), which is for
 /// state changes and the streaming thread.
 class HapticOutput {
@@ -55,6 +57,8 @@ class HapticOutput {
 
   /// Null while closed. Opened and closed by state changes only.
   HapticSession* session() const { return session_.get(); }
+  /// The device "sim"; null for other devices, and while closed. Opened and closed as session().
+  SimulatedDevice* simulated() const { return simulated_; }
   /// Of the device that is open, or was last.
   const Profile& profile() const { return profile_; }
   /// Nothing while closed.
@@ -76,6 +80,7 @@ class HapticOutput {
   void* now_user_ = nullptr;
   mutable std::mutex mutex_;  // state changes against any thread
   std::unique_ptr<HapticSession> session_;
+  SimulatedDevice* simulated_ = nullptr;  // of the session, if it is one
   Profile profile_;
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;

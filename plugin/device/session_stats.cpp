@@ -20,7 +20,7 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
   const LoopCounters& counters = snapshot.counters;
   const Scheduling& scheduling = session.scheduling();
   gst_structure_set(
-      structure, "device", G_TYPE_STRING, session.device().name().c_str(), "device-state",
+      structure, "device", G_TYPE_STRING, session.grip().name().c_str(), "device-state",
       G_TYPE_STRING, to_string(snapshot.last.device), "real-time", G_TYPE_BOOLEAN,
       scheduling.real_time ? TRUE : FALSE, "scheduling", G_TYPE_STRING, scheduling.detail.c_str(),
       "ticks", G_TYPE_UINT64, counters.ticks, "overruns", G_TYPE_UINT64, counters.overruns,
@@ -42,7 +42,7 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
                     "touch-depth-mm", G_TYPE_DOUBLE, 1e3 * contact.depth_m, "touch-force",
                     G_TYPE_DOUBLE, contact.force_N.norm(), "touch-stiffness-share", G_TYPE_DOUBLE,
                     contact.stiffness_share, nullptr);
-  const LinkHealth link = session.device().health();
+  const LinkHealth link = session.grip().health();
   gst_structure_set(structure, "link-fault", G_TYPE_STRING, to_string(link.last_fault),
                     "link-timeouts", G_TYPE_UINT64, link.count(LinkFault::kTimeout), "link-errors",
                     G_TYPE_UINT64, link.errors(), "link-late-replies", G_TYPE_UINT64,

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "spidar/grip/tension_limits.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/loop/safety.h"
 #include "spidar/profiles/toml_field.h"
 
 namespace spidar {

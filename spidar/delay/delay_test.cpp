@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "spidar/grip/grip_watch.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 
 namespace spidar {
@@ -71,7 +73,8 @@ class DelayRun {
  public:
   DelayRun(Device& device, const Profile& profile, const Pace& pace, const MonotonicClock& now_ns,
            const DelayTestSettings& settings)
-      : loop_(std::make_unique<HapticLoop>(profile, device, limits(settings))),
+      : loop_(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device),
+                                           limits(settings))),
         pace_(pace),
         now_ns_(now_ns),
         settings_(settings) {}

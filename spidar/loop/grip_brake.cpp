@@ -49,9 +49,6 @@ Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double metres) {
 
 }  // namespace
 
-GripBrake::GripBrake(const Profile& profile)
-    : radius_m_(profile.geometry.grip_radius_m()), drive_lag_s_(profile.drive_lag_s) {}
-
 void GripBrake::reset() noexcept {
   strings_N_.setZero();
   acting_N_.setZero();

@@ -6,8 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/wrench.h"
-#include "spidar/loop/grip_motion.h"
-#include "spidar/profiles/profile.h"
+#include "spidar/grip/grip_motion.h"
 
 namespace spidar {
 
@@ -36,7 +35,8 @@ class GripBrake {
   static constexpr double kRest_s = 1.0;
   static constexpr double kReturn_s = 1.0;
 
-  explicit GripBrake(const Profile& profile);
+  /// `radius_m` is where a torque acts as a force.
+  GripBrake(double radius_m, double drive_lag_s) : radius_m_(radius_m), drive_lag_s_(drive_lag_s) {}
 
   /// The pose is not known, or the device was opened: forgets the motion, not that nobody holds.
   void reset() noexcept;

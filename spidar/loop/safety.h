@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The steps between a wanted wrench and the motors. Order: finite → limit → slew → stale →
-/// (tension command) → tension slew → D/A range. Each step is a small object that can be tested
-/// alone. None of them allocates, locks or throws.
+/// The steps between a wanted wrench and the grip: finite → limit → slew → stale. Each step is a
+/// small object that can be tested alone. None of them allocates, locks or throws.
 #pragma once
 
 #include <cstdint>
 
-#include "core/grip/string_geometry.h"
 #include "core/wrench.h"
-#include "spidar/device.h"
-#include "spidar/profiles/profile.h"
+#include "spidar/grip/safety_limits.h"
 
 namespace spidar {
-
-/// A limit that is negative or not a number counts as zero.
-struct SafetyLimits {
-  double max_force_N = 3.0;     ///< of the total force
-  double max_torque_Nm = 0.1;   ///< of the total torque
-  double max_slew_N_s = 300.0;  ///< full default force in 10 ms
-  double max_slew_Nm_s = 10.0;
-  double ramp_s = 0.04;  ///< from full to rest when commands stop, and back when they begin
-};
 
 /// Replaces a wrench that is not finite in any component by zero, and counts it.
 class FiniteCheck {
@@ -101,37 +89,5 @@ class WrenchSafety {
   SlewLimit slew_before_;  // the last apply()
   StaleRamp stale_before_;
 };
-
-/// Bounds the change of tensions per second. At the border of the wrench-closure workspace, the
-/// solution moves nearly the whole tension from some strings to others within a tick
-/// (docs/workspace.md). A hand would feel that as a jerk, and a motor cannot follow it.
-class TensionSlew {
- public:
-  /// Shortest time in which a string passes through its whole range.
-  static constexpr double kRange_s = 0.02;
-
-  explicit TensionSlew(const Profile& profile) { reset(profile); }
-
-  /// All strings make the same share of their step, so that no bound is exceeded and the wrench
-  /// lies between the previous and the wanted one. A tension that is not a number counts as the
-  /// minimum.
-  StringVector apply(const StringVector& tension_N, const Profile& profile, double dt_s) noexcept;
-
-  /// At rest: every string at its minimum.
-  void reset(const Profile& profile) noexcept { last_N_ = profile.min_tension_N(); }
-
-  /// Continues from `tension_N`, the tensions that the device has acknowledged.
-  void reset(const StringVector& tension_N) noexcept { last_N_ = tension_N; }
-
- private:
-  StringVector last_N_;
-};
-
-/// Limits tensions to the range from zero to each string's largest. A tension that is not a number
-/// becomes zero.
-StringVector bound_tensions(const StringVector& tension_N, const Profile& profile) noexcept;
-
-/// Converts tensions to D/A volts with newtons_per_volt and motor_sign, clamped to the D/A range.
-MotorVolts to_volts(const StringVector& tension_N, const Profile& profile) noexcept;
 
 }  // namespace spidar

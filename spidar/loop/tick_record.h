@@ -9,9 +9,9 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
-#include "spidar/loop/grip_motion.h"
-#include "spidar/loop/pose_trouble.h"
-#include "spidar/loop/safety.h"
+#include "spidar/grip/grip_motion.h"
+#include "spidar/grip/pose_trouble.h"
+#include "spidar/grip/safety_limits.h"
 #include "spidar/loop/vibration_budget.h"
 #include "spidar/touch/touch_rendering.h"
 

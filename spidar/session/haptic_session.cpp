@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <optional>
+#include <utility>
 
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/loop_thread.h"
 #include "spidar/loop/trace_thread.h"
 #include "spidar/realtime/monotonic.h"
@@ -31,12 +33,12 @@ void remember(int64_t full_at_ns) noexcept {
 // Members are destroyed in reverse order: the thread has brought the motors to zero before the
 // trace takes its last row.
 struct HapticSession::Impl {
-  Impl(const Profile& profile, std::unique_ptr<Device> owned, const SessionSettings& settings)
-      : device(std::move(owned)), loop(profile, *device, settings.limits) {
+  Impl(std::unique_ptr<Grip> grip, const SessionSettings& settings)
+      : loop(std::move(grip), settings.limits) {
     if (!settings.trace_path.empty()) trace.emplace(settings.trace_path, loop, settings.threaded);
     if (settings.threaded) loop.vibration().restore(vibration_memory_ns());
     loop.open();
-    opened = device->description();
+    opened = loop.grip().description();
     if (settings.threaded) thread.emplace(loop, settings.real_time);
   }
   ~Impl() {
@@ -58,7 +60,6 @@ struct HapticSession::Impl {
     loop.close();
   }
 
-  std::unique_ptr<Device> device;
   HapticLoop loop;
   std::optional<TraceThread> trace;
   std::string opened;
@@ -67,9 +68,12 @@ struct HapticSession::Impl {
   std::optional<LoopThread> thread;
 };
 
+HapticSession::HapticSession(std::unique_ptr<Grip> grip, const SessionSettings& settings)
+    : impl_(std::make_unique<Impl>(std::move(grip), settings)) {}
+
 HapticSession::HapticSession(const Profile& profile, std::unique_ptr<Device> device,
                              const SessionSettings& settings)
-    : impl_(std::make_unique<Impl>(profile, std::move(device), settings)) {}
+    : HapticSession(std::make_unique<StringGrip>(profile, std::move(device)), settings) {}
 
 HapticSession::~HapticSession() = default;
 
@@ -79,14 +83,6 @@ HapticLoop& HapticSession::loop() noexcept {
 const HapticLoop& HapticSession::loop() const noexcept {
   return impl_->loop;
 }
-const Device& HapticSession::device() const noexcept {
-  return *impl_->device;
-}
-
-Device& HapticSession::device() noexcept {
-  return *impl_->device;
-}
-
 const std::string& HapticSession::opened() const noexcept {
   return impl_->opened;
 }

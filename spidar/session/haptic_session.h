@@ -9,6 +9,7 @@
 
 #include "core/force/wrench_timeline.h"
 #include "spidar/device.h"
+#include "spidar/grip/grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/playback_clock.h"
 #include "spidar/loop/safety.h"
@@ -27,8 +28,11 @@ struct SessionSettings {
 
 class HapticSession {
  public:
-  /// Opens the device and starts the loop. Throws DeviceError, std::invalid_argument when the
-  /// profile has fewer than six strings, or TraceError when the trace cannot be written.
+  /// Opens the grip and starts the loop. Throws DeviceError, or TraceError when the trace cannot be
+  /// written.
+  explicit HapticSession(std::unique_ptr<Grip> grip, const SessionSettings& settings = {});
+  /// The same for a grip on the strings of this device. Throws std::invalid_argument when the
+  /// profile has fewer than six strings.
   HapticSession(const Profile& profile, std::unique_ptr<Device> device,
                 const SessionSettings& settings = {});
   /// Ramps to rest, then to zero, and closes the device, within some 60 ms. Without a thread, the
@@ -37,9 +41,8 @@ class HapticSession {
 
   HapticLoop& loop() noexcept;
   const HapticLoop& loop() const noexcept;
-  Device& device() noexcept;
-  const Device& device() const noexcept;
-  /// Device::description() when this session opened the device.
+  const Grip& grip() const noexcept { return loop().grip(); }
+  /// Grip::description() when this session opened the device.
   const std::string& opened() const noexcept;
   const Scheduling& scheduling() const noexcept;
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "spidar/grip/tension_limits.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/loop/safety.h"
 
 namespace spidar {
 namespace {

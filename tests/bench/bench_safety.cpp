@@ -13,8 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "spidar/grip/string_grip.h"
+#include "spidar/grip/tension_command.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/loop/tension_command.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/tampered_device.h"
 
@@ -74,7 +75,8 @@ struct Player {
   const Eigen::Vector3d force_N;
   SimulatedDevice simulated{profile, SimulatedDevice::Time::kFixedStep};
   TamperedDevice device{simulated};
-  std::unique_ptr<HapticLoop> loop = std::make_unique<HapticLoop>(profile, device);
+  std::unique_ptr<HapticLoop> loop =
+      std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device));
   int64_t now_ns = 0;
   int64_t began_ns = INT64_MAX / 2;
   int64_t next_ns = 0;
@@ -200,7 +202,8 @@ void print_rest() {
                 : believed;
       SimulatedDevice simulated(real, SimulatedDevice::Time::kFixedStep);
       TamperedDevice device(simulated);
-      const auto loop = std::make_unique<HapticLoop>(believed, device);
+      const auto loop =
+          std::make_unique<HapticLoop>(std::make_unique<StringGrip>(believed, device));
       loop->open();
       int64_t now_ns = 0;
       for (int hand = 0; hand < 6; ++hand) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plugin/touch/relief_stream.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/bench/call_timer.h"
@@ -36,7 +37,7 @@ FrameAnalysis analysis_of(int width, int height) {
 
 /// A haptic loop whose hand presses and strokes the surface while new frames arrive.
 struct Bench {
-  Bench() : loop(std::make_unique<HapticLoop>(profile, device)) {
+  Bench() : loop(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device))) {
     stream.connect(loop.get(), profile, {0.0295, 0.032});
     loop->open();
     now_ns = 1'000'000'000'000;

@@ -38,9 +38,7 @@ class ForceLimitTest : public testing::Test {
   }
 
   HapticLoop& loop() { return h->engine().output().session()->loop(); }
-  SimulatedDevice& device() {
-    return dynamic_cast<SimulatedDevice&>(h->engine().output().session()->device());
-  }
+  SimulatedDevice& device() { return *h->engine().output().simulated(); }
 
   void tick(int count) {
     for (int i = 0; i < count; ++i) {

@@ -33,9 +33,7 @@ class DeviceTest : public testing::Test {
   }
 
   HapticLoop& loop() { return h->engine().output().session()->loop(); }
-  SimulatedDevice& device() {
-    return dynamic_cast<SimulatedDevice&>(h->engine().output().session()->device());
-  }
+  SimulatedDevice& device() { return *h->engine().output().simulated(); }
 
   void tick(int count = 1) {
     for (int i = 0; i < count; ++i) {

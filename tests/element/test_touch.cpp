@@ -9,6 +9,7 @@
 
 #include "plugin/touch/relief_stream.h"
 #include "plugin/touch/touched_motion.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/element_harness.h"
@@ -158,7 +159,7 @@ TEST(TouchedMotion, WithoutModelsItIsThatOfTheWholePicture) {
 
 /// The loop is not ticked, so that a test can inspect what was published.
 struct Reliefs {
-  Reliefs() : loop(std::make_unique<HapticLoop>(profile, device)) {
+  Reliefs() : loop(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device))) {
     stream.connect(loop.get(), profile, {0.03, 0.03});
   }
   const Profile profile = profile_of_simulation();

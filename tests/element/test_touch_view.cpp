@@ -10,6 +10,7 @@
 
 #include "plugin/display/element_source.h"
 #include "plugin/touch/relief_stream.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
@@ -25,7 +26,7 @@ TEST(TouchView, AReliefIsCopiedOnlyWhenAWindowAsks) {
   init_gstreamer();
   const Profile profile = load_profile(kDefaultProfile);
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
-  const auto loop = std::make_unique<HapticLoop>(profile, device);
+  const auto loop = std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device));
   ReliefStream stream;
   stream.connect(loop.get(), profile, {0.03, 0.03});
   const std::vector<uint8_t> white(320 * 240, 255);

@@ -23,7 +23,7 @@ constexpr int64_t kMs = kSecond_ns / 1000;
 TEST(KernelEvdev, RightIsRightAndUpIsUp) {
   UinputDevice stick(UinputKind::kStick);
   const FeltPlayer player(listed());
-  EXPECT_EQ(player.session->device().description(),
+  EXPECT_EQ(player.session->grip().description(),
             "uinput device at 20 % of its strength, force feedback on two axes");
   wait_for([&] { return stick.gain == 13107 && stick.autocentre == 0; });
   for (const auto& [x_N, y_N] :
@@ -118,7 +118,7 @@ TEST(KernelEvdev, ASlowDeviceDelaysNothing) {
   stick.upload_ms = 50;
   player.push(1, -1);
   wait_for([&] { return is_level(stick.right(), 1, 1) && is_level(stick.up(), -1, 1); });
-  EXPECT_EQ(player.session->device().health().errors(), 0u);
+  EXPECT_EQ(player.session->grip().health().errors(), 0u);
   EXPECT_EQ(player.now().counters.times_lost, 0u);
 }
 

@@ -87,7 +87,7 @@ TEST_F(KernelEvdevFaults, AfterEveryErrorItComesToRestAndTheForceReturns) {
     player.loop().cancel_scheduled();
     ASSERT_TRUE(player.loop().schedule(lasting({0, 1, 0})));
     wait_for([&] { return player.now().last.device == DeviceState::kLost; });
-    const LinkFault fault = player.session->device().health().last_fault;
+    const LinkFault fault = player.session->grip().health().last_fault;
     EXPECT_EQ(fault == LinkFault::kBusError, error == EIO) << to_string(fault);
     EXPECT_EQ(fault == LinkFault::kTimeout, error == ETIMEDOUT) << to_string(fault);
     // The last level does not remain.

@@ -18,6 +18,7 @@
 
 #include "spidar/boards/board_list.h"
 #include "spidar/boards/digits.h"
+#include "spidar/grip/tension_limits.h"
 #include "spidar/guardian/last_will.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
@@ -151,7 +152,7 @@ TEST_F(KernelSession, BoardPulledOutInMidTransferIsTakenBack) {
     wait_for([&] { return session.loop().snapshot().last.device == DeviceState::kLost; });
     board.unplug();
     EXPECT_EQ(board.abandoned(), 1u);
-    const LinkHealth health = session.device().health();
+    const LinkHealth health = session.grip().health();
     EXPECT_GE(health.count(LinkFault::kGone) + health.count(LinkFault::kBusError),
               static_cast<uint64_t>(times));
     plug();

@@ -32,7 +32,7 @@ class OtherElement {
     engine().output().refresh_clock();
     return watch_.tick(engine().output().session()->loop(), static_cast<int64_t>(pipeline_.now()));
   }
-  const std::string& device() { return engine().output().session()->device().name(); }
+  const std::string& device() { return engine().output().session()->grip().name(); }
 
  private:
   MotionEngine& engine() { return gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_)); }

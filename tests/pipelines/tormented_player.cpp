@@ -65,8 +65,7 @@ MotionEngine& TormentedPlayer::engine() const {
 }
 
 SimulatedDevice* TormentedPlayer::device() const {
-  HapticSession* session = engine().output().session();
-  return session ? dynamic_cast<SimulatedDevice*>(&session->device()) : nullptr;
+  return engine().output().simulated();
 }
 
 GstPadProbeReturn TormentedPlayer::pass(GstPad* from, GstPadProbeInfo* info) {

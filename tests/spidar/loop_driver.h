@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile.h"
 #include "tests/support/fake_device.h"
@@ -21,7 +22,8 @@ inline Wrench push_right(double force_N) {
 struct LoopDriver {
   explicit LoopDriver(const SafetyLimits& limits = {},
                       const Profile& of = load_profile(kDefaultProfile))
-      : profile(of), loop(std::make_unique<HapticLoop>(profile, device, limits)) {}
+      : profile(of),
+        loop(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device), limits)) {}
 
   /// One tick, `step_ns` after the last one and on time.
   TickRecord tick(int64_t step_ns = kTick_ns) {

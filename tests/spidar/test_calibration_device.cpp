@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/calibration/count_recorder.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/simulation/simulated_device.h"
@@ -62,7 +63,7 @@ TEST(CalibrationDevice, LoopFindsTheGripOfACalibratedDevice) {
   const Profile calibrated = load_profile(path);
   std::filesystem::remove(path);
   for (const bool use_it : {true, false}) {
-    HapticLoop loop(use_it ? calibrated : profile, device);
+    HapticLoop loop(std::make_unique<StringGrip>(use_it ? calibrated : profile, device));
     loop.open();
     Pose hand;
     hand.position_m = {0.01, -0.015, 0.02};

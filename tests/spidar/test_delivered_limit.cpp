@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/loop/grip_motion.h"
-#include "spidar/loop/tension_command.h"
+#include "spidar/grip/grip_motion.h"
+#include "spidar/grip/tension_command.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 #include "tests/support/rest_force.h"

@@ -74,7 +74,7 @@ TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
   const FeltPlayer player;
   EXPECT_EQ(player.session->opened(),
             "Emulated Stick at 20 % of its strength, force feedback on two axes");
-  const FeltParts felt = player.session->device().felt_parts();
+  const FeltParts felt = player.session->grip().felt_parts();
   EXPECT_TRUE(felt.x && felt.y && felt.direction);
   EXPECT_FALSE(felt.z || felt.torque);
   for (const auto& [x_N, y_N] :
@@ -95,10 +95,10 @@ TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
 TEST_F(ForceFeedback, PadsGetTheStrengthOfTheForce) {
   plug_evdev(0, EvdevKind::kPad);
   const FeltPlayer player;
-  EXPECT_EQ(player.session->device().description(),
+  EXPECT_EQ(player.session->grip().description(),
             "Emulated Pad, rumble only: the strength of the force is felt, not its direction");
-  EXPECT_TRUE(player.session->device().felt_parts().y);
-  EXPECT_FALSE(player.session->device().felt_parts().direction);
+  EXPECT_TRUE(player.session->grip().felt_parts().y);
+  EXPECT_FALSE(player.session->grip().felt_parts().direction);
   player.push(-0.9, 1.2);
   wait_for([] {
     const EvdevLevels levels = evdev_levels(0);
@@ -268,7 +268,7 @@ TEST_F(ForceFeedback, ASlowDriverDelaysNothing) {
   player.push(1, -1);
   wait_for(
       [] { return is_level(evdev_levels(0).right, 1, 1) && is_level(evdev_levels(0).up, -1, 1); });
-  EXPECT_EQ(player.session->device().health().errors(), 0u);
+  EXPECT_EQ(player.session->grip().health().errors(), 0u);
   EXPECT_EQ(player.now().counters.times_lost, 0u);
 }
 
@@ -279,7 +279,7 @@ TEST_F(ForceFeedback, IsTakenBackWhereverItIsPluggedIn) {
   wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
   unplug_evdev(0);
   wait_for([&] { return player.now().last.device == DeviceState::kLost; });
-  EXPECT_EQ(player.session->device().health().last_fault, LinkFault::kGone);
+  EXPECT_EQ(player.session->grip().health().last_fault, LinkFault::kGone);
   plug_evdev(3, EvdevKind::kStick);
   wait_for([] { return is_level(evdev_levels(3).right, 1, 1); });
 }
@@ -293,7 +293,7 @@ TEST_F(ForceFeedback, ADriverThatFailsIsNamed) {
     player.loop().cancel_scheduled();
     ASSERT_TRUE(player.loop().schedule(lasting({force_N, 0, 0})));
     wait_for([&] { return player.now().last.device == DeviceState::kLost; });
-    EXPECT_EQ(player.session->device().health().last_fault, fault);
+    EXPECT_EQ(player.session->grip().health().last_fault, fault);
     bus().evdev[0].upload_error = 0;
     wait_for([force_N = force_N] { return is_level(evdev_levels(0).right, force_N, 1); });
   }

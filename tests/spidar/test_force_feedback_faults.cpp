@@ -19,7 +19,7 @@
 
 #include "spidar/boards/stick_place.h"
 #include "spidar/boards/update_watch.h"
-#include "spidar/loop/grip_watch.h"
+#include "spidar/grip/grip_watch.h"
 #include "spidar/realtime/thread_setup.h"
 #include "spidar/transports/evdev_transport.h"
 #include "tests/emulated_bus/bus_state.h"
@@ -171,7 +171,7 @@ TEST_F(ForceFeedbackFaults, ADriverThatHangsIsATimeOut) {
     session.loop().cancel_scheduled();
     ASSERT_TRUE(session.loop().schedule(lasting({2.2, 0, 0})));
     while (!session.loop().lost()) tick();
-    EXPECT_EQ(session.device().health().last_fault, LinkFault::kTimeout);
+    EXPECT_EQ(session.grip().health().last_fault, LinkFault::kTimeout);
     port.upload_ms = 0;
   }
   EXPECT_TRUE(evdev_levels(0).at_rest());
@@ -252,7 +252,7 @@ TEST_F(ForceFeedbackFaults, OneFailedUpdateOfASlowDriverIsNoLoss) {
     wait_for([] { return is_level(evdev_levels(0).right, 1.5, 1.5); });
     EXPECT_EQ(port.failing, 0);
     // The loop loses a device after 20 in a row.
-    EXPECT_EQ(player.session->device().health().count(LinkFault::kBusError), 1u);
+    EXPECT_EQ(player.session->grip().health().count(LinkFault::kBusError), 1u);
   }
 }
 
@@ -261,7 +261,7 @@ TEST_F(ForceFeedbackFaults, CallsThatASignalInterruptsAreRepeated) {
   port.signals = true;
   {
     const FeltPlayer player;
-    EXPECT_EQ(player.session->device().description(),
+    EXPECT_EQ(player.session->grip().description(),
               "Emulated Stick at 20 % of its strength, force feedback on two axes");
     player.push(1, -1);
     wait_for([] {
@@ -272,7 +272,7 @@ TEST_F(ForceFeedbackFaults, CallsThatASignalInterruptsAreRepeated) {
     EXPECT_EQ(port.autocentre, 0);
     port.axis[0] = 500;
     wait_for([&] { return player.now().last.pose.position_m.x() > 0.014; });
-    EXPECT_EQ(player.session->device().health().errors(), 0u);
+    EXPECT_EQ(player.session->grip().health().errors(), 0u);
   }
   EXPECT_EQ(port.autocentre, 0xFFFF);
 }
@@ -283,7 +283,7 @@ TEST_F(ForceFeedbackFaults, NoLevelIsSetUntilGainAndAutocentreAre) {
   port.setting_error = EIO;
   const FeltPlayer player;
   ASSERT_TRUE(player.loop().schedule(lasting({1, 0, 0})));
-  wait_for([&] { return player.session->device().health().count(LinkFault::kBusError) > 20; });
+  wait_for([&] { return player.session->grip().health().count(LinkFault::kBusError) > 20; });
   EXPECT_TRUE(evdev_levels(0).at_rest());
   port.setting_error = 0;
   wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });

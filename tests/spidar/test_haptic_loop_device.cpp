@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "spidar/grip/string_grip.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
 
@@ -40,7 +41,8 @@ TEST(HapticLoopDevice, NeedsSixStrings) {
   Profile profile = load_profile(kDefaultProfile);
   profile.geometry.count = 5;
   FakeDevice device;
-  EXPECT_THROW(std::make_unique<HapticLoop>(profile, device), std::invalid_argument);
+  EXPECT_THROW(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device)),
+               std::invalid_argument);
 }
 
 TEST(HapticLoopDevice, OpenFailsWithoutDevice) {
@@ -210,7 +212,7 @@ TEST(HapticLoopDevice, ReportsAFaultyString) {
 TEST(HapticLoopDevice, KnowsWhereTheGripIs) {
   const Profile profile = load_profile(kDefaultProfile);
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
-  const auto loop = std::make_unique<HapticLoop>(profile, device);
+  const auto loop = std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device));
   loop->open();
   Pose hand;
   hand.position_m = {0.012, -0.007, 0.004};

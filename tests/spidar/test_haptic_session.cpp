@@ -91,7 +91,7 @@ TEST(HapticSession, ByHand) {
                           settings);
     EXPECT_FALSE(session.scheduling().real_time);
     EXPECT_EQ(session.timing().lateness.count(), 0u);
-    EXPECT_EQ(session.device().name(), "fake");
+    EXPECT_EQ(session.grip().name(), "fake");
     for (int64_t now = kMs; now <= 300 * kMs; now += kTick_ns) session.loop().tick(now, now);
     EXPECT_EQ(session.loop().snapshot().last.device, DeviceState::kRunning);
     session.drain_trace();

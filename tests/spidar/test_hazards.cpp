@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/loop_thread.h"
 #include "tests/support/faulty_device.h"
@@ -85,7 +86,7 @@ class Round {
         simulated_(profile, SimulatedDevice::Time::kFixedStep,
                    held ? grip_model_of(profile) : released(profile, 0.1)),
         device_(simulated_, profile),
-        loop_(std::make_unique<HapticLoop>(profile, device_)) {
+        loop_(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device_))) {
     loop_->open();
     for (int ms = 0; ms < 250; ++ms) step();
     played_at_ns_ = now_ns_;

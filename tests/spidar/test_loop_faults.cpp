@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/loop/tension_command.h"
+#include "spidar/grip/string_grip.h"
+#include "spidar/grip/tension_command.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/random_motion.h"
@@ -38,7 +39,8 @@ struct Bench {
   const Profile profile;
   SimulatedDevice simulated{profile, SimulatedDevice::Time::kFixedStep};
   TamperedDevice device{simulated};
-  std::unique_ptr<HapticLoop> loop = std::make_unique<HapticLoop>(profile, device);
+  std::unique_ptr<HapticLoop> loop =
+      std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device));
   int64_t now_ns = 0;
 };
 

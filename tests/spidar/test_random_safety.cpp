@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/random_motion.h"
@@ -49,7 +50,7 @@ class Round {
         device_(simulated_) {
     limits_.max_force_N = random_.uniform(0.2, 6);
     limits_.max_torque_Nm = random_.uniform(0.01, 0.2);
-    loop_ = std::make_unique<HapticLoop>(believed_, device_, limits_);
+    loop_ = std::make_unique<HapticLoop>(std::make_unique<StringGrip>(believed_, device_), limits_);
     size_N_ =
         std::hypot(limits_.max_force_N, limits_.max_torque_Nm / believed_.geometry.grip_radius_m());
     loop_->open();

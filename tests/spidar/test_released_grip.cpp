@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/loop/grip_motion.h"
+#include "spidar/grip/grip_motion.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 

@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/loop/tension_command.h"
+#include "spidar/grip/string_grip.h"
+#include "spidar/grip/tension_command.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/random_motion.h"
@@ -61,7 +62,7 @@ TEST(Rest, IsNoStrongerWhenTheZeroIsWrong) {
         believed, {0.005 * random.direction(),
                    Eigen::Quaterniond(Eigen::AngleAxisd(3 * M_PI / 180, random.direction()))});
     SimulatedDevice device(real, SimulatedDevice::Time::kFixedStep);
-    const auto loop = std::make_unique<HapticLoop>(believed, device);
+    const auto loop = std::make_unique<HapticLoop>(std::make_unique<StringGrip>(believed, device));
     loop->open();
     int64_t now_ns = 0;
     for (int n = 0; n < 5; ++n) {

@@ -34,7 +34,7 @@ TEST_F(StickSides, AFifthOfTheStrengthIsUsedUnlessMoreIsAskedFor) {
     const FeltPlayer player("ff:/dev/input/event0" + option);
     player.push(1.5, 0);
     wait_for([&] { return !evdev_levels(0).at_rest(); });
-    return std::pair(port.gain.load(), player.session->device().description());
+    return std::pair(port.gain.load(), player.session->grip().description());
   };
   const std::string two = ", force feedback on two axes";
   const std::string one = ", force feedback on one axis: forces up and down are not felt";

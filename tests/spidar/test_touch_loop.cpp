@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/tick_trace.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
@@ -29,7 +30,7 @@ struct Hand {
   explicit Hand(size_t slots = 8)
       : mailbox(kWidth_m, kHeight_m, slots),
         device(profile, SimulatedDevice::Time::kFixedStep),
-        loop(std::make_unique<HapticLoop>(profile, device)) {
+        loop(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device))) {
     loop->connect_touch(&mailbox);
     loop->open();
     for (int n = 0; n < 300; ++n) tick();

@@ -66,15 +66,15 @@ TEST(IsWheel, JoysticksAreNone) {
 TEST_F(Wheels, GetTheSidewaysForce) {
   plug_evdev(0, EvdevKind::kWheel).axis[1] = 1000;  // a pedal
   const FeltPlayer player;
-  EXPECT_EQ(player.session->device().description(),
+  EXPECT_EQ(player.session->grip().description(),
             "Emulated Racing Wheel at 20 % of its strength, force feedback on one axis: forces up "
             "and down are not felt");
   player.push(-1, 1);
   wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
   EXPECT_EQ(evdev_levels(0).up, 0);
-  EXPECT_TRUE(player.session->device().felt_parts().x);
-  EXPECT_FALSE(player.session->device().felt_parts().y);
-  EXPECT_TRUE(player.session->device().felt_parts().direction);
+  EXPECT_TRUE(player.session->grip().felt_parts().x);
+  EXPECT_FALSE(player.session->grip().felt_parts().y);
+  EXPECT_TRUE(player.session->grip().felt_parts().direction);
   EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
   EXPECT_FALSE(bus().evdev[0].effect[1].used);
 }
@@ -106,7 +106,7 @@ TEST_F(Wheels, TheNumberOfAxesCanBeNamed) {
   const auto described = [](const std::string& device) {
     plug_evdev(0, EvdevKind::kStick);
     plug_evdev(1, EvdevKind::kPedalBase);
-    return FeltPlayer(device).session->device().description();
+    return FeltPlayer(device).session->grip().description();
   };
   EXPECT_EQ(described("ff:/dev/input/event0"), std::string("Emulated Stick") + kTwoAxes);
   EXPECT_EQ(described("ff:/dev/input/event0,axes=2"), std::string("Emulated Stick") + kTwoAxes);

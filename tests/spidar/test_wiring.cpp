@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/loop/safety.h"
+#include "spidar/grip/tension_limits.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/miswired_device.h"
 #include "spidar/wiring/wiring_answers.h"

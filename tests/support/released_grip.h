@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 
@@ -35,7 +36,7 @@ class PlayedGrip {
   PlayedGrip(const Profile& of, const GripModel& model, Film film, const SafetyLimits& limits = {})
       : profile(of),
         device(profile, SimulatedDevice::Time::kFixedStep, model),
-        loop(std::make_unique<HapticLoop>(profile, device, limits)),
+        loop(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device), limits)),
         mass_kg_(model.mass_kg),
         film_(std::move(film)) {
     for (int i = 0; i < profile.geometry.count; ++i)

@@ -7,8 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/grip/tension_command.h"
+#include "spidar/grip/tension_limits.h"
 #include "spidar/loop/safety.h"
-#include "spidar/loop/tension_command.h"
 
 namespace spidar::test {
 namespace {

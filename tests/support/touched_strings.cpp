@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 
@@ -178,8 +179,10 @@ class Pair {
   SimulatedDevice device_{profile_, SimulatedDevice::Time::kFixedStep, model_};
   ReadDevice read_{device_};
   ShadowDevice shadow_{profile_, read_, model_.motor_time_constant_s};
-  std::unique_ptr<HapticLoop> loop_ = std::make_unique<HapticLoop>(profile_, read_);
-  std::unique_ptr<HapticLoop> untouched_ = std::make_unique<HapticLoop>(profile_, shadow_);
+  std::unique_ptr<HapticLoop> loop_ =
+      std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile_, read_));
+  std::unique_ptr<HapticLoop> untouched_ =
+      std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile_, shadow_));
   int64_t now_ns_ = kStart_ns;
   Strings strings_{string_lengths_m(profile_.geometry, {}), StringVector::Zero(),
                    StringVector::Zero()};

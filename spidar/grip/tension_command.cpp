@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/loop/tension_command.h"
+#include "spidar/grip/tension_command.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/loop/grip_motion.h"
+#include "spidar/grip/grip_motion.h"
 
 #include <algorithm>
 #include <cmath>

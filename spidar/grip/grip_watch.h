@@ -11,7 +11,7 @@
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
-#include "spidar/loop/pose_trouble.h"
+#include "spidar/grip/pose_trouble.h"
 #include "spidar/profiles/encoder_scale.h"
 #include "spidar/profiles/profile.h"
 

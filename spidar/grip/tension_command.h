@@ -6,8 +6,8 @@
 #include "core/grip/string_geometry.h"
 #include "core/grip/tension_solver.h"
 #include "core/wrench.h"
-#include "spidar/loop/grip_motion.h"
-#include "spidar/loop/safety.h"
+#include "spidar/grip/grip_motion.h"
+#include "spidar/grip/safety_limits.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/loop/grip_watch.h"
+#include "spidar/grip/grip_watch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The interface between the haptic loop and what a hand holds: a wrench out, a pose in.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
+#include "core/wrench.h"
+#include "spidar/device.h"
+#include "spidar/device_error.h"
+#include "spidar/grip/grip_motion.h"
+#include "spidar/grip/pose_trouble.h"
+#include "spidar/grip/safety_limits.h"
+#include "spidar/link_fault.h"
+
+namespace spidar {
+
+/// What does not change while a grip is open.
+struct GripTraits {
+  double radius_m = 0;     ///< at which a torque counts as a force; 0: torques do not count
+  double drive_lag_s = 0;  ///< from a command to the force that follows
+};
+
+/// What a grip is told in a tick.
+struct GripCommand {
+  Wrench wrench;  ///< on the hand: within the limits, and no faster than they allow
+  /// The wrench is wanted, and the pose is known. Otherwise it is on its way to rest.
+  bool fresh = false;
+  /// Share of everything that pulls, 0 … 1: it rises after opening and falls before closing. At 0
+  /// the motors are off.
+  double power = 0;
+  SafetyLimits limits;
+  double dt_s = 0;  ///< since the last tick
+  int64_t now_ns = 0;
+};
+
+/// What is known of a grip. All but `pose` and what follows it is of the last command.
+struct GripReading {
+  /// The wrench that the hand gets. Computed for `pose`, even if that is not known any more.
+  Wrench delivered;
+  StringVector tension_N = StringVector::Zero();  ///< told; zero for a grip without strings
+  bool held_back = false;  ///< less than was wanted: a string is left out or a motor is warm
+
+  Pose pose;          ///< from the newest good reading
+  GripMotion motion;  ///< of these poses; at rest while the pose is not known
+  PoseTrouble trouble = PoseTrouble::kNotYet;
+  bool can_fly = true;  ///< the wrench can throw a grip that nobody holds
+  double pose_residual_m = 0;
+  int faulty_string = -1;      ///< whose length fits no pose that the others allow; −1 if all fit
+  double motor_heat = 0;       ///< of the warmest motor, see MotorHeat
+  uint64_t pose_errors = 0;    ///< answers without a pose, since the grip was constructed
+  uint64_t string_faults = 0;  ///< how often a string became faulty, or a different one did
+
+  bool knows_pose() const noexcept { return trouble == PoseTrouble::kNone; }
+};
+
+/// What a hand holds, with the device behind it. It protects the device and what is between device
+/// and hand; what protects the hand is above it, in HapticLoop (docs/safety.md). One thread at a
+/// time, except where stated.
+class Grip {
+ public:
+  virtual ~Grip() = default;
+
+  /// Opens the device with nothing that pulls. Throws DeviceError. After kLost or close() it may be
+  /// called again.
+  virtual void open() = 0;
+
+  /// Time passes, also while the device is lost.
+  virtual void pass(double) noexcept {}
+
+  /// To be called before the wrench of a tick is found: forgets a pose that is too old.
+  virtual void check_age(int64_t now_ns) noexcept = 0;
+
+  /// One cycle: a wrench out, a pose in. Called at 1 kHz: no allocation, no lock, no exception. If
+  /// the result is not kOk, the device may have received nothing: the next command continues from
+  /// the last one that was answered. The pose can become known only while `command.wrench` is zero.
+  virtual ExchangeStatus exchange(const GripCommand& command) noexcept = 0;
+
+  /// As of the last call.
+  virtual const GripReading& reading() const noexcept = 0;
+
+  /// Sets the device to rest, then releases it. Safe to call twice, and after kLost.
+  virtual void close() noexcept = 0;
+
+  virtual const GripTraits& traits() const noexcept = 0;
+
+  /// A description for people of what open() found; empty while closed, and for devices whose name
+  /// says everything.
+  virtual std::string description() const = 0;
+  /// What a hand feels. Any thread.
+  virtual FeltParts felt_parts() const noexcept = 0;
+  /// Statistics of the link to the device. Any thread.
+  virtual LinkHealth health() const noexcept = 0;
+  /// For messages: "sim", "usb:3", …
+  virtual const std::string& name() const noexcept = 0;
+};
+
+}  // namespace spidar

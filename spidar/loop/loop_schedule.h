@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What is to be felt at which running time: from the streaming thread to the loop.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "core/force/wrench_timeline.h"
+#include "core/track/track_reader.h"
+#include "spidar/realtime/latency_histogram.h"
+#include "spidar/realtime/spsc_ring.h"
+
+namespace spidar {
+
+/// Wrenches of frames and samples of a track. Each entry carries the generation in which it was
+/// pushed, and cancel() begins another:
+///
+/// - A ring holds entries in the order of their generations, because one thread pushes.
+/// - The timeline and the track hold entries of timeline_generation_ only.
+/// - find() drops entries of earlier generations. It leaves those of a later one in the ring: they
+///   were pushed after a cancel() that followed its look at the generation, and are for the next
+///   tick.
+class LoopSchedule {
+ public:
+  /// A wrench enters the timeline this long before the previous one is due, so that the slope there
+  /// is known at any frame rate. Later wrenches wait in the ring, so that a long queue of frames
+  /// before the screen does not displace the wrench that is due.
+  static constexpr int64_t kHorizon_ns = 100'000'000;
+
+  // --- streaming thread
+
+  /// False when the ring is full because the loop does not run, does not play, or is far behind.
+  bool push(const TimedWrench& entry) noexcept {
+    return wrenches_.push({generation_.load(std::memory_order_acquire), entry});
+  }
+  bool push(const TrackBlock& block) noexcept {
+    return blocks_.push({generation_.load(std::memory_order_acquire), block});
+  }
+
+  // --- any thread
+
+  /// Discards everything that was pushed before this call.
+  void cancel() noexcept { generation_.fetch_add(1, std::memory_order_acq_rel); }
+
+  /// Time from when each frame was due on the screen until its wrench was reached.
+  const LatencyHistogram& skew() const noexcept { return skew_; }
+
+  // --- loop thread
+
+  /// The wrench of this moment; nothing unless playing. Where there are samples of a track, they
+  /// are rendered instead of frames.
+  TimelineResult find(bool playing, int64_t running_ns) noexcept;
+
+  /// Wrenches whose time was not later than that of the previous one, since the last call.
+  uint64_t take_refused() noexcept;
+
+ private:
+  template <typename Entry>
+  struct Scheduled {
+    uint32_t generation = 0;
+    Entry entry;
+  };
+
+  void forget(uint32_t generation) noexcept;
+  bool is_of_the_future(uint32_t generation) const noexcept;
+  void take_wrenches(bool playing, int64_t running_ns) noexcept;
+  TimelineResult read_track(bool playing, int64_t running_ns) noexcept;
+
+  // Shared.
+  SpscRing<Scheduled<TimedWrench>, 256> wrenches_;
+  SpscRing<Scheduled<TrackBlock>, 64> blocks_;
+  std::atomic<uint32_t> generation_{0};
+  LatencyHistogram skew_;
+  // Loop thread only.
+  WrenchTimeline timeline_;
+  TrackReader track_;
+  uint32_t timeline_generation_ = 0;
+  int64_t newest_ns_ = INT64_MIN;  // running time of the newest wrench in the timeline
+  int64_t before_newest_ns_ = INT64_MIN;
+  int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last
+  uint64_t refused_ = 0;
+};
+
+}  // namespace spidar
