@@ -12,37 +12,48 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source-path=SCRIPTDIR source=../tests/install.sh
 . tests/install.sh
 
+ahead=     # the process of build_ahead
 builds=()  # folders with test results
 checks=()  # arguments for summary.py: what is no meson test
 
-say() { printf '\n== %s\n' "$*"; }
+# With the minutes and seconds since the start.
+say() { printf '\n== %d:%02d %s\n' $((SECONDS / 60)) $((SECONDS % 60)) "$*"; }
 
-targets=()  # of ninja; none: all
-
-# build_and_test FOLDER [meson setup option...] [-- meson test option...]
-build_and_test() {
-    local folder=$1 setup=()
-    shift
-    while (($#)) && [[ $1 != -- ]]; do
-        setup+=("$1")
-        shift
-    done
-    # Results of an earlier run would stand for a test program that crashes in this one.
-    rm -f "$folder"/*.xml "$folder"/meson-logs/testlog*
-    say "building in $folder/"
+# configure FOLDER [meson setup option...]
+configure() {
     # With -Dunity=on, several files are compiled as one, which takes a third of the time.
-    if { [[ -f $folder/build.ninja ]] || meson setup "$folder" -Dunity=on "${setup[@]}"; } &&
-        { [[ " $* " == *"suite "* ]] || ninja -C "$folder" -j"$(nproc)" "${targets[@]}"; }; then
-        say "testing $folder/"
-        # Of some suites, meson builds here what they need.
-        # Twice as many as processors: many tests wait for a clock instead of computing.
-        meson test -C "$folder" --num-processes "$((2 * $(nproc)))" --print-errorlogs "${@:2}" || true
-    fi
-    if [[ -f $folder/meson-logs/testlog.json ]]; then
-        builds+=("$folder")
-    else
-        checks+=(--failed "build in $folder/")
-    fi
+    [[ -f $1/build.ninja ]] || meson setup "$1" -Dunity=on "${@:2}" || checks+=(--failed "meson setup $1")
+}
+
+# build_ahead FOLDER [ninja target...]: begins to build while something else is tested, in the time that this
+# leaves to the processors. What it prints, errors too, comes again when the folder is built.
+build_ahead() {
+    chrt --idle 0 ninja -C "$1" -j"$(nproc)" "${@:2}" >/dev/null 2>&1 &
+    ahead=$!
+}
+
+# Ninja removes what is half made.
+stop_building_ahead() {
+    [[ -z $ahead ]] || kill "$ahead" 2>/dev/null || true
+    wait
+    ahead=
+}
+
+# build FOLDER [ninja target...]: fails when that fails.
+build() {
+    say "building in $1/"
+    stop_building_ahead
+    ninja -C "$1" -j"$(nproc)" "${@:2}" || { checks+=(--failed "build in $1/") && false; }
+}
+
+# run_tests FOLDER [meson test option...]: what they need is built.
+run_tests() {
+    say "testing $1/"
+    # Results of an earlier run would stand for a test program that crashes in this one.
+    rm -f "$1"/*.xml "$1"/meson-logs/testlog*
+    # Twice as many as processors: many tests wait for a clock instead of computing.
+    meson test -C "$1" --no-rebuild --num-processes "$((2 * $(nproc)))" --print-errorlogs "${@:2}" || true
+    [[ ! -f $1/meson-logs/testlog.json ]] || builds+=("$1")
 }
 
 check_layout() {
@@ -86,12 +97,14 @@ run_on_bare_debian() {
 case ${1-} in
 "")
     install_packages build test
-    build_and_test build
+    configure build
+    # Benchmarks are built while the tests run.
+    build build meson-test-prereq && build_ahead build && run_tests build
+    build build || true
     ;;
 --ci)
     install_packages build test ci
     check_layout
-    run_on_bare_debian build-ci-bare
     # Line numbers without variables and the lowest optimisation: the compiler needs a third of the
     # time. Without any, Eigen is too slow for the tests that sample many poses. Four checks of every
     # use of a pointer would double the compiler's time: null and object-size, where the address
@@ -99,6 +112,16 @@ case ${1-} in
     # between classes. With a sanitizer, GCC takes variables of std::regex for uninitialised.
     unchecked=-fno-sanitize=null,object-size,alignment,vptr
     sanitized=(-Doptimization=1 -Ddebug=false "-Dcpp_args=['-g1','$unchecked','-Wno-maybe-uninitialized']" -Db_lundef=false)
+    configure build-ci-address "${sanitized[@]}" \
+        -Db_sanitize=address,undefined -Dbenchmarks=disabled -Dapps=false \
+        -Dtest_suites=api,core,element,pipelines,spidar,window
+    configure build-ci-thread "${sanitized[@]}" \
+        -Db_sanitize=thread -Dbenchmarks=disabled -Dwindow=disabled -Dtest_suites=apps,pipelines,spidar
+    threaded_targets=(tests/spidar/test_{spidar,usb,guardian} tests/apps/test_play_{numbers,traces}
+        tests/pipelines/test_pipelines_random_operations)
+
+    build_ahead build-ci-address
+    run_on_bare_debian build-ci-bare
     say "address sanitizer: GLib's table of quarks is left out, which it never frees; plugins are read" \
         "in the test itself, for GStreamer's own process for that is not built with the sanitizer"
     echo "left out: apps, programs of their own; numerics, tests that sample thousands of cases of" \
@@ -108,10 +131,10 @@ case ${1-} in
     export ASAN_OPTIONS=fast_unwind_on_malloc=0  # else stacks end in GLib
     export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
     export GST_REGISTRY_FORK=no
-    build_and_test build-ci-address "${sanitized[@]}" \
-        -Db_sanitize=address,undefined -Dbenchmarks=disabled -Dapps=false \
-        -Dtest_suites=api,core,element,pipelines,spidar,window -- \
-        -t 4 --no-suite short-films
+    if build build-ci-address; then
+        build_ahead build-ci-thread "${threaded_targets[@]}"
+        run_tests build-ci-address -t 4 --no-suite short-films
+    fi
     check_site build-ci-address
     say "thread sanitizer: what runs on several threads, and a player to which anything is done at random." \
         "GLib and GStreamer are not built with it: their locks are told to it (tests/support/tsan_glib.cpp)," \
@@ -121,13 +144,8 @@ case ${1-} in
         "Debian packages in a clean Debian; suite players, which needs desktop players; suite soak, which takes an" \
         "hour; suite validate, which needs gst-validate; suite valgrind. Each by meson test -C build --suite NAME"
     threaded=(haptic_session shared_memory simulated_faults tick_trace touch_mailbox boards usb_boards force_feedback
-        uart_line guardian)
-    targets=(tests/spidar/test_{spidar,usb,guardian} tests/apps/test_play_{numbers,traces}
-        tests/pipelines/test_pipelines_random_operations)
-    build_and_test build-ci-thread "${sanitized[@]}" \
-        -Db_sanitize=thread -Dbenchmarks=disabled -Dwindow=disabled \
-        -Dtest_suites=apps,pipelines,spidar -- \
-        -t 8 "${threaded[@]}" play_numbers play_traces pipelines_random_operations
+        uart_line guardian play_numbers play_traces pipelines_random_operations)
+    ! build build-ci-thread "${threaded_targets[@]}" || run_tests build-ci-thread -t 8 "${threaded[@]}"
     ;;
 *)
     echo "error: unknown option $1; usage: tests/run.sh [--ci]" >&2
