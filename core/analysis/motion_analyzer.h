@@ -6,63 +6,15 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <vector>
 
-#include "core/force/gain_controller.h"
-#include "core/force/motion_filter.h"
-#include "core/force/motion_rendering.h"
+#include "core/analysis/analyzer_settings.h"
+#include "core/analysis/frame_analysis.h"
+#include "core/analysis/measured_frame.h"
 #include "core/image_view.h"
-#include "core/motion/image_motion.h"
-#include "core/motion/scene_motion.h"
-#include "core/tracking/tracker.h"
-#include "core/wrench.h"
 
 namespace spidar {
 
-struct AnalyzerSettings {
-  TrackerSettings tracker;
-  MotionKind motion = MotionKind::kObject;
-  /// Place of the picture where kObjects is felt: (0, 0) is its top left corner, (1, 1) its bottom
-  /// right one; finite.
-  Eigen::Vector2d pointer{0.5, 0.5};
-  FilterSettings filter;
-  AxisGains axes;
-  ControllerSettings controller;
-};
-
-/// Closest to the paper: mean velocity of the points of OpenCvTracker, unfiltered, nonlinear
-/// controller.
-AnalyzerSettings paper_settings();
-
-/// The result of one frame.
-struct FrameAnalysis {
-  int width = 0;  ///< of the frame, px
-  int height = 0;
-  int features = 0;    ///< points looked for in the next frame
-  ImageMotion motion;  ///< the one that is felt, unfiltered, in px/s of the frame as given
-  /// Model of the background; nothing when `motion` needs none, and after a restart.
-  std::optional<ModelKind> model;
-  int objects = 0;         ///< how many are known; 0 when `motion` needs none
-  Wrench wrench;           ///< wanted by the controller, before any safety limit
-  bool restarted = false;  ///< there was nothing to compare with: motion and wrench are zero
-  /// The frame shows the previous picture again, and the motion may go on: motion and wrench are
-  /// those of the previous frame.
-  bool repeated = false;
-  /// Whether the frame shows the previous picture again, be it waiting (`repeated`) or at rest: the
-  /// same pixels, or the same apart from the noise of coding.
-  bool same_picture = false;
-  /// The time in which the motion happened, see Cadence: it may span more than two frames; 0 after
-  /// a restart.
-  int64_t interval_ns = 0;
-
-  // The data from which the result was computed, not copied: valid until the next analyze().
-  const std::vector<Track>* tracks = nullptr;              ///< null after a restart
-  const Background* background = nullptr;                  ///< null when `model` is nothing
-  const std::vector<MovingObject>* object_list = nullptr;  ///< null when `motion` looks for none
-};
-
-/// image → features → tracks → motion model → motion → filter → gain controller → wrench. One
-/// thread at a time.
+/// A FrameMeter and, behind it, a FrameRenderer. One thread at a time.
 ///
 /// A frame that shows the previous picture again does not tell whether anything moves. It is
 /// reported as `repeated` for up to Cadence::kRest_ns, or for as long as the film has repeated
@@ -93,6 +45,9 @@ class MotionAnalyzer {
   /// After a flush, a seek or a discontinuity: the next frame has no motion, and the controller
   /// starts again.
   void restart();
+
+  /// What was found in the frame that analyze() or repeat() took last.
+  const MeasuredFrame& measured() const;
 
  private:
   struct Impl;

@@ -13,7 +13,7 @@
 namespace spidar {
 namespace {
 
-constexpr int n = kMaxStrings;
+constexpr int kStrings = kMaxStrings;
 
 // A violation of the optimality conditions that counts as none, relative to the terms of the
 // gradient, which is itself rounded to some 1e-15 of them.
@@ -79,8 +79,8 @@ void start(const Bounds& bounds, const double* tension, Iterate& x) {
 
 TensionProblem with_eight_strings(const TensionProblem& p) {
   TensionProblem padded = p;
-  padded.count = n;
-  for (int i = p.count; i < n; ++i) {
+  padded.count = kStrings;
+  for (int i = p.count; i < kStrings; ++i) {
     padded.W.col(i).setZero();
     padded.t_min_N[i] = padded.t_max_N[i] = padded.t_ref_N[i] = 0;
   }
@@ -89,7 +89,7 @@ TensionProblem with_eight_strings(const TensionProblem& p) {
 
 StringVector tension_at_rest(const TensionProblem& p) {
   StringVector t = StringVector::Zero();
-  for (int i = 0; i < std::min(p.count, n); ++i)
+  for (int i = 0; i < std::min(p.count, kStrings); ++i)
     if (std::isfinite(p.t_min_N[i])) t[i] = p.t_min_N[i];
   return t;
 }
@@ -109,13 +109,13 @@ double violations(const Bounds& bounds, const Iterate& x, double* violation) {
 // A step to the minimum over the free strings: t[index] − length.
 struct Step {
   int count = 0;
-  int index[n];
-  double length[n];
+  int index[kStrings];
+  double length[kStrings];
 };
 
 Step newton_step(const TensionObjective& objective, const Iterate& x) {
   Step step;
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < kStrings; ++i) {
     step.index[step.count] = i;
     step.count += static_cast<int>(x.free >> i & 1);
   }
@@ -143,7 +143,8 @@ unsigned go_clipped(const Bounds& bounds, const Iterate& x, const Step& step, It
 // Change of the objective from `x` to `next`; exact, as the objective is quadratic.
 double change(const Iterate& x, const Iterate& next) {
   double sum = 0;
-  for (int i = 0; i < n; ++i) sum += (next.t[i] - x.t[i]) * (x.gradient[i] + next.gradient[i]) / 2;
+  for (int i = 0; i < kStrings; ++i)
+    sum += (next.t[i] - x.t[i]) * (x.gradient[i] + next.gradient[i]) / 2;
   return sum;
 }
 
@@ -171,10 +172,10 @@ void go_to_first_bound(const Bounds& bounds, const Step& step, Iterate& x) {
 
 unsigned strings_to_release(const Iterate& x, const double* violation, double share) {
   double largest = 0;
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < kStrings; ++i)
     if (!(x.free >> i & 1)) largest = std::max(largest, violation[i]);
   unsigned released = 0;
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < kStrings; ++i)
     if (violation[i] > 0 && violation[i] >= share * largest) released |= 1u << i;
   return released & ~x.free;
 }
@@ -238,7 +239,7 @@ class Search {
 
 bool is_valid(const TensionProblem& problem, const TensionObjective& objective,
               const Bounds& bounds) {
-  return problem.count == n && problem.epsilon > 0 && problem.torque_length_m > 0 &&
+  return problem.count == kStrings && problem.epsilon > 0 && problem.torque_length_m > 0 &&
          objective.is_finite() && bounds.are_valid();
 }
 
@@ -274,7 +275,7 @@ TensionResult describe(const TensionProblem& problem, const TensionObjective& ob
 }  // namespace
 
 TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
-  if (problem.count > 0 && problem.count < n) return solve(with_eight_strings(problem));
+  if (problem.count > 0 && problem.count < kStrings) return solve(with_eight_strings(problem));
   const TensionObjective objective(problem);
   const Bounds bounds{problem.t_min_N.data(), problem.t_max_N.data()};
   TensionResult result;

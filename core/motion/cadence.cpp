@@ -107,13 +107,12 @@ Cadence::Step Cadence::see(Picture picture, int64_t time_ns) {
   const int64_t frame_ns = begun_ ? std::max<int64_t>(time_ns - frame_ns_, 1) : 0;
   frame_ns_ = time_ns;
   if (repeated) ++frames_;
-  if (waits) return {true, 0};
+  if (waits) return {true, 0, 0};
 
-  step_ = {false, frame_ns};
-  shown_for_ns_ = frame_ns;
+  Step step{false, frame_ns, frame_ns};
   if (repeated) {
     rests_ = true;
-    return step_;  // measured frame by frame from now on
+    return step;  // measured frame by frame from now on
   }
 
   const int64_t between_ns = begun_ ? time_ns - picture_ns_ : frame_ns;
@@ -124,7 +123,7 @@ Cadence::Step Cadence::see(Picture picture, int64_t time_ns) {
   rests_ = false;
   if (between_ns <= kLongest_ns) {
     if (picture == Picture::kOther) remember(shown);
-    step_.interval_ns = shown_for_ns_ = between_ns;
+    step.interval_ns = step.shown_for_ns = between_ns;
   }
   bool repeats = false;
   size_t alike = 0;
@@ -137,22 +136,20 @@ Cadence::Step Cadence::see(Picture picture, int64_t time_ns) {
       ++alike;
     }
   }
-  if (!repeats) return step_;
+  if (!repeats) return step;
   if (count_ >= kEnough && static_cast<double>(alike) >= kAccidents * static_cast<double>(count_)) {
     // This also holds when the picture begins to move again after a rest.
-    step_.interval_ns = median;
+    step.interval_ns = median;
   } else if (const double even_ns = even_interval_ns(); even_ns > 0) {
-    step_.interval_ns = std::llround(even_ns);
+    step.interval_ns = std::llround(even_ns);
   }
-  return step_;
+  return step;
 }
 
-double Cadence::correction(double speed_px_s) {
+double LostFrames::correction(int64_t interval_ns, int64_t shown_for_ns, double speed_px_s) {
   double factor = 1;
-  if (step_.interval_ns > 0 && shown_for_ns_ != step_.interval_ns && speed_px_s > 0 &&
-      speed_px_s_ > 0) {
-    const double other =
-        static_cast<double>(step_.interval_ns) / static_cast<double>(shown_for_ns_);
+  if (interval_ns > 0 && shown_for_ns != interval_ns && speed_px_s > 0 && speed_px_s_ > 0) {
+    const double other = static_cast<double>(interval_ns) / static_cast<double>(shown_for_ns);
     const double off = std::abs(std::log(speed_px_s / speed_px_s_));
     const double other_off = std::abs(std::log(speed_px_s * other / speed_px_s_));
     if (other_off + kClearly < off) factor = other;
@@ -166,7 +163,6 @@ void Cadence::cut(int64_t time_ns) {
   picture_ns_ = frame_ns_ = time_ns;
   frames_ = 1;
   has_changed_ = rests_ = false;
-  speed_px_s_ = 0;
 }
 
 }  // namespace spidar

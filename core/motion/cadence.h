@@ -42,6 +42,8 @@ class Cadence {
     bool waits = false;
     /// Otherwise, the time in which its motion happened, > 0.
     int64_t interval_ns = 0;
+    /// The time between the first frames of the two pictures, > 0.
+    int64_t shown_for_ns = 0;
   };
 
   /// Whether a picture that is repeated at `time_ns` would have to wait.
@@ -49,13 +51,6 @@ class Cadence {
 
   /// Takes the frame shown at `time_ns`, which must rise.
   Step see(Picture picture, int64_t time_ns);
-
-  /// Factor for the speed that was computed with the interval of the last Step. A frame may have
-  /// been repeated because the one after it was lost: the picture has then moved on in the
-  /// meantime, and the time between the frames is the right one. The speed tells which of the two
-  /// it was, because it is close to the previous one. Call this once for each Step that does not
-  /// wait.
-  double correction(double speed_px_s);
 
   /// When the latest picture was first shown.
   int64_t picture_ns() const { return picture_ns_; }
@@ -93,9 +88,22 @@ class Cadence {
   int frames_ = 0;            ///< number of frames that have shown the latest picture
   bool has_changed_ = false;  ///< there has been another picture since the cut
   bool rests_ = false;        ///< it was shown for too long to belong to a motion
-  Step step_;                 ///< the last one that did not wait
-  int64_t shown_for_ns_ = 0;  ///< between the first frames of the pictures, in that step
-  double speed_px_s_ = 0;     ///< found in that step, corrected
+};
+
+/// A frame may have been repeated because the one after it was lost: the picture has then moved on
+/// in the meantime, and the time between the frames is the right one. The speed tells which of the
+/// two it was, because it is close to the previous one.
+class LostFrames {
+ public:
+  /// Factor for the speed that was computed with the interval of a Step that does not wait. Call
+  /// this once for each of them.
+  double correction(int64_t interval_ns, int64_t shown_for_ns, double speed_px_s);
+
+  /// After a cut.
+  void reset() { speed_px_s_ = 0; }
+
+ private:
+  double speed_px_s_ = 0;  ///< the last one, corrected
 };
 
 }  // namespace spidar

@@ -49,28 +49,6 @@ double mean_cost(const MotionModel& model, const BackgroundVotes& votes, double 
   return all > 0 ? sum / all : 0;
 }
 
-/// The camera's motion is the inverse of the picture's.
-ImageMotion camera_motion(const Background& background, int tracked, double interval_s) {
-  const MotionModel& model = background.model;
-  ImageMotion camera;
-  camera.velocity_px_s = -model.shift_px / interval_s;
-  camera.growth_1_s = -model.growth() / (1 + model.growth()) / interval_s;
-  camera.roll_rad_s = -model.roll_rad() / interval_s;
-  camera.tracked = tracked;
-  if (tracked > 0) camera.noise_px_s = background.sigma_px / std::sqrt(tracked) / interval_s;
-  return camera;
-}
-
-ImageMotion motion_of(const MovingObject& object) {
-  ImageMotion motion;
-  motion.velocity_px_s = object.relative_px_s;
-  motion.growth_1_s = object.growth_1_s;
-  motion.roll_rad_s = object.roll_rad_s;
-  motion.tracked = object.tracks;
-  motion.noise_px_s = object.noise_px_s;
-  return motion;
-}
-
 /// The centre of the field's picture relative to the centre of the frame. They differ because both
 /// leave out columns and rows at the right and at the bottom that do not fill a pixel.
 Eigen::Vector2d field_offset_px(const PaddedImage& picture, const ReducedFrame& frame,
@@ -218,12 +196,8 @@ void MotionEstimator::report_tracks(const ReducedFrame& reduced) {
   }
 }
 
-SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
-                                      const ReducedFrame& reduced,
-                                      const FieldPoints::Settings& points, int64_t interval_ns,
-                                      const Eigen::Vector2d& pointer) {
-  if (kind != kind_ && kind == MotionKind::kCamera) dominant_.reset();
-  kind_ = kind;
+SceneMotion MotionEstimator::estimate(const ImageView& frame, const ReducedFrame& reduced,
+                                      const FieldPoints::Settings& points, int64_t interval_ns) {
   SceneMotion scene;
   if (reduced.is_repeated() && field_.has_picture()) {
     field_.stand_still();
@@ -245,30 +219,15 @@ SceneMotion MotionEstimator::estimate(MotionKind kind, const ImageView& frame,
   const double scale = reduced.factor() * field_.scale();
   background_ = in_pixels_of(background, scale);
   scene.background = &background_;
-  scene.model = background.model.kind;
-  scene.camera = camera_motion(background_, static_cast<int>(votes_.points.size()), interval_s);
+  scene.votes = static_cast<int>(votes_.points.size());
   // The camera's motion needs them, too: blocks that move by themselves or are burned in have less
   // of a vote, or none.
   const FieldInFrame field{field_, scale, field_offset_px(field_.picture(), reduced, scale),
                            interval_s, placed_};
   const std::vector<MovingObject>& objects = objects_.update(field, background);
   estimator_.learn_noise(votes_, [this](size_t block) { return objects_.moves(block); });
-  if (kind == MotionKind::kCamera) {
-    scene.felt = scene.camera;
-  } else {
-    scene.objects = static_cast<int>(objects.size());
-    scene.object_list = &objects;
-    // Chosen also while all objects are felt, so that a caller who asks for one object gets a
-    // stable choice.
-    scene.dominant = dominant_.choose(objects, interval_s);
-    if (kind == MotionKind::kObjects) {
-      const Eigen::Vector2d pointer_px((pointer.x() - 0.5) * reduced.width(),
-                                       (pointer.y() - 0.5) * reduced.height());
-      scene.felt = motion_at_pointer(objects, pointer_px, reduced.height());
-    } else if (scene.dominant) {
-      scene.felt = motion_of(*scene.dominant);
-    }
-  }
+  scene.object_list = &objects;
+  scene.dominant = dominant_.choose(objects, interval_s);
   report_tracks(reduced);
   scene.tracks = &tracks_;
   choose_points(frame, reduced, points);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds the motion of successive frames that is rendered as force.
+/// Finds what moves between successive frames.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,6 @@
 #include "core/field/reduced_frame.h"
 #include "core/motion/background.h"
 #include "core/motion/dominant_object.h"
-#include "core/motion/image_motion.h"
 #include "core/motion/objects.h"
 #include "core/motion/scene_motion.h"
 #include "core/tracking/tracker.h"
@@ -25,13 +24,9 @@ class MotionEstimator {
   MotionEstimator();
 
   /// Takes the frame that was shown `interval_ns` > 0 after the one before, both as it is and as
-  /// `reduced`. `kind` is not kMean, which needs no scene. `points` are followed for sub-pixel
-  /// accuracy. `pointer` is a place in the picture, where (0, 0) is the top left and (1, 1) the
-  /// bottom right corner; it may lie outside. Only kObjects uses it. When the kind changes, state
-  /// that the previous kind did not update begins anew.
-  SceneMotion estimate(MotionKind kind, const ImageView& frame, const ReducedFrame& reduced,
-                       const FieldPoints::Settings& points, int64_t interval_ns,
-                       const Eigen::Vector2d& pointer = {0.5, 0.5});
+  /// `reduced`. `points` are followed for sub-pixel accuracy.
+  SceneMotion estimate(const ImageView& frame, const ReducedFrame& reduced,
+                       const FieldPoints::Settings& points, int64_t interval_ns);
 
   /// After a cut or a seek: the next frame is not compared with the one before.
   void reset();
@@ -44,7 +39,6 @@ class MotionEstimator {
                      const FieldPoints::Settings& points);
   void report_tracks(const ReducedFrame& reduced);
 
-  MotionKind kind_ = MotionKind::kObject;
   BlockField field_;
   BackgroundVotes votes_;
   BackgroundEstimator estimator_;

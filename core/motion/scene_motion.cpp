@@ -16,6 +16,27 @@ double weight_at(const Eigen::Vector2d& pointer_px, const MovingObject& object, 
 
 }  // namespace
 
+ImageMotion camera_motion(const Background& background, int votes, double interval_s) {
+  const MotionModel& model = background.model;
+  ImageMotion camera;
+  camera.velocity_px_s = -model.shift_px / interval_s;
+  camera.growth_1_s = -model.growth() / (1 + model.growth()) / interval_s;
+  camera.roll_rad_s = -model.roll_rad() / interval_s;
+  camera.tracked = votes;
+  if (votes > 0) camera.noise_px_s = background.sigma_px / std::sqrt(votes) / interval_s;
+  return camera;
+}
+
+ImageMotion motion_of(const MovingObject& object) {
+  ImageMotion motion;
+  motion.velocity_px_s = object.relative_px_s;
+  motion.growth_1_s = object.growth_1_s;
+  motion.roll_rad_s = object.roll_rad_s;
+  motion.tracked = object.tracks;
+  motion.noise_px_s = object.noise_px_s;
+  return motion;
+}
+
 ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
                               const Eigen::Vector2d& pointer_px, int frame_height) {
   ImageMotion sum;

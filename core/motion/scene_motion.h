@@ -3,11 +3,11 @@
 /// Chooses which motion of the picture is felt.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/motion/background.h"
 #include "core/motion/image_motion.h"
 #include "core/motion/motion_models.h"
 #include "core/motion/moving_object.h"
@@ -36,20 +36,23 @@ constexpr double kPointerReach = 0.25;
 ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
                               const Eigen::Vector2d& pointer_px, int frame_height);
 
+/// Motion of the camera over `interval_s` > 0: it moves to the right when the background moves to
+/// the left, and forwards when the background grows. `votes` is the number of displacements that
+/// the background was found from.
+ImageMotion camera_motion(const Background& background, int votes, double interval_s);
+
+/// The motion of this object alone.
+ImageMotion motion_of(const MovingObject& object);
+
 /// Result for two successive frames.
 struct SceneMotion {
-  ImageMotion felt;
-  /// There is nothing to compare with: the first frame, another size, or a cut. Nothing is felt.
+  /// There is nothing to compare with: the first frame, another size, or a cut. Nothing moves.
   bool restarted = false;
-  /// Motion of the background; nothing with kMean, which fits no model.
-  std::optional<ModelKind> model;
-  /// Motion of the camera: it moves to the right when the background moves to the left, and
-  /// forwards when the background grows. Zero with kMean.
-  ImageMotion camera;
-  int objects = 0;  ///< known objects, visible or not; 0 with kMean and kCamera
-  /// Details, valid until the next estimate(). Null with kMean; without objects with kCamera.
+  /// Details, valid until the next estimate(); null after a restart.
   const Background* background = nullptr;
-  const std::vector<MovingObject>* object_list = nullptr;  ///< ordered by id
+  int votes = 0;  ///< displacements that the background was found from
+  /// Known objects, visible or not, ordered by id.
+  const std::vector<MovingObject>* object_list = nullptr;
   /// Points that were followed, and the motion of blocks that have no point.
   const std::vector<Track>* tracks = nullptr;
   int features = 0;  ///< points that will be looked for in the next frame

@@ -6,15 +6,6 @@
 #include <utility>
 
 namespace spidar {
-namespace {
-
-/// With a share of 1 the result is the same bit for bit.
-Wrench scaled(const Wrench& wrench, double share) {
-  return {share * wrench.force_N, share * wrench.torque_Nm};
-}
-
-}  // namespace
-
 std::string MotionEngine::open(const MotionProperties& properties) {
   analyzer_.configure(properties.analyzer);
   if (properties.device == "none") return {};
@@ -34,10 +25,10 @@ void MotionEngine::close() {
   reliefs_.disconnect();  // releases what the loop has been reading
 }
 
-std::string MotionEngine::start(const std::string& trace_path) {
+std::string MotionEngine::start(const std::string& trace_path, const AnalyzerSettings& settings) {
   stats_.reset();
   restart_timing();
-  return trace_path.empty() ? std::string() : trace_.open(trace_path);
+  return trace_path.empty() ? std::string() : trace_.open(trace_path, settings);
 }
 
 bool MotionEngine::stop() {
@@ -86,7 +77,8 @@ GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
   describe_limit(no_force_reason(), structure);
-  gst_structure_set(structure, "track-frames", G_TYPE_UINT64, player_.frames(), nullptr);
+  gst_structure_set(structure, "track-frames", G_TYPE_UINT64, player_.frames(), "analysis-frames",
+                    G_TYPE_UINT64, replayed_.load(), nullptr);
   reliefs_.describe(structure);
   output_.describe(structure);
   if (const std::optional<LoopSnapshot> loop = output_.snapshot()) {
@@ -137,7 +129,10 @@ void MotionEngine::run_out(GstClockTime running_time) {
   schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
 }
 
-void MotionEngine::begin_gap(GstClockTime running_time) {
+void MotionEngine::begin_gap(GstClockTime running_time, GstClockTime stream_time) {
+  if (trace_.is_motion() && is_time(stream_time)) {
+    trace_.write({Moment::kNothing, static_cast<int64_t>(stream_time), -1, false, {}}, {});
+  }
   if (!is_time(running_time) || !pacer_.has_frame()) {
     run_out(running_time);
   } else if (!gap_ns_) {  // while no frame comes, the force ends without help
@@ -153,27 +148,6 @@ void MotionEngine::end_gap(int64_t running_ns) {
   gap_ns_.reset();
 }
 
-void MotionEngine::pass_gap(GstClockTime running_time) {
-  if (!is_time(running_time)) {
-    restart();
-    return;
-  }
-  const int64_t running_ns = static_cast<int64_t>(running_time);
-  const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
-  // videorate makes such a gap of a frame that is shown again.
-  const std::optional<FrameAnalysis> analysis =
-      time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : std::nullopt;
-  if (analysis) {
-    schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
-                   turn_.to_shown(scaled(analysis->wrench, motion_share_)), analysis->repeated});
-    limit_watch_.repeat(schedule_.at_sink_ns(running_ns), analysis->wrench);
-  } else {
-    run_out(running_time);
-    limit_watch_.repeat(schedule_.at_sink_ns(running_ns), Wrench());
-  }
-  pacer_.pass(time);
-}
-
 void MotionEngine::end_of_stream() {
   if (!pacer_.has_frame()) return;
   run_out(static_cast<GstClockTime>(pacer_.next_ns()));
@@ -182,6 +156,11 @@ void MotionEngine::end_of_stream() {
 
 void MotionEngine::set_track(std::optional<TrackFile> track) {
   player_.set_track(std::move(track).value_or(TrackFile{}));
+}
+
+void MotionEngine::set_motion(std::shared_ptr<const MotionFile> file, int64_t later_ns) {
+  replay_.set_file(std::move(file), later_ns);
+  replayed_ = 0;
 }
 
 void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
@@ -211,91 +190,6 @@ void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
         output_.profile().drive_lag_known ? TouchProblem::kTooStiff : TouchProblem::kLagUnknown;
   }
   if (!found) report.touch_problem = TouchProblem::kNoDepth;
-}
-
-FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& segment,
-                                  const AnalyzerSettings& settings, const TouchProperties& touch) {
-  FrameReport report;
-  const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
-  if (segment.format != GST_FORMAT_TIME || !GST_CLOCK_TIME_IS_VALID(pts)) {
-    restart();
-    report.problem = FrameProblem::kNoTimestamp;
-    return report;
-  }
-  report.running_time = shown_at(frame, segment);
-  report.stream_time = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, pts);
-  if (!GST_CLOCK_TIME_IS_VALID(report.running_time)) {
-    report.problem = FrameProblem::kNotShown;
-    return report;
-  }
-  if (!is_time(report.running_time)) {
-    restart();
-    report.problem = FrameProblem::kNoTimestamp;
-    return report;
-  }
-  const int64_t running_ns = static_cast<int64_t>(report.running_time);
-  if (player_.active()) {
-    const auto place = place_of(frame.buffer, nominal_duration(frame.info), segment,
-                                schedule_.at_sink_ns(running_ns), schedule_.rate_multiplier());
-    if (place) player_.play(*place);
-    if (touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
-    limit_watch_.set_touching(false);
-    reliefs_.end(schedule_.at_sink_ns(running_ns));
-    return report;
-  }
-  end_gap(running_ns);
-  const FramePacer::Order order = pacer_.order(running_ns, frame, segment);
-  if (order == FramePacer::Order::kTooSoon) {
-    report.problem = FrameProblem::kSameTimestamp;
-    return report;
-  }
-  if (order == FramePacer::Order::kFalling) report.problem = FrameProblem::kFallingTimestamp;
-  if (order != FramePacer::Order::kNext) restart();
-
-  if (!holds_picture(frame)) {
-    restart();
-    report.problem = FrameProblem::kTooSmall;
-    return report;
-  }
-  const ImageView luma = luma_.view(frame);
-  const std::optional<DepthLayout> packed = touch.packed();
-  const ImageView picture = packed ? picture_half(luma, *packed) : luma;
-  if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
-    restart();
-    report.problem = luma.data ? FrameProblem::kSmallHalf : FrameProblem::kNotShown;
-    return report;
-  }
-  analyzer_.configure(settings);
-  const int64_t begin_ns = HapticSession::monotonic_now_ns();
-  const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
-  report.analysis = analyzer_.analyze(picture, time.paced_ns);
-  report.analyzed = true;
-  // The picture is the left or the upper half.
-  report.part = visible_part(frame);
-  report.part.width = picture.width;
-  report.part.height = picture.height;
-  report.took_ns = HapticSession::monotonic_now_ns() - begin_ns;
-
-  const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;
-  pacer_.take(time, moved);
-  limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis, settings.motion);
-  limit_watch_.set_touching(touch.kind != TouchKind::kOff);
-  // This share of the film's motion is felt, reported and shown in addition to touch.
-  motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
-  report.analysis.wrench = turn_.to_shown(scaled(report.analysis.wrench, motion_share_));
-  report.turn = turn_;
-  if (!time.in_place) {
-    touch_frame(frame.buffer, luma, touch, running_ns, report);
-    schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
-                   report.analysis.wrench, report.analysis.repeated});
-  }
-  report.limit = limit_watch_.limit(output_.snapshot(), false);
-  if (trace_.is_open()) {
-    report.trace_failed = !trace_.write(running_ns, static_cast<int64_t>(report.stream_time),
-                                        report.analysis, report.limit);
-  }
-  stats_.add(report.analysis, report.took_ns);
-  return report;
 }
 
 }  // namespace spidar

@@ -3,6 +3,7 @@
 /// What the element does with frames and time, without GObject.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include <gst/video/video.h>
 
 #include "core/analysis/motion_analyzer.h"
+#include "core/analysis/motion_replay.h"
 #include "plugin/device/haptic_output.h"
 #include "plugin/engine/stream_orientation.h"
 #include "plugin/frame/frame_luma.h"
@@ -50,7 +52,7 @@ class MotionEngine {
   /// Motors to rest, device closed.
   void close();
   /// Begins a stream. Empty, or why the trace cannot be written.
-  std::string start(const std::string& trace_path);
+  std::string start(const std::string& trace_path, const AnalyzerSettings& settings);
   /// Ends it. False when the last rows of the trace could not be written.
   bool stop();
 
@@ -80,6 +82,9 @@ class MotionEngine {
   const PictureTurn& turn() const { return turn_; }
   /// Frames are not analysed: the samples of this track are felt. Nothing: they are again.
   void set_track(std::optional<TrackFile> track);
+  /// Pictures are not analysed: frames are found in this file by their stream time, which is
+  /// `later_ns` later than there. Null: they are again.
+  void set_motion(std::shared_ptr<const MotionFile> file, int64_t later_ns);
   /// The pointer of `settings` is a place of the frame before it is turned.
   FrameReport process(const GstVideoFrame& frame, const GstSegment& segment,
                       const AnalyzerSettings& settings, const TouchProperties& touch);
@@ -93,15 +98,26 @@ class MotionEngine {
   void begin_segment();
   /// There are no frames from this running time on, but for those that the decoder holds: the gap
   /// event of a demuxer overtakes them, and begins too early when the last one is not the newest.
-  void begin_gap(GstClockTime running_time);
+  void begin_gap(GstClockTime running_time, GstClockTime stream_time);
   /// In place of a frame that has no picture.
-  void pass_gap(GstClockTime running_time);
+  void pass_gap(GstBuffer* buffer, const GstSegment& segment);
   /// Nothing more comes.
   void end_of_stream();
   /// Where the grip points at the picture as it is shown; nothing while no device runs.
   std::optional<Eigen::Vector2d> grip_place() const;
 
  private:
+  FrameReport process_frame(const GstVideoFrame& frame, const GstSegment& segment,
+                            const AnalyzerSettings& settings, const TouchProperties& touch);
+  bool follows(const GstVideoFrame& frame, const GstSegment& segment, FrameReport& report);
+  bool analyze(const GstVideoFrame& frame, const ImageView& luma, const AnalyzerSettings& settings,
+               const TouchProperties& touch, int64_t paced_ns, FrameReport& report);
+  bool replay(const GstVideoFrame& frame, const GstSegment& segment, AnalyzerSettings settings,
+              FrameReport& report);
+  const MeasuredFrame& measured() const;
+  /// Of the picture in which the wrench was found.
+  const PictureTurn& wrench_turn() const { return replay_.active() ? replay_.turn() : turn_; }
+  bool trace_moment(std::optional<MotionMoment> moment, bool is_measured);
   void end_gap(int64_t running_ns);
   void run_out(GstClockTime running_time);
   void touch_frame(GstBuffer* buffer, const ImageView& luma, const TouchProperties& touch,
@@ -118,6 +134,8 @@ class MotionEngine {
   StreamOrientation orientation_;
   PictureTurn turn_;
   MotionAnalyzer analyzer_;
+  MotionReplay replay_;
+  std::atomic<uint64_t> replayed_{0};  // frames since set_motion()
   FrameLuma luma_;
   FrameTrace trace_;
   FramePacer pacer_;

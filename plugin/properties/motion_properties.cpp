@@ -46,7 +46,7 @@ std::vector<MotionRow> point_rows() {
   };
 }
 
-/// From `ts-offset` to `track`: what an application asks of the element as a whole.
+/// From `ts-offset` to `analysis`: what an application asks of the element as a whole.
 std::vector<MotionRow> element_rows() {
   return {
       MotionRow::offset(
@@ -63,8 +63,8 @@ std::vector<MotionRow> element_rows() {
       MotionRow::text(
           {"trace", "Trace",
            "Write one line for each frame with motion and force to this file: CSV, or JSON "
-           "with background and objects if the name ends in .jsonl. Opened in the change "
-           "from READY to PAUSED"},
+           "with background and objects if the name ends in .jsonl, or what was measured if "
+           "it ends in .motion. Opened in the change from READY to PAUSED"},
           kReady, KEPT_IN(trace)),
       haptic_trace_row<MotionProperties>(),
       MotionRow::statistics(
@@ -81,6 +81,13 @@ std::vector<MotionRow> element_rows() {
            "'auto' for the one beside the film (FILM.mp4.haptic.flac, .mka or .wav). Read "
            "with the first frame of a stream"},
           kReady, KEPT_IN(track)),
+      MotionRow::text(
+          {"analysis", "Analysis",
+           "Feel the film by what spidartrack analyze measured of it, instead of analysing frames: "
+           "a "
+           "file, or 'auto' for the one beside the film (FILM.mp4.motion). All properties that "
+           "change the force act as ever. Read with the first frame of a stream; not with 'track'"},
+          kReady, KEPT_IN(analysis)),
   };
 }
 

@@ -30,7 +30,8 @@ struct MotionProperties {
   bool post_messages = true;
   std::string trace;
   std::string haptic_trace;
-  std::string track;  ///< path, "auto", or empty
+  std::string track;     ///< path, "auto", or empty
+  std::string analysis;  ///< the same
   bool mute = false;
   DisplayProperties display;
   TouchProperties touch;

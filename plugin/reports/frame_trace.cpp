@@ -7,6 +7,7 @@
 #include <cstring>
 #include <initializer_list>
 #include <string_view>
+#include <utility>
 
 #include "core/analysis/analysis_json.h"
 #include "spidar/realtime/sigpipe_block.h"
@@ -31,13 +32,21 @@ void append(std::string& row, Number value) {
 
 }  // namespace
 
-std::string FrameTrace::open(const std::string& path) {
+std::string FrameTrace::open(const std::string& path, const AnalyzerSettings& settings) {
   close();
   file_ = std::fopen(path.c_str(), "we");
   if (!file_) return std::strerror(errno);
-  json_ = ends_with(path, ".jsonl");
+  kind_ = ends_with(path, ".jsonl")    ? Kind::kJson
+          : ends_with(path, ".motion") ? Kind::kMotion
+                                       : Kind::kCsv;
+  line_.clear();
+  if (kind_ == Kind::kCsv) line_ = kHeader;
+  if (kind_ == Kind::kMotion) {
+    motion_ = {};
+    line_ = write_header({{}, {}, settings.motion == MotionKind::kMean});
+  }
   const SigpipeBlock no_sigpipe;
-  if ((!json_ && std::fputs(kHeader, file_) < 0) || std::fflush(file_) != 0) {
+  if (!put() || std::fflush(file_) != 0) {
     const std::string reason = std::strerror(errno);
     close();
     return reason;
@@ -63,22 +72,38 @@ void FrameTrace::append_csv(int64_t running_time_ns, int64_t stream_time_ns,
 
 bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
                        NoForceReason limit) {
+  if (kind_ == Kind::kMotion) return true;
   line_.clear();
-  if (json_) {
+  if (kind_ == Kind::kJson) {
     append_json(frame, running_time_ns, stream_time_ns, {}, line_);
   } else {
     append_csv(running_time_ns, stream_time_ns, frame, limit);
   }
-  const SigpipeBlock no_sigpipe;
-  if (std::fwrite(line_.data(), 1, line_.size(), file_) == line_.size()) return true;
+  if (put()) return true;
   close();
   return false;
 }
 
+bool FrameTrace::write(const MotionMoment& moment, const MeasuredFrame& frame) {
+  line_.clear();
+  motion_.add(moment, frame, line_);
+  if (put()) return true;
+  std::fclose(std::exchange(file_, nullptr));
+  return false;
+}
+
+bool FrameTrace::put() {
+  const SigpipeBlock no_sigpipe;
+  return std::fwrite(line_.data(), 1, line_.size(), file_) == line_.size();
+}
+
 bool FrameTrace::close() {
   if (!file_) return true;
+  line_.clear();
+  if (kind_ == Kind::kMotion) motion_.finish(line_);
+  const bool ended = put();
   const SigpipeBlock no_sigpipe;
-  const bool written = std::fclose(file_) == 0;
+  const bool written = std::fclose(file_) == 0 && ended;
   file_ = nullptr;
   return written;
 }

@@ -6,7 +6,10 @@
 #include <functional>
 #include <string>
 
+#include <gst/gst.h>
+
 #include "plugin/tools/record_properties.h"
+#include "plugin/track/track_notes.h"
 
 namespace spidar {
 
@@ -18,5 +21,10 @@ namespace spidar {
 std::string record_film(const std::string& film, const std::string& track,
                         const RecordProperties& properties,
                         const std::function<void(int percent)>& tell);
+
+/// The part of a launch line behind spidarmotion that writes the file `track`, and what it needs
+/// before it runs.
+std::string sampling_elements(const std::string& track);
+void take_samples(GstElement* pipeline, const std::string& track, const TrackNotes& notes);
 
 }  // namespace spidar

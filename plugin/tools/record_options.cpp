@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "plugin/tools/track_samples.h"
+#include "plugin/track/motion_sidecar.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
@@ -28,15 +29,30 @@ Properties are those of spidarmotion that change the force: motion=camera …
   --force        also those that are there
 )";
 
+constexpr const char* kAnalyzeOptionsHelp =
+    R"(usage: spidartrack analyze FILM... [OPTION]... [-- PROPERTY=VALUE...]
+
+Measures all that moves in films, and writes it beside FILM.mp4, as FILM.mp4.motion: spidartrack
+render makes tracks of it without the film, and spidarmotion analysis=auto plays by it. An analysis
+that is there is left alone, as spidartrack record does. Properties are those that change what is
+measured: quality, max-features, motion=mean, quality-level, min-distance.
+
+  -j, --jobs N   films at a time; as many as there are processors
+  --folder DIR   where analyses are written
+  --force        also those that are there
+)";
+
 }  // namespace
 
-fs::path RecordOptions::track_of(const std::string& film) const {
-  const std::string track = film + ".haptic." + format;
-  return folder.empty() ? fs::path(track) : fs::path(folder) / fs::path(track).filename();
+fs::path RecordOptions::file_of(const std::string& film) const {
+  const std::string file = film + (purpose == Purpose::kAnalyze ? kMotionEnd : ".haptic." + format);
+  return folder.empty() ? fs::path(file) : fs::path(folder) / fs::path(file).filename();
 }
 
-RecordOptions parse_record_options(int argc, char** argv) {
+RecordOptions parse_record_options(int argc, char** argv, Purpose purpose) {
   RecordOptions options;
+  options.purpose = purpose;
+  const bool analyzes = purpose == Purpose::kAnalyze;
   options.jobs = std::max(1U, std::thread::hardware_concurrency());
   // getopt must not see the arguments after --.
   int own = 1;
@@ -50,30 +66,32 @@ RecordOptions parse_record_options(int argc, char** argv) {
   std::vector<char*> rest;
   for (std::string& word : words) rest.push_back(word.data());
   rest.push_back(nullptr);
-  options.films = parse_options(
-      own, rest.data(),
-      {{"jobs", true,
-        [&](const std::string& text) {
-          options.jobs = static_cast<unsigned>(parse_number("--jobs", text, 1, 1024, ""));
-        }},
-       {"folder", true, [&](const std::string& text) { options.folder = text; }},
-       {"format", true, [&](const std::string& text) { options.format = text; }},
-       {"force", false, [&](const std::string&) { options.force = true; }},
-       {"help", false, [&](const std::string&) { options.help = true; }}});
+  std::vector<CommandOption> known = {
+      {"jobs", true,
+       [&](const std::string& text) {
+         options.jobs = static_cast<unsigned>(parse_number("--jobs", text, 1, 1024, ""));
+       }},
+      {"folder", true, [&](const std::string& text) { options.folder = text; }},
+      {"force", false, [&](const std::string&) { options.force = true; }},
+      {"help", false, [&](const std::string&) { options.help = true; }}};
+  if (!analyzes) {
+    known.push_back({"format", true, [&](const std::string& text) { options.format = text; }});
+  }
+  options.films = parse_options(own, rest.data(), known);
   if (options.help) {
-    std::cout << kRecordOptionsHelp;
+    std::cout << (analyzes ? kAnalyzeOptionsHelp : kRecordOptionsHelp);
     return options;
   }
   if (options.films.empty()) throw UsageError("no FILM given");
   for (const std::string& film : options.films) {
     if (film.find('=') == std::string::npos || fs::exists(film)) continue;
-    throw UsageError(film + ": there is no such film; properties follow --: spidartrack record " +
-                     "FILM -- " + film);
+    throw UsageError(film + ": there is no such film; properties follow --: spidartrack " +
+                     (analyzes ? "analyze" : "record") + " FILM -- " + film);
   }
   if (encoder_of("." + options.format).empty()) {
     throw UsageError("--format: \"" + options.format + "\" is none of flac, mka, wav");
   }
-  options.properties = parse_record_properties(properties, options.films.size());
+  options.properties = parse_record_properties(properties, options.films.size(), purpose);
   return options;
 }
 

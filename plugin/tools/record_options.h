@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The command line of `spidartrack record`.
+/// The command line of `spidartrack record` and `analyze`.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +12,7 @@
 namespace spidar {
 
 struct RecordOptions {
+  Purpose purpose = Purpose::kRecord;
   bool help = false;
   bool force = false;
   unsigned jobs = 1;
@@ -20,11 +21,11 @@ struct RecordOptions {
   RecordProperties properties;
   std::vector<std::string> films;
 
-  /// The file of a film's track.
-  std::filesystem::path track_of(const std::string& film) const;
+  /// The file of a film's track or analysis.
+  std::filesystem::path file_of(const std::string& film) const;
 };
 
 /// Throws UsageError. The help text has been printed if `help` is set.
-RecordOptions parse_record_options(int argc, char** argv);
+RecordOptions parse_record_options(int argc, char** argv, Purpose purpose);
 
 }  // namespace spidar

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 
 #include <gst/gst.h>
@@ -23,14 +24,38 @@ constexpr const char* kAnalysis[] = {
     "max-features", "max-force",  "min-distance",  "motion",      "pointer-x",
     "pointer-y",    "quality",    "quality-level", "roll-gain"};
 
+/// Of these, what changes that which is measured.
+constexpr const char* kMeasured[] = {"max-features", "min-distance", "quality", "quality-level"};
+
+template <size_t kCount>
+bool contains(const char* const (&names)[kCount], const std::string& name) {
+  return std::any_of(std::begin(names), std::end(names),
+                     [&](const char* other) { return name == other; });
+}
+
 std::string list_of_analysis() {
   std::string list;
   for (const char* name : kAnalysis) list += (list.empty() ? "" : ", ") + std::string(name);
   return list;
 }
 
+/// Of a property that changes the force: the same.
+std::string why_not_now(const TypedProperty& property, Purpose purpose) {
+  const std::string name = property.name();
+  const bool is_measured = contains(kMeasured, name);
+  if (purpose == Purpose::kRender && is_measured) {
+    return "changes what is measured: spidartrack analyze FILM -- " + name + "=VALUE";
+  }
+  const bool is_mean = name == "motion" && property.canonical_value() == "mean";
+  if (purpose == Purpose::kAnalyze && !is_measured && !is_mean) {
+    return "changes nothing in an analysis: it is for spidartrack render; only max-features, "
+           "min-distance, quality, quality-level and motion=mean change what is measured";
+  }
+  return {};
+}
+
 /// Why it is refused, as the rest of a sentence; empty if it is not.
-std::string why_refused(const TypedProperty& property, size_t films) {
+std::string why_refused(const TypedProperty& property, size_t films, Purpose purpose) {
   const std::string name = property.name();
   if (name == "touch")
     return "what is touched depends on the hand, and a track is the same for all";
@@ -41,14 +66,40 @@ std::string why_refused(const TypedProperty& property, size_t films) {
   if (name == "max-force" && property.canonical_value() == "0") {
     return "the whole track would be at rest";
   }
-  const bool known = std::any_of(std::begin(kAnalysis), std::end(kAnalysis),
-                                 [&](const char* other) { return name == other; });
-  return known ? "" : "changes nothing in a track; these properties do: " + list_of_analysis();
+  if (contains(kAnalysis, name)) return why_not_now(property, purpose);
+  return "changes nothing in a track; these properties do: " + list_of_analysis();
+}
+
+std::string one_line(const std::map<std::string, std::string>& settings) {
+  std::string line;
+  for (const auto& [name, value] : settings) {
+    line += (line.empty() ? "" : " ") + name + "=" + value;
+  }
+  return line;
 }
 
 }  // namespace
 
-RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films) {
+RecordProperties with_settings(const RecordProperties& properties, const std::string& settings) {
+  std::map<std::string, std::string> all;
+  RecordProperties result;
+  for (const std::string* text : {&settings, &properties.settings}) {
+    std::istringstream words(*text);
+    for (std::string word; words >> word;) {
+      const size_t equals = word.find('=');
+      if (equals == std::string::npos) continue;
+      const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
+      all[name] = value;
+      if (text == &settings) result.values.emplace_back(name, value);
+    }
+  }
+  result.values.insert(result.values.end(), properties.values.begin(), properties.values.end());
+  result.settings = one_line(all);
+  return result;
+}
+
+RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films,
+                                         Purpose purpose) {
   RecordProperties properties;
   if (words.empty()) return properties;
   const std::unique_ptr<GstElement, void (*)(gpointer)> element(
@@ -61,7 +112,7 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
   for (const std::string& word : words) {
     try {
       const TypedProperty property(G_OBJECT(element.get()), word);
-      const std::string refused = why_refused(property, films);
+      const std::string refused = why_refused(property, films, purpose);
       if (!refused.empty()) throw UsageError(word + ": " + refused);
       properties.values.emplace_back(property.name(), word.substr(word.find('=') + 1));
       settings.erase(property.name());
@@ -71,9 +122,7 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
       throw UsageError(error.what());
     }
   }
-  for (const auto& [name, value] : settings) {
-    properties.settings += (properties.settings.empty() ? "" : " ") + name + "=" + value;
-  }
+  properties.settings = one_line(settings);
   return properties;
 }
 

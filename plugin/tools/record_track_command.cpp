@@ -8,12 +8,14 @@
 #include <stdexcept>
 #include <thread>
 
+#include "plugin/tools/film_analyzer.h"
 #include "plugin/tools/film_recorder.h"
 #include "plugin/tools/part_file.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/track/film_reader.h"
+#include "plugin/track/motion_sidecar.h"
 #include "plugin/track/sidecar.h"
 #include "plugin/track/track_file.h"
 #include "spidar/tools/exit_status.h"
@@ -26,24 +28,36 @@ namespace fs = std::filesystem;
 /// How often it is looked whether another process has finished a track.
 constexpr std::chrono::milliseconds kLook{200};
 
-/// Throws std::runtime_error when the track that is there is not what would be recorded. A track
-/// that says nothing of itself was made by hand, or by an older version, and may be.
-void check_track(const std::string& film, const fs::path& track, const std::string& settings) {
-  const std::string again = "; --force records it again";
-  const TrackNotes notes = read_track_notes(track.string());
-  if (fs::is_empty(track)) throw std::runtime_error(track.string() + " is empty" + again);
+/// What a file says of itself.
+TrackNotes read_notes(const fs::path& file, Purpose purpose) {
+  if (purpose == Purpose::kRecord) return read_track_notes(file.string());
+  const MotionHeader header = read_motion_header(file.string());
+  return {parse_fingerprint(header.film), header.settings};
+}
+
+/// Throws std::runtime_error when the file that is there is not what would be made. One that says
+/// nothing of itself was made by hand, or by an older version, and may be.
+void check_file(const std::string& film, const fs::path& file, const RecordOptions& options) {
+  const bool records = options.purpose == Purpose::kRecord;
+  const std::string again =
+      records ? "; --force records it again" : "; --force analyses the film again";
+  if (fs::is_empty(file)) throw std::runtime_error(file.string() + " is empty" + again);
+  TrackNotes notes;
+  try {
+    notes = read_notes(file, options.purpose);
+  } catch (const MotionFileError& error) {
+    throw std::runtime_error(file.string() + " is not used: " + error.what() + again);
+  }
+  const std::string& settings = options.properties.settings;
   if (notes.settings && *notes.settings != settings) {
     const auto shown = [](const std::string& text) { return text.empty() ? "the defaults" : text; };
-    throw std::runtime_error(track.string() + " was recorded with " + shown(*notes.settings) +
+    throw std::runtime_error(file.string() + " was recorded with " + shown(*notes.settings) +
                              ", and not with " + shown(settings) + again);
   }
   if (notes.film.empty()) return;
   if (!find_pictures(notes.film, read_film(film).packets)) {
-    throw std::runtime_error(
-        track.string() +
-        " is the track of another film: it was recorded from other pictures, or from these before "
-        "they were encoded anew" +
-        again);
+    throw std::runtime_error(file.string() + " is the " + (records ? "track" : "analysis") +
+                             " of another film: " + kOtherPictures + again);
   }
 }
 
@@ -75,7 +89,7 @@ class FilmBatch {
     for (size_t i = 0; i < options_.films.size(); ++i) {
       std::error_code none;
       const std::string& film = options_.films[i];
-      const fs::path track = fs::weakly_canonical(options_.track_of(film), none);
+      const fs::path track = fs::weakly_canonical(options_.file_of(film), none);
       const auto [there, is_new] = first.emplace(track, i);
       const std::string& other = options_.films[there->second];
       if (is_new) {
@@ -83,7 +97,7 @@ class FilmBatch {
       } else if (fs::equivalent(film, other, none)) {
         report_.given_twice(i);
       } else {
-        report_.failed(i, options_.track_of(film).string() + " is for " + other +
+        report_.failed(i, options_.file_of(film).string() + " is for " + other +
                               "; give films of the same name different folders");
       }
     }
@@ -115,14 +129,15 @@ class FilmBatch {
   /// Returns false if another process is recording the film.
   bool finish(size_t index) {
     const std::string& film = options_.films[index];
-    const fs::path track = options_.track_of(film);
+    const fs::path track = options_.file_of(film);
     if (is_done(index, track)) return true;
     const std::unique_ptr<PartFile> part = PartFile::claim(track);
     if (!part) return false;
     if (is_done(index, track)) return true;  // in the meantime
     report_.progress(index, 0);
-    const std::string remark = record_film(film, part->path(), options_.properties,
-                                           [&](int percent) { report_.progress(index, percent); });
+    const auto make = options_.purpose == Purpose::kRecord ? record_film : analyze_film;
+    const std::string remark = make(film, part->path(), options_.properties,
+                                    [&](int percent) { report_.progress(index, percent); });
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
     report_.recorded(index, track.string() + (remark.empty() ? "" : "; " + remark));
     return true;
@@ -130,7 +145,7 @@ class FilmBatch {
 
   bool is_done(size_t index, const fs::path& track) {
     if (options_.force || !fs::exists(track)) return false;
-    check_track(options_.films[index], track, options_.properties.settings);
+    check_file(options_.films[index], track, options_);
     report_.there(index, track.string() + " is there");
     return true;
   }
@@ -144,7 +159,13 @@ class FilmBatch {
 }  // namespace
 
 int record_track_command(int argc, char** argv) {
-  const RecordOptions options = parse_record_options(argc, argv);
+  const RecordOptions options = parse_record_options(argc, argv, Purpose::kRecord);
+  if (options.help) return kDone;
+  return FilmBatch(options).run() ? kDone : kFailed;
+}
+
+int analyze_film_command(int argc, char** argv) {
+  const RecordOptions options = parse_record_options(argc, argv, Purpose::kAnalyze);
   if (options.help) return kDone;
   return FilmBatch(options).run() ? kDone : kFailed;
 }

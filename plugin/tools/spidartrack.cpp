@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Records, inspects, checks, converts, plots and merges haptic tracks.
+// Records, renders, inspects, checks, converts, plots and merges haptic tracks.
 
 #include <vector>
 
@@ -15,7 +15,8 @@ namespace {
 using namespace spidar;
 
 const std::vector<Command> kCommands = {
-    {"record", record_track_command},   {"info", track_info_command},
+    {"record", record_track_command},   {"analyze", analyze_film_command},
+    {"render", render_track_command},   {"info", track_info_command},
     {"check", check_track_command},     {"convert", convert_track_command},
     {"plot", plot_track_command},       {"merge", merge_track_command},
     {"extract", extract_track_command},
@@ -24,6 +25,8 @@ const std::vector<Command> kCommands = {
 constexpr const char* kSpidartrackHelp = R"(usage: spidartrack COMMAND
 
   record   record the haptic tracks of films, into files beside them
+  analyze  measure films once, into files beside them
+  render   make a track of what was measured, with other properties
   info     print the length and size of a track
   check    report what in a track cannot be felt as it is
   convert  convert between FLAC, Matroska, WAV, HJIF, traces and funscript

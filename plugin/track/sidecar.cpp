@@ -21,6 +21,9 @@ std::string seconds(int64_t ns) {
 
 }  // namespace
 
+const char* const kOtherPictures =
+    "it was recorded from other pictures, or from these before they were encoded anew";
+
 std::string film_of(GstPad* pad) {
   std::string film;
   GstQuery* query = gst_query_new_uri();
@@ -56,8 +59,7 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes
   if (!fingerprint.empty()) {
     const std::optional<int64_t> later_ns = find_pictures(fingerprint, film.packets);
     if (!later_ns) {
-      match.problem =
-          "it was recorded from other pictures, or from these before they were encoded anew";
+      match.problem = kOtherPictures;
       return match;
     }
     match.later_ns = *later_ns;

@@ -20,6 +20,9 @@ std::string film_of(GstPad* pad);
 /// films may differ in nothing else.
 std::string find_sidecar(const std::string& film);
 
+/// Why a file is not that of a film with other pictures.
+extern const char* const kOtherPictures;
+
 struct FilmMatch {
   std::string problem;   ///< empty, or why the track is not that of the film
   int64_t later_ns = 0;  ///< the film shows its pictures so much later than the track says

@@ -65,6 +65,18 @@ std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_durati
   return place;
 }
 
+std::shared_ptr<const MotionFile> judge_analysis(GstElement* element, const LoadedTrack& loaded,
+                                                 MotionKind motion) {
+  if (loaded.path.empty()) return nullptr;
+  std::string problem = loaded.problem;
+  if (problem.empty()) problem = wrong_motion(loaded.analysis->header(), motion);
+  if (problem.empty()) return loaded.analysis;
+  GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
+                      ("The analysis %s is not used: %s.", loaded.path.c_str(), problem.c_str()),
+                      ("The video is analysed in its place."));
+  return nullptr;
+}
+
 std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns) {
   if (loaded.path.empty()) return std::nullopt;
   if (loaded.problem.empty() && !loaded.is_compared) {

@@ -19,7 +19,6 @@ namespace {
 using spidar::ImageView;
 using spidar::ModelKind;
 using spidar::MotionEstimator;
-using spidar::MotionKind;
 using spidar::ReducedFrame;
 using spidar::test::MovingScene;
 using spidar::test::Picture;
@@ -62,7 +61,7 @@ std::vector<Picture> draw(ModelKind kind, int objects) {
   return frames;
 }
 
-void run(benchmark::State& state, MotionKind motion, ModelKind kind, int objects) {
+void run(benchmark::State& state, ModelKind kind, int objects) {
   const std::vector<Picture> frames = draw(kind, objects);
   MotionEstimator estimator;
   ReducedFrame reduced;
@@ -71,7 +70,8 @@ void run(benchmark::State& state, MotionKind motion, ModelKind kind, int objects
   for (auto _ : state) {
     const ImageView frame = frames[n++ % frames.size()].view();
     reduced.read(frame);
-    found += estimator.estimate(motion, frame, reduced, {}, kFrame_ns).objects;
+    const spidar::SceneMotion scene = estimator.estimate(frame, reduced, {}, kFrame_ns);
+    if (!scene.restarted) found += static_cast<double>(scene.object_list->size());
   }
   state.counters["objects"] = found / static_cast<double>(state.iterations());
 }
@@ -84,8 +84,7 @@ int main(int argc, char** argv) {
     for (const int objects : {0, 1, 3}) {
       const std::string name =
           std::string(spidar::to_string(kind)) + "/objects:" + std::to_string(objects);
-      benchmark::RegisterBenchmark(name.c_str(), run, MotionKind::kObject, kind, objects)
-          ->Unit(benchmark::kMicrosecond);
+      benchmark::RegisterBenchmark(name.c_str(), run, kind, objects)->Unit(benchmark::kMicrosecond);
     }
   }
   benchmark::Initialize(&argc, argv);

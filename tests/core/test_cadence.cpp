@@ -21,6 +21,7 @@ constexpr double kSpeed_px_s = 100;
 /// that did not wait, ms.
 std::vector<double> intervals_ms(Cadence& cadence, double picture_Hz, double frame_Hz, int frames) {
   std::vector<double> found;
+  LostFrames lost;
   cadence.cut(0);
   int64_t before = 0;
   for (int n = 1; n < frames; ++n) {
@@ -31,7 +32,7 @@ std::vector<double> intervals_ms(Cadence& cadence, double picture_Hz, double fra
       const double interval_s = 1e-9 * static_cast<double>(step.interval_ns);
       found.push_back(1e3 * interval_s);
       // The picture moves equally far each time.
-      cadence.correction(kSpeed_px_s / picture_Hz / interval_s);
+      lost.correction(step.interval_ns, step.shown_for_ns, kSpeed_px_s / picture_Hz / interval_s);
     }
     before = picture;
   }
@@ -57,6 +58,7 @@ TEST(Cadence, IsTheFrameIntervalWithoutRepeats) {
   // Frames of any length, as a screen is recorded.
   std::mt19937 random(1);
   Cadence cadence;
+  LostFrames lost;
   cadence.cut(0);
   int64_t time_ns = 0;
   for (int n = 0; n < 200; ++n) {
@@ -65,7 +67,9 @@ TEST(Cadence, IsTheFrameIntervalWithoutRepeats) {
     const Cadence::Step step = cadence.see(Shows::kOther, time_ns);
     EXPECT_FALSE(step.waits);
     EXPECT_EQ(step.interval_ns, interval_ns);
-    EXPECT_EQ(cadence.correction(1 + static_cast<double>(random() % 100)), 1);
+    EXPECT_EQ(lost.correction(step.interval_ns, step.shown_for_ns,
+                              1 + static_cast<double>(random() % 100)),
+              1);
   }
 }
 
@@ -74,6 +78,7 @@ TEST(Cadence, DistinguishesALostFrameFromARepeatedOne) {
   for (const bool lost : {true, false}) {
     SCOPED_TRACE(lost);
     Cadence cadence;
+    LostFrames frames;
     cadence.cut(0);
     int64_t time_ns = 0;
     for (int n = 1; n < 30; ++n) {
@@ -85,7 +90,8 @@ TEST(Cadence, DistinguishesALostFrameFromARepeatedOne) {
       if (again) continue;
       const double moved_px = kSpeed_px_s * 1e-9 * kFrame_ns * (after && lost ? 2 : 1);
       const double speed_px_s = moved_px / (1e-9 * static_cast<double>(step.interval_ns));
-      const double felt_px_s = speed_px_s * cadence.correction(speed_px_s);
+      const double felt_px_s =
+          speed_px_s * frames.correction(step.interval_ns, step.shown_for_ns, speed_px_s);
       // Nothing is known until four pictures have been seen, so the first result comes after that.
       EXPECT_NEAR(felt_px_s, kSpeed_px_s, 1e-6) << n;
     }

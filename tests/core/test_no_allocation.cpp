@@ -65,29 +65,27 @@ constexpr int kHeight = 360;
 TEST(NoAllocation, Motion) {
   // Regions and objects come and go: after a turn of the scene all memory has been used once.
   constexpr int kTurn = 60;
-  for (const MotionKind kind : {MotionKind::kObject, MotionKind::kObjects, MotionKind::kCamera}) {
-    MovingScene scene(kWidth, kHeight);
-    for (const double radius_px : {50.0, 40.0, 30.0}) scene.add_disc(radius_px);
-    MotionEstimator estimator;
-    ReducedFrame reduced;
-    int most_objects = 0;
-    for (int n = 0; n < 3 * kTurn; ++n) {
-      const int t = n % kTurn;
-      const Placement camera{
-          {1.5 * t, 0}, t > 20 ? 1 + 0.01 * (t - 20) : 1, t > 40 ? 0.01 * (t - 40) : 0};
-      const double x_px = -300 + 10 * t;
-      const ImageView picture = scene.draw(camera, {{{x_px, 100}}, {{-x_px, -100}}, {{x_px, -20}}});
-      if (t == kTurn - 1) estimator.reset();
-      const long before = allocations;
-      reduced.read(picture);
-      const SceneMotion found = estimator.estimate(kind, picture, reduced, {}, 40'000'000);
-      if (n >= kTurn) {
-        ASSERT_EQ(allocations, before) << "motion " << static_cast<int>(kind) << ", frame " << n;
-      }
-      most_objects = std::max(most_objects, found.objects);
+  MovingScene scene(kWidth, kHeight);
+  for (const double radius_px : {50.0, 40.0, 30.0}) scene.add_disc(radius_px);
+  MotionEstimator estimator;
+  ReducedFrame reduced;
+  size_t most_objects = 0;
+  for (int n = 0; n < 3 * kTurn; ++n) {
+    const int t = n % kTurn;
+    const Placement camera{
+        {1.5 * t, 0}, t > 20 ? 1 + 0.01 * (t - 20) : 1, t > 40 ? 0.01 * (t - 40) : 0};
+    const double x_px = -300 + 10 * t;
+    const ImageView picture = scene.draw(camera, {{{x_px, 100}}, {{-x_px, -100}}, {{x_px, -20}}});
+    if (t == kTurn - 1) estimator.reset();
+    const long before = allocations;
+    reduced.read(picture);
+    const SceneMotion found = estimator.estimate(picture, reduced, {}, 40'000'000);
+    if (n >= kTurn) {
+      ASSERT_EQ(allocations, before) << "frame " << n;
     }
-    EXPECT_EQ(most_objects > 1, kind != MotionKind::kCamera) << "the scene is lively";
+    if (!found.restarted) most_objects = std::max(most_objects, found.object_list->size());
   }
+  EXPECT_GT(most_objects, 1u) << "the scene is lively";
 }
 
 TEST(NoAllocation, AFrameOfVideo) {

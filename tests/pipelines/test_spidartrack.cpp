@@ -52,13 +52,14 @@ class Spidartrack : public testing::Test {
 
 TEST_F(Spidartrack, HelpSucceedsAndWrongUsageSaysWhatWouldBeRight) {
   EXPECT_EQ(spidartrack("--help").status, 0);
-  for (const char* command : {"record", "info", "check", "convert", "plot", "merge", "extract"}) {
+  for (const char* command :
+       {"record", "analyze", "render", "info", "check", "convert", "plot", "merge", "extract"}) {
     const CommandResult help = spidartrack(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     expect_contains(help.text, std::string("usage: spidartrack ") + command);
     EXPECT_EQ(spidartrack(command).status, 2) << command;
   }
-  expect_contains(spidartrack("frobnicate").text, "commands are record, info");
+  expect_contains(spidartrack("frobnicate").text, "commands are record, analyze, render");
   expect_contains(spidartrack("record x.mp4 --format ogg").text, "none of flac, mka, wav");
   expect_contains(spidartrack("record x.mp4 -- motion").text, "is no PROPERTY=VALUE");
 }

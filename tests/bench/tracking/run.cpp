@@ -24,7 +24,7 @@ Runner::Runner(const Pipeline& pipeline)
 /// motion=object of the next frame.
 SceneMotion Runner::find_objects(const ImageView& frame) {
   reduced_.read(frame);
-  return motion_.estimate(MotionKind::kObject, frame, reduced_, pipeline_->points, kFrame_ns);
+  return motion_.estimate(frame, reduced_, pipeline_->points, kFrame_ns);
 }
 
 void Runner::restart() {

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What becomes of a frame.
+#include <algorithm>
+#include <utility>
+
+#include "plugin/engine/motion_engine.h"
+
+namespace spidar {
+namespace {
+
+/// With a share of 1 the result is the same bit for bit.
+Wrench scaled(const Wrench& wrench, double share) {
+  return {share * wrench.force_N, share * wrench.torque_Nm};
+}
+
+/// What a motion file says of the time of a buffer; nothing when it is not shown.
+std::optional<MotionMoment> moment_of(GstBuffer* buffer, const GstSegment& segment,
+                                      const PictureTurn& turn) {
+  const GstClockTime pts = GST_BUFFER_PTS(buffer), duration = GST_BUFFER_DURATION(buffer);
+  const bool has_end = is_time(duration);
+  guint64 from = 0, to = 0;
+  if (segment.format != GST_FORMAT_TIME || !is_time(pts) ||
+      !gst_segment_clip(&segment, GST_FORMAT_TIME, pts,
+                        has_end ? pts + duration : GST_CLOCK_TIME_NONE, &from, &to)) {
+    return std::nullopt;
+  }
+  const GstClockTime stream = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, from);
+  if (!is_time(stream)) return std::nullopt;
+  return MotionMoment{Moment::kUnknown, static_cast<int64_t>(stream),
+                      has_end ? static_cast<int64_t>(to - from) : -1,
+                      GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP) != FALSE, turn};
+}
+
+}  // namespace
+
+const MeasuredFrame& MotionEngine::measured() const {
+  return replay_.active() ? replay_.measured() : analyzer_.measured();
+}
+
+bool MotionEngine::trace_moment(std::optional<MotionMoment> moment, bool is_measured) {
+  if (!trace_.is_motion() || !moment) return true;
+  if (is_measured) moment->moment = Moment::kFrame;
+  moment->turn = wrench_turn();
+  return trace_.write(*moment, measured());
+}
+
+void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
+  const GstClockTime running_time =
+      segment.format == GST_FORMAT_TIME
+          ? gst_segment_to_running_time(&segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer))
+          : GST_CLOCK_TIME_NONE;
+  if (!is_time(running_time)) {
+    restart();
+    return;
+  }
+  const int64_t running_ns = static_cast<int64_t>(running_time);
+  const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
+  // videorate makes such a gap of a frame that is shown again.
+  std::optional<FrameAnalysis> analysis;
+  const std::optional<MotionMoment> moment = moment_of(buffer, segment, turn_);
+  if (replay_.active()) {
+    if (moment)
+      analysis = replay_.at(moment->stream_ns, segment.rate * schedule_.rate_multiplier());
+  } else if (time.since_ns > 0) {
+    analysis = analyzer_.repeat(time.paced_ns);
+  }
+  trace_moment(moment, analysis.has_value());
+  if (analysis) {
+    schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
+                   wrench_turn().to_shown(scaled(analysis->wrench, motion_share_)),
+                   analysis->repeated});
+    limit_watch_.repeat(schedule_.at_sink_ns(running_ns), analysis->wrench);
+  } else {
+    run_out(running_time);
+    limit_watch_.repeat(schedule_.at_sink_ns(running_ns), Wrench());
+  }
+  pacer_.pass(time);
+}
+
+FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& segment,
+                                  const AnalyzerSettings& settings, const TouchProperties& touch) {
+  FrameReport report = process_frame(frame, segment, settings, touch);
+  const std::optional<MotionMoment> moment = moment_of(frame.buffer, segment, turn_);
+  if (!trace_moment(moment, report.analyzed)) report.trace_failed = true;
+  return report;
+}
+
+/// By what was measured of it before. False when it was not.
+bool MotionEngine::replay(const GstVideoFrame& frame, const GstSegment& segment,
+                          AnalyzerSettings settings, FrameReport& report) {
+  const std::optional<MotionMoment> moment = moment_of(frame.buffer, segment, turn_);
+  if (!moment) return false;
+  settings.pointer = turn_.place_shown(settings.pointer);
+  replay_.configure(settings);
+  const std::optional<FrameAnalysis> found =
+      replay_.at(moment->stream_ns, segment.rate * schedule_.rate_multiplier());
+  if (!found) return false;
+  ++replayed_;
+  report.analysis = *found;
+  report.part = visible_part(frame);
+  return true;
+}
+
+/// Whether a frame follows the one before in time, and if not, why it cannot be analysed.
+bool MotionEngine::follows(const GstVideoFrame& frame, const GstSegment& segment,
+                           FrameReport& report) {
+  const auto running_ns = static_cast<int64_t>(report.running_time);
+  end_gap(running_ns);
+  const FramePacer::Order order = pacer_.order(running_ns, frame, segment);
+  if (order == FramePacer::Order::kTooSoon) {
+    report.problem = FrameProblem::kSameTimestamp;
+    return false;
+  }
+  if (order == FramePacer::Order::kFalling) report.problem = FrameProblem::kFallingTimestamp;
+  if (order != FramePacer::Order::kNext) restart();
+  return true;
+}
+
+/// Finds the picture of a frame and analyses it. False when it has none.
+bool MotionEngine::analyze(const GstVideoFrame& frame, const ImageView& luma,
+                           const AnalyzerSettings& settings, const TouchProperties& touch,
+                           int64_t paced_ns, FrameReport& report) {
+  const std::optional<DepthLayout> packed = touch.packed();
+  const ImageView picture = packed ? picture_half(luma, *packed) : luma;
+  if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
+    restart();
+    report.problem = luma.data ? FrameProblem::kSmallHalf : FrameProblem::kNotShown;
+    return false;
+  }
+  analyzer_.configure(settings);
+  const int64_t begin_ns = HapticSession::monotonic_now_ns();
+  report.analysis = analyzer_.analyze(picture, paced_ns);
+  // The picture is the left or the upper half.
+  report.part = visible_part(frame);
+  report.part.width = picture.width;
+  report.part.height = picture.height;
+  report.took_ns = HapticSession::monotonic_now_ns() - begin_ns;
+  return true;
+}
+
+FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSegment& segment,
+                                        const AnalyzerSettings& settings,
+                                        const TouchProperties& touch) {
+  FrameReport report;
+  const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
+  if (segment.format != GST_FORMAT_TIME || !GST_CLOCK_TIME_IS_VALID(pts)) {
+    restart();
+    report.problem = FrameProblem::kNoTimestamp;
+    return report;
+  }
+  report.running_time = shown_at(frame, segment);
+  report.stream_time = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, pts);
+  if (!GST_CLOCK_TIME_IS_VALID(report.running_time)) {
+    report.problem = FrameProblem::kNotShown;
+    return report;
+  }
+  if (!is_time(report.running_time)) {
+    restart();
+    report.problem = FrameProblem::kNoTimestamp;
+    return report;
+  }
+  const int64_t running_ns = static_cast<int64_t>(report.running_time);
+  if (player_.active()) {
+    const auto place = place_of(frame.buffer, nominal_duration(frame.info), segment,
+                                schedule_.at_sink_ns(running_ns), schedule_.rate_multiplier());
+    if (place) player_.play(*place);
+    if (touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
+    limit_watch_.set_touching(false);
+    reliefs_.end(schedule_.at_sink_ns(running_ns));
+    return report;
+  }
+  if (!replay_.active() && !follows(frame, segment, report)) return report;
+  if (!holds_picture(frame)) {
+    restart();
+    report.problem = FrameProblem::kTooSmall;
+    return report;
+  }
+  const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
+  ImageView luma;
+  if (!replay_.active() || touch.kind != TouchKind::kOff) luma = luma_.view(frame);
+  report.analyzed = replay_.active() ? replay(frame, segment, settings, report)
+                                     : analyze(frame, luma, settings, touch, time.paced_ns, report);
+  if (!report.analyzed) return report;
+
+  const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;
+  pacer_.take(time, moved);
+  limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis, settings.motion);
+  limit_watch_.set_touching(touch.kind != TouchKind::kOff);
+  // This share of the film's motion is felt, reported and shown in addition to touch.
+  motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
+  report.analysis.wrench = wrench_turn().to_shown(scaled(report.analysis.wrench, motion_share_));
+  report.turn = turn_;
+  if (!time.in_place) {
+    if (luma.data) touch_frame(frame.buffer, luma, touch, running_ns, report);
+    schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
+                   report.analysis.wrench, report.analysis.repeated});
+  }
+  report.limit = limit_watch_.limit(output_.snapshot(), false);
+  if (trace_.is_open()) {
+    report.trace_failed = !trace_.write(running_ns, static_cast<int64_t>(report.stream_time),
+                                        report.analysis, report.limit);
+  }
+  stats_.add(report.analysis, report.took_ns);
+  return report;
+}
+
+}  // namespace spidar

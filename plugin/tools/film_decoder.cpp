@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/film_decoder.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "plugin/tools/film_end.h"
+#include "plugin/tools/film_watch.h"
+#include "plugin/tools/track_samples.h"
+#include "plugin/track/film_reader.h"
+
+namespace spidar {
+namespace {
+
+/// A film that could not be read is hardly worth waiting for: decodebin may lose the error.
+constexpr GstClockTime kUnreadStart = 10 * GST_SECOND;
+
+/// Reports `percent` of the film as done, in steps of ten.
+class Progress {
+ public:
+  explicit Progress(std::function<void(int percent)> tell) : tell_(std::move(tell)) {}
+
+  /// Counts the frames that come out of `motion` in `pipeline`.
+  void watch(GstElement* pipeline) {
+    GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
+    GstPad* frames = gst_element_get_static_pad(motion, "src");
+    gst_pad_add_probe(frames, GST_PAD_PROBE_TYPE_BUFFER, passes, this, nullptr);
+    gst_object_unref(frames);
+    gst_object_unref(motion);
+  }
+
+ private:
+  static GstPadProbeReturn passes(GstPad* frames, GstPadProbeInfo* info, gpointer user) {
+    auto& self = *static_cast<Progress*>(user);
+    if (self.film_ns_ == 0) gst_pad_query_duration(frames, GST_FORMAT_TIME, &self.film_ns_);
+    if (self.film_ns_ <= 0) {
+      self.film_ns_ = -1;  // the container does not tell
+      return GST_PAD_PROBE_REMOVE;
+    }
+    GstEvent* const event = gst_pad_get_sticky_event(frames, GST_EVENT_SEGMENT, 0);
+    if (!event) return GST_PAD_PROBE_OK;
+    const GstSegment* segment;
+    gst_event_parse_segment(event, &segment);
+    const GstClockTime at = gst_segment_to_stream_time(
+        segment, GST_FORMAT_TIME, GST_BUFFER_PTS(GST_PAD_PROBE_INFO_BUFFER(info)));
+    gst_event_unref(event);
+    if (!GST_CLOCK_TIME_IS_VALID(at)) return GST_PAD_PROBE_OK;
+    const int percent = static_cast<int>(100 * at / static_cast<GstClockTime>(self.film_ns_));
+    if (percent >= self.told_ + 10 && percent < 100) {
+      self.told_ = percent / 10 * 10;
+      self.tell_(self.told_);
+    }
+    return GST_PAD_PROBE_OK;
+  }
+
+  const std::function<void(int percent)> tell_;
+  gint64 film_ns_ = 0;
+  int told_ = 0;
+};
+
+}  // namespace
+
+void set_properties(GstElement* pipeline, const RecordProperties& properties) {
+  GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
+  for (const auto& [name, value] : properties.values)
+    gst_util_set_object_arg(G_OBJECT(motion), name.c_str(), value.c_str());
+  gst_object_unref(motion);
+}
+
+std::string decode_film(const FilmRun& run) {
+  if (!std::filesystem::exists(run.film)) throw std::runtime_error("there is no such file");
+  Progress progress(run.tell);
+  FilmFingerprint fingerprint;
+  int64_t pictures_end_ns = 0;
+  std::string unread;
+  try {
+    const Film read = read_film(run.film);
+    pictures_end_ns = read.end_ns.value_or(0);
+    fingerprint = fingerprint_of(read.packets);
+  } catch (const std::runtime_error& why) {
+    unread = why.what();  // decoding it may tell more
+  }
+  FilmWatch watch;
+  std::string error;
+  try {
+    run_pipeline(
+        "filesrc name=film ! decodebin name=decode videoconvert name=convert ! "
+        "spidarmotion name=motion device=none post-messages=false attach-meta=true ! " +
+            run.rest,
+        [&](GstElement* pipeline) {
+          set_location(pipeline, "film", run.film);
+          set_properties(pipeline, run.properties);
+          watch.begin(pipeline);
+          progress.watch(pipeline);
+          run.prepare(pipeline, fingerprint);
+        },
+        unread.empty() ? kLongestStart : kUnreadStart);
+  } catch (const SilentFailure& ended) {
+    error = unread.empty() ? ended.what() : unread;
+  } catch (const std::runtime_error& ended) {
+    error = ended.what();
+  }
+  const FilmEnd end = film_end(run.film);
+  // Where the file is whole, its duration may be that of sound that goes on after the pictures.
+  std::optional<int64_t> end_ns;
+  if (end == FilmEnd::kWhole) end_ns = pictures_end_ns;
+  const std::string problem = watch.problem(error, end_ns);
+  if (!problem.empty()) throw std::runtime_error(problem);
+  if (end == FilmEnd::kCutOff) {
+    throw std::runtime_error("its end is missing: it is damaged or cut off");
+  }
+  return watch.remark();
+}
+
+}  // namespace spidar

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Runs a film through spidarmotion, as fast as it can be decoded.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <gst/gst.h>
+
+#include "plugin/tools/record_properties.h"
+#include "plugin/track/film_fingerprint.h"
+
+namespace spidar {
+
+struct FilmRun {
+  std::string film;
+  const RecordProperties& properties;
+  std::string rest;  ///< of the launch line, behind spidarmotion
+  /// Called before the film is decoded; the element is "motion".
+  std::function<void(GstElement* pipeline, const FilmFingerprint& film)> prepare;
+  /// Called with the percentage that is done, in steps of ten, in another thread.
+  std::function<void(int percent)> tell;
+};
+
+/// Returns what is to be known of the film; usually nothing. Throws std::runtime_error, which says
+/// what is wrong with it.
+std::string decode_film(const FilmRun& run);
+
+void set_properties(GstElement* pipeline, const RecordProperties& properties);
+
+}  // namespace spidar
