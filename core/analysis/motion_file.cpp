@@ -18,6 +18,8 @@ constexpr const char* kFormat = "gst-spidar motion";
 constexpr int64_t kMostObjects = 64 * static_cast<int64_t>(MotionFileWriter::kChunkFrames);
 constexpr uint32_t kLargestSide_px = 65536;
 constexpr uint8_t kTurns = 8;
+/// 36 years: no film has later times, and differences of two such times do not overflow.
+constexpr int64_t kLatest_ns = int64_t{1} << 60;
 
 [[noreturn]] void cut_off() {
   throw MotionFileError("its end is missing: analyse the film again");
@@ -76,7 +78,8 @@ FrameRow row_of(const MotionMoment& moment, const MeasuredFrame& frame) {
 }
 
 bool is_sound(const FrameRow& row) {
-  if (row.moment >= kMoments || row.turn >= kTurns || row.stream_ns < 0 || row.duration_ns < -1) {
+  if (row.moment >= kMoments || row.turn >= kTurns || row.stream_ns < 0 ||
+      row.stream_ns > kLatest_ns || row.duration_ns < -1 || row.duration_ns > kLatest_ns) {
     return false;
   }
   if (row.moment != static_cast<uint8_t>(Moment::kFrame)) return true;

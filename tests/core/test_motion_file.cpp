@@ -156,6 +156,21 @@ TEST(MotionFile, WithAWrongByteIsRefusedOrCanBeFelt) {
   }
 }
 
+TEST(MotionFile, ATimeThatNoFilmHasIsDamage) {
+  for (const int64_t stream_ns : {int64_t{0}, std::numeric_limits<int64_t>::max()}) {
+    MotionMoment moment;
+    moment.stream_ns = stream_ns;
+    MeasuredFrame frame;
+    frame.width = 64;
+    frame.height = 48;
+    MotionFileWriter writer;
+    std::string bytes = write_header({});
+    writer.add(moment, frame, bytes);
+    writer.finish(bytes);
+    EXPECT_EQ(refused(bytes), stream_ns == 0 ? "" : "it is damaged: analyse the film again");
+  }
+}
+
 TEST(MotionFile, SaysWhatIsWrongWithAnother) {
   const std::string none = "it is no analysis of a film";
   for (const std::string& bytes :
