@@ -16,21 +16,22 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRecordOptionsHelp =
-    R"(usage: spidartrack record FILM... [OPTION]... [-- PROPERTY=VALUE...]
+    R"(usage: spidartrack record FILM|FOLDER... [OPTION]... [-- PROPERTY=VALUE...]
 
-Analyses films as fast as they can be decoded, and writes the haptic track of FILM.mp4 beside it, as
+Analyses films, or all films in a folder and below, the largest first, as fast as they can be decoded, and writes the haptic track of FILM.mp4 beside it, as
 FILM.mp4.haptic.flac. A track that is there is left alone, so that the command goes on where it was
 interrupted; if it is that of another film, or was recorded with other properties, that is an error.
 Properties are those of spidarmotion that change the force: motion=camera …
 
   -j, --jobs N   films at a time; as many as there are processors
-  --folder DIR   where tracks are written
+  --folder DIR   where tracks are written, those of FOLDER in the same subfolders
   --format TYPE  flac (24 bits), mka or wav (both F32); flac
+  --manifest FILE  gets a line of JSON for each film: result, duration, felt share …
   --force        also those that are there
 )";
 
 constexpr const char* kAnalyzeOptionsHelp =
-    R"(usage: spidartrack analyze FILM... [OPTION]... [-- PROPERTY=VALUE...]
+    R"(usage: spidartrack analyze FILM|FOLDER... [OPTION]... [-- PROPERTY=VALUE...]
 
 Measures all that moves in films, and writes it beside FILM.mp4, as FILM.mp4.motion: spidartrack
 render makes tracks of it without the film, and spidarmotion analysis=auto plays by it. An analysis
@@ -44,9 +45,10 @@ measured: quality, max-features, motion=mean, quality-level, min-distance.
 
 }  // namespace
 
-fs::path RecordOptions::file_of(const std::string& film) const {
-  const std::string file = film + (purpose == Purpose::kAnalyze ? kMotionEnd : ".haptic." + format);
-  return folder.empty() ? fs::path(file) : fs::path(folder) / fs::path(file).filename();
+fs::path RecordOptions::file_of(const ListedFilm& film) const {
+  const std::string end = purpose == Purpose::kAnalyze ? kMotionEnd : ".haptic." + format;
+  const fs::path file = film.path + end;
+  return folder.empty() ? file : fs::path(folder) / film.subfolder / file.filename();
 }
 
 RecordOptions parse_record_options(int argc, char** argv, Purpose purpose) {
@@ -76,14 +78,15 @@ RecordOptions parse_record_options(int argc, char** argv, Purpose purpose) {
       {"help", false, [&](const std::string&) { options.help = true; }}};
   if (!analyzes) {
     known.push_back({"format", true, [&](const std::string& text) { options.format = text; }});
+    known.push_back({"manifest", true, [&](const std::string& text) { options.manifest = text; }});
   }
-  options.films = parse_options(own, rest.data(), known);
+  const std::vector<std::string> names = parse_options(own, rest.data(), known);
   if (options.help) {
     std::cout << (analyzes ? kAnalyzeOptionsHelp : kRecordOptionsHelp);
     return options;
   }
-  if (options.films.empty()) throw UsageError("no FILM given");
-  for (const std::string& film : options.films) {
+  if (names.empty()) throw UsageError("no FILM given");
+  for (const std::string& film : names) {
     if (film.find('=') == std::string::npos || fs::exists(film)) continue;
     throw UsageError(film + ": there is no such film; properties follow --: spidartrack " +
                      (analyzes ? "analyze" : "record") + " FILM -- " + film);
@@ -91,6 +94,7 @@ RecordOptions parse_record_options(int argc, char** argv, Purpose purpose) {
   if (encoder_of("." + options.format).empty()) {
     throw UsageError("--format: \"" + options.format + "\" is none of flac, mka, wav");
   }
+  options.films = list_films(names);
   options.properties = parse_record_properties(properties, options.films.size(), purpose);
   return options;
 }

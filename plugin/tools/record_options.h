@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "plugin/tools/film_list.h"
 #include "plugin/tools/record_properties.h"
 
 namespace spidar {
@@ -19,10 +20,11 @@ struct RecordOptions {
   std::string folder;
   std::string format = "flac";
   RecordProperties properties;
-  std::vector<std::string> films;
+  std::string manifest;  ///< a file; empty: none
+  std::vector<ListedFilm> films;
 
   /// The file of a film's track or analysis.
-  std::filesystem::path file_of(const std::string& film) const;
+  std::filesystem::path file_of(const ListedFilm& film) const;
 };
 
 /// Throws UsageError. The help text has been printed if `help` is set.

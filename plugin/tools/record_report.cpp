@@ -9,6 +9,8 @@
 namespace spidar {
 namespace {
 
+constexpr std::chrono::minutes kTellEvery{1};
+
 /// A name may contain line breaks, or commands for the terminal.
 std::string one_line(std::string text) {
   for (char& c : text) {
@@ -41,6 +43,10 @@ void RecordReport::progress(size_t film, int percent) {
   in_work_[film] = percent;
   erase();
   draw();
+  const auto now = std::chrono::steady_clock::now();
+  if (is_terminal_ || now - told_ < kTellEvery) return;
+  told_ = now;
+  std::cout << in_work() << std::endl;
 }
 
 void RecordReport::recorded(size_t film, const std::string& track) {
@@ -96,8 +102,7 @@ void RecordReport::print(std::ostream& out, size_t film, const std::string& text
   draw();
 }
 
-void RecordReport::draw() const {
-  if (!is_terminal_ || in_work_.empty()) return;
+std::string RecordReport::in_work() const {
   std::string line = std::to_string(recorded_ + there_ + twice_ + failures_.size()) + " of " +
                      std::to_string(films_.size()) + " done";
   for (const auto& [film, percent] : in_work_) {
@@ -105,7 +110,12 @@ void RecordReport::draw() const {
     line +=
         "; " + one_line(name.substr(name.rfind('/') + 1)) + " " + std::to_string(percent) + " %";
   }
-  std::cout << shortened(line, width_of_terminal() - 1) << std::flush;
+  return line;
+}
+
+void RecordReport::draw() const {
+  if (!is_terminal_ || in_work_.empty()) return;
+  std::cout << shortened(in_work(), width_of_terminal() - 1) << std::flush;
 }
 
 void RecordReport::erase() const {

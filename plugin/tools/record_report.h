@@ -3,6 +3,7 @@
 /// What `spidartrack record` prints about a batch of films.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <mutex>
@@ -13,7 +14,8 @@
 namespace spidar {
 
 /// Prints a line for each film when it is done, and at the end how many were recorded. A terminal
-/// has a line below with the films that are in work. The functions can be called from any thread.
+/// has a line below with the films that are in work; elsewhere, it is printed once a minute. The
+/// functions can be called from any thread.
 class RecordReport {
  public:
   explicit RecordReport(std::vector<std::string> films);
@@ -33,12 +35,14 @@ class RecordReport {
 
  private:
   void print(std::ostream& out, size_t film, const std::string& text);
+  std::string in_work() const;
   void draw() const;
   void erase() const;
 
   const std::vector<std::string> films_;
   const bool is_terminal_;
   std::mutex mutex_;
+  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
   std::map<size_t, int> in_work_;  // film and percent
   size_t recorded_ = 0, there_ = 0, twice_ = 0;
   std::vector<std::pair<size_t, std::string>> failures_;

@@ -11,6 +11,7 @@
 #include "plugin/tools/film_analyzer.h"
 #include "plugin/tools/film_recorder.h"
 #include "plugin/tools/part_file.h"
+#include "plugin/tools/record_manifest.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
@@ -64,7 +65,8 @@ void check_file(const std::string& film, const fs::path& file, const RecordOptio
 /// Records a list of films with several threads.
 class FilmBatch {
  public:
-  explicit FilmBatch(const RecordOptions& options) : options_(options), report_(options.films) {}
+  explicit FilmBatch(const RecordOptions& options)
+      : options_(options), report_(paths(options.films)), manifest_(options.manifest) {}
 
   /// Returns whether no film failed.
   bool run() {
@@ -78,27 +80,35 @@ class FilmBatch {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   struct Film {
     size_t index;
     bool is_elsewhere = false;  ///< another process is recording it
   };
+
+  static std::vector<std::string> paths(const std::vector<ListedFilm>& films) {
+    std::vector<std::string> paths;
+    for (const ListedFilm& film : films) paths.push_back(film.path);
+    return paths;
+  }
 
   /// Queues the films, but for those whose track has the same name as that of an earlier one.
   void claim_names() {
     std::map<fs::path, size_t> first;
     for (size_t i = 0; i < options_.films.size(); ++i) {
       std::error_code none;
-      const std::string& film = options_.films[i];
+      const ListedFilm& film = options_.films[i];
       const fs::path track = fs::weakly_canonical(options_.file_of(film), none);
       const auto [there, is_new] = first.emplace(track, i);
-      const std::string& other = options_.films[there->second];
+      const std::string& other = options_.films[there->second].path;
       if (is_new) {
         waiting_.push_back({i});
-      } else if (fs::equivalent(film, other, none)) {
+      } else if (fs::equivalent(film.path, other, none)) {
         report_.given_twice(i);
       } else {
-        report_.failed(i, options_.file_of(film).string() + " is for " + other +
-                              "; give films of the same name different folders");
+        fail(i, options_.file_of(film).string() + " is for " + other +
+                    "; give films of the same name different folders");
       }
     }
   }
@@ -121,37 +131,61 @@ class FilmBatch {
         const std::lock_guard<std::mutex> lock(mutex_);
         waiting_.push_back({film->index, true});
       } catch (const std::exception& error) {
-        report_.failed(film->index, error.what());
+        fail(film->index, error.what());
       }
     }
   }
 
   /// Returns false if another process is recording the film.
   bool finish(size_t index) {
-    const std::string& film = options_.films[index];
-    const fs::path track = options_.file_of(film);
+    const std::string& film = options_.films[index].path;
+    const fs::path track = options_.file_of(options_.films[index]);
     if (is_done(index, track)) return true;
+    make_subfolder(index);
     const std::unique_ptr<PartFile> part = PartFile::claim(track);
     if (!part) return false;
     if (is_done(index, track)) return true;  // in the meantime
     report_.progress(index, 0);
+    const Clock::time_point begin = Clock::now();
     const auto make = options_.purpose == Purpose::kRecord ? record_film : analyze_film;
     const std::string remark = make(film, part->path(), options_.properties,
                                     [&](int percent) { report_.progress(index, percent); });
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
+    const std::chrono::duration<double> taken = Clock::now() - begin;
+    manifest_.add({film, track, "recorded", remark, taken.count()});
     report_.recorded(index, track.string() + (remark.empty() ? "" : "; " + remark));
     return true;
   }
 
+  /// The folder itself has to be there: it may be a share that is not mounted.
+  void make_subfolder(size_t index) const {
+    const fs::path& subfolder = options_.films[index].subfolder;
+    if (options_.folder.empty() || subfolder.empty() || !fs::is_directory(options_.folder)) return;
+    fs::create_directories(fs::path(options_.folder) / subfolder);
+  }
+
+  void fail(size_t index, std::string cause) {
+    const ListedFilm& film = options_.films[index];
+    try {
+      manifest_.add({film.path, options_.file_of(film), "failed", cause});
+    } catch (const std::exception& error) {
+      cause += std::string("; ") + error.what();
+    }
+    report_.failed(index, cause);
+  }
+
   bool is_done(size_t index, const fs::path& track) {
     if (options_.force || !fs::exists(track)) return false;
-    check_file(options_.films[index], track, options_);
+    const std::string& film = options_.films[index].path;
+    check_file(film, track, options_);
+    manifest_.add({film, track, "there", ""});
     report_.there(index, track.string() + " is there");
     return true;
   }
 
   const RecordOptions& options_;
   RecordReport report_;
+  ManifestFile manifest_;
   std::mutex mutex_;
   std::deque<Film> waiting_;
 };

@@ -10,6 +10,7 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <sys/stat.h>
 #include <thread>
@@ -55,6 +56,12 @@ class TrackBatch : public testing::Test {
   static void await(const std::function<bool()>& happened) {
     while (!happened()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  static std::vector<nlohmann::json> json_lines(const std::string& file) {
+    std::ifstream in(file);
+    std::vector<nlohmann::json> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(nlohmann::json::parse(line));
+    return lines;
+  }
   static std::string text_of(const std::string& file) {
     std::ifstream in(file);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -88,6 +95,58 @@ TEST_F(TrackBatch, FilmsOfOneNameHaveTracksOfTheirOwn) {
 }
 
 // The test is the other process: it has the lock of the part file.
+TEST_F(TrackBatch, AFolderStandsForItsFilmsTheLargestFirst) {
+  make_film("in/small.avi", 25);
+  make_film("in/a b/LARGE.AVI", 75);
+  make_film("in/.hidden.avi", 25);
+  std::ofstream(path("in/notes.txt")) << "no film";
+  std::ofstream(path("in/empty.mkv"));
+  fs::create_directory(path("out"));
+  const CommandResult all = record("--jobs 1 in --folder out --manifest done.jsonl");
+  EXPECT_EQ(all.status, 1);
+  expect_contains(all.text, "[1/3] in/a b/LARGE.AVI: out/a b/LARGE.AVI.haptic.flac");
+  expect_contains(all.text, "[2/3] in/small.avi: out/small.avi.haptic.flac");
+  expect_contains(all.text, "2 recorded, 0 there, 1 failed");
+  EXPECT_EQ(samples("out/a b/LARGE.AVI.haptic.flac"), 3000u);
+
+  const std::vector<nlohmann::json> lines = json_lines(path("done.jsonl"));
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0]["film"], "in/a b/LARGE.AVI");
+  EXPECT_EQ(lines[0]["result"], "recorded");
+  EXPECT_EQ(lines[0]["duration_s"], 3);
+  EXPECT_GT(lines[0]["largest_force_N"], 0.1);
+  EXPECT_GT(lines[0]["felt"], 0);
+  EXPECT_LE(lines[0]["felt"], 1);
+  EXPECT_EQ(lines[2]["result"], "failed");
+  EXPECT_FALSE(lines[2]["error"].get<std::string>().empty());
+  EXPECT_FALSE(lines[2].contains("track"));
+
+  // The other failed, and is tried again.
+  EXPECT_EQ(record("--jobs 1 in --folder out --manifest done.jsonl").status, 1);
+  const std::vector<nlohmann::json> again = json_lines(path("done.jsonl"));
+  ASSERT_EQ(again.size(), 6u);
+  EXPECT_EQ(again[3]["result"], "there");
+  EXPECT_EQ(again[3]["felt"], lines[0]["felt"]);
+
+  fs::create_directory(path("none"));
+  const CommandResult none = record("none");
+  EXPECT_EQ(none.status, 1);
+  expect_contains(none.text, "none: this folder has no film");
+  // A share that is not mounted is not written to under its name.
+  EXPECT_EQ(record("in --folder away").status, 1);
+  EXPECT_FALSE(fs::exists(path("away")));
+}
+
+TEST_F(TrackBatch, AManifestThatCannotBeWrittenIsAnError) {
+  make_film("x.avi");
+  expect_contains(record("x.avi --manifest none/done.jsonl").text,
+                  "the manifest none/done.jsonl cannot be written: No such file or directory");
+  EXPECT_FALSE(fs::exists(path("x.avi.haptic.flac")));
+  const CommandResult full = record("x.avi --manifest /dev/full");
+  EXPECT_EQ(full.status, 1);
+  expect_contains(full.text, "the manifest /dev/full cannot be written: No space left on device");
+}
+
 TEST_F(TrackBatch, AFilmThatAnotherProcessRecordsIsWaitedFor) {
   make_film("x.avi");
   make_film("y.avi");

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/record_manifest.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+#include "core/analysis/no_force_reason.h"
+#include "plugin/tools/track_samples.h"
+#include "plugin/tools/track_summary.h"
+
+namespace spidar {
+namespace {
+
+[[noreturn]] void fail(const std::string& path) {
+  throw std::runtime_error("the manifest " + path +
+                           " cannot be written: " + std::system_category().message(errno));
+}
+
+double felt_share(const std::vector<TrackSample>& samples) {
+  if (samples.empty()) return 0;
+  const auto felt = std::count_if(samples.begin(), samples.end(), [](const TrackSample& sample) {
+    return to_wrench(sample).force_N.norm() >= kFeltForce_N;
+  });
+  return static_cast<double>(felt) / static_cast<double>(samples.size());
+}
+
+}  // namespace
+
+std::string manifest_line(const RecordedFilm& film) {
+  nlohmann::ordered_json line = {{"film", film.film},
+                                 {"result", film.result},
+                                 {"seconds", film.seconds},
+                                 {"version", SPIDAR_VERSION}};
+  if (!film.remark.empty()) line[film.result == "failed" ? "error" : "warning"] = film.remark;
+  if (film.result != "failed") {
+    TrackCondition condition;
+    const std::vector<TrackSample> samples = load_track(film.track.string(), &condition);
+    line["track"] = film.track.string();
+    line["duration_s"] = static_cast<double>(samples.size()) / kTrackRate_Hz;
+    line["felt"] = felt_share(samples);
+    line["largest_force_N"] = summarise(samples).largest_force_N;
+    line["fingerprint"] = to_text(condition.notes.film);
+    line["settings"] = condition.notes.settings.value_or("");
+  }
+  // File names are bytes, and JSON is UTF-8.
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+ManifestFile::ManifestFile(const std::string& path) : path_(path) {
+  if (path.empty()) return;
+  descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail(path);
+}
+
+ManifestFile::~ManifestFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void ManifestFile::add(const RecordedFilm& film) {
+  if (descriptor_ < 0) return;
+  const std::string line = manifest_line(film) + "\n";
+  // In one call, so that lines of several writers do not mix.
+  const ssize_t written = write(descriptor_, line.data(), line.size());
+  if (written >= 0 && static_cast<size_t>(written) < line.size()) errno = ENOSPC;
+  if (written < 0 || static_cast<size_t>(written) < line.size()) fail(path_);
+}
+
+}  // namespace spidar
