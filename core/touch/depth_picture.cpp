@@ -17,8 +17,8 @@ constexpr auto kCells = static_cast<size_t>(HeightField::kCells);
 constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
 
 /// Index of the n-th of `wanted` evenly spaced lines out of `count`.
-int chosen(int n, int wanted, int count) noexcept {
-  return static_cast<int>((2LL * n + 1) * count / (2LL * wanted));
+int chosen(int nth, int wanted, int count) noexcept {
+  return static_cast<int>((2LL * nth + 1) * count / (2LL * wanted));
 }
 
 struct Half {
