@@ -44,12 +44,15 @@ bool is_same(const StayingPixels& staying, float least_share) {
 }  // namespace
 
 void BurnedIn::reset() {
+  margins_.reset();
   lasting_.clear();
   holds_.clear();
   covers_.clear();
 }
 
-void BurnedIn::begin(size_t blocks, bool camera_moves, float noise_grey2) {
+void BurnedIn::begin(const BlockField& field, bool camera_moves, float noise_grey2) {
+  const size_t blocks = field.blocks().size();
+  margins_.update(field);
   signs_.assign(blocks, Sign::kNone);
   if (lasting_.size() != blocks) lasting_.assign(blocks, 0);
   camera_moves_ = camera_moves;
@@ -102,8 +105,11 @@ void BurnedIn::end(const BlockGrid& grid) {
   }
   holds_.assign(signs_.size(), 0);
   covers_.assign(signs_.size(), 0);
-  if (!camera_moves_) return;
   for (size_t i = 0; i < signs_.size(); ++i) {
+    const int column = static_cast<int>(i) % grid.columns;
+    const int row = static_cast<int>(i) / grid.columns;
+    holds_[i] = covers_[i] = margins_.hold(grid, column, row);
+    if (!camera_moves_ || holds_[i] != 0) continue;
     const bool beside = is_beside_staying(grid, i);
     holds_[i] = signs_[i] == Sign::kStays || signs_[i] == Sign::kInPlace ||
                 lasting_[i] >= kLasting || (signs_[i] == Sign::kUnexplained && beside);

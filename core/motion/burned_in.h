@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/field/block_field.h"
+#include "core/motion/margins.h"
 
 namespace spidar {
 
@@ -35,7 +36,7 @@ class BurnedIn {
   /// Begins a pair of pictures. If the camera does not move (`camera_moves` is false), constant
   /// pixels belong to the scene. `noise_grey2` is the mean squared difference caused by the noise
   /// of the film.
-  void begin(size_t blocks, bool camera_moves, float noise_grey2);
+  void begin(const BlockField& field, bool camera_moves, float noise_grey2);
 
   /// Examines a block of the pair. Call for every block that seems to move independently.
   void look(const BlockField& field, const Block& block);
@@ -53,6 +54,9 @@ class BurnedIn {
   /// an error.
   bool covers(size_t index) const { return index < covers_.size() && covers_[index] != 0; }
 
+  /// Bars and frames around the film count as burned in, also while the camera is still.
+  const Margins& margins() const { return margins_; }
+
   void reset();
 
  private:
@@ -66,6 +70,7 @@ class BurnedIn {
   bool stays_beside(const BlockField& field, const Block& block) const;
   bool is_beside_staying(const BlockGrid& grid, size_t index) const;
 
+  Margins margins_;
   std::vector<Sign> signs_;
   std::vector<uint8_t> lasting_;  ///< score of how long each block stayed constant, 0 … kMost
   std::vector<uint8_t> holds_;

@@ -77,11 +77,13 @@ void MotionEstimator::collect_votes() {
   votes_.clear();
   const BlockGrid& grid = field_.grid();
   const std::vector<float>& persistence = objects_.persistence();
-  votes_.size_px = {grid.columns * kBlock_px, grid.rows * kBlock_px};
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      const bool at_border = std::min(column, grid.columns - 1 - column) < kBorderBlocks ||
-                             std::min(row, grid.rows - 1 - row) < kBorderBlocks;
+  const int left = objects_.margins().columns();
+  const int top = objects_.margins().rows();
+  votes_.size_px = {(grid.columns - 2 * left) * kBlock_px, (grid.rows - 2 * top) * kBlock_px};
+  for (int row = top; row < grid.rows - top; ++row) {
+    for (int column = left; column < grid.columns - left; ++column) {
+      const bool at_border = std::min(column, grid.columns - 1 - column) < left + kBorderBlocks ||
+                             std::min(row, grid.rows - 1 - row) < top + kBorderBlocks;
       votes_.all += at_border ? kBorderVotes : 1;
       const auto i = static_cast<size_t>(row * grid.columns + column);
       const MotionBlock& block = field_.blocks()[i];

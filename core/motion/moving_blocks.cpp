@@ -148,7 +148,7 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
 
 void MovingBlocks::leave_out_burned_in(const BlockField& field,
                                        const std::vector<uint8_t>& expected) {
-  burned_in_.begin(judgements_.size(), !camera_is_still_, picture_noise_);
+  burned_in_.begin(field, !camera_is_still_, picture_noise_);
   for (size_t i = 0; i < judgements_.size(); ++i) {
     if (judgements_[i] != Judgement::kMoves) continue;
     burned_in_.look(field, {i, relative_[i].background_x_px, relative_[i].background_y_px,

@@ -47,6 +47,8 @@ class ObjectTracker {
   const std::vector<float>& persistence() const { return moving_.persistence(); }
   /// Whether a block belongs to the screen, see BurnedIn.
   bool is_burned_in(size_t block) const { return moving_.burned_in().holds(block); }
+  /// Bars and frames around the film.
+  const Margins& margins() const { return moving_.burned_in().margins(); }
   /// The id of the object to which each block belongs in the last frame; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/motion/margins.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+/// Mean difference of a block's pixels, grey levels: an encoder changes less in what stays the
+/// same, noise and motion more.
+constexpr float kChanged_grey = 0.5f;
+/// Share of the blocks along the edge that must change.
+constexpr double kEdgeShare = 0.75;
+/// Largest share of the picture on one side, to the nearest line: 12 % are bars of 2.35:1 in a
+/// picture of 16:9, or beside one of 4:3. With more, a large box in front of a still scene without
+/// noise would pass for a film in a frame.
+constexpr double kMostOfSide = 0.125;
+
+/// The rows, or the columns, of blocks as seen from one side of the picture.
+struct Side {
+  const BlockField& field;
+  bool are_columns;
+  bool from_end;  ///< line 0 is the last row or column
+  int across;     ///< blocks at both ends of a line that do not count
+
+  int lines() const { return are_columns ? field.grid().columns : field.grid().rows; }
+  int places() const { return are_columns ? field.grid().rows : field.grid().columns; }
+
+  bool has_changed(int line, int place) const {
+    if (from_end) line = lines() - 1 - line;
+    const int columns = field.grid().columns;
+    const int block = are_columns ? place * columns + line : line * columns + place;
+    const auto difference = static_cast<float>(field.difference_if_moved(block, 0, 0));
+    return difference > kChanged_grey * kBlockArea_px;
+  }
+
+  bool stands(int line) const {
+    for (int place = across; place < places() - across; ++place) {
+      if (has_changed(line, place)) return false;
+    }
+    return true;
+  }
+
+  /// How many lines stand, from the side on; 0 when it is more than a bar.
+  int standing() const {
+    const auto most = static_cast<int>(std::lround(kMostOfSide * lines()));
+    int n = 0;
+    while (n <= most && stands(n)) ++n;
+    return n > most ? 0 : n;
+  }
+
+  /// Adds the places where the first line that does not stand, or the next one, has changed: the
+  /// edge is anywhere in the first one. Returns whether they are nearly all.
+  bool is_edge(int line, std::vector<uint8_t>& changed) const {
+    int all = 0;
+    for (int place = across; place < places() - across; ++place) {
+      uint8_t& mark = changed[static_cast<size_t>(place)];
+      if (mark == 0) mark = has_changed(line, place) || has_changed(line + 1, place);
+      all += mark;
+    }
+    return all >= kEdgeShare * (places() - 2 * across);
+  }
+};
+
+}  // namespace
+
+void Margins::Bars::begin(int width) {
+  blocks = width;
+  pairs = 0;
+  for (auto& places : changed) std::fill(places.begin(), places.end(), uint8_t{0});
+}
+
+void Margins::look(Bars& bars, const BlockField& field, bool are_columns, int across) {
+  const Side first{field, are_columns, false, across};
+  const Side last{field, are_columns, true, across};
+  const int at_first = first.standing();
+  const int at_last = at_first == 0 ? 0 : last.standing();
+  const int fewer = std::min(at_first, at_last);
+  const int blocks = std::max(at_first, at_last) + 1;
+  const bool alike = fewer > 0 && blocks <= fewer + 2;
+  if (bars.is_known() && fewer + 2 >= bars.blocks) return;
+  if (!alike) return bars.begin(0);
+  if (bars.is_known() || bars.blocks == 0 || blocks < bars.blocks) bars.begin(blocks);
+  for (auto& places : bars.changed) places.resize(static_cast<size_t>(first.places()));
+  const int edge = bars.blocks - 1;
+  const bool at_both = first.is_edge(edge, bars.changed[0]) & last.is_edge(edge, bars.changed[1]);
+  bars.pairs += at_both;
+}
+
+void Margins::update(const BlockField& field) {
+  look(rows_, field, false, columns());
+  look(columns_, field, true, rows());
+}
+
+void Margins::reset() {
+  rows_.begin(0);
+  columns_.begin(0);
+}
+
+}  // namespace spidar

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// A still picture around a film is no background in front of which the film moves.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/analysis/motion_analyzer.h"
+#include "core/motion/margins.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar::test::margins_test {
+namespace {
+
+using Eigen::Vector2d;
+using test::Picture;
+using test::Texture;
+
+constexpr int kWidth = 640;
+constexpr int kHeight = 360;
+constexpr int kFrames = 30;
+constexpr int64_t kFrame_ns = 40'000'000;
+constexpr double kFrame_s = 0.04;
+/// Margins are known after some pairs of pictures in which the film moves. What seemed to be an
+/// object is seen at rest then.
+constexpr size_t kKnown = Margins::kLasting + 3;
+
+const Texture kBackground(1, 10);
+const Texture kForeground(2, 10);
+
+/// Grey level of frame n at a place, px from the upper left corner.
+using Scene = std::function<double(int n, const Vector2d& at)>;
+
+bool in_box(const Vector2d& at, double left, double top, double width, double height) {
+  return at.x() >= left && at.x() < left + width && at.y() >= top && at.y() < top + height;
+}
+
+/// Motion that is felt in each frame, px.
+std::vector<Vector2d> feel(const Scene& scene) {
+  MotionAnalyzer analyzer;
+  Picture picture(kWidth, kHeight);
+  std::vector<Vector2d> felt_px;
+  for (int n = 0; n < kFrames; ++n) {
+    picture.fill([&](double x, double y) { return scene(n, {x, y}); });
+    const FrameAnalysis found = analyzer.analyze(picture.view(), n * kFrame_ns);
+    felt_px.push_back(found.motion.velocity_px_s * kFrame_s);
+  }
+  return felt_px;
+}
+
+/// With sensor noise of 1.5 grey levels in the film and a frame of an eighth of its height around
+/// it, which has more than half of the votes on the camera: those at the border count twice.
+Scene framed(const Scene& film) {
+  return [film](int n, const Vector2d& at) {
+    static std::mt19937 random(1);
+    static std::normal_distribution<double> noise(0, 1.5);
+    constexpr double kWide_px = kHeight / 8.0;
+    if (!in_box(at, kWide_px, kWide_px, kWidth - 2 * kWide_px, kHeight - 2 * kWide_px)) {
+      return kForeground.at(at.x(), at.y() + 700);
+    }
+    return std::clamp(film(n, at) + noise(random), 0.0, 255.0);
+  };
+}
+
+TEST(Margins, AreTheBorderOfAFilmThatPans) {
+  const auto felt_px = feel(framed([](int n, const Vector2d& at) {
+    return kBackground.at(at.x() + 3.0 * n, at.y() - 1.0 * n);
+  }));
+  for (size_t n = kKnown; n < kFrames; ++n) EXPECT_EQ(felt_px[n], Vector2d(0, 0)) << n;
+}
+
+TEST(Margins, LeaveAnObjectInFrontOfAPanAsItIs) {
+  const auto felt_px = feel(framed([](int n, const Vector2d& at) {
+    if ((at - Vector2d(200.0 + 4 * n, 190)).norm() < 55) {
+      return kForeground.at(at.x() - 4.0 * n, at.y());
+    }
+    return kBackground.at(at.x() + 4.0 * n, at.y());
+  }));
+  // Two frames later there are points on the disc. Its blocks alone give its motion to a tenth of a
+  // pixel of the field, which is 1.5 of the frame's.
+  for (size_t n = kKnown + 2; n < kFrames; ++n) {
+    EXPECT_LT((felt_px[n] - Vector2d(8, 0)).norm(), 0.15) << n;
+  }
+}
+
+TEST(Margins, AreNotWhatIsAroundALargeObject) {
+  // A box of two thirds of width and height moves to and fro, five frames each, in front of a still
+  // scene without noise.
+  const auto place = [](int n) { return 4.0 * std::abs(n % 10 - 5); };
+  const auto felt_px = feel([&](int n, const Vector2d& at) {
+    const double x = at.x() - place(n);
+    return in_box({x, at.y()}, 97, 60, 426, 240) ? kForeground.at(x, at.y())
+                                                 : kBackground.at(at.x(), at.y());
+  });
+  // It is the same object for two frames after it has turned round.
+  for (int n = static_cast<int>(kKnown); n < kFrames; ++n) {
+    if ((n + 4) % 5 < 2) continue;
+    EXPECT_NEAR(felt_px[static_cast<size_t>(n)].x(), place(n) - place(n - 1), 0.15) << n;
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test::margins_test
