@@ -111,7 +111,7 @@ case ${1-} in
     # sanitizer finds most of the same; alignment, which x86 does not need; and vptr, wrong casts
     # between classes. With a sanitizer, GCC takes variables of std::regex for uninitialised.
     unchecked=-fno-sanitize=null,object-size,alignment,vptr
-    sanitized=(-Doptimization=1 -Ddebug=false "-Dcpp_args=['-g1','$unchecked','-Wno-maybe-uninitialized']" -Db_lundef=false)
+    sanitized=(-Doptimization=1 -Ddebug=false "-Dcpp_args=['-g1','-fno-omit-frame-pointer','$unchecked','-Wno-maybe-uninitialized']" -Db_lundef=false)
     configure build-ci-address "${sanitized[@]}" \
         -Db_sanitize=address,undefined -Dbenchmarks=disabled -Dapps=false \
         -Dtest_suites=api,core,element,pipelines,spidar,window
