@@ -56,10 +56,10 @@ FrameRow row_of(const MotionMoment& moment, const MeasuredFrame& frame) {
   FrameRow row;
   row.stream_ns = moment.stream_ns;
   row.duration_ns = moment.duration_ns;
-  row.moment = static_cast<uint8_t>(moment.moment);
+  row.moment = static_cast<uint8_t>(moment.kind);
   row.empty = moment.empty;
   row.turn = turn_code(moment.turn);
-  if (moment.moment != Moment::kFrame) return row;
+  if (moment.kind != MomentKind::kFrame) return row;
   row.shown = static_cast<uint8_t>(frame.shown);
   row.anew = frame.anew;
   if (frame.shown == Shown::kWaiting) return row;
@@ -82,7 +82,7 @@ bool is_sound(const FrameRow& row) {
       row.stream_ns > kLatest_ns || row.duration_ns < -1 || row.duration_ns > kLatest_ns) {
     return false;
   }
-  if (row.moment != static_cast<uint8_t>(Moment::kFrame)) return true;
+  if (row.moment != static_cast<uint8_t>(MomentKind::kFrame)) return true;
   const auto shown = static_cast<Shown>(row.shown);
   if (shown == Shown::kWaiting) return true;
   const auto sound_side = [](uint32_t side) { return side > 0 && side <= kLargestSide_px; };
@@ -131,7 +131,7 @@ void MotionFileWriter::add(const MotionMoment& moment, const MeasuredFrame& fram
                            std::string& bytes) {
   const auto index = static_cast<uint32_t>(rows_.frames.size());
   rows_.frames.push_back(row_of(moment, frame));
-  if (moment.moment == Moment::kFrame && frame.shown != Shown::kWaiting) {
+  if (moment.kind == MomentKind::kFrame && frame.shown != Shown::kWaiting) {
     for (const MovingObject& object : frame.objects) {
       rows_.objects.push_back({index, encode_object(object, longer_side_px(frame))});
     }
@@ -209,7 +209,7 @@ void MotionFile::add_chunk(MotionRows chunk) {
 
 MotionMoment MotionFile::moment(size_t i) const {
   const FrameRow& row = rows_.frames[i];
-  return {static_cast<Moment>(row.moment), row.stream_ns, row.duration_ns, row.empty != 0,
+  return {static_cast<MomentKind>(row.moment), row.stream_ns, row.duration_ns, row.empty != 0,
           PictureTurn(row.turn % 4, row.turn >= 4)};
 }
 

@@ -41,7 +41,7 @@ MotionHeader read_header(std::istream& file);
 
 /// What happens at one moment of a film.
 struct MotionMoment {
-  Moment moment = Moment::kFrame;
+  MomentKind kind = MomentKind::kFrame;
   int64_t stream_ns = 0;
   int64_t duration_ns = -1;  ///< -1: not known
   bool empty = false;        ///< a buffer without picture
@@ -54,7 +54,7 @@ class MotionFileWriter {
   /// About a minute; what a program that is killed loses.
   static constexpr size_t kChunkFrames = 2048;
 
-  /// `frame` counts only with Moment::kFrame. Appends to `bytes` what is ready to be written.
+  /// `frame` counts only with MomentKind::kFrame. Appends to `bytes` what is ready to be written.
   void add(const MotionMoment& moment, const MeasuredFrame& frame, std::string& bytes);
   /// Appends the rest.
   void finish(std::string& bytes);
@@ -75,8 +75,8 @@ class MotionFile {
   const MotionHeader& header() const { return header_; }
   size_t size() const { return rows_.frames.size(); }
   MotionMoment moment(size_t i) const;
-  /// The frame of moment `i`, which is a Moment::kFrame. If it waits, `frame` keeps what it has of
-  /// the frame before.
+  /// The frame of moment `i`, which is a MomentKind::kFrame. If it waits, `frame` keeps what it has
+  /// of the frame before.
   void load(size_t i, MeasuredFrame& frame) const;
 
  private:

@@ -44,7 +44,7 @@ void MotionReplay::set_file(std::shared_ptr<const MotionFile> file, int64_t late
   if (!file_) return;
   for (size_t i = 0; i < file_->size(); ++i) {
     const MotionMoment moment = file_->moment(i);
-    if (moment.moment != Moment::kNothing) by_time_.emplace_back(moment.stream_ns, i);
+    if (moment.kind != MomentKind::kNothing) by_time_.emplace_back(moment.stream_ns, i);
   }
   std::sort(by_time_.begin(), by_time_.end());
 }

@@ -42,7 +42,7 @@ class MotionReplay {
 
  private:
   std::optional<size_t> find(int64_t stream_ns) const;
-  bool is_frame(size_t i) const { return file_->moment(i).moment == Moment::kFrame; }
+  bool is_frame(size_t i) const { return file_->moment(i).kind == MomentKind::kFrame; }
   void begin();
   void feed(size_t i, double rate);
 

@@ -11,7 +11,7 @@
 namespace spidar {
 
 /// What a row of the first table is about.
-enum class Moment : uint8_t {
+enum class MomentKind : uint8_t {
   kFrame,    ///< a frame that was measured
   kUnknown,  ///< a frame that was not, because of its time or its memory
   kNothing,  ///< there are no frames from here on, as the gap event of a demuxer says

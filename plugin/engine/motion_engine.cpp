@@ -131,7 +131,7 @@ void MotionEngine::run_out(GstClockTime running_time) {
 
 void MotionEngine::begin_gap(GstClockTime running_time, GstClockTime stream_time) {
   if (trace_.is_motion() && is_time(stream_time)) {
-    trace_.write({Moment::kNothing, static_cast<int64_t>(stream_time), -1, false, {}}, {});
+    trace_.write({MomentKind::kNothing, static_cast<int64_t>(stream_time), -1, false, {}}, {});
   }
   if (!is_time(running_time) || !pacer_.has_frame()) {
     run_out(running_time);

@@ -27,7 +27,7 @@ std::optional<MotionMoment> moment_of(GstBuffer* buffer, const GstSegment& segme
   }
   const GstClockTime stream = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, from);
   if (!is_time(stream)) return std::nullopt;
-  return MotionMoment{Moment::kUnknown, static_cast<int64_t>(stream),
+  return MotionMoment{MomentKind::kUnknown, static_cast<int64_t>(stream),
                       has_end ? static_cast<int64_t>(to - from) : -1,
                       GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP) != FALSE, turn};
 }
@@ -40,7 +40,7 @@ const MeasuredFrame& MotionEngine::measured() const {
 
 bool MotionEngine::trace_moment(std::optional<MotionMoment> moment, bool is_measured) {
   if (!trace_.is_motion() || !moment) return true;
-  if (is_measured) moment->moment = Moment::kFrame;
+  if (is_measured) moment->kind = MomentKind::kFrame;
   moment->turn = wrench_turn();
   return trace_.write(*moment, measured());
 }

@@ -76,7 +76,7 @@ class FrameFeed {
   /// False when the pipeline takes no more.
   bool push(const MotionMoment& moment) const {
     const auto time = static_cast<GstClockTime>(moment.stream_ns);
-    if (moment.moment == Moment::kNothing) {
+    if (moment.kind == MomentKind::kNothing) {
       gst_pad_push_event(pad_, gst_event_new_gap(time, GST_CLOCK_TIME_NONE));
       return true;
     }
@@ -106,7 +106,7 @@ void require_all(GstElement* motion, const MotionFile& file) {
   guint64 frames = 0;
   for (size_t i = 0; i < file.size(); ++i) {
     const MotionMoment moment = file.moment(i);
-    frames += moment.moment == Moment::kFrame && !moment.empty;
+    frames += moment.kind == MomentKind::kFrame && !moment.empty;
   }
   if (taken < frames) {
     throw std::runtime_error("only " + std::to_string(taken) + " of its " + std::to_string(frames) +

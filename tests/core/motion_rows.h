@@ -50,8 +50,8 @@ inline MeasuredFilm random_film(uint32_t seed, size_t count) {
     moment.turn = PictureTurn(static_cast<int>(n / 100 % 4), n / 400 % 2 == 1);
     const auto what = static_cast<uint32_t>(n == 0 ? 0 : random() % 40);
     moment.empty = what == 1;
-    if (what == 2) moment.moment = Moment::kUnknown;
-    if (what == 3) moment.moment = Moment::kNothing;
+    if (what == 2) moment.kind = MomentKind::kUnknown;
+    if (what == 3) moment.kind = MomentKind::kNothing;
     frame.anew = n == 0;
     frame.shown = what == 0               ? Shown::kFirst
                   : what == 4             ? Shown::kSame

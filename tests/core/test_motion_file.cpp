@@ -84,13 +84,13 @@ TEST(MotionFile, IsReadAsItWasWritten) {
   for (size_t i = 0; i < file.size(); ++i) {
     SCOPED_TRACE(i);
     const MotionMoment moment = file.moment(i);
-    EXPECT_EQ(moment.moment, film.moments[i].moment);
+    EXPECT_EQ(moment.kind, film.moments[i].kind);
     EXPECT_EQ(moment.stream_ns, film.moments[i].stream_ns);
     EXPECT_EQ(moment.duration_ns, film.moments[i].duration_ns);
     EXPECT_EQ(moment.empty, film.moments[i].empty);
     const Eigen::Vector2d slope(2, 1);
     EXPECT_EQ(moment.turn.to_shown(slope), film.moments[i].turn.to_shown(slope));
-    if (moment.moment != Moment::kFrame) continue;
+    if (moment.kind != MomentKind::kFrame) continue;
     file.load(i, read);
     if (read.shown == Shown::kWaiting) continue;
     expect_same(read, film.frames[i]);

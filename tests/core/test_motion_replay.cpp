@@ -32,7 +32,7 @@ AnalyzerSettings with(MotionKind motion, ControllerKind controller = ControllerK
 MeasuredFilm steady_film() {
   MeasuredFilm film = random_film(1, kFrames);
   for (size_t i = 0; i < kFrames; ++i) {
-    film.moments[i].moment = Moment::kFrame;
+    film.moments[i].kind = MomentKind::kFrame;
     film.moments[i].empty = false;
     film.moments[i].turn = {};
     MeasuredFrame& frame = film.frames[i];
@@ -69,7 +69,7 @@ TEST(MotionReplay, IsTheLiveForceToTheLastBit) {
     double largest_N = 0;
     for (size_t i = 0; i < kFrames; ++i) {
       const std::optional<FrameAnalysis> felt = replay.at(film.moments[i].stream_ns, 1);
-      if (film.moments[i].moment != Moment::kFrame) {
+      if (film.moments[i].kind != MomentKind::kFrame) {
         EXPECT_FALSE(felt) << i;
         continue;
       }

@@ -148,6 +148,21 @@ TEST_F(Analysis, WithAnotherQualityIsTheTrackOfThatQuality) {
   expect_refused("analyze " + film, 1, "was recorded with quality=fine, and not with the defaults");
 }
 
+TEST_F(Analysis, IsDescribedByInfo) {
+  const std::string motion =
+      analyze(make_film("ball.avi", source("pattern=ball")), "-- quality=fine");
+  const CommandResult info = spidartrack("info " + motion);
+  EXPECT_EQ(info.status, 0);
+  expect_contains(info.text, "analysis of 40 frames, 1.6 s, with quality=fine");
+  expect_contains(info.text, "objects: 1, in ");
+  const CommandResult json = spidartrack("info --json " + motion);
+  EXPECT_EQ(json.status, 0);
+  expect_contains(json.text,
+                  R"("frames":40,"duration_s":1.6,"settings":"quality=fine","objects":1,)");
+  fs::resize_file(motion, fs::file_size(motion) - 1);
+  expect_refused("info " + motion, 1, motion + ": its end is missing: analyse the film again");
+}
+
 TEST_F(Analysis, IsExportedAsLinesOfJson) {
   const std::string film = make_film("ball.avi", source("pattern=ball"));
   const std::string lines = path("ball.jsonl");
