@@ -11,6 +11,7 @@ namespace {
 /// If this share of all votes is cast, no object can have them all.
 constexpr double kTexturedShare = 0.5;
 constexpr double kLeastCoverage = 0.2;
+constexpr double kLeastCoverageIfSpread = 0.06;
 /// Standard deviation of the places of the votes for the model, as a share of the picture's width
 /// or height: 0.29 when they are spread over all of it.
 constexpr double kLeastSpread = 0.2;
@@ -84,57 +85,49 @@ void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
   }
   for (double& weight : evidence_.weights) weight *= sum / squares;
   effective_points_ = sum * sum / squares;
-  double voting = 0;
-  Eigen::Array2d low = Eigen::Array2d::Constant(1);
-  Eigen::Array2d high = -low;
-  for (size_t i = 0; i < votes.points.size(); ++i) {
-    voting += votes.at_border[i] ? kBorderVotes : 1;
-    const Eigen::Array2d at = votes.points[i].at_px.array() / votes.size_px.array();
-    low = low.min(at);
-    high = high.max(at);
-  }
-  is_textured_ = voting >= kTexturedShare * votes.all;
-  // No part of the votes deviates by more than half of the distance between the outermost ones.
-  may_cover_ = voting >= kLeastCoverage * votes.all || (high - low).maxCoeff() >= 2 * kLeastSpread;
+  voting_ = 0;
+  for (const uint8_t at_border : votes.at_border) voting_ += at_border ? kBorderVotes : 1;
+  is_textured_ = voting_ >= kTexturedShare * votes.all;
 }
 
-/// Whether the votes that agree with a model are of the background, and not of objects in front of
-/// a plain one. Sets the model's coverage.
-bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) const {
+/// Share of all votes that agree with the model; `spread` is how widely their places are spread.
+double BackgroundEstimator::coverage_of(const MotionModel& model, const BackgroundVotes& votes,
+                                        double& spread) const {
   double sum = 0;
-  size_t inliers = 0;
-  int at_border = 0;
+  double inliers = 0;
   Eigen::Array2d mean = Eigen::Array2d::Zero();
   Eigen::Array2d square = Eigen::Array2d::Zero();
   for (size_t i = 0; i < votes.points.size(); ++i) {
-    if (point_cost(scored.model, votes.points[i], evidence_.sigma_px) >= kMostCost) continue;
+    if (point_cost(model, votes.points[i], evidence_.sigma_px) >= kMostCost) continue;
     sum += votes.at_border[i] ? kBorderVotes : 1;
-    ++inliers;
-    at_border += votes.at_border[i];
+    inliers += 1;
     const Eigen::Array2d at = votes.points[i].at_px.array() / votes.size_px.array();
     mean += at;
     square += at * at;
   }
-  scored.coverage = votes.all > 0 ? sum / votes.all : 0;
-  if (scored.model.kind == ModelKind::kStill || is_textured_) return true;
-  if (scored.coverage >= kLeastCoverage) return true;
-  if (inliers < kLeastVotes) return false;
-  const bool goes_on = background_.model.kind != ModelKind::kStill;
-  if (!goes_on && at_border < least_points(ModelKind::kSimilarity)) return false;
-  const auto n = static_cast<double>(inliers);
-  return (square / n - (mean / n).square()).maxCoeff() >= kLeastSpread * kLeastSpread;
+  spread = 0;
+  if (inliers >= kLeastVotes) {
+    mean /= inliers;
+    spread = std::sqrt((square / inliers - mean * mean).maxCoeff());
+  }
+  return votes.all > 0 ? sum / votes.all : 0;
 }
 
 /// Returns false when the votes do not determine such a model, or when it does not cover the
 /// picture.
 bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
                                 const BackgroundVotes& votes, Scored& scored) {
-  if (kind != ModelKind::kStill && !may_cover_) return false;
+  const bool may_cover = is_textured_ || voting_ >= kLeastCoverageIfSpread * votes.all;
+  if (kind != ModelKind::kStill && !may_cover) return false;
   const auto model = fitter_.refine(kind, start, evidence_);
   if (!model) return false;
   if (kind != ModelKind::kStill) ++fitted_;
   scored.model = *model;
-  if (!covers(scored, votes)) return false;
+  double spread = 0;
+  scored.coverage = coverage_of(*model, votes, spread);
+  const bool covers = is_textured_ || scored.coverage >= kLeastCoverage ||
+                      (scored.coverage >= kLeastCoverageIfSpread && spread >= kLeastSpread);
+  if (kind != ModelKind::kStill && !covers) return false;
   scored.cost = robust_cost(*model, evidence_);
   // The term λ₁ d n is the same for all models.
   scored.gric = scored.cost + std::log(4 * effective_points_) * parameters(kind);
@@ -187,14 +180,12 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
 }
 
 /// Uses a low quantile, because some things that move by themselves may not have been recognised
-/// yet. Where little agrees with the model, the picture is plain, or so blurred that the model is
-/// wrong; the noise is then assumed to be that of good pictures. Rest that few blocks agree with is
-/// noise, if most of the picture has texture.
+/// yet. Where most of the picture is plain, the textured part may all be an object; the noise is
+/// then assumed to be that of good pictures.
 void BackgroundEstimator::learn_noise() {
   double found_px = kNoiseAtFirst_px;
-  const bool is_textured_rest = is_textured_ && background_.model.kind == ModelKind::kStill;
   if (residuals_px_.size() >= kLeastVotes &&
-      (is_textured_rest || background_.coverage >= kLeastCoverage)) {
+      (is_textured_ || background_.coverage >= kLeastCoverage)) {
     const auto n = static_cast<double>(residuals_px_.size());
     const auto place = residuals_px_.begin() + static_cast<ptrdiff_t>(kNoiseQuantile * n);
     std::nth_element(residuals_px_.begin(), place, residuals_px_.end());

@@ -29,8 +29,7 @@ struct BackgroundVotes {
 ///
 /// An object in front of a plain background may have all the votes although it covers little of the
 /// picture. When less than half of the picture votes, a model other than 'still' therefore needs a
-/// fifth of all votes, textureless parts included, or a dozen that are spread over the picture and
-/// of which some are at its border: there, objects are rare.
+/// fifth of all votes, textureless parts included, or fewer votes that are spread over the picture.
 ///
 /// Rungs compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil. Trans.
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
@@ -76,7 +75,7 @@ class BackgroundEstimator {
   };
 
   void weigh(const BackgroundVotes& votes);
-  bool covers(Scored& scored, const BackgroundVotes& votes) const;
+  double coverage_of(const MotionModel& model, const BackgroundVotes& votes, double& spread) const;
   bool score(ModelKind kind, const MotionModel& start, const BackgroundVotes& votes,
              Scored& scored);
   bool is_explained(const MotionModel& model) const;
@@ -89,8 +88,8 @@ class BackgroundEstimator {
   std::vector<MotionModel> known_;
   std::vector<double> residuals_px_;
   double effective_points_ = 0;
+  double voting_ = 0;         ///< votes of all points together
   bool is_textured_ = false;  ///< most of the picture votes
-  bool may_cover_ = false;    ///< some model other than 'still' may cover the picture
   double noise_px_ = 0;
   int patience_ = 0;  ///< number of frames in which a lower rung was better
   int frames_since_climb_ = 0;

@@ -142,7 +142,7 @@ TEST(Background, AnObjectOnAPlainBackgroundIsNotTheBackground) {
 }
 
 TEST(Background, AnObjectWithTooFewVotesCausesNoFit) {
-  // 50 of 900, too close together for any model.
+  // 50 of 900: less than a model needs, wherever its votes are.
   TrackSource source(6);
   BackgroundEstimator estimator;
   for (int n = 0; n < 10; ++n) {
@@ -150,39 +150,6 @@ TEST(Background, AnObjectWithTooFewVotesCausesNoFit) {
     add_object(source, points, 50, {60.0 - 10 * n, 20}, {-10, 2}, kSigma_px);
     EXPECT_EQ(estimator.estimate(votes(points, 900)).model.kind, ModelKind::kStill);
     EXPECT_EQ(estimator.fitted(), 0) << "frame " << n;
-  }
-}
-
-TEST(Background, TwoObjectsOnAPlainBackgroundAreNotTheBackground) {
-  // Growth would explain both, and they are far apart; but neither is at the border.
-  TrackSource source(8);
-  BackgroundEstimator estimator;
-  for (int n = 0; n < 10; ++n) {
-    std::vector<Displacement> points;
-    add_object(source, points, 50, {-160, 10}, {-3, 0}, kSigma_px);
-    add_object(source, points, 50, {160, -10}, {3, 0}, kSigma_px);
-    EXPECT_EQ(estimator.estimate(votes(points, 900)).model.kind, ModelKind::kStill) << n;
-  }
-}
-
-TEST(Background, FewVotesThatAreSpreadOverThePictureAreEnough) {
-  // 40 of 900, as of a sky with few clouds: 24 points, of which 16 are at the border.
-  const MotionModel truth = sample_model(ModelKind::kTranslation);
-  for (uint32_t seed = 1; seed <= 10; ++seed) {
-    TrackSource source(seed);
-    BackgroundEstimator estimator;
-    for (int n = 0; n < 5; ++n) {
-      std::vector<Displacement> points;
-      for (int i = 0; i < 24; ++i) {
-        const Eigen::Vector2d at_px(-300 + 120 * (i % 6), -165 + 110 * (i / 6));
-        points.push_back(source.moved(truth, at_px, kSigma_px));
-      }
-      const Background& found = estimator.estimate(votes(points, 900));
-      // Mean of 24 points, to five times its standard deviation.
-      EXPECT_LT((found.model.displacement_px({0, 0}) - truth.shift_px).norm(),
-                5 * kSigma_px * std::sqrt(2.0 / 24))
-          << "seed " << seed << ", frame " << n;
-    }
   }
 }
 
