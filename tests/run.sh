@@ -117,8 +117,8 @@ case ${1-} in
         -Dtest_suites=api,core,element,pipelines,spidar,window
     configure build-ci-thread "${sanitized[@]}" \
         -Db_sanitize=thread -Dbenchmarks=disabled -Dwindow=disabled -Dtest_suites=apps,pipelines,spidar
-    threaded_targets=(tests/spidar/test_{spidar,usb,guardian} tests/apps/test_play_{numbers,traces}
-        tests/pipelines/test_pipelines_random_operations)
+    threaded_targets=(tests/spidar/test_{spidar,usb,guardian} tests/emulated_bus/emulated-guardian
+        tests/apps/test_play_{numbers,traces} tests/pipelines/test_pipelines_random_operations)
 
     build_ahead build-ci-address
     run_on_bare_debian build-ci-bare
