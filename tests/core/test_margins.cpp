@@ -57,9 +57,8 @@ std::vector<Vector2d> feel(const Scene& scene) {
 /// With sensor noise of 1.5 grey levels in the film and a frame of an eighth of its height around
 /// it, which has more than half of the votes on the camera: those at the border count twice.
 Scene framed(const Scene& film) {
-  return [film](int n, const Vector2d& at) {
-    static std::mt19937 random(1);
-    static std::normal_distribution<double> noise(0, 1.5);
+  return [film, random = std::mt19937(1), noise = std::normal_distribution<double>(0, 1.5)](
+             int n, const Vector2d& at) mutable {
     constexpr double kWide_px = kHeight / 8.0;
     if (!in_box(at, kWide_px, kWide_px, kWidth - 2 * kWide_px, kHeight - 2 * kWide_px)) {
       return kForeground.at(at.x(), at.y() + 700);
