@@ -10,11 +10,13 @@ namespace {
 
 /// If this share of all votes is cast, no object can have them all.
 constexpr double kTexturedShare = 0.5;
-constexpr double kLeastCoverage = 0.2;
-constexpr double kLeastCoverageIfSpread = 0.06;
-/// Standard deviation of the places of the votes for the model, as a share of the picture's width
-/// or height: 0.29 when they are spread over all of it.
-constexpr double kLeastSpread = 0.2;
+/// Shares of the picture's votes: an object in front of a plain background hardly covers more than
+/// kMostObject, and a model that fewer votes than kLeastCoverage agree with does not count.
+constexpr double kMostObject = 0.2;
+constexpr double kLeastCoverage = 0.06;
+/// From this many places on, an object is looked for around every second one, and so on: this
+/// bounds the time.
+constexpr size_t kManyPlaces = 64;
 
 /// Noise of a displacement, px of the picture in which motion is measured. A vote that deviates by
 /// more than kOutlierSigmas · noise, and by at least kLeastReach_px, is an outlier.
@@ -59,6 +61,7 @@ BackgroundEstimator::BackgroundEstimator() {
   evidence_.points.reserve(kMostDisplacements);
   evidence_.weights.reserve(kMostDisplacements);
   residuals_px_.reserve(kMostDisplacements);
+  places_px_.reserve(kMostDisplacements);
   known_.reserve(2);
   reset();
 }
@@ -90,44 +93,62 @@ void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
   is_textured_ = voting_ >= kTexturedShare * votes.all;
 }
 
-/// Share of all votes that agree with the model; `spread` is how widely their places are spread.
-double BackgroundEstimator::coverage_of(const MotionModel& model, const BackgroundVotes& votes,
-                                        double& spread) const {
+/// Whether the places_px_, which it empties, are of more than one object in front of a plain
+/// background, or of more than two if the model is above a translation. That is so when kLeastVotes
+/// are left after the objects have been taken away: circles that cover kMostObject of the
+/// picture, each around a place with the most others in it.
+bool BackgroundEstimator::is_background(ModelKind kind, const Eigen::Vector2d& size_px) {
+  const int objects = kind > ModelKind::kTranslation ? 2 : 1;
+  const double radius_px2 = kMostObject * size_px.prod() / M_PI;
+  for (int n = 0; n < objects; ++n) {
+    size_t most = 0;
+    Eigen::Vector2d middle_px(0, 0);
+    const size_t step = 1 + places_px_.size() / kManyPlaces;
+    for (size_t i = 0; i < places_px_.size(); i += step) {
+      size_t near = 0;
+      for (const Eigen::Vector2d& other_px : places_px_) {
+        near += (other_px - places_px_[i]).squaredNorm() <= radius_px2;
+      }
+      if (near <= most) continue;
+      most = near;
+      middle_px = places_px_[i];
+    }
+    if (places_px_.size() < most + kLeastVotes) return false;
+    const auto is_its = [&](const Eigen::Vector2d& place_px) {
+      return (place_px - middle_px).squaredNorm() <= radius_px2;
+    };
+    places_px_.erase(std::remove_if(places_px_.begin(), places_px_.end(), is_its),
+                     places_px_.end());
+  }
+  return true;
+}
+
+/// Whether the votes that agree with a model are of the background, and not of objects in front of
+/// a plain one. Sets the model's coverage.
+bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
   double sum = 0;
-  double inliers = 0;
-  Eigen::Array2d mean = Eigen::Array2d::Zero();
-  Eigen::Array2d square = Eigen::Array2d::Zero();
+  places_px_.clear();
   for (size_t i = 0; i < votes.points.size(); ++i) {
-    if (point_cost(model, votes.points[i], evidence_.sigma_px) >= kMostCost) continue;
+    if (point_cost(scored.model, votes.points[i], evidence_.sigma_px) >= kMostCost) continue;
     sum += votes.at_border[i] ? kBorderVotes : 1;
-    inliers += 1;
-    const Eigen::Array2d at = votes.points[i].at_px.array() / votes.size_px.array();
-    mean += at;
-    square += at * at;
+    places_px_.push_back(votes.points[i].at_px);
   }
-  spread = 0;
-  if (inliers >= kLeastVotes) {
-    mean /= inliers;
-    spread = std::sqrt((square / inliers - mean * mean).maxCoeff());
-  }
-  return votes.all > 0 ? sum / votes.all : 0;
+  scored.coverage = votes.all > 0 ? sum / votes.all : 0;
+  if (scored.model.kind == ModelKind::kStill || is_textured_) return true;
+  return scored.coverage >= kLeastCoverage && is_background(scored.model.kind, votes.size_px);
 }
 
 /// Returns false when the votes do not determine such a model, or when it does not cover the
 /// picture.
 bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
                                 const BackgroundVotes& votes, Scored& scored) {
-  const bool may_cover = is_textured_ || voting_ >= kLeastCoverageIfSpread * votes.all;
+  const bool may_cover = is_textured_ || voting_ >= kLeastCoverage * votes.all;
   if (kind != ModelKind::kStill && !may_cover) return false;
   const auto model = fitter_.refine(kind, start, evidence_);
   if (!model) return false;
   if (kind != ModelKind::kStill) ++fitted_;
   scored.model = *model;
-  double spread = 0;
-  scored.coverage = coverage_of(*model, votes, spread);
-  const bool covers = is_textured_ || scored.coverage >= kLeastCoverage ||
-                      (scored.coverage >= kLeastCoverageIfSpread && spread >= kLeastSpread);
-  if (kind != ModelKind::kStill && !covers) return false;
+  if (!covers(scored, votes)) return false;
   scored.cost = robust_cost(*model, evidence_);
   // The term λ₁ d n is the same for all models.
   scored.gric = scored.cost + std::log(4 * effective_points_) * parameters(kind);
@@ -180,12 +201,14 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
 }
 
 /// Uses a low quantile, because some things that move by themselves may not have been recognised
-/// yet. Where most of the picture is plain, the textured part may all be an object; the noise is
-/// then assumed to be that of good pictures.
+/// yet. Where little agrees with the model, the picture is plain, or so blurred that the model is
+/// wrong; the noise is then assumed to be that of good pictures. Rest that few blocks agree with is
+/// noise, if most of the picture has texture.
 void BackgroundEstimator::learn_noise() {
   double found_px = kNoiseAtFirst_px;
+  const bool is_textured_rest = is_textured_ && background_.model.kind == ModelKind::kStill;
   if (residuals_px_.size() >= kLeastVotes &&
-      (is_textured_ || background_.coverage >= kLeastCoverage)) {
+      (is_textured_rest || background_.coverage >= kMostObject)) {
     const auto n = static_cast<double>(residuals_px_.size());
     const auto place = residuals_px_.begin() + static_cast<ptrdiff_t>(kNoiseQuantile * n);
     std::nth_element(residuals_px_.begin(), place, residuals_px_.end());

@@ -27,9 +27,9 @@ struct BackgroundVotes {
 
 /// Chooses, from frame to frame, the lowest rung of the ladder that explains the votes.
 ///
-/// An object in front of a plain background may have all the votes although it covers little of the
-/// picture. When less than half of the picture votes, a model other than 'still' therefore needs a
-/// fifth of all votes, textureless parts included, or fewer votes that are spread over the picture.
+/// An object in front of a plain background may have all the votes, and any two objects move like
+/// some similarity. When less than half of the picture votes, a translation therefore needs votes
+/// in two places that are too far apart for one object, and a model above it needs them in three.
 ///
 /// Rungs compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil. Trans.
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
@@ -75,7 +75,8 @@ class BackgroundEstimator {
   };
 
   void weigh(const BackgroundVotes& votes);
-  double coverage_of(const MotionModel& model, const BackgroundVotes& votes, double& spread) const;
+  bool covers(Scored& scored, const BackgroundVotes& votes);
+  bool is_background(ModelKind kind, const Eigen::Vector2d& size_px);
   bool score(ModelKind kind, const MotionModel& start, const BackgroundVotes& votes,
              Scored& scored);
   bool is_explained(const MotionModel& model) const;
@@ -87,6 +88,7 @@ class BackgroundEstimator {
   RobustFitter fitter_;
   std::vector<MotionModel> known_;
   std::vector<double> residuals_px_;
+  std::vector<Eigen::Vector2d> places_px_;  ///< of the votes that agree with a model
   double effective_points_ = 0;
   double voting_ = 0;         ///< votes of all points together
   bool is_textured_ = false;  ///< most of the picture votes

@@ -10,9 +10,9 @@ namespace {
 
 /// Blocks this close to the border of the picture count as being at the border.
 constexpr int kBorderBlocks = 2;
-/// Smaller eigenvalue of the structure tensor, (grey / px)²: a block may vote from
-/// kLeastVoteTexture on, and its vote approaches a full one well above kFullTexture.
-constexpr double kLeastVoteTexture = 6;
+/// Smaller eigenvalue of the structure tensor, (grey / px)²: a block may vote where its motion is
+/// known to a fraction of a pixel, and its vote approaches a full one well above kFullTexture.
+constexpr auto kLeastVoteTexture = static_cast<double>(BlockField::kRegularization);
 constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;

@@ -153,6 +153,50 @@ TEST(Background, AnObjectWithTooFewVotesCausesNoFit) {
   }
 }
 
+TEST(Background, OneOrTwoObjectsOnAPlainBackgroundAreNotTheBackground) {
+  // Up to 100 of 900 each, far apart: some similarity explains any two of them.
+  const std::vector<Eigen::Vector2d> places_px{{-250, 100}, {250, 100}};
+  const std::vector<Eigen::Vector2d> moved_px{{-3, 0}, {3, 0}};
+  for (const int count : {50, 100})
+    for (size_t objects = 1; objects <= places_px.size(); ++objects) {
+      TrackSource source(8);
+      BackgroundEstimator estimator;
+      for (int n = 0; n < 10; ++n) {
+        std::vector<Displacement> points;
+        for (size_t i = 0; i < objects; ++i) {
+          add_object(source, points, count, places_px[i], moved_px[i], kSigma_px);
+        }
+        EXPECT_EQ(estimator.estimate(votes(points, 900)).model.kind, ModelKind::kStill)
+            << objects << " objects of " << count << ", frame " << n;
+      }
+    }
+}
+
+TEST(Background, FewVotesInManyPlacesAreEnough) {
+  // 60 of 900, as of a sky with few clouds: 15 clouds of four points.
+  for (const ModelKind kind : {ModelKind::kTranslation, ModelKind::kSimilarity}) {
+    const MotionModel truth = sample_model(kind);
+    for (uint32_t seed = 1; seed <= 10; ++seed) {
+      TrackSource source(seed);
+      BackgroundEstimator estimator;
+      for (int n = 0; n < 5; ++n) {
+        std::vector<Displacement> points;
+        for (int i = 0; i < 60; ++i) {
+          const Eigen::Vector2d cloud_px(-240 + 120 * (i % 5), -120 + 120 * (i / 5 % 3));
+          const Eigen::Vector2d within_px(16 * (i / 15 % 2), 16 * (i / 30));
+          points.push_back(source.moved(truth, cloud_px + within_px, kSigma_px));
+        }
+        const Background& found = estimator.estimate(votes(points, 900));
+        EXPECT_EQ(found.model.kind, kind) << "seed " << seed << ", frame " << n;
+        // 60 points: σ / √60 a coordinate, 5 deviations.
+        EXPECT_LT((found.model.shift_px - truth.shift_px).norm(),
+                  5 * kSigma_px * std::sqrt(2.0 / 60))
+            << "seed " << seed << ", frame " << n;
+      }
+    }
+  }
+}
+
 TEST(Background, FollowsThePanBehindAnObjectThatHasTwoFifthsOfTheVotes) {
   MotionModel pan;
   pan.kind = ModelKind::kTranslation;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Scenes of which little has texture: whether what moves there is the camera or an object.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/analysis/motion_analyzer.h"
+#include "tests/support/moving_scene.h"
+
+namespace spidar::test::sparse_scenes_test {
+namespace {
+
+using test::MovingScene;
+using test::Picture;
+using test::Texture;
+
+constexpr int kWidth = 480;
+constexpr int kHeight = 270;
+constexpr int64_t kFrame_ns = 40'000'000;
+constexpr double kFrame_s = 0.04;
+constexpr int kFrames = 8;
+
+/// Two discs that part in front of a plain wall.
+void expect_two_objects(double radius_px) {
+  MovingScene scene(kWidth, kHeight);
+  scene.plain_background();
+  scene.add_disc(radius_px);
+  scene.add_disc(radius_px);
+  MotionAnalyzer analyzer;
+  for (int n = 0; n < kFrames; ++n) {
+    const double x_px = 110 + 3 * n;
+    const FrameAnalysis frame =
+        analyzer.analyze(scene.draw({}, {{{-x_px, 0}}, {{x_px, 0}}}), n * kFrame_ns);
+    if (n == 0) continue;
+    ASSERT_STREQ(to_string(*frame.model), "still") << n;
+    if (n < 3) continue;  // an object needs two pairs of frames
+    ASSERT_EQ(frame.object_list->size(), 2u) << n;
+    const MovingObject& one = frame.object_list->front();
+    const MovingObject& other = frame.object_list->back();
+    EXPECT_LT(one.relative_px_s.x() * other.relative_px_s.x(), 0) << n;
+    // To the half: the disc's rim is shared with the plain wall.
+    EXPECT_GT(std::min(one.relative_px_s.norm(), other.relative_px_s.norm()) * kFrame_s, 1.5) << n;
+  }
+}
+
+TEST(SparseScenes, TwoDiscsThatPartAreNoZoom) {
+  for (const double radius_px : {24, 32, 40, 48, 64}) {
+    SCOPED_TRACE(radius_px);
+    expect_two_objects(radius_px);
+  }
+}
+
+/// Each frame shows a sky that the camera pans over by 4 px, and nothing else moves. `clouds`: the
+/// sky has texture in small clouds only.
+void expect_a_pan(double contrast, bool clouds) {
+  constexpr double kMoved_px = 4;
+  constexpr double kPeriod_px = 96;
+  const Texture texture(3, 6);
+  const auto from_cloud_px = [](double at_px) {
+    return std::abs(std::remainder(at_px, kPeriod_px));
+  };
+  Picture picture(kWidth, kHeight);
+  MotionAnalyzer analyzer;
+  for (int n = 0; n < kFrames; ++n) {
+    picture.fill([&](double x, double y) {
+      const double u = x + kMoved_px * n;
+      // A cloud is 32 px wide and fades out over 5 px.
+      const double inside_px = clouds ? 16 - std::max(from_cloud_px(u), from_cloud_px(y)) : 5;
+      return 128 + contrast * std::clamp(inside_px / 5, 0.0, 1.0) * (texture.at(u, y) - 128);
+    });
+    const FrameAnalysis frame = analyzer.analyze(picture.view(), n * kFrame_ns);
+    if (n == 0) continue;
+    ASSERT_STREQ(to_string(*frame.model), "translation") << n;
+    // To the tenth of a pixel that blocks are accurate to.
+    EXPECT_NEAR(frame.background->model.shift_px.x(), -kMoved_px, 0.1) << n;
+    EXPECT_TRUE(frame.object_list->empty()) << n;
+    EXPECT_EQ(frame.wrench.force_N.norm(), 0) << n;
+  }
+}
+
+TEST(SparseScenes, FewCloudsShowHowTheCameraMoves) {
+  expect_a_pan(0.5, true);
+}
+
+TEST(SparseScenes, AFaintSkyShowsHowTheCameraMoves) {
+  expect_a_pan(0.3, false);
+}
+
+}  // namespace
+}  // namespace spidar::test::sparse_scenes_test
