@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "plugin/tools/conversion_loss.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
@@ -14,12 +15,15 @@ namespace {
 
 constexpr const char* kConvertTrackHelp = R"(usage: spidartrack convert FROM TO [OPTION]...
 
-FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), or a trace of
-spidarmotion (.csv, .jsonl). TO is what its name ends in: .flac, .mka, .wav, .hjif or .funscript;
-a file of this name is replaced when the new one is complete. A funscript is only written.
+FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), a trace of
+spidarmotion (.csv, .jsonl), or a funscript. TO is what its name ends in: .flac, .mka, .wav, .hjif,
+.ahap (a vibration for telephones) or .funscript; a file of this name is replaced when the new one is
+complete. What TO cannot hold is printed.
 
-  --tolerance SHARE  of the full scale, by which HJIF may differ between its keyframes; 0.0004
-  --axis CHANNEL     that a funscript has: fx, fy, fz, tx, ty or tz; fy
+  --axis CHANNEL     of a funscript, and with --rate: fx, fy, fz, tx, ty or tz; fy
+  --rate HZ          sound with this channel alone, as for a bass shaker: 48000
+  --tolerance SHARE  of the full scale, by which curves may differ between their points:
+                     HJIF 0.0004, AHAP 0.02
 )";
 
 size_t parse_axis(const std::string& text) {
@@ -34,14 +38,17 @@ size_t parse_axis(const std::string& text) {
 int convert_track_command(int argc, char** argv) {
   bool help = false;
   SaveOptions options;
-  options.funscript_axis = 1;
   const std::vector<std::string> operands = parse_options(
       argc, argv,
       {{"tolerance", true,
         [&](const std::string& text) {
-          options.hjif_tolerance = parse_number("--tolerance", text, 0, 1, "");
+          options.tolerance = parse_number("--tolerance", text, 0, 1, "");
         }},
-       {"axis", true, [&](const std::string& text) { options.funscript_axis = parse_axis(text); }},
+       {"axis", true, [&](const std::string& text) { options.axis = parse_axis(text); }},
+       {"rate", true,
+        [&](const std::string& text) {
+          options.rate_Hz = static_cast<int>(parse_number("--rate", text, 1000, 192000, "Hz"));
+        }},
        {"help", false, [&](const std::string&) { help = true; }}});
   if (help) {
     std::cout << kConvertTrackHelp;
@@ -52,10 +59,14 @@ int convert_track_command(int argc, char** argv) {
   if (std::filesystem::equivalent(operands[0], operands[1], none)) {
     throw UsageError(operands[1] + ": is to be another file than " + operands[0]);
   }
+  if (options.rate_Hz > 0 && encoder_of(operands[1]).empty()) {
+    throw UsageError("--rate: is of sound, .flac, .mka or .wav, and not of " + operands[1]);
+  }
   TrackCondition condition;
-  const std::vector<TrackSample> samples = load_track(operands[0], &condition);
+  const std::vector<TrackSample> samples = load_track(operands[0], &condition, options.axis);
   options.notes = condition.notes;
   save_track(operands[1], samples, options);
+  std::cout << lost_in(operands[1], samples, options);
   return kDone;
 }
 

@@ -2,17 +2,17 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/track_samples.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <stdexcept>
 
 #include <gst/gst.h>
 
+#include "core/track/ahap.h"
+#include "core/track/funscript.h"
 #include "core/track/hjif.h"
 #include "core/track/track_reader.h"
 #include "plugin/tools/part_file.h"
@@ -59,40 +59,45 @@ void write_text(const PartFile& part, const std::string& text) {
   if (!file) throw std::runtime_error(part.target() + ": cannot be written; the disk may be full");
 }
 
-/// Positions from 0 to 100 with 50 in the middle, wherever a straight line between the neighbouring
-/// positions would be off by one step.
-std::string funscript(const std::vector<TrackSample>& samples, size_t axis) {
-  std::ostringstream out;
-  out << R"({"version":"1.0","inverted":false,"range":100,"actions":[)";
-  const auto position = [&](size_t i) {
-    const double share = std::isfinite(samples[i][axis]) ? samples[i][axis] : 0;
-    return std::lround(50 + 50 * std::clamp(share, -1.0, 1.0));
-  };
-  bool first = true;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const bool corner = i == 0 || i + 1 == samples.size() || position(i) != position(i - 1) ||
-                        position(i) != position(i + 1);
-    if (!corner) continue;
-    out << (first ? "" : ",") << R"({"at":)" << i << R"(,"pos":)" << position(i) << '}';
-    first = false;
-  }
-  out << "]}\n";
-  return out.str();
-}
-
-void write_sound(const PartFile& part, const std::string& encoder,
-                 const std::vector<TrackSample>& samples, const TrackNotes& notes) {
+/// Samples in memory, 1000 a second, as a file that `elements` make of them.
+void write_sound(const PartFile& part, const std::string& bytes, size_t channels,
+                 const std::string& elements,
+                 const std::function<void(GstElement* pipeline)>& prepare = {}) {
   const PartFile raw(part.target() + ".raw");
-  const auto* bytes = reinterpret_cast<const char*>(samples.data());
-  write_text(raw, std::string(bytes, samples.size() * sizeof(TrackSample)));
+  write_text(raw, bytes);
   run_pipeline(
       "filesrc name=raw_file ! "
-      "rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
-      "capssetter name=samples caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
-          encoder + " ! filesink name=file",
+      "rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=" +
+          std::to_string(channels) + " ! " + elements + " ! filesink name=file",
       [&](GstElement* pipeline) {
         set_location(pipeline, "raw_file", raw.path());
         set_location(pipeline, "file", part.path());
+        if (prepare) prepare(pipeline);
+      });
+}
+
+template <typename Value>
+std::string bytes_of(const std::vector<Value>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+}
+
+/// One channel, in which nothing is above half the rate of a track.
+void write_channel(const PartFile& part, const std::string& encoder,
+                   const std::vector<TrackSample>& samples, const SaveOptions& options) {
+  std::vector<float> values;
+  values.reserve(samples.size());
+  for (const TrackSample& sample : samples) values.push_back(sample[options.axis]);
+  write_sound(part, bytes_of(values), 1,
+              "audioresample quality=10 ! audio/x-raw,rate=" + std::to_string(options.rate_Hz) +
+                  " ! " + encoder);
+}
+
+void write_channels(const PartFile& part, const std::string& encoder,
+                    const std::vector<TrackSample>& samples, const TrackNotes& notes) {
+  write_sound(
+      part, bytes_of(samples), kTrackChannels,
+      "capssetter name=samples caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " + encoder,
+      [&](GstElement* pipeline) {
         GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "samples");
         GstPad* pad = gst_element_get_static_pad(element, "src");
         tag_track(pad, notes);
@@ -184,12 +189,14 @@ void await_message(GstElement* pipeline, GstMessageType awaited, GstClockTime li
   if (!problem.empty()) throw std::runtime_error(problem);
 }
 
-std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition) {
+std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition,
+                                    size_t funscript_axis) {
   if (condition) *condition = {};
-  if (ends_with(path, ".funscript")) {
+  if (ends_with(path, ".funscript")) return read_funscript(read_text(path), funscript_axis);
+  if (ends_with(path, ".ahap")) {
     throw std::runtime_error(path +
-                             ": a funscript has one of the six channels of a track, so it is "
-                             "written, but not read; use the track that it was made from");
+                             ": AHAP has neither directions nor torque, so it is written, but not "
+                             "read; use the track that it was made from");
   }
   if (ends_with(path, ".hjif")) return read_hjif(read_text(path));
   if (ends_with(path, ".csv")) return read_csv_trace(path, read_text(path));
@@ -202,17 +209,23 @@ std::vector<TrackSample> load_track(const std::string& path, TrackCondition* con
 void save_track(const std::string& path, const std::vector<TrackSample>& samples,
                 const SaveOptions& options) {
   const std::string encoder = encoder_of(path);
-  const bool is_hjif = ends_with(path, ".hjif");
-  if (encoder.empty() && !is_hjif && !ends_with(path, ".funscript")) {
-    throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .funscript");
+  const bool is_hjif = ends_with(path, ".hjif"), is_ahap = ends_with(path, ".ahap");
+  if (encoder.empty() && !is_hjif && !is_ahap && !ends_with(path, ".funscript")) {
+    throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .ahap .funscript");
   }
   PartFile part(path);
-  if (!encoder.empty()) {
-    write_sound(part, encoder, samples, options.notes);
+  if (!encoder.empty() && options.rate_Hz > 0) {
+    write_channel(part, encoder, samples, options);
+  } else if (!encoder.empty()) {
+    write_channels(part, encoder, samples, options.notes);
   } else if (is_hjif) {
-    write_text(part, write_hjif(samples, options.hjif_tolerance));
+    write_text(part,
+               options.tolerance ? write_hjif(samples, *options.tolerance) : write_hjif(samples));
+  } else if (is_ahap) {
+    write_text(part,
+               options.tolerance ? write_ahap(samples, *options.tolerance) : write_ahap(samples));
   } else {
-    write_text(part, funscript(samples, options.funscript_axis));
+    write_text(part, write_funscript(samples, options.axis));
   }
   part.publish();
 }

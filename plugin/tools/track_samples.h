@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,19 +24,26 @@ struct TrackCondition {
   TrackNotes notes;
 };
 
+/// The force upwards: the channel of formats that have only one.
+constexpr size_t kUsualAxis = 1;
+
 /// The format follows from the end of the name: HJIF (`.hjif`), a trace of spidarmotion (`.csv`,
-/// `.jsonl`), else sound of any rate that spidarsink accepts. Gaps become silence, and so do
-/// samples that are not numbers, which `condition` counts. Throws std::runtime_error.
-std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr);
+/// `.jsonl`), one channel (`.funscript`), else sound of any rate that spidarsink accepts. Gaps
+/// become silence, and so do samples that are not numbers, which `condition` counts. Throws
+/// std::runtime_error.
+std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr,
+                                    size_t funscript_axis = kUsualAxis);
 
 struct SaveOptions {
-  double hjif_tolerance = 4e-4;  ///< of the full scale
-  size_t funscript_axis = 0;     ///< channel
-  TrackNotes notes;              ///< for sound
+  std::optional<double>
+      tolerance;             ///< of HJIF and AHAP, of the full scale; of each its own default
+  size_t axis = kUsualAxis;  ///< the channel of a funscript, and of sound with a rate
+  int rate_Hz = 0;           ///< of sound with one channel; 0: all six, 1000 samples a second
+  TrackNotes notes;          ///< for sound
 };
 
-/// The format follows from the end of the name: `.flac`, `.wav`, `.mka` (both F32), `.hjif` or
-/// `.funscript`. An existing file is replaced when the new one is complete. Throws
+/// The format follows from the end of the name: `.flac`, `.wav`, `.mka` (both F32), `.hjif`,
+/// `.ahap` or `.funscript`. An existing file is replaced when the new one is complete. Throws
 /// std::runtime_error.
 void save_track(const std::string& path, const std::vector<TrackSample>& samples,
                 const SaveOptions& options = {});

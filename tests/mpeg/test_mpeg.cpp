@@ -134,7 +134,7 @@ TEST_F(Mpeg, EncoderAndSynthesizerReadOurTracks) {
 
 TEST_F(Mpeg, WithoutToleranceOnlyRoundingIsLeft) {
   SaveOptions exact;
-  exact.hjif_tolerance = 0;
+  exact.tolerance = 0;
   save_track(path("in.hjif"), waves(), exact);
   std::vector<TrackSample> read = synthesized(path("in.hjif")), written = waves();
   ASSERT_EQ(read.size(), written.size());
