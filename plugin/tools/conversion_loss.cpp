@@ -58,7 +58,7 @@ std::string lost_in(const std::string& path, const std::vector<TrackSample>& sam
   }
   if (options.rate_Hz > 0) {
     return "lost: " + other_channels(summary, options.axis) +
-           "and on a shaker what is slow: " + rounded(100 * channel.above_30_Hz) +
+           "on a shaker also what is slow: " + rounded(100 * channel.above_30_Hz) +
            " % of the power of " + axis + " is above 30 Hz\n";
   }
   return {};
