@@ -18,6 +18,7 @@ constexpr const char* kFormat = "gst-spidar motion";
 constexpr int64_t kMostObjects = 64 * static_cast<int64_t>(MotionFileWriter::kChunkFrames);
 constexpr uint32_t kLargestSide_px = 65536;
 constexpr uint8_t kTurns = 8;
+constexpr int64_t kMostPieces = 1 << 20;
 /// 36 years: no film has later times, and differences of two such times do not overflow.
 constexpr int64_t kLatest_ns = int64_t{1} << 60;
 
@@ -96,6 +97,11 @@ bool is_sound(const FrameRow& row) {
 }  // namespace
 
 std::string wrong_motion(const MotionHeader& header, MotionKind motion) {
+  const MotionPiece& piece = header.piece;
+  if (piece.of > 0) {
+    return "it is piece " + std::to_string(piece.number) + " of " + std::to_string(piece.of) +
+           " of an analysis: spidartrack join makes one of all";
+  }
   const bool is_mean = motion == MotionKind::kMean;
   if (is_mean == header.is_mean) return {};
   return is_mean ? "motion=mean measures other things, by spidartrack analyze FILM -- motion=mean"
@@ -109,6 +115,14 @@ std::string write_header(const MotionHeader& header) {
   item.texts["film"] = header.film;
   item.texts["settings"] = header.settings;
   item.numbers["mean"] = header.is_mean;
+  if (const MotionPiece& piece = header.piece; piece.of > 0) {
+    item.numbers["piece"] = piece.number;
+    item.numbers["pieces"] = piece.of;
+    item.numbers["film_ns"] = piece.film_ns;
+    item.numbers["has_end"] = piece.has_end;
+    item.texts["program"] = piece.program;
+    item.texts["format_of_track"] = piece.format;
+  }
   return write_cbor(item);
 }
 
@@ -124,18 +138,37 @@ MotionHeader read_header(std::istream& file) {
                           " of the format, and this program reads version " +
                           std::to_string(MotionHeader::kVersion) + ": analyse the film again");
   }
-  return {item->text("film"), item->text("settings"), item->number("mean").value_or(0) != 0};
+  MotionHeader header{
+      item->text("film"), item->text("settings"), item->number("mean").value_or(0) != 0, {}};
+  MotionPiece& piece = header.piece;
+  piece.of =
+      static_cast<int>(std::clamp<int64_t>(item->number("pieces").value_or(0), 0, kMostPieces));
+  if (piece.of == 0) return header;
+  piece.number =
+      static_cast<int>(std::clamp<int64_t>(item->number("piece").value_or(0), 0, kMostPieces));
+  piece.film_ns = item->number("film_ns").value_or(0);
+  piece.has_end = item->number("has_end").value_or(0) != 0;
+  piece.program = item->text("program");
+  piece.format = item->text("format_of_track");
+  return header;
 }
 
 void MotionFileWriter::add(const MotionMoment& moment, const MeasuredFrame& frame,
                            std::string& bytes) {
-  const auto index = static_cast<uint32_t>(rows_.frames.size());
-  rows_.frames.push_back(row_of(moment, frame));
+  std::vector<ObjectCode> objects;
   if (moment.kind == MomentKind::kFrame && frame.shown != Shown::kWaiting) {
     for (const MovingObject& object : frame.objects) {
-      rows_.objects.push_back({index, encode_object(object, longer_side_px(frame))});
+      objects.push_back(encode_object(object, longer_side_px(frame)));
     }
   }
+  add(row_of(moment, frame), objects, bytes);
+}
+
+void MotionFileWriter::add(const FrameRow& row, const std::vector<ObjectCode>& objects,
+                           std::string& bytes) {
+  const auto index = static_cast<uint32_t>(rows_.frames.size());
+  rows_.frames.push_back(row);
+  for (const ObjectCode& object : objects) rows_.objects.push_back({index, object});
   if (rows_.frames.size() == kChunkFrames) write_chunk(bytes);
 }
 
@@ -211,6 +244,14 @@ MotionMoment MotionFile::moment(size_t i) const {
   const FrameRow& row = rows_.frames[i];
   return {static_cast<MomentKind>(row.moment), row.stream_ns, row.duration_ns, row.empty != 0,
           PictureTurn(row.turn % 4, row.turn >= 4)};
+}
+
+std::vector<ObjectCode> MotionFile::objects(size_t i) const {
+  std::vector<ObjectCode> objects;
+  for (size_t k = first_object_[i]; k < first_object_[i + 1]; ++k) {
+    objects.push_back(rows_.objects[k].object);
+  }
+  return objects;
 }
 
 void MotionFile::load(size_t i, MeasuredFrame& frame) const {

@@ -22,6 +22,16 @@ struct MotionFileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Which part of a film was measured, for a MotionJoin.
+struct MotionPiece {
+  int number = 0;  ///< from 1
+  int of = 0;      ///< pieces; 0: all of the film was measured at once
+  int64_t film_ns = 0;
+  bool has_end = false;  ///< it goes on to the end of the film
+  std::string program;   ///< version that measured it
+  std::string format;    ///< of the track that is to be made of all pieces; empty: none
+};
+
 /// What the file says of itself. The file is a sequence of CBOR maps (RFC 8742): this, then
 /// kChunkFrames frames at a time as columns (pack_columns()), then the number of all frames.
 struct MotionHeader {
@@ -30,9 +40,11 @@ struct MotionHeader {
   std::string film;      ///< FilmFingerprint as text; empty: not known
   std::string settings;  ///< of the measurement, those that are not defaults: "quality=fine"
   bool is_mean = false;  ///< measured for motion=mean, which needs and gives other things
+  MotionPiece piece = {};
 };
 
-/// Empty, or why this motion cannot be felt from such a file, as the rest of a sentence.
+/// Empty, or why this motion cannot be felt from such a file, as the rest of a sentence. A piece of
+/// an analysis cannot be felt at all.
 std::string wrong_motion(const MotionHeader& header, MotionKind motion);
 
 std::string write_header(const MotionHeader& header);
@@ -56,6 +68,8 @@ class MotionFileWriter {
 
   /// `frame` counts only with MomentKind::kFrame. Appends to `bytes` what is ready to be written.
   void add(const MotionMoment& moment, const MeasuredFrame& frame, std::string& bytes);
+  /// The same from a file.
+  void add(const FrameRow& row, const std::vector<ObjectCode>& objects, std::string& bytes);
   /// Appends the rest.
   void finish(std::string& bytes);
 
@@ -75,6 +89,8 @@ class MotionFile {
   const MotionHeader& header() const { return header_; }
   size_t size() const { return rows_.frames.size(); }
   MotionMoment moment(size_t i) const;
+  const FrameRow& row(size_t i) const { return rows_.frames[i]; }
+  std::vector<ObjectCode> objects(size_t i) const;
   /// The frame of moment `i`, which is a MomentKind::kFrame. If it waits, `frame` keeps what it has
   /// of the frame before.
   void load(size_t i, MeasuredFrame& frame) const;

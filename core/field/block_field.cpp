@@ -142,6 +142,17 @@ void BlockField::resize(const PaddedImage& base) {
   has_picture_ = false;
 }
 
+/// Nothing but the picture is known. Nothing of what was before a cut is left, either, so that an
+/// analysis that begins before a cut goes on behind it as every other one does.
+void BlockField::begin() {
+  has_picture_ = true;
+  grid_ = BlockGrid::over(now_.width(), now_.height());
+  matches_.assign(static_cast<size_t>(grid_.size()), BlockMatch());
+  coarse_grid_ = BlockGrid::over(coarse_now_.width(), coarse_now_.height());
+  coarse_matches_.assign(static_cast<size_t>(coarse_grid_.size()), BlockMatch());
+  blocks_.assign(static_cast<size_t>(grid_.size()), MotionBlock());
+}
+
 BlockField::Result BlockField::update(const PaddedImage& base) {
   if (base.width() != base_width_ || base.height() != base_height_) resize(base);
   std::swap(before_, now_);
@@ -150,12 +161,7 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
   reduce_blocks(now_.view(), kCoarser, coarse_now_);
   coarse_now_.repeat_border();
   if (!has_picture_) {
-    has_picture_ = true;
-    grid_ = BlockGrid::over(now_.width(), now_.height());
-    matches_.assign(static_cast<size_t>(grid_.size()), BlockMatch());
-    coarse_grid_ = BlockGrid::over(coarse_now_.width(), coarse_now_.height());
-    coarse_matches_.assign(static_cast<size_t>(coarse_grid_.size()), BlockMatch());
-    blocks_.assign(static_cast<size_t>(grid_.size()), MotionBlock());
+    begin();
     before_.resize(now_.width(), now_.height());
     return Result::kFirst;
   }
@@ -163,7 +169,7 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
   find_hints();
   search_.find(before_, now_, grid_, hints_, matches_);
   if (is_cut()) {
-    stand_still();
+    begin();
     return Result::kCut;
   }
   for (size_t i = 0; i < blocks_.size(); ++i) refine(i);

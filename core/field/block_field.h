@@ -77,6 +77,7 @@ class BlockField {
 
  private:
   void resize(const PaddedImage& base);
+  void begin();
   void compensate_light();
   void find_hints();
   bool is_cut() const;

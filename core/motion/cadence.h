@@ -26,6 +26,8 @@ class Cadence {
   /// Pictures that are further apart than this are not compared: a cartoon drawn on threes, plus a
   /// frame.
   static constexpr int64_t kLongest_ns = 170'000'000;
+  /// How many intervals are remembered.
+  static constexpr size_t kPictures = 24;
 
   /// What a frame shows, compared with the picture before.
   enum class Picture {
@@ -63,8 +65,6 @@ class Cadence {
   void restart() { *this = Cadence(); }
 
  private:
-  static constexpr size_t kPictures = 24;
-
   /// A picture that was followed by another one.
   struct Shown {
     int64_t interval_ns = 0;

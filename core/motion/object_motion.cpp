@@ -34,13 +34,13 @@ ObjectMeter::ObjectMeter() {
 }
 
 /// Collects the textured blocks of an object.
-void ObjectMeter::collect_blocks(uint32_t id, const Region& region,
+void ObjectMeter::collect_blocks(uint32_t key, const Region& region,
                                  const ObjectEvidence& evidence) {
   collected_.points.clear();
   const std::vector<MotionBlock>& blocks = evidence.field.blocks();
   for (size_t i = 0; i < evidence.owners.size(); ++i) {
     const RelativeBlock& relative = evidence.relative[i];
-    if (evidence.owners[i] != id || !relative.has_texture) continue;
+    if (evidence.owners[i] != key || !relative.has_texture) continue;
     if (collected_.points.size() >= kMostDisplacements) break;
     const Eigen::Vector2d moved_px(relative.x_px, relative.y_px);
     const Eigen::Vector2d at_px(blocks[i].x_px, blocks[i].y_px);
@@ -53,11 +53,11 @@ void ObjectMeter::collect_blocks(uint32_t id, const Region& region,
 
 /// Collects the points on the object whose motion is close to `motion`. Returns false when they are
 /// too few.
-bool ObjectMeter::collect_points(uint32_t id, const Region& region, const MotionModel& motion,
+bool ObjectMeter::collect_points(uint32_t key, const Region& region, const MotionModel& motion,
                                  const ObjectEvidence& evidence) {
   collected_.points.clear();
   for (const PlacedPoint& point : evidence.points) {
-    if (evidence.owners[point.block] != id) continue;
+    if (evidence.owners[point.block] != key) continue;
     Displacement relative = point.moved;
     relative.moved_px -= evidence.background.model.displacement_px(relative.at_px);
     const Eigen::Vector2d expected_px = motion.displacement_px(relative.at_px);
@@ -83,16 +83,16 @@ void ObjectMeter::climb(MotionModel& motion) {
   }
 }
 
-ObjectMotion ObjectMeter::measure(uint32_t id, const Region& region,
+ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
                                   const ObjectEvidence& evidence) {
   ObjectMotion found;
   found.model.kind = ModelKind::kTranslation;
   found.model.shift_px = region.relative_px;
   found.relative_px = region.relative_px;
-  collect_blocks(id, region, evidence);
+  collect_blocks(key, region, evidence);
   climb(found.model);
   found.tracks = static_cast<int>(collected_.points.size());
-  if (collect_points(id, region, found.model, evidence)) {
+  if (collect_points(key, region, found.model, evidence)) {
     const auto refined = fitter_.refine(found.model.kind, found.model, collected_);
     if (refined) found.model = *refined;
     climb(found.model);

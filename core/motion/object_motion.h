@@ -27,7 +27,7 @@ struct PlacedPoint {
 struct ObjectEvidence {
   const BlockField& field;
   const std::vector<RelativeBlock>& relative;  ///< for each block
-  const std::vector<uint32_t>& owners;         ///< for each block, the id of its object; 0: none
+  const std::vector<uint32_t>& owners;         ///< for each block, the key of its object; 0: none
   const std::vector<PlacedPoint>& points;
   const Background& background;
 };
@@ -47,12 +47,12 @@ class ObjectMeter {
  public:
   ObjectMeter();
 
-  /// `region` is the region of the object `id`.
-  ObjectMotion measure(uint32_t id, const Region& region, const ObjectEvidence& evidence);
+  /// `region` is the region of the object `key`.
+  ObjectMotion measure(uint32_t key, const Region& region, const ObjectEvidence& evidence);
 
  private:
-  void collect_blocks(uint32_t id, const Region& region, const ObjectEvidence& evidence);
-  bool collect_points(uint32_t id, const Region& region, const MotionModel& motion,
+  void collect_blocks(uint32_t key, const Region& region, const ObjectEvidence& evidence);
+  bool collect_points(uint32_t key, const Region& region, const MotionModel& motion,
                       const ObjectEvidence& evidence);
   void climb(MotionModel& motion);
 

@@ -52,7 +52,7 @@ bool ObjectTracker::Life::is_born() const {
 
 ObjectTracker::ObjectTracker() {
   lives_.reserve(kMostObjects);
-  region_ids_.reserve(RegionFinder::kMostRegions);
+  region_keys_.reserve(RegionFinder::kMostRegions);
   order_.reserve(RegionFinder::kMostRegions);
   objects_.reserve(kMostObjects);
 }
@@ -78,7 +78,7 @@ ObjectTracker::Life* ObjectTracker::owner_of(int16_t region) {
   for (Life& life : lives_) {
     int votes = 0;
     for (size_t i = 0; i < owners_before_.size(); ++i) {
-      votes += finder_.labels()[i] == region && owners_before_[i] == life.object.id;
+      votes += finder_.labels()[i] == region && owners_before_[i] == life.key;
     }
     if (votes > most) {
       most = votes;
@@ -105,21 +105,21 @@ ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const Fiel
   return best;
 }
 
-/// The id of a new object; 0 when there are too many objects.
+/// The key of a new object; 0 when there are too many objects.
 uint32_t ObjectTracker::create(const Region& region) {
   if (lives_.size() >= kMostObjects) return 0;
   lives_.emplace_back();
   Life& life = lives_.back();
-  life.object.id = next_id_++;
+  life.key = next_key_++;
   life.region = region;
   life.claimed = true;
-  return life.object.id;
+  return life.key;
 }
 
 /// Assigns each region to an object. Of several regions of an object, the largest one counts.
 void ObjectTracker::claim(const FieldInFrame& frame) {
   const std::vector<Region>& regions = finder_.find(frame.field, *relative_);
-  region_ids_.assign(regions.size(), 0);
+  region_keys_.assign(regions.size(), 0);
   for (Life& life : lives_) life.claimed = false;
   order_.resize(regions.size());
   for (size_t k = 0; k < order_.size(); ++k) order_[k] = k;
@@ -130,7 +130,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
     Life* life = owner_of(static_cast<int16_t>(k));
     if (life && life->claimed) {
       if (is_same_motion(*life, region, frame)) {
-        region_ids_[k] = life->object.id;
+        region_keys_[k] = life->key;
         continue;
       }
       life = nullptr;
@@ -141,12 +141,12 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       if (back || (life && !is_same_motion(*life, region, frame))) life = back;
     }
     if (!life) {
-      region_ids_[k] = create(region);
+      region_keys_[k] = create(region);
       continue;
     }
     life->claimed = true;
     life->region = region;
-    region_ids_[k] = life->object.id;
+    region_keys_[k] = life->key;
   }
 }
 
@@ -165,7 +165,7 @@ void ObjectTracker::place(Life& life, const FieldInFrame& frame) const {
 void ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   const ObjectMotion found = meter_.measure(
-      object.id, life.region, {frame.field, *relative_, owners_, frame.points, *background_});
+      life.key, life.region, {frame.field, *relative_, owners_, frame.points, *background_});
   life.is_rigid = found.is_rigid;
   life.region.relative_px = found.relative_px;
   object.tracks = found.tracks;
@@ -179,11 +179,11 @@ void ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
 /// How far blocks outside an object are from the background, as a standard deviation: in a scene
 /// with depth, half of the picture may move against any single model of the background. A region
 /// that does not stand out from that is no object.
-double ObjectTracker::noise_around(uint32_t id) {
+double ObjectTracker::noise_around(uint32_t key) {
   squares_px2_.clear();
   for (size_t i = 0; i < owners_.size(); ++i) {
     const RelativeBlock& block = (*relative_)[i];
-    if (owners_[i] == id || !block.has_texture || block.is_new || is_burned_in(i)) continue;
+    if (owners_[i] == key || !block.has_texture || block.is_new || is_burned_in(i)) continue;
     squares_px2_.push_back(block.x_px * block.x_px + block.y_px * block.y_px);
   }
   if (squares_px2_.empty()) return 0;
@@ -208,7 +208,7 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const double known = background_->coverage < kKnownCoverage ? kMostOfUnknown : kMostOfPicture;
   const bool too_large = life.region.blocks > known * static_cast<double>(owners_.size());
   CameraMotion camera = camera_;
-  if (camera.moves()) camera.noise_px = std::max(camera.noise_px, noise_around(object.id));
+  if (camera.moves()) camera.noise_px = std::max(camera.noise_px, noise_around(life.key));
   life.proven += salience(life.region, life.evidence, camera, false) > 0;
   const bool was_followed = life.proven >= kProvenAfter;
   object.prominence = too_large ? 0 : salience(life.region, life.evidence, camera, was_followed);
@@ -221,7 +221,7 @@ int ObjectTracker::count_resting(const Life& life, int& textured) const {
   int all = 0;
   textured = 0;
   for (size_t i = 0; i < owners_before_.size(); ++i) {
-    if (owners_before_[i] != life.object.id || finder_.labels()[i] != kNoRegion) continue;
+    if (owners_before_[i] != life.key || finder_.labels()[i] != kNoRegion) continue;
     ++all;
     textured += (*relative_)[i].has_texture;
   }
@@ -236,8 +236,8 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   const int resting = count_resting(life, object.tracks);
   if (object.tracks > 0 && resting >= kMostShows * life.usual_blocks) {
     for (size_t i = 0; i < owners_before_.size(); ++i) {
-      const bool is_its = owners_before_[i] == object.id && finder_.labels()[i] == kNoRegion;
-      if (is_its) owners_[i] = object.id;
+      const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;
+      if (is_its) owners_[i] = life.key;
     }
     life.expected_px_s.setZero();
     life.resting_s += frame.interval_s;
@@ -286,7 +286,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
     owners_before_[i] = owners_[origin_of(field, i)];
     const uint32_t owner = owners_before_[i];
     expected_[i] = owner != 0 && std::any_of(lives_.begin(), lives_.end(), [&](const Life& life) {
-                     return life.object.id == owner && life.is_born();
+                     return life.key == owner && life.is_born();
                    });
   }
   background_ = &background;
@@ -300,7 +300,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   claim(frame);
   for (size_t i = 0; i < n; ++i) {
     const int16_t label = finder_.labels()[i];
-    owners_[i] = label == kNoRegion ? 0 : region_ids_[static_cast<size_t>(label)];
+    owners_[i] = label == kNoRegion ? 0 : region_keys_[static_cast<size_t>(label)];
   }
   for (Life& life : lives_) {
     if (life.claimed) {
@@ -316,13 +316,16 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   lives_.erase(std::remove_if(lives_.begin(), lives_.end(), is_over), lives_.end());
 
   objects_.clear();
-  for (const Life& life : lives_) {
+  for (Life& life : lives_) {
     if (!life.is_born() || life.is_layer) continue;
+    if (life.object.id == 0) life.object.id = next_id_++;
     objects_.push_back(life.object);
     if (life.unseen_s <= kCoast_s) continue;
     objects_.back().relative_px_s.setZero();
     objects_.back().on_screen_px_s.setZero();
   }
+  std::sort(objects_.begin(), objects_.end(),
+            [](const MovingObject& a, const MovingObject& b) { return a.id < b.id; });
   return objects_;
 }
 

@@ -39,8 +39,9 @@ class ObjectTracker {
  public:
   ObjectTracker();
 
-  /// The result is valid until the next call and ordered by id. `background` is in pixels of the
-  /// field's picture.
+  /// The result is valid until the next call and ordered by id. Ids count the objects that were in
+  /// a result, so that their number tells the next one. `background` is in pixels of the field's
+  /// picture.
   const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background);
 
   /// How likely each block is not part of the background, see MovingBlocks::persistence().
@@ -49,7 +50,7 @@ class ObjectTracker {
   bool is_burned_in(size_t block) const { return moving_.burned_in().holds(block); }
   /// Bars and frames around the film.
   const Margins& margins() const { return moving_.burned_in().margins(); }
-  /// The id of the object to which each block belongs in the last frame; 0 for none.
+  /// A number of the object to which each block belongs in the last frame; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 
   /// Whether a block moved by itself in the last frame.
@@ -68,8 +69,9 @@ class ObjectTracker {
 
  private:
   struct Life {
-    MovingObject object;
-    Region region;  ///< in the last frame in which it was seen
+    uint32_t key = 0;     ///< in the order of creation, > 0
+    MovingObject object;  ///< its id is 0 until it has been in a result
+    Region region;        ///< in the last frame in which it was seen
     Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
     LayerEvidence evidence;
     double usual_blocks = 0;  ///< number of blocks when nothing hides it
@@ -102,7 +104,7 @@ class ObjectTracker {
   void go_on_unseen(Life& life, const FieldInFrame& frame) const;
   void measure(Life& life, const FieldInFrame& frame);
   void place(Life& life, const FieldInFrame& frame) const;
-  double noise_around(uint32_t id);
+  double noise_around(uint32_t key);
 
   MovingBlocks moving_;
   RegionFinder finder_;
@@ -113,11 +115,12 @@ class ObjectTracker {
   std::vector<uint8_t> expected_;
   std::vector<uint32_t> owners_;
   std::vector<uint32_t> owners_before_;  ///< moved to their places in this frame
-  std::vector<uint32_t> region_ids_;     ///< object of each region
+  std::vector<uint32_t> region_keys_;    ///< object of each region
   std::vector<size_t> order_;            ///< regions, largest first
   std::vector<float> squares_px2_;       ///< of the motion of blocks around an object
   std::vector<Life> lives_;
   std::vector<MovingObject> objects_;
+  uint32_t next_key_ = 1;
   uint32_t next_id_ = 1;
 };
 

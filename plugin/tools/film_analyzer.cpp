@@ -29,14 +29,15 @@ std::unique_ptr<GstElement, void (*)(gpointer)> motion_of(GstElement* pipeline) 
 }
 
 /// The element knows neither the film nor which properties are not defaults.
-void complete_header(const std::string& path, const std::string& film,
-                     const std::string& settings) {
+void complete_header(const std::string& path, const std::string& film, const std::string& settings,
+                     const MotionPiece& piece) {
   std::ifstream file(path, std::ios::binary);
   MotionHeader header = read_header(file);
   const std::string rest{std::istreambuf_iterator<char>(file), {}};
   file.close();
   header.film = film;
   header.settings = settings;
+  header.piece = piece;
   std::ofstream complete(path, std::ios::binary);
   complete << write_header(header) << rest;
   complete.close();
@@ -125,17 +126,21 @@ MotionKind motion_kind(const RecordProperties& properties) {
 }  // namespace
 
 std::string analyze_film(const std::string& film, const std::string& motion,
-                         const RecordProperties& properties,
+                         const RecordProperties& properties, const MotionPiece& piece,
                          const std::function<void(int percent)>& tell) {
   FilmFingerprint found;
-  const std::string remark =
+  FilmPiece part(piece);
+  std::string remark =
       decode_film({film, properties, "fakesink sync=false",
                    [&](GstElement* pipeline, const FilmFingerprint& fingerprint) {
                      found = fingerprint;
                      g_object_set(motion_of(pipeline).get(), "trace", motion.c_str(), nullptr);
                    },
-                   tell});
-  complete_header(motion, to_text(found), properties.settings);
+                   tell, piece.of > 0 ? &part : nullptr});
+  complete_header(motion, to_text(found), properties.settings, part.found());
+  if (piece.of > 0 && part.is_empty() && remark.empty()) {
+    remark = "there is no cut in it at which it could begin: the piece before goes on in its place";
+  }
   return remark;
 }
 
@@ -163,7 +168,7 @@ void render_analysis(const std::string& motion, const std::string& track,
     throw std::runtime_error(text);
   }
   const auto element = motion_of(pipeline.get());
-  set_properties(pipeline.get(), all);
+  set_properties(element.get(), all);
   g_object_set(element.get(), "analysis", motion.c_str(), nullptr);
   take_samples(pipeline.get(), track, {parse_fingerprint(file.header().film), all.settings});
   const FrameFeed feed(element.get());

@@ -6,14 +6,15 @@
 #include <functional>
 #include <string>
 
+#include "core/analysis/motion_file.h"
 #include "plugin/tools/record_properties.h"
 
 namespace spidar {
 
-/// Writes what is measured of `film` into the file `motion` (MotionFile), whose name ends in
-/// `.motion`. Else as record_film().
+/// Writes what is measured of `film`, or of a piece of it (`of` > 0), into the file `motion`
+/// (MotionFile), whose name ends in `.motion`. Else as record_film().
 std::string analyze_film(const std::string& film, const std::string& motion,
-                         const RecordProperties& properties,
+                         const RecordProperties& properties, const MotionPiece& piece,
                          const std::function<void(int percent)>& tell);
 
 /// Writes the track that record_film() would write with the same properties, without the film.

@@ -64,26 +64,27 @@ class Progress {
 
 }  // namespace
 
-void set_properties(GstElement* pipeline, const RecordProperties& properties) {
-  GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
+void set_properties(GstElement* motion, const RecordProperties& properties) {
   for (const auto& [name, value] : properties.values)
     gst_util_set_object_arg(G_OBJECT(motion), name.c_str(), value.c_str());
-  gst_object_unref(motion);
 }
 
 std::string decode_film(const FilmRun& run) {
   if (!std::filesystem::exists(run.film)) throw std::runtime_error("there is no such file");
   Progress progress(run.tell);
   FilmFingerprint fingerprint;
-  int64_t pictures_end_ns = 0;
+  int64_t pictures_end_ns = 0, film_ns = 0;
   std::string unread;
   try {
     const Film read = read_film(run.film);
     pictures_end_ns = read.end_ns.value_or(0);
+    film_ns = read.end_ns.value_or(read.duration_ns);
     fingerprint = fingerprint_of(read.packets);
   } catch (const std::runtime_error& why) {
     unread = why.what();  // decoding it may tell more
   }
+  if (run.piece && !unread.empty()) throw std::runtime_error(unread);
+  if (run.piece) run.piece->set_film(film_ns);
   FilmWatch watch;
   std::string error;
   try {
@@ -93,9 +94,12 @@ std::string decode_film(const FilmRun& run) {
             run.rest,
         [&](GstElement* pipeline) {
           set_location(pipeline, "film", run.film);
-          set_properties(pipeline, run.properties);
+          GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
+          set_properties(motion, run.properties);
+          gst_object_unref(motion);
           watch.begin(pipeline);
           progress.watch(pipeline);
+          if (run.piece) run.piece->begin(pipeline, run.properties);
           run.prepare(pipeline, fingerprint);
         },
         unread.empty() ? kLongestStart : kUnreadStart);
@@ -108,7 +112,9 @@ std::string decode_film(const FilmRun& run) {
   // Where the file is whole, its duration may be that of sound that goes on after the pictures.
   std::optional<int64_t> end_ns;
   if (end == FilmEnd::kWhole) end_ns = pictures_end_ns;
-  const std::string problem = watch.problem(error, end_ns);
+  const bool is_whole = !run.piece || run.piece->found().of == 1;
+  if (!is_whole && !run.piece->found().has_end) end_ns = 0;
+  const std::string problem = watch.problem(error, end_ns, is_whole ? 2 : 0);
   if (!problem.empty()) throw std::runtime_error(problem);
   if (end == FilmEnd::kCutOff) {
     throw std::runtime_error("its end is missing: it is damaged or cut off");

@@ -8,6 +8,7 @@
 
 #include <gst/gst.h>
 
+#include "plugin/tools/film_piece.h"
 #include "plugin/tools/record_properties.h"
 #include "plugin/track/film_fingerprint.h"
 
@@ -21,12 +22,13 @@ struct FilmRun {
   std::function<void(GstElement* pipeline, const FilmFingerprint& film)> prepare;
   /// Called with the percentage that is done, in steps of ten, in another thread.
   std::function<void(int percent)> tell;
+  FilmPiece* piece = nullptr;  ///< what is decoded of the film; null: all
 };
 
 /// Returns what is to be known of the film; usually nothing. Throws std::runtime_error, which says
 /// what is wrong with it.
 std::string decode_film(const FilmRun& run);
 
-void set_properties(GstElement* pipeline, const RecordProperties& properties);
+void set_properties(GstElement* motion, const RecordProperties& properties);
 
 }  // namespace spidar

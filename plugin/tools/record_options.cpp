@@ -27,6 +27,7 @@ Properties are those of spidarmotion that change the force: motion=camera …
   --folder DIR   where tracks are written, those of FOLDER in the same subfolders
   --format TYPE  flac (24 bits), mka or wav (both F32); flac
   --manifest FILE  gets a line of JSON for each film: result, duration, felt share …
+  --shard K/N    only piece K of N, as FILM.mp4.KofN.motion; see spidartrack join --help
   --force        also those that are there
 )";
 
@@ -40,13 +41,48 @@ measured: quality, max-features, motion=mean, quality-level, min-distance.
 
   -j, --jobs N   films at a time; as many as there are processors
   --folder DIR   where analyses are written
+  --shard K/N    only piece K of N, as FILM.mp4.KofN.motion; see spidartrack join --help
   --force        also those that are there
 )";
+
+MotionPiece parse_shard(const std::string& text) {
+  constexpr double kMost = 1000;
+  const size_t slash = text.find('/');
+  if (slash == std::string::npos) {
+    throw UsageError("--shard: \"" + text + "\" is not of the form 2/5, the second of five pieces");
+  }
+  MotionPiece piece;
+  piece.of = static_cast<int>(parse_number("--shard", text.substr(slash + 1), 1, kMost, ""));
+  piece.number = static_cast<int>(parse_number("--shard", text.substr(0, slash), 1, piece.of, ""));
+  piece.program = SPIDAR_VERSION;
+  return piece;
+}
+
+/// Throws UsageError for what pieces cannot be used with.
+void check_shard(const RecordOptions& options) {
+  if (options.piece.of == 0) return;
+  if (!options.manifest.empty()) {
+    throw UsageError("--manifest: it lists tracks, and a piece is none; leave it out");
+  }
+  for (const auto& [name, value] : options.properties.values) {
+    if (name == "trace") {
+      throw UsageError("trace=" + value + ": a piece is not felt; give it to spidartrack render");
+    }
+  }
+  if (options.properties.settings.find("motion=mean") != std::string::npos) {
+    throw UsageError(
+        "--shard: motion=mean follows its points from the beginning to the end of the film, which "
+        "has to be recorded in one piece");
+  }
+}
 
 }  // namespace
 
 fs::path RecordOptions::file_of(const ListedFilm& film) const {
-  const std::string end = purpose == Purpose::kAnalyze ? kMotionEnd : ".haptic." + format;
+  std::string end = purpose == Purpose::kAnalyze ? kMotionEnd : ".haptic." + format;
+  if (piece.of > 0) {
+    end = "." + std::to_string(piece.number) + "of" + std::to_string(piece.of) + kMotionEnd;
+  }
   const fs::path file = film.path + end;
   return folder.empty() ? file : fs::path(folder) / film.subfolder / file.filename();
 }
@@ -75,6 +111,7 @@ RecordOptions parse_record_options(int argc, char** argv, Purpose purpose) {
        }},
       {"folder", true, [&](const std::string& text) { options.folder = text; }},
       {"force", false, [&](const std::string&) { options.force = true; }},
+      {"shard", true, [&](const std::string& text) { options.piece = parse_shard(text); }},
       {"help", false, [&](const std::string&) { options.help = true; }}};
   if (!analyzes) {
     known.push_back({"format", true, [&](const std::string& text) { options.format = text; }});
@@ -96,6 +133,8 @@ RecordOptions parse_record_options(int argc, char** argv, Purpose purpose) {
   }
   options.films = list_films(names);
   options.properties = parse_record_properties(properties, options.films.size(), purpose);
+  check_shard(options);
+  if (!analyzes) options.piece.format = options.format;
   return options;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/analysis/motion_file.h"
 #include "plugin/tools/film_list.h"
 #include "plugin/tools/record_properties.h"
 
@@ -21,8 +22,11 @@ struct RecordOptions {
   std::string format = "flac";
   RecordProperties properties;
   std::string manifest;  ///< a file; empty: none
+  MotionPiece piece;     ///< what is measured of each film; of 0: all
   std::vector<ListedFilm> films;
 
+  /// Whether a track is recorded, not something measured.
+  bool makes_tracks() const { return purpose == Purpose::kRecord && piece.of == 0; }
   /// The file of a film's track or analysis.
   std::filesystem::path file_of(const ListedFilm& film) const;
 };

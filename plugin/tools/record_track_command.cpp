@@ -30,22 +30,25 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kLook{200};
 
 /// What a file says of itself.
-TrackNotes read_notes(const fs::path& file, Purpose purpose) {
-  if (purpose == Purpose::kRecord) return read_track_notes(file.string());
+TrackNotes read_notes(const fs::path& file, const RecordOptions& options) {
+  if (options.makes_tracks()) return read_track_notes(file.string());
   const MotionHeader header = read_motion_header(file.string());
+  if (header.piece.format != options.piece.format) {
+    throw MotionFileError("it was not measured by the same command");
+  }
   return {parse_fingerprint(header.film), header.settings};
 }
 
 /// Throws std::runtime_error when the file that is there is not what would be made. One that says
 /// nothing of itself was made by hand, or by an older version, and may be.
 void check_file(const std::string& film, const fs::path& file, const RecordOptions& options) {
-  const bool records = options.purpose == Purpose::kRecord;
+  const bool records = options.makes_tracks();
   const std::string again =
       records ? "; --force records it again" : "; --force analyses the film again";
   if (fs::is_empty(file)) throw std::runtime_error(file.string() + " is empty" + again);
   TrackNotes notes;
   try {
-    notes = read_notes(file, options.purpose);
+    notes = read_notes(file, options);
   } catch (const MotionFileError& error) {
     throw std::runtime_error(file.string() + " is not used: " + error.what() + again);
   }
@@ -147,9 +150,11 @@ class FilmBatch {
     if (is_done(index, track)) return true;  // in the meantime
     report_.progress(index, 0);
     const Clock::time_point begin = Clock::now();
-    const auto make = options_.purpose == Purpose::kRecord ? record_film : analyze_film;
-    const std::string remark = make(film, part->path(), options_.properties,
-                                    [&](int percent) { report_.progress(index, percent); });
+    const auto tell = [&](int percent) { report_.progress(index, percent); };
+    const std::string remark =
+        options_.makes_tracks()
+            ? record_film(film, part->path(), options_.properties, tell)
+            : analyze_film(film, part->path(), options_.properties, options_.piece, tell);
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
     const std::chrono::duration<double> taken = Clock::now() - begin;
     manifest_.add({film, track, "recorded", remark, taken.count()});

@@ -16,16 +16,17 @@ using namespace spidar;
 
 const std::vector<Command> kCommands = {
     {"record", record_track_command},   {"analyze", analyze_film_command},
-    {"render", render_track_command},   {"info", track_info_command},
-    {"check", check_track_command},     {"convert", convert_track_command},
-    {"plot", plot_track_command},       {"merge", merge_track_command},
-    {"extract", extract_track_command},
+    {"join", join_pieces_command},      {"render", render_track_command},
+    {"info", track_info_command},       {"check", check_track_command},
+    {"convert", convert_track_command}, {"plot", plot_track_command},
+    {"merge", merge_track_command},     {"extract", extract_track_command},
 };
 
 constexpr const char* kSpidartrackHelp = R"(usage: spidartrack COMMAND
 
   record   record the haptic tracks of films, into files beside them
   analyze  measure films once, into files beside them
+  join     make one of what was recorded, or measured, in pieces
   render   make a track of what was measured, with other properties
   info     print the length and size of a track
   check    report what in a track cannot be felt as it is

@@ -130,7 +130,7 @@ std::string quoted(const std::string& path) {
 std::string encoder_of(const std::string& path) {
   if (ends_with(path, ".flac")) {
     return "audioconvert dithering=none noise-shaping=none ! audio/x-raw,format=S24_32LE ! "
-           "flacenc blocksize=40";
+           "flacenc blocksize=40 seekpoints=0";
   }
   if (ends_with(path, ".mka")) return "matroskamux";
   if (ends_with(path, ".wav")) return "wavenc";
