@@ -28,7 +28,8 @@ std::unique_ptr<GstElement, void (*)(gpointer)> motion_of(GstElement* pipeline) 
   return {gst_bin_get_by_name(GST_BIN(pipeline), "motion"), gst_object_unref};
 }
 
-/// The element knows neither the film nor which properties are not defaults.
+/// The element knows neither the film nor which properties are not defaults. Throws
+/// std::runtime_error when the file is not whole.
 void complete_header(const std::string& path, const std::string& film, const std::string& settings,
                      const MotionPiece& piece) {
   std::ifstream file(path, std::ios::binary);
@@ -41,7 +42,12 @@ void complete_header(const std::string& path, const std::string& film, const std
   std::ofstream complete(path, std::ios::binary);
   complete << write_header(header) << rest;
   complete.close();
-  if (!complete) throw std::runtime_error("it cannot be written; the disk may be full");
+  try {
+    // The element goes on without its trace when the disk is full.
+    read_motion_file(path);
+  } catch (const MotionFileError&) {
+    throw std::runtime_error("the analysis cannot be written; the disk may be full");
+  }
 }
 
 /// Gives the frames of an analysis to an element, as if they came from the film.
@@ -131,7 +137,8 @@ std::string analyze_film(const std::string& film, const std::string& motion,
   FilmFingerprint found;
   FilmPiece part(piece);
   std::string remark =
-      decode_film({film, properties, "fakesink sync=false",
+      // A piece may begin long after the key frame before it.
+      decode_film({film, properties, "fakesink sync=false async=false",
                    [&](GstElement* pipeline, const FilmFingerprint& fingerprint) {
                      found = fingerprint;
                      g_object_set(motion_of(pipeline).get(), "trace", motion.c_str(), nullptr);

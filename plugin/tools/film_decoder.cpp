@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <sys/stat.h>
 #include <utility>
 
 #include "plugin/tools/film_end.h"
@@ -62,6 +63,12 @@ class Progress {
   int told_ = 0;
 };
 
+/// Which file it is, and how it was left.
+bool is_same_file(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
+         a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
+}
+
 }  // namespace
 
 void set_properties(GstElement* motion, const RecordProperties& properties) {
@@ -71,6 +78,9 @@ void set_properties(GstElement* motion, const RecordProperties& properties) {
 
 std::string decode_film(const FilmRun& run) {
   if (!std::filesystem::exists(run.film)) throw std::runtime_error("there is no such file");
+  struct stat at_first {
+  }, at_last{};
+  stat(run.film.c_str(), &at_first);
   Progress progress(run.tell);
   FilmFingerprint fingerprint;
   int64_t pictures_end_ns = 0, film_ns = 0;
@@ -107,6 +117,12 @@ std::string decode_film(const FilmRun& run) {
     error = unread.empty() ? ended.what() : unread;
   } catch (const std::runtime_error& ended) {
     error = ended.what();
+  }
+  if (stat(run.film.c_str(), &at_last) != 0) {
+    throw std::runtime_error("it was removed while it was read, or its share has gone");
+  }
+  if (!is_same_file(at_first, at_last)) {
+    throw std::runtime_error("it was changed while it was read: wait until it is complete");
   }
   const FilmEnd end = film_end(run.film);
   // Where the file is whole, its duration may be that of sound that goes on after the pictures.

@@ -47,15 +47,18 @@ measured: quality, max-features, motion=mean, quality-level, min-distance.
 
 MotionPiece parse_shard(const std::string& text) {
   constexpr double kMost = 1000;
-  const size_t slash = text.find('/');
-  if (slash == std::string::npos) {
-    throw UsageError("--shard: \"" + text + "\" is not of the form 2/5, the second of five pieces");
-  }
   MotionPiece piece;
-  piece.of = static_cast<int>(parse_number("--shard", text.substr(slash + 1), 1, kMost, ""));
-  piece.number = static_cast<int>(parse_number("--shard", text.substr(0, slash), 1, piece.of, ""));
   piece.program = SPIDAR_VERSION;
-  return piece;
+  const size_t slash = text.find('/');
+  if (slash != std::string::npos && text.find_first_not_of("0123456789/") == std::string::npos) {
+    const auto number = [](const std::string& digits, double most) {
+      return static_cast<int>(parse_number("--shard", digits, 1, most, ""));
+    };
+    piece.of = number(text.substr(slash + 1), kMost);
+    piece.number = number(text.substr(0, slash), piece.of);
+    return piece;
+  }
+  throw UsageError("--shard: \"" + text + "\" is not of the form 2/5, the second of five pieces");
 }
 
 /// Throws UsageError for what pieces cannot be used with.

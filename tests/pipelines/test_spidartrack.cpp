@@ -59,7 +59,7 @@ TEST_F(Spidartrack, HelpSucceedsAndWrongUsageSaysWhatWouldBeRight) {
     expect_contains(help.text, std::string("usage: spidartrack ") + command);
     EXPECT_EQ(spidartrack(command).status, 2) << command;
   }
-  expect_contains(spidartrack("frobnicate").text, "commands are record, analyze, render");
+  expect_contains(spidartrack("frobnicate").text, "commands are record, analyze, join, render");
   expect_contains(spidartrack("record x.mp4 --format ogg").text, "none of flac, mka, wav");
   expect_contains(spidartrack("record x.mp4 -- motion").text, "is no PROPERTY=VALUE");
 }

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What happens to films and folders while a film is recorded is an error in one sentence, and
+// leaves no file that is taken for whole.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+#include "plugin/tools/film_recorder.h"
+#include "plugin/tools/part_file.h"
+#include "plugin/tools/track_samples.h"
+#include "tests/pipelines/track_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test::film_faults_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FilmFaults : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { gst_init(nullptr, nullptr); }
+  void SetUp() override {
+    make_film("film.avi", "ball");
+    fs::create_directory(path("out"));
+  }
+
+  std::string path(const std::string& name) const { return (folder.path / name).string(); }
+  void make_film(const std::string& name, const std::string& pattern) const {
+    run_pipeline("videotestsrc num-buffers=100 horizontal-speed=3 pattern=" + pattern +
+                 " ! video/x-raw,width=160,height=120,framerate=25/1 ! jpegenc ! avimux ! filesink "
+                 "location=" +
+                 quoted(path(name)));
+  }
+  /// Records the film. `fault` happens when a tenth of it is done. The error; empty: none.
+  std::string record(const std::function<void()>& fault) const {
+    try {
+      PartFile part(path("out/film.flac"));
+      bool is_done = false;
+      record_film(path("film.avi"), part.path(), {}, [&](int) {
+        if (!std::exchange(is_done, true)) fault();
+      });
+      EXPECT_TRUE(is_done);
+      part.publish();
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(FilmFaults, AFilmThatGrowsIsNotWhole) {
+  const auto grow = [&] { std::ofstream(path("film.avi"), std::ios::app) << "more"; };
+  EXPECT_EQ(record(grow), "it was changed while it was read: wait until it is complete");
+  EXPECT_TRUE(fs::is_empty(path("out")));
+}
+
+TEST_F(FilmFaults, AFilmThatIsReplacedIsNotTheOneThatWasRead) {
+  make_film("other.avi", "smpte");
+  const auto replace = [&] { fs::rename(path("other.avi"), path("film.avi")); };
+  EXPECT_EQ(record(replace), "it was changed while it was read: wait until it is complete");
+  EXPECT_TRUE(fs::is_empty(path("out")));
+}
+
+TEST_F(FilmFaults, AFilmThatGoesAwayIsAnError) {
+  EXPECT_EQ(record([&] { fs::remove(path("film.avi")); }),
+            "it was removed while it was read, or its share has gone");
+  EXPECT_TRUE(fs::is_empty(path("out")));
+}
+
+TEST_F(FilmFaults, AFolderThatGoesAwayIsNamed) {
+  EXPECT_EQ(record([&] { fs::remove_all(path("out")); }),
+            path("out/film.flac") + ": there is no folder " + path("out"));
+  fs::create_directory(path("out"));
+  // Where a share was mounted, there is an empty folder.
+  const auto unmount = [&] {
+    fs::remove_all(path("out"));
+    fs::create_directory(path("out"));
+  };
+  EXPECT_EQ(record(unmount),
+            path("out/film.flac") + ": cannot be written: No such file or directory");
+  EXPECT_TRUE(fs::is_empty(path("out")));
+}
+
+TEST_F(FilmFaults, AClockThatJumpsChangesNothing) {
+  const std::string record = "record " + path("film.avi");
+  const std::string track = path("film.avi.haptic.flac");
+  const auto set_time = [](const std::string& file, std::chrono::hours later) {
+    fs::last_write_time(file, fs::file_time_type::clock::now() + later);
+  };
+  const std::chrono::hours years(24 * 365 * 10);
+  set_time(path("film.avi"), years);
+  expect_contains(spidartrack(record).text, track);
+  for (const auto later : {-years, years, 2 * years}) {
+    set_time(track, later);
+    expect_contains(spidartrack(record).text, "is there");
+  }
+}
+
+// A limit of the size of a file stands for a full disk.
+TEST_F(FilmFaults, AnAnalysisThatCannotBeWrittenIsAnError) {
+  make_film("film.avi", "zone-plate kx2=20 ky2=20");
+  const CommandResult result = run("cd " + path("") + " && trap '' XFSZ && ulimit -f 2 && " +
+                                   SPIDARTRACK " analyze --folder out film.avi");
+  EXPECT_EQ(result.status, 1);
+  expect_contains(result.text, "failed: the analysis cannot be written; the disk may be full");
+  EXPECT_TRUE(fs::is_empty(path("out")));
+}
+
+}  // namespace
+}  // namespace spidar::test::film_faults_test
