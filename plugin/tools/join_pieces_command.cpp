@@ -84,7 +84,7 @@ std::string joined(const std::vector<NamedPiece>& pieces, const std::string& fil
   }
 }
 
-void write(const std::string& bytes, const PartFile& part) {
+void save_bytes(const std::string& bytes, const PartFile& part) {
   std::ofstream file(part.path(), std::ios::binary);
   file << bytes;
   file.close();
@@ -109,10 +109,10 @@ int join_pieces_command(int argc, char** argv) {
   const std::string target = film + (format.empty() ? kMotionEnd : ".haptic." + format);
   PartFile part(target);
   if (format.empty()) {
-    write(bytes, part);
+    save_bytes(bytes, part);
   } else {
     const PartFile motion(target + kMotionEnd);
-    write(bytes, motion);
+    save_bytes(bytes, motion);
     render_analysis(motion.path(), part.path(), {});
   }
   part.publish();
