@@ -29,6 +29,7 @@
  * `velocity-y` (pixels of the frame per second of running time; x right, y down), `force-x`,
  * `force-y`, `force-z` (newtons; x right, y up, z towards the viewer), `torque-x`, `torque-y`,
  * `torque-z` (newton metres), `repeated` (boolean: the frame shows the picture before again),
+ * `object` (uint: the one object that is felt, by its id, 0 when it is none or not one alone),
  * `limit` (string: what has kept the force of the last second from being felt, "none" when it was)
  * and, unless that is "none", `limit-reason` (string: the same as a sentence). `stats` has the last
  * two for the picture on the screen.
@@ -182,6 +183,8 @@ static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
     {"ts-offset",
      [](auto* self, auto* value) { self->engine->output().set_offset(g_value_get_int64(value)); }},
     {"mute", [](auto* self, auto* value) { self->engine->set_muted(g_value_get_boolean(value)); }},
+    {"feel", [](auto* self, auto*) { self->choice->rules_changed(); }},
+    {"pointer", [](auto* self, auto*) { self->choice->mouse().reset(); }},
     {"touch",
      [](auto* self, auto* value) {
        const bool off = g_value_get_enum(value) == static_cast<int>(spidar::TouchKind::kOff);
@@ -230,6 +233,7 @@ static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* va
 
 static void gst_spidar_motion_finalize(GObject* object) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  delete self->choice;
   delete self->warnings;
   delete self->steps;
   delete self->display;
@@ -249,6 +253,7 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->steps = new spidar::StepWatch(
       GST_ELEMENT(self), [self](GstClockTime skipped) { self->engine->skip(skipped); });
   self->warnings = new spidar::BusWarnings(GST_ELEMENT(self));
+  self->choice = new spidar::MotionChoice(GST_ELEMENT(self));
   // GstVideoFilter would drop late frames before they are analysed; here the application decides
   // that with `qos`.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);

@@ -6,6 +6,7 @@
 #include <gst/gst.h>
 
 #include "plugin/bus_warnings.h"
+#include "plugin/choice/motion_choice.h"
 #include "plugin/display/motion_display.h"
 #include "plugin/engine/motion_engine.h"
 #include "plugin/spidar_motion.h"
@@ -26,6 +27,7 @@ struct _GstSpidarMotion {
   gint window_changes;   // atomic: how many the window has still to follow
   spidar::StepWatch* steps;
   spidar::BusWarnings* warnings;
+  spidar::MotionChoice* choice;
 };
 
 /// Class initialisation: frames and events on their way.

@@ -63,6 +63,7 @@ static void begin_to_load_track(GstSpidarMotion* self) {
   self->engine->set_track(std::nullopt);
   self->engine->set_motion(nullptr, 0);
   const std::string film = spidar::film_of(GST_BASE_TRANSFORM_SINK_PAD(self));
+  self->choice->begin_stream(film);
   if (track.empty()) {
     self->loader->begin(spidar::Sidecar::kAnalysis, analysis, film);
   } else {
@@ -87,31 +88,45 @@ static void take_track(GstSpidarMotion* self, const GstVideoInfo& info, spidar::
   self->engine->set_track(std::move(track));
 }
 
+/// With pointer and choice of this moment, for a frame before it is turned.
+static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self) {
+  GST_OBJECT_LOCK(self);
+  spidar::AnalyzerSettings settings = self->properties->analyzer;
+  const PointerKind pointer = self->properties->pointer;
+  GST_OBJECT_UNLOCK(self);
+  if (self->choice->is_to_read()) {
+    GST_OBJECT_LOCK(self);
+    const std::string feel = self->properties->feel;
+    GST_OBJECT_UNLOCK(self);
+    self->choice->read(feel, GST_BASE_TRANSFORM_SINK_PAD(self));
+  }
+  if (pointer == PointerKind::kGrip) {
+    settings.pointer = self->engine->grip_place().value_or(settings.pointer);
+  }
+  const spidar::PictureTurn& turn = self->engine->turn();
+  settings.pointer = turn.place_coded(settings.pointer);
+  self->choice->apply(pointer == PointerKind::kMouse, turn, settings);
+  return settings;
+}
+
 static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter,
                                                           GstVideoFrame* frame) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
   spidar::AnalyzerSettings settings;
-  PointerKind pointer;
   spidar::DisplayProperties display;
   spidar::TouchProperties touch;
   bool post_messages;
   OnDeviceError on_device_error;
   GST_OBJECT_LOCK(self);
-  settings = self->properties->analyzer;
-  pointer = self->properties->pointer;
   display = self->properties->display;
   touch = self->properties->touch;
   post_messages = self->properties->post_messages;
   on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
-  if (pointer == PointerKind::kGrip) {
-    settings.pointer = self->engine->grip_place().value_or(settings.pointer);
-  }
-
-  settings.pointer = self->engine->turn().place_coded(settings.pointer);
 
   FrameReport report;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
+    settings = settings_now(self);
     take_track(self, frame->info, settings.motion);
     self->engine->want_relief(self->display->window_waits());
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch);
@@ -138,6 +153,9 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   }
   self->warnings->check_frame(report);
   self->warnings->check_touch(report, touch);
+  if (report.analyzed) {
+    self->choice->check(report.analysis.choice, settings.kept, report.stream_time);
+  }
   if (display.overlay) self->warnings->check_overlay(frame->info);
   if (report.analyzed && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, report, &self->unread_messages);
@@ -244,12 +262,21 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
   return parent_class()->sink_event(trans, event);
 }
 
+static void take_mouse(GstSpidarMotion* self, GstEvent* event) {
+  GST_OBJECT_LOCK(self);
+  const bool points = self->properties->pointer == PointerKind::kMouse;
+  GST_OBJECT_UNLOCK(self);
+  if (points) self->choice->mouse().take(event, GST_BASE_TRANSFORM_SRC_PAD(self));
+}
+
 static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* event) {
   if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) {
     GstClockTime latency;
     gst_event_parse_latency(event, &latency);
     GST_DEBUG_OBJECT(trans, "latency: %" GST_TIME_FORMAT, GST_TIME_ARGS(latency));
     GST_SPIDAR_MOTION(trans)->engine->output().set_latency(latency);
+  } else if (GST_EVENT_TYPE(event) == GST_EVENT_NAVIGATION) {
+    take_mouse(GST_SPIDAR_MOTION(trans), event);
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
     GST_DEBUG_OBJECT(trans, "reconfigured: looking for the sink again");
     GST_SPIDAR_MOTION(trans)->engine->output().look_for_sink();

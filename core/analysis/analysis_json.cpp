@@ -137,7 +137,8 @@ void append_json(const FrameAnalysis& frame, int64_t running_time_ns, int64_t st
       .field("height_px", frame.height)
       .field("restarted", frame.restarted)
       .field("repeated", frame.same_picture)
-      .field("features", frame.features);
+      .field("features", frame.features)
+      .field("object", frame.felt_object);
   write(json.key("motion"), frame.motion);
   json.key("wrench")
       .open('{')

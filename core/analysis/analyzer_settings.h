@@ -3,8 +3,11 @@
 /// Settings of the analysis of frames.
 #pragma once
 
+#include <memory>
+
 #include <Eigen/Core>
 
+#include "core/choice/chosen.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 #include "core/force/motion_rendering.h"
@@ -19,6 +22,9 @@ struct AnalyzerSettings {
   /// Place of the picture where kObjects is felt: (0, 0) is its top left corner, (1, 1) its bottom
   /// right one; finite.
   Eigen::Vector2d pointer{0.5, 0.5};
+  /// Come before `motion` where they say something, and not with kMean, which knows no objects.
+  std::shared_ptr<const FeelRules> feel;
+  KeptObject kept;  ///< comes before `feel`
   FilterSettings filter;
   AxisGains axes;
   ControllerSettings controller;

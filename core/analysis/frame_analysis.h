@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/choice/chosen.h"
 #include "core/motion/background.h"
 #include "core/motion/image_motion.h"
 #include "core/motion/motion_models.h"
@@ -23,9 +24,11 @@ struct FrameAnalysis {
   ImageMotion motion;  ///< the one that is felt, unfiltered, in px/s of the frame as given
   /// Model of the background; nothing when `motion` needs none, and after a restart.
   std::optional<ModelKind> model;
-  int objects = 0;         ///< how many are known; 0 when `motion` needs none
-  Wrench wrench;           ///< wanted by the controller, before any safety limit
-  bool restarted = false;  ///< there was nothing to compare with: motion and wrench are zero
+  uint32_t felt_object = 0;  ///< id of the one object that is felt; 0: none, or not one alone
+  Chosen choice;             ///< without `object`
+  int objects = 0;           ///< how many are known; 0 when `motion` needs none
+  Wrench wrench;             ///< wanted by the controller, before any safety limit
+  bool restarted = false;    ///< there was nothing to compare with: motion and wrench are zero
   /// The frame shows the previous picture again, and the motion may go on: motion and wrench are
   /// those of the previous frame.
   bool repeated = false;

@@ -3,6 +3,7 @@
 #include "core/analysis/frame_renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/force/motion_bounds.h"
@@ -21,11 +22,34 @@ const MovingObject* dominant(const MeasuredFrame& frame) {
 
 /// The id of the object whose motion is felt; 0 when it is none, or not that of one object. An
 /// object that rests is felt as rest.
-uint32_t felt_object(const MeasuredFrame& frame, MotionKind kind) {
-  const MovingObject* const object = dominant(frame);
-  if (kind != MotionKind::kObject || !object) return 0;
+uint32_t felt_object(const MeasuredFrame& frame, MotionKind kind, const Chosen& choice) {
+  const MovingObject* object = choice.object;
+  if (choice.is_free() && kind == MotionKind::kObject) object = dominant(frame);
+  if (!object) return 0;
   const bool is_lost = object->tracks == 0 && object->relative_px_s.isZero(0);
   return is_lost ? 0 : object->id;
+}
+
+/// What is felt, for WrenchFade: another rule is something else, even for the same object, because
+/// its gain may be another.
+uint64_t felt_thing(const Chosen& choice, uint32_t object) {
+  constexpr uint32_t kPicture = UINT32_MAX;
+  uint64_t thing = object;
+  if (!choice.is_kept && choice.rule) {
+    const bool is_picture =
+        choice.rule->kind == FeelKind::kCamera || choice.rule->kind == FeelKind::kRegion;
+    if (is_picture) thing = kPicture;
+    if (thing != 0) thing |= static_cast<uint64_t>(choice.rule->line) << 32;
+  }
+  return thing;
+}
+
+/// The wrench of a rule, within what the controller may give.
+Wrench amplified(const Wrench& wrench, double gain, double most_N) {
+  const double force_N = std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / kTorqueArm_m);
+  if (gain == 1 || force_N == 0) return wrench;
+  const double factor = std::min(gain, std::max(most_N / force_N, std::min(gain, 1.0)));
+  return {factor * wrench.force_N, factor * wrench.torque_Nm};
 }
 
 /// The same motion when it takes 1 / `factor` of the time.
@@ -55,11 +79,16 @@ void validate(const AnalyzerSettings& settings) {
   if (!settings.pointer.allFinite()) {
     throw std::invalid_argument("the pointer's coordinates must be finite");
   }
+  if (!settings.kept.place.allFinite()) {
+    throw std::invalid_argument("the coordinates of a click must be finite");
+  }
 }
 
 FrameRenderer::FrameRenderer(const AnalyzerSettings& settings)
     : settings_(settings), controller_(make_controller(settings.controller)) {
   validate(settings);
+  choice_.set_rules(settings.feel);
+  choice_.set_kept(settings.kept);
 }
 
 void FrameRenderer::configure(const AnalyzerSettings& settings) {
@@ -70,9 +99,44 @@ void FrameRenderer::configure(const AnalyzerSettings& settings) {
     controller_ = make_controller(settings.controller);
   }
   settings_ = settings;
+  choice_.set_rules(settings.feel);
+  choice_.set_kept(settings.kept);
 }
 
-ImageMotion FrameRenderer::choose(const MeasuredFrame& frame) const {
+Chosen FrameRenderer::choose(const MeasuredFrame& frame, const FilmPlace& film) {
+  if (settings_.motion == MotionKind::kMean || frame.width == 0) return {};
+  return choice_.choose({frame.objects, frame.background ? &*frame.background : nullptr,
+                         frame.width, frame.height, static_cast<double>(frame.interval_ns) * 1e-9,
+                         frame.shown == Shown::kFirst, film});
+}
+
+void FrameRenderer::recall(const MeasuredFrame& frame, const FilmPlace& film) {
+  if (frame.anew) choice_.reset();
+  if (frame.shown != Shown::kWaiting) choose(frame, film);
+}
+
+ImageMotion FrameRenderer::motion_of_choice(const MeasuredFrame& frame, const FilmPlace& film,
+                                            const Chosen& choice) const {
+  if (choice.is_free()) return free_motion(frame);
+  if (choice.object) return motion_of(*choice.object);
+  if (choice.is_kept || !frame.background) return {};
+  if (choice.rule->kind == FeelKind::kRegion) {
+    const auto in_frame_px = [&](const Eigen::Vector2d& place) {
+      const Eigen::Vector2d coded = film.turn.place_coded(place);
+      return Eigen::Vector2d((coded.x() - 0.5) * frame.width, (coded.y() - 0.5) * frame.height);
+    };
+    const Eigen::Vector2d a_px = in_frame_px(choice.rule->place);
+    const Eigen::Vector2d b_px = in_frame_px(choice.rule->far_corner);
+    return motion_in_box(frame.objects, a_px.cwiseMin(b_px), a_px.cwiseMax(b_px));
+  }
+  if (choice.rule->kind == FeelKind::kCamera) {
+    return camera_motion(*frame.background, frame.votes,
+                         static_cast<double>(frame.interval_ns) * 1e-9);
+  }
+  return {};
+}
+
+ImageMotion FrameRenderer::free_motion(const MeasuredFrame& frame) const {
   switch (settings_.motion) {
     case MotionKind::kMean:
       return frame.mean;
@@ -102,9 +166,10 @@ FrameAnalysis FrameRenderer::wait() const {
   return analysis;
 }
 
-FrameAnalysis FrameRenderer::render(const MeasuredFrame& frame) {
+FrameAnalysis FrameRenderer::render(const MeasuredFrame& frame, const FilmPlace& film) {
   if (frame.anew) {
     controller_->reset();
+    choice_.reset();
     latest_ = {};
   }
   if (frame.shown == Shown::kWaiting) return wait();
@@ -113,6 +178,9 @@ FrameAnalysis FrameRenderer::render(const MeasuredFrame& frame) {
   analysis.height = frame.height;
   analysis.features = frame.features;
   analysis.restarted = frame.shown == Shown::kFirst;
+  const Chosen choice = choose(frame, film);
+  analysis.choice = choice;
+  analysis.choice.object = nullptr;
   if (analysis.restarted) {
     lost_frames_.reset();
     filter_.reset();
@@ -130,7 +198,8 @@ FrameAnalysis FrameRenderer::render(const MeasuredFrame& frame) {
       analysis.object_list = &frame.objects;
     }
   }
-  ImageMotion felt = choose(frame);
+  analysis.felt_object = felt_object(frame, settings_.motion, choice);
+  ImageMotion felt = motion_of_choice(frame, film, choice);
   if (frame.shown == Shown::kSame) {
     filter_.stop();
     fade_.reset();
@@ -143,12 +212,14 @@ FrameAnalysis FrameRenderer::render(const MeasuredFrame& frame) {
   const double interval_s = static_cast<double>(frame.interval_ns) * 1e-9;
   analysis.motion = bound_motion(felt, frame.width, interval_s);
   // The filter does not mix the motions of two objects.
-  if (fade_.turn_to(felt_object(frame, settings_.motion))) filter_.reset();
+  if (fade_.turn_to(felt_thing(choice, analysis.felt_object))) filter_.reset();
   const ImageMotion steady =
       filter_.filter(analysis.motion, frame.height, interval_s, settings_.filter);
   const Wrench wanted =
       render_motion(*controller_, steady, settings_.axes, frame.height, interval_s);
-  analysis.wrench = fade_.fade(wanted, interval_s);
+  const double gain = choice.rule && !choice.is_kept ? choice.rule->gain : 1;
+  analysis.wrench =
+      fade_.fade(amplified(wanted, gain, settings_.controller.max_force_N), interval_s);
   return latest_ = analysis;
 }
 

@@ -8,6 +8,7 @@
 #include "core/analysis/analyzer_settings.h"
 #include "core/analysis/frame_analysis.h"
 #include "core/analysis/measured_frame.h"
+#include "core/choice/object_choice.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 #include "core/force/wrench_fade.h"
@@ -26,13 +27,21 @@ class FrameRenderer {
 
   /// Takes the frames in the order in which they are shown. The result points into `frame`, and
   /// that of a frame that waits into the last one that did not.
-  FrameAnalysis render(const MeasuredFrame& frame);
+  FrameAnalysis render(const MeasuredFrame& frame, const FilmPlace& film = {});
+
+  /// Takes a frame that was shown before those that render() takes next, for nothing but to know
+  /// which objects are chosen.
+  void recall(const MeasuredFrame& frame, const FilmPlace& film);
 
  private:
-  ImageMotion choose(const MeasuredFrame& frame) const;
+  Chosen choose(const MeasuredFrame& frame, const FilmPlace& film);
+  ImageMotion motion_of_choice(const MeasuredFrame& frame, const FilmPlace& film,
+                               const Chosen& choice) const;
+  ImageMotion free_motion(const MeasuredFrame& frame) const;
   FrameAnalysis wait() const;
 
   AnalyzerSettings settings_;
+  ObjectChoice choice_;
   LostFrames lost_frames_;
   MotionFilter filter_;
   WrenchFade fade_;

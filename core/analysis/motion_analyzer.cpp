@@ -32,8 +32,9 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   impl_->meter.configure(meter_settings(settings));
 }
 
-FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_time_ns) {
-  return impl_->renderer.render(impl_->meter.measure(frame, running_time_ns));
+FrameAnalysis MotionAnalyzer::analyze(const ImageView& frame, int64_t running_time_ns,
+                                      const FilmPlace& film) {
+  return impl_->renderer.render(impl_->meter.measure(frame, running_time_ns), film);
 }
 
 std::optional<FrameAnalysis> MotionAnalyzer::repeat(int64_t running_time_ns) {

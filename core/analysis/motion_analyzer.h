@@ -35,7 +35,9 @@ class MotionAnalyzer {
   /// size restarts tracks and filter only: the largest speed of eq. 13 and what the adaptive
   /// controller has learnt belong to the whole video.
   /// Throws std::invalid_argument for a frame that require_usable() refuses.
-  FrameAnalysis analyze(const ImageView& frame, int64_t running_time_ns);
+  /// `film` is for AnalyzerSettings::feel alone.
+  FrameAnalysis analyze(const ImageView& frame, int64_t running_time_ns,
+                        const FilmPlace& film = {});
 
   /// Takes a frame that is known to repeat the previous picture, without analysing it. Returns
   /// nothing when the picture has been repeated for too long, or when there is no previous picture:

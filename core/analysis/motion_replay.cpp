@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "core/force/motion_bounds.h"
 
@@ -73,7 +74,39 @@ void MotionReplay::feed(size_t i, double rate) {
   if (rate != 1 && frame_.shown != Shown::kWaiting && frame_.shown != Shown::kFirst) {
     play_at(frame_, rate);
   }
-  latest_ = renderer_.render(frame_);
+  const size_t shown = rate < 0 && i > 0 ? i - 1 : i;
+  latest_ = renderer_.render(frame_, place_of(shown));
+}
+
+FilmPlace MotionReplay::place_of(size_t i) const {
+  const MotionMoment moment = file_->moment(i);
+  return {moment.stream_ns + later_ns_, moment.turn};
+}
+
+void MotionReplay::configure(const AnalyzerSettings& settings) {
+  recalls_ |= settings.feel != settings_.feel;
+  settings_ = settings;
+}
+
+const FeelRule* MotionReplay::rule_at(size_t i) const {
+  if (!settings_.feel || i >= file_->size()) return nullptr;
+  return settings_.feel->at(place_of(i).stream_ns);
+}
+
+/// Lets the rule of the frame `end` see all frames before that it is about.
+void MotionReplay::recall(size_t end) {
+  const FeelRule* const rule = rule_at(end);
+  if (!rule || !rule->is_about_objects()) return;
+  const int64_t from_ns = rule->from_ns - later_ns_;
+  const int64_t end_ns = file_->moment(end).stream_ns;
+  MeasuredFrame frame;
+  for (auto it =
+           std::lower_bound(by_time_.begin(), by_time_.end(), std::make_pair(from_ns, size_t{0}));
+       it != by_time_.end() && it->first < end_ns; ++it) {
+    if (!is_frame(it->second)) continue;
+    file_->load(it->second, frame);
+    renderer_.recall(frame, place_of(it->second));
+  }
 }
 
 /// The next frame follows nothing.
@@ -101,9 +134,13 @@ std::optional<FrameAnalysis> MotionReplay::at(int64_t stream_ns, double rate) {
   const size_t left_out = !last_ ? SIZE_MAX : backwards ? *last_ - *now : *now - *last_;
   if (left_out > kMostLeftOut) {
     begin();
+    recall(*now);
     feed(backwards ? *now + 1 : *now, rate);
     last_ = now;
+  } else if (recalls_ || (backwards && rule_at(*now) != rule_at(*last_))) {
+    recall(backwards ? *now : *last_ + 1);
   }
+  recalls_ = false;
   while (last_ != now) feed(backwards ? (*last_)-- : ++*last_, rate);
   if (!is_frame(*now)) return std::nullopt;
   return latest_;

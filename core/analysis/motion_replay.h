@@ -23,12 +23,14 @@ class MotionReplay {
   bool active() const { return file_ != nullptr; }
 
   /// See FrameRenderer::configure(). The pointer is a place of the picture as it is shown.
-  void configure(const AnalyzerSettings& settings) { settings_ = settings; }
+  void configure(const AnalyzerSettings& settings);
 
   /// The frame of this stream time, which is played `rate` times as fast as it was measured,
   /// backwards when it is negative. Frames that were left out since the last call count, as long as
   /// they are kMostLeftOut at most; else the controller begins anew. Nothing when no such frame was
   /// measured.
+  ///
+  /// Which object a rule of AnalyzerSettings::feel is about is known wherever playback begins.
   std::optional<FrameAnalysis> at(int64_t stream_ns, double rate);
 
   /// Of the frame that at() was asked for last.
@@ -44,12 +46,16 @@ class MotionReplay {
   std::optional<size_t> find(int64_t stream_ns) const;
   bool is_frame(size_t i) const { return file_->moment(i).kind == MomentKind::kFrame; }
   void begin();
+  const FeelRule* rule_at(size_t i) const;
+  void recall(size_t end);
+  FilmPlace place_of(size_t i) const;
   void feed(size_t i, double rate);
 
   std::shared_ptr<const MotionFile> file_;
   int64_t later_ns_ = 0;
   std::vector<std::pair<int64_t, size_t>> by_time_;  ///< stream time and index of each frame
   AnalyzerSettings settings_;
+  bool recalls_ = false;  ///< which objects were chosen has to be found out
   FrameRenderer renderer_;
   MeasuredFrame frame_;
   FrameAnalysis latest_;

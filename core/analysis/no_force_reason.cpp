@@ -66,6 +66,10 @@ Wording wording(NoForceReason limit) noexcept {
               "followed from one to the next."};
     case NoForceReason::kTooFewPoints:
       return {"too-few-points", "The picture has too little texture to measure motion by."};
+    case NoForceReason::kNotChosen:
+      return {"not-chosen",
+              "By what was chosen (feel, or a click with pointer=mouse), nothing is felt now: the "
+              "rule says so, or its object is not in sight."};
     case NoForceReason::kCameraOnly:
       return {"camera-only",
               "Only the camera moves, and motion=object and motion=objects leave that out; with "
@@ -98,6 +102,14 @@ Wording wording(NoForceReason limit) noexcept {
   return {"unknown", ""};
 }
 
+/// Whether what was chosen leaves nothing to feel.
+bool is_withheld(const FrameAnalysis& frame) {
+  const Chosen& choice = frame.choice;
+  if (choice.is_free()) return false;
+  if (choice.is_kept || choice.rule->kind == FeelKind::kObjectAt) return frame.felt_object == 0;
+  return choice.rule->kind == FeelKind::kNothing || choice.rule->gain == 0;
+}
+
 /// Of the reference frame.
 double speed_px_s(const ImageMotion& motion, int frame_height) {
   const Eigen::Vector2d velocity_px_s =
@@ -125,12 +137,15 @@ NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion) {
   if (frame.restarted) return NoForceReason::kNothingToCompare;
   if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
   if (frame.same_picture) return NoForceReason::kRepeatedFrames;
+  if (is_withheld(frame)) return NoForceReason::kNotChosen;
   if (frame.height > 0 && speed_px_s(frame.motion, frame.height) >= kMoving_px_s) {
     return NoForceReason::kTooWeak;
   }
   if (frame.interval_ns > Cadence::kLongest_ns) return NoForceReason::kFewPictures;
   if (frame.features < kFewestPoints) return NoForceReason::kTooFewPoints;
-  const bool leaves_out_camera = motion == MotionKind::kObject || motion == MotionKind::kObjects;
+  const bool leaves_out_camera =
+      frame.choice.is_free() ? motion == MotionKind::kObject || motion == MotionKind::kObjects
+                             : frame.choice.is_kept || frame.choice.rule->is_about_objects();
   const bool camera_moves = frame.model && *frame.model != ModelKind::kStill;
   return leaves_out_camera && camera_moves ? NoForceReason::kCameraOnly
                                            : NoForceReason::kNothingMoves;

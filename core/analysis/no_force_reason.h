@@ -35,6 +35,7 @@ enum class NoForceReason {
   kRepeatedFrames,
   kFewPictures,
   kTooFewPoints,
+  kNotChosen,
   kCameraOnly,
   kNothingMoves,
   kTooWeak,

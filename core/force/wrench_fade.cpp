@@ -6,7 +6,7 @@
 
 namespace spidar {
 
-bool WrenchFade::turn_to(uint32_t object) {
+bool WrenchFade::turn_to(uint64_t object) {
   const bool begins = object != object_ && object_ != 0;
   object_ = object;
   if (!begins) return false;

@@ -14,9 +14,9 @@ namespace spidar {
 /// at once and in full.
 class WrenchFade {
  public:
-  /// Begins a frame. `object` is what is felt in it: an id that is constant while the object
-  /// exists; 0: none, or the whole picture. Returns whether the last wrench begins to fade out.
-  bool turn_to(uint32_t object);
+  /// Begins a frame. `object` is what is felt in it: a number that is constant while the same is
+  /// felt; 0: nothing, or the whole picture. Returns whether the last wrench begins to fade out.
+  bool turn_to(uint64_t object);
 
   /// The wrench to be felt in this frame, `interval_s` > 0 after the one before, if `wrench` is
   /// that of the object.
@@ -29,7 +29,7 @@ class WrenchFade {
   static constexpr double kFade_s = 0.1;
 
  private:
-  uint32_t object_ = 0;
+  uint64_t object_ = 0;
   double old_share_ = 0;  ///< of `old_`; 0: nothing fades
   Wrench old_;
   Wrench felt_;  ///< in the last frame

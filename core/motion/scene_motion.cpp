@@ -14,6 +14,40 @@ double weight_at(const Eigen::Vector2d& pointer_px, const MovingObject& object, 
   return object.area_px2 * std::exp(-outside_px.squaredNorm() / (2 * sigma_px * sigma_px));
 }
 
+double area_in_box(const MovingObject& object, const Eigen::Vector2d& low_px,
+                   const Eigen::Vector2d& high_px) {
+  const Eigen::Vector2d half_px = object.size_px / 2;
+  const Eigen::Vector2d inside_px = ((object.position_px + half_px).cwiseMin(high_px) -
+                                     (object.position_px - half_px).cwiseMax(low_px))
+                                        .cwiseMax(0.0);
+  const double all_px2 = object.size_px.prod();
+  return all_px2 > 0 ? object.area_px2 * inside_px.prod() / all_px2 : 0;
+}
+
+/// Of the objects in sight, each with its weight.
+template <typename Weight>
+ImageMotion weighted_motion(const std::vector<MovingObject>& objects, Weight&& weight_of) {
+  ImageMotion sum;
+  double weights = 0;
+  double variance = 0;
+  for (const MovingObject& object : objects) {
+    if (object.tracks == 0) continue;
+    const double weight = weight_of(object);
+    weights += weight;
+    sum.velocity_px_s += weight * object.relative_px_s;
+    sum.growth_1_s += weight * object.growth_1_s;
+    sum.roll_rad_s += weight * object.roll_rad_s;
+    sum.tracked += object.tracks;
+    variance += weight * weight * object.noise_px_s * object.noise_px_s;
+  }
+  if (weights == 0) return sum;
+  sum.velocity_px_s /= weights;
+  sum.growth_1_s /= weights;
+  sum.roll_rad_s /= weights;
+  sum.noise_px_s = std::sqrt(variance) / weights;
+  return sum;
+}
+
 }  // namespace
 
 ImageMotion camera_motion(const Background& background, int votes, double interval_s) {
@@ -39,25 +73,15 @@ ImageMotion motion_of(const MovingObject& object) {
 
 ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
                               const Eigen::Vector2d& pointer_px, int frame_height) {
-  ImageMotion sum;
-  double weights = 0;
-  double variance = 0;
-  for (const MovingObject& object : objects) {
-    if (object.tracks == 0) continue;
-    const double weight = weight_at(pointer_px, object, frame_height);
-    weights += weight;
-    sum.velocity_px_s += weight * object.relative_px_s;
-    sum.growth_1_s += weight * object.growth_1_s;
-    sum.roll_rad_s += weight * object.roll_rad_s;
-    sum.tracked += object.tracks;
-    variance += weight * weight * object.noise_px_s * object.noise_px_s;
-  }
-  if (weights == 0) return sum;
-  sum.velocity_px_s /= weights;
-  sum.growth_1_s /= weights;
-  sum.roll_rad_s /= weights;
-  sum.noise_px_s = std::sqrt(variance) / weights;
-  return sum;
+  return weighted_motion(objects, [&](const MovingObject& object) {
+    return weight_at(pointer_px, object, frame_height);
+  });
+}
+
+ImageMotion motion_in_box(const std::vector<MovingObject>& objects, const Eigen::Vector2d& low_px,
+                          const Eigen::Vector2d& high_px) {
+  return weighted_motion(
+      objects, [&](const MovingObject& object) { return area_in_box(object, low_px, high_px); });
 }
 
 }  // namespace spidar

@@ -36,6 +36,11 @@ constexpr double kPointerReach = 0.25;
 ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
                               const Eigen::Vector2d& pointer_px, int frame_height);
 
+/// Mean motion of the objects in sight, each weighted by the area that it has in a box of the
+/// frame, px from the frame's centre: the box around it stands for its outline.
+ImageMotion motion_in_box(const std::vector<MovingObject>& objects, const Eigen::Vector2d& low_px,
+                          const Eigen::Vector2d& high_px);
+
 /// Motion of the camera over `interval_s` > 0: it moves to the right when the background moves to
 /// the left, and forwards when the background grows. `votes` is the number of displacements that
 /// the background was found from.

@@ -110,8 +110,9 @@ class MotionEngine {
   FrameReport process_frame(const GstVideoFrame& frame, const GstSegment& segment,
                             const AnalyzerSettings& settings, const TouchProperties& touch);
   bool follows(const GstVideoFrame& frame, const GstSegment& segment, FrameReport& report);
-  bool analyze(const GstVideoFrame& frame, const ImageView& luma, const AnalyzerSettings& settings,
-               const TouchProperties& touch, int64_t paced_ns, FrameReport& report);
+  bool analyze(const GstVideoFrame& frame, const GstSegment& segment, const ImageView& luma,
+               const AnalyzerSettings& settings, const TouchProperties& touch, int64_t paced_ns,
+               FrameReport& report);
   bool replay(const GstVideoFrame& frame, const GstSegment& segment, AnalyzerSettings settings,
               FrameReport& report);
   const MeasuredFrame& measured() const;

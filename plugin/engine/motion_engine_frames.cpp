@@ -118,9 +118,9 @@ bool MotionEngine::follows(const GstVideoFrame& frame, const GstSegment& segment
 }
 
 /// Finds the picture of a frame and analyses it. False when it has none.
-bool MotionEngine::analyze(const GstVideoFrame& frame, const ImageView& luma,
-                           const AnalyzerSettings& settings, const TouchProperties& touch,
-                           int64_t paced_ns, FrameReport& report) {
+bool MotionEngine::analyze(const GstVideoFrame& frame, const GstSegment& segment,
+                           const ImageView& luma, const AnalyzerSettings& settings,
+                           const TouchProperties& touch, int64_t paced_ns, FrameReport& report) {
   const std::optional<DepthLayout> packed = touch.packed();
   const ImageView picture = packed ? picture_half(luma, *packed) : luma;
   if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
@@ -130,7 +130,9 @@ bool MotionEngine::analyze(const GstVideoFrame& frame, const ImageView& luma,
   }
   analyzer_.configure(settings);
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
-  report.analysis = analyzer_.analyze(picture, paced_ns);
+  // As an analysis in a file has it.
+  const std::optional<MotionMoment> moment = moment_of(frame.buffer, segment, turn_);
+  report.analysis = analyzer_.analyze(picture, paced_ns, {moment ? moment->stream_ns : 0, turn_});
   // The picture is the left or the upper half.
   report.part = visible_part(frame);
   report.part.width = picture.width;
@@ -179,8 +181,9 @@ FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSeg
   const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
   ImageView luma;
   if (!replay_.active() || touch.kind != TouchKind::kOff) luma = luma_.view(frame);
-  report.analyzed = replay_.active() ? replay(frame, segment, settings, report)
-                                     : analyze(frame, luma, settings, touch, time.paced_ns, report);
+  report.analyzed = replay_.active()
+                        ? replay(frame, segment, settings, report)
+                        : analyze(frame, segment, luma, settings, touch, time.paced_ns, report);
   if (!report.analyzed) return report;
 
   const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;

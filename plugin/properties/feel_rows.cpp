@@ -35,6 +35,13 @@ std::vector<MotionRow> feel_rows() {
            {MotionKind::kCamera, "The motion of the camera, as if the viewer moved with it",
             "camera"}},
           kControllable, KEPT_IN(analyzer.motion)),
+      MotionRow::text(
+          {"feel", "Feel",
+           "What is felt when, instead of what 'motion' says: a file whose name ends in .feel, "
+           "'auto' for the one beside the film (FILM.mp4.feel), or rules themselves, with "
+           "semicolons "
+           "between them: '0:00-0:12 object at 0.31,0.62; 0:12-0:20 camera gain 0.5'"},
+          kPlaying, KEPT_IN(feel)),
       MotionRow::choice<PointerKind>(
           {"pointer", "Pointer", "Which position weights the objects of motion=objects"},
           "GstSpidarMotionPointer",
@@ -42,12 +49,17 @@ std::vector<MotionRow> feel_rows() {
            {PointerKind::kGrip,
             "Position of the grip; half of the way to the strings' exits is the edge of the "
             "picture",
-            "grip"}},
+            "grip"},
+           {PointerKind::kMouse,
+            "The mouse in the window of the video; a click keeps the object that is there, and the "
+            "next one lets go",
+            "mouse"}},
           kControllable, KEPT_IN(pointer)),
       MotionRow::number(
           {"pointer-x", "Pointer x",
            "Horizontal position of the pointer: 0 is the left edge of the picture, 1 the "
-           "right edge. pointer=grip uses it while no device runs"},
+           "right edge. pointer=grip uses it while no device runs, pointer=mouse before the mouse "
+           "moves"},
           0, 1, kControllable, KEPT_IN(analyzer.pointer.x())),
       MotionRow::number(
           {"pointer-y", "Pointer y",

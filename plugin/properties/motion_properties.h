@@ -18,7 +18,7 @@ namespace spidar {
 template <typename Settings>
 class PropertyTable;
 
-enum class PointerKind { kFixed, kGrip };
+enum class PointerKind { kFixed, kGrip, kMouse };
 
 struct MotionProperties {
   std::string device = "sim";
@@ -32,6 +32,7 @@ struct MotionProperties {
   std::string haptic_trace;
   std::string track;     ///< path, "auto", or empty
   std::string analysis;  ///< the same
+  std::string feel;      ///< the same, or rules
   bool mute = false;
   DisplayProperties display;
   TouchProperties touch;

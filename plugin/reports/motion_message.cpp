@@ -22,6 +22,7 @@ void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameRepo
       "repeated", G_TYPE_BOOLEAN, frame.same_picture ? TRUE : FALSE,     //
       "features", G_TYPE_UINT, static_cast<guint>(frame.features),       //
       "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),  //
+      "object", G_TYPE_UINT, frame.felt_object,                          //
       "velocity-x", G_TYPE_DOUBLE, velocity.x(), "velocity-y", G_TYPE_DOUBLE, velocity.y(),
       "force-x", G_TYPE_DOUBLE, force.x(), "force-y", G_TYPE_DOUBLE, force.y(), "force-z",
       G_TYPE_DOUBLE, force.z(), "torque-x", G_TYPE_DOUBLE, torque.x(), "torque-y", G_TYPE_DOUBLE,

@@ -53,9 +53,12 @@ void complete_header(const std::string& path, const std::string& film, const std
 /// Gives the frames of an analysis to an element, as if they came from the film.
 class FrameFeed {
  public:
-  explicit FrameFeed(GstElement* motion)
-      : pad_(gst_pad_new("frames", GST_PAD_SRC)),
+  FrameFeed(GstElement* motion, int64_t end_ns)
+      : end_ns_(end_ns),
+        pad_(gst_pad_new("frames", GST_PAD_SRC)),
         sink_(gst_element_get_static_pad(motion, "sink")) {
+    gst_pad_set_element_private(pad_, this);
+    gst_pad_set_query_function(pad_, answer);
     gst_pad_link(pad_, sink_);
     gst_pad_set_active(pad_, TRUE);
   }
@@ -99,6 +102,19 @@ class FrameFeed {
   void end() const { gst_pad_push_event(pad_, gst_event_new_eos()); }
 
  private:
+  static gboolean answer(GstPad* pad, GstObject* parent, GstQuery* query) {
+    const auto* self = static_cast<const FrameFeed*>(gst_pad_get_element_private(pad));
+    GstFormat format;
+    if (GST_QUERY_TYPE(query) != GST_QUERY_DURATION) {
+      return gst_pad_query_default(pad, parent, query);
+    }
+    gst_query_parse_duration(query, &format, nullptr);
+    if (format != GST_FORMAT_TIME) return FALSE;
+    gst_query_set_duration(query, format, self->end_ns_);
+    return TRUE;
+  }
+
+  const int64_t end_ns_;
   GstPad* const pad_;
   GstPad* const sink_;
 };
@@ -119,6 +135,23 @@ void require_all(GstElement* motion, const MotionFile& file) {
     throw std::runtime_error("only " + std::to_string(taken) + " of its " + std::to_string(frames) +
                              " frames were rendered");
   }
+}
+
+/// Where the last moment ends; 0 when there is none.
+int64_t end_of(const MotionFile& file) {
+  if (file.size() == 0) return 0;
+  const MotionMoment last = file.moment(file.size() - 1);
+  return last.stream_ns + std::max<int64_t>(last.duration_ns, 0);
+}
+
+/// Keeps the warnings of a pipeline. Outlives it.
+GstBusSyncReply keep_warning(GstBus*, GstMessage* message, gpointer user) {
+  if (GST_MESSAGE_TYPE(message) != GST_MESSAGE_WARNING) return GST_BUS_PASS;
+  GError* warning = nullptr;
+  gst_message_parse_warning(message, &warning, nullptr);
+  static_cast<std::vector<std::string>*>(user)->emplace_back(warning->message);
+  g_error_free(warning);
+  return GST_BUS_PASS;
 }
 
 MotionKind motion_kind(const RecordProperties& properties) {
@@ -151,10 +184,13 @@ std::string analyze_film(const std::string& film, const std::string& motion,
   return remark;
 }
 
-void render_analysis(const std::string& motion, const std::string& track,
-                     const RecordProperties& properties) {
+std::vector<std::string> render_analysis(const std::string& motion, const std::string& track,
+                                         const RecordProperties& properties) {
   const MotionFile file = read_motion_file(motion);
-  RecordProperties all = with_settings(properties, file.header().settings);
+  const std::string film = motion.substr(0, motion.size() - std::string(kMotionEnd).size());
+  const RecordProperties all = with_rules(with_settings(properties, file.header().settings),
+                                          ends_with(motion, kMotionEnd) ? film : motion);
+  std::vector<std::string> remarks;
   const std::string wrong = wrong_motion(file.header(), motion_kind(all));
   if (!wrong.empty()) throw std::runtime_error(wrong);
   GError* error = nullptr;
@@ -178,7 +214,10 @@ void render_analysis(const std::string& motion, const std::string& track,
   set_properties(element.get(), all);
   g_object_set(element.get(), "analysis", motion.c_str(), nullptr);
   take_samples(pipeline.get(), track, {parse_fingerprint(file.header().film), all.settings});
-  const FrameFeed feed(element.get());
+  GstBus* const bus = gst_element_get_bus(pipeline.get());
+  gst_bus_set_sync_handler(bus, keep_warning, &remarks, nullptr);
+  gst_object_unref(bus);
+  const FrameFeed feed(element.get(), end_of(file));
   gst_element_set_state(pipeline.get(), GST_STATE_PLAYING);
   feed.begin();
   for (size_t i = 0; i < file.size() && feed.push(file.moment(i)); ++i) {
@@ -186,6 +225,7 @@ void render_analysis(const std::string& motion, const std::string& track,
   feed.end();
   await_message(pipeline.get(), GST_MESSAGE_EOS);
   require_all(element.get(), file);
+  return remarks;
 }
 
 }  // namespace spidar

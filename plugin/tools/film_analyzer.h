@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/analysis/motion_file.h"
 #include "plugin/tools/record_properties.h"
@@ -18,8 +19,9 @@ std::string analyze_film(const std::string& film, const std::string& motion,
                          const std::function<void(int percent)>& tell);
 
 /// Writes the track that record_film() would write with the same properties, without the film.
-/// Throws std::runtime_error.
-void render_analysis(const std::string& motion, const std::string& track,
-                     const RecordProperties& properties);
+/// Returns what is to be known of the track, a sentence each; usually nothing. Throws
+/// std::runtime_error.
+std::vector<std::string> render_analysis(const std::string& motion, const std::string& track,
+                                         const RecordProperties& properties);
 
 }  // namespace spidar

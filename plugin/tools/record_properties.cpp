@@ -6,11 +6,11 @@
 #include <iterator>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 
 #include <gst/gst.h>
 
+#include "plugin/choice/feel_file.h"
 #include "plugin/properties/typed_property.h"
 #include "spidar/tools/command_line.h"
 
@@ -20,9 +20,9 @@ namespace {
 /// What changes the force that the frames of a film give. All others are for a device, for a viewer
 /// or for a pipeline, of which there is none.
 constexpr const char* kAnalysis[] = {
-    "alpha",        "controller", "depth-gain",    "filter-beta", "filter-min-cutoff",
-    "max-features", "max-force",  "min-distance",  "motion",      "pointer-x",
-    "pointer-y",    "quality",    "quality-level", "roll-gain"};
+    "alpha",        "controller",    "depth-gain",   "feel",   "filter-beta", "filter-min-cutoff",
+    "max-features", "max-force",     "min-distance", "motion", "pointer-x",   "pointer-y",
+    "quality",      "quality-level", "roll-gain"};
 
 /// Of these, what changes that which is measured.
 constexpr const char* kMeasured[] = {"max-features", "min-distance", "quality", "quality-level"};
@@ -70,6 +70,24 @@ std::string why_refused(const TypedProperty& property, size_t films, Purpose pur
   return "changes nothing in a track; these properties do: " + list_of_analysis();
 }
 
+/// One line of settings; a value with spaces is in quotes.
+std::map<std::string, std::string> split(const std::string& line) {
+  std::map<std::string, std::string> settings;
+  bool quoted = false;
+  std::string word;
+  for (const char c : line + ' ') {
+    if (c == '"') quoted = !quoted;
+    if (c != ' ' || quoted) {
+      word += c;
+      continue;
+    }
+    const size_t equals = word.find('=');
+    if (equals != std::string::npos) settings[word.substr(0, equals)] = word.substr(equals + 1);
+    word.clear();
+  }
+  return settings;
+}
+
 std::string one_line(const std::map<std::string, std::string>& settings) {
   std::string line;
   for (const auto& [name, value] : settings) {
@@ -81,20 +99,26 @@ std::string one_line(const std::map<std::string, std::string>& settings) {
 }  // namespace
 
 RecordProperties with_settings(const RecordProperties& properties, const std::string& settings) {
-  std::map<std::string, std::string> all;
+  std::map<std::string, std::string> all = split(settings);
   RecordProperties result;
-  for (const std::string* text : {&settings, &properties.settings}) {
-    std::istringstream words(*text);
-    for (std::string word; words >> word;) {
-      const size_t equals = word.find('=');
-      if (equals == std::string::npos) continue;
-      const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
-      all[name] = value;
-      if (text == &settings) result.values.emplace_back(name, value);
-    }
-  }
+  for (const auto& [name, value] : all) result.values.emplace_back(name, value);
+  for (const auto& [name, value] : split(properties.settings)) all[name] = value;
   result.values.insert(result.values.end(), properties.values.begin(), properties.values.end());
   result.settings = one_line(all);
+  return result;
+}
+
+RecordProperties with_rules(const RecordProperties& properties, const std::string& film) {
+  RecordProperties result = properties;
+  std::map<std::string, std::string> settings = split(properties.settings);
+  for (auto& [name, value] : result.values) {
+    if (name != "feel") continue;
+    const NamedRules named = read_feel(value, film);
+    value = named.rules ? named.rules->text() : "";
+    settings.erase(name);
+    if (!value.empty()) settings[name] = '"' + value + '"';
+  }
+  result.settings = one_line(settings);
   return result;
 }
 
@@ -118,7 +142,13 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
       settings.erase(property.name());
       if (property.is_default() || property.name() == "trace") continue;
       settings[property.name()] = property.canonical_value();
-    } catch (const PropertyError& error) {
+      if (property.name() == "feel" && properties.values.back().second != "auto") {
+        // In one form for all ways to type them, and of a file, what it says now.
+        properties.settings = one_line(settings);
+        properties = with_rules(properties, "");
+        settings = split(properties.settings);
+      }
+    } catch (const std::runtime_error& error) {
       throw UsageError(error.what());
     }
   }

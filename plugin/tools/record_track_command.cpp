@@ -52,7 +52,7 @@ void check_file(const std::string& film, const fs::path& file, const RecordOptio
   } catch (const MotionFileError& error) {
     throw std::runtime_error(file.string() + " is not used: " + error.what() + again);
   }
-  const std::string& settings = options.properties.settings;
+  const std::string settings = with_rules(options.properties, film).settings;
   if (notes.settings && *notes.settings != settings) {
     const auto shown = [](const std::string& text) { return text.empty() ? "the defaults" : text; };
     throw std::runtime_error(file.string() + " was recorded with " + shown(*notes.settings) +
@@ -150,11 +150,12 @@ class FilmBatch {
     if (is_done(index, track)) return true;  // in the meantime
     report_.progress(index, 0);
     const Clock::time_point begin = Clock::now();
+    const RecordProperties properties = with_rules(options_.properties, film);
     const auto tell = [&](int percent) { report_.progress(index, percent); };
     const std::string remark =
         options_.makes_tracks()
-            ? record_film(film, part->path(), options_.properties, tell)
-            : analyze_film(film, part->path(), options_.properties, options_.piece, tell);
+            ? record_film(film, part->path(), properties, tell)
+            : analyze_film(film, part->path(), properties, options_.piece, tell);
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
     const std::chrono::duration<double> taken = Clock::now() - begin;
     manifest_.add({film, track, "recorded", remark, taken.count()});

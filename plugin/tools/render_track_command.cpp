@@ -64,7 +64,9 @@ int render_track_command(int argc, char** argv) {
   }
   try {
     PartFile part(track);
-    render_analysis(motion, part.path(), properties);
+    for (const std::string& remark : render_analysis(motion, part.path(), properties)) {
+      std::cerr << "spidartrack: " << remark << '\n';
+    }
     part.publish();
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(motion + ": " + error.what());

@@ -58,8 +58,12 @@ MeasuredFilm steady_film() {
 TEST(MotionReplay, IsTheLiveForceToTheLastBit) {
   const MeasuredFilm film = random_film(5, kFrames);
   const auto file = file_of(film);
+  AnalyzerSettings ruled = with(MotionKind::kObject);
+  ruled.feel = std::make_shared<FeelRules>(
+      "0.5-3 largest; 3-5 object at 0.5,0.5 gain 2; 5-7 region 0,0 to 0.5,1; 7-9 camera; "
+      "9-11 topmost; 11-12 nothing; 12- object at 0.3,0.3");
   for (const AnalyzerSettings& settings :
-       {with(MotionKind::kObject), with(MotionKind::kObjects, ControllerKind::kAdaptive),
+       {with(MotionKind::kObject), ruled, with(MotionKind::kObjects, ControllerKind::kAdaptive),
         with(MotionKind::kCamera, ControllerKind::kLinear)}) {
     MotionReplay replay;
     replay.set_file(file, 0);
@@ -77,7 +81,8 @@ TEST(MotionReplay, IsTheLiveForceToTheLastBit) {
       coded.pointer = film.moments[i].turn.place_coded(settings.pointer);
       live.configure(coded);
       frame = film.frames[i];
-      const FrameAnalysis wanted = live.render(frame);
+      const FrameAnalysis wanted =
+          live.render(frame, {film.moments[i].stream_ns, film.moments[i].turn});
       ASSERT_TRUE(felt) << i;
       EXPECT_EQ(felt->wrench.stacked(), wanted.wrench.stacked()) << i;
       EXPECT_EQ(felt->repeated, wanted.repeated) << i;
@@ -146,6 +151,30 @@ TEST(MotionReplay, IsFasterAtAHigherRateAndTheOtherWayBackwards) {
       EXPECT_EQ(felt->wrench.force_N.x() > 0, rate > 0);
     }
   }
+}
+
+AnalyzerSettings with_rules(const std::string& rules) {
+  AnalyzerSettings settings = with(MotionKind::kObject);
+  settings.feel = std::make_shared<FeelRules>(rules);
+  return settings;
+}
+
+TEST(MotionReplay, KnowsTheObjectOfARuleWhereverPlaybackBegins) {
+  const MeasuredFilm film = steady_film();
+  const auto time_of = [&](size_t i) { return film.moments[i].stream_ns; };
+  MotionReplay replay;
+  replay.set_file(file_of(film), 0);
+  replay.configure(with_rules("0-6 object at 0.5,0.5; 6-12 object at 0.1,0.1; 12- camera"));
+  EXPECT_EQ(replay.at(time_of(100), 1)->felt_object, 1u) << "after a seek";
+  EXPECT_EQ(replay.at(time_of(200), 1)->felt_object, 0u);
+  EXPECT_EQ(replay.at(time_of(200), 1)->choice.state, ChoiceState::kNotThere);
+  // Backwards from one rule to another.
+  replay.at(time_of(160), -1);
+  for (size_t i = 159; i > 140; --i) {
+    EXPECT_EQ(replay.at(time_of(i), -1)->felt_object, i >= 150 ? 0u : 1u) << i;
+  }
+  replay.configure(with_rules("0- object at 0.5,0.5"));
+  EXPECT_EQ(replay.at(time_of(142), 1)->felt_object, 1u) << "rules that were set while it plays";
 }
 
 }  // namespace

@@ -127,6 +127,50 @@ TEST_F(Analysis, OfAFilmThatIsTurnedAndOfTheCameraToo) {
   }
 }
 
+TEST_F(Analysis, IsFeltByRulesAsTheFilmIs) {
+  const std::string film = make_film("ball.avi", source("pattern=ball"));
+  analyze(film);
+  for (const char* rules : {"0-0.8 object at 0.5,0.5 gain 2; 0.8- largest", "leftmost gain 0.5",
+                            "0.2-1 region 0,0 to 1,0.6; 1-1.3 nothing"}) {
+    expect_same(film, "feel=" + shell_word(rules));
+  }
+  std::ofstream(film + ".feel") << "# of this film\n0:00-0:01 largest gain 0.5\n";
+  expect_same(film, "feel=auto");
+  // A track tells by which rules it was made, wherever they were.
+  const CommandResult there = spidartrack(
+      "record " + quoted(film) + " --format wav -- feel=" + shell_word("0-1.0 largest gain .5"));
+  EXPECT_EQ(there.status, 0) << there.text;
+  expect_contains(there.text, "is there");
+  std::ofstream(film + ".feel") << "0:00-0:01 largest\n";
+  expect_refused("record " + quoted(film) + " --format wav -- feel=auto", 1,
+                 "was recorded with feel=\"0:00-0:01 largest gain 0.5\", and not with "
+                 "feel=\"0:00-0:01 largest\"");
+}
+
+TEST_F(Analysis, SaysWhichRulesCannotBeFollowed) {
+  const std::string film = make_film("ball.avi", source("pattern=ball"));
+  const std::string motion = analyze(film);
+  expect_refused("render " + motion + " -- feel=" + shell_word("0-1 camera; 1-2 bigest"), 2,
+                 "feel, line 2: \"bigest\" is none of: object at X,Y; largest; ");
+  expect_refused("record " + film + " -- feel=" + path("none.feel"), 2,
+                 path("none.feel") + ": there is no such file");
+  expect_refused("analyze " + film + " -- feel=largest", 2, "it is for spidartrack render");
+  std::ofstream(film + ".feel") << "0:00-0:01 largest\n0:00.5- camera\n";
+  for (const std::string& command : {"render " + motion, "record " + film}) {
+    expect_refused(command + " -- feel=auto", 1,
+                   film +
+                       ".feel, line 2: it begins at 0:00.5, before line 1 ends, which does so "
+                       "at 0:01");
+  }
+  // What shows only with the film is told, and the track is made.
+  const CommandResult told =
+      spidartrack("render " + motion + " -- feel=" +
+                  shell_word("0-0.4 largest; 0.4-1 object at 0.01,0.01; 2:00- camera"));
+  EXPECT_EQ(told.status, 0) << told.text;
+  expect_contains(told.text, "feel, line 2: no object was at 0.01,0.01 at 0:00.4.");
+  expect_contains(told.text, "feel, line 3: it begins at 2:00, but the film ends at 0:01.6.");
+}
+
 TEST_F(Analysis, OfThePapersMeanIsOneOfItsOwn) {
   const std::string film = make_film("ball.avi", source("pattern=ball"));
   const std::string motion = analyze(film, "-- motion=mean");

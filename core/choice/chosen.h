@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What is asked of a choice, and its answer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "core/choice/feel_rules.h"
+#include "core/motion/moving_object.h"
+#include "core/picture_turn.h"
+
+namespace spidar {
+
+/// Where a frame is in its film. Places of rules and clicks are those of the picture as it is
+/// shown.
+struct FilmPlace {
+  int64_t stream_ns = 0;
+  PictureTurn turn;
+};
+
+/// An object that is kept because it was clicked.
+struct KeptObject {
+  uint32_t click = 0;           ///< counts the clicks; 0: none is kept
+  Eigen::Vector2d place{0, 0};  ///< of the click
+};
+
+/// What became of a wish.
+enum class ChoiceState {
+  kGood,
+  kNotThere,  ///< no object was at the place; the first that begins to move there is felt
+  kNotSeen,   ///< playback began after the moment at which the object is at the place
+  kLost,      ///< the object was followed and is lost
+};
+
+struct Chosen {
+  std::optional<FeelRule> rule;  ///< of the moment
+  bool is_kept = false;          ///< a click counts, and no rule
+  ChoiceState state = ChoiceState::kGood;
+  const MovingObject* object = nullptr;  ///< the one that is felt, when it is one
+
+  /// Nothing of this: what `motion` says is felt.
+  bool is_free() const { return !rule && !is_kept; }
+};
+
+}  // namespace spidar

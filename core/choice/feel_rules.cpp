@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/choice/feel_rules.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace spidar {
+namespace {
+
+constexpr double kMostGain = 10;
+/// A day, more than any film; its ns fit into a double exactly.
+constexpr double kLongest_s = 86400;
+constexpr size_t kMostQuoted = 40;
+
+struct Direction {
+  const char* word;
+  double x, y;
+};
+constexpr Direction kDirections[] = {
+    {"leftmost", -1, 0}, {"rightmost", 1, 0}, {"topmost", 0, -1}, {"bottommost", 0, 1}};
+
+constexpr const char* kAllWords =
+    "object at X,Y; largest; leftmost; rightmost; topmost; bottommost; region X,Y to X,Y; camera; "
+    "nothing";
+
+[[noreturn]] void wrong(int line, const std::string& what) {
+  throw FeelRulesError("line " + std::to_string(line) + ": " + what);
+}
+
+/// What a person typed, as a message can show it.
+std::string quote(std::string_view text) {
+  std::string shown(text.substr(0, kMostQuoted));
+  for (char& c : shown)
+    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+  return '"' + shown + (text.size() > kMostQuoted ? "…" : "") + '"';
+}
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_all = end == text.data() + text.size() && !text.empty();
+  if (error != std::errc() || !is_all || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// Seconds, minutes and hours, the last with colons before them.
+std::optional<int64_t> time_ns(std::string_view text) {
+  double seconds = 0;
+  for (int parts = 0;; ++parts) {
+    const size_t colon = text.find(':');
+    const bool is_last = colon == std::string_view::npos;
+    const std::optional<double> part = number(text.substr(0, colon));
+    if (!part || *part < 0 || parts > 2) return std::nullopt;
+    if (parts > 0 && *part >= 60) return std::nullopt;
+    if (!is_last && *part != std::floor(*part)) return std::nullopt;
+    seconds = 60 * seconds + *part;
+    if (seconds > kLongest_s) return std::nullopt;
+    if (is_last) return std::llround(seconds * 1e9);
+    text.remove_prefix(colon + 1);
+  }
+}
+
+std::optional<Eigen::Vector2d> place_of(std::string_view text) {
+  const size_t comma = text.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const std::optional<double> x = number(text.substr(0, comma));
+  const std::optional<double> y = number(text.substr(comma + 1));
+  if (!x || !y || *x < 0 || *x > 1 || *y < 0 || *y > 1) return std::nullopt;
+  return Eigen::Vector2d(*x, *y);
+}
+
+/// Of one line.
+class RuleParser {
+ public:
+  RuleParser(std::string_view text, int line) : text_(text) { rule_.line = line; }
+
+  /// Nothing when the line is empty.
+  std::optional<FeelRule> parse() {
+    skip_space();
+    if (text_.empty()) return std::nullopt;
+    parse_times();
+    parse_what();
+    if (take("gain")) parse_gain();
+    if (!text_.empty()) {
+      wrong(rule_.line, quote(text_) + " follows the rule; only gain G can, as in gain 1.5");
+    }
+    return rule_;
+  }
+
+ private:
+  void skip_space() {
+    while (!text_.empty() && (text_.front() == ' ' || text_.front() == '\t')) {
+      text_.remove_prefix(1);
+    }
+  }
+  std::string_view word() const {
+    size_t n = 0;
+    while (n < text_.size() && text_[n] != ' ' && text_[n] != '\t') ++n;
+    return text_.substr(0, n);
+  }
+  bool take(std::string_view expected) {
+    if (word() != expected) return false;
+    text_.remove_prefix(expected.size());
+    skip_space();
+    return true;
+  }
+  /// All up to the next word that begins with a letter, without spaces.
+  std::string take_numbers() {
+    std::string numbers;
+    while (!text_.empty() && !is_letter(text_.front())) {
+      const std::string_view next = word();
+      numbers += next;
+      text_.remove_prefix(next.size());
+      skip_space();
+    }
+    return numbers;
+  }
+
+  int64_t time(std::string_view text) const {
+    const std::optional<int64_t> ns = time_ns(text);
+    if (!ns) wrong(rule_.line, quote(text) + " is no time such as 12.5, 0:12 or 1:02:03");
+    return *ns;
+  }
+  void parse_times() {
+    const std::string times = take_numbers();
+    if (times.empty()) return;
+    const size_t dash = times.find('-');
+    if (dash == std::string::npos) {
+      wrong(rule_.line, quote(times) + " has no end: FROM-TO, or FROM- up to the end of the film");
+    }
+    rule_.from_ns = time(times.substr(0, dash));
+    if (dash + 1 < times.size()) rule_.to_ns = time(times.substr(dash + 1));
+    if (rule_.to_ns <= rule_.from_ns) wrong(rule_.line, quote(times) + " ends before it begins");
+  }
+
+  Eigen::Vector2d parse_place() {
+    const std::string text = take_numbers();
+    const std::optional<Eigen::Vector2d> place = place_of(text.empty() ? word() : text);
+    if (!place) {
+      wrong(rule_.line, quote(text.empty() ? text_ : text) +
+                            " is no place such as 0.31,0.62: shares, from 0 to 1, of the picture's "
+                            "width and height, from its top left corner");
+    }
+    return *place;
+  }
+  void parse_region() {
+    const Eigen::Vector2d a = parse_place();
+    if (!take("to")) wrong(rule_.line, "a region is region X,Y to X,Y, from corner to corner");
+    const Eigen::Vector2d b = parse_place();
+    rule_.place = a.cwiseMin(b);
+    rule_.far_corner = a.cwiseMax(b);
+    if ((rule_.far_corner.array() <= rule_.place.array()).any()) {
+      wrong(rule_.line, "the region is empty: its corners are opposite ones");
+    }
+  }
+  void parse_what() {
+    for (const Direction& direction : kDirections) {
+      if (!take(direction.word)) continue;
+      rule_.kind = FeelKind::kFurthest;
+      rule_.direction << direction.x, direction.y;
+      return;
+    }
+    if (take("object")) {
+      if (!take("at")) wrong(rule_.line, "an object is object at X,Y, as in object at 0.31,0.62");
+      rule_.kind = FeelKind::kObjectAt;
+      rule_.place = parse_place();
+    } else if (take("region")) {
+      rule_.kind = FeelKind::kRegion;
+      parse_region();
+    } else if (take("largest")) {
+      rule_.kind = FeelKind::kLargest;
+    } else if (take("camera")) {
+      rule_.kind = FeelKind::kCamera;
+    } else if (take("nothing")) {
+      rule_.kind = FeelKind::kNothing;
+    } else if (text_.empty()) {
+      wrong(rule_.line, std::string("what is felt is missing, one of: ") + kAllWords);
+    } else {
+      wrong(rule_.line, quote(word()) + " is none of: " + kAllWords);
+    }
+  }
+  void parse_gain() {
+    const std::optional<double> gain = number(word());
+    if (!gain || *gain < 0 || *gain > kMostGain) {
+      wrong(rule_.line, quote(word()) + " is no gain from 0 to 10");
+    }
+    rule_.gain = *gain;
+    text_.remove_prefix(word().size());
+    skip_space();
+  }
+
+  std::string_view text_;
+  FeelRule rule_;
+};
+
+std::string number_text(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr};
+}
+
+std::string text_of(const FeelRule& rule) {
+  std::string text;
+  if (rule.from_ns != 0 || rule.to_ns != FeelRule::kNoEnd) {
+    text = time_text(rule.from_ns) + "-";
+    text += (rule.to_ns == FeelRule::kNoEnd ? "" : time_text(rule.to_ns)) + " ";
+  }
+  switch (rule.kind) {
+    case FeelKind::kObjectAt:
+      text += "object at " + place_text(rule.place);
+      break;
+    case FeelKind::kLargest:
+      text += "largest";
+      break;
+    case FeelKind::kFurthest:
+      for (const Direction& direction : kDirections)
+        if (rule.direction == Eigen::Vector2d(direction.x, direction.y)) text += direction.word;
+      break;
+    case FeelKind::kRegion:
+      text += "region " + place_text(rule.place) + " to " + place_text(rule.far_corner);
+      break;
+    case FeelKind::kCamera:
+      text += "camera";
+      break;
+    case FeelKind::kNothing:
+      text += "nothing";
+      break;
+  }
+  return rule.gain == 1 ? text : text + " gain " + number_text(rule.gain);
+}
+
+}  // namespace
+
+FeelRules::FeelRules(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+    text.remove_prefix(kByteOrderMark.size());
+  }
+  // Of rules in one line, as in a property, each counts as a line.
+  const bool counts_rules = text.find('\n') == std::string_view::npos;
+  for (int line = 1; !text.empty();) {
+    const size_t end = text.find_first_of("\n;");
+    std::string_view one = text.substr(0, end);
+    // A semicolon in a remark ends nothing.
+    if (one.find('#') != std::string_view::npos) one = text.substr(0, text.find('\n'));
+    const int this_line = line;
+    line += counts_rules || text.substr(one.size(), 1) == "\n";
+    text.remove_prefix(std::min(text.size(), one.size() + 1));
+    one = one.substr(0, one.find('#'));
+    while (!one.empty() && one.back() == '\r') one.remove_suffix(1);
+    const std::optional<FeelRule> rule = RuleParser(one, this_line).parse();
+    if (!rule) continue;
+    if (!rules_.empty() && rule->from_ns < rules_.back().to_ns) {
+      const FeelRule& before = rules_.back();
+      const std::string its_end =
+          before.to_ns == FeelRule::kNoEnd ? "never does" : "does so at " + time_text(before.to_ns);
+      wrong(this_line, "it begins at " + time_text(rule->from_ns) + ", before line " +
+                           std::to_string(before.line) + " ends, which " + its_end);
+    }
+    rules_.push_back(*rule);
+  }
+  if (rules_.empty()) wrong(1, std::string("there is no rule, which is one of: ") + kAllWords);
+}
+
+const FeelRule* FeelRules::at(int64_t stream_ns) const {
+  const auto next =
+      std::upper_bound(rules_.begin(), rules_.end(), stream_ns,
+                       [](int64_t ns, const FeelRule& rule) { return ns < rule.from_ns; });
+  if (next == rules_.begin()) return nullptr;
+  const FeelRule& rule = *(next - 1);
+  return stream_ns < rule.to_ns ? &rule : nullptr;
+}
+
+std::string FeelRules::text() const {
+  std::string text;
+  for (const FeelRule& rule : rules_) text += (text.empty() ? "" : "; ") + text_of(rule);
+  return text;
+}
+
+std::string time_text(int64_t ns) {
+  constexpr int64_t kSecond = 1'000'000'000;
+  const auto seconds = static_cast<long long>(ns / kSecond);
+  char text[40];
+  if (seconds >= 3600) {
+    std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", seconds / 3600, seconds / 60 % 60,
+                  seconds % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%lld:%02lld", seconds / 60, seconds % 60);
+  }
+  std::string result = text;
+  if (ns % kSecond == 0) return result;
+  std::snprintf(text, sizeof text, ".%09lld", static_cast<long long>(ns % kSecond));
+  result += text;
+  return result.substr(0, result.find_last_not_of('0') + 1);
+}
+
+std::string place_text(const Eigen::Vector2d& place) {
+  return number_text(place.x()) + "," + number_text(place.y());
+}
+
+}  // namespace spidar

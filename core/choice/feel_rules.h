@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What is felt of a film, and when, in the words of a person.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace spidar {
+
+enum class FeelKind { kObjectAt, kLargest, kFurthest, kRegion, kCamera, kNothing };
+
+/// One line. Places go from (0, 0), the top left corner of the picture as it is shown, to (1, 1).
+struct FeelRule {
+  static constexpr int64_t kNoEnd = std::numeric_limits<int64_t>::max();
+
+  int line = 0;  ///< in the text, from 1 on
+  int64_t from_ns = 0;
+  int64_t to_ns = kNoEnd;
+  FeelKind kind = FeelKind::kNothing;
+  /// kObjectAt: where the object is at `from_ns`. kRegion: the corner that is nearer to (0, 0).
+  Eigen::Vector2d place{0, 0};
+  Eigen::Vector2d far_corner{1, 1};  ///< kRegion
+  Eigen::Vector2d direction{0, 0};   ///< kFurthest: of length 1
+  double gain = 1;                   ///< of force and torque, 0 … 10
+
+  bool is_about_objects() const { return kind != FeelKind::kCamera && kind != FeelKind::kNothing; }
+};
+
+/// Begins with "line 3: " and is a sentence without a full stop.
+class FeelRulesError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Ordered by time; outside of all of them, what `motion` says is felt.
+class FeelRules {
+ public:
+  /// A rule is a line, or ends with a semicolon; what follows a # is a remark:
+  ///
+  ///     [FROM-[TO]] WHAT [gain G]
+  ///
+  /// Times are of the film, as 12.5, 0:12 or 1:02:03; without them, all of it is meant. WHAT is one
+  /// of: object at X,Y; largest; leftmost; rightmost; topmost; bottommost; region X,Y to X,Y;
+  /// camera; nothing. Throws FeelRulesError, also when there is no rule.
+  explicit FeelRules(std::string_view text);
+
+  const std::vector<FeelRule>& rules() const { return rules_; }
+  /// The rule of this moment; null when there is none.
+  const FeelRule* at(int64_t stream_ns) const;
+  /// The same rules in one form for every way to type them, in one line.
+  std::string text() const;
+
+ private:
+  std::vector<FeelRule> rules_;
+};
+
+/// "0:12" or "1:02:03.5", as rules have it.
+std::string time_text(int64_t ns);
+/// "0.31,0.62".
+std::string place_text(const Eigen::Vector2d& place);
+
+}  // namespace spidar

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The rules of what is felt, beside a film or from anywhere else.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/choice/feel_rules.h"
+
+namespace spidar {
+
+/// What is appended to the name of a film.
+constexpr const char* kFeelEnd = ".feel";
+
+/// FILM with `.feel`, else the same without the extension of FILM: the first of them that is there;
+/// empty when none is.
+std::string find_feel(const std::string& film);
+
+struct NamedRules {
+  std::shared_ptr<const FeelRules> rules;  ///< null: there are none
+  std::string name;                        ///< "feel", or the path of the file
+};
+
+/// What the property `feel` means: the path of a file, which ends in `.feel`; "auto" for the one
+/// beside the file `film`, if there is one; else the rules themselves. Throws std::runtime_error
+/// with a sentence that begins with the name.
+NamedRules read_feel(const std::string& feel, const std::string& film);
+
+}  // namespace spidar

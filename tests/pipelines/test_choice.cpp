@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What a person chooses in a player: by the mouse in its window, and by rules.
+#include <array>
+#include <string>
+#include <vector>
+
+#include <gst/check/gstharness.h>
+#include <gst/video/navigation.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/element_harness.h"
+#include "tests/support/moving_scene.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test::choice_test {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kWidth = 480, kHeight = 270;
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+constexpr double kFrame_s = 0.04;
+/// Frames until an object is known.
+constexpr int kKnown = 4;
+/// What a person asks for.
+constexpr double kMostFrames = 0.95;
+
+/// Three discs that go straight ahead, in px from the middle of the frame.
+constexpr int kDiscs = 3;
+const std::array<Vector2d, kDiscs> kStart_px = {Vector2d(-180, -80), Vector2d(160, -90),
+                                                Vector2d(60, 85)};
+const std::array<Vector2d, kDiscs> kStep_px = {Vector2d(3, 0), Vector2d(0, 3), Vector2d(-3, 0)};
+
+/// A film before whatever stands between the element and the window.
+class Film {
+ public:
+  explicit Film(const std::string& properties, const std::string& behind = "") {
+    init_gstreamer();
+    const std::string line = "spidarmotion name=motion device=none " + properties + behind;
+    harness_ = gst_harness_new_parse(line.c_str());
+    bus_ = gst_bus_new();
+    gst_element_set_bus(harness_->element, bus_);
+    gst_harness_set_src_caps(harness_, make_caps("GRAY8", kWidth, kHeight));
+    scene_.plain_background();
+    for (int i = 0; i < kDiscs; ++i) scene_.add_disc(28);
+  }
+  ~Film() {
+    gst_harness_teardown(harness_);
+    gst_bus_set_flushing(bus_, TRUE);
+    gst_object_unref(bus_);
+  }
+  Film(const Film&) = delete;
+  Film& operator=(const Film&) = delete;
+
+  GstHarness* harness() const { return harness_; }
+  static Vector2d disc_px(int disc, int n) {
+    const auto i = static_cast<size_t>(disc);
+    return kStart_px[i] + n * kStep_px[i];
+  }
+  /// Of the next frame: from (0, 0) to (1, 1).
+  Vector2d disc_place(int disc) const {
+    const Vector2d at_px = disc_px(disc, frames_);
+    return {0.5 + at_px.x() / kWidth, 0.5 + at_px.y() / kHeight};
+  }
+
+  void next() {
+    std::vector<Placement> places;
+    for (int i = 0; i < kDiscs; ++i) places.push_back({disc_px(i, frames_)});
+    const ImageView picture = scene_.draw({}, places);
+    GstBuffer* const frame = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
+    for (int y = 0; y < kHeight; ++y) {
+      gst_buffer_fill(frame, static_cast<gsize>(y) * kWidth, picture.at(0, y), kWidth);
+    }
+    GST_BUFFER_PTS(frame) = static_cast<GstClockTime>(frames_++) * kFrame;
+    GST_BUFFER_DURATION(frame) = kFrame;
+    ASSERT_EQ(gst_harness_push(harness_, frame), GST_FLOW_OK);
+    drain();
+  }
+  void play_to(int frame) {
+    while (frames_ < frame) next();
+  }
+  void set(const char* property, const std::string& value) {
+    GstElement* const motion = gst_bin_get_by_name(GST_BIN(harness_->element), "motion");
+    gst_util_set_object_arg(G_OBJECT(motion), property, value.c_str());
+    gst_object_unref(motion);
+  }
+
+  /// The disc whose motion is nearest to the one that is felt.
+  int felt() const {
+    int nearest = 0;
+    for (int i = 1; i < kDiscs; ++i)
+      if (off_px_s(i) < off_px_s(nearest)) nearest = i;
+    return nearest;
+  }
+  double off_px_s(int disc) const {
+    return (velocity_px_s_ - kStep_px[static_cast<size_t>(disc)] / kFrame_s).norm();
+  }
+
+  Vector2d velocity_px_s_{0, 0};
+  guint object_ = 0;  ///< 0: not one alone
+  std::vector<std::string> warnings_, notes_;
+
+ private:
+  void drain() {
+    while (GstMessage* const message = gst_bus_pop(bus_)) {
+      GError* error = nullptr;
+      if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ELEMENT) {
+        const GstStructure* const s = gst_message_get_structure(message);
+        gst_structure_get(s, "velocity-x", G_TYPE_DOUBLE, &velocity_px_s_.x(), "velocity-y",
+                          G_TYPE_DOUBLE, &velocity_px_s_.y(), "object", G_TYPE_UINT, &object_,
+                          nullptr);
+      } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING) {
+        gst_message_parse_warning(message, &error, nullptr);
+        warnings_.emplace_back(error->message);
+      } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_INFO) {
+        gst_message_parse_info(message, &error, nullptr);
+        notes_.emplace_back(error->message);
+      }
+      g_clear_error(&error);
+      gst_message_unref(message);
+    }
+  }
+
+  MovingScene scene_{kWidth, kHeight};
+  GstHarness* harness_ = nullptr;
+  GstBus* bus_ = nullptr;
+  int frames_ = 0;
+};
+
+/// What a window of half the size sends that shows the picture mirrored.
+constexpr const char* kMirroredWindow =
+    " ! videoscale ! video/x-raw,width=240,height=135,pixel-aspect-ratio=1/1 ! "
+    "videoflip video-direction=horiz";
+
+Vector2d in_window_px(const Vector2d& place) {
+  return {(1 - place.x()) * kWidth / 2, place.y() * kHeight / 2};
+}
+
+void move(const Film& film, const Vector2d& place) {
+  const Vector2d at_px = in_window_px(place);
+  gst_harness_push_upstream_event(
+      film.harness(),
+      gst_navigation_event_new_mouse_move(at_px.x(), at_px.y(), GST_NAVIGATION_MODIFIER_NONE));
+}
+
+void click(const Film& film, const Vector2d& place, gint button = 1) {
+  const Vector2d at_px = in_window_px(place);
+  gst_harness_push_upstream_event(
+      film.harness(), gst_navigation_event_new_mouse_button_press(button, at_px.x(), at_px.y(),
+                                                                  GST_NAVIGATION_MODIFIER_NONE));
+  gst_harness_push_upstream_event(
+      film.harness(), gst_navigation_event_new_mouse_button_release(button, at_px.x(), at_px.y(),
+                                                                    GST_NAVIGATION_MODIFIER_NONE));
+}
+
+TEST(Mouse, OnItsPathOverThreeObjectsEachIsFelt) {
+  Film film("motion=objects pointer=mouse", kMirroredWindow);
+  film.play_to(kKnown);
+  int right = 0;
+  constexpr int kFramesEach = 18;
+  for (const int disc : {0, 1, 2}) {
+    for (int n = 0; n < kFramesEach; ++n) {
+      move(film, film.disc_place(disc));
+      film.next();
+      right += film.felt() == disc;
+    }
+  }
+  EXPECT_GE(right, kMostFrames * 3 * kFramesEach);
+  EXPECT_TRUE(film.warnings_.empty());
+}
+
+TEST(Mouse, AClickKeepsTheObjectAndASecondOneLetsGo) {
+  for (const char* motion : {"motion=objects ", "motion=object "}) {
+    SCOPED_TRACE(motion);
+    Film film(std::string(motion) + "pointer=mouse", kMirroredWindow);
+    film.play_to(10);
+    move(film, film.disc_place(2));
+    click(film, film.disc_place(2));
+    move(film, film.disc_place(0));
+    int right = 0;
+    for (int n = 10; n < 30; ++n) {
+      film.next();
+      // Alone: the others have no share in its motion.
+      right += film.object_ != 0 && film.off_px_s(2) < 0.1 * 75;
+    }
+    EXPECT_GE(right, kMostFrames * 20);
+    const guint kept = film.object_;
+    click(film, film.disc_place(0), 3);
+    film.next();
+    EXPECT_EQ(film.object_, kept) << "another button";
+    click(film, film.disc_place(0));
+    for (int n = 31; n < 40; ++n) {
+      move(film, film.disc_place(0));
+      film.next();
+    }
+    if (std::string(motion) == "motion=objects ") {
+      EXPECT_EQ(film.object_, 0u);
+      EXPECT_EQ(film.felt(), 0);
+    }
+    EXPECT_TRUE(film.warnings_.empty());
+  }
+}
+
+TEST(Mouse, AClickBesideAllObjectsIsToldAndKeepsNone) {
+  Film film("motion=objects pointer=mouse", kMirroredWindow);
+  film.play_to(10);
+  click(film, {0.02, 0.98});
+  film.play_to(30);
+  ASSERT_EQ(film.notes_.size(), 1u);
+  EXPECT_EQ(film.notes_[0], "No object is at 0.02,0.98, where the mouse was clicked.");
+  click(film, film.disc_place(1));
+  film.play_to(32);
+  EXPECT_NE(film.object_, 0u) << "the next click is a first one";
+  EXPECT_EQ(film.felt(), 1);
+}
+
+TEST(Mouse, WhatIsKeptIsLostWhenItLeavesThePicture) {
+  Film film("motion=objects pointer=mouse", kMirroredWindow);
+  film.play_to(10);
+  click(film, film.disc_place(1));
+  // Below the picture after 85 frames. It is expected for half a second, and lost a second later.
+  film.play_to(85 + 13 + 26);
+  ASSERT_EQ(film.notes_.size(), 1u);
+  EXPECT_EQ(film.notes_[0], "The object that was clicked is lost.");
+}
+
+TEST(Mouse, EventsGoOnUpstreamWithTheirPlaceInTheFrame) {
+  for (const char* pointer : {"fixed", "mouse"}) {
+    Film film(std::string("pointer=") + pointer, kMirroredWindow);
+    film.play_to(2);
+    while (GstEvent* const event = gst_harness_try_pull_upstream_event(film.harness()))
+      gst_event_unref(event);
+    click(film, {0.25, 0.5});
+    GstEvent* const event = gst_harness_try_pull_upstream_event(film.harness());
+    ASSERT_NE(event, nullptr);
+    ASSERT_EQ(GST_EVENT_TYPE(event), GST_EVENT_NAVIGATION);
+    gint button = 0;
+    gdouble x = 0, y = 0;
+    EXPECT_TRUE(gst_navigation_event_parse_mouse_button_event(event, &button, &x, &y));
+    // A pixel of the window is two of the frame.
+    EXPECT_NEAR(x, 0.25 * kWidth, 2);
+    EXPECT_NEAR(y, 0.5 * kHeight, 2);
+    gst_event_unref(event);
+  }
+}
+
+std::string object_at(int disc, int n) {
+  const Vector2d at_px = Film::disc_px(disc, n);
+  return "object at " + std::to_string(0.5 + at_px.x() / kWidth) + "," +
+         std::to_string(0.5 + at_px.y() / kHeight);
+}
+
+TEST(Feel, ChoosesLiveByRules) {
+  Film film("feel=\"0-0.8 " + object_at(1, 0) + "; 0.8-1.6 " + object_at(2, 20) + "\"");
+  film.play_to(kKnown);
+  int right = 0;
+  for (int n = kKnown; n < 40; ++n) {
+    film.next();
+    right += film.object_ != 0 && film.felt() == (n < 20 ? 1 : 2);
+  }
+  EXPECT_GE(right, kMostFrames * (40 - kKnown));
+  film.set("feel", "1.6- " + object_at(0, 40));
+  film.play_to(42);
+  EXPECT_EQ(film.felt(), 0) << "set while it plays";
+  film.set("feel", "nothing");
+  film.next();
+  EXPECT_EQ(film.velocity_px_s_, Vector2d(0, 0));
+  EXPECT_TRUE(film.warnings_.empty());
+}
+
+TEST(Feel, MistakesAreNamedOnceAndTheVideoGoesOn) {
+  const std::pair<std::string, std::string> mistakes[] = {
+      {"0-1 camera; 1-2 bigest",
+       "feel, line 2: \"bigest\" is none of: object at X,Y; largest; "
+       "leftmost; rightmost; topmost; bottommost; region X,Y to X,Y; "
+       "camera; nothing."},
+      {"/nowhere/film.feel", "/nowhere/film.feel: there is no such file."},
+      {"0.4- object at 0.02,0.98", "feel, line 1: no object was at 0.02,0.98 at 0:00.4."}};
+  for (const auto& [feel, warning] : mistakes) {
+    SCOPED_TRACE(feel);
+    Film film("feel=\"" + feel + "\"");
+    film.play_to(40);
+    ASSERT_EQ(film.warnings_.size(), 1u);
+    EXPECT_EQ(film.warnings_[0], warning);
+    EXPECT_EQ(gst_harness_buffers_received(film.harness()), 40u);
+  }
+  Film mean("motion=mean feel=largest");
+  mean.play_to(5);
+  ASSERT_EQ(mean.warnings_.size(), 1u);
+  EXPECT_EQ(mean.warnings_[0], "With motion=mean, no objects are known, and feel is not used.");
+}
+
+}  // namespace
+}  // namespace spidar::test::choice_test
