@@ -140,9 +140,10 @@ case ${1-} in
         "GLib and GStreamer are not built with it: their locks are told to it (tests/support/tsan_glib.cpp)," \
         "what they do between themselves it does not see"
     echo "left out of all three: suite films, which takes an hour; suite kernel, a virtual machine that needs QEMU" \
-        "and a kernel image; suite mpeg, which needs MPEG's reference software; suite packages, which builds the" \
-        "Debian packages in a clean Debian; suite players, which needs desktop players; suite soak, which takes an" \
-        "hour; suite validate, which needs gst-validate; suite valgrind. Each by meson test -C build --suite NAME"
+        "and a kernel image; suite library, which installs Slurm and takes ten minutes; suite mpeg, which needs MPEG's" \
+        "reference software; suite packages, which builds the Debian packages in a clean Debian; suite players, which" \
+        "needs desktop players; suite soak, which takes an hour; suite validate, which needs gst-validate; suite" \
+        "valgrind. Each by meson test -C build --suite NAME"
     threaded=(haptic_session shared_memory simulated_faults tick_trace touch_mailbox boards usb_boards force_feedback
         uart_line guardian play_numbers play_traces pipelines_random_operations)
     ! build build-ci-thread "${threaded_targets[@]}" || run_tests build-ci-thread -t 8 "${threaded[@]}"
