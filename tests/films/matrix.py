@@ -188,7 +188,8 @@ def run(options, programs):
         hangs += player.hangs
     table.print()
     for player, count in hangs.items():
-        print(f"{player} hung in {count} plays, which were repeated, or lost its end after all was seen and felt")
+        print(f"{player} hung or showed nothing in {count} plays, which were repeated, or lost its end after all was "
+              "seen and felt")
     if options.whole is None and not options.only and not maker.refused:
         table.look_for_stale()
     print(f"{len(chosen)} films in {time.monotonic() - began:.0f} s, {processor_s():.0f} s of processor time, "
