@@ -90,16 +90,13 @@ static void take_track(GstSpidarMotion* self, const GstVideoInfo& info, spidar::
 
 /// With pointer and choice of this moment, for a frame before it is turned.
 static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self) {
+  const bool has_new_rules = self->choice->is_to_read();
   GST_OBJECT_LOCK(self);
   spidar::AnalyzerSettings settings = self->properties->analyzer;
   const PointerKind pointer = self->properties->pointer;
+  const std::string feel = has_new_rules ? self->properties->feel : "";
   GST_OBJECT_UNLOCK(self);
-  if (self->choice->is_to_read()) {
-    GST_OBJECT_LOCK(self);
-    const std::string feel = self->properties->feel;
-    GST_OBJECT_UNLOCK(self);
-    self->choice->read(feel, GST_BASE_TRANSFORM_SINK_PAD(self));
-  }
+  if (has_new_rules) self->choice->read(feel, GST_BASE_TRANSFORM_SINK_PAD(self));
   if (pointer == PointerKind::kGrip) {
     settings.pointer = self->engine->grip_place().value_or(settings.pointer);
   }

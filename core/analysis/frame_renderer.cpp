@@ -121,12 +121,9 @@ ImageMotion FrameRenderer::motion_of_choice(const MeasuredFrame& frame, const Fi
   if (choice.object) return motion_of(*choice.object);
   if (choice.is_kept || !frame.background) return {};
   if (choice.rule->kind == FeelKind::kRegion) {
-    const auto in_frame_px = [&](const Eigen::Vector2d& place) {
-      const Eigen::Vector2d coded = film.turn.place_coded(place);
-      return Eigen::Vector2d((coded.x() - 0.5) * frame.width, (coded.y() - 0.5) * frame.height);
-    };
-    const Eigen::Vector2d a_px = in_frame_px(choice.rule->place);
-    const Eigen::Vector2d b_px = in_frame_px(choice.rule->far_corner);
+    const FeelRule& region = *choice.rule;
+    const Eigen::Vector2d a_px = film.in_frame_px(region.place, frame.width, frame.height);
+    const Eigen::Vector2d b_px = film.in_frame_px(region.far_corner, frame.width, frame.height);
     return motion_in_box(frame.objects, a_px.cwiseMin(b_px), a_px.cwiseMax(b_px));
   }
   if (choice.rule->kind == FeelKind::kCamera) {

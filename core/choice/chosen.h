@@ -19,6 +19,12 @@ namespace spidar {
 struct FilmPlace {
   int64_t stream_ns = 0;
   PictureTurn turn;
+
+  /// A place of the picture as it is shown, in px from the middle of a frame of this size.
+  Eigen::Vector2d in_frame_px(const Eigen::Vector2d& place, int width, int height) const {
+    const Eigen::Vector2d coded = turn.place_coded(place);
+    return {(coded.x() - 0.5) * width, (coded.y() - 0.5) * height};
+  }
 };
 
 /// An object that is kept because it was clicked.

@@ -9,11 +9,6 @@
 namespace spidar {
 namespace {
 
-Eigen::Vector2d in_frame_px(const Eigen::Vector2d& place, const ChoiceFrame& frame) {
-  const Eigen::Vector2d coded = frame.film.turn.place_coded(place);
-  return {(coded.x() - 0.5) * frame.width, (coded.y() - 0.5) * frame.height};
-}
-
 /// How well an object meets the rule, so that one that does so by 1 more takes the other's place.
 double score(const FeelRule& rule, const MovingObject& object, const ChoiceFrame& frame) {
   if (rule.kind == FeelKind::kLargest) {
@@ -66,7 +61,7 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceFrame& frame, Chose
     missed_ = false;
     const double since_s = static_cast<double>(frame.film.stream_ns - rule.from_ns) * 1e-9;
     seen_from_begin_ = since_s <= FollowedObject::kLook_s;
-    ruled_.begin(in_frame_px(rule.place, frame), since_s);
+    ruled_.begin(frame.film.in_frame_px(rule.place, frame.width, frame.height), since_s);
   }
   if (rule.kind == FeelKind::kLargest || rule.kind == FeelKind::kFurthest) {
     choice.object = best(rule, frame);
@@ -88,7 +83,7 @@ bool ObjectChoice::follow_click(const ChoiceFrame& frame, Chosen& choice) {
   if (kept_.click == 0) return false;
   if (followed_click_ != kept_.click) {
     followed_click_ = kept_.click;
-    clicked_.begin(in_frame_px(kept_.place, frame), 0);
+    clicked_.begin(frame.film.in_frame_px(kept_.place, frame.width, frame.height), 0);
   }
   const MovingObject* const object =
       clicked_.see(frame.objects, frame.height, frame.interval_s, frame.background);

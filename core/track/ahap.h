@@ -16,7 +16,7 @@ namespace spidar {
 /// Magnitudes beyond the full scale are clipped, and NaN becomes 0.
 ///
 /// Source: Apple, "Representing haptic patterns in AHAP files", and CHHapticEvent.duration: an
-/// event lasts 30 s at most. That only 16 points of a curve are used is reported by its users.
+/// event lasts 30 s at most. Users report that only the first 16 points of a curve are used.
 std::string write_ahap(const std::vector<TrackSample>& samples, double tolerance = 0.02);
 
 }  // namespace spidar

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "plugin/track/beside_film.h"
+
 namespace spidar {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Far more than a person writes.
 constexpr uintmax_t kLargest_bytes = 1 << 20;
@@ -21,33 +21,27 @@ bool is_path(const std::string& feel) {
 }
 
 std::string read_rules_text(const std::string& path) {
+  std::ifstream file;
+  try {
+    file = open_regular_file(path);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
   std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  if (!fs::exists(status)) throw std::runtime_error(path + ": there is no such file");
-  if (!fs::is_regular_file(status)) throw std::runtime_error(path + ": it is not a regular file");
-  if (fs::file_size(path, ignored) > kLargest_bytes) {
+  if (std::filesystem::file_size(path, ignored) > kLargest_bytes) {
     throw std::runtime_error(path + ": it has more than a megabyte, and is no file of rules");
   }
-  std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad()) throw std::runtime_error(path + ": it cannot be read");
+  if (file.bad()) throw std::runtime_error(path + ": it cannot be read");
   return text;
 }
 
 }  // namespace
 
-std::string find_feel(const std::string& film) {
-  if (film.empty()) return {};
-  for (const fs::path& name : {fs::path(film), fs::path(film).replace_extension()}) {
-    const std::string path = name.string() + kFeelEnd;
-    std::error_code ignored;
-    if (fs::exists(path, ignored)) return path;
-  }
-  return {};
-}
-
 NamedRules read_feel(const std::string& feel, const std::string& film) {
-  const std::string path = feel == "auto" ? find_feel(film) : is_path(feel) ? feel : "";
+  const std::string path = feel == "auto"  ? find_beside(film, {kFeelEnd})
+                           : is_path(feel) ? feel
+                                           : "";
   if (feel.empty() || (feel == "auto" && path.empty())) return {};
   const std::string name = path.empty() ? "feel" : path;
   const std::string text = path.empty() ? feel : read_rules_text(path);

@@ -13,10 +13,6 @@ namespace spidar {
 /// What is appended to the name of a film.
 constexpr const char* kFeelEnd = ".feel";
 
-/// FILM with `.feel`, else the same without the extension of FILM: the first of them that is there;
-/// empty when none is.
-std::string find_feel(const std::string& film);
-
 struct NamedRules {
   std::shared_ptr<const FeelRules> rules;  ///< null: there are none
   std::string name;                        ///< "feel", or the path of the file

@@ -109,8 +109,7 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
           ("%s, line %d: the object is lost at %s.", name, rule.line,
            time_text(static_cast<int64_t>(seen_ / GST_MSECOND * GST_MSECOND)).c_str()),
           ("It was hidden for too long, or the scene is another. Nothing is felt %s, unless "
-           "another "
-           "rule begins where it is seen again.",
+           "another rule begins where it is seen again.",
            end.c_str()));
       break;
     case ChoiceState::kGood:

@@ -39,8 +39,7 @@ std::vector<MotionRow> feel_rows() {
           {"feel", "Feel",
            "What is felt when, instead of what 'motion' says: a file whose name ends in .feel, "
            "'auto' for the one beside the film (FILM.mp4.feel), or rules themselves, with "
-           "semicolons "
-           "between them: '0:00-0:12 object at 0.31,0.62; 0:12-0:20 camera gain 0.5'"},
+           "semicolons between them: '0:00-0:12 object at 0.31,0.62; 0:12-0:20 camera gain 0.5'"},
           kPlaying, KEPT_IN(feel)),
       MotionRow::choice<PointerKind>(
           {"pointer", "Pointer", "Which position weights the objects of motion=objects"},

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/conversion_loss.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "plugin/tools/track_summary.h"
@@ -18,22 +17,56 @@ std::string rounded(double value) {
   return shown(std::round(value / step) * step);
 }
 
-/// Of all channels but `axis` that contain something.
-std::string other_channels(const TrackSummary& summary, size_t axis) {
-  std::string text;
+bool is_force(size_t channel) {
+  return channel < kTrackChannels / 2;
+}
+
+double full_scale(size_t channel) {
+  return is_force(channel) ? kTrackForceScale_N : kTrackTorqueScale_Nm;
+}
+
+/// All channels but `axis` that contain something.
+std::vector<std::string> other_channels(const TrackSummary& summary, size_t axis) {
+  std::vector<std::string> others;
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const double peak = summary.channels[i].peak;
     if (i == axis || peak == 0) continue;
-    const bool is_force = i < kTrackChannels / 2;
-    text += std::string(channel_name(i)) + " up to " +
-            rounded(peak * (is_force ? kTrackForceScale_N : kTrackTorqueScale_Nm)) +
-            (is_force ? " N, " : " N m, ");
+    others.push_back(std::string(channel_name(i)) + " up to " + rounded(peak * full_scale(i)) +
+                     (is_force(i) ? " N" : " N m"));
   }
-  return text;
+  return others;
 }
 
-std::string clipped(double peak) {
-  return peak > 1 ? ", what is beyond the full scale" : "";
+std::string line_of(const std::vector<std::string>& lost) {
+  std::string line;
+  for (const std::string& part : lost) line += (line.empty() ? "lost: " : ", ") + part;
+  return line.empty() ? "" : line + '\n';
+}
+
+constexpr const char* kClipped = "what is beyond the full scale";
+
+std::string lost_in_ahap(const TrackSummary& summary) {
+  std::vector<std::string> lost = {"the direction of the force"};
+  if (summary.largest_torque_Nm > 0) {
+    lost.push_back("torque up to " + rounded(summary.largest_torque_Nm) + " N m");
+  }
+  if (summary.largest_force_N > kTrackForceScale_N) lost.emplace_back(kClipped);
+  return line_of(lost);
+}
+
+std::string lost_in_funscript(const TrackSummary& summary, size_t axis) {
+  constexpr int kSteps = 50;  // on each side of the middle
+  std::vector<std::string> lost = other_channels(summary, axis);
+  lost.push_back("steps of " + std::string(channel_name(axis)) + " below " +
+                 shown(full_scale(axis) / kSteps) + (is_force(axis) ? " N" : " N m"));
+  if (summary.channels[axis].peak > 1) lost.emplace_back(kClipped);
+  return line_of(lost);
+}
+
+std::string lost_on_a_shaker(const TrackSummary& summary, size_t axis) {
+  return line_of(other_channels(summary, axis)) +
+         rounded(100 * summary.channels[axis].above_30_Hz) + " % of the power of " +
+         channel_name(axis) + " is above 30 Hz; a shaker plays little of what is below\n";
 }
 
 }  // namespace
@@ -41,27 +74,9 @@ std::string clipped(double peak) {
 std::string lost_in(const std::string& path, const std::vector<TrackSample>& samples,
                     const SaveOptions& options) {
   const TrackSummary summary = summarise(samples);
-  const ChannelSummary& channel = summary.channels[options.axis];
-  const std::string axis = channel_name(options.axis);
-  if (ends_with(path, ".ahap")) {
-    const std::string torque = summary.largest_torque_Nm > 0
-                                   ? ", torque up to " + rounded(summary.largest_torque_Nm) + " N m"
-                                   : "";
-    return "lost: the direction of the force" + torque +
-           clipped(summary.largest_force_N / kTrackForceScale_N) + '\n';
-  }
-  if (ends_with(path, ".funscript")) {
-    const bool is_force = options.axis < kTrackChannels / 2;
-    const double step = (is_force ? kTrackForceScale_N : kTrackTorqueScale_Nm) / 50;
-    return "lost: " + other_channels(summary, options.axis) + "steps of " + axis + " below " +
-           shown(step) + (is_force ? " N" : " N m") + clipped(channel.peak) + '\n';
-  }
-  if (options.rate_Hz > 0) {
-    return "lost: " + other_channels(summary, options.axis) +
-           "on a shaker also what is slow: " + rounded(100 * channel.above_30_Hz) +
-           " % of the power of " + axis + " is above 30 Hz\n";
-  }
-  return {};
+  if (ends_with(path, ".ahap")) return lost_in_ahap(summary);
+  if (ends_with(path, ".funscript")) return lost_in_funscript(summary, options.axis);
+  return options.rate_Hz > 0 ? lost_on_a_shaker(summary, options.axis) : "";
 }
 
 }  // namespace spidar

@@ -10,8 +10,8 @@
 
 namespace spidar {
 
-/// A line that says what save_track() with the same arguments has lost: "lost: fx up to 1.2 N,
-/// steps of fy below 0.2 N". Empty for formats that hold all six channels.
+/// What save_track() with the same arguments has lost, in whole lines: "lost: fx up to 1.2 N, steps
+/// of fy below 0.2 N". Empty for formats that hold all six channels.
 std::string lost_in(const std::string& path, const std::vector<TrackSample>& samples,
                     const SaveOptions& options);
 

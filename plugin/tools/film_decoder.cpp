@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <utility>
 
+#include "plugin/gobject/pads.h"
 #include "plugin/tools/film_end.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
@@ -42,13 +43,7 @@ class Progress {
       self.film_ns_ = -1;  // the container does not tell
       return GST_PAD_PROBE_REMOVE;
     }
-    GstEvent* const event = gst_pad_get_sticky_event(frames, GST_EVENT_SEGMENT, 0);
-    if (!event) return GST_PAD_PROBE_OK;
-    const GstSegment* segment;
-    gst_event_parse_segment(event, &segment);
-    const GstClockTime at = gst_segment_to_stream_time(
-        segment, GST_FORMAT_TIME, GST_BUFFER_PTS(GST_PAD_PROBE_INFO_BUFFER(info)));
-    gst_event_unref(event);
+    const GstClockTime at = stream_time_of(frames, GST_PAD_PROBE_INFO_BUFFER(info));
     if (!GST_CLOCK_TIME_IS_VALID(at)) return GST_PAD_PROBE_OK;
     const int percent = static_cast<int>(100 * at / static_cast<GstClockTime>(self.film_ns_));
     if (percent >= self.told_ + 10 && percent < 100) {

@@ -6,8 +6,16 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "plugin/gobject/pads.h"
+
 namespace spidar {
 namespace {
+
+std::optional<int64_t> stream_ns_of(GstPad* pad, GstBuffer* frame) {
+  const GstClockTime time = stream_time_of(pad, frame);
+  if (!GST_CLOCK_TIME_IS_VALID(time)) return {};
+  return static_cast<int64_t>(time);
+}
 
 /// Much longer than it takes to seek on a slow share.
 constexpr std::chrono::seconds kLongestSeek{60};
@@ -57,8 +65,7 @@ bool FilmPiece::is_empty() const {
 GstPadProbeReturn FilmPiece::comes(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
   auto& self = *static_cast<FilmPiece*>(user);
   if (info->type & GST_PAD_PROBE_TYPE_BUFFER) {
-    if (self.is_wanted(stream_time_of(pad, GST_PAD_PROBE_INFO_BUFFER(info))))
-      return GST_PAD_PROBE_OK;
+    if (self.is_wanted(stream_ns_of(pad, GST_PAD_PROBE_INFO_BUFFER(info)))) return GST_PAD_PROBE_OK;
     self.await_seek(pad);
     return GST_PAD_PROBE_DROP;
   }
@@ -122,7 +129,7 @@ void FilmPiece::seek(GstElement* motion, gpointer user) {
 
 /// Whether no frame after this one is needed.
 bool FilmPiece::is_last(GstPad* pad, GstBuffer* frame) {
-  const std::optional<int64_t> stream_ns = stream_time_of(pad, frame);
+  const std::optional<int64_t> stream_ns = stream_ns_of(pad, frame);
   const std::optional<FoundFrame> found = messages_.take(frame);
   if (!stream_ns) return false;
   const int part = end_->part_of(*stream_ns);

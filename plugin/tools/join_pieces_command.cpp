@@ -60,9 +60,7 @@ std::vector<NamedPiece> list_pieces(const std::vector<std::string>& files) {
 
 /// The file of a film that all pieces are of, by the name of one of them.
 std::string film_of(const NamedPiece& piece) {
-  const MotionPiece& about = piece.second.piece;
-  const std::string end =
-      "." + std::to_string(about.number) + "of" + std::to_string(about.of) + kMotionEnd;
+  const std::string end = motion_end(piece.second.piece);
   if (ends_with(piece.first, end)) return piece.first.substr(0, piece.first.size() - end.size());
   throw UsageError(piece.first + ": the name of the film is not known; the file was called FILM" +
                    end);

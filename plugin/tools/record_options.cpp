@@ -82,10 +82,7 @@ void check_shard(const RecordOptions& options) {
 }  // namespace
 
 fs::path RecordOptions::file_of(const ListedFilm& film) const {
-  std::string end = purpose == Purpose::kAnalyze ? kMotionEnd : ".haptic." + format;
-  if (piece.of > 0) {
-    end = "." + std::to_string(piece.number) + "of" + std::to_string(piece.of) + kMotionEnd;
-  }
+  const std::string end = makes_tracks() ? ".haptic." + format : motion_end(piece);
   const fs::path file = film.path + end;
   return folder.empty() ? file : fs::path(folder) / film.subfolder / file.filename();
 }

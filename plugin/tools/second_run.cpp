@@ -23,20 +23,6 @@ GstElement* add_motion(GstElement* pipeline, const RecordProperties& properties)
 
 }  // namespace
 
-std::optional<int64_t> stream_time_of(GstPad* pad, GstBuffer* frame) {
-  GstEvent* const event = gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0);
-  if (!event) return {};
-  const GstSegment* segment = nullptr;
-  gst_event_parse_segment(event, &segment);
-  const guint64 time =
-      segment->format == GST_FORMAT_TIME
-          ? gst_segment_to_stream_time(segment, GST_FORMAT_TIME, GST_BUFFER_PTS(frame))
-          : GST_CLOCK_TIME_NONE;
-  gst_event_unref(event);
-  if (!GST_CLOCK_TIME_IS_VALID(time)) return {};
-  return static_cast<int64_t>(time);
-}
-
 void RunMessages::listen(GstElement* pipeline, GstElement* motion) {
   motion_ = motion;
   g_object_set(motion, "post-messages", TRUE, nullptr);

@@ -3,7 +3,6 @@
 /// What another run finds in the same frames.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -62,8 +61,5 @@ class SecondRun {
   RunMessages messages_;
   std::optional<FoundFrame> found_;
 };
-
-/// Stream time of a buffer; nothing when it has none.
-std::optional<int64_t> stream_time_of(GstPad* pad, GstBuffer* frame);
 
 }  // namespace spidar

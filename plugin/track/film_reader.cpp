@@ -10,6 +10,7 @@
 
 #include <gst/gst.h>
 
+#include "plugin/gobject/pads.h"
 #include "plugin/track/file_pipeline.h"
 #include "plugin/track/film_streams.h"
 #include "plugin/track/packet_hash.h"
@@ -139,7 +140,7 @@ class FilmReader {
   void take(GstBuffer* packet, GstPad* pad) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (part_ == Part::kNone) return;
-    const GstClockTime time = stream_time(packet, pad);
+    const GstClockTime time = stream_time_of(pad, packet);
     if (GST_CLOCK_TIME_IS_VALID(time)) take_time(static_cast<int64_t>(time), packet);
     bytes_ += gst_buffer_get_size(packet);
     if (part_ == Part::kStart) take_picture(packet, GST_CLOCK_TIME_IS_VALID(time) ? time : 0);
@@ -158,19 +159,6 @@ class FilmReader {
     film_.packets.push_back(
         {hash_packet(map.data, map.size, framing_), map.size, static_cast<int64_t>(time)});
     gst_buffer_unmap(packet, &map);
-  }
-
-  static GstClockTime stream_time(GstBuffer* packet, GstPad* pad) {
-    GstEvent* event = gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0);
-    if (!event) return GST_CLOCK_TIME_NONE;
-    const GstSegment* segment = nullptr;
-    gst_event_parse_segment(event, &segment);
-    const GstClockTime time =
-        segment->format == GST_FORMAT_TIME && GST_BUFFER_PTS_IS_VALID(packet)
-            ? gst_segment_to_stream_time(segment, GST_FORMAT_TIME, GST_BUFFER_PTS(packet))
-            : GST_CLOCK_TIME_NONE;
-    gst_event_unref(event);
-    return time;
   }
 
   void take_time(int64_t time_ns, GstBuffer* packet) {

@@ -12,8 +12,10 @@ namespace spidar {
 /// What is appended to the name of a film.
 constexpr const char* kMotionEnd = ".motion";
 
-/// FILM with `.motion`, else the same without the extension of FILM: the first of them that is
-/// there; empty when none is.
+/// The same for a piece: ".2of5.motion".
+std::string motion_end(const MotionPiece& piece);
+
+/// `.motion` beside the film, see find_beside().
 std::string find_analysis(const std::string& film);
 
 /// Throws std::runtime_error, which says what is wrong, when `path` is not a regular file or cannot

@@ -3,8 +3,9 @@
 #include "plugin/track/sidecar.h"
 
 #include <cstdlib>
-#include <filesystem>
 #include <optional>
+
+#include "plugin/track/beside_film.h"
 
 namespace spidar {
 namespace {
@@ -40,15 +41,7 @@ std::string film_of(GstPad* pad) {
 }
 
 std::string find_sidecar(const std::string& film) {
-  if (film.empty()) return {};
-  const std::string stem = std::filesystem::path(film).replace_extension().string();
-  for (const std::string& name : {film, stem}) {
-    for (const char* end : {".haptic.flac", ".haptic.mka", ".haptic.wav"}) {
-      std::error_code ignored;
-      if (std::filesystem::exists(name + end, ignored)) return name + end;
-    }
-  }
-  return {};
+  return find_beside(film, {".haptic.flac", ".haptic.mka", ".haptic.wav"});
 }
 
 FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {

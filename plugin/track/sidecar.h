@@ -15,9 +15,7 @@ namespace spidar {
 /// Path of the film that comes to `pad` (GST_QUERY_URI upstream); empty when it is not from a file.
 std::string film_of(GstPad* pad);
 
-/// FILM with `.haptic.flac`, `.haptic.mka` or `.haptic.wav`, else the same without the extension of
-/// FILM: the first of them that is there; empty when none is. The whole name comes first because
-/// films may differ in nothing else.
+/// `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside().
 std::string find_sidecar(const std::string& film);
 
 /// Why a file is not that of a film with other pictures.

@@ -79,12 +79,10 @@ TEST(FeelRules, HaveOneFormInWhichTheyCanBeReadAgain) {
 TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
   const std::string all =
       "object at X,Y; largest; leftmost; rightmost; topmost; bottommost; region X,Y to X,Y; "
-      "camera; "
-      "nothing";
+      "camera; nothing";
   const std::string no_place =
       " is no place such as 0.31,0.62: shares, from 0 to 1, of the picture's width and height, "
-      "from "
-      "its top left corner";
+      "from its top left corner";
   const std::vector<std::pair<std::string, std::string>> mistakes = {
       {"", "line 1: there is no rule, which is one of: " + all},
       {"# nothing yet\n", "line 1: there is no rule, which is one of: " + all},
