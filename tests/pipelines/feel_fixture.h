@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -79,10 +80,19 @@ class Feel : public testing::Test {
                                        const std::string& shown = film) const {
     return joined(felt(), player(steps, playbin, shown));
   }
-  static CommandResult run_all(const std::vector<std::string>& arguments) {
+  /// Runs a command. A player that gets no processor time for 50 ms is set to rest by its guardian
+  /// and opens the device once more: on a machine that is so busy, the command runs again, up to
+  /// three times in all. opened() counts what the last of them has opened.
+  CommandResult run_all(const std::vector<std::string>& arguments) {
     std::string command;
     for (const std::string& argument : arguments) command += "'" + argument + "' ";
-    return run(command);
+    for (int runs = 1;; ++runs) {
+      const size_t before = bus().files_opened;
+      CommandResult outcome = run(command);
+      if (runs == 3 || outcome.text.find("guardian") == std::string::npos) return outcome;
+      std::cout << "This machine is busy, so this runs again: " << outcome.text;
+      opened_before_ += bus().files_opened - before;
+    }
   }
 
   /// According to the trace, the film was felt, and from 60 ms after each pause nothing was.
@@ -119,7 +129,7 @@ class Feel : public testing::Test {
   inline static std::string film, short_film;
 
  private:
-  const size_t opened_before_ = bus().files_opened;
+  size_t opened_before_ = bus().files_opened;
 };
 
 #ifdef EMULATED_BUS_LIBRARY

@@ -21,8 +21,9 @@ class FeelDecoders : public Feel {
     Feel::SetUpTestSuite();
     very_short_film = make_film("very_short.avi", kFrames);
   }
+
   /// What a player shows by itself.
-  static std::string shown_alone() {
+  std::string shown_alone() {
     const CommandResult outcome = run_all(player({"play", "end"}, "uridecodebin", very_short_film));
     EXPECT_EQ(outcome.text.find(std::to_string(kFrames) + " frames, "), 0u) << outcome.text;
     return outcome.text;
@@ -161,13 +162,13 @@ TEST_F(FeelDecoders, PlayWithoutADeviceWhenNoneCanBeOpened) {
 
 TEST_F(FeelDecoders, OfGstLaunchAreFelt) {
   UsbPort& port = plug(0, UsbKind::kSh4);
-  const std::string uri = "uri=file://" + very_short_film;
+  const std::string uri = "uri=file://" + short_film;
   for (const std::string& source :
        {"uridecodebin " + uri, "uridecodebin3 " + uri,
-        "filesrc location=" + very_short_film + " ! decodebin",
-        "filesrc location=" + very_short_film + " ! decodebin3",
+        "filesrc location=" + short_film + " ! decodebin",
+        "filesrc location=" + short_film + " ! decodebin3",
         // Its pad appears while the pipeline plays.
-        std::string("videotestsrc is-live=true horizontal-speed=2 num-buffers=15 ! "
+        std::string("videotestsrc is-live=true horizontal-speed=2 num-buffers=50 ! "
                     "video/x-raw,width=160,height=120,framerate=25/1 ! jpegenc ! decodebin")}) {
     SCOPED_TRACE(source);
     ChildProcess child(
