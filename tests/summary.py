@@ -5,7 +5,8 @@
 reasons, and as its last line `N passed, N failed, N skipped`. Exits with an error when a test failed.
 
 `--failed WHAT` counts a check that is not a meson test and failed, `--passed WHAT` one that passed.
-`--log NAME` reads what `meson test --logbase NAME` wrote."""
+`--log NAME` reads what `meson test --logbase NAME` wrote. What the log NAME-alone has, if there is
+one, counts instead: tests that ran again. `--list-failed` prints the names of the test programs that failed, and nothing else."""
 
 import argparse
 import json
@@ -41,13 +42,23 @@ def gtest_cases(log):
     return cases
 
 
-def results_of(log):
-    """Yields (name, result, reason) for all in a log of meson's, LOG.json and LOG.junit.xml."""
-    cases_of = gtest_cases(log)
+def runs_of(log):
+    """What meson says of each test program, by its name."""
     with open(f"{log}.json", encoding="utf-8") as lines:
         runs = [json.loads(line) for line in lines]
-    for run in runs:
-        program = run["name"].split(" / ")[-1]
+    return {run["name"].split(" / ")[-1]: run for run in runs}
+
+
+def has_failed(run):
+    return run["result"] not in ("OK", "EXPECTEDFAIL", "SKIP")
+
+
+def results_of(log, without=()):
+    """Yields (name, result, reason) for all in a log of meson's, LOG.json and LOG.junit.xml."""
+    cases_of = gtest_cases(log)
+    for program, run in runs_of(log).items():
+        if program in without:
+            continue
         failed = False
         for case in cases_of.get(program, []):
             result, reason = case_result(case)
@@ -56,11 +67,23 @@ def results_of(log):
         # A program without cases, or one that failed though its cases passed: by a leak, for instance.
         if run["result"] == "SKIP":
             yield program, "skipped", (run["stdout"] or "").strip().split("\n")[-1]
-        elif run["result"] in ("OK", "EXPECTEDFAIL"):
+        elif not has_failed(run):
             if program not in cases_of:
                 yield program, "passed", ""
         elif not failed:
             yield program, "failed", f"{run['result']}, exit status {run['returncode']}"
+
+
+def results_with_again(log):
+    """The results of a build: those of tests that ran again, alone, instead of their first ones."""
+    alone = f"{log}-alone"
+    again = runs_of(alone) if Path(f"{alone}.json").exists() else {}
+    yield from results_of(log, again)
+    if again:
+        yield from results_of(alone)
+    for program, run in again.items():
+        if not has_failed(run):
+            yield f"{program}, beside other tests; alone it passes", "failed at first", ""
 
 
 def main():
@@ -68,13 +91,21 @@ def main():
     parser.add_argument("--passed", action="append", default=[])
     parser.add_argument("--failed", action="append", default=[])
     parser.add_argument("--log", default="testlog")
+    parser.add_argument("--list-failed", action="store_true")
     parser.add_argument("builds", nargs="*")
     arguments = parser.parse_args()
+
+    if arguments.list_failed:
+        for build in arguments.builds:
+            for name, run in runs_of(Path(build) / "meson-logs" / arguments.log).items():
+                if has_failed(run):
+                    print(name)
+        return
 
     counts = Counter(passed=len(arguments.passed), failed=len(arguments.failed))
     notes = [("failed", what, "") for what in arguments.failed]
     for build in arguments.builds:
-        for name, result, reason in results_of(Path(build) / "meson-logs" / arguments.log):
+        for name, result, reason in results_with_again(Path(build) / "meson-logs" / arguments.log):
             counts[result] += 1
             if result != "passed":
                 notes.append((result, f"{build}/ {name}", f": {reason}" if reason else ""))
