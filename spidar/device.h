@@ -17,6 +17,18 @@ struct MotorVolts {
   std::array<double, kMaxStrings> volt{};  ///< signed as the D/A puts it out
 };
 
+/// Whether any motor gets something.
+inline bool pulls(const MotorVolts& volts) noexcept {
+  for (const double volt : volts.volt)
+    if (volt != 0) return true;
+  return false;
+}
+
+inline MotorVolts scaled(MotorVolts volts, double share) noexcept {
+  for (double& volt : volts.volt) volt *= share;
+  return volts;
+}
+
 struct DeviceReading {
   std::array<int32_t, kMaxStrings> count{};  ///< encoder counts, signed as the board gives them
   uint32_t inputs = 0;                       ///< digital inputs, bit 0 first

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds and operates the USB board that is plugged in.
+/// The USB board that is plugged in.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,13 @@
 
 #include "spidar/boards/board.h"
 #include "spidar/boards/usb_kinds.h"
+#include "spidar/boards/usb_search.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/transports/usb_transport.h"
 
 namespace spidar {
 
-/// Finds its board in every open(), because the address changes when a board is plugged in again.
+/// Finds its board in every open(), see UsbSearch.
 class UsbBoard final : public Board {
  public:
   /// `id`: bus path, serial number, or position of the rotary switch, 0 … 15. If empty, there must
@@ -42,18 +43,12 @@ class UsbBoard final : public Board {
     UsbTransport* transport = nullptr;  // of the board
     std::unique_ptr<Board> board;
   };
-  struct Candidate {
-    Kind* kind = nullptr;
-    UsbDeviceInfo device;
-  };
 
-  std::vector<Candidate> candidates();
-  void open_one(const Candidate& candidate);
-  void open_matching(const std::vector<Candidate>& found);
+  void open_one(const UsbSearch::Candidate& candidate);
 
   const UsbFamily family_;
   const std::string name_;
-  const std::string id_;
+  const UsbSearch search_;
   std::vector<Kind> kinds_;
   Kind* used_ = nullptr;
   std::string used_path_;

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/boards/board_link.h"
+
+#include <algorithm>
+#include <cerrno>
+
+#include "spidar/realtime/monotonic.h"
+#include "spidar/realtime/thread_setup.h"
+
+namespace spidar {
+namespace {
+
+/// A single fault on the wire may concern only one packet; several in a row do not.
+constexpr int kErrorsToRecover = 3;
+
+/// A stall lasts until it is cleared, and a late reply would be mistaken for the next one.
+bool needs_recovery(LinkFault fault) noexcept {
+  return fault == LinkFault::kStall || fault == LinkFault::kTimeout;
+}
+
+bool wait_until(sem_t& semaphore, int64_t monotonic_ns) noexcept {
+  const timespec until{static_cast<time_t>(monotonic_ns / kSecond_ns),
+                       static_cast<long>(monotonic_ns % kSecond_ns)};
+  while (sem_clockwait(&semaphore, CLOCK_MONOTONIC, &until) != 0) {
+    if (errno != EINTR) return false;
+  }
+  return true;
+}
+
+ExchangeStatus status_of(LinkFault fault) noexcept {
+  switch (fault) {
+    case LinkFault::kNone:
+      return ExchangeStatus::kOk;
+    case LinkFault::kTimeout:
+      return ExchangeStatus::kTimeout;
+    case LinkFault::kGone:
+    case LinkFault::kUnguarded:
+    case LinkFault::kStoodStill:
+      return ExchangeStatus::kLost;
+    default:
+      return ExchangeStatus::kBadReply;
+  }
+}
+
+}  // namespace
+
+template <typename Output, typename Reading>
+BoardLink<Output, Reading>::BoardLink(BoardOf<Output, Reading>& board,
+                                      const BoardSettings& settings)
+    : board_(board), settings_(settings) {
+  sem_init(&requested_, 0, 0);
+  sem_init(&replied_, 0, 0);
+}
+
+template <typename Output, typename Reading>
+BoardLink<Output, Reading>::~BoardLink() {
+  close();
+  sem_destroy(&requested_);
+  sem_destroy(&replied_);
+}
+
+template <typename Output, typename Reading>
+void BoardLink<Output, Reading>::open(const std::function<void()>& prepare) {
+  close();
+  board_.open();
+  try {
+    if (settings_.guardian) {
+      for (const LastWill& will : board_.last_wills())
+        guardians_.push_back(std::make_unique<Guardian>(board_.name(), will));
+    }
+    if (prepare) prepare();
+    last_ = {};
+    errors_in_a_row_ = 0;
+    pulling_ = false;
+    unguarded_ = LinkFault::kNone;
+    if (settings_.threaded) start();
+  } catch (...) {
+    guardians_.clear();
+    board_.close();
+    throw;
+  }
+  open_ = true;
+}
+
+template <typename Output, typename Reading>
+void BoardLink<Output, Reading>::start() {
+  stop_ = false;
+  thread_ = start_thread("spidar-link", [this] {
+    request_exact_timers();
+    request_real_time();
+    run();
+  });
+}
+
+template <typename Output, typename Reading>
+void BoardLink<Output, Reading>::stop() noexcept {
+  if (!thread_.joinable()) return;
+  stop_ = true;
+  sem_post(&requested_);
+  // Transfers are cancelled at their deadline, and the kernel ends a request to clear a stalled
+  // pipe after 5 s. Meanwhile the guardian, to which this thread no longer answers, sets the motors
+  // to zero.
+  thread_.join();
+  Request request;
+  Reply reply;
+  while (requests_.pop(request)) {
+  }
+  while (replies_.pop(reply)) {
+  }
+  while (sem_trywait(&requested_) == 0) {
+  }
+  while (sem_trywait(&replied_) == 0) {
+  }
+}
+
+template <typename Output, typename Reading>
+void BoardLink<Output, Reading>::run() noexcept {
+  while (!stop_) {
+    if (sem_wait(&requested_) != 0) continue;
+    Request request;
+    if (stop_ || !requests_.pop(request)) continue;
+    const Reply reply = answer(request);
+    // The queue has room for one reply more than there can be requests.
+    replies_.push(reply);
+    sem_post(&replied_);
+  }
+}
+
+/// Returns false when a connection has lost its guardian.
+template <typename Output, typename Reading>
+bool BoardLink<Output, Reading>::guarded(bool pulling) noexcept {
+  bool all = true;
+  for (const auto& guardian : guardians_) all &= guardian->watch(pulling);
+  return all;
+}
+
+template <typename Output, typename Reading>
+LinkFault BoardLink<Output, Reading>::why_unguarded() const noexcept {
+  const bool zeroed = std::any_of(guardians_.begin(), guardians_.end(),
+                                  [](const auto& guardian) { return guardian->zeroed(); });
+  return zeroed ? LinkFault::kStoodStill : LinkFault::kUnguarded;
+}
+
+template <typename Output, typename Reading>
+typename BoardLink<Output, Reading>::Reply BoardLink<Output, Reading>::answer(
+    const Request& request) noexcept {
+  Reply reply;
+  reply.number = request.number;
+  reply.fault = unguarded_;
+  if (unguarded_ != LinkFault::kNone) return reply;
+  reply.fault = LinkFault::kUnguarded;
+  const bool pulling = pulls(request.output);
+  pulling_ |= pulling;
+  if (guarded(pulling_)) exchange_now(request, reply);
+  if (reply.fault == LinkFault::kNone) pulling_ = pulling;
+  // Checked again, because this output may have gone out after a guardian sent zeros while this
+  // process was stopped.
+  if (guarded(pulling_)) return reply;
+  unguarded_ = reply.fault = why_unguarded();
+  put_out_zero();
+  count(unguarded_);
+  return reply;
+}
+
+template <typename Output, typename Reading>
+void BoardLink<Output, Reading>::exchange_now(const Request& request, Reply& reply) noexcept {
+  const int64_t begin_ns = monotonic_now_ns();
+  reply.fault = board_.cycle(request.output, reply.reading, begin_ns + kTransfer_ns);
+  count(reply.fault);
+  if (reply.fault == LinkFault::kNone) {
+    round_trip_.add(monotonic_now_ns() - begin_ns);
+    errors_in_a_row_ = 0;
+  } else if (reply.fault != LinkFault::kGone &&
+             (needs_recovery(reply.fault) || ++errors_in_a_row_ % kErrorsToRecover == 0)) {
+    board_.recover();
+  }
+}
+
+template <typename Output, typename Reading>
+void BoardLink<Output, Reading>::count(LinkFault fault) noexcept {
+  faults_[static_cast<size_t>(fault)].fetch_add(1, std::memory_order_relaxed);
+  if (fault != LinkFault::kNone) last_fault_.store(fault, std::memory_order_relaxed);
+}
+
+template <typename Output, typename Reading>
+ExchangeStatus BoardLink<Output, Reading>::exchange(const Output& output,
+                                                    Reading& reading) noexcept {
+  if (!open_) return ExchangeStatus::kLost;
+  last_ = output;
+  const Request request{++number_, output};
+  const std::optional<Reply> reply = settings_.threaded ? ask(request) : answer(request);
+  if (!reply) return ExchangeStatus::kTimeout;
+  if (reply->fault == LinkFault::kNone) reading = reply->reading;
+  return status_of(reply->fault);
+}
+
+/// Hands the request to the thread that exchanges, and waits for its reply, up to kReplyWait_ns.
+/// Replies to earlier requests may come first. Returns the newest reply with a reading; when there
+/// is none, the newest with a fault, or nothing.
+template <typename Output, typename Reading>
+std::optional<typename BoardLink<Output, Reading>::Reply> BoardLink<Output, Reading>::ask(
+    const Request& request) noexcept {
+  // When the queue is full, the board has not answered for some time, and this output is dropped.
+  if (requests_.push(request)) sem_post(&requested_);
+  const int64_t until_ns = monotonic_now_ns() + kReplyWait_ns;
+  std::optional<Reply> best;
+  do {
+    for (Reply reply; replies_.pop(reply);) {
+      if (!best || reply.fault == LinkFault::kNone || best->fault != LinkFault::kNone) best = reply;
+      if (reply.number == request.number) return best;
+      late_.fetch_add(1, std::memory_order_relaxed);
+    }
+  } while (wait_until(replied_, until_ns));
+  return best;
+}
+
+template <typename Output, typename Reading>
+bool BoardLink<Output, Reading>::bring_to_zero() noexcept {
+  // What a guardian has set to zero must not be restored.
+  const Output from = unguarded_ == LinkFault::kNone ? last_ : Output{};
+  Reading reading;
+  for (int left = pulls(from) ? kRamp_ms - 1 : 0; left > 0; --left) {
+    const int64_t now_ns = monotonic_now_ns();
+    // If one of several lines is dead, the others must still be ramped down.
+    board_.cycle(scaled(from, 1.0 * left / kRamp_ms), reading, now_ns + kTransfer_ns);
+    if (settings_.threaded) sleep_until_ns(now_ns + kSecond_ns / 1000);
+  }
+  return put_out_zero();
+}
+
+template <typename Output, typename Reading>
+bool BoardLink<Output, Reading>::put_out_zero() noexcept {
+  Reading reading;
+  for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
+    const LinkFault fault = board_.cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
+    // After a counter jump or a strange answer the board has received the output.
+    if (fault == LinkFault::kNone || fault == LinkFault::kCounterJump ||
+        fault == LinkFault::kWrongReply)
+      return true;
+    if (fault == LinkFault::kGone) break;
+    board_.recover();
+  }
+  return false;
+}
+
+template <typename Output, typename Reading>
+void BoardLink<Output, Reading>::close() noexcept {
+  if (!open_) return;
+  open_ = false;
+  stop();
+  const bool zero = bring_to_zero();
+  if (unguarded_ != LinkFault::kNone) board_.expect_reopening();
+  board_.close();
+  // The guardians keep trying for a while, and stop at once when the board is gone.
+  if (!zero)
+    for (const auto& guardian : guardians_) guardian->carry_out();
+  guardians_.clear();
+}
+
+template <typename Output, typename Reading>
+LinkHealth BoardLink<Output, Reading>::health() const noexcept {
+  LinkHealth health;
+  for (size_t i = 0; i < kLinkFaults; ++i)
+    health.faults[i] = faults_[i].load(std::memory_order_relaxed);
+  health.last_fault = last_fault_.load(std::memory_order_relaxed);
+  health.late_replies = late_.load(std::memory_order_relaxed);
+  health.round_trip_median_ns = round_trip_.quantile_ns(0.5);
+  health.round_trip_p99_ns = round_trip_.quantile_ns(0.99);
+  health.round_trip_max_ns = round_trip_.max_ns();
+  return health;
+}
+
+template class BoardLink<MotorVolts, DeviceReading>;
+
+}  // namespace spidar
