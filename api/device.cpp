@@ -50,14 +50,16 @@ void require_limit(double value, const char* what) {
 // A nested class has the visibility of the enclosing class unless it states its own.
 struct __attribute__((visibility("hidden"))) Device::Impl {
   Impl(const std::string& device, const spidar::Profile& profile)
-      : session(profile, spidar::make_device(device, profile)),
-        profile_name(profile.name),
-        largest_force_N(std::floor(10 * spidar::largest_force_N(profile)) / 10) {
+      : session(spidar::make_grip(device, profile)),
+        can_give(session.grip().traits().has_strings ? profile.name : device),
+        largest_force_N(std::floor(10 * std::max(spidar::kAnyForce_N,
+                                                 session.grip().abilities().largest_force_N)) /
+                        10) {
     session.loop().set_playback_clock(now_is_now());
   }
 
   HapticSession session;
-  const std::string profile_name;
+  const std::string can_give;  ///< what gives the largest force: a profile, or the device
   const double largest_force_N;
   int64_t pushed_ns = 0;
 };
@@ -90,7 +92,7 @@ void Device::set_limits(double max_force_N, double max_torque_Nm) {
   if (max_force_N > impl_->largest_force_N) {
     std::ostringstream text;
     text << "the largest force must be " << std::setprecision(3) << impl_->largest_force_N
-         << " N at most, which " << impl_->profile_name << " can give in every direction, got "
+         << " N at most, which " << impl_->can_give << " can give in every direction, got "
          << max_force_N;
     throw std::invalid_argument(text.str());
   }
@@ -125,13 +127,7 @@ Wrench Device::felt() const {
   const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
   // The strings already pull while the tensions ramp up, and still while they ramp down.
   if (tick.device == spidar::DeviceState::kLost) return {};
-  const spidar::FeltParts parts = impl_->session.grip().felt_parts();
-  Wrench felt = to_api(tick.delivered);
-  if (!parts.x) felt.force_N.x = 0;
-  if (!parts.y) felt.force_N.y = 0;
-  if (!parts.z) felt.force_N.z = 0;
-  if (!parts.torque) felt.torque_Nm = {};
-  return felt;
+  return to_api(tick.delivered);
 }
 
 DeviceState Device::state() const {

@@ -32,19 +32,6 @@ inline MotorVolts scaled(MotorVolts volts, double share) noexcept {
 struct DeviceReading {
   std::array<int32_t, kMaxStrings> count{};  ///< encoder counts, signed as the board gives them
   uint32_t inputs = 0;                       ///< digital inputs, bit 0 first
-  /// False when the counts are computed from where the board assumes the grip to be. Counts that
-  /// stand still while the force changes are then no sign of dead encoders.
-  bool encoders = true;
-};
-
-/// What a hand feels of a wrench on the grip.
-struct FeltParts {
-  bool x = true;  ///< of the force
-  bool y = true;
-  bool z = true;
-  bool torque = true;
-  /// Otherwise only the size of the force is felt, in the axes that are felt.
-  bool direction = true;
 };
 
 /// One controller board with its motors. One thread at a time.
@@ -66,10 +53,6 @@ class Device {
   /// A description for people of what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".
   /// Empty while closed, and for devices whose name says everything.
   virtual std::string description() const { return {}; }
-
-  /// What a hand feels on this device. Until open(), what most devices of its kind have. Any
-  /// thread.
-  virtual FeltParts felt_parts() const noexcept { return {}; }
 
   /// Statistics of the link to the board; all zero for a device without one. Any thread.
   virtual LinkHealth health() const noexcept { return {}; }

@@ -32,11 +32,11 @@ std::string why_lost(const HapticSession& session) {
 }  // namespace
 
 void DeviceWarnings::check_opened(const HapticSession& session) const {
-  const FeltParts felt = session.grip().felt_parts();
+  const GripAbilities can = session.grip().abilities();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.
   const bool force_feedback = session.grip().name().compare(0, 2, "ff") == 0;
-  const bool whole = felt.x && felt.y && felt.direction;
+  const bool whole = can.force[0] && can.force[1] && can.direction;
   if (whole && !force_feedback) return;
   GST_ELEMENT_INFO(
       element_, RESOURCE, SETTINGS, ("%s.", session.opened().c_str()),

@@ -7,6 +7,7 @@
 
 #include "plugin/device/session_stats.h"
 #include "plugin/reports/category.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/profiles/force_range.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/simulation/simulated_device.h"
@@ -21,11 +22,19 @@ int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
 }
 
-/// If a test makes the ticks, only these move the simulated grip, so that the speed of the test
-/// does not matter.
-std::unique_ptr<Device> device_for(const std::string& spec, const Profile& profile, bool threaded) {
-  if (threaded || spec != "sim") return make_device(spec, profile);
-  return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
+/// `simulated`: the device "sim", otherwise null. If a test makes the ticks, only these move its
+/// grip, so that the speed of the test does not matter.
+std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, bool threaded,
+                               SimulatedDevice*& simulated) {
+  simulated = nullptr;
+  if (spec != "sim") return make_grip(spec, profile);
+  std::unique_ptr<Device> device;
+  if (threaded)
+    device = make_device(spec, profile);
+  else
+    device = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
+  simulated = dynamic_cast<SimulatedDevice*>(device.get());
+  return std::make_unique<StringGrip>(profile, std::move(device));
 }
 
 }  // namespace
@@ -44,9 +53,8 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
   settings.threaded = now_ == nullptr;
   SimulatedDevice* simulated = nullptr;
   const auto make_session = [&] {
-    auto made = device_for(device, profile, settings.threaded);
-    simulated = dynamic_cast<SimulatedDevice*>(made.get());
-    return std::make_unique<HapticSession>(profile, std::move(made), settings);
+    return std::make_unique<HapticSession>(grip_for(device, profile, settings.threaded, simulated),
+                                           settings);
   };
   std::string trace_problem;
   std::unique_ptr<HapticSession> session;
@@ -68,7 +76,9 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
   double max_force_N = 0;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    most_force_N_ = largest_force_N(profile);
+    const Grip& grip = session->grip();
+    most_force_N_ = std::max(kAnyForce_N, grip.abilities().largest_force_N);
+    most_force_of_ = grip.traits().has_strings ? profile.name : device;
     said_too_much_ = false;
     max_force_N = limits_.max_force_N;
     follower->set_latency(latency_);
@@ -121,7 +131,7 @@ void HapticOutput::set_max_force(double max_force_N) {
     session_->loop().set_limits(limits);
     if (!(max_force_N > most_force_N_) || said_too_much_) return;
     said_too_much_ = true;
-    too_much_for = profile_.name;
+    too_much_for = most_force_of_;
     most_N = most_force_N_;
   }
   GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,

@@ -43,8 +43,8 @@ class HapticOutput {
   void set_playing(bool playing);
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
-  /// Holds with the next tick of the haptic loop. No more than the strings of the device can give
-  /// in every direction, which is said once for each device that is opened.
+  /// Holds with the next tick of the haptic loop. No more than the device can give in every
+  /// direction, which is said once for each device that is opened.
   void set_max_force(double max_force_N);
   /// By the sink, of running time: what follows is shown as much earlier.
   void set_skipped(int64_t skipped_ns);
@@ -85,8 +85,9 @@ class HapticOutput {
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;
-  SafetyLimits limits_;      // as they were set
-  double most_force_N_ = 0;  // that the device can give
+  SafetyLimits limits_;        // as they were set
+  double most_force_N_ = 0;    // that the device can give
+  std::string most_force_of_;  // the profile that this is of, or the device
   bool said_too_much_ = false;
 };
 

@@ -30,7 +30,7 @@ void check_device(GObject* element) {
   const std::string profile = string_property(element, "profile");
   try {
     const Profile loaded = load_profile(profile.empty() ? default_profile(device) : profile);
-    if (device != "none") make_device(device, loaded);
+    if (device != "none") make_grip(device, loaded);
   } catch (const std::exception& error) {
     throw PropertyError(error.what());
   }

@@ -59,9 +59,6 @@ class Board : public BoardOf<MotorVolts, DeviceReading> {
   /// zero_counts().
   virtual bool counts_restarted() const noexcept { return false; }
 
-  /// See Device::felt_parts(). Any thread.
-  virtual FeltParts felt_parts() const noexcept { return {}; }
-
   /// Position of the rotary ID switch; −1 if the board has none. To be called after open().
   virtual int rotary() const noexcept { return -1; }
 };

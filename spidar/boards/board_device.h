@@ -30,7 +30,6 @@ class BoardDevice final : public Device {
   }
   void close() noexcept override { link_.close(); }
   std::string description() const override { return link_.description(); }
-  FeltParts felt_parts() const noexcept override { return board_->felt_parts(); }
   const std::string& name() const noexcept override { return board_->name(); }
   LinkHealth health() const noexcept override { return link_.health(); }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "spidar/boards/force_board.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
 
@@ -272,5 +273,6 @@ LinkHealth BoardLink<Output, Reading>::health() const noexcept {
 }
 
 template class BoardLink<MotorVolts, DeviceReading>;
+template class BoardLink<ForceOutput, ForceReading>;
 
 }  // namespace spidar

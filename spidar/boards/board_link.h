@@ -111,6 +111,4 @@ class BoardLink {
   LatencyHistogram round_trip_;
 };
 
-extern template class BoardLink<MotorVolts, DeviceReading>;
-
 }  // namespace spidar

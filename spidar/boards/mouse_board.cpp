@@ -2,26 +2,14 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/boards/mouse_board.h"
 
-#include <cmath>
 #include <utility>
 
 #include "spidar/boards/opening.h"
 
 namespace spidar {
 
-MouseBoard::MouseBoard(std::string name, const Profile& profile,
-                       std::unique_ptr<Transport> transport)
-    : name_(std::move(name)), transport_(std::move(transport)) {
-  force_per_volt_ = structure_matrix(profile.geometry, {}).topRows<2>();
-  for (int i = 0; i < kMaxStrings; ++i) {
-    const auto k = static_cast<size_t>(i);
-    const StringDrive& drive = profile.drives[k];
-    force_per_volt_.col(i) *= drive.newtons_per_volt * drive.motor_sign;
-    if (drive.metres_per_count > 0)
-      home_count_[k] = static_cast<int32_t>(
-          std::lround(-drive.encoder_sign * drive.home_offset_m / drive.metres_per_count));
-  }
-}
+MouseBoard::MouseBoard(std::string name, std::unique_ptr<Transport> transport)
+    : name_(std::move(name)), transport_(std::move(transport)) {}
 
 void MouseBoard::open() {
   transport_->open();
@@ -59,19 +47,14 @@ void MouseBoard::close() noexcept {
   transport_->close();
 }
 
-LinkFault MouseBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
+LinkFault MouseBoard::cycle(const ForceOutput& output, ForceReading& reading,
                             int64_t deadline_ns) noexcept {
   if (cycle_++ % kCyclesPerReport == 0) {
-    StringVector volt;
-    for (int i = 0; i < kMaxStrings; ++i) volt[i] = volts.volt[static_cast<size_t>(i)];
-    const Eigen::Vector2d force_N = force_per_volt_ * volt;
-    mouse::encode_force({force_N.x(), force_N.y()}, out_);
+    mouse::encode_force({output.force_N.x(), output.force_N.y()}, out_);
     const Transfer transfer = transport_->exchange({out_}, {}, deadline_ns);
     if (transfer.fault != LinkFault::kNone) return transfer.fault;
   }
-  reading.count = home_count_;
-  reading.inputs = 0;
-  reading.encoders = false;
+  reading.position_m.setZero();
   return LinkFault::kNone;
 }
 

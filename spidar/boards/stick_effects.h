@@ -64,7 +64,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   void open();
   /// The centring spring stays off if `reopening`, for a hand that still holds the stick.
   void close(bool reopening) noexcept;
-  /// Sets the force in newtons, right and up, and whether the strings pull at all. Returns what the
+  /// Sets the force in newtons, right and up, and whether forces are switched on. Returns what the
   /// exchange is to report. Does not wait.
   LinkFault cycle(const Eigen::Vector2d& force_N, bool pulls) noexcept;
   /// Position of the stick, −1 … 1, as of the last cycle().
@@ -91,7 +91,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   Transfer upload(size_t effect, int level) noexcept;
   Transfer play(size_t effect) noexcept;
   Transfer send(ByteView event) noexcept;
-  /// Once the strings pull: sets gain to the share that is used and autocentre to off, which
+  /// Once forces are switched on: sets gain to the share that is used and autocentre to off, which
   /// earlier programs or the driver may have left otherwise, and which would scale the force or add
   /// to it. Until both have been accepted, no level is set.
   LinkFault take_settings() noexcept;

@@ -14,10 +14,10 @@
 namespace spidar {
 
 /// A driver that needs 50 ms for an update gives a position every 55 ms, and a hand moves a stick
-/// by 20 mm in that time. As a step, this would look like a counter that jumps (GripWatch), and to
-/// a damper like a very fast hand. The position therefore moves to a new reading at a constant
-/// speed within the time that the last update took. This costs no delay: a level is set in the same
-/// update that brings the next reading, when the position has just arrived.
+/// by 20 mm in that time. As a step, this would look to a damper like a very fast hand. The
+/// position therefore moves to a new reading at a constant speed within the time that the last
+/// update took. This costs no delay: a level is set in the same update that brings the next
+/// reading, when the position has just arrived.
 ///
 /// see() is called by the thread that makes the updates, everything else by the one that exchanges.
 class StickPlace {

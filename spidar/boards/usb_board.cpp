@@ -4,14 +4,12 @@
 
 #include <utility>
 
-#include "spidar/boards/mouse_board.h"
-
 namespace spidar {
 
-UsbBoard::UsbBoard(UsbFamily family, std::string name, std::string id, const Profile& profile)
-    : family_(family), name_(std::move(name)), search_(family, name_, std::move(id)) {
+UsbBoard::UsbBoard(std::string name, std::string id, const Profile& profile)
+    : name_(std::move(name)), search_(UsbFamily::kCyverse, name_, std::move(id)) {
   for (const UsbBoardKind& known : usb_kinds()) {
-    if (known.family != family) continue;
+    if (known.make == nullptr) continue;
     auto transport = std::make_unique<UsbTransport>(name_, known.pipes);
     UsbTransport* const selects = transport.get();
     kinds_.push_back({&known, selects, known.make(name_, profile, std::move(transport))});
@@ -40,10 +38,6 @@ void UsbBoard::open() {
 
 std::string UsbBoard::description() const {
   return used_ ? "at " + used_path_ + ": " + used_->board->description() : "";
-}
-
-FeltParts UsbBoard::felt_parts() const noexcept {
-  return family_ == UsbFamily::kMouse ? MouseBoard::kFelt : FeltParts{};
 }
 
 LinkFault UsbBoard::cycle(const MotorVolts& volts, DeviceReading& reading,

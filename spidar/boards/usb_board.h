@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The USB board that is plugged in.
+/// The CyVerse board that is plugged in.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ class UsbBoard final : public Board {
  public:
   /// `id`: bus path, serial number, or position of the rotary switch, 0 … 15. If empty, there must
   /// be only one board. Throws DeviceError when the boards cannot drive the profile.
-  UsbBoard(UsbFamily family, std::string name, std::string id, const Profile& profile);
+  UsbBoard(std::string name, std::string id, const Profile& profile);
 
   void open() override;
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
@@ -33,7 +33,6 @@ class UsbBoard final : public Board {
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   std::string description() const override;
-  FeltParts felt_parts() const noexcept override;
   int rotary() const noexcept override { return used_ ? used_->board->rotary() : -1; }
   const std::string& name() const noexcept override { return name_; }
 
@@ -46,7 +45,6 @@ class UsbBoard final : public Board {
 
   void open_one(const UsbSearch::Candidate& candidate);
 
-  const UsbFamily family_;
   const std::string name_;
   const UsbSearch search_;
   std::vector<Kind> kinds_;

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <utility>
 
-#include "spidar/boards/mouse_board.h"
 #include "spidar/boards/sh4_board.h"
 #include "spidar/boards/simple_board.h"
+#include "spidar/protocols/spidar_mouse.h"
 
 namespace spidar {
 namespace {
@@ -52,7 +52,7 @@ const std::vector<UsbBoardKind>& usb_kinds() {
        Trial::kInferred,
        "other devices have this id; asked when it is opened",
        {mouse::kEndpointOut, mouse::kEndpointIn, true},
-       make<MouseBoard>},
+       nullptr},
   };
   return kinds;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The USB boards that have a driver, one row for each.
+/// The USB devices that have a driver, one row for each.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct UsbBoardKind {
   Trial trial;
   const char* note;  ///< what is inferred
   UsbPipes pipes;
-  /// Throws DeviceError when the board cannot drive the profile.
+  /// Throws DeviceError when the board cannot drive the profile. Null for one without strings.
   std::unique_ptr<Board> (*make)(const std::string& name, const Profile& profile,
                                  std::unique_ptr<Transport> transport);
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "spidar/grip/grip_watch.h"
+#include "spidar/grip/pose_trust.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 
@@ -30,7 +30,7 @@ constexpr double kOpening_s = 2;
 constexpr double kLongestGap_s = 0.01;
 /// After a pause longer than kPause_ns the loop may have lost the pose, and has kRecovery_ns to
 /// recover it.
-constexpr int64_t kPause_ns = GripWatch::kPoseTimeout_ns;
+constexpr int64_t kPause_ns = PoseTrust::kPoseTimeout_ns;
 constexpr int64_t kRecovery_ns = 500 * kTick_ns;
 
 /// Fades from 0 to 1 and back to 0 in a round, with zero slope at both ends.

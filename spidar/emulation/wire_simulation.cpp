@@ -8,6 +8,7 @@
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/digits.h"
 #include "spidar/boards/force_feedback_board.h"
+#include "spidar/boards/force_grip.h"
 #include "spidar/boards/mouse_board.h"
 #include "spidar/boards/sh4_board.h"
 #include "spidar/boards/simple_board.h"
@@ -51,11 +52,21 @@ class NoMotors final : public EmulatedMotors {
   std::array<int32_t, kMaxStrings> counts() noexcept override { return {}; }
 };
 
+/// Without a thread and a guardian.
+BoardSettings alone() {
+  BoardSettings settings;
+  // The simulated user begins at the centre, from which the profile's home offsets are counted.
+  settings.count_zero = CountZero::kNever;
+  settings.guardian = false;
+  settings.threaded = false;
+  return settings;
+}
+
 /// Owns the device to which its transport's board is connected.
 class WireSimulation final : public Device {
  public:
   WireSimulation(std::unique_ptr<EmulatedMotors> motors, std::unique_ptr<Board> board)
-      : motors_(std::move(motors)), device_(std::move(board), settings()) {}
+      : motors_(std::move(motors)), device_(std::move(board), alone()) {}
 
   void open() override { device_.open(); }
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
@@ -63,20 +74,10 @@ class WireSimulation final : public Device {
   }
   void close() noexcept override { device_.close(); }
   std::string description() const override { return device_.description(); }
-  FeltParts felt_parts() const noexcept override { return device_.felt_parts(); }
   const std::string& name() const noexcept override { return device_.name(); }
   LinkHealth health() const noexcept override { return device_.health(); }
 
  private:
-  static BoardSettings settings() {
-    BoardSettings settings;
-    // The simulated user begins at the centre, from which the profile's home offsets are counted.
-    settings.count_zero = CountZero::kNever;
-    settings.guardian = false;
-    settings.threaded = false;
-    return settings;
-  }
-
   const std::unique_ptr<EmulatedMotors> motors_;
   BoardDevice device_;
 };
@@ -108,20 +109,30 @@ std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Prof
     lines.push_back(transport_to(std::make_unique<EmulatedUart>(
         *motors, std::vector<EmulatedUart::Station>{{0, kB3M}, {1, kB3M}})));
     board = std::make_unique<UartBoard>(name, profile, std::move(lines));
-  } else if (kind == "mouse") {
-    motors = std::make_unique<NoMotors>();
-    board = std::make_unique<MouseBoard>(name, profile,
-                                         transport_to(std::make_unique<EmulatedMouse>(*motors)));
-  } else if (kind == "ff") {
-    motors = std::make_unique<NoMotors>();
-    board = std::make_unique<ForceFeedbackBoard>(
-        name, profile, transport_to(std::make_unique<EmulatedForceFeedback>(*motors)),
-        ForceFeedbackBoard::Updates::kInCycle);
   } else {
     throw DeviceError("unknown simulated board \"" + kind +
                       "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff");
   }
   return std::make_unique<WireSimulation>(std::move(motors), std::move(board));
+}
+
+std::unique_ptr<Grip> make_grip_simulation(const std::string& kind, const Profile& profile) {
+  static NoMotors motors;  // has nothing that could be shared
+  const auto transport_to = [](std::unique_ptr<EmulatedBoard> board) {
+    return std::make_unique<EmulatedTransport>(std::move(board), std::make_shared<EmulatedWire>());
+  };
+  const std::string name = "sim:" + kind;
+  std::unique_ptr<ForceBoard> board;
+  if (kind == "mouse")
+    board =
+        std::make_unique<MouseBoard>(name, transport_to(std::make_unique<EmulatedMouse>(motors)));
+  else if (kind == "ff")
+    board = std::make_unique<ForceFeedbackBoard>(
+        name, profile, transport_to(std::make_unique<EmulatedForceFeedback>(motors)),
+        ForceFeedbackBoard::Updates::kInCycle);
+  else
+    return nullptr;
+  return std::make_unique<ForceGrip>(std::move(board), alone());
 }
 
 }  // namespace spidar

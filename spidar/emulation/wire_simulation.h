@@ -9,6 +9,7 @@
 
 #include "spidar/device.h"
 #include "spidar/emulation/emulated_transport.h"
+#include "spidar/grip/grip.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/simulation/simulated_device.h"
 
@@ -20,7 +21,7 @@ struct SimulatedMechanics {
   SimulatedClock clock;            ///< none: CLOCK_MONOTONIC
 };
 
-/// `board`: "sh4", "simple", "uart", "mouse" or "ff". Grip, hand and motors are those of
+/// `board`: "sh4", "simple" or "uart". Grip, hand and motors are those of
 /// SimulatedDevice. Volts and counts pass through the packets and the code that drives the real
 /// board. No thread and no guardian is started. `wire` causes faults. Throws DeviceError for
 /// another board, or when the board cannot drive the profile, and std::invalid_argument as
@@ -29,5 +30,9 @@ std::unique_ptr<Device> make_wire_simulation(
     const std::string& board, const Profile& profile,
     std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>(),
     const SimulatedMechanics& mechanics = {});
+
+/// A device without strings behind its packets, "mouse" or "ff": its force has no effect. Null for
+/// any other.
+std::unique_ptr<Grip> make_grip_simulation(const std::string& kind, const Profile& profile);
 
 }  // namespace spidar

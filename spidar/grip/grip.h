@@ -9,8 +9,8 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
-#include "spidar/device.h"
 #include "spidar/device_error.h"
+#include "spidar/grip/grip_abilities.h"
 #include "spidar/grip/grip_motion.h"
 #include "spidar/grip/pose_trouble.h"
 #include "spidar/grip/safety_limits.h"
@@ -20,8 +20,10 @@ namespace spidar {
 
 /// What does not change while a grip is open.
 struct GripTraits {
-  double radius_m = 0;     ///< at which a torque counts as a force; 0: torques do not count
-  double drive_lag_s = 0;  ///< from a command to the force that follows
+  bool has_strings = true;  ///< those of a profile, which pull
+  bool can_fly = true;      ///< the wrench can throw a grip that nobody holds
+  double radius_m = 0;      ///< at which a torque counts as a force; 0: torques do not count
+  double drive_lag_s = 0;   ///< from a command to the force that follows
 };
 
 /// What a grip is told in a tick.
@@ -47,7 +49,6 @@ struct GripReading {
   Pose pose;          ///< from the newest good reading
   GripMotion motion;  ///< of these poses; at rest while the pose is not known
   PoseTrouble trouble = PoseTrouble::kNotYet;
-  bool can_fly = true;  ///< the wrench can throw a grip that nobody holds
   double pose_residual_m = 0;
   int faulty_string = -1;      ///< whose length fits no pose that the others allow; −1 if all fit
   double motor_heat = 0;       ///< of the warmest motor, see MotorHeat
@@ -90,8 +91,8 @@ class Grip {
   /// A description for people of what open() found; empty while closed, and for devices whose name
   /// says everything.
   virtual std::string description() const = 0;
-  /// What a hand feels. Any thread.
-  virtual FeltParts felt_parts() const noexcept = 0;
+  /// Until open(), those of most devices of its kind. Any thread.
+  virtual GripAbilities abilities() const noexcept = 0;
   /// Statistics of the link to the device. Any thread.
   virtual LinkHealth health() const noexcept = 0;
   /// For messages: "sim", "usb:3", …

@@ -33,35 +33,13 @@ GripWatch::GripWatch(const Profile& profile)
       solver_(profile.geometry, profile.max_pose_residual_m()) {}
 
 void GripWatch::reset() noexcept {
-  trusted_ = false;
-  trouble_ = PoseTrouble::kNotYet;
-  misses_ = 0;
-  good_poses_ = 0;
+  trust_ = {};
   pose_ = {};
   residual_m_ = 0;
   faulty_string_ = -1;
   located_ = false;
   counted_ = frozen_ = false;
   solver_.reset();
-}
-
-void GripWatch::fail(PoseTrouble trouble) noexcept {
-  good_poses_ = 0;
-  if (++misses_ <= kMaxMisses && trusted_) return;
-  trusted_ = false;
-  trouble_ = trouble;
-}
-
-void GripWatch::miss(int64_t now_ns) noexcept {
-  check_age(now_ns);
-  fail(PoseTrouble::kNoReading);
-}
-
-void GripWatch::check_age(int64_t now_ns) noexcept {
-  if (!trusted_ || now_ns - located_ns_ <= kPoseTimeout_ns) return;
-  trusted_ = false;
-  good_poses_ = 0;
-  trouble_ = PoseTrouble::kNoReading;
 }
 
 PoseTrouble GripWatch::judge(const PoseResult& result, int64_t now_ns) const noexcept {
@@ -73,13 +51,12 @@ PoseTrouble GripWatch::judge(const PoseResult& result, int64_t now_ns) const noe
   if (!located_) return PoseTrouble::kNone;
   const double way_m = (pose.position_m - pose_.position_m).norm() +
                        radius_m_ * pose.orientation.angularDistance(pose_.orientation);
-  const double passed_s = 1e-9 * static_cast<double>(now_ns - located_ns_);
+  const double passed_s = 1e-9 * static_cast<double>(now_ns - trust_.located_ns());
   return way_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m ? PoseTrouble::kJump : PoseTrouble::kNone;
 }
 
 bool GripWatch::is_frozen(const DeviceReading& reading, const Wrench& applied,
                           int64_t now_ns) noexcept {
-  if (!reading.encoders) return false;
   const bool moved = !counted_ || reading.count != last_count_;
   if (moved) {
     counted_ = true;
@@ -106,23 +83,19 @@ void GripWatch::see(const DeviceReading& reading, const Wrench& applied, bool ma
     // The next poses are compared with the pose after a jump, because the grip may really be there.
     pose_ = result.pose;
     located_ = true;
-    located_ns_ = now_ns;
+    trust_.locate(now_ns);
   }
   if (trouble == PoseTrouble::kNone && frozen) trouble = PoseTrouble::kFrozen;
   if (trouble == PoseTrouble::kNone) {
     if (result.faulty_string >= 0 && result.faulty_string != faulty_string_) ++string_faults_;
     faulty_string_ = result.faulty_string;
-    misses_ = 0;
-    good_poses_ = std::min(good_poses_ + 1, kGoodPoses);
-    if (good_poses_ == kGoodPoses && may_trust) trusted_ = true;
-    return;
+    return trust_.succeed(may_trust);
   }
   ++pose_errors_;
   // A single jump is enough: the previous pose is not the present one.
-  if (trouble == PoseTrouble::kJump || trouble == PoseTrouble::kFrozen) misses_ = kMaxMisses;
-  fail(trouble);
+  trust_.fail(trouble, trouble == PoseTrouble::kJump || trouble == PoseTrouble::kFrozen);
   // The grip may have moved far from the last pose: search from the centre.
-  if (!trusted_ && trouble == PoseTrouble::kNoFit) solver_.search_from({});
+  if (!trust_.trusted() && trouble == PoseTrouble::kNoFit) solver_.search_from({});
 }
 
 }  // namespace spidar

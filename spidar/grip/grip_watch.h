@@ -12,23 +12,17 @@
 #include "core/wrench.h"
 #include "spidar/device.h"
 #include "spidar/grip/pose_trouble.h"
+#include "spidar/grip/pose_trust.h"
 #include "spidar/profiles/encoder_scale.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
 
 /// Tracks the pose from the encoder counts. The structure matrix may only be used while trusted():
-/// tensions that give a wrench at one pose give a different wrench at another. Trust is lost after
-/// kMaxMisses readings without a good pose and returns after kGoodPoses good poses in a row.
-/// Neither allocates nor throws after construction.
+/// tensions that give a wrench at one pose give a different wrench at another. Neither allocates
+/// nor throws after construction.
 class GripWatch {
  public:
-  /// Number of ticks in a row that may pass without a good pose; they use the previous pose.
-  static constexpr int kMaxMisses = 5;
-  /// Limit of the same in time, in case the ticks themselves are late.
-  static constexpr int64_t kPoseTimeout_ns = 50'000'000;
-  /// Good poses in a row before the pose is trusted again.
-  static constexpr int kGoodPoses = 20;
   /// No hand is faster. A rotation counts as the speed of the points at which the strings are tied.
   static constexpr double kMaxSpeed_m_s = 10;
   /// At this rotation, strings from all sides have tangled long before.
@@ -51,18 +45,18 @@ class GripWatch {
   void see(const DeviceReading& reading, const Wrench& applied, bool may_trust,
            int64_t now_ns) noexcept;
   /// For a tick in which the device did not answer.
-  void miss(int64_t now_ns) noexcept;
+  void miss(int64_t now_ns) noexcept { trust_.miss(now_ns); }
   /// To be called before the tensions of a tick are computed: withdraws trust if the newest pose is
   /// too old.
-  void check_age(int64_t now_ns) noexcept;
+  void check_age(int64_t now_ns) noexcept { trust_.check_age(now_ns); }
 
-  bool trusted() const noexcept { return trusted_; }
+  bool trusted() const noexcept { return trust_.trusted(); }
   /// kNone while trusted.
-  PoseTrouble trouble() const noexcept { return trusted_ ? PoseTrouble::kNone : trouble_; }
+  PoseTrouble trouble() const noexcept { return trust_.trouble(); }
   /// The newest good one, trusted or not.
   const Pose& pose() const noexcept { return pose_; }
   /// When it was read.
-  int64_t located_ns() const noexcept { return located_ns_; }
+  int64_t located_ns() const noexcept { return trust_.located_ns(); }
   double residual_m() const noexcept { return residual_m_; }
   /// See PoseResult.
   int faulty_string() const noexcept { return faulty_string_; }
@@ -76,7 +70,6 @@ class GripWatch {
  private:
   PoseTrouble judge(const PoseResult& result, int64_t now_ns) const noexcept;
   bool is_frozen(const DeviceReading& reading, const Wrench& applied, int64_t now_ns) noexcept;
-  void fail(PoseTrouble trouble) noexcept;
 
   const Profile profile_;
   const EncoderScale encoders_;
@@ -84,15 +77,11 @@ class GripWatch {
   double reach_m_ = 0;  ///< no coordinate of the grip's origin can be larger
   PoseSolver solver_;
 
-  bool trusted_ = false;
-  PoseTrouble trouble_ = PoseTrouble::kNotYet;
-  int misses_ = 0;
-  int good_poses_ = 0;
+  PoseTrust trust_;
   Pose pose_;
   double residual_m_ = 0;
   int faulty_string_ = -1;
   bool located_ = false;  ///< pose_ is of this device since it was opened
-  int64_t located_ns_ = 0;
   uint64_t pose_errors_ = 0;
   uint64_t string_faults_ = 0;
 

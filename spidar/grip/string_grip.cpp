@@ -4,12 +4,24 @@
 
 #include <utility>
 
+#include "spidar/profiles/force_range.h"
+
 namespace spidar {
+namespace {
+
+GripAbilities abilities_of(const Profile& profile) {
+  GripAbilities abilities;
+  abilities.largest_force_N = largest_force_N(profile);
+  return abilities;
+}
+
+}  // namespace
 
 StringGrip::StringGrip(const Profile& profile, Device& device)
     : profile_(profile),
       device_(device),
-      traits_{profile.geometry.grip_radius_m(), profile.drive_lag_s},
+      traits_{true, true, profile.geometry.grip_radius_m(), profile.drive_lag_s},
+      abilities_(abilities_of(profile)),
       watch_(profile),
       tension_command_(profile),
       tension_slew_(profile),
@@ -19,7 +31,8 @@ StringGrip::StringGrip(const Profile& profile, std::unique_ptr<Device> device)
     : profile_(profile),
       owned_(std::move(device)),
       device_(*owned_),
-      traits_{profile.geometry.grip_radius_m(), profile.drive_lag_s},
+      traits_{true, true, profile.geometry.grip_radius_m(), profile.drive_lag_s},
+      abilities_(abilities_of(profile)),
       watch_(profile),
       tension_command_(profile),
       tension_slew_(profile),
@@ -88,9 +101,7 @@ ExchangeStatus StringGrip::exchange(const GripCommand& command) noexcept {
 void StringGrip::see(const DeviceReading& answer, const GripCommand& command) noexcept {
   const bool at_rest = command.wrench.stacked().isZero(0);
   watch_.see(answer, reading_.delivered, at_rest, command.now_ns);
-  // Joysticks have no strings that could pull their stick in all directions, and no encoders.
-  reading_.can_fly = answer.encoders;
-  if (watch_.trusted() && answer.encoders)
+  if (watch_.trusted())
     reading_.motion.see(watch_.pose(), watch_.located_ns());
   else
     reading_.motion.reset();

@@ -33,7 +33,7 @@ class StringGrip final : public Grip {
   void close() noexcept override { device_.close(); }
   const GripTraits& traits() const noexcept override { return traits_; }
   std::string description() const override { return device_.description(); }
-  FeltParts felt_parts() const noexcept override { return device_.felt_parts(); }
+  GripAbilities abilities() const noexcept override { return abilities_; }
   LinkHealth health() const noexcept override { return device_.health(); }
   const std::string& name() const noexcept override { return device_.name(); }
 
@@ -46,6 +46,7 @@ class StringGrip final : public Grip {
   const std::unique_ptr<Device> owned_;
   Device& device_;
   const GripTraits traits_;
+  const GripAbilities abilities_;
   GripReading reading_;
   GripWatch watch_;
   TensionCommand tension_command_;

@@ -181,7 +181,8 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
   }
   const GripReading& grip = grip_->reading();
   const Wrench allowed = vibration_.share() * record.wanted;
-  const Wrench braked = grip.can_fly ? brake_.apply(allowed, grip.motion, dt_s) : allowed;
+  const Wrench braked =
+      grip_->traits().can_fly ? brake_.apply(allowed, grip.motion, dt_s) : allowed;
   record.commanded = safety_.apply(braked, is_fresh(record), dt_s, limits_);
   counters_.rejected_wrenches = safety_.rejected();
 }
@@ -215,7 +216,7 @@ void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
 /// Nobody needs to be protected from a stick that lets go of the hand.
 void HapticLoop::follow(double dt_s) noexcept {
   const GripReading& grip = grip_->reading();
-  if (!grip.knows_pose() || !grip.can_fly) return brake_.reset();
+  if (!grip.knows_pose() || !grip_->traits().can_fly) return brake_.reset();
   brake_.see(grip.motion, dt_s);
   brake_.pull(grip.delivered, dt_s);
 }

@@ -9,9 +9,12 @@
 
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/force_feedback_board.h"
+#include "spidar/boards/force_grip.h"
 #include "spidar/boards/uart_board.h"
 #include "spidar/boards/usb_board.h"
+#include "spidar/boards/usb_mouse.h"
 #include "spidar/emulation/wire_simulation.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/protocols/uart_motor.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/transports/evdev_transport.h"
@@ -68,8 +71,8 @@ bool take_option(const std::string& option, int& axes, StickEffects::Options& op
 }
 
 /// `rest` is empty, PATH, or PATH with options after commas.
-std::unique_ptr<Board> make_force_feedback(const std::string& spec, const std::string& rest,
-                                           const Profile& profile) {
+std::unique_ptr<ForceBoard> make_force_feedback(const std::string& spec, const std::string& rest,
+                                                const Profile& profile) {
   const size_t comma = rest.find(',');
   const std::string path = rest.substr(0, comma);
   int axes = 0;
@@ -106,26 +109,55 @@ bool is_simulated(const std::string& spec) {
   return spec == "sim" || spec.compare(0, 4, "sim:") == 0;
 }
 
-std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
+namespace {
+
+/// A device's name, split at its first colon.
+struct Spec {
+  explicit Spec(const std::string& text)
+      : kind(text.substr(0, text.find(':'))),
+        rest(kind.size() == text.size() ? "" : text.substr(kind.size() + 1)),
+        named(kind.size() == text.size() || !rest.empty()) {}
+  const std::string kind;
+  const std::string rest;
+  const bool named;  ///< there is something after the colon, if there is one
+};
+
+/// Null for a device with strings, and for an unknown one.
+std::unique_ptr<ForceBoard> make_force_board(const std::string& text, const Profile& profile) {
+  const Spec spec(text);
+  if (spec.kind == "mouse" && spec.named) return std::make_unique<UsbMouse>(text, spec.rest);
+  if (spec.kind == "ff" && spec.named) return make_force_feedback(text, spec.rest, profile);
+  return nullptr;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> make_device(const std::string& text, const Profile& profile,
                                     const BoardSettings& settings) {
-  const size_t colon = spec.find(':');
-  const std::string kind = spec.substr(0, colon);
-  const std::string rest = colon == std::string::npos ? "" : spec.substr(colon + 1);
-  const bool named = colon == std::string::npos || !rest.empty();
+  const Spec spec(text);
+  if ((spec.named && (spec.kind == "mouse" || spec.kind == "ff")) || text == "sim:mouse" ||
+      text == "sim:ff")
+    throw DeviceError(text + ": takes a force; it has no strings, and no encoders");
   std::unique_ptr<Board> board;
-  if (kind == "sim" && named) return make_simulation(spec, rest, profile);
-  if (kind == "usb" && named)
-    board = std::make_unique<UsbBoard>(UsbFamily::kCyverse, spec, rest, profile);
-  if (kind == "mouse" && named)
-    board = std::make_unique<UsbBoard>(UsbFamily::kMouse, spec, rest, profile);
-  if (kind == "ff" && named) board = make_force_feedback(spec, rest, profile);
-  if (kind == "uart" && !rest.empty()) board = make_uart(spec, rest, profile);
+  if (spec.kind == "sim" && spec.named) return make_simulation(text, spec.rest, profile);
+  if (spec.kind == "usb" && spec.named)
+    board = std::make_unique<UsbBoard>(text, spec.rest, profile);
+  if (spec.kind == "uart" && !spec.rest.empty()) board = make_uart(text, spec.rest, profile);
   if (!board)
     throw DeviceError(
-        "unknown device \"" + spec +
+        "unknown device \"" + text +
         "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse, ff, ff:PATH, "
         "ff:PATH,axes=N, ff:PATH,gain=PERCENT");
   return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
+}
+
+std::unique_ptr<Grip> make_grip(const std::string& text, const Profile& profile,
+                                const BoardSettings& settings) {
+  if (text.compare(0, 4, "sim:") == 0)
+    if (auto grip = make_grip_simulation(text.substr(4), profile)) return grip;
+  if (auto board = make_force_board(text, profile))
+    return std::make_unique<ForceGrip>(std::move(board), settings);
+  return std::make_unique<StringGrip>(profile, make_device(text, profile, settings));
 }
 
 }  // namespace spidar

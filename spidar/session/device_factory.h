@@ -8,6 +8,7 @@
 
 #include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
+#include "spidar/grip/grip.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
@@ -27,7 +28,13 @@ bool is_simulated(const std::string& spec);
 ///                           is taken for the other; gain=PERCENT of its strength (20);
 ///                           flip=x, y or xy if its driver pushes to the other side
 /// Opens nothing. Throws DeviceError, which lists the valid names or explains why the board cannot
-/// drive the profile. "none" is not a device, because it needs no loop.
+/// drive the profile, and std::invalid_argument when a device with strings gets a profile with
+/// fewer than six. "none" is not a device, because it needs no loop.
+std::unique_ptr<Grip> make_grip(const std::string& spec, const Profile& profile,
+                                const BoardSettings& settings = {});
+
+/// The same for volts and counts of the strings. Throws DeviceError for a mouse and a joystick,
+/// too, which have none.
 std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
                                     const BoardSettings& settings = {});
 

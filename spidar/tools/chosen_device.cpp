@@ -26,7 +26,10 @@ ChosenDevice choose_device(const DeviceOptions& options, CountZero count_zero) {
   settings.count_zero = count_zero;
   // No tool is in such a hurry that it could not wait for an exchange.
   settings.threaded = false;
-  chosen.device = make_device(options.device, chosen.profile, settings);
+  if (chosen.board.has_strings)
+    chosen.device = make_device(options.device, chosen.profile, settings);
+  else
+    chosen.grip = make_grip(options.device, chosen.profile, settings);
   return chosen;
 }
 

@@ -9,6 +9,7 @@
 #include "spidar/boards/board_list.h"
 #include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
+#include "spidar/grip/grip.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/tools/command_line.h"
 
@@ -17,7 +18,11 @@ namespace spidar {
 struct ChosenDevice {
   BoardInfo board;
   Profile profile;
-  std::unique_ptr<Device> device;  ///< not open yet
+  // One of these, not open yet.
+  std::unique_ptr<Device> device;  ///< that has strings
+  std::unique_ptr<Grip> grip;      ///< that has none
+
+  const std::string& name() const noexcept { return device ? device->name() : grip->name(); }
 };
 
 /// Throws ProfileError, DeviceError.

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <future>
 #include <iostream>
 #include <optional>
@@ -16,9 +17,11 @@
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/conformance_report.h"
+#include "spidar/tools/observed_grip.h"
 #include "spidar/tools/selftest_report.h"
 #include "spidar/tools/sim_wiring.h"
 #include "spidar/tools/terminal.h"
+#include "spidar/wiring/force_hold.h"
 #include "spidar/wiring/wiring_test.h"
 
 namespace spidar {
@@ -95,7 +98,7 @@ ConformanceOptions parse(int argc, char** argv) {
 
 /// The motors may be energised.
 bool may_pull(const ConformanceOptions& options, const ChosenDevice& chosen) {
-  if (!options.pull || !chosen.board.has_strings) return false;
+  if (!options.pull) return false;
   return options.yes || is_simulated(options.common.device) ||
          confirm("Hold the strings of " + chosen.board.device +
                  " taut while you move the grip, then pull one after the other" +
@@ -115,6 +118,11 @@ bool watch(Device& device, const Profile& profile, double seconds, bool taut) {
       (!taut || hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s)) && hold.stay(seconds);
   hold.release();
   return complete;
+}
+
+bool watch(Grip& grip, double seconds) {
+  std::cerr << "Move the grip in every direction for " << seconds << " s.\n";
+  return ForceHold(grip, every_millisecond()).stay(seconds);
 }
 
 /// False when interrupted.
@@ -163,6 +171,51 @@ void write(const std::string& file, const Conformance& found) {
             << '\n';
 }
 
+/// `test` is false when interrupted.
+int report(const ConformanceOptions& options, Conformance& found, const std::function<bool()>& test,
+           const std::function<LinkHealth()>& health) {
+  try {
+    if (!test()) {
+      std::cerr << "interrupted; the motors are at zero, and no report is written\n";
+      return kInterrupted;
+    }
+  } catch (const DeviceError& error) {
+    // What a report is for most of all.
+    found.trouble = error.what();
+    std::cerr << found.trouble << '\n';
+  }
+  found.health = health();
+  write(options.report, found);
+  return found.conforms() ? kDone : kFailed;
+}
+
+int test_strings(const ConformanceOptions& options, ChosenDevice& chosen) {
+  if (options.sim_lag_ms) simulate_lag(1e-3 * *options.sim_lag_ms, options.common.device, chosen);
+  miswire(options.sim_wiring, options.common.device, chosen.profile, chosen.device);
+  const bool pulls = may_pull(options, chosen);
+  catch_signals();
+  ObservedDevice device(std::move(chosen.device));
+  Conformance found{chosen.board, chosen.profile, device.seen(), {}, {}, {}, {}, {}};
+  return report(
+      options, found,
+      [&] {
+        return watch(device, chosen.profile, options.seconds, pulls) &&
+               (!pulls || (pull(device, options, found) && shake(device, options, found)));
+      },
+      [&] { return device.health(); });
+}
+
+/// Of a joystick or mouse, the exchanges only.
+int test_force(const ConformanceOptions& options, ChosenDevice& chosen) {
+  if (options.sim_lag_ms) require_strings(chosen.board, "--sim-lag");
+  if (!options.sim_wiring.empty()) require_strings(chosen.board, "--sim-wiring");
+  catch_signals();
+  ObservedGrip grip(std::move(chosen.grip));
+  Conformance found{chosen.board, chosen.profile, grip.seen(), {}, {}, {}, {}, {}};
+  return report(
+      options, found, [&] { return watch(grip, options.seconds); }, [&] { return grip.health(); });
+}
+
 }  // namespace
 
 int conformance_command(int argc, char** argv) {
@@ -172,27 +225,8 @@ int conformance_command(int argc, char** argv) {
     return kDone;
   }
   ChosenDevice chosen = choose_device(options.common);
-  if (options.sim_lag_ms) simulate_lag(1e-3 * *options.sim_lag_ms, options.common.device, chosen);
-  miswire(options.sim_wiring, options.common.device, chosen.profile, chosen.device);
   if (!options.report.empty()) check_folder_of(options.report);
-  const bool pulls = may_pull(options, chosen);
-  catch_signals();
-  ObservedDevice device(std::move(chosen.device));
-  Conformance found{chosen.board, chosen.profile, device.seen(), {}, {}, {}, {}, {}};
-  try {
-    if (!watch(device, chosen.profile, options.seconds, pulls) ||
-        (pulls && (!pull(device, options, found) || !shake(device, options, found)))) {
-      std::cerr << "interrupted; the strings are released, and no report is written\n";
-      return kInterrupted;
-    }
-  } catch (const DeviceError& error) {
-    // What a report is for most of all.
-    found.trouble = error.what();
-    std::cerr << found.trouble << '\n';
-  }
-  found.health = device.health();
-  write(options.report, found);
-  return found.conforms() ? kDone : kFailed;
+  return chosen.grip ? test_force(options, chosen) : test_strings(options, chosen);
 }
 
 }  // namespace spidar

@@ -88,8 +88,8 @@ void print_answers(std::ostream& out, const Conformance& found) {
   const Observation& seen = found.seen;
   line(out, "period", quantiles(seen.period));
   line(out, "round trip", quantiles(seen.duration));
-  line(out, "inputs", hexadecimal(seen.inputs) + ", changed " + hexadecimal(seen.changed_inputs));
   if (!found.board.has_strings) return;
+  line(out, "inputs", hexadecimal(seen.inputs) + ", changed " + hexadecimal(seen.changed_inputs));
   out << '\n';
   print_counters(out, found);
 }

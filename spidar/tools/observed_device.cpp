@@ -5,30 +5,21 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "spidar/realtime/monotonic.h"
-
 namespace spidar {
 
 void ObservedDevice::open() {
   device_->open();
-  seen_.description = device_->description();
-  last_begin_ns_ = 0;
+  seen_.begin(device_->description());
 }
 
 ExchangeStatus ObservedDevice::exchange(const MotorVolts& volts, DeviceReading& reading) noexcept {
-  const int64_t begin_ns = monotonic_now_ns();
-  const ExchangeStatus status = device_->exchange(volts, reading);
-  if (last_begin_ns_ != 0) seen_.period.add(begin_ns - last_begin_ns_);
-  last_begin_ns_ = begin_ns;
-  ++seen_.exchanges;
-  if (status != ExchangeStatus::kOk) return status;
-  seen_.duration.add(monotonic_now_ns() - begin_ns);
-  look_at(reading);
+  const ExchangeStatus status = seen_.timed([&] { return device_->exchange(volts, reading); });
+  if (status == ExchangeStatus::kOk) look_at(reading);
   return status;
 }
 
 void ObservedDevice::look_at(const DeviceReading& reading) noexcept {
-  if (seen_.answered++ == 0) {
+  if (seen_.answered == 1) {
     seen_.smallest = seen_.largest = reading.count;
     seen_.inputs = reading.inputs;
     last_ = reading;

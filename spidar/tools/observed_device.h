@@ -10,6 +10,7 @@
 
 #include "spidar/device.h"
 #include "spidar/realtime/latency_histogram.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar {
 
@@ -26,6 +27,26 @@ struct Observation {
   std::array<int64_t, kMaxStrings> largest_step{};
   uint32_t inputs = 0;          ///< of the first answer
   uint32_t changed_inputs = 0;  ///< inputs that have ever differed from that
+
+  void begin(const std::string& opened_as) {
+    description = opened_as;
+    last_begin_ns = 0;
+  }
+  /// Makes one exchange and measures it.
+  template <typename Exchange>
+  ExchangeStatus timed(const Exchange& exchange) noexcept {
+    const int64_t begin_ns = monotonic_now_ns();
+    const ExchangeStatus status = exchange();
+    if (last_begin_ns != 0) period.add(begin_ns - last_begin_ns);
+    last_begin_ns = begin_ns;
+    ++exchanges;
+    if (status != ExchangeStatus::kOk) return status;
+    duration.add(monotonic_now_ns() - begin_ns);
+    ++answered;
+    return status;
+  }
+
+  int64_t last_begin_ns = 0;  ///< 0: no exchange since it was opened
 };
 
 /// Forwards all calls to the device. Not thread-safe.
@@ -48,7 +69,6 @@ class ObservedDevice final : public Device {
   const std::unique_ptr<Device> device_;
   Observation seen_;
   DeviceReading last_;
-  int64_t last_begin_ns_ = 0;  // 0: no exchange since it was opened
 };
 
 }  // namespace spidar

@@ -93,18 +93,18 @@ const char* side_of(double moved_m) {
 /// Directions of a joystick or wheel, of which drivers differ.
 int test_stick_command(const SelftestOptions& options, ChosenDevice& chosen) {
   if (!options.yes && !is_simulated(options.common.device) &&
-      !confirm("Push " + chosen.device->name() +
+      !confirm("Push " + chosen.name() +
                " to all sides with a part of its strength? Take the hand away.")) {
     std::cerr << "nothing was pushed\n";
     return kFailed;
   }
   catch_signals();
-  const StickTest test = test_stick(*chosen.device, chosen.profile, every_millisecond());
+  const StickTest test = test_stick(*chosen.grip, every_millisecond());
   if (!test.complete) {
     std::cerr << "interrupted; the force is zero\n";
     return kInterrupted;
   }
-  const bool up = chosen.device->felt_parts().y;
+  const bool up = chosen.grip->abilities().force[1];
   std::cout << "right  " << side_of(test.moved_m[0]) << '\n';
   if (up) std::cout << "up     " << side_of(test.moved_m[1]) << '\n';
   const bool x = test.moved_m[0] <= -StickTest::kLeast_m,

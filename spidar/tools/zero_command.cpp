@@ -5,6 +5,7 @@
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/terminal.h"
+#include "spidar/wiring/force_hold.h"
 
 namespace spidar {
 namespace {
@@ -25,13 +26,16 @@ int zero_command(int argc, char** argv) {
   }
   ChosenDevice chosen = choose_device(options);
   bool answered = false;
-  {
+  if (chosen.grip) {
+    ForceHold hold(*chosen.grip, every_millisecond());
+    hold.stay(0.02, [&](const GripReading&) { return answered = true; });
+  } else {
     StringHold hold(*chosen.device, chosen.profile, every_millisecond());
     hold.stay(0.02, [&](const DeviceReading&) { return answered = true; });
   }
   if (!answered)
-    throw DeviceError(chosen.device->name() + ": the device did not answer; switch off its supply");
-  std::cout << chosen.device->name() << ": the motors are at zero\n";
+    throw DeviceError(chosen.name() + ": the device did not answer; switch off its supply");
+  std::cout << chosen.name() << ": the motors are at zero\n";
   return kDone;
 }
 

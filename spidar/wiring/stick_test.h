@@ -5,8 +5,7 @@
 
 #include <array>
 
-#include "spidar/device.h"
-#include "spidar/profiles/profile.h"
+#include "spidar/grip/grip.h"
 #include "spidar/wiring/string_hold.h"
 
 namespace spidar {
@@ -24,6 +23,6 @@ struct StickTest {
 /// Pushes four times along each axis that the device has, with half of the force that the gain
 /// allows, for 0.2 s: to one side, twice to the other, and back, so that a drift cancels. Throws
 /// DeviceError when the device is lost.
-StickTest test_stick(Device& device, const Profile& profile, const Pace& pace);
+StickTest test_stick(Grip& grip, const Pace& pace);
 
 }  // namespace spidar

@@ -139,8 +139,7 @@ TEST_F(DeviceProvider, ListsForceFeedbackDevices) {
   ASSERT_NE(element, nullptr);
   gst_object_ref_sink(element);
   EXPECT_EQ(property_of(element, "device"), "ff:/dev/input/event2");
-  EXPECT_NO_THROW(
-      make_device("ff:/dev/input/event2", load_profile(property_of(element, "profile"))));
+  EXPECT_NO_THROW(make_grip("ff:/dev/input/event2", load_profile(property_of(element, "profile"))));
   gst_object_unref(element);
   for (const EvdevPort& port : bus().evdev) EXPECT_EQ(port.uploads, 0u);
   forget(found);
@@ -168,7 +167,7 @@ TEST_F(DeviceProvider, MakesAnElementThatOpensTheDevice) {
     EXPECT_EQ(property_of(element, "profile"), text_in(device, "profile"));
     EXPECT_STREQ(GST_OBJECT_NAME(element), "feel");
     // The profile is one that the board can drive. Made, not opened.
-    EXPECT_NO_THROW(make_device(spec, load_profile(property_of(element, "profile"))));
+    EXPECT_NO_THROW(make_grip(spec, load_profile(property_of(element, "profile"))));
     gst_object_unref(element);
   }
   forget(found);

@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/session/device_factory.h"
+#include "tests/support/pushed_grip.h"
 
 namespace {
 
@@ -66,26 +67,27 @@ spidar::MotorVolts all_strings() {
   return volts;
 }
 
-/// A joystick takes the sum of all strings, so one alone gives a force.
-spidar::MotorVolts one_string() {
-  spidar::MotorVolts volts;
-  volts.volt[0] = 1;
-  return volts;
-}
-
 /// Pulls until the board is lost; only a signal ends it. With `forks`, an idle child holds copies
 /// of all files for the rest of the time.
-[[noreturn]] void pull(const char* spec, const char* profile, const spidar::MotorVolts& volts,
-                       bool forks) {
+[[noreturn]] void pull(const char* profile, bool forks) {
   constexpr unsigned kLonger_s = 3;
-  const auto device = spidar::make_device(spec, spidar::load_profile(profile));
+  const auto device = spidar::make_device("usb", spidar::load_profile(profile));
   device->open();
   if (forks && fork() == 0) {
     sleep(kLonger_s);
     _exit(0);
   }
   spidar::DeviceReading reading;
-  while (device->exchange(volts, reading) != spidar::ExchangeStatus::kLost) {
+  while (device->exchange(all_strings(), reading) != spidar::ExchangeStatus::kLost) {
+  }
+  for (;;) pause();
+}
+
+/// The same with a joystick.
+[[noreturn]] void push(const char* profile) {
+  const auto grip = spidar::make_grip("ff", spidar::load_profile(profile));
+  grip->open();
+  while (grip->exchange(spidar::test::told(1)) != spidar::ExchangeStatus::kLost) {
   }
   for (;;) pause();
 }
@@ -93,10 +95,9 @@ spidar::MotorVolts one_string() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::strcmp(argv[1], "--pull") == 0) pull("usb", argv[2], all_strings(), false);
-  if (argc == 3 && std::strcmp(argv[1], "--pull-and-fork") == 0)
-    pull("usb", argv[2], all_strings(), true);
-  if (argc == 3 && std::strcmp(argv[1], "--push") == 0) pull("ff", argv[2], one_string(), false);
+  if (argc == 3 && std::strcmp(argv[1], "--pull") == 0) pull(argv[2], false);
+  if (argc == 3 && std::strcmp(argv[1], "--pull-and-fork") == 0) pull(argv[2], true);
+  if (argc == 3 && std::strcmp(argv[1], "--push") == 0) push(argv[2]);
   if (getpid() != 1) {
     std::fputs("this is the first program of a virtual machine; see tests/kernel/run_guest.py\n",
                stderr);

@@ -14,29 +14,21 @@
 #include "spidar/session/device_factory.h"
 #include "tests/kernel/uinput_device.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/pushed_grip.h"
 
 namespace spidar::test::kernel_evdev_faults_test {
 namespace {
 
-std::unique_ptr<Device> board(const Profile& profile, const std::string& name = "uinput device") {
+std::unique_ptr<Grip> board(const Profile& profile, const std::string& name = "uinput device") {
   BoardSettings settings;
   settings.guardian = false;
-  return make_device(listed(name), profile, settings);
-}
-
-/// Volts that pull to the right: the same in all strings on that side.
-MotorVolts to_the_right(const Profile& profile, double volt) {
-  MotorVolts volts;
-  for (size_t i = 0; i < static_cast<size_t>(profile.geometry.count); ++i)
-    if (profile.geometry.exit_m[i].x() > 0) volts.volt[i] = volt * profile.drives[i].motor_sign;
-  return volts;
+  return make_grip(listed(name), profile, settings);
 }
 
 class KernelEvdevFaults : public testing::Test {
  protected:
   UinputDevice stick{UinputKind::kStick};
   const Profile profile = load_profile(kDefaultProfile);
-  DeviceReading reading;
 };
 
 TEST_F(KernelEvdevFaults, OpenLeavesItAtRestAndCloseErasesItsEffects) {
@@ -45,13 +37,13 @@ TEST_F(KernelEvdevFaults, OpenLeavesItAtRestAndCloseErasesItsEffects) {
   EXPECT_TRUE(stick.at_rest());
   EXPECT_TRUE(stick.has_effects());
   wait_for([&] {
-    device->exchange(to_the_right(profile, 0.1), reading);
+    device->exchange(told(0.1));
     return !stick.at_rest();
   });
   device->close();
   EXPECT_TRUE(stick.at_rest());
   EXPECT_FALSE(stick.has_effects());
-  EXPECT_EQ(device->exchange({}, reading), ExchangeStatus::kLost);
+  EXPECT_EQ(device->exchange({}), ExchangeStatus::kLost);
 }
 
 TEST_F(KernelEvdevFaults, ForcesBeyondFullLevelAreCutAndWhatIsNoNumberPushesNowhere) {
@@ -60,10 +52,10 @@ TEST_F(KernelEvdevFaults, ForcesBeyondFullLevelAreCutAndWhatIsNoNumberPushesNowh
   const auto of_pad = board(profile, "uinput pad");
   of_stick->open();
   of_pad->open();
-  const auto until = [&](double volt, const auto& reached) {
+  const auto until = [&](double right_N, const auto& reached) {
     wait_for([&] {
       for (const auto& device : {of_stick.get(), of_pad.get()}) {
-        EXPECT_EQ(device->exchange(to_the_right(profile, volt), reading), ExchangeStatus::kOk);
+        EXPECT_EQ(device->exchange(told(right_N)), ExchangeStatus::kOk);
       }
       return reached();
     });
@@ -111,7 +103,7 @@ TEST_F(KernelEvdevFaults, OpenSaysWhatIsWrong) {
   EXPECT_FALSE(stick.has_effects());
   stick.upload_error = 0;
   device->open();
-  EXPECT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+  EXPECT_EQ(device->exchange({}), ExchangeStatus::kOk);
 }
 
 }  // namespace

@@ -9,12 +9,9 @@
 #include <vector>
 
 #include "spidar/boards/board_device.h"
-#include "spidar/boards/force_feedback_board.h"
-#include "spidar/boards/mouse_board.h"
 #include "spidar/boards/sh4_board.h"
 #include "spidar/boards/simple_board.h"
 #include "spidar/boards/uart_board.h"
-#include "spidar/emulation/emulated_force_feedback.h"
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
@@ -23,10 +20,10 @@
 
 namespace spidar::test {
 
-enum class Kind { kSh4, kSimple, kUart, kMouse, kForceFeedback };
+enum class Kind { kSh4, kSimple, kUart };
 
 inline std::string name_of(Kind kind) {
-  constexpr const char* kNames[] = {"sh4", "simple", "uart", "mouse", "ff"};
+  constexpr const char* kNames[] = {"sh4", "simple", "uart"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -45,13 +42,6 @@ struct BoardBench {
       case Kind::kSimple:
         return std::make_unique<SimpleBoard>(
             "simple", profile, transport_to(std::make_unique<EmulatedSimple>(recorded)));
-      case Kind::kMouse:
-        return std::make_unique<MouseBoard>(
-            "mouse", profile, transport_to(std::make_unique<EmulatedMouse>(recorded)));
-      case Kind::kForceFeedback:
-        return std::make_unique<ForceFeedbackBoard>(
-            "ff", profile, transport_to(std::make_unique<EmulatedForceFeedback>(recorded)),
-            ForceFeedbackBoard::Updates::kInCycle);
       case Kind::kUart:
         break;
     }
@@ -68,15 +58,6 @@ struct BoardBench {
     settings.threaded = threaded;
     settings.count_zero = count_zero;
     return std::make_unique<BoardDevice>(board(), settings);
-  }
-
-  /// Strings that have encoders; a mouse and a joystick take a force instead.
-  bool counts() const { return kind != Kind::kMouse && kind != Kind::kForceFeedback; }
-  /// Number of cycles in which it communicates with the device once.
-  int cycles() const {
-    return kind == Kind::kMouse           ? 4
-           : kind == Kind::kForceFeedback ? ForceFeedbackBoard::kUpdate_ms
-                                          : 1;
   }
 
   const Kind kind;

@@ -18,11 +18,10 @@ namespace spidar::test {
 constexpr const char* kUsbProfile = "spidar-g6x3-v2-r";
 constexpr const char* kUartProfile = "spidar-g6x5-r";
 
-/// For every string; a joystick, which takes their sum, would have no force.
-inline MotorVolts one_volt(const std::string& device = "") {
+/// For every string.
+inline MotorVolts one_volt() {
   MotorVolts volts;
   volts.volt.fill(1);
-  if (device == "ff") volts.volt = {1};
   return volts;
 }
 

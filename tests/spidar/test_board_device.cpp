@@ -18,24 +18,6 @@
 namespace spidar::test::board_device_test {
 namespace {
 
-TEST(Mouse, PullsAsTheStringsWouldWithinItsLimit) {
-  BoardBench bench(Kind::kMouse);
-  const auto device = bench.device();
-  device->open();
-  const StructureMatrix W = structure_matrix(bench.profile.geometry, {});
-  for (const double volt : {0.1, 5.0}) {
-    MotorVolts volts;
-    volts.volt[2] = volt;
-    DeviceReading reading;
-    for (int i = 0; i < 4; ++i) ASSERT_EQ(device->exchange(volts, reading), ExchangeStatus::kOk);
-    Eigen::Vector2d force_N = W.col(2).head<2>() * volt * bench.profile.drives[2].newtons_per_volt;
-    if (force_N.norm() > 1.5) force_N *= 1.5 / force_N.norm();
-    // Rounded to millinewtons.
-    EXPECT_NEAR(bench.motors.digit[0], 1000 * force_N.x(), 0.51);
-    EXPECT_NEAR(bench.motors.digit[1], 1000 * force_N.y(), 0.51);
-  }
-}
-
 TEST(Uart, ReportsTooFewMotors) {
   BoardBench bench(Kind::kUart);
   std::vector<std::unique_ptr<Transport>> lines;
@@ -162,7 +144,7 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
   const Profile profile = load_profile("spidar-g6x3-v2-r");
   for (const std::string spec : {"foo", "", "usb:", "sim:", "uart", "uart:", "mouse:", "ff:"}) {
     try {
-      make_device(spec, profile);
+      make_grip(spec, profile);
       FAIL() << spec;
     } catch (const DeviceError& error) {
       EXPECT_EQ(error.what(), "unknown device \"" + spec +
@@ -173,9 +155,13 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
   for (const std::string spec :
        {"usb", "usb:3", "usb:1-2.3", "uart:/dev/ttyUSB0,/dev/ttyUSB1", "mouse", "sim:sh4",
         "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "ff", "ff:/dev/input/event3"}) {
-    EXPECT_EQ(make_device(spec, profile)->name(), spec);
+    EXPECT_EQ(make_grip(spec, profile)->name(), spec);
   }
-  EXPECT_THROW(make_device("sim:x", profile), DeviceError);
+  for (const std::string spec : {"mouse", "sim:mouse", "sim:ff", "ff", "ff:/dev/input/event3"}) {
+    EXPECT_FALSE(make_grip(spec, profile)->traits().has_strings) << spec;
+    EXPECT_THROW(make_device(spec, profile), DeviceError) << spec;
+  }
+  EXPECT_THROW(make_grip("sim:x", profile), DeviceError);
   EXPECT_THROW(make_device("uart:/dev/a,", profile), DeviceError);
 }
 

@@ -11,12 +11,13 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_device.h"
 #include "spidar/boards/force_feedback_board.h"
+#include "spidar/boards/force_grip.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/transports/evdev_transport.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/pushed_grip.h"
 
 namespace spidar::test::evdev_faults_test {
 namespace {
@@ -26,43 +27,31 @@ class EvdevFaults : public testing::Test {
   EvdevFaults() { clear_bus(); }
   ~EvdevFaults() override { clear_bus(); }
 
-  /// A device without a thread for its exchanges.
-  std::unique_ptr<BoardDevice> board(ForceFeedbackBoard::Updates updates) const {
+  static BoardSettings alone() {
     BoardSettings settings;
     settings.threaded = settings.guardian = false;
-    auto transport = std::make_unique<EvdevTransport>("ff", "");
-    return std::make_unique<BoardDevice>(
-        std::make_unique<ForceFeedbackBoard>("ff", profile, std::move(transport), updates),
-        settings);
+    return settings;
+  }
+  std::unique_ptr<ForceBoard> board(ForceFeedbackBoard::Updates updates) const {
+    return std::make_unique<ForceFeedbackBoard>(
+        "ff", profile, std::make_unique<EvdevTransport>("ff", ""), updates);
   }
 
   /// Without any thread: it communicates with the driver once in kUpdate_ms exchanges.
-  std::unique_ptr<BoardDevice> stepped() const {
-    return board(ForceFeedbackBoard::Updates::kInCycle);
-  }
-
-  /// Volts for a tension of the strings that go to the right, and an additional one of those among
-  /// them that go up.
-  MotorVolts volts(double right_N, double up_N = 0) const {
-    MotorVolts volts;
-    for (size_t i = 0; i < static_cast<size_t>(profile.geometry.count); ++i) {
-      const Eigen::Vector3d& exit_m = profile.geometry.exit_m[i];
-      const double tension_N = exit_m.x() < 0 ? 0 : right_N + (exit_m.y() > 0 ? up_N : 0);
-      volts.volt[i] = tension_N * profile.drives[i].motor_sign / profile.drives[i].newtons_per_volt;
-    }
-    return volts;
+  std::unique_ptr<LinkedForce> stepped() const {
+    return std::make_unique<LinkedForce>(board(ForceFeedbackBoard::Updates::kInCycle), alone());
   }
 
   const Profile profile = load_profile(kDefaultProfile);
-  DeviceReading reading;
+  ForceReading reading;
 };
 
 /// Exchanges until every effect could be set once, and returns the worst status.
-ExchangeStatus exchange(BoardDevice& device, const MotorVolts& volts, DeviceReading& reading,
+ExchangeStatus exchange(LinkedForce& device, const ForceOutput& output, ForceReading& reading,
                         int updates = 2) {
   ExchangeStatus worst = ExchangeStatus::kOk;
   for (int i = 0; i < updates * ForceFeedbackBoard::kUpdate_ms; ++i) {
-    const ExchangeStatus status = device.exchange(volts, reading);
+    const ExchangeStatus status = device.exchange(output, reading);
     if (status != ExchangeStatus::kOk) worst = status;
   }
   return worst;
@@ -96,13 +85,13 @@ TEST_F(EvdevFaults, EveryErrorIsNamedCountedAndForgotten) {
                         {kQuery, ENODEV, ExchangeStatus::kLost, LinkFault::kGone}}) {
     SCOPED_TRACE(std::string(c.call == kUpload ? "upload: " : "position: ") +
                  std::strerror(c.error));
-    ASSERT_EQ(exchange(*device, volts(right_N), reading), ExchangeStatus::kOk);
+    ASSERT_EQ(exchange(*device, pushing(right_N), reading), ExchangeStatus::kOk);
     const EvdevLevels before = evdev_levels(0);
     const uint64_t count = faults();
     const uint64_t uploads = port.uploads;
     right_N += 0.1;  // so that there is something to upload
     port.*c.call = c.error;
-    EXPECT_EQ(exchange(*device, volts(right_N), reading, 1), c.status);
+    EXPECT_EQ(exchange(*device, pushing(right_N), reading, 1), c.status);
     EXPECT_EQ(faults(), count + 1);
     const LinkFault fault = device->health().last_fault;
     if (c.fault != LinkFault::kNone)
@@ -119,7 +108,7 @@ TEST_F(EvdevFaults, EveryErrorIsNamedCountedAndForgotten) {
       EXPECT_TRUE(evdev_levels(0).at_rest());
       device->open();
     }
-    EXPECT_EQ(exchange(*device, volts(right_N), reading), ExchangeStatus::kOk);
+    EXPECT_EQ(exchange(*device, pushing(right_N), reading), ExchangeStatus::kOk);
     EXPECT_GT(evdev_levels(0).right, before.right);
     EXPECT_EQ(faults(), count + 1);
   }
@@ -130,7 +119,7 @@ TEST_F(EvdevFaults, AnUpdateThatASignalInterruptsIsRepeated) {
   const auto device = stepped();
   device->open();
   port.interruptions = 3;
-  EXPECT_EQ(exchange(*device, volts(1), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(exchange(*device, pushing(1), reading), ExchangeStatus::kOk);
   EXPECT_EQ(port.interruptions, 0);
   EXPECT_GT(evdev_levels(0).right, 0);
   EXPECT_EQ(evdev_levels(0).up, 0);
@@ -141,21 +130,21 @@ TEST_F(EvdevFaults, ForcesBeyondFullLevelAreCutAndKeepTheirDirection) {
   plug_evdev(0, EvdevKind::kStick);
   const auto device = stepped();
   device->open();
-  ASSERT_EQ(exchange(*device, volts(1e9), reading), ExchangeStatus::kOk);
+  ASSERT_EQ(exchange(*device, pushing(1e9), reading), ExchangeStatus::kOk);
   EXPECT_EQ(evdev_levels(0).right, ff::kFullLevel);
   EXPECT_EQ(evdev_levels(0).up, 0);
   // To the right and less upwards, within the range and far beyond it.
-  ASSERT_EQ(exchange(*device, volts(0.2, 0.2), reading), ExchangeStatus::kOk);
+  ASSERT_EQ(exchange(*device, pushing(0.2, 0.1), reading), ExchangeStatus::kOk);
   const EvdevLevels within = evdev_levels(0);
   ASSERT_GT(within.right, within.up);
   ASSERT_GT(within.up, 0);
   ASSERT_LT(within.right, ff::kFullLevel);
-  ASSERT_EQ(exchange(*device, volts(2e8, 2e8), reading), ExchangeStatus::kOk);
+  ASSERT_EQ(exchange(*device, pushing(2e8, 1e8), reading), ExchangeStatus::kOk);
   EXPECT_EQ(evdev_levels(0).right, ff::kFullLevel);
   // All three levels are rounded by half a step.
   const double scale = 1.0 * ff::kFullLevel / within.right;
   EXPECT_NEAR(evdev_levels(0).up, scale * within.up, 0.5 + scale);
-  ASSERT_EQ(exchange(*device, volts(-1e9), reading), ExchangeStatus::kOk);
+  ASSERT_EQ(exchange(*device, pushing(-1e9), reading), ExchangeStatus::kOk);
   EXPECT_EQ(evdev_levels(0).right, -ff::kFullLevel);
 }
 
@@ -164,7 +153,7 @@ TEST_F(EvdevFaults, WheelsAndPadsCutForcesToo) {
     plug_evdev(0, kind);
     const auto device = stepped();
     device->open();
-    ASSERT_EQ(exchange(*device, volts(1e9, 1e9), reading), ExchangeStatus::kOk);
+    ASSERT_EQ(exchange(*device, pushing(1e9, 1e9), reading), ExchangeStatus::kOk);
     const EvdevLevels levels = evdev_levels(0);
     EXPECT_EQ(levels.right, kind == EvdevKind::kWheel ? ff::kFullLevel : 0);
     EXPECT_EQ(levels.rumble, kind == EvdevKind::kPad ? ff::kFullStrength : 0);
@@ -172,7 +161,7 @@ TEST_F(EvdevFaults, WheelsAndPadsCutForcesToo) {
   }
 }
 
-TEST_F(EvdevFaults, VoltsThatAreNoNumbersPushNowhere) {
+TEST_F(EvdevFaults, ForcesThatAreNoNumbersPushNowhere) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const EvdevKind kind : {EvdevKind::kStick, EvdevKind::kWheel, EvdevKind::kPad}) {
@@ -180,12 +169,9 @@ TEST_F(EvdevFaults, VoltsThatAreNoNumbersPushNowhere) {
     const auto device = stepped();
     device->open();
     for (const double value : {kNan, kInfinity, -kInfinity}) {
-      // In one string, and in all.
-      MotorVolts one = volts(1, 0.5), all;
-      one.volt[6] = value;
-      all.volt.fill(value);
-      for (const MotorVolts& bad : {one, all}) {
-        ASSERT_EQ(exchange(*device, volts(1), reading), ExchangeStatus::kOk);
+      // On one axis, and on both.
+      for (const ForceOutput& bad : {pushing(1, value), pushing(value, value)}) {
+        ASSERT_EQ(exchange(*device, pushing(1), reading), ExchangeStatus::kOk);
         ASSERT_FALSE(evdev_levels(0).at_rest());
         ASSERT_EQ(exchange(*device, bad, reading), ExchangeStatus::kOk);
         EXPECT_TRUE(evdev_levels(0).at_rest()) << value;
@@ -198,20 +184,24 @@ TEST_F(EvdevFaults, APositionBeyondItsAxisIsTheEndOfTheAxis) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
   const auto device = stepped();
   device->open();
-  const auto counts_at = [&](int right, int down) {
+  const auto position_at = [&](int right, int down) {
     port.axis[0] = right;
     port.axis[1] = down;
     EXPECT_EQ(exchange(*device, {}, reading, 50), ExchangeStatus::kOk);
-    return reading.count;
+    return reading.position_m;
   };
-  const auto centre = counts_at(0, 0);
-  const auto corner = counts_at(1000, -1000);
-  EXPECT_NE(corner, centre);
-  EXPECT_EQ(counts_at(32767, -32768), corner);
-  EXPECT_EQ(counts_at(1001, std::numeric_limits<int>::min()), corner);
+  // Each of the 50 updates leaves a sixth of the way.
+  const auto is_at = [&](int right, int down, const Eigen::Vector3d& there_m) {
+    EXPECT_LT((position_at(right, down) - there_m).norm(), 1e-9) << right << ", " << down;
+  };
+  const Eigen::Vector3d corner(0.5 * 0.059, 0.5 * 0.064, 0);
+  is_at(0, 0, Eigen::Vector3d::Zero());
+  is_at(1000, -1000, corner);
+  is_at(32767, -32768, corner);
+  is_at(1001, std::numeric_limits<int>::min(), corner);
   // An axis whose ends are the same is at rest.
   port.axis_end = 0;
-  EXPECT_EQ(counts_at(1000, -1000), centre);
+  is_at(1000, -1000, Eigen::Vector3d::Zero());
 }
 
 TEST_F(EvdevFaults, AfterItFailedToOpenNothingIsLeftAndItOpensAgain) {
@@ -240,7 +230,7 @@ TEST_F(EvdevFaults, AfterItFailedToOpenNothingIsLeftAndItOpensAgain) {
   refuses("half of an event");
   port.cuts_events = false;
   device->open();
-  EXPECT_EQ(exchange(*device, volts(1), reading), ExchangeStatus::kOk);
+  EXPECT_EQ(exchange(*device, pushing(1), reading), ExchangeStatus::kOk);
   EXPECT_GT(evdev_levels(0).right, 0);
 }
 
@@ -265,13 +255,15 @@ TEST_F(EvdevFaults, ADriverThatFailsComesToRest) {
   }
 }
 
-/// With the board's own thread, as in make_device(), and ticks by hand: if a tick waited for the
+/// With the board's own thread, as in make_grip(), and ticks by hand: if a tick waited for the
 /// driver, it would never end.
 TEST_F(EvdevFaults, NoTickWaitsForADriverThatHangs) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
   SessionSettings by_hand;
   by_hand.threaded = false;
-  HapticSession session(profile, board(ForceFeedbackBoard::Updates::kOwnThread), by_hand);
+  HapticSession session(
+      std::make_unique<ForceGrip>(board(ForceFeedbackBoard::Updates::kOwnThread), alone()),
+      by_hand);
   int64_t now_ns = 0;
   const auto tick = [&] {
     now_ns += kTick_ns;

@@ -10,14 +10,13 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_device.h"
 #include "spidar/boards/board_list.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/transports/evdev_list.h"
 #include "tests/emulated_bus/bus_state.h"
-#include "tests/spidar/board_bench.h"
+#include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/temporary_folder.h"
 
@@ -32,7 +31,7 @@ constexpr int kGain = 13107;
 std::string opening(const std::string& spec) {
   BoardSettings settings;
   settings.guardian = false;
-  const auto device = make_device(spec, load_profile(kDefaultProfile), settings);
+  const auto device = make_grip(spec, load_profile(kDefaultProfile), settings);
   try {
     device->open();
     return {};
@@ -74,9 +73,10 @@ TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
   const FeltPlayer player;
   EXPECT_EQ(player.session->opened(),
             "Emulated Stick at 20 % of its strength, force feedback on two axes");
-  const FeltParts felt = player.session->grip().felt_parts();
-  EXPECT_TRUE(felt.x && felt.y && felt.direction);
-  EXPECT_FALSE(felt.z || felt.torque);
+  const GripAbilities can = player.session->grip().abilities();
+  EXPECT_TRUE(can.force[0] && can.force[1] && can.direction);
+  EXPECT_FALSE(can.force[2] || can.torque);
+  EXPECT_EQ(can.position, (std::array<bool, 3>{true, true, false}));
   for (const auto& [x_N, y_N] :
        {std::pair{1.5, 0.0}, {-0.7, 0.0}, {0.0, 2.0}, {0.0, -0.2}, {1.0, -1.2}, {0.0, 0.0}}) {
     player.push(x_N, y_N);
@@ -85,10 +85,10 @@ TEST_F(ForceFeedback, RightIsRightAndUpIsUp) {
       const EvdevLevels levels = evdev_levels(0);
       return is_level(levels.right, x, size_N) && is_level(levels.up, y, size_N);
     });
-    const Eigen::Vector3d delivered_N = player.now().last.delivered.force_N;
-    // Where nothing is wanted, the rounding of a sum of eight.
-    EXPECT_NEAR(delivered_N.x(), x_N, 0.01 * size_N + 1e-12);
-    EXPECT_NEAR(delivered_N.y(), y_N, 0.01 * size_N + 1e-12);
+    // Forces are still being switched on when the first one comes.
+    wait_for([&, x = x_N, y = y_N] {
+      return player.now().last.delivered.force_N == Eigen::Vector3d(x, y, 0);
+    });
   }
 }
 
@@ -97,8 +97,8 @@ TEST_F(ForceFeedback, PadsGetTheStrengthOfTheForce) {
   const FeltPlayer player;
   EXPECT_EQ(player.session->grip().description(),
             "Emulated Pad, rumble only: the strength of the force is felt, not its direction");
-  EXPECT_TRUE(player.session->grip().felt_parts().y);
-  EXPECT_FALSE(player.session->grip().felt_parts().direction);
+  EXPECT_TRUE(player.session->grip().abilities().force[1]);
+  EXPECT_FALSE(player.session->grip().abilities().direction);
   player.push(-0.9, 1.2);
   wait_for([] {
     const EvdevLevels levels = evdev_levels(0);
@@ -112,19 +112,16 @@ TEST_F(ForceFeedback, TheStickIsTheGripAndRestsAnywhere) {
   const FeltPlayer player;
   port.axis[0] = 1000;
   port.axis[1] = 500;
-  // Half of the way to the exits, which are at 59 and 64 mm; a count is 15 µm of string.
+  // Half of the way to the exits, which are at 59 and 64 mm; a reading is rounded to 3 µm.
   wait_for([&] {
-    return (player.now().last.pose.position_m - Eigen::Vector3d(0.0295, -0.016, 0)).norm() < 1e-4;
+    return (player.now().last.pose.position_m - Eigen::Vector3d(0.0295, -0.016, 0)).norm() < 1e-5;
   });
   EXPECT_TRUE(evdev_levels(0).at_rest());
-  // Half a newton: what the strings can give there without more than 1 % of error is theirs to
-  // show, see test_profile_tensions; the stick is given what they give.
-  player.push(0.5, 0.5);
+  // Far from the centre as well as there, and as strong as it can.
+  player.push(2, 2);
   wait_for([&] {
-    const Eigen::Vector3d given_N = player.now().last.delivered.force_N;
     const EvdevLevels levels = evdev_levels(0);
-    return given_N.norm() > 0.1 && is_level(levels.right, given_N.x(), given_N.norm()) &&
-           is_level(levels.up, given_N.y(), given_N.norm());
+    return is_level(levels.right, 2, 2) && is_level(levels.up, 2, 2);
   });
   player.push(0, 0);
   wait_for([] { return evdev_levels(0).at_rest(); });
@@ -204,20 +201,17 @@ TEST_F(ForceFeedback, AnExchangeOfZerosChangesNoSetting) {
     const int before = port.autocentre;
     BoardSettings settings;
     settings.guardian = false;
-    const auto device = make_device("ff", load_profile(kDefaultProfile), settings);
+    const auto device = make_grip("ff", load_profile(kDefaultProfile), settings);
     device->open();
     // Until the thread that sets levels has shown the position twice, so it has done an update.
-    DeviceReading reading, first;
-    const auto exchange = [&](DeviceReading& into) {
-      wait_for([&] { return device->exchange({}, into) == ExchangeStatus::kOk; });
+    const auto read_m = [&] {
+      wait_for([&] { return device->exchange({}) == ExchangeStatus::kOk; });
+      return device->reading().pose.position_m;
     };
     for (const int at : {1000, -1000}) {
-      exchange(first);
+      const Eigen::Vector3d first_m = read_m();
       port.axis[0] = at;
-      wait_for([&] {
-        exchange(reading);
-        return reading.count != first.count;
-      });
+      wait_for([&] { return read_m() != first_m; });
     }
     device->close();
     EXPECT_EQ(port.settings, 0u) << driver;
@@ -239,10 +233,10 @@ TEST_F(ForceFeedback, TheDriverIsFoundThroughALink) {
 
 /// The loop's own ramp, and one update for each axis, in ticks.
 TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
-  BoardBench bench(Kind::kForceFeedback);
+  ForceBench bench(ForceKind::kForceFeedback);
   SessionSettings by_hand;
   by_hand.threaded = false;
-  HapticSession session(bench.profile, bench.device(), by_hand);
+  HapticSession session(bench.grip(), by_hand);
   int64_t now_ns = 0;
   const auto tick = [&] {
     now_ns += kTick_ns;
@@ -250,7 +244,7 @@ TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
   };
   session.loop().set_playback_clock({0, 0, 1.0, true});
   ASSERT_TRUE(session.loop().schedule(lasting({2, -2, 0})));
-  // Until the strings are taut, and the force is there.
+  // Until forces are switched on, and this one is there.
   while (now_ns < static_cast<int64_t>(HapticLoop::kEnergise_s * 1e9)) tick();
   while (session.loop().snapshot().last.commanded.force_N.x() != 2) tick();
   for (int i = 0; i < 2 * ForceFeedbackBoard::kUpdate_ms; ++i) tick();
@@ -328,7 +322,7 @@ TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
   // Without a loop, which may lose it for a moment on a busy machine.
   BoardSettings settings;
   settings.guardian = false;
-  const auto first = make_device("ff", load_profile(kDefaultProfile), settings);
+  const auto first = make_grip("ff", load_profile(kDefaultProfile), settings);
   first->open();
   says("ff:/dev/input/event1", "another program uses it");
 }

@@ -19,12 +19,12 @@
 
 #include "spidar/boards/stick_place.h"
 #include "spidar/boards/update_watch.h"
-#include "spidar/grip/grip_watch.h"
 #include "spidar/realtime/thread_setup.h"
 #include "spidar/transports/evdev_transport.h"
 #include "tests/emulated_bus/bus_state.h"
-#include "tests/spidar/board_bench.h"
+#include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/pushed_grip.h"
 
 namespace spidar::test::force_feedback_faults_test {
 namespace {
@@ -81,8 +81,7 @@ TEST(UpdateWatch, ADriverThatDoesNotReturnInTimeIsReported) {
   EXPECT_EQ(watch.report(again_ns), LinkFault::kNone);
 }
 
-/// Of the speed that GripWatch allows, without its margin. Steps of the readings are 20, 15 and
-/// 13 mm.
+/// Steps of the readings are 20, 15 and 13 mm.
 TEST(StickPlace, MovesAtTheSpeedOfTheHand) {
   const double reach_m = 0.059 / 2;
   for (const auto& [update_ms, half_ms] : {std::pair{55, 250}, {25, 150}, {5, 35}}) {
@@ -104,7 +103,7 @@ TEST(StickPlace, MovesAtTheSpeedOfTheHand) {
       place.advance(ms * kMs);
       largest_m = std::max(largest_m, std::abs(reach_m * place.share().x() - before_m));
     }
-    EXPECT_GT(largest_read_m, GripWatch::kMaxSpeed_m_s * 1e-3);
+    EXPECT_GT(largest_read_m, 10e-3);
     // The fastest hand: pi / 35 ms x 29.5 mm = 2.6 m/s; a reading is rounded to 3 um.
     const double fastest_m = reach_m * M_PI / half_ms + reach_m / ff::Position::kFull;
     EXPECT_LE(largest_m, fastest_m);
@@ -132,11 +131,11 @@ class ForceFeedbackFaults : public testing::Test {
 };
 
 /// 13 mm between two updates of a fast driver.
-TEST_F(ForceFeedbackFaults, AFastHandIsNoJumpOfACounter) {
-  BoardBench bench(Kind::kForceFeedback);
+TEST_F(ForceFeedbackFaults, AFastHandLosesNoPose) {
+  ForceBench bench(ForceKind::kForceFeedback);
   SessionSettings by_hand;
   by_hand.threaded = false;
-  HapticSession session(bench.profile, bench.device(), by_hand);
+  HapticSession session(bench.grip(), by_hand);
   for (int64_t now_ns = kTick_ns; now_ns < 2 * kSecond_ns; now_ns += kTick_ns) {
     if (now_ns > kSecond_ns / 2) bench.motors.count[0] = swinging(now_ns, 35).right;
     session.loop().tick(now_ns, now_ns);
@@ -155,7 +154,7 @@ TEST_F(ForceFeedbackFaults, ADriverThatHangsIsATimeOut) {
   by_hand.threaded = false;
   const Profile profile = load_profile(kDefaultProfile);
   {
-    HapticSession session(profile, make_device("ff", profile, settings), by_hand);
+    HapticSession session(make_grip("ff", profile, settings), by_hand);
     const auto tick = [&loop = session.loop()] {
       const int64_t now_ns = monotonic_now_ns() + kTick_ns;
       sleep_until_ns(now_ns);
@@ -195,13 +194,10 @@ TEST_F(ForceFeedbackFaults, AnEffectEndsWhenTheLoopOrTheDriverHangs) {
   BoardSettings settings;
   settings.guardian = settings.threaded = false;
   const Profile profile = load_profile(kDefaultProfile);
-  const auto device = make_device("ff", profile, settings);
+  const auto device = make_grip("ff", profile, settings);
   device->open();
-  MotorVolts volts;
-  volts.volt = {1};
-  DeviceReading reading;
   wait_for([&] {
-    device->exchange(volts, reading);
+    device->exchange(told(1));
     return !evdev_levels(0).at_rest();
   });
   wait_for([] { return evdev_levels(0).at_rest(); });
@@ -213,7 +209,7 @@ TEST_F(ForceFeedbackFaults, ADriverThatHangsDoesNotKeepTheDeviceFromBeingClosed)
   BoardSettings settings;
   settings.guardian = settings.threaded = false;
   const Profile profile = load_profile(kDefaultProfile);
-  const auto device = make_device("ff", profile, settings);
+  const auto device = make_grip("ff", profile, settings);
   {
     const FeltPlayer player;
     player.push(2, 0);

@@ -17,11 +17,13 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/board_device.h"
+#include "spidar/boards/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/pseudo_terminal.h"
+#include "tests/support/pushed_grip.h"
 #include "tests/support/recorded_motors.h"
 
 namespace spidar::test {
@@ -38,24 +40,34 @@ void leave_files_to_a_child() {
 }
 
 /// Pulls until it is killed, and again when the device was lost.
-[[noreturn]] void pull_for_ever(const char* spec, const char* profile, bool forks) {
-  const auto device = make_device(spec, load_profile(profile));
-  device->open();
+template <typename Opened, typename Exchange>
+[[noreturn]] void exchange_for_ever(Opened& opened, const Exchange& exchange, bool forks) {
+  opened.open();
   if (forks) leave_files_to_a_child();
-  DeviceReading reading;
   for (;;) {
-    if (device->exchange(one_volt(spec), reading) != ExchangeStatus::kLost) continue;
-    device->close();
-    device->open();
+    if (exchange() != ExchangeStatus::kLost) continue;
+    opened.close();
+    opened.open();
   }
+}
+
+[[noreturn]] void pull_for_ever(const char* spec, const char* profile, bool forks) {
+  if (board_info(spec).has_strings) {
+    const auto device = make_device(spec, load_profile(profile));
+    DeviceReading reading;
+    exchange_for_ever(
+        *device, [&] { return device->exchange(one_volt(), reading); }, forks);
+  }
+  const auto grip = make_grip(spec, load_profile(profile));
+  exchange_for_ever(
+      *grip, [&] { return grip->exchange(told(1)); }, forks);
 }
 
 /// Reads until it is killed. Moves the stick once it has its guardian and has read it.
 [[noreturn]] void read_for_ever(const char* spec, const char* profile) {
-  const auto device = make_device(spec, load_profile(profile));
-  device->open();
-  DeviceReading reading;
-  for (int count = 0;; count += device->exchange({}, reading) == ExchangeStatus::kOk) {
+  const auto grip = make_grip(spec, load_profile(profile));
+  grip->open();
+  for (int count = 0;; count += grip->exchange({}) == ExchangeStatus::kOk) {
     if (count == 10) bus().evdev[0].axis[1] = 1;
     sleep_1ms();
   }

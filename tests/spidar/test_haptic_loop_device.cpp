@@ -177,11 +177,11 @@ TEST(HapticLoopDevice, UnknownPoseRampsToRest) {
     driver.log().count[i] = drive.encoder_sign * static_cast<int32_t>(0.5 / drive.metres_per_count);
   }
   // The tick that reads it, and those that the pose of before is used in.
-  TickRecord record = driver.run(GripWatch::kMaxMisses * kMs);
+  TickRecord record = driver.run(PoseTrust::kMaxMisses * kMs);
   EXPECT_EQ(record.commanded.force_N.x(), 1);
   EXPECT_EQ(record.pose.position_m, before.position_m);
   EXPECT_GT(record.pose_residual_m, PoseSolver::kMaxResidual_m);
-  record = driver.run((50 - GripWatch::kMaxMisses) * kMs);
+  record = driver.run((50 - PoseTrust::kMaxMisses) * kMs);
   EXPECT_EQ(record.commanded.stacked().norm(), 0);
   EXPECT_EQ(record.tension_N, driver.profile.min_tension_N());
   EXPECT_GT(driver.counters().pose_errors, 0u);

@@ -40,12 +40,12 @@ constexpr int kLongestLink_ms = 300;
 /// board takes it: it tries every 10 ms (spidar/guardian/).
 constexpr int kGuardian_ms = 50;
 constexpr int kGuardianTry_ms = 10;
-/// A pose that fits no longer is used for GripWatch::kMaxMisses more ticks; then a quarter of the
+/// A pose that fits no longer is used for PoseTrust::kMaxMisses more ticks; then a quarter of the
 /// ramp of 40 ms, which is level at first, takes the tensions to rest (TensionCommand::kLostPace).
 constexpr int kFade_ms = 14;
 /// Three time constants of the drives, after which a force of three times the limit is within it.
 constexpr int kLag_ms = 6;
-constexpr int kMostAbove_ms = GripWatch::kMaxMisses + 1 + kFade_ms + kLag_ms;
+constexpr int kMostAbove_ms = PoseTrust::kMaxMisses + 1 + kFade_ms + kLag_ms;
 /// Where the pose was lost before the player died. A string needs TensionSlew::kRange_s more when
 /// it passes through its whole range.
 constexpr int kSlew_ms = 20;

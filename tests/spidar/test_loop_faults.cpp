@@ -105,7 +105,7 @@ TEST(LostPose, WhileStoppingTakesNoLonger) {
   driver.run(100 * kMs);
   driver.pause();
   driver.run(18 * kMs);
-  driver.tick(GripWatch::kPoseTimeout_ns + kMs);  // a stall, of which two milliseconds count
+  driver.tick(PoseTrust::kPoseTimeout_ns + kMs);  // a stall, of which two milliseconds count
   EXPECT_EQ(driver.loop->snapshot().pose_trouble, PoseTrouble::kNoReading);
   EXPECT_EQ(driver.run(30 * kMs).tension_N, driver.profile.min_tension_N());
 }
@@ -123,12 +123,12 @@ TEST(LostPose, NeedsSeveralGoodOnesInARow) {
   // Now and then a good one is not enough.
   for (int i = 0; i < 20; ++i) {
     driver.log().count = good;
-    ASSERT_EQ(driver.run((GripWatch::kGoodPoses - 1) * kMs).commanded.stacked().norm(), 0);
+    ASSERT_EQ(driver.run((PoseTrust::kGoodPoses - 1) * kMs).commanded.stacked().norm(), 0);
     driver.log().count = bad;
     ASSERT_EQ(driver.tick().commanded.stacked().norm(), 0);
   }
   driver.log().count = good;
-  EXPECT_EQ(driver.run((GripWatch::kGoodPoses + 42) * kMs).commanded.force_N.x(), 1);
+  EXPECT_EQ(driver.run((PoseTrust::kGoodPoses + 42) * kMs).commanded.force_N.x(), 1);
   EXPECT_EQ(driver.loop->snapshot().pose_trouble, PoseTrouble::kNone);
 }
 

@@ -182,8 +182,16 @@ TEST(Spidarctl, InfoReadsEachBoard) {
     const CommandResult outcome = run_spidarctl("info " + device);
     EXPECT_EQ(outcome.status, 0);
     expect_contains(outcome.text, "device    " + device + "\n");
-    expect_contains(outcome.text, "inputs    0x0000");
+    const bool strings = device != "sim:mouse" && device != "sim:ff";
+    expect_contains(outcome.text,
+                    strings ? "\n  string  N smallest" : "\n  axis     force  position");
   }
+  const std::string joystick = run_spidarctl("info sim:ff").text;
+  EXPECT_EQ(joystick.find("string"), std::string::npos) << joystick;
+  expect_contains(joystick, "force     3 N at most, 200 times a second\n");
+  expect_contains(joystick, "  right      yes    0.0 mm\n  up         yes    0.0 mm\n");
+  expect_contains(run_spidarctl("info sim:mouse").text, "  right      yes  no\n");
+  expect_contains(run_spidarctl("info sim:ff --json").text, "\"largest_force_N\" : 3.0");
   expect_contains(run_spidarctl("info sim:ff").text,
                   "found     emulated stick at 20 % of its strength, force feedback on two axes");
   expect_contains(run_spidarctl("info sim:sh4 --json").text, "\"profile\" : \"spidar-g6x3-v2-r\"");

@@ -82,9 +82,8 @@ TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
     BoardSettings settings;
     settings.guardian = false;
     settings.threaded = false;  // a thread may get no processor for 20 exchanges
-    const Profile profile = load_profile(kDefaultProfile);
-    const auto device = make_device(spec, profile, settings);
-    const StickTest test = test_stick(*device, profile, [] {
+    const auto grip = make_grip(spec, load_profile(kDefaultProfile), settings);
+    const StickTest test = test_stick(*grip, [] {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       return true;
     });

@@ -16,6 +16,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/support/pushed_grip.h"
 
 namespace spidar::test::usb_boards_test {
 namespace {
@@ -27,7 +28,8 @@ MotorVolts all_volts(double volt) {
 }
 
 /// The message of open(); empty on success.
-std::string opening(Device& device) {
+template <typename Opened>
+std::string opening(Opened& device) {
   try {
     device.open();
     return {};
@@ -106,7 +108,7 @@ TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
   for (const std::string device :
        {"usb:1-1", "usb:1-2", "usb:5", "uart:/dev/ttyUSB0", "mouse", "sim", "sim:sh4", "sim:simple",
         "sim:uart", "sim:mouse", "sim:ff", "ff", "ff:/dev/input/event0"})
-    EXPECT_NO_THROW(make_device(device, load_profile(board_info(device).profile))) << device;
+    EXPECT_NO_THROW(make_grip(device, load_profile(board_info(device).profile))) << device;
 }
 
 TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {
@@ -260,16 +262,14 @@ TEST_F(UsbBoards, CountsOfACalibratedProfileAreTheBoards) {
 TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
   UsbPort& other = plug(0, UsbKind::kMouse);
   other.fault = LinkFault::kTimeout;  // does not answer to the question for its state
-  const auto mouse = device("mouse", false);
+  const auto mouse = make_grip("mouse", profile, unguarded(false));
   const std::string what = opening(*mouse);
   EXPECT_NE(what.find("is no SPIDAR-mouse"), std::string::npos) << what;
   EXPECT_EQ(other.updates, 0u);
   UsbPort& right = plug(1, UsbKind::kMouse);
   ASSERT_EQ(opening(*mouse), "");
-  DeviceReading reading;
-  MotorVolts volts;
-  volts.volt[2] = 1;
-  for (int i = 0; i < 4; ++i) ASSERT_EQ(mouse->exchange(volts, reading), ExchangeStatus::kOk);
+  EXPECT_EQ(mouse->description(), "at 1-2: SPIDAR-mouse");
+  for (int i = 0; i < 4; ++i) ASSERT_EQ(mouse->exchange(told(1)), ExchangeStatus::kOk);
   EXPECT_FALSE(right.at_rest());
   EXPECT_TRUE(other.at_rest());
   mouse->close();

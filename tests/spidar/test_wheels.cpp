@@ -72,9 +72,9 @@ TEST_F(Wheels, GetTheSidewaysForce) {
   player.push(-1, 1);
   wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
   EXPECT_EQ(evdev_levels(0).up, 0);
-  EXPECT_TRUE(player.session->grip().felt_parts().x);
-  EXPECT_FALSE(player.session->grip().felt_parts().y);
-  EXPECT_TRUE(player.session->grip().felt_parts().direction);
+  EXPECT_TRUE(player.session->grip().abilities().force[0]);
+  EXPECT_FALSE(player.session->grip().abilities().force[1]);
+  EXPECT_TRUE(player.session->grip().abilities().direction);
   EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
   EXPECT_FALSE(bus().evdev[0].effect[1].used);
 }

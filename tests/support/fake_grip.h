@@ -21,7 +21,7 @@ class FakeGrip final : public Grip {
   std::vector<GripCommand> commands;
   bool is_open = false;
 
-  explicit FakeGrip(bool can_fly) { reading_.can_fly = can_fly; }
+  explicit FakeGrip(bool can_fly) : traits_{false, can_fly, 0, 0} {}
 
   void open() override {
     if (!present) throw DeviceError("fake: not there");
@@ -46,7 +46,7 @@ class FakeGrip final : public Grip {
   void close() noexcept override { is_open = false; }
   const GripTraits& traits() const noexcept override { return traits_; }
   std::string description() const override { return "three axes"; }
-  FeltParts felt_parts() const noexcept override { return {true, true, true, false, true}; }
+  GripAbilities abilities() const noexcept override { return {{true, true, true}, false}; }
   LinkHealth health() const noexcept override { return {}; }
   const std::string& name() const noexcept override { return name_; }
 

@@ -40,8 +40,7 @@ struct FeltPlayer {
     settings.guardian = guardian;
     SessionSettings of_session;
     of_session.real_time = false;
-    session =
-        std::make_unique<HapticSession>(profile, make_device(spec, profile, settings), of_session);
+    session = std::make_unique<HapticSession>(make_grip(spec, profile, settings), of_session);
     loop().set_playback_clock({HapticSession::monotonic_now_ns(), kSecond_ns, 1.0, true});
   }
 

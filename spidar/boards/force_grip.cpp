@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/boards/force_grip.h"
+
+#include <utility>
+
+namespace spidar {
+
+ForceGrip::ForceGrip(std::unique_ptr<ForceBoard> board, const BoardSettings& settings)
+    : board_(std::move(board)), link_(*board_, settings) {}
+
+void ForceGrip::open() {
+  link_.open();
+  acknowledged_N_.setZero();
+  trust_ = {};
+  reading_.delivered = {};
+  reading_.pose = {};
+  reading_.motion.reset();
+  reading_.trouble = trust_.trouble();
+}
+
+void ForceGrip::check_age(int64_t now_ns) noexcept {
+  trust_.check_age(now_ns);
+  reading_.trouble = trust_.trouble();
+}
+
+ForceOutput ForceGrip::output_for(const GripCommand& command) const noexcept {
+  const GripAbilities can = board_->abilities();
+  ForceOutput output;
+  output.on = command.power > 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (can.force[static_cast<size_t>(axis)])
+      output.force_N[axis] = command.power * command.wrench.force_N[axis];
+  const double wanted_N = output.force_N.norm();
+  if (wanted_N > can.largest_force_N) output.force_N *= can.largest_force_N / wanted_N;
+  return output;
+}
+
+ExchangeStatus ForceGrip::exchange(const GripCommand& command) noexcept {
+  const ForceOutput output = output_for(command);
+  ForceReading answer;
+  const ExchangeStatus status = link_.exchange(output, answer);
+  if (status == ExchangeStatus::kOk) {
+    acknowledged_N_ = output.force_N;
+    see(answer, command);
+  } else {
+    // The device may not have received this tick.
+    trust_.miss(command.now_ns);
+    if (!trust_.trusted()) reading_.motion.reset();
+  }
+  reading_.delivered.force_N = acknowledged_N_;
+  reading_.trouble = trust_.trouble();
+  return status;
+}
+
+void ForceGrip::see(const ForceReading& answer, const GripCommand& command) noexcept {
+  if (answer.position_m.allFinite()) {
+    reading_.pose.position_m = answer.position_m;
+    trust_.locate(command.now_ns);
+    trust_.succeed(command.wrench.stacked().isZero(0));
+  } else {
+    ++reading_.pose_errors;
+    trust_.fail(PoseTrouble::kNoReading);
+  }
+  if (trust_.trusted())
+    reading_.motion.see(reading_.pose, trust_.located_ns());
+  else
+    reading_.motion.reset();
+}
+
+}  // namespace spidar

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What a device can do.
+#pragma once
+
+#include <array>
+
+namespace spidar {
+
+struct GripAbilities {
+  /// Axes of the force that are felt: to the right, up, towards the viewer.
+  std::array<bool, 3> force{true, true, true};
+  bool torque = true;
+  /// Otherwise only the size of the force is felt, in the axes that are felt.
+  bool direction = true;
+  std::array<bool, 3> position{true, true, true};  ///< axes in which it is measured
+  double largest_force_N = 0;                      ///< in every direction that is felt
+  int rate_Hz = 1000;                              ///< forces a second, at most
+};
+
+}  // namespace spidar

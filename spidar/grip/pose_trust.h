@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Whether the pose of a grip can be trusted.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "spidar/grip/pose_trouble.h"
+
+namespace spidar {
+
+/// Trust is lost after kMaxMisses readings without a good pose and returns after kGoodPoses good
+/// poses in a row.
+class PoseTrust {
+ public:
+  /// Number of ticks in a row that may pass without a good pose; they use the previous pose.
+  static constexpr int kMaxMisses = 5;
+  /// Limit of the same in time, in case the ticks themselves are late.
+  static constexpr int64_t kPoseTimeout_ns = 50'000'000;
+  /// Good poses in a row before the pose is trusted again.
+  static constexpr int kGoodPoses = 20;
+
+  /// A pose was read at this time, good or not.
+  void locate(int64_t now_ns) noexcept { located_ns_ = now_ns; }
+  /// The pose that was read is good. `may_trust`: trust may begin with it; existing trust is kept
+  /// in any case.
+  void succeed(bool may_trust) noexcept {
+    misses_ = 0;
+    good_poses_ = std::min(good_poses_ + 1, kGoodPoses);
+    if (good_poses_ == kGoodPoses && may_trust) trusted_ = true;
+  }
+  /// There is no good pose. `at_once`: nor is the previous one the present one.
+  void fail(PoseTrouble trouble, bool at_once = false) noexcept {
+    if (at_once) misses_ = kMaxMisses;
+    good_poses_ = 0;
+    if (++misses_ <= kMaxMisses && trusted_) return;
+    trusted_ = false;
+    trouble_ = trouble;
+  }
+  /// For a tick in which the device did not answer.
+  void miss(int64_t now_ns) noexcept {
+    check_age(now_ns);
+    fail(PoseTrouble::kNoReading);
+  }
+  /// To be called before the force of a tick is computed: withdraws trust if the newest pose is too
+  /// old.
+  void check_age(int64_t now_ns) noexcept {
+    if (!trusted_ || now_ns - located_ns_ <= kPoseTimeout_ns) return;
+    trusted_ = false;
+    good_poses_ = 0;
+    trouble_ = PoseTrouble::kNoReading;
+  }
+
+  bool trusted() const noexcept { return trusted_; }
+  /// kNone while trusted.
+  PoseTrouble trouble() const noexcept { return trusted_ ? PoseTrouble::kNone : trouble_; }
+  /// When the newest pose was read.
+  int64_t located_ns() const noexcept { return located_ns_; }
+
+ private:
+  bool trusted_ = false;
+  PoseTrouble trouble_ = PoseTrouble::kNotYet;
+  int misses_ = 0;
+  int good_poses_ = 0;
+  int64_t located_ns_ = 0;
+};
+
+}  // namespace spidar

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Devices that take a force, on an emulated wire.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "spidar/boards/force_feedback_board.h"
+#include "spidar/boards/force_grip.h"
+#include "spidar/boards/mouse_board.h"
+#include "spidar/emulation/emulated_force_feedback.h"
+#include "spidar/emulation/emulated_transport.h"
+#include "spidar/emulation/emulated_usb.h"
+#include "tests/support/pushed_grip.h"
+#include "tests/support/recorded_motors.h"
+
+namespace spidar::test {
+
+enum class ForceKind { kMouse, kForceFeedback };
+
+inline std::string name_of(ForceKind kind) {
+  return kind == ForceKind::kMouse ? "mouse" : "ff";
+}
+
+/// The digits of the motors are the force: right, up.
+struct ForceBench {
+  explicit ForceBench(ForceKind of) : kind(of) {}
+
+  std::unique_ptr<ForceBoard> board() {
+    if (kind == ForceKind::kMouse)
+      return std::make_unique<MouseBoard>(
+          "mouse",
+          std::make_unique<EmulatedTransport>(std::make_unique<EmulatedMouse>(recorded), wire));
+    return std::make_unique<ForceFeedbackBoard>(
+        "ff", profile,
+        std::make_unique<EmulatedTransport>(std::make_unique<EmulatedForceFeedback>(recorded),
+                                            wire),
+        ForceFeedbackBoard::Updates::kInCycle);
+  }
+  static BoardSettings settings(bool threaded) {
+    BoardSettings settings;
+    settings.threaded = threaded;
+    return settings;
+  }
+  std::unique_ptr<LinkedForce> linked(bool threaded = false) {
+    return std::make_unique<LinkedForce>(board(), settings(threaded));
+  }
+  std::unique_ptr<ForceGrip> grip() {
+    return std::make_unique<ForceGrip>(board(), settings(false));
+  }
+
+  /// Number of exchanges in which it communicates with the device once.
+  int cycles() const { return kind == ForceKind::kMouse ? 4 : ForceFeedbackBoard::kUpdate_ms; }
+
+  const ForceKind kind;
+  const Profile profile = load_profile("spidar-g6x3-v2-r");
+  MotorBench motors;
+  RecordedMotors recorded{motors};
+  std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>();
+};
+
+}  // namespace spidar::test

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Devices that take a force: every kind with its emulation, without a wire, and the grip on them.
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "spidar/session/haptic_session.h"
+#include "tests/spidar/force_bench.h"
+#include "tests/support/felt_player.h"
+
+namespace spidar::test::force_grip_test {
+namespace {
+
+class ForceBoards : public testing::TestWithParam<ForceKind>, public ForceBench {
+ protected:
+  ForceBoards() : ForceBench(GetParam()) {}
+
+  /// Until every axis could be set; returns the worst status.
+  ExchangeStatus exchange(LinkedForce& device, const ForceOutput& output, int times = 2) {
+    ExchangeStatus worst = ExchangeStatus::kOk;
+    for (int i = 0; i < times * cycles(); ++i) {
+      const ExchangeStatus status = device.exchange(output, reading);
+      if (status != ExchangeStatus::kOk) worst = status;
+    }
+    return worst;
+  }
+
+  ForceReading reading;
+};
+INSTANTIATE_TEST_SUITE_P(, ForceBoards,
+                         testing::Values(ForceKind::kMouse, ForceKind::kForceFeedback),
+                         [](const auto& kind) { return name_of(kind.param); });
+
+TEST_P(ForceBoards, OpenLeavesThemAtRest) {
+  const auto device = linked();
+  device->open();
+  for (const int digit : motors.history) EXPECT_EQ(digit, 0);
+}
+
+TEST_P(ForceBoards, ForcesThatAreNoNumbersPushNowhere) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto device = linked();
+  device->open();
+  for (const double value : {kNan, kInfinity, -kInfinity}) {
+    ASSERT_EQ(exchange(*device, pushing(1, 1)), ExchangeStatus::kOk);
+    ASSERT_FALSE(motors.all_zero());
+    ASSERT_EQ(exchange(*device, pushing(value, value)), ExchangeStatus::kOk);
+    EXPECT_TRUE(motors.all_zero()) << value;
+  }
+}
+
+TEST_P(ForceBoards, CloseEndsAtRest) {
+  for (const bool threaded : {false, true}) {
+    const auto device = linked(threaded);
+    device->open();
+    exchange(*device, pushing(1));
+    if (!threaded) {
+      ASSERT_FALSE(motors.all_zero());
+    }
+    const size_t before = motors.history.size();
+    device->close();
+    if (!threaded) {
+      EXPECT_GT(motors.history.size(), before);
+    }
+    EXPECT_TRUE(motors.all_zero());
+    const int updates = motors.updates;
+    device->close();
+    EXPECT_EQ(motors.updates, updates);
+    EXPECT_EQ(device->exchange(pushing(1), reading), ExchangeStatus::kLost);
+  }
+}
+
+TEST_P(ForceBoards, DestructionEndsAtRestToo) {
+  {
+    const auto device = linked(true);
+    device->open();
+    exchange(*device, pushing(1));
+  }
+  EXPECT_TRUE(motors.all_zero());
+}
+
+TEST_P(ForceBoards, EveryFaultIsNamedCountedAndForgotten) {
+  const auto device = linked();
+  device->open();
+  std::vector<LinkFault> faults{LinkFault::kStall, LinkFault::kGone};
+  // The mouse is sent reports, and does not reply.
+  if (kind != ForceKind::kMouse)
+    faults.insert(faults.begin(), {LinkFault::kTimeout, LinkFault::kShort, LinkFault::kBabble,
+                                   LinkFault::kBusError});
+  for (const LinkFault fault : faults) {
+    wire->fault = fault;
+    const uint64_t before = device->health().count(fault);
+    const ExchangeStatus expected = fault == LinkFault::kTimeout ? ExchangeStatus::kTimeout
+                                    : fault == LinkFault::kGone  ? ExchangeStatus::kLost
+                                                                 : ExchangeStatus::kBadReply;
+    EXPECT_EQ(exchange(*device, pushing(1), 1), expected) << to_string(fault);
+    EXPECT_EQ(device->health().count(fault), before + 1) << to_string(fault);
+    EXPECT_EQ(device->health().last_fault, fault);
+    wire->fault = LinkFault::kNone;
+    if (fault == LinkFault::kGone) device->open();
+    EXPECT_EQ(exchange(*device, pushing(1), 1), ExchangeStatus::kOk)
+        << "after " << to_string(fault);
+  }
+}
+
+TEST_P(ForceBoards, OpenSaysWhatIsWrong) {
+  const auto device = linked();
+  for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kStall, LinkFault::kBabble}) {
+    wire->fault = fault;
+    try {
+      device->open();
+      FAIL() << to_string(fault);
+    } catch (const DeviceError& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.find(name_of(kind)), 0u) << what;
+      EXPECT_NE(what.find(to_string(fault)), std::string::npos) << what;
+    }
+  }
+  wire->fault = LinkFault::kNone;
+  device->open();
+}
+
+/// A force that lasts is no sign of a dead sensor: a stick may be held still, and the mouse has no
+/// sensor.
+TEST_P(ForceBoards, TheHapticLoopDrivesThemAndTheForceLasts) {
+  SessionSettings by_hand;
+  by_hand.threaded = false;
+  HapticSession session(grip(), by_hand);
+  int64_t now_ns = 0;
+  session.loop().set_playback_clock({now_ns, 0, 1.0, true});
+  ASSERT_TRUE(session.loop().schedule(lasting({1, 0.5, 0})));
+  while (now_ns < 3 * kSecond_ns) {
+    now_ns += kTick_ns;
+    session.loop().tick(now_ns, now_ns);
+  }
+  const LoopSnapshot now = session.loop().snapshot();
+  EXPECT_EQ(now.counters.exchange_errors, 0u);
+  EXPECT_EQ(now.last.device, DeviceState::kRunning);
+  EXPECT_EQ(now.last.commanded.force_N, Eigen::Vector3d(1, 0.5, 0));
+  EXPECT_EQ(now.last.delivered.force_N, Eigen::Vector3d(1, 0.5, 0));
+  EXPECT_EQ(now.pose_trouble, PoseTrouble::kNone);
+  EXPECT_EQ(motors.digit[0] / 2, motors.digit[1]);
+  EXPECT_GT(motors.digit[1], 0);
+}
+
+TEST(ForceGrip, GivesNeitherTorqueNorWhatTheDeviceCannotGive) {
+  ForceBench bench(ForceKind::kMouse);
+  const auto grip = bench.grip();
+  grip->open();
+  GripCommand command = told(3, 4);
+  command.wrench.force_N.z() = 2;
+  command.wrench.torque_Nm = {0.1, 0.1, 0.1};
+  for (int i = 0; i < bench.cycles(); ++i) ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+  const Wrench delivered = grip->reading().delivered;
+  EXPECT_TRUE(delivered.force_N.isApprox(Eigen::Vector3d(0.9, 1.2, 0), 1e-12));
+  EXPECT_TRUE(delivered.torque_Nm.isZero(0));
+  EXPECT_EQ(bench.motors.digit[0], 900);
+  EXPECT_EQ(bench.motors.digit[1], 1200);
+  command.power = 0.5;
+  ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+  EXPECT_TRUE(grip->reading().delivered.force_N.isApprox(Eigen::Vector3d(0.9, 1.2, 0), 1e-12))
+      << "half of 5 N is still too much";
+  command.power = 0.1;
+  ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+  EXPECT_TRUE(grip->reading().delivered.force_N.isApprox(Eigen::Vector3d(0.3, 0.4, 0), 1e-12));
+}
+
+/// See Grip::exchange().
+TEST(ForceGrip, ThePoseBecomesKnownOnlyWithoutAForceAndIsLostWithTheAnswers) {
+  ForceBench bench(ForceKind::kForceFeedback);
+  const auto grip = bench.grip();
+  grip->open();
+  GripCommand command = told(1);
+  const auto exchange = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      command.now_ns += kTick_ns;
+      grip->check_age(command.now_ns);
+      grip->exchange(command);
+    }
+  };
+  exchange(2 * PoseTrust::kGoodPoses);
+  EXPECT_FALSE(grip->reading().knows_pose());
+  command.wrench = {};
+  exchange(1);
+  EXPECT_TRUE(grip->reading().knows_pose());
+  command.wrench.force_N.x() = 1;
+  exchange(10);
+  EXPECT_TRUE(grip->reading().knows_pose());
+  bench.wire->fault = LinkFault::kGone;
+  // Single failed updates are no loss.
+  exchange(static_cast<int>(UpdateWatch::kFailures) * ForceFeedbackBoard::kUpdate_ms +
+           PoseTrust::kMaxMisses);
+  EXPECT_FALSE(grip->reading().knows_pose());
+  EXPECT_EQ(grip->reading().delivered.force_N.x(), 1) << "the last that was acknowledged";
+}
+
+TEST(ForceGrip, TheStickHasAVelocity) {
+  ForceBench bench(ForceKind::kForceFeedback);
+  const auto grip = bench.grip();
+  grip->open();
+  GripCommand command;
+  double fastest_m_s = 0;
+  // From the centre to the right stop, over 200 ms.
+  for (int ms = 0; ms < 400; ++ms) {
+    bench.motors.count[0] = std::min(std::max(0, 50 * (ms - 100)), ff::Position::kFull);
+    command.now_ns += kTick_ns;
+    ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+    fastest_m_s = std::max(fastest_m_s, grip->reading().motion.velocity().linear_m_s.x());
+  }
+  const double reach_m = grip->reading().pose.position_m.x();
+  EXPECT_GT(reach_m, 0.01);
+  // The low-pass reaches 1 - exp(-200 / 2.7) of it, and a reading is interpolated at its speed.
+  EXPECT_NEAR(fastest_m_s, reach_m / 0.2, 1e-3 * reach_m / 0.2);
+  EXPECT_NEAR(grip->reading().motion.velocity().linear_m_s.x(), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace spidar::test::force_grip_test
