@@ -12,7 +12,8 @@ namespace spidar {
 
 struct DeviceView {
   std::string name;
-  bool has_hand = false;  ///< it is simulated, and lead_hand() moves its hand
+  bool has_hand = false;    ///< it is simulated, and lead_hand() moves its hand
+  bool has_strings = true;  ///< otherwise only the size of the profile's frame matters
   LoopSnapshot loop;
   StringGeometry geometry;
   StringVector min_tension_N = StringVector::Zero();

@@ -177,6 +177,7 @@ bool HapticOutput::look_at_device(DeviceView& view) const {
   if (!session_) return false;
   view.name = session_->grip().name();
   view.has_hand = simulated_ != nullptr;
+  view.has_strings = session_->grip().traits().has_strings;
   view.loop = session_->loop().snapshot();
   view.geometry = profile_.geometry;
   view.min_tension_N = profile_.min_tension_N();

@@ -65,7 +65,7 @@ void draw_hand(const GripView& view, bool in_front) {
 /// The ball that the hand holds, and the rods that the strings are tied to.
 void draw_grip_body(const GripView& view, const DeviceView& device) {
   const ImVec2 centre = view.at(Eigen::Vector3d::Zero());
-  for (int i = 0; i < device.geometry.count; ++i) {
+  for (int i = 0; device.has_strings && i < device.geometry.count; ++i) {
     const ImVec2 end = view.at(device.geometry.grip_m[static_cast<size_t>(i)]);
     view.brush.list.AddLine(centre, end, kTextColor, view.brush.px(2.5));
     view.brush.list.AddCircleFilled(end, view.brush.px(3), kTextColor);
@@ -154,7 +154,7 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
   const GripProjection project(content, device.geometry);
   const GripView view{brush, project, last.pose, device.geometry.grip_radius_m()};
   draw_compass(brush, content, project);
-  draw_strings(brush, project, device);
+  if (device.has_strings) draw_strings(brush, project, device);
   draw_hand(view, false);
   draw_grip_body(view, device);
   draw_hand(view, true);
@@ -163,8 +163,9 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
 }
 
 void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& state) {
-  draw_panel(brush, panel, "String tensions", "N");
-  if (!state.device || state.device->geometry.count == 0) return;
+  const bool strings = !state.device || state.device->has_strings;
+  draw_panel(brush, panel, "String tensions", strings ? "N" : "this device has no strings");
+  if (!strings || !state.device || state.device->geometry.count == 0) return;
   const DeviceView& device = *state.device;
   const Rect area = tension_area(panel, brush.scale);
   brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
