@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "plugin/choice/frame_boxes.h"
 #include "plugin/reports/exceptions.h"
 #include "plugin/reports/motion_message.h"
 #include "plugin/reports/motion_meta.h"
@@ -88,8 +89,9 @@ static void take_track(GstSpidarMotion* self, const GstVideoInfo& info, spidar::
   self->engine->set_track(std::move(track));
 }
 
-/// With pointer and choice of this moment, for a frame before it is turned.
-static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self) {
+/// With pointer and choice of this moment, for `frame` before it is turned.
+static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self, const GstVideoFrame& frame,
+                                             const spidar::TouchProperties& touch) {
   const bool has_new_rules = self->choice->is_to_read();
   GST_OBJECT_LOCK(self);
   spidar::AnalyzerSettings settings = self->properties->analyzer;
@@ -103,6 +105,9 @@ static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self) {
   const spidar::PictureTurn& turn = self->engine->turn();
   settings.pointer = turn.place_coded(settings.pointer);
   self->choice->apply(pointer == PointerKind::kMouse, turn, settings);
+  if (self->choice->wants_boxes()) {
+    settings.boxes = spidar::boxes_of(frame, touch.packed(), turn);
+  }
   return settings;
 }
 
@@ -123,7 +128,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
 
   FrameReport report;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
-    settings = settings_now(self);
+    settings = settings_now(self, *frame, touch);
     take_track(self, frame->info, settings.motion);
     self->engine->want_relief(self->display->window_waits());
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch);

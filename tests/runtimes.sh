@@ -42,7 +42,7 @@ in_root() { chroot "$root" env -C "$PWD" "$@"; }
 
 # test_with_other_packages [SUITE]: everything that is tested every day, or this suite.
 test_with_other_packages() {
-    local build=/build only=() groups=(build test play)
+    local build=/build only=() groups=(build newer-build test play)
     if (($#)); then
         only=(--suite "$1")
         groups+=("$1" "newer-$1")

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/choice/chosen.h"
+#include "core/choice/picture_box.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 #include "core/force/motion_rendering.h"
@@ -24,7 +25,8 @@ struct AnalyzerSettings {
   Eigen::Vector2d pointer{0.5, 0.5};
   /// Come before `motion` where they say something, and not with kMean, which knows no objects.
   std::shared_ptr<const FeelRules> feel;
-  KeptObject kept;  ///< comes before `feel`
+  KeptObject kept;                            ///< comes before `feel`
+  std::shared_ptr<const PictureBoxes> boxes;  ///< that came with this frame; null: none did
   FilterSettings filter;
   AxisGains axes;
   ControllerSettings controller;

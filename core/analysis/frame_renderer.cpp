@@ -107,7 +107,7 @@ Chosen FrameRenderer::choose(const MeasuredFrame& frame, const FilmPlace& film) 
   if (settings_.motion == MotionKind::kMean || frame.width == 0) return {};
   return choice_.choose({frame.objects, frame.background ? &*frame.background : nullptr,
                          frame.width, frame.height, static_cast<double>(frame.interval_ns) * 1e-9,
-                         frame.shown == Shown::kFirst, film});
+                         frame.shown == Shown::kFirst, film, settings_.boxes.get()});
 }
 
 void FrameRenderer::recall(const MeasuredFrame& frame, const FilmPlace& film) {

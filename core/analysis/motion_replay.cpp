@@ -96,7 +96,8 @@ const FeelRule* MotionReplay::rule_at(size_t i) const {
 /// Lets the rule of the frame `end` see all frames before that it is about.
 void MotionReplay::recall(size_t end) {
   const FeelRule* const rule = rule_at(end);
-  if (!rule || !rule->is_about_objects()) return;
+  // Boxes come with the frame that is shown, and nobody knows those of earlier ones.
+  if (!rule || !rule->is_about_objects() || rule->kind == FeelKind::kBox) return;
   const int64_t from_ns = rule->from_ns - later_ns_;
   const int64_t end_ns = file_->moment(end).stream_ns;
   MeasuredFrame frame;

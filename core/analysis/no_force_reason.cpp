@@ -106,7 +106,9 @@ Wording wording(NoForceReason limit) noexcept {
 bool is_withheld(const FrameAnalysis& frame) {
   const Chosen& choice = frame.choice;
   if (choice.is_free()) return false;
-  if (choice.is_kept || choice.rule->kind == FeelKind::kObjectAt) return frame.felt_object == 0;
+  const bool is_one = choice.is_kept || choice.rule->kind == FeelKind::kObjectAt ||
+                      choice.rule->kind == FeelKind::kBox;
+  if (is_one) return frame.felt_object == 0;
   return choice.rule->kind == FeelKind::kNothing || choice.rule->gain == 0;
 }
 

@@ -36,9 +36,11 @@ struct KeptObject {
 /// What became of a wish.
 enum class ChoiceState {
   kGood,
-  kNotThere,  ///< no object was at the place; the first that begins to move there is felt
-  kNotSeen,   ///< playback began after the moment at which the object is at the place
-  kLost,      ///< the object was followed and is lost
+  kNotThere,   ///< no object was at the place; the first that begins to move there is felt
+  kNotSeen,    ///< playback began after the moment at which the object is at the place
+  kLost,       ///< the object was followed and is lost
+  kNoBox,      ///< no frame of the rule came with a box that it means
+  kBoxAtRest,  ///< boxes came, but nothing moves in them
 };
 
 struct Chosen {

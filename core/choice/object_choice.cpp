@@ -61,10 +61,14 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceFrame& frame, Chose
     missed_ = false;
     const double since_s = static_cast<double>(frame.film.stream_ns - rule.from_ns) * 1e-9;
     seen_from_begin_ = since_s <= FollowedObject::kLook_s;
-    ruled_.begin(frame.film.in_frame_px(rule.place, frame.width, frame.height), since_s);
+    ruled_.begin(frame.px(rule.place), since_s);
+    boxed_.begin(rule.name.data());
   }
   if (rule.kind == FeelKind::kLargest || rule.kind == FeelKind::kFurthest) {
     choice.object = best(rule, frame);
+  } else if (rule.kind == FeelKind::kBox) {
+    choice.object = boxed_.see(frame);
+    choice.state = boxed_.state();
   } else if (rule.kind == FeelKind::kObjectAt && !seen_from_begin_) {
     choice.state = ChoiceState::kNotSeen;
   } else if (rule.kind == FeelKind::kObjectAt) {
@@ -83,7 +87,7 @@ bool ObjectChoice::follow_click(const ChoiceFrame& frame, Chosen& choice) {
   if (kept_.click == 0) return false;
   if (followed_click_ != kept_.click) {
     followed_click_ = kept_.click;
-    clicked_.begin(frame.film.in_frame_px(kept_.place, frame.width, frame.height), 0);
+    clicked_.begin(frame.px(kept_.place), 0);
   }
   const MovingObject* const object =
       clicked_.see(frame.objects, frame.height, frame.interval_s, frame.background);
@@ -99,6 +103,7 @@ bool ObjectChoice::follow_click(const ChoiceFrame& frame, Chosen& choice) {
 Chosen ObjectChoice::choose(const ChoiceFrame& frame) {
   if (frame.is_cut) {
     ruled_.cut();
+    boxed_.cut();
     clicked_.cut();
     best_ = 0;
   }

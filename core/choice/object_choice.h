@@ -5,25 +5,15 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
+#include "core/choice/boxed_object.h"
+#include "core/choice/choice_frame.h"
 #include "core/choice/chosen.h"
 #include "core/choice/feel_rules.h"
 #include "core/choice/followed_object.h"
-#include "core/motion/background.h"
 #include "core/motion/moving_object.h"
 
 namespace spidar {
-
-/// What is needed of a frame.
-struct ChoiceFrame {
-  const std::vector<MovingObject>& objects;
-  const Background* background;  ///< null when it is not known
-  int width, height;             ///< px
-  double interval_s;             ///< since the frame before; 0 when there is none
-  bool is_cut;                   ///< nothing in it was in the frame before
-  FilmPlace film;
-};
 
 /// Frames in the order in which they are shown. Allocates nothing.
 class ObjectChoice {
@@ -54,7 +44,8 @@ class ObjectChoice {
   bool seen_from_begin_ = false;    ///< the rule, see ChoiceState::kNotSeen
   FollowedObject ruled_;
   bool missed_ = false;  ///< nothing was at the place of `ruled_`
-  uint32_t best_ = 0;    ///< of kLargest and kFurthest
+  BoxedObject boxed_;
+  uint32_t best_ = 0;  ///< of kLargest and kFurthest
   double best_missing_s_ = 0;
 
   KeptObject kept_;

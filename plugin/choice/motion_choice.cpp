@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "plugin/frame/analytics_meta.h"
 #include "plugin/reports/category.h"
 
 #undef GST_CAT_DEFAULT
@@ -110,6 +111,22 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
            time_text(static_cast<int64_t>(seen_ / GST_MSECOND * GST_MSECOND)).c_str()),
           ("It was hidden for too long, or the scene is another. Nothing is felt %s, unless "
            "another rule begins where it is seen again.",
+           end.c_str()));
+      break;
+    case ChoiceState::kNoBox:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FAILED,
+          ("%s, line %d: no frame comes with a box%s%s.", name, rule.line,
+           rule.name[0] ? " called " : "", rule.name.data()),
+          ("A detector or tracker before this element attaches boxes to the frames, as "
+           "GstVideoRegionOfInterestMeta%s. Nothing is felt until one comes, or %s.",
+           kHasAnalytics ? " or GstAnalyticsRelationMeta" : "", end.c_str()));
+      break;
+    case ChoiceState::kBoxAtRest:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FAILED,
+          ("%s, line %d: nothing moves in the boxes that come with the frames.", name, rule.line),
+          ("A box chooses the object that moves in it. Nothing is felt until one does, or %s.",
            end.c_str()));
       break;
     case ChoiceState::kGood:

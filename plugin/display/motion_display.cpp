@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plugin/display/element_source.h"
+#include "plugin/frame/object_metas.h"
 #include "plugin/overlay/video_overlay.h"
 #include "plugin/reports/motion_meta.h"
 
@@ -36,6 +37,8 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   if (properties.attach_meta && gst_buffer_is_writable(frame.buffer)) {
     attach_motion_meta(frame.buffer, report, scene, GST_VIDEO_FRAME_WIDTH(&frame),
                        GST_VIDEO_FRAME_HEIGHT(&frame));
+    attach_object_metas(frame.buffer, report, scene, GST_VIDEO_FRAME_WIDTH(&frame),
+                        GST_VIDEO_FRAME_HEIGHT(&frame));
   }
   const bool can_draw =
       (frame.map[0].flags & GST_MAP_WRITE) != 0 && !is_unpacked(*frame.info.finfo);

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// The objects on a frame, as elements of other projects read them.
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gst/video/video.h>
+#include <gtest/gtest.h>
+
+#include "plugin/frame/analytics_meta.h"
+#include "plugin/frame/object_metas.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/moving_scene.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test::object_metas_test {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kWidth = 480, kHeight = 270;
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+constexpr double kFrame_s = 0.04;
+constexpr double kRadius_px = 30;
+/// Blocks are 8 px of a picture this small; a box ends between two of them.
+constexpr double kBlock_px = 8;
+
+struct Region {
+  std::string name;
+  gint id;
+  double x, y, width, height;
+  Vector2d velocity_px_s, screen_px_s;
+  bool felt;
+};
+
+std::vector<Region> regions_of(GstBuffer* buffer) {
+  std::vector<Region> regions;
+  gpointer state = nullptr;
+  while (GstMeta* const meta = gst_buffer_iterate_meta_filtered(
+             buffer, &state, GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE)) {
+    auto* const region = reinterpret_cast<GstVideoRegionOfInterestMeta*>(meta);
+    Region read{g_quark_to_string(region->roi_type),
+                region->id,
+                static_cast<double>(region->x),
+                static_cast<double>(region->y),
+                static_cast<double>(region->w),
+                static_cast<double>(region->h),
+                {0, 0},
+                {0, 0},
+                false};
+    gboolean felt = FALSE;
+    const GstStructure* const motion =
+        gst_video_region_of_interest_meta_get_param(region, "spidar-motion");
+    if (motion) {
+      gst_structure_get(motion, "velocity-x", G_TYPE_DOUBLE, &read.velocity_px_s.x(), "velocity-y",
+                        G_TYPE_DOUBLE, &read.velocity_px_s.y(), "screen-velocity-x", G_TYPE_DOUBLE,
+                        &read.screen_px_s.x(), "screen-velocity-y", G_TYPE_DOUBLE,
+                        &read.screen_px_s.y(), "felt", G_TYPE_BOOLEAN, &felt, nullptr);
+    }
+    read.felt = felt != FALSE;
+    regions.push_back(read);
+  }
+  return regions;
+}
+
+/// One disc goes to the right, one down, in front of a camera that pans.
+class ObjectMetas : public testing::Test {
+ protected:
+  ObjectMetas() {
+    scene_.add_disc(kRadius_px);
+    scene_.add_disc(kRadius_px);
+  }
+  void open(const std::string& properties) {
+    h_ = std::make_unique<ElementHarness>("device=none motion=object " + properties);
+    h_->set_caps(make_caps("GRAY8", kWidth, kHeight));
+  }
+  static std::vector<Placement> discs(int n) {
+    return {{Vector2d(-150 + 4 * n, -60)}, {Vector2d(100, -60 + 3 * n)}};
+  }
+  GstBuffer* next() {
+    const int n = frames_++;
+    const ImageView picture = scene_.draw({kPan_px * n}, discs(n));
+    GstBuffer* const frame = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
+    for (int y = 0; y < kHeight; ++y) {
+      gst_buffer_fill(frame, static_cast<gsize>(y) * kWidth, picture.at(0, y), kWidth);
+    }
+    gst_buffer_add_video_region_of_interest_meta(frame, "face", 1, 2, 3, 4);
+    gst_buffer_add_video_region_of_interest_meta(frame, kObjectName, 5, 6, 7, 8);
+    EXPECT_EQ(h_->push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    return gst_harness_pull(h_->harness());
+  }
+  std::vector<Region> regions_after(int frames) {
+    for (int n = 1; n < frames; ++n) gst_buffer_unref(next());
+    GstBuffer* const out = next();
+    const std::vector<Region> regions = regions_of(out);
+    gst_buffer_unref(out);
+    return regions;
+  }
+
+  static inline const Vector2d kPan_px{1, 0};
+  MovingScene scene_{kWidth, kHeight};
+  std::unique_ptr<ElementHarness> h_;
+  int frames_ = 0;
+};
+
+TEST_F(ObjectMetas, HaveTheBoxAndTheVelocityOfEachObject) {
+  open("attach-meta=true");
+  const std::vector<Region> regions = regions_after(12);
+  ASSERT_EQ(regions.size(), 3u) << "those of others stay, and two objects";
+  EXPECT_EQ(regions[0].name, "face");
+  int felt = 0;
+  for (int disc = 0; disc < 2; ++disc) {
+    const Vector2d middle_px =
+        discs(11)[static_cast<size_t>(disc)].centre_px + Vector2d(kWidth, kHeight) / 2;
+    const Vector2d step_px = disc == 0 ? Vector2d(4, 0) : Vector2d(0, 3);
+    int found = 0;
+    for (size_t i = 1; i < regions.size(); ++i) {
+      const Region& region = regions[i];
+      const Vector2d low_px(region.x, region.y), size_px(region.width, region.height);
+      if ((low_px + size_px / 2 - middle_px).norm() > kRadius_px) continue;
+      ++found;
+      felt += region.felt;
+      EXPECT_EQ(region.name, "spidar-object");
+      EXPECT_GT(region.id, 0);
+      for (const int axis : {0, 1}) {
+        // The disc fills its box to the block at each side, and a pixel of rounding.
+        EXPECT_NEAR(low_px[axis], middle_px[axis] - kRadius_px, kBlock_px + 1);
+        EXPECT_NEAR(size_px[axis], 2 * kRadius_px, 2 * kBlock_px + 2);
+      }
+      // A tenth of the velocity: the blocks at the rim have a share of the background.
+      const double off_px_s = 0.1 * step_px.norm() / kFrame_s;
+      EXPECT_NEAR((region.screen_px_s - step_px / kFrame_s).norm(), 0, off_px_s);
+      // The background goes to the right, too.
+      EXPECT_NEAR((region.velocity_px_s - (step_px - kPan_px) / kFrame_s).norm(), 0, off_px_s);
+    }
+    EXPECT_EQ(found, 1) << disc;
+  }
+  EXPECT_EQ(felt, 1);
+}
+
+TEST_F(ObjectMetas, AreThereOnlyWhenAskedFor) {
+  open("");
+  EXPECT_EQ(regions_after(12).size(), 2u) << "those that came with the frame";
+}
+
+TEST_F(ObjectMetas, AreReadAsTheyAreWritten) {
+  open("attach-meta=true");
+  for (int n = 0; n < 11; ++n) gst_buffer_unref(next());
+  GstBuffer* const out = next();
+  const std::vector<Region> regions = regions_of(out);
+  int ours = 0, others = 0;
+  for (const ObjectBox& box : read_object_metas(out)) {
+    (box.name == kObjectName ? ours : others)++;
+    for (const Region& region : regions) {
+      if (region.x == box.x && region.y == box.y) {
+        EXPECT_EQ(region.width, box.width);
+        EXPECT_EQ(region.height, box.height);
+        EXPECT_EQ(region.name, box.name);
+      }
+    }
+  }
+  EXPECT_EQ(others, 1);
+  // Those of GstAnalyticsRelationMeta come in addition.
+  EXPECT_EQ(ours, kHasAnalytics ? 4 : 2);
+  gst_buffer_unref(out);
+}
+
+}  // namespace
+}  // namespace spidar::test::object_metas_test
