@@ -18,6 +18,9 @@
 namespace spidar {
 namespace {
 
+/// More than a window that draws seldom takes from one picture to the next.
+constexpr int64_t kLongestLook_ns = 500'000'000;
+
 int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
 }
@@ -172,13 +175,22 @@ DeviceState HapticOutput::device_state() const {
   return loop ? loop->last.device : DeviceState::kClosed;
 }
 
-bool HapticOutput::look_at_device(DeviceView& view) const {
+bool HapticOutput::look_at_device(DeviceView& view) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!session_) return false;
   view.name = session_->grip().name();
   view.has_hand = simulated_ != nullptr;
   view.has_strings = session_->grip().traits().has_strings;
   view.loop = session_->loop().snapshot();
+  view.wanted = view.delivered = {};
+  // Where nobody looked for long, the oldest ticks are there and the newest are not.
+  const int64_t oldest_ns = view.loop.last.monotonic_ns - kLongestLook_ns;
+  ForceTick tick;
+  while (session_->loop().pop_force(tick)) {
+    if (tick.monotonic_ns < oldest_ns) continue;
+    view.wanted.add(tick.wanted_N);
+    view.delivered.add(tick.delivered_N);
+  }
   view.geometry = profile_.geometry;
   view.min_tension_N = profile_.min_tension_N();
   view.max_tension_N = profile_.max_tension_N();

@@ -66,7 +66,7 @@ class HapticOutput {
   /// kClosed while closed.
   DeviceState device_state() const;
   /// False while closed.
-  bool look_at_device(DeviceView& view) const;
+  bool look_at_device(DeviceView& view);
   /// Leads the hand of the device "sim" to a place, see SimulatedDevice::lead_hand(). False for
   /// other devices, and while closed.
   bool lead_hand(const std::optional<Eigen::Vector3d>& to_m);

@@ -18,6 +18,8 @@ namespace spidar {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;
+/// At a scale of 1: what is smaller cannot be read.
+constexpr int kLeastWidth = 640, kLeastHeight = 480;
 constexpr double kNote_s = 4;
 /// Of the small pictures of the last minute: 240 of them take some 20 MB, and while the picture is
 /// touched their reliefs 35 MB.
@@ -59,6 +61,8 @@ DebugWindow::DebugWindow(std::shared_ptr<WindowSource> source, std::shared_ptr<F
   context_ = ImGui::CreateContext();
   make_current();
   scale_ = text_scale(window_);
+  glfwSetWindowSizeLimits(window_, static_cast<int>(kLeastWidth * scale_),
+                          static_cast<int>(kLeastHeight * scale_), GLFW_DONT_CARE, GLFW_DONT_CARE);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   fonts_ = load_fonts(scale_);
@@ -125,10 +129,19 @@ void DebugWindow::record(bool is_new) {
   now.wanted = facts_.scene.wrench;
   if (state_.device) {
     const TickRecord& last = state_.device->loop.last;
-    now.felt = last.commanded;
+    now.felt = last.delivered;
+    now.wanted_span = state_.device->wanted;
+    now.felt_span = state_.device->delivered;
+    if (now.felt_span.ticks == 0) {
+      now.wanted_span.add(last.wanted.force_N);
+      now.felt_span.add(last.delivered.force_N);
+    }
     now.tension_N = last.tension_N;
     now.pose = last.pose;
     now.contact = last.contact;
+  } else {
+    now.wanted_span.add(now.wanted.force_N);
+    now.felt_span.add(now.felt.force_N);
   }
   timeline_.add(now);
   if (is_new && timeline_.wants_still(now.time_s)) keep_still(now.time_s);
@@ -151,7 +164,7 @@ void DebugWindow::show_past() {
   }
   if (state_.device) {
     TickRecord& last = state_.device->loop.last;
-    last.commanded = moments.back().felt;
+    last.delivered = moments.back().felt;
     last.tension_N = moments.back().tension_N;
     last.pose = moments.back().pose;
     last.contact = moments.back().contact;

@@ -98,11 +98,11 @@ void draw_strings(const Brush& brush, const GripProjection& project, const Devic
 
 /// The force at the hand, as a line in space.
 void draw_force(const GripView& view, const Rect& panel, const TickRecord& last) {
-  const double force_N = last.commanded.force_N.norm();
+  const double force_N = last.delivered.force_N.norm();
   if (force_N < kFeltForce_N || last.max_force_N <= 0) return;
   const Eigen::Vector2d from = view.project(view.pose.position_m);
   const Eigen::Vector2d direction =
-      (view.project(view.pose.position_m + last.commanded.force_N / force_N * view.radius_m) -
+      (view.project(view.pose.position_m + last.delivered.force_N / force_N * view.radius_m) -
        from) /
       view.px(view.radius_m);
   const double length =

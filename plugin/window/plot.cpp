@@ -26,6 +26,7 @@ Plot::Plot(const Brush& brush, const Rect& panel, const PlotAxis& x, const PlotA
   const double above = std::min(text + gap, area_.height - below);
   area_ = {area_.x + left, area_.y + above, std::max(area_.width - left - 2 * gap, 1.0),
            std::max(area_.height - above - below, 1.0)};
+  unit_width_ = text_size(brush.fonts.small, y_unit).x;
   draw_axes(x_unit, y_unit);
 }
 
@@ -74,6 +75,33 @@ void Plot::line(const std::vector<PlotPoint>& points, ImU32 color, double width_
   brush_.list.PopClipRect();
 }
 
+void Plot::band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px) const {
+  std::vector<PlotPoint> outline;
+  const auto bounded = [this](double y) { return std::clamp(y, y_.low, y_.high); };
+  brush_.list.PushClipRect(upper_left(area_), lower_right(area_), true);
+  for (size_t i = 1; i < spans.size(); ++i) {
+    const PlotSpan &a = spans[i - 1], &b = spans[i];
+    const ImVec2 corners[4] = {at(a.x, bounded(a.low)), at(a.x, bounded(a.high)),
+                               at(b.x, bounded(b.high)), at(b.x, bounded(b.low))};
+    brush_.list.AddQuadFilled(corners[0], corners[1], corners[2], corners[3], color);
+  }
+  brush_.list.PopClipRect();
+  for (const PlotSpan& span : spans) outline.push_back({span.x, span.high});
+  line(outline, color, width_px);
+  // Where both are the same, one line is drawn once: it may be half transparent.
+  const float least = brush_.px(width_px);
+  std::vector<PlotPoint> below;
+  for (const PlotSpan& span : spans) {
+    if (at(0, span.low).y - at(0, span.high).y > least) {
+      below.push_back({span.x, span.low});
+    } else if (!below.empty()) {
+      line(below, color, width_px);
+      below.clear();
+    }
+  }
+  if (!below.empty()) line(below, color, width_px);
+}
+
 void Plot::area(const std::vector<PlotPoint>& points, ImU32 color) const {
   brush_.list.PushClipRect(upper_left(area_), lower_right(area_), true);
   for (size_t i = 1; i < points.size(); ++i) {
@@ -103,10 +131,18 @@ void Plot::dot(double x, double y, ImU32 color) const {
 void Plot::legend(const std::vector<Key>& keys) const {
   const ImFont* font = brush_.fonts.small;
   const float gap = brush_.px(kGap_px), stroke = brush_.px(12);
+  // To the right of the unit; names for which there is no room are left out, the last ones first.
+  const float room = static_cast<float>(area_.width) - unit_width_ - 2 * gap;
   float width = 0;
-  for (const Key& key : keys) width += stroke + 3 * gap + text_size(font, key.name).x;
+  size_t count = 0;
+  for (; count < keys.size(); ++count) {
+    const float next = stroke + 3 * gap + text_size(font, keys[count].name).x;
+    if (width + next - 2 * gap > room) break;
+    width += next;
+  }
   ImVec2 at = im(area_.right() - width + 2 * gap, area_.y - font->FontSize - gap);
-  for (const Key& key : keys) {
+  for (size_t i = 0; i < count; ++i) {
+    const Key& key = keys[i];
     const float middle = at.y + font->FontSize / 2;
     brush_.list.AddLine({at.x, middle}, {at.x + stroke, middle}, key.color, brush_.px(2));
     at.x += stroke + gap;

@@ -15,6 +15,11 @@ struct PlotPoint {
   double x = 0, y = 0;
 };
 
+/// All that was there about x.
+struct PlotSpan {
+  double x = 0, low = 0, high = 0;
+};
+
 class Plot {
  public:
   /// Axes with their labels along the left and lower edge of `panel`; units stand at their ends.
@@ -24,12 +29,14 @@ class Plot {
   /// Line through points in order; what lies beyond the range is cut off, and a small triangle at
   /// the edge says where a value is above it.
   void line(const std::vector<PlotPoint>& points, ImU32 color, double width_px = 1.6) const;
+  /// The area between the lowest and the highest values, never narrower than a line of `width_px`.
+  void band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px = 1.6) const;
   /// The area between a line and y = 0.
   void area(const std::vector<PlotPoint>& points, ImU32 color) const;
   void level(double y, ImU32 color) const;
   void upright(double x, ImU32 color) const;
   void dot(double x, double y, ImU32 color) const;
-  /// Names beside each other at the upper left, in their colours.
+  /// Names beside each other at the upper right, in their colours, as many as there is room for.
   struct Key {
     const char* name;
     ImU32 color;
@@ -49,6 +56,7 @@ class Plot {
   const Brush& brush_;
   Rect area_;
   PlotAxis x_, y_;
+  float unit_width_ = 0;  // of y
 };
 
 }  // namespace spidar

@@ -34,6 +34,15 @@ std::vector<PlotPoint> series(const Timeline& timeline, const Value& value) {
   return points;
 }
 
+std::vector<PlotSpan> spans(const Timeline& timeline, Eigen::Index axis, ForceSpan Moment::*force) {
+  std::vector<PlotSpan> all;
+  for (const Moment& moment : timeline.plotted()) {
+    const ForceSpan& span = moment.*force;
+    all.push_back({moment.time_s - timeline.cursor_s(), span.low_N[axis], span.high_N[axis]});
+  }
+  return all;
+}
+
 /// Upper end of an axis of speed: fits five seconds, whatever one frame says.
 double highest_speed_px_s(const Timeline& timeline) {
   std::vector<double> speeds_px_s;
@@ -54,14 +63,14 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
   const Plot plot(brush, content, time_axis(brush, content), y, "s", "N");
   for (Eigen::Index axis = 2; axis >= 0; --axis) {
     const ImU32 color = kAxisColors[axis];
-    plot.line(series(timeline, [&](const Moment& m) { return m.wanted.force_N[axis]; }),
-              faded(color, 95), 3.5);
-    plot.line(series(timeline, [&](const Moment& m) { return m.felt.force_N[axis]; }), color);
+    plot.band(spans(timeline, axis, &Moment::wanted_span), faded(color, 95), 3.5);
+    plot.band(spans(timeline, axis, &Moment::felt_span), color);
   }
   plot.legend({{kAxisNames[0], kAxisColors[0]},
                {kAxisNames[1], kAxisColors[1]},
                {kAxisNames[2], kAxisColors[2]},
-               {"wanted", faded(kTextColor, 95)}});
+               {"wanted", faded(kTextColor, 95)},
+               {"delivered", kTextColor}});
 }
 
 void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline) {

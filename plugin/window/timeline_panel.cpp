@@ -26,7 +26,7 @@ std::vector<PlotPoint> profile(const Timeline& timeline, double newest_s, int sl
   std::vector<PlotPoint> points;
   const double slot_s = Timeline::kMemory_s / std::max(slots, 1);
   for (const Moment& moment : timeline.moments()) {
-    const PlotPoint point{moment.time_s - newest_s, moment.felt.force_N.norm()};
+    const PlotPoint point{moment.time_s - newest_s, moment.felt_span.most_N};
     if (!points.empty() && point.x < points.back().x + slot_s) {
       points.back().y = std::max(points.back().y, point.y);
     } else {

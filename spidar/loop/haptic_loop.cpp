@@ -231,6 +231,7 @@ void HapticLoop::undo(TickRecord& record) noexcept {
 
 void HapticLoop::publish(const TickRecord& record) noexcept {
   records_.push(record);
+  forces_.push({record.monotonic_ns, record.wanted.force_N, record.delivered.force_N});
   LoopSnapshot snapshot{record, counters_, limits_};
   const GripReading& grip = grip_->reading();
   snapshot.pose_trouble = grip.trouble;

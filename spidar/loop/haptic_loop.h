@@ -79,6 +79,8 @@ class HapticLoop {
 
   /// Returns every tick in order, for one reader. Ticks are dropped if they are not read.
   bool pop_record(TickRecord& record) noexcept { return records_.pop(record); }
+  /// The same of forces alone, for another reader.
+  bool pop_force(ForceTick& tick) noexcept { return forces_.pop(tick); }
 
   /// Its description, name and health.
   const Grip& grip() const noexcept { return *grip_; }
@@ -128,6 +130,7 @@ class HapticLoop {
   // Shared.
   LoopSchedule schedule_;
   SpscRing<TickRecord, 4096> records_;
+  SpscRing<ForceTick, 1024> forces_;
   std::atomic<bool> closing_{false};
   std::atomic<TouchMailbox*> touch_mailbox_{nullptr};
   Seqlock<PlaybackClock> shared_clock_;

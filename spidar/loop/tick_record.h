@@ -92,6 +92,13 @@ struct TickRecord {
   Contact contact;  ///< with the touched surface; its force is part of `wanted`
 };
 
+/// What a plot shows of one tick.
+struct ForceTick {
+  int64_t monotonic_ns = 0;
+  Eigen::Vector3d wanted_N = Eigen::Vector3d::Zero();
+  Eigen::Vector3d delivered_N = Eigen::Vector3d::Zero();
+};
+
 /// Counts since the loop was opened.
 struct LoopCounters {
   uint64_t ticks = 0;

@@ -132,5 +132,36 @@ TEST_F(WindowTest, APauseHoldsThePictureAndLooksBack) {
   EXPECT_NEAR(level(), 60, 1) << "the oldest, a minute of steps back";
 }
 
+TEST_F(WindowTest, APeakBetweenTwoPicturesIsPlotted) {
+  /// The highest row of the force's plot in which x, which is red, is drawn, from its top.
+  const auto highest_red = [](double peak_N) {
+    ElementState state;
+    DeviceView& device = state.device.emplace();
+    device.name = "sim";
+    for (const double force_N : {0.0, peak_N, 0.0}) {
+      device.wanted.add({0, 0, 0});
+      device.delivered.add({force_N, 0, 0});
+    }
+    auto feed = std::make_shared<FrameFeed>();
+    Window window(std::make_shared<FakeSource>(state), feed);
+    give(*feed, {});
+    look(window);
+    look(window);
+    const Screenshot shot = look(window);
+    const Rect panel = lay_out(shot.width, shot.height, 1).force;
+    // Below title and legend.
+    for (double y = 0.25 * panel.height; y < panel.height; ++y) {
+      for (double x = panel.x + panel.width / 2; x < panel.right(); ++x) {
+        const Color c = at(shot, x, panel.y + y);
+        if (c.r > 150 && c.g < 0.7 * c.r && c.b < 0.7 * c.r) return y / panel.height;
+      }
+    }
+    return 1.0;
+  };
+  // The axis goes from -3 to 3 N.
+  EXPECT_LT(highest_red(2.5), 0.4);
+  EXPECT_GT(highest_red(0), 0.5);
+}
+
 }  // namespace
 }  // namespace spidar::test::window_picture_test

@@ -10,6 +10,7 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
+#include "plugin/device/device_view.h"
 #include "plugin/window/model/still.h"
 #include "spidar/touch/touch_rendering.h"
 
@@ -21,7 +22,9 @@ struct Moment {
   double interval_s = 0;  ///< of the frame before, when a new one has come; 0 otherwise
   double speed_px_s = 0;  ///< of the reference frame, before the filter
   Wrench wanted;          ///< by the controller, of the newest frame
-  Wrench felt;            ///< commanded by the loop, after safety; zero without a device
+  Wrench felt;            ///< delivered at the grip; zero without a device
+  /// In the ticks since the moment before: wanted for what is on the screen, and delivered.
+  ForceSpan wanted_span, felt_span;
   StringVector tension_N = StringVector::Zero();
   Pose pose;
   Contact contact;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What a window sees of the device.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "plugin/device/device_view.h"
+#include "spidar/loop/haptic_loop.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test::device_view_test {
+namespace {
+
+int64_t read_time(void* time) {
+  return *static_cast<int64_t*>(time);
+}
+
+/// Between two pictures of a screen lie some sixteen ticks.
+TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
+  int64_t time_ns = 1'000'000'000;
+  ElementHarness h("device=sim motion=mean", read_time, &time_ns);
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  HapticOutput& output = h.engine().output();
+  HapticLoop& loop = output.session()->loop();
+  const auto tick = [&](int count) {
+    for (int i = 0; i < count; ++i) h.tick(time_ns += kTick_ns);
+  };
+  tick(300);
+  PlaybackClock clock;
+  clock.playing = true;
+  clock.monotonic_ns = time_ns;
+  loop.set_playback_clock(clock);
+  DeviceView view;
+  TickRecord record;
+  output.look_at_device(view);
+  while (loop.pop_record(record)) {
+  }
+  double widest_N = 0;
+  for (int n = 0; n < 30; ++n) {
+    ASSERT_EQ(h.push_moved(2.0 * n, 0, static_cast<GstClockTime>(n) * 40 * GST_MSECOND),
+              GST_FLOW_OK);
+    tick(40);
+    ForceSpan wanted, delivered;
+    while (loop.pop_record(record)) {
+      wanted.add(record.wanted.force_N);
+      delivered.add(record.delivered.force_N);
+    }
+    ASSERT_EQ(wanted.ticks, 40);
+    ASSERT_TRUE(output.look_at_device(view));
+    EXPECT_EQ(view.wanted.ticks, 40);
+    EXPECT_EQ(view.wanted.low_N, wanted.low_N);
+    EXPECT_EQ(view.wanted.high_N, wanted.high_N);
+    EXPECT_EQ(view.wanted.most_N, wanted.most_N);
+    EXPECT_EQ(view.delivered.low_N, delivered.low_N);
+    EXPECT_EQ(view.delivered.high_N, delivered.high_N);
+    widest_N = std::max(widest_N, (delivered.high_N - delivered.low_N).maxCoeff());
+  }
+  EXPECT_GT(widest_N, 0.1) << "the force changes between looks";
+  // Where nobody looked for seconds, it does not see the beginning of that time.
+  tick(3000);
+  output.look_at_device(view);
+  EXPECT_EQ(view.wanted.ticks, 0);
+  tick(10);
+  output.look_at_device(view);
+  EXPECT_EQ(view.wanted.ticks, 10);
+}
+
+}  // namespace
+}  // namespace spidar::test::device_view_test

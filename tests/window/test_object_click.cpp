@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What a click in the picture of a debug window chooses.
+#include <limits>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "plugin/window/model/object_click.h"
+
+namespace spidar::test::object_click_test {
+namespace {
+
+using Eigen::Vector2d;
+
+MovingObject object(uint32_t id, const Vector2d& middle_px, const Vector2d& size_px) {
+  MovingObject made;
+  made.id = id;
+  made.position_px = middle_px;
+  made.size_px = size_px;
+  made.tracks = 10;
+  return made;
+}
+
+/// A picture of 200 × 100 px, shown at twice its size with its corner at (10, 20).
+const Rect kPicture{10, 20, 400, 200};
+
+FrameFacts facts() {
+  FrameFacts made;
+  made.visible = {0, 0, 200, 100};
+  made.scene.objects = {object(1, {-50, 0}, {60, 60}), object(2, {-50, 0}, {20, 20}),
+                        object(3, {50, 0}, {40, 40})};
+  return made;
+}
+
+Mouse mouse_at(const Vector2d& frame_px, bool down) {
+  Mouse mouse;
+  mouse.at_px = Vector2d(kPicture.x, kPicture.y) + 2 * frame_px;
+  mouse.down = down;
+  return mouse;
+}
+
+TEST(ObjectClick, ChoosesTheObjectThatItIsPressedOnOnce) {
+  ObjectClick click;
+  EXPECT_FALSE(click.update(mouse_at({150, 50}, false), kPicture, facts()));
+  const std::optional<ObjectWish> wish = click.update(mouse_at({140, 60}, true), kPicture, facts());
+  ASSERT_TRUE(wish && wish->place);
+  EXPECT_NEAR((*wish->place - Vector2d(0.7, 0.6)).norm(), 0, 1e-12);
+  EXPECT_TRUE(click.holds());
+  EXPECT_FALSE(click.update(mouse_at({50, 50}, true), kPicture, facts())) << "still down";
+  EXPECT_TRUE(click.holds());
+  EXPECT_FALSE(click.update(mouse_at({50, 50}, false), kPicture, facts()));
+  EXPECT_FALSE(click.holds());
+}
+
+TEST(ObjectClick, OnTheChosenOneLetsGo) {
+  FrameFacts chosen = facts();
+  chosen.settings.kept = {1, {0.75, 0.5}};
+  chosen.scene.felt_object = 3;
+  ObjectClick click;
+  const std::optional<ObjectWish> wish = click.update(mouse_at({150, 50}, true), kPicture, chosen);
+  ASSERT_TRUE(wish);
+  EXPECT_FALSE(wish->place);
+  click.update(mouse_at({150, 50}, false), kPicture, chosen);
+  const std::optional<ObjectWish> other = click.update(mouse_at({50, 50}, true), kPicture, chosen);
+  EXPECT_TRUE(other && other->place) << "another one";
+  // Felt, but not by a click.
+  chosen.settings.kept = {};
+  const std::optional<ObjectWish> kept =
+      ObjectClick().update(mouse_at({150, 50}, true), kPicture, chosen);
+  EXPECT_TRUE(kept && kept->place);
+}
+
+TEST(ObjectClick, OfBoxesInEachOtherTheSmallestIsMeant) {
+  ASSERT_NE(object_at(facts(), {0.25, 0.5}), nullptr);
+  EXPECT_EQ(object_at(facts(), {0.25, 0.5})->id, 2u);
+  EXPECT_EQ(object_at(facts(), {0.25, 0.7})->id, 1u);
+  EXPECT_EQ(object_at(facts(), {0.5, 0.5}), nullptr);
+  FrameFacts hidden = facts();
+  hidden.scene.objects[1].tracks = 0;
+  EXPECT_EQ(object_at(hidden, {0.25, 0.5})->id, 1u);
+}
+
+/// There the button moves the hand.
+TEST(ObjectClick, BesideObjectsAndWhereNoneAreKnownIsNone) {
+  FrameFacts touched = facts(), mean = facts();
+  touched.touch.on = true;
+  mean.settings.motion = MotionKind::kMean;
+  Mouse taken = mouse_at({150, 50}, true), outside = taken, nowhere = taken;
+  taken.taken = true;
+  outside.at_px << 700, 60;
+  nowhere.at_px.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const auto none = [](const Mouse& mouse, const Rect& picture, const FrameFacts& of) {
+    ObjectClick click;
+    return !click.update(mouse, picture, of) && !click.holds();
+  };
+  EXPECT_TRUE(none(mouse_at({100, 50}, true), kPicture, facts()));
+  EXPECT_TRUE(none(mouse_at({150, 50}, true), kPicture, touched));
+  EXPECT_TRUE(none(mouse_at({150, 50}, true), kPicture, mean));
+  EXPECT_TRUE(none(mouse_at({150, 50}, true), Rect{}, facts())) << "no picture yet";
+  EXPECT_TRUE(none(taken, kPicture, facts()));
+  EXPECT_TRUE(none(outside, kPicture, facts()));
+  EXPECT_TRUE(none(nowhere, kPicture, facts()));
+}
+
+}  // namespace
+}  // namespace spidar::test::object_click_test
