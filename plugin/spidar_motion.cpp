@@ -248,12 +248,12 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   g_mutex_init(&self->setting);
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
-  self->display = new MotionDisplay(GST_ELEMENT(self), *self->engine);
   self->loader = new spidar::TrackLoader;
   self->steps = new spidar::StepWatch(
       GST_ELEMENT(self), [self](GstClockTime skipped) { self->engine->skip(skipped); });
   self->warnings = new spidar::BusWarnings(GST_ELEMENT(self));
   self->choice = new spidar::MotionChoice(GST_ELEMENT(self));
+  self->display = new MotionDisplay(GST_ELEMENT(self), *self->engine, self->choice->mouse());
   // GstVideoFilter would drop late frames before they are analysed; here the application decides
   // that with `qos`.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);

@@ -69,16 +69,14 @@ void MotionChoice::warn_of_mean(MotionKind motion) {
   warned_of_mean_ = true;
   GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                       ("With motion=mean, no objects are known, and %s is not used.",
-                       named_.rules ? named_.name.c_str() : "pointer=mouse"),
+                       named_.rules ? named_.name.c_str() : "a click"),
                       ("motion=object, objects and camera know them."));
 }
 
 void MotionChoice::apply(bool with_mouse, const PictureTurn& turn, AnalyzerSettings& settings) {
   settings.feel = named_.rules;
-  if (with_mouse) {
-    settings.pointer = mouse_.place().value_or(settings.pointer);
-    settings.kept = mouse_.kept(turn);
-  }
+  if (with_mouse) settings.pointer = mouse_.place().value_or(settings.pointer);
+  settings.kept = mouse_.kept(turn);
   if (settings.feel || settings.kept.click != 0) warn_of_mean(settings.motion);
 }
 
@@ -139,7 +137,7 @@ void MotionChoice::tell_of_click(const KeptObject& kept, ChoiceState state) {
   mouse_.let_go(kept.click);
   if (state == ChoiceState::kLost) {
     GST_ELEMENT_INFO(element_, STREAM, FAILED, ("The object that was clicked is lost."),
-                     ("The pointer follows the mouse again."));
+                     ("What 'motion' and 'feel' say is felt again."));
   } else {
     GST_ELEMENT_INFO(
         element_, STREAM, FAILED,

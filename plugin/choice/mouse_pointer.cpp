@@ -48,6 +48,11 @@ void MousePointer::take(GstEvent* event, GstPad* source) {
   kept_ = kept_.click == 0 ? KeptObject{++clicks_, place} : KeptObject();
 }
 
+void MousePointer::keep(const std::optional<Eigen::Vector2d>& place) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  kept_ = place ? KeptObject{++clicks_, *place} : KeptObject();
+}
+
 std::optional<Eigen::Vector2d> MousePointer::place() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return place_;

@@ -28,6 +28,9 @@ class MousePointer {
   /// What a click keeps until the next one.
   KeptObject kept(const PictureTurn& turn) const;
 
+  /// Keeps what is at this place, or nothing, without a mouse in the window of a sink.
+  void keep(const std::optional<Eigen::Vector2d>& place);
+
   /// The object of this click is not kept any more.
   void let_go(uint32_t click);
   /// Forgets the mouse.

@@ -82,7 +82,8 @@ double get_value(GObject* object, const Setting& setting) {
 
 class ElementSource final : public WindowSource {
  public:
-  ElementSource(GstElement* element, MotionEngine& engine) : engine_(engine) {
+  ElementSource(GstElement* element, MotionEngine& engine, MousePointer& mouse)
+      : engine_(engine), mouse_(mouse) {
     g_weak_ref_init(&element_, element);
   }
   ~ElementSource() override { g_weak_ref_clear(&element_); }
@@ -134,6 +135,11 @@ class ElementSource final : public WindowSource {
     engine_.output().lead_hand(to_m);
   }
 
+  void choose(const std::optional<Eigen::Vector2d>& place) override {
+    const Ref<GstElement> held = hold(element_);
+    if (held) mouse_.keep(place);
+  }
+
   void warn(const std::string& what, const std::string& advice) override {
     const Ref<GstElement> held = hold(element_);
     if (!held) return;
@@ -161,13 +167,16 @@ class ElementSource final : public WindowSource {
   }
 
   GWeakRef element_;
-  MotionEngine& engine_;  // only while the element is held
+  // Only while the element is held.
+  MotionEngine& engine_;
+  MousePointer& mouse_;
 };
 
 }  // namespace
 
-std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine) {
-  return std::make_shared<ElementSource>(element, engine);
+std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine,
+                                                  MousePointer& mouse) {
+  return std::make_shared<ElementSource>(element, engine, mouse);
 }
 
 }  // namespace spidar

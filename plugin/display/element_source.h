@@ -7,13 +7,15 @@
 
 #include <gst/gst.h>
 
+#include "plugin/choice/mouse_pointer.h"
 #include "plugin/engine/motion_engine.h"
 #include "plugin/window/model/window_source.h"
 
 namespace spidar {
 
-/// Keeps no reference: the element may go while the window is open. `engine` is that of `element`,
-/// and lives as long.
-std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine);
+/// Keeps no reference: the element may go while the window is open. `engine` and `mouse`
+/// are those of `element`, and live as long.
+std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine,
+                                                  MousePointer& mouse);
 
 }  // namespace spidar

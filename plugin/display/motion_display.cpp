@@ -64,10 +64,14 @@ std::shared_ptr<Window> MotionDisplay::window() const {
   return window_;
 }
 
+std::shared_ptr<WindowSource> MotionDisplay::source() const {
+  return make_element_source(element_, engine_, mouse_);
+}
+
 void MotionDisplay::open_window() {
   if (window()) return;
   auto new_feed = std::make_shared<FrameFeed>();
-  auto new_window = std::make_shared<Window>(make_element_source(element_, engine_), new_feed);
+  auto new_window = std::make_shared<Window>(source(), new_feed);
   // If another thread has opened a window meanwhile, this one closes at the end of the function.
   const std::lock_guard<std::mutex> lock(mutex_);
   if (window_) return;

@@ -10,6 +10,7 @@
 
 #include <gst/video/video.h>
 
+#include "plugin/choice/mouse_pointer.h"
 #include "plugin/engine/motion_engine.h"
 #include "plugin/frame/scene_view.h"
 #include "plugin/properties/display_properties.h"
@@ -20,8 +21,9 @@ namespace spidar {
 /// One element's overlay, meta and debug window.
 class MotionDisplay {
  public:
-  /// `engine` is that of `element` and lives as long.
-  MotionDisplay(GstElement* element, MotionEngine& engine) : element_(element), engine_(engine) {}
+  /// `engine` and `mouse` are those of `element` and live as long.
+  MotionDisplay(GstElement* element, MotionEngine& engine, MousePointer& mouse)
+      : element_(element), engine_(engine), mouse_(mouse) {}
 
   // --- streaming thread
 
@@ -39,6 +41,8 @@ class MotionDisplay {
 
   // --- any thread
 
+  /// The element as a window sees it.
+  std::shared_ptr<WindowSource> source() const;
   void open_window();
   /// Returns when it is gone, or after Window::kPatience.
   void close_window();
@@ -52,6 +56,7 @@ class MotionDisplay {
 
   GstElement* const element_;
   MotionEngine& engine_;
+  MousePointer& mouse_;
   // Streaming thread.
   SceneViewer viewer_;
   bool window_waits_ = false;

@@ -41,6 +41,8 @@ const SceneView& SceneViewer::see(const FrameAnalysis& analysis, const VisiblePa
   scene_.objects.clear();
   scene_.motion = analysis.motion;
   scene_.wrench = analysis.wrench;
+  scene_.felt_object = analysis.felt_object;
+  scene_.is_free = analysis.choice.is_free();
   scene_.turn = turn;
   if (analysis.object_list) scene_.objects = *analysis.object_list;
   if (!analysis.tracks) {

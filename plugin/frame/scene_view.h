@@ -34,6 +34,8 @@ struct SceneView {
   std::vector<MovingObject> objects;  ///< relative to the centre of the visible part
   ImageMotion motion;                 ///< the motion that is rendered
   Wrench wrench;                      ///< turned like the picture
+  uint32_t felt_object = 0;           ///< the one object that is felt; 0: none, or not one alone
+  bool is_free = true;                ///< no rule and no click says what is felt
   PictureTurn turn;                   ///< of the picture before it is shown
 };
 

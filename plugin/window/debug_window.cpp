@@ -211,7 +211,7 @@ void DebugWindow::draw_panels(int width, int height) {
   const ShownPicture picture = shown_picture(facts);
   const Rect shown = shown_rect(layout.picture, picture, facts);
   draw_picture(brush, layout.picture, picture, facts);
-  move_hand(shown);
+  use_mouse(shown, facts);
   if (explains_hand(facts)) draw_hand_line(brush, shown, hand_line(hand_.hand()));
   draw_grip(brush, layout.grip, state_);
   draw_tensions(brush, layout.tensions, state_);

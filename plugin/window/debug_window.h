@@ -9,6 +9,7 @@
 
 #include "plugin/window/hand_control.h"
 #include "plugin/window/model/frame_feed.h"
+#include "plugin/window/model/object_click.h"
 #include "plugin/window/model/window_source.h"
 #include "plugin/window/panels.h"
 #include "plugin/window/picture_texture.h"
@@ -50,7 +51,7 @@ class DebugWindow {
   void show_relief(const TouchScene& touch);
   bool offers_hand() const;
   bool explains_hand(const FrameFacts& facts) const;
-  void move_hand(const Rect& picture);
+  void use_mouse(const Rect& picture, const FrameFacts& facts);
   void draw_panels(int width, int height);
   void save();
   void change(const std::string& setting, double value) { source_->set(setting, value); }
@@ -75,6 +76,7 @@ class DebugWindow {
   int shown_width_ = 0;                        // of the picture in the window
   std::shared_ptr<const HeightField> relief_;  // what relief_texture_ shows
   HandControl hand_;
+  ObjectClick click_;
   std::optional<Mouse> given_mouse_;
   bool source_gone_ = false;
   bool help_ = false;

@@ -113,13 +113,17 @@ bool DebugWindow::explains_hand(const FrameFacts& facts) const {
   return offers_hand() && (facts.touch.on || hand_.hand().is_over());
 }
 
-void DebugWindow::move_hand(const Rect& picture) {
-  if (!offers_hand() || picture.width <= 0) {
+void DebugWindow::use_mouse(const Rect& picture, const FrameFacts& facts) {
+  const Mouse mouse = given_mouse_ ? *given_mouse_ : read_mouse();
+  if (const auto wish = click_.update(mouse, timeline_.is_paused() ? Rect() : picture, facts)) {
+    source_->choose(wish->place);
+  }
+  if (!offers_hand() || picture.width <= 0 || click_.holds()) {
     hand_.let_go();
     return;
   }
   const TouchMap map{GripPointer(state_.device->geometry), facts_.scene.turn};
-  hand_.update(given_mouse_ ? *given_mouse_ : read_mouse(), picture, map);
+  hand_.update(mouse, picture, map);
 }
 
 }  // namespace spidar

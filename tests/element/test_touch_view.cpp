@@ -8,7 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/display/element_source.h"
+#include "plugin/display/motion_display.h"
+#include "plugin/spidar_motion.h"
 #include "plugin/touch/relief_stream.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/simulation/simulated_device.h"
@@ -68,7 +69,8 @@ TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
   GstBuffer* const grey = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);
   gst_buffer_memset(grey, 0, 20, 320 * 240);  // 3.4 mm behind the middle
   ASSERT_EQ(h.push(grey, 0), GST_FLOW_OK);
-  const std::shared_ptr<WindowSource> source = make_element_source(h.element(), h.engine());
+  const std::shared_ptr<WindowSource> source =
+      gst_spidar_motion_display(GST_SPIDAR_MOTION(h.element())).source();
   ElementState state;
   const auto look = [&] {
     tick(1500);
@@ -99,7 +101,8 @@ TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
 TEST(TouchView, OtherDevicesHaveNoHandToLead) {
   for (const char* properties : {"device=sim:sh4", "device=none"}) {
     ElementHarness h(properties);
-    const std::shared_ptr<WindowSource> source = make_element_source(h.element(), h.engine());
+    const std::shared_ptr<WindowSource> source =
+        gst_spidar_motion_display(GST_SPIDAR_MOTION(h.element())).source();
     ElementState state;
     ASSERT_TRUE(source->read(state));
     EXPECT_FALSE(state.device && state.device->has_hand) << properties;

@@ -5,12 +5,15 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <gst/check/gstharness.h>
 #include <gtest/gtest.h>
 
+#include "plugin/display/motion_display.h"
+#include "plugin/spidar_motion.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"
@@ -89,6 +92,16 @@ class ChosenFilm {
     gst_object_unref(motion);
   }
 
+  /// The element as its debug window sees it.
+  WindowSource& window() {
+    if (!window_) {
+      GstElement* const motion = gst_bin_get_by_name(GST_BIN(harness_->element), "motion");
+      window_ = gst_spidar_motion_display(GST_SPIDAR_MOTION(motion)).source();
+      gst_object_unref(motion);
+    }
+    return *window_;
+  }
+
   /// The disc whose motion is nearest to the one that is felt.
   int felt() const {
     int nearest = 0;
@@ -128,6 +141,7 @@ class ChosenFilm {
   }
 
   MovingScene scene_{kWidth, kHeight};
+  std::shared_ptr<WindowSource> window_;
   GstHarness* harness_ = nullptr;
   GstBus* bus_ = nullptr;
   int frames_ = 0;

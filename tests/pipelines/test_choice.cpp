@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What a person chooses in a player: by the mouse in its window, and by rules.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -132,6 +133,26 @@ TEST(Mouse, EventsGoOnUpstreamWithTheirPlaceInTheFrame) {
     EXPECT_NEAR(y, 0.5 * kHeight, 2);
     gst_event_unref(event);
   }
+}
+
+/// As the debug window does, without the mouse of a sink.
+TEST(Window, AClickKeepsTheObjectWhateverThePointerIs) {
+  Film film("motion=objects", kMirroredWindow);
+  film.play_to(10);
+  film.window().choose(film.disc_place(2));
+  int right = 0;
+  for (int n = 10; n < 30; ++n) {
+    film.next();
+    right += film.object_ != 0 && film.off_px_s(2) < 0.1 * 75;
+  }
+  EXPECT_GE(right, kMostFrames * 20);
+  film.window().choose(std::nullopt);
+  film.next();
+  EXPECT_EQ(film.object_, 0u) << "all are felt again";
+  film.window().choose(Vector2d(0.02, 0.98));
+  film.play_to(50);
+  EXPECT_EQ(film.notes_,
+            std::vector<std::string>{"No object is at 0.02,0.98, where the mouse was clicked."});
 }
 
 std::string object_at(int disc, int n) {

@@ -40,6 +40,11 @@ class FakeSource final : public WindowSource {
     led_.push_back(to_m);
     changed_.notify_all();
   }
+  void choose(const std::optional<Eigen::Vector2d>& place) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    choices_.push_back(place);
+    changed_.notify_all();
+  }
   void warn(const std::string& what, const std::string&) override {
     const std::lock_guard<std::mutex> lock(mutex_);
     warnings_.push_back(what);
@@ -79,6 +84,13 @@ class FakeSource final : public WindowSource {
     changed_.wait(lock, [&] { return led_.size() >= count; });
     return led_;
   }
+  using Places = std::vector<std::optional<Eigen::Vector2d>>;
+  /// The same of objects that were chosen.
+  Places wait_for_choices(size_t count) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return choices_.size() >= count; });
+    return choices_;
+  }
   void wait_until_closed() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [&] { return is_closed_; });
@@ -95,6 +107,7 @@ class FakeSource final : public WindowSource {
   ElementState state_;
   Sets sets_;
   Led led_;
+  Places choices_;
   std::vector<std::string> warnings_;
   bool is_closed_ = false;
   static constexpr uint64_t kAll = std::numeric_limits<uint64_t>::max();

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/display/element_source.h"
+#include "plugin/display/motion_display.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/window/model/frame_feed.h"
 #include "plugin/window/model/layout.h"
@@ -45,10 +45,14 @@ TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
     object.relative_px_s = {10.0 * id, 1};
     facts.scene.objects.push_back(object);
   }
-  facts.scene.motion.velocity_px_s = facts.scene.objects[1].relative_px_s;
+  facts.scene.felt_object = 5;
   facts.settings.motion = MotionKind::kObject;
   EXPECT_EQ(felt_objects(facts), std::vector<uint32_t>{5});
   facts.settings.motion = MotionKind::kObjects;
+  facts.scene.is_free = false;
+  EXPECT_EQ(felt_objects(facts), std::vector<uint32_t>{5}) << "by a click";
+  facts.scene.felt_object = 0;
+  facts.scene.is_free = true;
   EXPECT_EQ(felt_objects(facts), (std::vector<uint32_t>{3, 5}));
   facts.touch.on = true;
   EXPECT_TRUE(felt_objects(facts).empty()) << "only the surface is";
@@ -139,7 +143,7 @@ TEST(Settings, EachHasAGroupAndItsDefault) {
   init_gstreamer();
   auto* element = GST_ELEMENT(g_object_ref_sink(g_object_new(GST_TYPE_SPIDAR_MOTION, nullptr)));
   const std::shared_ptr<WindowSource> source =
-      make_element_source(element, gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)));
+      gst_spidar_motion_display(GST_SPIDAR_MOTION(element)).source();
   ElementState state;
   ASSERT_TRUE(source->read(state));
   std::multiset<std::string> there, shown{"mute"};

@@ -163,5 +163,46 @@ TEST_F(WindowTest, APeakBetweenTwoPicturesIsPlotted) {
   EXPECT_GT(highest_red(0), 0.5);
 }
 
+TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
+  auto source = std::make_shared<FakeSource>();
+  auto feed = std::make_shared<FrameFeed>();
+  Window window(source, feed);
+  FrameFacts facts;
+  MovingObject object;
+  object.id = 3;
+  object.tracks = 10;
+  object.position_px = {40, -20};
+  object.size_px = {60, 60};
+  facts.scene.objects.push_back(object);
+  give(*feed, facts);
+  const PictureMap map = map_of(look(window));
+  const auto click = [&](double x_px, double y_px) {
+    Mouse mouse;
+    mouse.at_px = map({x_px, y_px});
+    mouse.down = true;
+    window.set_mouse(mouse);
+    look(window);
+    mouse.down = false;
+    window.set_mouse(mouse);
+    look(window);
+  };
+  click(20, 20);       // beside it
+  click(199.5, 89.5);  // of a frame of 320 × 240
+  FakeSource::Places places = source->wait_for_choices(1);
+  ASSERT_EQ(places.size(), 1u);
+  ASSERT_TRUE(places[0]);
+  EXPECT_NEAR((*places[0] - Eigen::Vector2d(200.0 / 320, 90.0 / 240)).norm(), 0, 1e-9);
+  facts.settings.kept = {1, *places[0]};
+  facts.scene.felt_object = 3;
+  give(*feed, facts);
+  look(window);
+  click(199.5, 89.5);
+  places = source->wait_for_choices(2);
+  EXPECT_FALSE(places.back()) << "a second click lets go";
+  window.press(GLFW_KEY_P);
+  click(199.5, 89.5);
+  EXPECT_EQ(source->wait_for_choices(2).size(), 2u) << "not in the past";
+}
+
 }  // namespace
 }  // namespace spidar::test::window_picture_test

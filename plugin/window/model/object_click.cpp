@@ -30,8 +30,7 @@ std::optional<ObjectWish> ObjectClick::update(const Mouse& mouse, const Rect& pi
   const MovingObject* const object = is_over ? object_at(facts, place) : nullptr;
   if (!object) return std::nullopt;
   holds_ = true;
-  const bool is_chosen =
-      facts.settings.kept.click != 0 && facts.scene.felt_object == object->id;
+  const bool is_chosen = facts.settings.kept.click != 0 && facts.scene.felt_object == object->id;
   return is_chosen ? ObjectWish() : ObjectWish{place};
 }
 

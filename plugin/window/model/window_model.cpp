@@ -29,14 +29,10 @@ std::string count_of(size_t count, const std::string& noun) {
 std::vector<uint32_t> felt_objects(const FrameFacts& facts) {
   std::vector<uint32_t> felt;
   if (facts.touch.on && !(facts.touch.motion_share > 0)) return felt;
-  const MotionKind motion = facts.settings.motion;
+  const bool all = facts.scene.is_free && facts.settings.motion == MotionKind::kObjects;
   for (const MovingObject& object : facts.scene.objects) {
     if (object.tracks == 0) continue;
-    const bool is_felt =
-        motion == MotionKind::kObjects ||
-        // The felt velocity is a copy of the dominant object's: equal to the last bit.
-        (motion == MotionKind::kObject && object.relative_px_s == facts.scene.motion.velocity_px_s);
-    if (is_felt) felt.push_back(object.id);
+    if (all || object.id == facts.scene.felt_object) felt.push_back(object.id);
   }
   return felt;
 }

@@ -23,6 +23,9 @@ class WindowSource {
   virtual void set(const std::string& setting, double value) = 0;
   /// Where the hand of the simulated device goes, device frame; nothing: it lets go.
   virtual void lead_hand(const std::optional<Eigen::Vector3d>& to_m) = 0;
+  /// The object at this place of the frame, a share of its visible part, is felt alone; nothing:
+  /// what the properties say is.
+  virtual void choose(const std::optional<Eigen::Vector2d>& place) = 0;
   /// The window cannot be opened or goes on no more: `what` happened, `advice` to do.
   virtual void warn(const std::string& what, const std::string& advice) = 0;
   /// The user has closed the window.
