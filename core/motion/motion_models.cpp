@@ -63,38 +63,95 @@ bool fit_linear(const std::vector<Displacement>& points, const std::vector<doubl
   return true;
 }
 
+/// The sums of a Gauss–Newton step for the eight parameters of a homography. In x only the first
+/// three of them act, in y the next three, with the same derivatives, and the last two act in both:
+/// what is zero, or there already, is not added up.
+class NormalEquations {
+ public:
+  using Vector8 = Eigen::Matrix<double, 8, 1>;
+  using Matrix8 = Eigen::Matrix<double, 8, 8>;
+
+  /// `a` are the derivatives of the coordinates by three parameters each; `px` and `py` those of
+  /// x and of y by the perspective.
+  void add(double weight, const double (&a)[3], const double (&px)[2], const double (&py)[2],
+           double error_x, double error_y) {
+    for (int i = 0; i < 3; ++i) {
+      const double wa = weight * a[i];
+      for (int j = i; j < 3; ++j) affine_[i][j] += wa * a[j];
+      for (int k = 0; k < 2; ++k) {
+        with_x_[i][k] += wa * px[k];
+        with_y_[i][k] += wa * py[k];
+      }
+      right_[i] += weight * (error_x * a[i]);
+      right_[3 + i] += weight * (error_y * a[i]);
+    }
+    for (int k = 0; k < 2; ++k) {
+      const double wx = weight * px[k], wy = weight * py[k];
+      for (int l = k; l < 2; ++l) {
+        perspective_[k][l] += wx * px[l];
+        perspective_[k][l] += wy * py[l];
+      }
+      right_[6 + k] += weight * (error_x * px[k] + error_y * py[k]);
+    }
+  }
+
+  /// The lower triangle.
+  Matrix8 matrix() const {
+    Matrix8 lower = Matrix8::Zero();
+    for (int i = 0; i < 3; ++i) {
+      for (int j = i; j < 3; ++j) lower(j, i) = lower(3 + j, 3 + i) = affine_[i][j];
+      for (int k = 0; k < 2; ++k) {
+        lower(6 + k, i) = with_x_[i][k];
+        lower(6 + k, 3 + i) = with_y_[i][k];
+      }
+    }
+    for (int k = 0; k < 2; ++k) {
+      for (int l = k; l < 2; ++l) lower(6 + l, 6 + k) = perspective_[k][l];
+    }
+    return lower;
+  }
+  Vector8 right() const { return Eigen::Map<const Vector8>(right_); }
+
+ private:
+  double affine_[3][3] = {};
+  double with_x_[3][2] = {};
+  double with_y_[3][2] = {};
+  double perspective_[2][2] = {};
+  double right_[8] = {};
+};
+
 /// Gauss–Newton steps from the affine solution.
 bool refine_homography(const std::vector<Displacement>& points, const std::vector<double>& weights,
                        MotionModel& model) {
   constexpr int kSteps = 4;
   constexpr double kSmall = 1e-5;   // px, at kUnit_px from the centre
   constexpr double kUnit_px = 256;  // lengths near 1, so that the normal matrix is well scaled
-  using Vector8 = Eigen::Matrix<double, 8, 1>;
+  using Vector8 = NormalEquations::Vector8;
   for (int step = 0; step < kSteps; ++step) {
-    Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
-    Vector8 right = Vector8::Zero();
+    const double h_x = model.perspective_1_px.x(), h_y = model.perspective_1_px.y();
+    const Eigen::Array2d shift = model.shift_px, column_x = model.linear.col(0),
+                         column_y = model.linear.col(1);
+    NormalEquations equations;
     for (size_t i = 0; i < points.size(); ++i) {
       if (weights[i] == 0) continue;
-      const Eigen::Vector2d& at = points[i].at_px;
-      const double divisor = 1 + model.perspective_1_px.dot(at);
+      // MotionModel::displacement_px(), of which the divisor is used again.
+      const double at_x = points[i].at_px.x(), at_y = points[i].at_px.y();
+      const double divisor = 1 + (h_x * at_x + h_y * at_y);
       // The homography would map points behind the camera.
       if (!(divisor > 0.1)) return false;
-      const Eigen::Vector2d to = at + model.displacement_px(at);
-      const Eigen::Vector2d error = points[i].moved_px - (to - at);
-      const double x = at.x() / kUnit_px / divisor;
-      const double y = at.y() / kUnit_px / divisor;
-      Vector8 jx;
-      jx << x, y, 1 / divisor, 0, 0, 0, -to.x() / kUnit_px * x, -to.x() / kUnit_px * y;
-      Vector8 jy;
-      jy << 0, 0, 0, x, y, 1 / divisor, -to.y() / kUnit_px * x, -to.y() / kUnit_px * y;
-      normal.selfadjointView<Eigen::Lower>().rankUpdate(jx, weights[i]);
-      normal.selfadjointView<Eigen::Lower>().rankUpdate(jy, weights[i]);
-      right += weights[i] * (error.x() * jx + error.y() * jy);
+      const Eigen::Array2d at = points[i].at_px,
+                           moved = at + (shift + (column_x * at_x + column_y * at_y));
+      const Eigen::Array2d to = at + (moved / divisor - at);
+      const Eigen::Array2d error = points[i].moved_px.array() - (to - at);
+      const Eigen::Array2d a = at / kUnit_px / divisor;
+      const Eigen::Array2d px = -to.x() / kUnit_px * a, py = -to.y() / kUnit_px * a;
+      equations.add(weights[i], {a.x(), a.y(), 1 / divisor}, {px.x(), px.y()}, {py.x(), py.y()},
+                    error.x(), error.y());
     }
-    const Eigen::LDLT<Eigen::Matrix<double, 8, 8>, Eigen::Lower> ldlt(normal);
+    const Eigen::LDLT<NormalEquations::Matrix8, Eigen::Lower> ldlt(equations.matrix());
     const Vector8 pivots = ldlt.vectorD();
     if (!(pivots.minCoeff() > 1e-10 * pivots.maxCoeff())) return false;
-    const Vector8 change = ldlt.solve(right);
+    const Vector8 change = ldlt.solve(equations.right());
     model.linear(0, 0) += change[0] / kUnit_px;
     model.linear(0, 1) += change[1] / kUnit_px;
     model.linear(1, 0) += change[3] / kUnit_px;
