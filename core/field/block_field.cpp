@@ -185,8 +185,12 @@ bool BlockField::is_cut() const {
   if (between < kLeastCut_grey * pixels) return false;
   int with_texture = 0;
   int lost = 0;
+  int left = grid_.size();
   for (int row = 0; row < grid_.rows; ++row) {
     for (int column = 0; column < grid_.columns; ++column) {
+      // Even if all that are left were lost.
+      if (!(lost + left > kCutShare * (with_texture + left))) return false;
+      --left;
       const int within = difference_from_mean(now_, grid_.x_px(column), grid_.y_px(row));
       if (within < kLeastContrast_grey * kBlockArea_px) continue;
       ++with_texture;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 
 #include "core/field/block_kernels.h"
 
@@ -64,9 +65,17 @@ class Walk {
   void try_hint(Vector hint) { try_at(inside(hint)); }
 
   /// Tries every second pixel around rest; used for the few blocks of a coarse picture.
-  void search_everywhere() {
+  void search_everywhere(const AreaSums& before) {
+    int sum = 0;
+    for (int y = 0; y < kBlock_px; ++y) {
+      for (int x = 0; x < kBlock_px; ++x) sum += block_.pixels[y * block_.stride + x];
+    }
     for (int dy = -kFarthest_px; dy <= kFarthest_px; dy += 2) {
-      for (int dx = -kFarthest_px; dx <= kFarthest_px; dx += 2) try_at(inside({dx, dy}));
+      for (int dx = -kFarthest_px; dx <= kFarthest_px; dx += 2) {
+        const Vector v = inside({dx, dy});
+        const int least = std::abs(sum - before.at(v.dx - low_.dx, v.dy - low_.dy));
+        if (least < cost_) try_at(v);
+      }
     }
   }
 
@@ -83,6 +92,7 @@ class Walk {
 
   /// Moves one pixel at a time and never back in the direction from which it came.
   void walk_downhill() {
+    if (lowest_ && *lowest_ == best_) return;
     static constexpr std::array<Vector, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     int came_by = -1;
     for (int step = 0; step < kMostSteps; ++step) {
@@ -94,7 +104,10 @@ class Walk {
         const Vector to{from.dx + v.dx, from.dy + v.dy};
         if (inside(to) == to && try_at(to)) taken = k;
       }
-      if (taken < 0) return;
+      if (taken < 0) {
+        lowest_ = from;
+        return;
+      }
       came_by = taken;
     }
   }
@@ -132,6 +145,7 @@ class Walk {
   std::array<Vector, 9> candidates_{};
   int count_ = 0;
   Vector best_{0, 0};
+  std::optional<Vector> lowest_;  ///< around which no step is better
   int cost_ = std::numeric_limits<int>::max();
   int difference_ = 0;
 };
@@ -162,6 +176,8 @@ int BlockGrid::y_px(int row) const {
 void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const BlockGrid& grid,
                        const std::vector<BlockMatch>& hints, std::vector<BlockMatch>& matches) {
   last_ = matches;
+  if (hints.empty()) before_sums_.resize(before.width(), before.height());
+  bool has_sums = false;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const auto i = static_cast<size_t>(row * grid.columns + column);
@@ -201,7 +217,9 @@ void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const 
       // same in many places.
       if (walk.difference() > kDoubtfulDifference) {
         if (hints.empty()) {
-          walk.search_everywhere();
+          if (!has_sums) before_sums_.read(before);
+          has_sums = true;
+          walk.search_everywhere(before_sums_);
         } else {
           walk.try_hint(vector_of(hints[i]));
           if (walk.difference() > kBadDifference) walk.search_far();

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/field/area_sums.h"
 #include "core/tracking/padded_image.h"
 
 namespace spidar {
@@ -49,6 +50,7 @@ class BlockSearch {
 
  private:
   std::vector<BlockMatch> last_;
+  AreaSums before_sums_;  ///< where the whole range is searched
 };
 
 }  // namespace spidar

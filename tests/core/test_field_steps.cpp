@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/field/area_sums.h"
 #include "core/field/block_field.h"
 #include "core/field/block_kernels.h"
 #include "core/field/field_picture.h"
@@ -84,6 +85,29 @@ TEST(FieldSteps, KernelsAreTheirDefinitionBitForBit) {
       EXPECT_GT(staying.exact, kBlockArea_px / 4);
     }
   }
+}
+
+TEST(FieldSteps, AreaSumsAreThoseOfTheirPixels) {
+  AreaSums sums;
+  for (const int width : {40, 107}) {  // the second time with memory of another size
+    const PaddedImage image = noise(width, 33, 5);
+    sums.resize(image.width(), image.height());
+    for (int turn = 0; turn < 2; ++turn) sums.read(image);
+    for (int y = -kBlockReach_px; y <= 33 + kBlockReach_px - kBlock_px; ++y) {
+      for (int x = -kBlockReach_px; x <= width + kBlockReach_px - kBlock_px; ++x) {
+        int sum = 0;
+        for (int j = 0; j < kBlock_px; ++j) {
+          for (int i = 0; i < kBlock_px; ++i) sum += image.row(y + j)[x + i];
+        }
+        ASSERT_EQ(sums.at(x + kBlockReach_px, y + kBlockReach_px), sum) << x << ", " << y;
+      }
+    }
+  }
+  Picture white(16, 16);
+  white.fill([](double, double) { return 255.0; });
+  sums.resize(white.width, white.height);
+  sums.read(padded(white));
+  EXPECT_EQ(sums.at(kBlockReach_px, kBlockReach_px), 255 * kBlockArea_px);
 }
 
 TEST(FieldSteps, TwoThirdsAreTheMeanOfTheirAreas) {
