@@ -36,6 +36,25 @@ constexpr int kFrames = 600;
 constexpr int kTurns = 5;
 constexpr int kSkipped = 77;
 
+/// What a film is made of; an empty encoding is H.264 in MP4.
+struct Clip {
+  const char* name;
+  int width, height;
+  std::string encoder, rest;
+};
+const std::vector<Clip> kClips = {
+    {"H.264", 432, 240, "", ""},
+    {"MPEG-4", 640, 480, "avenc_mpeg4", " bitrate=2000000 ! avimux"},
+    {"H.264", 1280, 720, "", ""},
+    {"HEVC", 1280, 720, "x265enc", " speed-preset=ultrafast ! h265parse ! matroskamux"},
+    {"VP8", 1280, 720, "vp8enc", " deadline=1 cpu-used=8 target-bitrate=3000000 ! webmmux"},
+    {"VP9", 1280, 720, "vp9enc", " deadline=1 cpu-used=8 target-bitrate=3000000 ! webmmux"},
+    {"MJPEG", 1280, 720, "jpegenc", " ! avimux"},
+    {"H.264", 1920, 1080, "", ""},
+};
+constexpr int kClipFrames = 480;
+constexpr int kFewFrames = 3;  // starting, and hardly anything more
+
 struct Cost {
   double cpu_s, wall_s;  // of all its threads; from its start to its end
 };
@@ -110,13 +129,55 @@ std::vector<std::string> record(const std::string& jobs, const std::vector<std::
   return words;
 }
 
+std::vector<std::string> decode(const std::string& film) {
+  return {"gst-launch-1.0", "-q", "filesrc", "location=" + film, "!", "decodebin", "!", "fakesink"};
+}
+
+std::vector<spidar::test::Picture> drawn(int width, int height) {
+  spidar::test::FilmStudio studio(width, height, 1);
+  spidar::test::Film film = studio.pan_with_object();
+  return draw_all(film, spidar::test::kFilmFrames);
+}
+
+void print_clip(const Clip& clip, const std::filesystem::path& folder) {
+  const std::string size = std::to_string(clip.width) + "x" + std::to_string(clip.height);
+  if (!clip.encoder.empty() && !is_installed(clip.encoder)) {
+    std::printf("| %s %s | %s is not installed | | | | |\n", size.c_str(), clip.name,
+                clip.encoder.c_str());
+    return;
+  }
+  const std::string whole = folder / "whole", few = folder / "few";
+  const std::vector<spidar::test::Picture> pictures = drawn(clip.width, clip.height);
+  const std::string encoding = clip.encoder.empty() ? "" : clip.encoder + clip.rest;
+  encode(pictures, kClipFrames, kRate_Hz, whole, encoding);
+  encode(pictures, kFewFrames, kRate_Hz, few, encoding);
+  const auto costs = in_turns({{"", decode(whole), true},
+                               {"", record("1", {whole}), true},
+                               {"", decode(few), true},
+                               {"", record("1", {few}), true}});
+  const auto ms = [&](size_t i) { return 1e3 * median(costs[i], &Cost::cpu_s); };
+  const auto frame_ms = [&](size_t i) { return (ms(i) - ms(i + 2)) / (kClipFrames - kFewFrames); };
+  std::printf("| %s %s | %.2f | %.2f | %.2f | %.0f | %s |\n", size.c_str(), clip.name, frame_ms(0),
+              frame_ms(1) - frame_ms(0), frame_ms(1) / frame_ms(0), ms(3) - ms(2),
+              quotient(costs[1], costs[0], &Cost::cpu_s).c_str());
+}
+
+/// What a frame costs more is the analysis, which does not depend on the codec: it weighs the more,
+/// the less it takes to decode one.
+void print_clips(const std::filesystem::path& folder) {
+  std::printf(
+      "\n### By size and codec\n\nCPU time, one core; %d frames\n\n"
+      "| clip | decoding, ms a frame | record, ms a frame more | ÷ decoding, frames | record, ms "
+      "more to start | ÷ decoding, whole clip |\n|---|---|---|---|---|---|\n",
+      kClipFrames);
+  for (const Clip& clip : kClips) print_clip(clip, folder);
+}
+
 void print_beside_decoding(const std::string& film) {
-  const std::vector<std::string> decode = {
-      "gst-launch-1.0", "-q", "filesrc", "location=" + film, "!", "decodebin", "!", "fakesink"};
   const std::vector<Command> commands = {
-      {"decoding, one core", decode, true},
+      {"decoding, one core", decode(film), true},
       {"record, one core", record("1", {film}), true},
-      {"decoding, all cores", decode, false},
+      {"decoding, all cores", decode(film), false},
       {"record, all cores", record("1", {film}), false},
   };
   const auto costs = in_turns(commands);
@@ -167,15 +228,14 @@ int main(int argc, char** argv) {
     }
     const spidar::test::TemporaryFolder folder;
     const std::vector<std::string> films = {folder.path / "a.mp4", folder.path / "b.mp4"};
-    spidar::test::FilmStudio studio(kWidth, kHeight, 1);
-    spidar::test::Film film = studio.pan_with_object();
-    encode(draw_all(film, spidar::test::kFilmFrames), kFrames, kRate_Hz, films[0]);
+    encode(drawn(kWidth, kHeight), kFrames, kRate_Hz, films[0]);
     std::filesystem::copy_file(films[0], films[1]);
     std::printf("%d frames of %dx%d, H.264 by %s, %u cores; median of %d turns (least … most)\n",
                 kFrames, kWidth, kHeight, h264_encoder().c_str(),
                 std::thread::hardware_concurrency(), kTurns);
     print_beside_decoding(films[0]);
     print_two_films(films);
+    print_clips(folder.path);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "error: %s\n", e.what());
     return 1;

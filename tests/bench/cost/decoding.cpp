@@ -19,12 +19,6 @@ double process_time_ms() {
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
-bool is_installed(const char* element) {
-  GstElementFactory* factory = gst_element_factory_find(element);
-  if (factory) gst_object_unref(factory);
-  return factory != nullptr;
-}
-
 /// What encode() has in its launch line.
 std::string h264_encoding(double bit_s) {
   if (h264_encoder() == "x264enc") {
@@ -35,6 +29,12 @@ std::string h264_encoding(double bit_s) {
 }
 
 }  // namespace
+
+bool is_installed(const std::string& element) {
+  GstElementFactory* factory = gst_element_factory_find(element.c_str());
+  if (factory) gst_object_unref(factory);
+  return factory != nullptr;
+}
 
 std::string h264_encoder() {
   for (const char* encoder : {"x264enc", "openh264enc"}) {
@@ -52,8 +52,8 @@ std::string missing_for_decoding() {
   return {};
 }
 
-void encode(const std::vector<test::Picture>& film, int count, int rate_Hz,
-            const std::string& file) {
+void encode(const std::vector<test::Picture>& film, int count, int rate_Hz, const std::string& file,
+            const std::string& encoding) {
   const int width = film.front().width;
   const int height = film.front().height;
   constexpr double kBitsPerPixel = 0.06;  // as of a film
@@ -61,8 +61,9 @@ void encode(const std::vector<test::Picture>& film, int count, int rate_Hz,
       "appsrc name=source format=time block=true caps=video/x-raw,format=I420,width=" +
       std::to_string(width) + ",height=" + std::to_string(height) +
       ",framerate=" + std::to_string(rate_Hz) + "/1,colorimetry=bt709 ! " +
-      h264_encoding(kBitsPerPixel * rate_Hz * width * height) +
-      " ! mp4mux ! filesink location=" + file);
+      (encoding.empty() ? h264_encoding(kBitsPerPixel * rate_Hz * width * height) + " ! mp4mux"
+                        : encoding) +
+      " ! filesink location=" + file);
   pipeline.play();
   const Element source = pipeline.by_name("source");
   const int last = static_cast<int>(film.size()) - 1;

@@ -17,13 +17,16 @@ constexpr const char* kNoEncoder =
     "neither x264enc (gstreamer1.0-plugins-ugly) nor openh264enc (gstreamer1.0-plugins-bad) is "
     "installed";
 
+bool is_installed(const std::string& element);
+
 /// Why decoding_ms() cannot be measured here; empty when it can.
 std::string missing_for_decoding();
 
-/// Writes an H.264 file of `count` frames, which are those of `film` to and fro. Throws
-/// std::runtime_error as Pipeline does.
-void encode(const std::vector<test::Picture>& film, int count, int rate_Hz,
-            const std::string& file);
+/// Writes a film of `count` frames, which are those of `film` to and fro: H.264 in MP4, or by
+/// `encoding`, which is between `!` in a launch line and ends in a muxer. Throws std::runtime_error
+/// as Pipeline does.
+void encode(const std::vector<test::Picture>& film, int count, int rate_Hz, const std::string& file,
+            const std::string& encoding = {});
 
 /// Milliseconds of processor time a frame of all threads, whoever else uses the machine, for
 /// playing `file` of so many frames through avdec_h264 in one thread and `filter`. Throws as
