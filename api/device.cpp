@@ -6,12 +6,14 @@
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include <gst-spidar/device.h>
 
 #include "api/vectors.h"
 #include "spidar/boards/board_list.h"
+#include "spidar/loop/stiffness_limit.h"
 #include "spidar/profiles/force_range.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
@@ -27,7 +29,11 @@ static_assert(kHold_ns <= spidar::WrenchTimeline::kLongestHold_ns, "longer than 
 
 spidar::Profile profile_for(const std::string& device, const std::string& profile) {
   if (device == "none") throw std::runtime_error("\"none\" is no device that can be opened");
-  return spidar::load_profile(profile.empty() ? spidar::default_profile(device) : profile);
+  spidar::Profile found =
+      spidar::load_profile(profile.empty() ? spidar::default_profile(device) : profile);
+  // That of its own drives.
+  if (spidar::is_simulated(device)) found.drive_lag_known = true;
+  return found;
 }
 
 /// Running time is CLOCK_MONOTONIC, so a wrench that is pushed is due at once.
@@ -54,13 +60,20 @@ struct __attribute__((visibility("hidden"))) Device::Impl {
         can_give(session.grip().traits().has_strings ? profile.name : device),
         largest_force_N(std::floor(10 * std::max(spidar::kAnyForce_N,
                                                  session.grip().abilities().largest_force_N)) /
-                        10) {
+                        10),
+        largest_stiffness_N_m(session.grip().traits().has_strings
+                                  ? spidar::most_stiffness_N_m(profile)
+                                  : spidar::kUnmeasuredStiffness_N_m),
+        drive_lag_s(session.grip().traits().has_strings ? spidar::assumed_lag_s(profile)
+                                                        : spidar::kUnmeasuredLag_s) {
     session.loop().set_playback_clock(now_is_now());
   }
 
   HapticSession session;
   const std::string can_give;  ///< what gives the largest force: a profile, or the device
   const double largest_force_N;
+  const double largest_stiffness_N_m;
+  const double drive_lag_s;
   int64_t pushed_ns = 0;
 };
 
@@ -84,6 +97,34 @@ bool Device::push(const Wrench& wrench) {
 
 void Device::rest() {
   impl_->session.loop().cancel_scheduled();
+}
+
+void Device::set_callback(Callback callback, Energy energy) {
+  spidar::WrenchCallback::Function function;
+  if (callback) {
+    function = [callback = std::move(callback)](const spidar::CallbackInput& input) {
+      GripState state;
+      state.pose = to_api(input.pose);
+      state.velocity_m_s = to_api(input.velocity.linear_m_s);
+      state.angular_velocity_rad_s = to_api(input.velocity.angular_rad_s);
+      state.interval_s = input.dt_s;
+      return from_api(callback(state));
+    };
+  }
+  impl_->session.loop().callback().set(std::move(function),
+                                       {energy == Energy::kPassive, impl_->drive_lag_s});
+}
+
+std::string Device::callback_error() const {
+  const spidar::WrenchCallback& callback = impl_->session.loop().callback();
+  switch (callback.state()) {
+    case spidar::WrenchCallback::State::kThrew:
+      return std::string("the callback has thrown an exception: ") + callback.thrown();
+    case spidar::WrenchCallback::State::kTooSlow:
+      return "the callback has taken longer than 0.5 ms twenty times in a row";
+    default:
+      return {};
+  }
 }
 
 void Device::set_limits(double max_force_N, double max_torque_Nm) {
@@ -141,6 +182,34 @@ DeviceState Device::state() const {
     default:  // before the first tick; the device does not close while this object lives
       return DeviceState::kOpening;
   }
+}
+
+bool Device::wait_until_running(std::chrono::milliseconds timeout) const {
+  const auto until = std::chrono::steady_clock::now() + timeout;
+  while (state() != DeviceState::kRunning || !pose()) {
+    if (std::chrono::steady_clock::now() >= until) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+std::string Device::last_fault() const {
+  const spidar::LinkFault fault = impl_->session.grip().health().last_fault;
+  return fault == spidar::LinkFault::kNone ? "" : to_string(fault);
+}
+
+Capabilities Device::capabilities() const {
+  const spidar::GripAbilities abilities = impl_->session.grip().abilities();
+  Capabilities found;
+  found.force_x = abilities.force[0];
+  found.force_y = abilities.force[1];
+  found.force_z = abilities.force[2];
+  found.torque = abilities.torque;
+  found.direction = abilities.direction;
+  found.largest_force_N = impl_->largest_force_N;
+  found.largest_stiffness_N_m = impl_->largest_stiffness_N_m;
+  found.rate_Hz = abilities.rate_Hz;
+  return found;
 }
 
 const std::string& Device::name() const {

@@ -154,7 +154,7 @@ case ${1-} in
         "needs desktop players; suite soak, which takes an hour; suite validate, which needs gst-validate; suite" \
         "valgrind. Each by meson test -C build --suite NAME"
     threaded=(haptic_session shared_memory simulated_faults tick_trace touch_mailbox boards usb_boards force_feedback
-        uart_line guardian play_numbers play_traces pipelines_random_operations)
+        uart_line wrench_callback guardian play_numbers play_traces pipelines_random_operations)
     ! build build-ci-thread "${threaded_targets[@]}" || run_tests build-ci-thread -t 8 "${threaded[@]}"
     ;;
 *)

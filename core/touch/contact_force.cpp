@@ -80,26 +80,9 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
   if (!settings.bounds_energy || !(dt_s > 0)) return force_N;
   follow_energy(settings, way_m, grip_m);
   const ForcePath path = path_of(settings, dt_s);
-  force_N *= bounded_share(force_N, path, dt_s);
+  force_N *= budget_.allowed_share(force_N, path, dt_s);
   budget_.command(force_N, settings.beside_N, path, dt_s);
   return force_N;
-}
-
-/// When little energy is left, the bound follows the noise of the velocity. A bounded force
-/// therefore rises again no faster than the slew limit of the path. A slower rise would be
-/// smoother, but a force that is too low absorbs too little energy while the grip moves in, and
-/// stays low.
-double ContactForce::bounded_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
-                                   double dt_s) noexcept {
-  const double size_N = wanted_N.norm();
-  if (!(size_N > 0)) {
-    bounded_N_ = std::numeric_limits<double>::infinity();
-    return 1;
-  }
-  const double back_N = bounded_N_ + path.max_slew_N_s * dt_s;
-  const double most_N = std::min(back_N, budget_.most_N(wanted_N / size_N, path, dt_s));
-  bounded_N_ = most_N < size_N ? most_N : std::numeric_limits<double>::infinity();
-  return std::min(1.0, most_N / size_N);
 }
 
 /// Energy that a moving surface puts into the spring may be returned to the hand.

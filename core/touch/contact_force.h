@@ -75,14 +75,11 @@ class ContactForce {
   void follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept;
   Eigen::Vector3d wanted_N(const HeightField* texture, const ContactSettings& settings,
                            const Eigen::Vector3d& grip_m) const noexcept;
-  double bounded_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
-                       double dt_s) noexcept;
   void follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
                      const Eigen::Vector3d& grip_m) noexcept;
 
   TouchProxy proxy_;
   EnergyBudget budget_;
-  double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite if not bounded
   bool started_ = false;
   Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();

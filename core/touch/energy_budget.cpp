@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace spidar {
 namespace {
@@ -35,6 +36,23 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
   if (!(impulse_Ns > 0)) return 0;
   const double slew_N_s = path.max_slew_N_s;
   return slew_N_s * (std::sqrt(dt_s * dt_s + 2 * impulse_Ns / slew_N_s) - dt_s);
+}
+
+/// When little energy is left, the bound follows the noise of the velocity. A slower rise than that
+/// of the slew limit would be smoother, but a force that is too low absorbs too little energy while
+/// the grip moves in, and stays low.
+double EnergyBudget::allowed_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
+                                   double dt_s) noexcept {
+  constexpr double kUnbounded_N = std::numeric_limits<double>::infinity();
+  const double size_N = wanted_N.norm();
+  if (!(size_N > 0)) {
+    bounded_N_ = kUnbounded_N;
+    return 1;
+  }
+  const double back_N = bounded_N_ + path.max_slew_N_s * dt_s;
+  const double allowed_N = std::min(back_N, most_N(wanted_N / size_N, path, dt_s));
+  bounded_N_ = allowed_N < size_N ? allowed_N : kUnbounded_N;
+  return std::min(1.0, allowed_N / size_N);
 }
 
 void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3d& beside_N,

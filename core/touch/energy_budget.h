@@ -38,6 +38,11 @@ class EnergyBudget {
   void follow(const Eigen::Vector3d& way_m, const Eigen::Vector3d& velocity_m_s, double put_in_J,
               double stored_J) noexcept;
 
+  /// The share of `wanted_N` that is allowed. A force that was bounded rises again no faster than
+  /// the slew limit of the path.
+  double allowed_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
+                       double dt_s) noexcept;
+
   /// The largest allowed force along the unit vector `direction`.
   double most_N(const Eigen::Vector3d& direction, const ForcePath& path,
                 double dt_s) const noexcept;
@@ -57,6 +62,7 @@ class EnergyBudget {
   static constexpr int kSlope = 3;  // ticks over which the acceleration is measured
 
   double left_J_ = 0;
+  double bounded_N_ = std::numeric_limits<double>::infinity();      // infinite: it was not bounded
   std::array<Eigen::Vector3d, kSlope + 1> velocity_m_s_ = zeros();  // latest first
   Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();             // contact + beside, limited
   Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();              // alone, with the same limits

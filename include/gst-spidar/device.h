@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,12 +25,46 @@ enum class DeviceState {
   kLost,     ///< does not answer, for example unplugged; it is tried again until it does
 };
 
+/// What a device can do.
+struct Capabilities {
+  bool force_x = false;  ///< it exerts a force to the right and to the left
+  bool force_y = false;  ///< upwards and downwards
+  bool force_z = false;  ///< towards the viewer and away
+  bool torque = false;   ///< about all three axes
+  /// False for a gamepad that only rumbles: it renders the size of a force.
+  bool direction = false;
+  /// Largest limit that set_limits() takes, N.
+  double largest_force_N = 0;
+  /// Largest stiffness of a wall that was measured to be stable in a hand, N/m, with the lag of the
+  /// drives that the profile has; small while nobody has measured that (docs/touch.md).
+  double largest_stiffness_N_m = 0;
+  double rate_Hz = 0;  ///< forces a second, at most
+};
+
+/// Where the grip is in a tick, and how it moves.
+struct GripState {
+  Pose pose;
+  Vector3 velocity_m_s;            ///< about 3 ms ago
+  Vector3 angular_velocity_rad_s;  ///< about the axes of the device, about 3 ms ago
+  double interval_s = 0;           ///< since the last tick
+};
+
+/// How much energy a callback may give to the hand.
+enum class Energy {
+  /// No more than the hand has put in since the callback last returned no force: a wall or a spring
+  /// that is too stiff for the delay of the device becomes weaker instead of shaking. There is no
+  /// torque, and no force pushes a hand that rests.
+  kPassive,
+  kAny,  ///< no bound but the limits of every wrench
+};
+
 /// An open device. A thread of its own drives it a thousand times a second, through the same limits
 /// and checks as the GStreamer element (docs/safety.md): a wrench is limited, so is its rate of
 /// change, and with no new wrench the device ramps to rest. A separate process,
 /// spidar-guardian, zeroes the motors of a real board if this process dies.
 ///
-/// push(), rest() and set_limits() are for one thread at a time, what only reads is for any thread.
+/// push(), rest(), set_limits() and set_callback() are for one thread at a time, what only reads is
+/// for any thread.
 class GST_SPIDAR_API Device {
  public:
   /// How long a wrench holds: a program that hangs does not keep pulling.
@@ -57,6 +92,21 @@ class GST_SPIDAR_API Device {
   /// False when the device takes no wrench at present, because it is lost. Throws
   /// std::invalid_argument when a number is not finite.
   bool push(const Wrench& wrench);
+
+  /// The wrench of a tick, found in it.
+  using Callback = std::function<Wrench(const GripState&)>;
+
+  /// Calls `callback` once a millisecond in the thread that drives the device, whenever pose() is
+  /// known, and adds its wrench to what is pushed: for walls and springs, which must follow the
+  /// hand without delay. It must return within 0.5 ms, and neither allocate, lock nor wait. One
+  /// that throws, returns late twenty times in a row, or is empty is not called again: see
+  /// callback_error(). If one never returns, the guardian sets a real board to rest after 50 ms.
+  ///
+  /// When this returns, the callback before has ended. Not to be called within a callback.
+  void set_callback(Callback callback, Energy energy = Energy::kPassive);
+
+  /// Why the callback is not called any more; empty while it is, and when there is none.
+  std::string callback_error() const;
 
   /// Forgets all wrenches: the device ramps to rest, which takes 40 ms.
   void rest();
@@ -91,6 +141,17 @@ class GST_SPIDAR_API Device {
 
   /// What the device is doing.
   DeviceState state() const;
+
+  /// Waits until the state is kRunning and the pose is known, for a `timeout` at most. False when
+  /// that is over.
+  bool wait_until_running(std::chrono::milliseconds timeout) const;
+
+  /// The last fault of the link to the device, for people, for example "gone"; empty when there has
+  /// been none. While the state is kLost, it is why.
+  std::string last_fault() const;
+
+  /// What the device can do.
+  Capabilities capabilities() const;
 
   /// What was opened, for people, for example "sim". Valid while the device is open.
   const std::string& name() const;

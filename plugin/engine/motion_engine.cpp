@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "spidar/loop/stiffness_limit.h"
+
 namespace spidar {
 std::string MotionEngine::open(const MotionProperties& properties) {
   analyzer_.configure(properties.analyzer);

@@ -26,16 +26,10 @@ int step_of(int samples, int cells) {
 
 }  // namespace
 
-double most_stiffness_N_m(const Profile& profile) {
-  const double most_N_m = most_stiffness_N_m(profile.drive_lag_s);
-  return profile.drive_lag_known ? most_N_m : std::min(most_N_m, kUnmeasuredStiffness_N_m);
-}
-
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile) {
   ContactSettings contact;
   contact.stiffness_N_m = std::min(properties.stiffness_N_m, most_stiffness_N_m(profile));
-  contact.delay_s =
-      surface_delay_s(profile.drive_lag_known ? profile.drive_lag_s : kUnmeasuredLag_s);
+  contact.delay_s = surface_delay_s(assumed_lag_s(profile));
   contact.friction = {properties.friction, kSliding * properties.friction};
   contact.texture = properties.texture;
   validate(contact);

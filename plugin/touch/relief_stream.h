@@ -26,12 +26,6 @@
 
 namespace spidar {
 
-/// The largest stiffness for a device with these drives, N/m. Measurements with a light hand were
-/// stable up to kMostStiffness_N_m at a delay of 3.5 ms (docs/touch.md). The damping that the hand
-/// must contribute grows with stiffness · delay, so a longer delay lowers the limit in proportion.
-/// Without a known delay, it is kUnmeasuredStiffness_N_m.
-double most_stiffness_N_m(const Profile& profile);
-
 /// The contact settings that the properties yield on this device.
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
 

@@ -18,9 +18,9 @@ bool has_frame(const TickRecord& record) noexcept {
                             record.found == Found::kHeld);
 }
 
-/// Whether the film or a surface currently provides a wrench to render.
+/// Whether the film, a surface or the application's callback currently provides a wrench to render.
 bool has_wanted(const TickRecord& record) noexcept {
-  return has_frame(record) || record.contact.has_surface;
+  return has_frame(record) || record.contact.has_surface || record.called_back;
 }
 
 }  // namespace
@@ -113,6 +113,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     const double dt_s = 1e-9 * static_cast<double>(std::min(passed_ns, kMaxStep_ns));
     grip_->check_age(now_ns);
     touch(record, passed_ns);
+    ask_callback(record, dt_s);
     command(record, dt_s);
     exchange(record, dt_s);
     vibration_.pass(record.delivered, dt_s, now_ns);
@@ -161,6 +162,19 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   // An expired wrench is kept only for ramping down and must not be rendered.
   if (!has_frame(record)) record.wanted = {};
   record.wanted.force_N += record.contact.force_N;
+}
+
+void HapticLoop::ask_callback(TickRecord& record, double dt_s) noexcept {
+  if (!callback_.is_set()) return;
+  const GripReading& grip = grip_->reading();
+  if (!grip.knows_pose() || closing_.load(std::memory_order_acquire)) return callback_.rest();
+  if (!has_wanted(record)) record.wanted = {};
+  const bool finite = record.wanted.is_finite();
+  const Eigen::Vector3d beside_N =
+      finite ? record.wanted.force_N : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  record.wanted =
+      record.wanted + callback_.call({grip.pose, grip.motion.velocity(), dt_s}, beside_N, limits_);
+  record.called_back = true;
 }
 
 /// A wrench is wanted, and may be exerted. After command() has found the state of this tick.

@@ -14,15 +14,15 @@
 #include "spidar/loop/playback_clock.h"
 #include "spidar/loop/safety.h"
 #include "spidar/loop/tick_record.h"
+#include "spidar/loop/tick_time.h"
 #include "spidar/loop/vibration_budget.h"
+#include "spidar/loop/wrench_callback.h"
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
 #include "spidar/touch/touch_mailbox.h"
 #include "spidar/touch/touch_rendering.h"
 
 namespace spidar {
-
-constexpr int64_t kTick_ns = 1'000'000;  ///< 1 kHz
 
 /// The loop without its thread: the owner calls tick(). The object is large (about 2 MB), so do not
 /// put it on the stack.
@@ -62,6 +62,11 @@ class HapticLoop {
   void connect_touch(TouchMailbox* touch) noexcept {
     touch_mailbox_.store(touch, std::memory_order_release);
   }
+
+  /// Asked for a wrench in every tick in which the pose is known; it is added to the wanted wrench,
+  /// before every safety step.
+  WrenchCallback& callback() noexcept { return callback_; }
+  const WrenchCallback& callback() const noexcept { return callback_; }
 
   /// Discards everything that was scheduled before this call (flush).
   void cancel_scheduled() noexcept { schedule_.cancel(); }
@@ -119,6 +124,7 @@ class HapticLoop {
   void lose() noexcept;
   void find_wanted(TickRecord& record) noexcept;
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
+  void ask_callback(TickRecord& record, double dt_s) noexcept;
   bool is_fresh(const TickRecord& record) const noexcept;
   void command(TickRecord& record, double dt_s) noexcept;
   void exchange(TickRecord& record, double dt_s) noexcept;
@@ -133,6 +139,7 @@ class HapticLoop {
   SpscRing<ForceTick, 1024> forces_;
   std::atomic<bool> closing_{false};
   std::atomic<TouchMailbox*> touch_mailbox_{nullptr};
+  WrenchCallback callback_;
   Seqlock<PlaybackClock> shared_clock_;
   Seqlock<SafetyLimits> shared_limits_;
   Seqlock<LoopSnapshot> snapshot_;

@@ -6,7 +6,8 @@
 #include <algorithm>
 
 #include "core/touch/contact_force.h"
-#include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/tick_time.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 
@@ -31,6 +32,20 @@ inline double most_stiffness_N_m(double drive_lag_s) noexcept {
   const ContactSettings measured;
   return ContactSettings::kMostStiffness_N_m *
          std::min(1.0, measured.delay_s / surface_delay_s(drive_lag_s));
+}
+
+/// The largest stiffness for a device with these drives, N/m. Measurements with a light hand were
+/// stable up to kMostStiffness_N_m at a delay of 3.5 ms (docs/touch.md). The damping that the hand
+/// must contribute grows with stiffness · delay, so a longer delay lowers the limit in proportion.
+/// Without a known delay, it is kUnmeasuredStiffness_N_m.
+inline double most_stiffness_N_m(const Profile& profile) noexcept {
+  const double most_N_m = most_stiffness_N_m(profile.drive_lag_s);
+  return profile.drive_lag_known ? most_N_m : std::min(most_N_m, kUnmeasuredStiffness_N_m);
+}
+
+/// The lag of these drives, or the one to be assumed.
+inline double assumed_lag_s(const Profile& profile) noexcept {
+  return profile.drive_lag_known ? profile.drive_lag_s : kUnmeasuredLag_s;
 }
 
 }  // namespace spidar

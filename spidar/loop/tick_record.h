@@ -70,7 +70,7 @@ struct TickRecord {
   int64_t running_ns = 0;        ///< running time on the screen; 0 while not playing
   int64_t frame_ns = INT64_MIN;  ///< running time of the frame whose wrench was reached last
   Found found = Found::kNothing;
-  /// From the timeline, plus the contact force; zero while not playing.
+  /// From the timeline, plus the contact force and the callback's wrench; zero without any of them.
   Wrench wanted;
   /// After finite, limit, slew and stale. If not acknowledged, the one of the last acknowledged
   /// tick, limited.
@@ -87,7 +87,8 @@ struct TickRecord {
   int faulty_string = -1;  ///< whose length fits no pose that the others allow; −1 if all fit
   DeviceState device = DeviceState::kClosed;
   bool playing = false;
-  double max_force_N = 0;  ///< limits in effect
+  bool called_back = false;  ///< the application's callback was asked
+  double max_force_N = 0;    ///< limits in effect
   double max_torque_Nm = 0;
   Contact contact;  ///< with the touched surface; its force is part of `wanted`
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The interface of libgst-spidar, linked in the same way as by other programs.
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -29,6 +30,8 @@ static_assert(sizeof(Wrench) == 2 * sizeof(Vector3));
 static_assert(sizeof(Pose) == sizeof(Vector3) + sizeof(Quaternion));
 static_assert(sizeof(MotionResult) == sizeof(Wrench) + 5 * sizeof(double));
 static_assert(sizeof(GreyPicture) == 2 * sizeof(void*) + 2 * sizeof(int));
+static_assert(sizeof(GripState) == sizeof(Pose) + 2 * sizeof(Vector3) + sizeof(double));
+static_assert(sizeof(Capabilities) == 4 * sizeof(double));
 static_assert(sizeof(Device) == sizeof(void*) && sizeof(MotionToWrench) == sizeof(void*));
 static_assert(std::is_nothrow_move_constructible_v<Device> &&
               !std::is_copy_constructible_v<Device>);
@@ -152,6 +155,48 @@ TEST(Device, TheGripOfTheSimulatedOneIsAtTheCentre) {
   // soft.
   EXPECT_LT(std::hypot(pose.position_m.x, pose.position_m.y, pose.position_m.z), 0.005);
   EXPECT_NEAR(pose.orientation.w, 1, 0.01);
+}
+
+TEST(Device, ACallbackIsFelt) {
+  std::atomic<double> last_s{0};
+  Device device("sim");
+  ASSERT_TRUE(device.wait_until_running(30s));
+  EXPECT_EQ(device.last_fault(), "");
+  device.set_callback(
+      [&](const GripState& grip) {
+        last_s = grip.interval_s;
+        return to_the_right(1);
+      },
+      Energy::kAny);
+  EXPECT_TRUE(comes_true([&] { return device.felt().force_N.x > 0.9; }));
+  EXPECT_GT(last_s, 0);
+  EXPECT_EQ(device.callback_error(), "");
+  // By default, it pushes no hand that rests.
+  device.set_callback([](const GripState&) { return to_the_right(1); });
+  EXPECT_TRUE(comes_true([&] { return std::abs(device.felt().force_N.x) < 0.01; }));
+  device.set_callback([](const GripState&) -> Wrench { throw std::range_error("beyond"); });
+  EXPECT_TRUE(comes_true([&] { return !device.callback_error().empty(); }));
+  EXPECT_EQ(device.callback_error(), "the callback has thrown an exception: beyond");
+  device.set_callback({});
+  EXPECT_EQ(device.callback_error(), "");
+}
+
+TEST(Device, WaitingEndsWhenTheTimeIsOver) {
+  const Device device("sim");
+  EXPECT_FALSE(device.wait_until_running(0ms));
+  EXPECT_TRUE(device.wait_until_running(30s));
+}
+
+TEST(Device, WhatItCanDoIsKnown) {
+  const Capabilities whole = Device("sim").capabilities();
+  EXPECT_TRUE(whole.force_x && whole.force_y && whole.force_z && whole.torque && whole.direction);
+  // Those of WhatIsWrongIsNamed; stiffness as far as it was measured at a lag of 2 ms.
+  EXPECT_DOUBLE_EQ(whole.largest_force_N, 7.2);
+  EXPECT_DOUBLE_EQ(whole.largest_stiffness_N_m, 800);
+  EXPECT_EQ(whole.rate_Hz, 1000);
+  const Capabilities stick = Device("sim:ff").capabilities();
+  EXPECT_TRUE(stick.force_x && stick.force_y && stick.direction);
+  EXPECT_FALSE(stick.force_z || stick.torque);
 }
 
 TEST(Device, MovesToAnotherObject) {

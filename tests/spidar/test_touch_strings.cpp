@@ -61,6 +61,25 @@ TEST(TouchStrings, NoContactAddsAnyToAFilm) {
   EXPECT_LE(explore_all(touch, {kFirmHand}).worst_J, kBound_J);
 }
 
+ContactEnergy push_into_wall(double stiffness_N_m, bool passive, const Hand& hand) {
+  StringTouch touch;
+  touch.wall_N_m = stiffness_N_m;
+  touch.passive = passive;
+  return explore_through_strings(touch_scenes().front(), touch, hand, 15'000, 7);
+}
+
+TEST(TouchStrings, APassiveWallOfACallbackGivesTheHandNoEnergy) {
+  for (const Hand& hand : {kFirmHand, kLightHand}) {
+    for (const double stiffness_N_m : {200.0, 500.0, 800.0}) {
+      const ContactEnergy passive = push_into_wall(stiffness_N_m, true, hand);
+      EXPECT_GE(passive.contacts, 3);
+      EXPECT_LE(passive.worst_J, kBound_J) << hand.name << ", " << stiffness_N_m;
+    }
+  }
+  // A plain spring does.
+  EXPECT_GT(push_into_wall(800, false, kLightHand).worst_J, kStiffBound_J);
+}
+
 /// Away from the centre the tensions at rest pull the grip back. A light touch must not take that
 /// away on the way out.
 TEST(TouchStrings, ALightTouchOnTheWayOutGivesNothing) {

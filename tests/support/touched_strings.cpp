@@ -119,6 +119,14 @@ void publish(TouchMailbox& mailbox, const TouchScene& scene, const StringTouch& 
   mailbox.publish();
 }
 
+WrenchCallback::Function wall_of(const StringTouch& touch) {
+  return [stiffness_N_m = touch.wall_N_m](const CallbackInput& input) {
+    Wrench wrench;
+    wrench.force_N.z() = stiffness_N_m * std::fmax(0.0, -input.pose.position_m.z());
+    return wrench;
+  };
+}
+
 /// A loop with contact and its reference loop without contact.
 class Pair {
  public:
@@ -126,8 +134,12 @@ class Pair {
       : model_(model_of(hand, touch)),
         film_N_(touch.film_N),
         mailbox_(kPictureWidth_m, kPictureHeight_m, TouchMailbox::kLeastSlots) {
-    publish(mailbox_, scene, touch);
-    loop_->connect_touch(&mailbox_);
+    if (touch.wall_N_m > 0) {
+      loop_->callback().set(wall_of(touch), {touch.passive, profile_.drive_lag_s});
+    } else {
+      publish(mailbox_, scene, touch);
+      loop_->connect_touch(&mailbox_);
+    }
     for (HapticLoop* loop : {loop_.get(), untouched_.get()}) {
       loop->open();
       loop->set_playback_clock({kStart_ns, 0, 1.0, true});
@@ -155,7 +167,10 @@ class Pair {
   double stiffness_share() const { return loop_->snapshot().last.contact.stiffness_share; }
   /// The grip counts as released in one of the loops, in which the film's force rests, too.
   bool apart() const { return loop_->snapshot().last.held != untouched_->snapshot().last.held; }
-  bool touching() const { return loop_->snapshot().last.contact.touching; }
+  bool touching() const {
+    const TickRecord last = loop_->snapshot().last;
+    return last.called_back ? last.pose.position_m.z() < 0 : last.contact.touching;
+  }
   /// Work that the grip has done against the added tensions.
   double given_J() const { return given_J_; }
 

@@ -23,6 +23,9 @@ struct StringTouch {
   /// By this the drives lag more than the profile says.
   double more_lag_s = 0;
   double mass_kg = 0.1;  ///< of the grip
+  /// Above 0: no scene, but an application's callback for a wall at z = 0 with this stiffness.
+  double wall_N_m = 0;
+  bool passive = true;  ///< of the callback
 };
 
 /// Target position of the hand at a time in seconds.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A function of the application that the loop asks for a wrench in every tick.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "core/touch/energy_budget.h"
+#include "core/wrench.h"
+#include "spidar/grip/grip.h"
+
+namespace spidar {
+
+/// What a callback is given.
+struct CallbackInput {
+  Pose pose;
+  GripVelocity velocity;  ///< GripMotion::kLag_s behind the pose
+  double dt_s = 0;        ///< since the last tick
+};
+
+struct CallbackSettings {
+  /// The hand gets no more energy than it has put in since the function last returned no force;
+  /// there is no torque.
+  bool passive = true;
+  double drive_lag_s = 0.005;  ///< of the device, for that; ≥ 0
+};
+
+/// One thread sets the function, the loop calls it. A function that throws, or takes longer than
+/// kLongest_ns kSlowInARow times in a row, is not called again.
+class WrenchCallback {
+ public:
+  using Function = std::function<Wrench(const CallbackInput&)>;
+
+  static constexpr int64_t kLongest_ns = 500'000;
+  static constexpr int kSlowInARow = 20;  ///< fewer can be the scheduler's
+
+  enum class State { kNone, kRuns, kThrew, kTooSlow };
+
+  ~WrenchCallback() { set({}); }
+
+  /// Replaces the function; an empty one removes it. When this returns, the one before does not
+  /// run any more. Not from within the function. May allocate.
+  void set(Function function, const CallbackSettings& settings = {});
+
+  State state() const noexcept { return state_.load(std::memory_order_acquire); }
+  /// With kThrew: what() of the exception, shortened to fit; "" if it was no std::exception.
+  const char* thrown() const noexcept { return thrown_.data(); }
+
+  // --- loop thread
+
+  bool is_set() const noexcept { return called_.load(std::memory_order_relaxed) != nullptr; }
+
+  /// The wrench of this tick, in which the safety chain applies these limits to it and to
+  /// `beside_N`, the other force.
+  Wrench call(const CallbackInput& input, const Eigen::Vector3d& beside_N,
+              const SafetyLimits& limits) noexcept;
+
+  /// A tick in which the pose is not known.
+  void rest() noexcept {
+    budget_ = {};
+    has_place_ = false;
+  }
+
+ private:
+  struct Called {
+    Function function;
+    CallbackSettings settings;
+    uint64_t number;  // 1 for the first
+  };
+
+  Wrench ask(const Called& called, const CallbackInput& input) noexcept;
+  Wrench bounded(const Wrench& wanted, const CallbackInput& input, const Eigen::Vector3d& beside_N,
+                 const ForcePath& path) noexcept;
+  void stop(State why) noexcept;
+
+  std::unique_ptr<Called> owned_;
+  uint64_t set_ = 0;  // so many functions
+  std::atomic<Called*> called_{nullptr};
+  std::atomic<Called*> running_{nullptr};  // its call has not returned
+  std::atomic<State> state_{State::kNone};
+  std::array<char, 160> thrown_{};
+  // Loop thread only.
+  int slow_in_a_row_ = 0;
+  uint64_t last_ = 0;  // number of the function that was called last
+  EnergyBudget budget_;
+  Eigen::Vector3d place_m_ = Eigen::Vector3d::Zero();
+  bool has_place_ = false;
+  bool pushes_ = false;  // the last wrench had a force
+};
+
+}  // namespace spidar
