@@ -146,8 +146,8 @@ class GST_SPIDAR_API Device {
   /// that is over.
   bool wait_until_running(std::chrono::milliseconds timeout) const;
 
-  /// The last fault of the link to the device, for people, for example "gone"; empty when there has
-  /// been none. While the state is kLost, it is why.
+  /// The last fault of the link to the device, for people, for example "unplugged"; empty when
+  /// there has been none. While the state is kLost, it is why.
   std::string last_fault() const;
 
   /// What the device can do.
