@@ -43,10 +43,14 @@ def gtest_cases(log):
 
 
 def runs_of(log):
-    """What meson says of each test program, by its name."""
+    """What meson says of each test program. In its name, which only in whole is that of one test, project and suites
+    come first."""
     with open(f"{log}.json", encoding="utf-8") as lines:
-        runs = [json.loads(line) for line in lines]
-    return {run["name"].split(" / ")[-1]: run for run in runs}
+        return [json.loads(line) for line in lines]
+
+
+def program_of(run):
+    return run["name"].split(" / ")[-1]
 
 
 def has_failed(run):
@@ -56,9 +60,10 @@ def has_failed(run):
 def results_of(log, without=()):
     """Yields (name, result, reason) for all in a log of meson's, LOG.json and LOG.junit.xml."""
     cases_of = gtest_cases(log)
-    for program, run in runs_of(log).items():
-        if program in without:
+    for run in runs_of(log):
+        if run["name"] in without:
             continue
+        program = program_of(run)
         failed = False
         for case in cases_of.get(program, []):
             result, reason = case_result(case)
@@ -77,13 +82,14 @@ def results_of(log, without=()):
 def results_with_again(log):
     """The results of a build: those of tests that ran again, alone, instead of their first ones."""
     alone = f"{log}-alone"
-    again = runs_of(alone) if Path(f"{alone}.json").exists() else {}
-    yield from results_of(log, again)
+    again = runs_of(alone) if Path(f"{alone}.json").exists() else []
+    yield from results_of(log, {run["name"] for run in again})
     if again:
         yield from results_of(alone)
-    for program, run in again.items():
-        if not has_failed(run):
-            yield f"{program}, beside other tests; alone it passes", "failed at first", ""
+    failed_before = {run["name"] for run in runs_of(log) if has_failed(run)}
+    for run in again:
+        if run["name"] in failed_before and not has_failed(run):
+            yield f"{program_of(run)}, beside other tests; alone it passes", "failed at first", ""
 
 
 def main():
@@ -97,9 +103,9 @@ def main():
 
     if arguments.list_failed:
         for build in arguments.builds:
-            for name, run in runs_of(Path(build) / "meson-logs" / arguments.log).items():
+            for run in runs_of(Path(build) / "meson-logs" / arguments.log):
                 if has_failed(run):
-                    print(name)
+                    print(program_of(run))
         return
 
     counts = Counter(passed=len(arguments.passed), failed=len(arguments.failed))
