@@ -43,7 +43,7 @@ struct Capabilities {
 
 /// Where the grip is in a tick, and how it moves.
 struct GripState {
-  Pose pose;
+  Pose pose;                       ///< from the last exchange with the device
   Vector3 velocity_m_s;            ///< about 3 ms ago
   Vector3 angular_velocity_rad_s;  ///< about the axes of the device, about 3 ms ago
   double interval_s = 0;           ///< since the last tick
