@@ -4,6 +4,7 @@
 ///
 /// The process that is killed is another instance of this program, with a device, and a file in
 /// which it reports that it pulls.
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -19,6 +20,7 @@
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/board_list.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
 #include "tests/spidar/guardian_victim.h"
@@ -114,6 +116,23 @@ TEST(Guardian, ZeroesUsbBoardsWhoseFilesAForkedChildHasToo) {
   wait_for([&] { return port.at_rest(); });
   plug(0, UsbKind::kSh4);  // the child goes
   clear_bus();
+}
+
+/// The process lives, but the thread that drives the board waits in an application's callback.
+TEST(Guardian, ZeroesABoardWhoseCallbackNeverReturns) {
+  UsbPort& port = plug(0, UsbKind::kSh4);
+  std::atomic<bool> hangs{false}, ends{false};
+  HapticSession session(make_grip("usb", load_profile(kUsbProfile)));
+  session.loop().callback().set([&](const CallbackInput&) {
+    hangs = !port.at_rest();
+    while (hangs && !ends) sleep_1ms();
+    return Wrench{};
+  });
+  wait_for([&] { return hangs.load(); });
+  wait_for([&] { return port.at_rest(); });
+  EXPECT_TRUE(hangs) << "the callback has returned";
+  ends = true;
+  session.loop().callback().set({});
 }
 
 /// The centring spring stays off, also where a regular close turns it on: the grip may be far from
