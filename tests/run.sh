@@ -46,8 +46,9 @@ build() {
     ninja -C "$1" -j"$(nproc)" "${@:2}" || { checks+=(--failed "build in $1/") && false; }
 }
 
-# run_tests FOLDER [meson test option...]: what they need is built. What fails beside others, and only there, is
-# counted as passed, and named: a guardian, for instance, sets a device to rest whose player stands still for 50 ms.
+# run_tests FOLDER [meson test option...]: what they need is built. Up to five programs that fail while others
+# run beside them run again alone. Those that pass then count as passed, and the summary names them: on a busy
+# machine, for instance, a guardian sets a device to rest whose player gets no processor time for 50 ms.
 run_tests() {
     say "testing $1/"
     # Results of an earlier run would stand for a test program that crashes in this one.

@@ -28,8 +28,8 @@ std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 /// The name of our objects.
 constexpr const char* kObjectName = "spidar-object";
 
-/// Attaches the objects in sight to `buffer`, which is writable, as the same metas. Those of an
-/// element before this one are replaced.
+/// Attaches the objects in sight to `buffer`, which is writable, as the same metas. Regions that
+/// another spidarmotion has attached are replaced; its detections stay.
 void attach_object_metas(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
                          int width, int height);
 

@@ -24,8 +24,7 @@ std::vector<MotionRow> display_rows() {
       MotionRow::on_off(
           {"attach-meta", "Attach meta",
            "Attach a GstSpidarMotionMeta with motion, tracks and wrench to each frame, and the "
-           "boxes "
-           "of its objects as GstVideoRegionOfInterestMeta and, since GStreamer 1.24, "
+           "boxes of its objects as GstVideoRegionOfInterestMeta and, since GStreamer 1.24, "
            "GstAnalyticsRelationMeta. The picture is neither copied nor changed"},
           kPlaying, KEPT_IN(display.attach_meta)),
   };

@@ -11,7 +11,6 @@ ForceGrip::ForceGrip(std::unique_ptr<ForceBoard> board, const BoardSettings& set
 
 void ForceGrip::open() {
   link_.open();
-  acknowledged_N_.setZero();
   trust_ = {};
   reading_.delivered = {};
   reading_.pose = {};
@@ -41,14 +40,13 @@ ExchangeStatus ForceGrip::exchange(const GripCommand& command) noexcept {
   ForceReading answer;
   const ExchangeStatus status = link_.exchange(output, answer);
   if (status == ExchangeStatus::kOk) {
-    acknowledged_N_ = output.force_N;
+    reading_.delivered.force_N = output.force_N;
     see(answer, command);
   } else {
     // The device may not have received this tick.
     trust_.miss(command.now_ns);
     if (!trust_.trusted()) reading_.motion.reset();
   }
-  reading_.delivered.force_N = acknowledged_N_;
   reading_.trouble = trust_.trouble();
   return status;
 }

@@ -41,7 +41,6 @@ class ForceGrip final : public Grip {
   const GripTraits traits_{false, false, 0, 0};
   GripReading reading_;
   PoseTrust trust_;
-  Eigen::Vector3d acknowledged_N_ = Eigen::Vector3d::Zero();
   BoardLink<ForceOutput, ForceReading> link_;
 };
 

@@ -11,13 +11,10 @@
 #include <utility>
 
 #include "spidar/loop/stiffness_limit.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar {
 namespace {
-
-int64_t now_ns() noexcept {
-  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 ForcePath path_of(const SafetyLimits& limits, double drive_lag_s) noexcept {
   ForcePath path;
@@ -64,7 +61,7 @@ Wrench WrenchCallback::call(const CallbackInput& input, const Eigen::Vector3d& b
 }
 
 Wrench WrenchCallback::ask(const Called& called, const CallbackInput& input) noexcept {
-  const int64_t begin_ns = now_ns();
+  const int64_t begin_ns = monotonic_now_ns();
   Wrench wrench;
   try {
     wrench = called.function(input);
@@ -77,7 +74,7 @@ Wrench WrenchCallback::ask(const Called& called, const CallbackInput& input) noe
     stop(State::kThrew);
     return {};
   }
-  slow_in_a_row_ = now_ns() - begin_ns > kLongest_ns ? slow_in_a_row_ + 1 : 0;
+  slow_in_a_row_ = monotonic_now_ns() - begin_ns > kLongest_ns ? slow_in_a_row_ + 1 : 0;
   if (slow_in_a_row_ >= kSlowInARow) stop(State::kTooSlow);
   return wrench;
 }
