@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 #include <gst-spidar/device.h>
@@ -16,8 +17,9 @@
 int main(int argc, char** argv) {
   using namespace std::chrono_literals;
   try {
+    const std::string name = argc > 1 ? argv[1] : "sim";
     std::atomic<double> deepest_m{0};  // must outlive the device, which calls what uses it
-    gst_spidar::Device device(argc > 1 ? argv[1] : "sim");
+    gst_spidar::Device device(name);
     if (!device.wait_until_running(30s))
       throw std::runtime_error("no pose: " + device.last_fault());
     const double stiffness_N_m = device.capabilities().largest_stiffness_N_m;
@@ -31,11 +33,11 @@ int main(int argc, char** argv) {
     gst_spidar::Wrench to_the_left;
     to_the_left.force_N.x = -1;
     for (int i = 0; i < 100 && device.callback_error().empty(); ++i) {
-      if (argc < 2) device.push(to_the_left);  // nobody else pushes the simulated hand
+      if (name == "sim") device.push(to_the_left);  // nobody else pushes the simulated hand
       std::this_thread::sleep_for(20ms);
     }
-    std::printf("%.0f N/m: %.1f mm deep at most %s\n", stiffness_N_m, 1e3 * deepest_m,
-                device.callback_error().c_str());
+    if (!device.callback_error().empty()) throw std::runtime_error(device.callback_error());
+    std::printf("%.0f N/m: %.1f mm deep at most\n", stiffness_N_m, 1e3 * deepest_m);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "wall: %s\n", error.what());
     return 1;
