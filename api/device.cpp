@@ -185,7 +185,9 @@ DeviceState Device::state() const {
 }
 
 bool Device::wait_until_running(std::chrono::milliseconds timeout) const {
-  const auto until = std::chrono::steady_clock::now() + timeout;
+  // Longer ones would overflow the clock.
+  constexpr std::chrono::milliseconds kYears = std::chrono::hours(24 * 365 * 100);
+  const auto until = std::chrono::steady_clock::now() + std::min(timeout, kYears);
   while (state() != DeviceState::kRunning || !pose()) {
     if (std::chrono::steady_clock::now() >= until) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 PROFILE = "only-in-the-moved-folder"
-HEADERS = {"device.h", "export.h", "gstspidardepthmeta.h", "gstspidarmotionmeta.h", "motion.h", "wrench.h"}
+HEADERS = {"c-api.h", "device.h", "export.h", "gstspidardepthmeta.h", "gstspidarmotionmeta.h", "motion.h", "wrench.h"}
 MANUALS = ("spidar-feel.1", "spidarctl.1", "spidartrack.1")
 META_PROGRAM = """
 #include <gst-spidar/gstspidarmotionmeta.h>
@@ -103,10 +103,25 @@ def check_programs(it, relocatable, compiler):
     last = run([built["picture"]], it.with_library).strip().split("\n")[-1]
     speed, force = map(float, re.findall(r"[\d.]+(?= px/s| N)", last))
     require(95 < speed < 105 and force > 1, "picture: does not move to the right by 100 px/s", last)
+    built["push.c"] = str(it.folder.parent / "push_c")
+    strict = ["-std=c11", "-Wall", "-Wextra", "-pedantic", "-Werror"]
+    run(["cc", *strict, str(it.source / "examples/api/push.c"), *flags, "-o", built["push.c"]], it.plain)
+    said = run([built["push.c"]], it.with_library)
+    require(re.match(r"sim: [\d.]+ N", said), "push.c does not push", said)
     c_program = it.folder.parent / "meta.c"
     c_program.write_text(META_PROGRAM)
     gstreamer = run(["pkg-config", "--cflags", "--libs", "gstreamer-1.0"], it.plain).split()
     run(["cc", "-Werror", str(c_program), *flags[:1], *gstreamer, "-o", str(it.folder.parent / "meta")], it.plain)
+
+
+def check_python(it):
+    modules = list(it.folder.glob("**/gst_spidar.py"))
+    require(len(modules) == 1, "the Python module is not installed once", str(modules))
+    env = {**it.with_library, "PYTHONPATH": str(modules[0].parent), "PYTHONDONTWRITEBYTECODE": "1"}
+    said = run(["/usr/bin/python3", str(it.source / "examples/api/push.py")], env)
+    require(re.match(r"sim: [\d.]+ N", said), "push.py does not push", said)
+    said = run(["/usr/bin/python3", "-c", "import gst_spidar"], {**env, "LD_LIBRARY_PATH": ""}, fails=True)
+    require("install libgst-spidar, or name its folder" in said, "a library that is missing is not named", said)
 
 
 def check_plugin(it, bus):
@@ -145,6 +160,8 @@ def main():
         it = Installed(source, install(build, prefix, into), libdir)
         check_files(it)
         check_programs(it, relocatable, compiler)
+        if Path("/usr/bin/python3").exists():
+            check_python(it)
         check_plugin(it, bus)
         check_tools(it)
     return 0

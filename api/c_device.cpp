@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gst-spidar/device.h>
+
+#include "api/c_calls.h"
+
+struct GstSpidarDevice {
+  gst_spidar::Device device;
+};
+
+namespace gst_spidar {
+inline namespace v0 {
+namespace {
+
+std::string text_of(const char* text) {
+  return text == nullptr ? "" : text;
+}
+
+Device::Callback callback_of(GstSpidarCallback callback, void* user_data) {
+  if (callback == nullptr) return {};
+  return [=](const GripState& state) {
+    const auto grip = same<GstSpidarGripState>(state);
+    GstSpidarWrench wrench{};
+    if (!callback(&grip, &wrench, user_data)) throw std::runtime_error("it has returned false");
+    return same<Wrench>(wrench);
+  };
+}
+
+Energy energy_of(GstSpidarEnergy energy) {
+  if (energy == GST_SPIDAR_PASSIVE) return Energy::kPassive;
+  if (energy == GST_SPIDAR_ANY) return Energy::kAny;
+  throw std::invalid_argument("energy must be GST_SPIDAR_PASSIVE or GST_SPIDAR_ANY");
+}
+
+/// In one piece of memory: the pointers, then the names.
+char** list_of(const std::vector<std::string>& names) {
+  size_t size = (names.size() + 1) * sizeof(char*);
+  for (const std::string& name : names) size += name.size() + 1;
+  char** const list = static_cast<char**>(std::malloc(size));
+  if (list == nullptr) throw std::bad_alloc();
+  char* to = reinterpret_cast<char*>(list + names.size() + 1);
+  for (size_t i = 0; i < names.size(); ++i) {
+    list[i] = to;
+    to = std::copy_n(names[i].c_str(), names[i].size() + 1, to);
+  }
+  list[names.size()] = nullptr;
+  return list;
+}
+
+/// Whether there is something, which is then written.
+template <typename To, typename From>
+bool found(const std::optional<From>& from, To* to) {
+  if (from) *to = same<To>(*from);
+  return from.has_value();
+}
+
+}  // namespace
+}  // namespace v0
+}  // namespace gst_spidar
+
+GstSpidarDevice* gst_spidar_device_open(const char* name, const char* profile,
+                                        GstSpidarError* error) {
+  return gst_spidar::guarded<GstSpidarDevice*>(error, nullptr, [&] {
+    return new GstSpidarDevice{
+        gst_spidar::Device(gst_spidar::text_of(name), gst_spidar::text_of(profile))};
+  });
+}
+
+void gst_spidar_device_close(GstSpidarDevice* device) {
+  delete device;
+}
+
+bool gst_spidar_device_push(GstSpidarDevice* device, const GstSpidarWrench* wrench,
+                            GstSpidarError* error) {
+  return gst_spidar::guarded(error, false, [&] {
+    if (device->device.push(gst_spidar::same<gst_spidar::Wrench>(*wrench))) return true;
+    const std::string fault = device->device.last_fault();
+    gst_spidar::set_error(error, GST_SPIDAR_ERROR_LOST,
+                          "the device takes no wrench at present" +
+                              (fault.empty() ? "" : ": " + fault) +
+                              "; push again later, it is tried until it answers");
+    return false;
+  });
+}
+
+void gst_spidar_device_rest(GstSpidarDevice* device) {
+  device->device.rest();
+}
+
+bool gst_spidar_device_set_callback(GstSpidarDevice* device, GstSpidarCallback callback,
+                                    void* user_data, GstSpidarEnergy energy,
+                                    GstSpidarError* error) {
+  return gst_spidar::done(error, [&] {
+    device->device.set_callback(gst_spidar::callback_of(callback, user_data),
+                                gst_spidar::energy_of(energy));
+  });
+}
+
+size_t gst_spidar_device_callback_error(const GstSpidarDevice* device, char* text, size_t size) {
+  return gst_spidar::write_text(device->device.callback_error(), text, size);
+}
+
+bool gst_spidar_device_set_limits(GstSpidarDevice* device, double max_force_N, double max_torque_Nm,
+                                  GstSpidarError* error) {
+  return gst_spidar::done(error, [&] { device->device.set_limits(max_force_N, max_torque_Nm); });
+}
+
+bool gst_spidar_device_pose(const GstSpidarDevice* device, GstSpidarPose* pose) {
+  return gst_spidar::found(device->device.pose(), pose);
+}
+
+bool gst_spidar_device_velocity(const GstSpidarDevice* device, GstSpidarVector3* velocity_m_s) {
+  return gst_spidar::found(device->device.velocity(), velocity_m_s);
+}
+
+bool gst_spidar_device_held(const GstSpidarDevice* device) {
+  return device->device.held();
+}
+
+double gst_spidar_device_vibration_share(const GstSpidarDevice* device) {
+  return device->device.vibration_share();
+}
+
+void gst_spidar_device_felt(const GstSpidarDevice* device, GstSpidarWrench* wrench) {
+  *wrench = gst_spidar::same<GstSpidarWrench>(device->device.felt());
+}
+
+GstSpidarState gst_spidar_device_state(const GstSpidarDevice* device) {
+  return static_cast<GstSpidarState>(device->device.state());
+}
+
+bool gst_spidar_device_wait_until_running(const GstSpidarDevice* device, int64_t timeout_ms) {
+  return device->device.wait_until_running(std::chrono::milliseconds(timeout_ms));
+}
+
+size_t gst_spidar_device_last_fault(const GstSpidarDevice* device, char* text, size_t size) {
+  return gst_spidar::write_text(device->device.last_fault(), text, size);
+}
+
+void gst_spidar_device_capabilities(const GstSpidarDevice* device,
+                                    GstSpidarCapabilities* capabilities) {
+  *capabilities = gst_spidar::same<GstSpidarCapabilities>(device->device.capabilities());
+}
+
+const char* gst_spidar_device_name(const GstSpidarDevice* device) {
+  return device->device.name().c_str();
+}
+
+char** gst_spidar_list_devices(GstSpidarError* error) {
+  return gst_spidar::guarded<char**>(
+      error, nullptr, [] { return gst_spidar::list_of(gst_spidar::list_devices()); });
+}
+
+char** gst_spidar_list_profiles(GstSpidarError* error) {
+  return gst_spidar::guarded<char**>(
+      error, nullptr, [] { return gst_spidar::list_of(gst_spidar::list_profiles()); });
+}
+
+void gst_spidar_free_list(char** list) {
+  std::free(list);
+}

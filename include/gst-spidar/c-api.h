@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Copyright 2026 the gst-spidar authors */
+/*! \file
+ * device.h and motion.h in C, for programs in C and for languages that call C (Python's ctypes and
+ * cffi, Julia, Rust, C#, …).
+ *
+ * Functions that can fail take a GstSpidarError last. It may be NULL; otherwise they set it each
+ * time, also when all is well. No other pointer may be NULL unless that is stated. No exception of
+ * C++ leaves a function. Coordinates are those of wrench.h: right-handed, x right, y up, z towards
+ * the viewer. */
+#ifndef GST_SPIDAR_C_API_H
+#define GST_SPIDAR_C_API_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <gst-spidar/export.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*! What kind of error a call has met. */
+typedef enum {
+  GST_SPIDAR_OK = 0,             /*!< none */
+  GST_SPIDAR_ERROR_ARGUMENT = 1, /*!< an argument is wrong; nothing has changed */
+  GST_SPIDAR_ERROR_FAILED = 2,   /*!< all else, such as a device that cannot be opened */
+  GST_SPIDAR_ERROR_LOST = 3      /*!< the device takes no wrench at present; try again later */
+} GstSpidarErrorKind;
+
+/*! An error. The caller owns it; there is nothing to free. */
+typedef struct {
+  GstSpidarErrorKind kind; /*!< which kind; GST_SPIDAR_OK when all is well */
+  /*! One sentence in UTF-8 that says what was wrong and what would be right; empty when all is
+   * well. */
+  char message[1020];
+} GstSpidarError;
+
+/*! Three coordinates, in the unit that the name of the variable ends in. */
+typedef struct {
+  double x; /*!< to the right; for a torque, about this axis, right-handed */
+  double y; /*!< upwards */
+  double z; /*!< towards the viewer */
+} GstSpidarVector3;
+
+/*! A rotation by an angle about an axis, as a quaternion of length 1. */
+typedef struct {
+  double w; /*!< cosine of half the angle; 1 for no rotation */
+  double x; /*!< x of the axis, a vector of length 1, times the sine of half the angle */
+  double y; /*!< y of the axis times the same sine */
+  double z; /*!< z of the axis times the same sine */
+} GstSpidarQuaternion;
+
+/*! Force on the grip, and torque about the grip's origin. */
+typedef struct {
+  GstSpidarVector3 force_N;   /*!< newtons */
+  GstSpidarVector3 torque_Nm; /*!< newton metres */
+} GstSpidarWrench;
+
+/*! Where the grip is. */
+typedef struct {
+  GstSpidarVector3 position_m;     /*!< of its origin, metres from the centre of the workspace */
+  GstSpidarQuaternion orientation; /*!< turns vectors of the grip's frame into the device's */
+} GstSpidarPose;
+
+/*! What an open device is doing. */
+typedef enum {
+  GST_SPIDAR_OPENING = 0, /*!< the strings are being tightened, which takes 0.2 s */
+  GST_SPIDAR_RUNNING = 1, /*!< wrenches are felt */
+  GST_SPIDAR_IDLE = 2,    /*!< nothing was to be felt for minutes: motors off; a wrench wakes it */
+  GST_SPIDAR_LOST = 3     /*!< does not answer; it is tried again until it does */
+} GstSpidarState;
+
+/*! What a device can do. */
+typedef struct {
+  bool force_x;   /*!< it exerts a force to the right and to the left */
+  bool force_y;   /*!< upwards and downwards */
+  bool force_z;   /*!< towards the viewer and away */
+  bool torque;    /*!< about all three axes */
+  bool direction; /*!< false for a gamepad that only rumbles: it renders the size of a force */
+  double largest_force_N; /*!< largest limit that gst_spidar_device_set_limits() takes, N */
+  /*! Largest stiffness of a wall that was measured to be stable in a hand, N/m. */
+  double largest_stiffness_N_m;
+  double rate_Hz; /*!< forces a second, at most */
+} GstSpidarCapabilities;
+
+/*! Where the grip is in a tick, and how it moves. */
+typedef struct {
+  GstSpidarPose pose;                      /*!< from the last exchange with the device */
+  GstSpidarVector3 velocity_m_s;           /*!< about 3 ms ago */
+  GstSpidarVector3 angular_velocity_rad_s; /*!< about the axes of the device, about 3 ms ago */
+  double interval_s;                       /*!< since the last tick */
+} GstSpidarGripState;
+
+/*! How much energy a callback may give to the hand. */
+typedef enum {
+  /*! No more than the hand has put in since the callback last returned no force, and no torque: for
+   * walls and springs, which then cannot shake. */
+  GST_SPIDAR_PASSIVE = 0,
+  GST_SPIDAR_ANY = 1 /*!< no bound but the limits of every wrench */
+} GstSpidarEnergy;
+
+/*! An open device: gst_spidar::Device. What only reads (takes it as const) is for any thread, all
+ * else for one thread at a time. */
+typedef struct GstSpidarDevice GstSpidarDevice;
+
+/*! Opens the device called `name`: "sim" is the simulated SPIDAR, "usb" a board on USB, "ff" a
+ * force-feedback joystick, and gst_spidar_list_devices() finds more. `profile` is its geometry and
+ * motors: a name of gst_spidar_list_profiles(), the path of a .toml file, or NULL or empty for the
+ * one that suits the device. NULL when that fails. */
+GST_SPIDAR_API GstSpidarDevice* gst_spidar_device_open(const char* name, const char* profile,
+                                                       GstSpidarError* error);
+
+/*! Ramps the motors to zero, closes the device and frees it; takes about 60 ms. When it returns,
+ * the callback has ended. NULL does nothing. Not to be called within a callback. */
+GST_SPIDAR_API void gst_spidar_device_close(GstSpidarDevice* device);
+
+/*! The wrench that is wanted from now on, for 100 ms or until the next call: call it again before
+ * that, at any rate up to 1 kHz, or the device ramps to rest. False with GST_SPIDAR_ERROR_LOST when
+ * the device takes no wrench at present, and with GST_SPIDAR_ERROR_ARGUMENT when a number is not
+ * finite. */
+GST_SPIDAR_API bool gst_spidar_device_push(GstSpidarDevice* device, const GstSpidarWrench* wrench,
+                                           GstSpidarError* error);
+
+/*! Forgets all wrenches: the device ramps to rest, which takes 40 ms. */
+GST_SPIDAR_API void gst_spidar_device_rest(GstSpidarDevice* device);
+
+/*! The wrench of a tick, found in it. `wrench` is zero at first. False ends the calls:
+ * gst_spidar_device_callback_error() then says so. It must not throw. */
+typedef bool (*GstSpidarCallback)(const GstSpidarGripState* grip, GstSpidarWrench* wrench,
+                                  void* user_data);
+
+/*! Calls `callback` once a millisecond in the thread that drives the device, whenever the pose is
+ * known, and adds its wrench to what is pushed. It must return within 0.5 ms, and neither allocate,
+ * lock nor wait. One that returns false, or late twenty times in a row, is not called again; NULL
+ * ends the calls. When this returns, the callback before has ended. Not to be called within a
+ * callback. False when that fails: the callback before remains. */
+GST_SPIDAR_API bool gst_spidar_device_set_callback(GstSpidarDevice* device,
+                                                   GstSpidarCallback callback, void* user_data,
+                                                   GstSpidarEnergy energy, GstSpidarError* error);
+
+/*! Why the callback is not called any more, in `text` of `size` bytes, as snprintf() writes it:
+ * shortened when it does not fit, and nothing when `size` is 0. Returns its length in bytes, 0
+ * while the callback is called and when there is none. */
+GST_SPIDAR_API size_t gst_spidar_device_callback_error(const GstSpidarDevice* device, char* text,
+                                                       size_t size);
+
+/*! Limits the total force (3 N at first) and the total torque (0.1 N m at first) of whatever is
+ * pushed. False with GST_SPIDAR_ERROR_ARGUMENT for what the device cannot take; the message says
+ * how much it can. */
+GST_SPIDAR_API bool gst_spidar_device_set_limits(GstSpidarDevice* device, double max_force_N,
+                                                 double max_torque_Nm, GstSpidarError* error);
+
+/*! Where the grip is. False, and `pose` is left as it is, while that is not known. */
+GST_SPIDAR_API bool gst_spidar_device_pose(const GstSpidarDevice* device, GstSpidarPose* pose);
+
+/*! How fast the grip moves, m/s, about 3 ms ago. False, and `velocity_m_s` is left as it is, while
+ * the pose is not known. */
+GST_SPIDAR_API bool gst_spidar_device_velocity(const GstSpidarDevice* device,
+                                               GstSpidarVector3* velocity_m_s);
+
+/*! False when the force rests, or is returning, because nobody seems to hold the grip. */
+GST_SPIDAR_API bool gst_spidar_device_held(const GstSpidarDevice* device);
+
+/*! Share of the wanted wrench that may be exerted, 1 unless the force has shaken the hand for
+ * long. */
+GST_SPIDAR_API double gst_spidar_device_vibration_share(const GstSpidarDevice* device);
+
+/*! What the device is told to exert on the grip at present, after all limits: Device::felt(). */
+GST_SPIDAR_API void gst_spidar_device_felt(const GstSpidarDevice* device, GstSpidarWrench* wrench);
+
+/*! What the device is doing. */
+GST_SPIDAR_API GstSpidarState gst_spidar_device_state(const GstSpidarDevice* device);
+
+/*! Waits until the state is GST_SPIDAR_RUNNING and the pose is known, for `timeout_ms` at most.
+ * False when that is over. */
+GST_SPIDAR_API bool gst_spidar_device_wait_until_running(const GstSpidarDevice* device,
+                                                         int64_t timeout_ms);
+
+/*! The last fault of the link to the device, for example "unplugged", written as
+ * gst_spidar_device_callback_error() does; length 0 when there has been none. */
+GST_SPIDAR_API size_t gst_spidar_device_last_fault(const GstSpidarDevice* device, char* text,
+                                                   size_t size);
+
+/*! What the device can do. */
+GST_SPIDAR_API void gst_spidar_device_capabilities(const GstSpidarDevice* device,
+                                                   GstSpidarCapabilities* capabilities);
+
+/*! What was opened, for people, for example "sim". Valid while the device is open. */
+GST_SPIDAR_API const char* gst_spidar_device_name(const GstSpidarDevice* device);
+
+/*! Names for gst_spidar_device_open(): what is plugged in, then the simulated ones. Opens nothing.
+ * After the last name comes NULL; free it with gst_spidar_free_list(). NULL when that fails. */
+GST_SPIDAR_API char** gst_spidar_list_devices(GstSpidarError* error);
+
+/*! Names of the profiles that gst_spidar_device_open() knows, sorted, in the same form. */
+GST_SPIDAR_API char** gst_spidar_list_profiles(GstSpidarError* error);
+
+/*! Frees a list with its names. NULL does nothing. */
+GST_SPIDAR_API void gst_spidar_free_list(char** list);
+
+/*! A grey picture: `height` rows of `width` bytes, 0 black and 255 white. The memory is the
+ * caller's; it is only read, and only during the call. */
+typedef struct {
+  const uint8_t* data; /*!< first pixel of the top row */
+  int width;           /*!< px, at least 16 */
+  int height;          /*!< px, at least 16 */
+  ptrdiff_t stride;    /*!< bytes from one row to the next, at least `width` */
+} GstSpidarPicture;
+
+/*! How speed becomes force: the element's property `controller`. */
+typedef enum {
+  GST_SPIDAR_LINEAR = 0,    /*!< proportional; the largest speed so far is the largest force */
+  GST_SPIDAR_NONLINEAR = 1, /*!< an arc tangent of the speed */
+  GST_SPIDAR_ADAPTIVE = 2   /*!< the same, following the scene; no force below the noise */
+} GstSpidarController;
+
+/*! Which motion is felt: the element's property `motion`. */
+typedef enum {
+  GST_SPIDAR_MEAN = 0,   /*!< of all points */
+  GST_SPIDAR_OBJECT = 1, /*!< of the dominant object against the background */
+  GST_SPIDAR_CAMERA = 2  /*!< of the camera */
+} GstSpidarFeltMotion;
+
+/*! What was found in one picture. */
+typedef struct {
+  GstSpidarWrench wrench;  /*!< wanted, before the limits of a device; zero after a cut */
+  double velocity_x_px_s;  /*!< of the motion that is felt, to the right */
+  double velocity_y_px_s;  /*!< downwards */
+  double growth_1_s;       /*!< relative change of lengths a second; positive comes nearer */
+  double roll_rad_s;       /*!< clockwise as seen */
+  bool has_picture_before; /*!< false: nothing to compare with, and everything above is zero */
+} GstSpidarMotionResult;
+
+/*! Measures the motion of a picture and says what is to be felt of it: gst_spidar::MotionToWrench.
+ * One thread at a time. */
+typedef struct GstSpidarMotion GstSpidarMotion;
+
+/*! Nonlinear, motion of the dominant object, at most 3 N. NULL when memory is short. */
+GST_SPIDAR_API GstSpidarMotion* gst_spidar_motion_new(GstSpidarError* error);
+
+/*! Frees it. NULL does nothing. */
+GST_SPIDAR_API void gst_spidar_motion_free(GstSpidarMotion* motion);
+
+/*! The next picture, shown at `time_ns` on a clock of the caller's. A time that is not after the
+ * one before, and a cut, start anew: the wrench is zero. False for a picture without data, smaller
+ * than 16 × 16, or with rows that overlap; `result` is then left as it is. */
+GST_SPIDAR_API bool gst_spidar_motion_analyze(GstSpidarMotion* motion,
+                                              const GstSpidarPicture* picture, int64_t time_ns,
+                                              GstSpidarMotionResult* result, GstSpidarError* error);
+
+/*! The next picture has nothing to do with the one before: after a seek. */
+GST_SPIDAR_API void gst_spidar_motion_restart(GstSpidarMotion* motion);
+
+/*! From the next picture on. False for a number that is none of them. */
+GST_SPIDAR_API bool gst_spidar_motion_set_controller(GstSpidarMotion* motion,
+                                                     GstSpidarController controller,
+                                                     GstSpidarError* error);
+
+/*! From the next picture on. False for a number that is none of them. */
+GST_SPIDAR_API bool gst_spidar_motion_set_motion(GstSpidarMotion* motion, GstSpidarFeltMotion felt,
+                                                 GstSpidarError* error);
+
+/*! The largest force, from the next picture on. False unless it is finite and not negative. */
+GST_SPIDAR_API bool gst_spidar_motion_set_max_force(GstSpidarMotion* motion, double max_force_N,
+                                                    GstSpidarError* error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

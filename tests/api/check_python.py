@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""The module gst_spidar, used as by other programs, and the examples in Python.
+
+check_python.py EXAMPLES    EXAMPLES is the folder; PYTHONPATH and LD_LIBRARY_PATH name module and library"""
+
+import array
+import gc
+import math
+import re
+import subprocess
+import sys
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import gst_spidar
+from gst_spidar import Device, FeltMotion, MotionToWrench, State
+
+EXAMPLES = Path(sys.argv.pop(1))
+SPOTS = bytes((x // 4 * 73 + y // 4 * 151) * 2654435761 % 2**32 >> 24 for y in range(240) for x in range(240))
+
+
+def run(*command):
+    return subprocess.run(
+        [sys.executable, *map(str, command)], capture_output=True, text=True, timeout=100, stdin=subprocess.DEVNULL
+    )
+
+
+def comes_true(what):
+    """Events take milliseconds; the limit is generous for a busy machine."""
+    end = time.monotonic() + 30
+    while not what():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.001)
+    return True
+
+
+class Devices(unittest.TestCase):
+    def test_a_push_is_felt_until_rest(self):
+        with Device("sim") as device:
+            self.assertEqual(device.name(), "sim")
+            self.assertTrue(comes_true(lambda: device.push((0.5, 0.25, 0)) and device.felt().force_N.x > 0.4))
+            self.assertTrue(0.1 < device.felt().force_N.y < 0.4)
+            device.rest()
+            self.assertTrue(comes_true(lambda: abs(device.felt().force_N.x) < 0.01))
+
+    def test_it_tells_what_it_does(self):
+        with Device("sim", "spidar-g") as device:
+            self.assertTrue(device.wait_until_running(30))
+            self.assertEqual(device.state(), State.RUNNING)
+            x, y, z = device.pose().position_m
+            self.assertLess(math.hypot(x, y, z), 0.005)  # as in test_api.cpp
+            self.assertAlmostEqual(device.pose().orientation.w, 1, delta=0.01)
+            self.assertLess(abs(device.velocity().x), 0.5)
+            self.assertTrue(device.held())
+            self.assertEqual(device.vibration_share(), 1)
+            self.assertEqual(device.last_fault(), "")
+            self.assertTrue(device.capabilities().force_z)
+            self.assertEqual(device.capabilities().rate_Hz, 1000)
+            self.assertIn("position_m=Vector3(x=", repr(device.pose()))
+
+    def test_waiting_ends_when_the_time_is_over(self):
+        with Device("sim") as device:
+            device.wait_until_running(-1)
+            self.assertTrue(device.wait_until_running(30))
+
+    def test_a_callback_is_felt(self):
+        seen = []
+
+        def push(grip):
+            seen.append(grip)
+            return 1, 0, 0
+
+        with Device("sim") as device:
+            device.set_callback(push, passive=False)
+            self.assertTrue(comes_true(lambda: device.felt().force_N.x > 0.9 or device.callback_error()))
+            # The grip is a copy: what is kept does not change. A busy machine may find Python too slow.
+            self.assertTrue(seen and all(0.99 < grip.pose.orientation.w < 1.01 for grip in seen))
+            device.set_callback(None)
+            self.assertEqual(device.callback_error(), "")
+            calls = len(seen)
+            time.sleep(0.02)
+            self.assertEqual(len(seen), calls)
+
+    def test_a_callback_that_raises_ends_alone(self):
+        def divide(grip):
+            return 1 / 0, 0, 0
+
+        def leave(grip):
+            sys.exit("left")
+
+        with Device("sim") as device:
+            for callback, error in ((divide, "ZeroDivisionError: division by zero"), (leave, "SystemExit: left")):
+                device.set_callback(callback)
+                self.assertTrue(comes_true(device.callback_error))
+                self.assertEqual(device.callback_error(), "the callback has raised " + error)
+            for wrong in (None, 1, (1, 2, 3, 4), ("a", 0, 0)):
+                device.set_callback(lambda grip, wrong=wrong: wrong)
+                self.assertTrue(comes_true(device.callback_error))
+                self.assertIn("the callback has raised TypeError", device.callback_error())
+            self.assertTrue(comes_true(lambda: device.push((1, 0, 0)) and device.felt().force_N.x > 0.9))
+
+    def test_what_is_wrong_is_named(self):
+        with self.assertRaisesRegex(RuntimeError, 'unknown device "nosuch"; known are'):
+            Device("nosuch")
+        with self.assertRaisesRegex(RuntimeError, 'unknown profile "nosuch"'):
+            Device("sim", "nosuch")
+        with Device("sim") as device:
+            with self.assertRaisesRegex(ValueError, "7.2 N at most"):
+                device.set_limits(1e9, 0.1)
+            with self.assertRaisesRegex(ValueError, "six finite numbers"):
+                device.push((math.nan, 0, 0))
+            with self.assertRaises(TypeError):
+                device.push(("1", 0, 0))
+        with self.assertRaisesRegex(ValueError, "this Device is closed"):
+            device.push((1, 0, 0))
+        device.close()  # again
+
+    def test_two_devices(self):
+        with Device("sim") as first, Device("sim:sh4") as second:
+            self.assertTrue(comes_true(lambda: first.push((1, 0, 0)) and first.felt().force_N.x > 0.9))
+            self.assertLess(abs(second.felt().force_N.x), 0.1)  # its board gives steps of tension
+        names = gst_spidar.list_devices()
+        self.assertIn("sim", names)
+        self.assertIn("spidar-g", gst_spidar.list_profiles())
+
+    def test_it_closes_when_nothing_refers_to_it(self):
+        def threads():
+            return len(list(Path("/proc/self/task").iterdir()))
+
+        before = threads()
+        device = Device("sim")
+        device.set_callback(lambda grip: (0, 0, device.felt().force_N.z))  # a circle
+        self.assertGreater(threads(), before)
+        del device
+        gc.collect()
+        self.assertEqual(threads(), before)
+
+    def test_python_ends_while_a_callback_runs(self):
+        program = """
+import gst_spidar, threading
+called = threading.Event()
+device = gst_spidar.Device("sim")
+device.set_callback(lambda grip: called.set() or (0, 0, 0))
+called.wait(30)
+"""
+        for end, status in (("", 0), ("raise SystemExit(3)", 3), ("1 / 0", 1)):
+            with self.subTest(end):
+                done = run("-c", program + end)
+                self.assertEqual(done.returncode, status, done.stderr)
+                self.assertNotIn("Fatal", done.stderr)
+
+    def test_threads_share_a_device(self):
+        with Device("sim") as device:
+            readers = [threading.Thread(target=lambda: [device.felt() for _ in range(1000)]) for _ in range(3)]
+            for reader in readers:
+                reader.start()
+            for _ in range(100):
+                device.push((1, 0, 0))
+            for reader in readers:
+                reader.join()
+
+
+class Pictures(unittest.TestCase):
+    def test_a_moving_picture_pushes(self):
+        motion = MotionToWrench()
+        motion.set_motion(FeltMotion.MEAN)
+        motion.set_max_force(1.5)
+        for i in range(10):
+            # Turned by 4 i pixels in each row, as bytes and as an array.
+            rows = [SPOTS[240 * y : 240 * (y + 1)] for y in range(240)]
+            turned = b"".join(row[-4 * i :] + row[: -4 * i] if i else row for row in rows)
+            found = motion.analyze(turned if i % 2 else array.array("B", turned), 240, 240, 0.04 * i)
+        self.assertTrue(found.has_picture_before)
+        # As in test_api.cpp; what enters on the left is another part of the texture.
+        self.assertAlmostEqual(found.velocity_x_px_s, 100, delta=0.03 / 0.04)
+        self.assertAlmostEqual(found.wrench.force_N.x, 3 / math.pi * math.atan(0.01 * 200), delta=0.015)
+        motion.restart()
+        self.assertFalse(motion.analyze(SPOTS, 240, 240, 1).has_picture_before)
+
+    def test_what_is_wrong_is_named(self):
+        motion = MotionToWrench()
+        for picture, width, height, stride, message in (
+            (SPOTS, 240, 241, None, "needs 57840 bytes; got 57600"),
+            (SPOTS, 240, 240, 241, "needs 57839 bytes; got 57600"),
+            (SPOTS, 240, 240, 239, "stride 239"),
+            (SPOTS, 8, 8, None, "at least 16x16 pixels"),
+            (SPOTS, 240, 0, None, "at least 16x16 pixels"),
+            (SPOTS, -240, 240, None, "at least 16x16 pixels"),
+            (array.array("d", SPOTS), 240, 240, None, "numbers of 8 bytes"),
+            (SPOTS, 2**32 + 240, 1, None, "needs"),
+        ):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                motion.analyze(picture, width, height, 0, stride)
+        for wrong in (lambda: motion.set_motion(9), lambda: motion.set_controller(9), lambda: motion.set_max_force(-1)):
+            self.assertRaises(ValueError, wrong)
+
+
+class Examples(unittest.TestCase):
+    def said(self, name, *arguments):
+        path = EXAMPLES / f"{name}.py"
+        self.assertLessEqual(len(path.read_text(encoding="utf-8").splitlines()), 40)
+        done = run(path, *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_push(self):
+        strongest = float(re.search(r"sim: ([\d.]+) N", self.said("push")).group(1))
+        self.assertTrue(0.5 < strongest <= 2)  # 1 N is asked for, in every direction
+
+    def test_spring(self):
+        said = self.said("spring")
+        place_mm, force_N = map(float, re.findall(r"-?[\d.]+(?= mm| N)", said))
+        # 1 N against the simulated hand, 300 N/m, and the spring, 200 N/m: 2 mm; without the spring 3.3 mm. A busy
+        # machine may find Python too slow.
+        self.assertTrue(1.3 < place_mm < 2.7 and 0.4 < force_N < 0.8 or "longer than" in said, said)
+
+    def test_motion(self):
+        speed, force = map(float, re.findall(r"[\d.]+(?= px/s| N)", self.said("motion").splitlines()[-1]))
+        # 4 px in 40 ms are 100 px/s; the first pictures do not know yet what is background.
+        self.assertTrue(95 < speed < 105 and force > 1)
+
+    def test_a_device_that_does_not_exist(self):
+        for name in ("push", "spring"):
+            done = run(EXAMPLES / f"{name}.py", "nosuch")
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn('unknown device "nosuch"', done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
