@@ -57,6 +57,20 @@ char** list_of(const std::vector<std::string>& names) {
   return list;
 }
 
+/// Whether a device takes something, which it may refuse, and does not take while it is lost.
+template <typename Take>
+bool taken(GstSpidarDevice* device, GstSpidarError* error, const char* what, const Take& take) {
+  return guarded(error, false, [&] {
+    if (take(device->device)) return true;
+    const std::string fault = device->device.last_fault();
+    set_error(error, GST_SPIDAR_ERROR_LOST,
+              std::string("the device takes no ") + what + " at present" +
+                  (fault.empty() ? "" : ": " + fault) +
+                  "; try again later, it is opened again as soon as it answers");
+    return false;
+  });
+}
+
 /// Whether there is something, which is then written.
 template <typename To, typename From>
 bool found(const std::optional<From>& from, To* to) {
@@ -82,14 +96,8 @@ void gst_spidar_device_close(GstSpidarDevice* device) {
 
 bool gst_spidar_device_push(GstSpidarDevice* device, const GstSpidarWrench* wrench,
                             GstSpidarError* error) {
-  return gst_spidar::guarded(error, false, [&] {
-    if (device->device.push(gst_spidar::same<gst_spidar::Wrench>(*wrench))) return true;
-    const std::string fault = device->device.last_fault();
-    gst_spidar::set_error(error, GST_SPIDAR_ERROR_LOST,
-                          "the device takes no wrench at present" +
-                              (fault.empty() ? "" : ": " + fault) +
-                              "; push again later, it is tried until it answers");
-    return false;
+  return gst_spidar::taken(device, error, "wrench", [&](gst_spidar::Device& open) {
+    return open.push(gst_spidar::same<gst_spidar::Wrench>(*wrench));
   });
 }
 
@@ -113,6 +121,17 @@ size_t gst_spidar_device_callback_error(const GstSpidarDevice* device, char* tex
 bool gst_spidar_device_set_limits(GstSpidarDevice* device, double max_force_N, double max_torque_Nm,
                                   GstSpidarError* error) {
   return gst_spidar::done(error, [&] { device->device.set_limits(max_force_N, max_torque_Nm); });
+}
+
+bool gst_spidar_device_set_surface(GstSpidarDevice* device, const GstSpidarSurface* surface,
+                                   GstSpidarError* error) {
+  return gst_spidar::taken(device, error, "surface", [&](gst_spidar::Device& open) {
+    return open.set_surface(gst_spidar::same<gst_spidar::Surface>(*surface));
+  });
+}
+
+void gst_spidar_device_clear_surface(GstSpidarDevice* device) {
+  device->device.clear_surface();
 }
 
 bool gst_spidar_device_pose(const GstSpidarDevice* device, GstSpidarPose* pose) {

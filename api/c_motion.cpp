@@ -48,3 +48,18 @@ bool gst_spidar_motion_set_max_force(GstSpidarMotion* motion, double max_force_N
                                      GstSpidarError* error) {
   return gst_spidar::done(error, [&] { motion->motion.set_max_force(max_force_N); });
 }
+
+bool gst_spidar_motion_set_pointer(GstSpidarMotion* motion, double x, double y,
+                                   GstSpidarError* error) {
+  return gst_spidar::done(error, [&] { motion->motion.set_pointer(x, y); });
+}
+
+bool gst_spidar_motion_set_gains(GstSpidarMotion* motion, double depth, double roll,
+                                 GstSpidarError* error) {
+  return gst_spidar::done(error, [&] { motion->motion.set_gains(depth, roll); });
+}
+
+bool gst_spidar_motion_set_alpha(GstSpidarMotion* motion, double alpha_s_px,
+                                 GstSpidarError* error) {
+  return gst_spidar::done(error, [&] { motion->motion.set_alpha(alpha_s_px); });
+}

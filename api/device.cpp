@@ -11,7 +11,9 @@
 
 #include <gst-spidar/device.h>
 
+#include "api/surface.h"
 #include "api/vectors.h"
+#include "core/grip/picture_size.h"
 #include "spidar/boards/board_list.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/profiles/force_range.h"
@@ -45,35 +47,49 @@ spidar::PlaybackClock now_is_now() {
   return clock;
 }
 
-void require_limit(double value, const char* what) {
-  if (std::isfinite(value) && value >= 0) return;
-  throw std::invalid_argument(std::string(what) + " must be finite and not negative, got " +
-                              std::to_string(value));
-}
+/// What a device gives at most.
+struct DeviceRange {
+  DeviceRange(const std::string& device, const spidar::Profile& profile, const spidar::Grip& grip) {
+    const spidar::GripAbilities can = grip.abilities();
+    const bool has_strings = grip.traits().has_strings;
+    giver = has_strings ? profile.name : device;
+    largest_force_N = std::floor(10 * std::max(spidar::kAnyForce_N, can.largest_force_N)) / 10;
+    if (has_strings)
+      largest_torque_Nm = std::floor(1000 * spidar::largest_torque_Nm(profile)) / 1000;
+    if (can.force[2] && can.position[2])
+      surface.half_size_m = spidar::half_picture_m(profile.geometry);
+    surface.most_stiffness_N_m =
+        has_strings ? spidar::most_stiffness_N_m(profile) : spidar::kUnmeasuredStiffness_N_m;
+    surface.drive_lag_s = has_strings ? spidar::assumed_lag_s(profile) : spidar::kUnmeasuredLag_s;
+  }
+
+  /// Throws std::invalid_argument when `wanted` is no limit that the device can keep.
+  void require(double wanted, double most, const char* what, const char* unit) const {
+    if (wanted >= 0 && wanted <= most) return;
+    std::ostringstream text;
+    text << what << " must be 0 to " << std::setprecision(4) << most << ' ' << unit << ", which "
+         << giver << " can give in every direction, got " << wanted;
+    throw std::invalid_argument(text.str());
+  }
+
+  std::string giver;  ///< a profile, or the device
+  double largest_force_N = 0;
+  double largest_torque_Nm = spidar::kAnyTorque_Nm;
+  SurfaceRange surface;
+};
 
 }  // namespace
 
 // A nested class has the visibility of the enclosing class unless it states its own.
 struct __attribute__((visibility("hidden"))) Device::Impl {
   Impl(const std::string& device, const spidar::Profile& profile)
-      : session(spidar::make_grip(device, profile)),
-        can_give(session.grip().traits().has_strings ? profile.name : device),
-        largest_force_N(std::floor(10 * std::max(spidar::kAnyForce_N,
-                                                 session.grip().abilities().largest_force_N)) /
-                        10),
-        largest_stiffness_N_m(session.grip().traits().has_strings
-                                  ? spidar::most_stiffness_N_m(profile)
-                                  : spidar::kUnmeasuredStiffness_N_m),
-        drive_lag_s(session.grip().traits().has_strings ? spidar::assumed_lag_s(profile)
-                                                        : spidar::kUnmeasuredLag_s) {
+      : session(spidar::make_grip(device, profile)), range(device, profile, session.grip()) {
     session.loop().set_playback_clock(now_is_now());
   }
 
+  TouchedSurface surface;  // the loop must not outlive it
   HapticSession session;
-  const std::string can_give;  ///< what gives the largest force: a profile, or the device
-  const double largest_force_N;
-  const double largest_stiffness_N_m;
-  const double drive_lag_s;
+  const DeviceRange range;
   int64_t pushed_ns = 0;
 };
 
@@ -111,8 +127,8 @@ void Device::set_callback(Callback callback, Energy energy) {
       return from_api(callback(state));
     };
   }
-  impl_->session.loop().callback().set(std::move(function),
-                                       {energy == Energy::kPassive, impl_->drive_lag_s});
+  impl_->session.loop().callback().set(
+      std::move(function), {energy == Energy::kPassive, impl_->range.surface.drive_lag_s});
 }
 
 std::string Device::callback_error() const {
@@ -128,19 +144,21 @@ std::string Device::callback_error() const {
 }
 
 void Device::set_limits(double max_force_N, double max_torque_Nm) {
-  require_limit(max_force_N, "the largest force");
-  require_limit(max_torque_Nm, "the largest torque");
-  if (max_force_N > impl_->largest_force_N) {
-    std::ostringstream text;
-    text << "the largest force must be " << std::setprecision(3) << impl_->largest_force_N
-         << " N at most, which " << impl_->can_give << " can give in every direction, got "
-         << max_force_N;
-    throw std::invalid_argument(text.str());
-  }
+  const DeviceRange& range = impl_->range;
+  range.require(max_force_N, range.largest_force_N, "the largest force", "N");
+  range.require(max_torque_Nm, range.largest_torque_Nm, "the largest torque", "N m");
   spidar::SafetyLimits limits;
   limits.max_force_N = max_force_N;
   limits.max_torque_Nm = max_torque_Nm;
   impl_->session.loop().set_limits(limits);
+}
+
+bool Device::set_surface(const Surface& surface) {
+  return impl_->surface.set(surface, impl_->range.surface, impl_->session.loop());
+}
+
+void Device::clear_surface() {
+  impl_->surface.clear();
 }
 
 std::optional<Pose> Device::pose() const {
@@ -208,9 +226,13 @@ Capabilities Device::capabilities() const {
   found.force_z = abilities.force[2];
   found.torque = abilities.torque;
   found.direction = abilities.direction;
-  found.largest_force_N = impl_->largest_force_N;
-  found.largest_stiffness_N_m = impl_->largest_stiffness_N_m;
+  const DeviceRange& range = impl_->range;
+  found.largest_force_N = range.largest_force_N;
+  found.largest_torque_Nm = range.largest_torque_Nm;
+  found.largest_stiffness_N_m = range.surface.most_stiffness_N_m;
   found.rate_Hz = abilities.rate_Hz;
+  found.surface_width_m = 2 * range.surface.half_size_m.x();
+  found.surface_height_m = 2 * range.surface.half_size_m.y();
   return found;
 }
 

@@ -31,6 +31,8 @@ spidar::MotionKind kind_of(FeltMotion motion) {
       return spidar::MotionKind::kObject;
     case FeltMotion::kCamera:
       return spidar::MotionKind::kCamera;
+    case FeltMotion::kObjects:
+      return spidar::MotionKind::kObjects;
   }
   throw std::invalid_argument("there is no such motion");
 }
@@ -54,8 +56,7 @@ MotionToWrench::MotionToWrench(MotionToWrench&& other) noexcept = default;
 MotionToWrench& MotionToWrench::operator=(MotionToWrench&& other) noexcept = default;
 
 MotionResult MotionToWrench::analyze(const GreyPicture& picture, std::chrono::nanoseconds time) {
-  const spidar::ImageView view{picture.data, picture.width, picture.height, picture.stride};
-  const spidar::FrameAnalysis frame = impl_->analyzer.analyze(view, time.count());
+  const spidar::FrameAnalysis frame = impl_->analyzer.analyze(from_api(picture), time.count());
   MotionResult result;
   result.wrench = to_api(frame.wrench);
   result.velocity_x_px_s = frame.motion.velocity_px_s.x();
@@ -85,6 +86,24 @@ void MotionToWrench::set_motion(FeltMotion motion) {
 void MotionToWrench::set_max_force(double max_force_N) {
   spidar::AnalyzerSettings settings = impl_->settings;
   settings.controller.max_force_N = max_force_N;
+  impl_->configure(settings);
+}
+
+void MotionToWrench::set_pointer(double x, double y) {
+  spidar::AnalyzerSettings settings = impl_->settings;
+  settings.pointer = {x, y};
+  impl_->configure(settings);
+}
+
+void MotionToWrench::set_gains(double depth, double roll) {
+  spidar::AnalyzerSettings settings = impl_->settings;
+  settings.axes = {depth, roll};
+  impl_->configure(settings);
+}
+
+void MotionToWrench::set_alpha(double alpha_s_px) {
+  spidar::AnalyzerSettings settings = impl_->settings;
+  settings.controller.alpha_s_px = alpha_s_px;
   impl_->configure(settings);
 }
 

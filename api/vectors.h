@@ -3,9 +3,11 @@
 /// Conversions between the types of the installed headers and those of the rest of the project.
 #pragma once
 
+#include <gst-spidar/picture.h>
 #include <gst-spidar/wrench.h>
 
 #include "core/grip/pose.h"
+#include "core/image_view.h"
 #include "core/wrench.h"
 
 namespace gst_spidar {
@@ -22,6 +24,9 @@ inline Wrench to_api(const spidar::Wrench& wrench) {
 }
 inline spidar::Wrench from_api(const Wrench& wrench) {
   return {from_api(wrench.force_N), from_api(wrench.torque_Nm)};
+}
+inline spidar::ImageView from_api(const GreyPicture& picture) {
+  return {picture.data, picture.width, picture.height, picture.stride};
 }
 inline Pose to_api(const spidar::Pose& pose) {
   const Eigen::Quaterniond& q = pose.orientation;

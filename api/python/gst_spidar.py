@@ -45,8 +45,10 @@ class Pose(_Struct):
 
 
 class Capabilities(_Struct):
+    _most = ("largest_force_N", "largest_torque_Nm", "largest_stiffness_N_m")
+    _rest = ("rate_Hz", "surface_width_m", "surface_height_m")
     _can = [(name, c_bool) for name in ("force_x", "force_y", "force_z", "torque", "direction")]
-    _fields_ = [*_can, *((name, c_double) for name in ("largest_force_N", "largest_stiffness_N_m", "rate_Hz"))]
+    _fields_ = [*_can, *((name, c_double) for name in _most + _rest)]
 
 
 class GripState(_Struct):
@@ -67,9 +69,14 @@ class _Picture(ctypes.Structure):
     _fields_ = [("data", c_void_p), ("width", c_int), ("height", c_int), ("stride", c_ssize_t)]
 
 
+class _Surface(ctypes.Structure):
+    _settings = ("relief_m", "stiffness_N_m", "friction", "texture")
+    _fields_ = [("picture", _Picture), *((name, c_double) for name in _settings)]
+
+
 State = IntEnum("State", "OPENING RUNNING IDLE LOST", start=0)
 Controller = IntEnum("Controller", "LINEAR NONLINEAR ADAPTIVE", start=0)
-FeltMotion = IntEnum("FeltMotion", "MEAN OBJECT CAMERA", start=0)
+FeltMotion = IntEnum("FeltMotion", "MEAN OBJECT CAMERA OBJECTS", start=0)
 
 _Callback = ctypes.CFUNCTYPE(c_bool, POINTER(GripState), POINTER(Wrench), c_void_p)
 _OK, _ARGUMENT, _LOST = 0, 1, 3
@@ -105,6 +112,20 @@ def _names(name):
     found = list(itertools.takewhile(lambda text: text is not None, (names[i] for i in itertools.count())))
     _call("free_list", None, names)
     return [text.decode() for text in found]
+
+
+def _grey(picture, width, height, stride):
+    """A picture that refers to a copy of its bytes, and the copy."""
+    stride = width if stride is None else stride
+    view = memoryview(picture)
+    needed = stride * (height - 1) + width
+    if view.itemsize != 1 or view.nbytes < needed:
+        raise ValueError(
+            f"a picture of {width}x{height} pixels in rows of {stride} bytes needs {needed} bytes; "
+            f"got {view.nbytes // view.itemsize} numbers of {view.itemsize} bytes"
+        )
+    pixels = (ctypes.c_uint8 * view.nbytes).from_buffer_copy(view.cast("B"))
+    return _Picture(ctypes.addressof(pixels), width, height, stride), pixels
 
 
 def list_devices():
@@ -185,6 +206,19 @@ class Device(_Handle):
         """Of the total force and torque of whatever is pushed."""
         _checked("device_set_limits", c_bool, self._handle, c_double(max_force_N), c_double(max_torque_Nm))
 
+    def set_surface(
+        self, picture, width, height, stride=None, *, relief_m=0.008, stiffness_N_m=200, friction=0.3, texture=0
+    ):
+        """Lets the grip touch a relief, 255 nearest, until another one or clear_surface(). False while the device is
+        lost. The picture is as for MotionToWrench.analyze()."""
+        grey, _pixels = _grey(picture, width, height, stride)
+        surface = _Surface(grey, relief_m, stiffness_N_m, friction, texture)
+        return _checked("device_set_surface", c_bool, self._handle, byref(surface))
+
+    def clear_surface(self):
+        """Nothing is touched any more."""
+        _call("device_clear_surface", None, self._handle)
+
     def pose(self):
         """Where the grip is; None while that is not known."""
         return self._filled("device_pose", Pose())
@@ -243,16 +277,7 @@ class MotionToWrench(_Handle):
 
     def analyze(self, picture, width, height, time_s, stride=None):
         """The next picture: bytes, or what has them in one piece, such as an array of NumPy. Returns a MotionResult."""
-        stride = width if stride is None else stride
-        view = memoryview(picture)
-        needed = stride * (height - 1) + width
-        if view.itemsize != 1 or view.nbytes < needed:
-            raise ValueError(
-                f"a picture of {width}x{height} pixels in rows of {stride} bytes needs {needed} bytes; "
-                f"got {view.nbytes // view.itemsize} numbers of {view.itemsize} bytes"
-            )
-        pixels = (ctypes.c_uint8 * view.nbytes).from_buffer_copy(view.cast("B"))
-        grey = _Picture(ctypes.addressof(pixels), width, height, stride)
+        grey, _pixels = _grey(picture, width, height, stride)
         result = MotionResult()
         time_ns = c_int64(round(1e9 * time_s))
         _checked("motion_analyze", c_bool, self._handle, byref(grey), time_ns, byref(result))
@@ -273,3 +298,15 @@ class MotionToWrench(_Handle):
     def set_max_force(self, max_force_N):
         """The largest force."""
         _checked("motion_set_max_force", c_bool, self._handle, c_double(max_force_N))
+
+    def set_pointer(self, x, y):
+        """Where FeltMotion.OBJECTS is felt most: (0, 0) is the top left corner of the picture, (1, 1) the other one."""
+        _checked("motion_set_pointer", c_bool, self._handle, c_double(x), c_double(y))
+
+    def set_gains(self, depth, roll):
+        """How strongly growth and roll are felt, 1 at first."""
+        _checked("motion_set_gains", c_bool, self._handle, c_double(depth), c_double(roll))
+
+    def set_alpha(self, alpha_s_px):
+        """How quickly force rises with speed, 0.01 at first."""
+        _checked("motion_set_alpha", c_bool, self._handle, c_double(alpha_s_px))

@@ -15,6 +15,11 @@ struct Friction {
   double dynamic = 0;  ///< μd
 };
 
+/// Of most surfaces: kinetic friction is four fifths of the static one.
+constexpr Friction friction_of(double fixed) {
+  return {fixed, 0.8 * fixed};
+}
+
 /// A point that stays on the surface while the grip is below it, as close to the grip as friction
 /// allows (after D. Ruspini, K. Kolarov and O. Khatib, The haptic display of complex graphical
 /// environments, SIGGRAPH 1997). A spring between the two generates the contact force.

@@ -79,11 +79,35 @@ typedef struct {
   bool force_z;   /*!< towards the viewer and away */
   bool torque;    /*!< about all three axes */
   bool direction; /*!< false for a gamepad that only rumbles: it renders the size of a force */
-  double largest_force_N; /*!< largest limit that gst_spidar_device_set_limits() takes, N */
+  double largest_force_N;   /*!< largest limit that gst_spidar_device_set_limits() takes, N */
+  double largest_torque_Nm; /*!< the same for torques, N m; of little use without `torque` */
   /*! Largest stiffness of a wall that was measured to be stable in a hand, N/m. */
   double largest_stiffness_N_m;
   double rate_Hz; /*!< forces a second, at most */
+  /*! Size of the surface of gst_spidar_device_set_surface(), whose middle is the centre of the
+   * workspace, m; 0 when nothing can be touched. */
+  double surface_width_m;
+  double surface_height_m; /*!< see surface_width_m */
 } GstSpidarCapabilities;
+
+/*! A grey picture: `height` rows of `width` bytes, 0 black and 255 white. The memory is the
+ * caller's; it is only read, and only during the call. */
+typedef struct {
+  const uint8_t* data; /*!< first pixel of the top row */
+  int width;           /*!< px, at least 16 */
+  int height;          /*!< px, at least 16 */
+  ptrdiff_t stride;    /*!< bytes from one row to the next, at least `width` */
+} GstSpidarPicture;
+
+/*! A relief that the grip touches from the front. The values that suit most are in brackets. */
+typedef struct {
+  /*! How near each place is: 255 is nearest. It covers the whole surface. */
+  GstSpidarPicture picture;
+  double relief_m; /*!< from 0 to 255, m, at most 0.03 [0.008]; its middle is the workspace's */
+  double stiffness_N_m; /*!< N/m, above 0, at most that of the capabilities [200] */
+  double friction;      /*!< coefficient of static friction [0.3]; 0.8 of it is the kinetic one */
+  double texture;       /*!< how strongly the finest detail is felt as force to the side [0] */
+} GstSpidarSurface;
 
 /*! Where the grip is in a tick, and how it moves. */
 typedef struct {
@@ -152,6 +176,18 @@ GST_SPIDAR_API size_t gst_spidar_device_callback_error(const GstSpidarDevice* de
 GST_SPIDAR_API bool gst_spidar_device_set_limits(GstSpidarDevice* device, double max_force_N,
                                                  double max_torque_Nm, GstSpidarError* error);
 
+/*! Lets the grip touch a surface, until another one or gst_spidar_device_clear_surface(). Its force
+ * is added to what is pushed, and yields no energy. The picture is not needed afterwards. False
+ * with GST_SPIDAR_ERROR_LOST when the device takes no surface at present, and with
+ * GST_SPIDAR_ERROR_ARGUMENT when a setting is out of range, or the device takes no force towards
+ * the viewer. */
+GST_SPIDAR_API bool gst_spidar_device_set_surface(GstSpidarDevice* device,
+                                                  const GstSpidarSurface* surface,
+                                                  GstSpidarError* error);
+
+/*! Nothing is touched any more. */
+GST_SPIDAR_API void gst_spidar_device_clear_surface(GstSpidarDevice* device);
+
 /*! Where the grip is. False, and `pose` is left as it is, while that is not known. */
 GST_SPIDAR_API bool gst_spidar_device_pose(const GstSpidarDevice* device, GstSpidarPose* pose);
 
@@ -200,15 +236,6 @@ GST_SPIDAR_API char** gst_spidar_list_profiles(GstSpidarError* error);
 /*! Frees a list with its names. NULL does nothing. */
 GST_SPIDAR_API void gst_spidar_free_list(char** list);
 
-/*! A grey picture: `height` rows of `width` bytes, 0 black and 255 white. The memory is the
- * caller's; it is only read, and only during the call. */
-typedef struct {
-  const uint8_t* data; /*!< first pixel of the top row */
-  int width;           /*!< px, at least 16 */
-  int height;          /*!< px, at least 16 */
-  ptrdiff_t stride;    /*!< bytes from one row to the next, at least `width` */
-} GstSpidarPicture;
-
 /*! How speed becomes force: the element's property `controller`. */
 typedef enum {
   GST_SPIDAR_LINEAR = 0,    /*!< proportional; the largest speed so far is the largest force */
@@ -220,7 +247,8 @@ typedef enum {
 typedef enum {
   GST_SPIDAR_MEAN = 0,   /*!< of all points */
   GST_SPIDAR_OBJECT = 1, /*!< of the dominant object against the background */
-  GST_SPIDAR_CAMERA = 2  /*!< of the camera */
+  GST_SPIDAR_CAMERA = 2, /*!< of the camera */
+  GST_SPIDAR_OBJECTS = 3 /*!< of all objects, weighted by area and nearness to the pointer */
 } GstSpidarFeltMotion;
 
 /*! What was found in one picture. */
@@ -265,6 +293,22 @@ GST_SPIDAR_API bool gst_spidar_motion_set_motion(GstSpidarMotion* motion, GstSpi
 /*! The largest force, from the next picture on. False unless it is finite and not negative. */
 GST_SPIDAR_API bool gst_spidar_motion_set_max_force(GstSpidarMotion* motion, double max_force_N,
                                                     GstSpidarError* error);
+
+/*! Where GST_SPIDAR_OBJECTS is felt most, as shares of the picture's width and height: (0, 0) is
+ * its top left corner, (0.5, 0.5) the place at first. False unless both are finite. */
+GST_SPIDAR_API bool gst_spidar_motion_set_pointer(GstSpidarMotion* motion, double x, double y,
+                                                  GstSpidarError* error);
+
+/*! How strongly growth is felt as force towards the viewer, and roll as torque about that axis, 1
+ * at first; 0 turns one off. False unless both are finite and not negative. */
+GST_SPIDAR_API bool gst_spidar_motion_set_gains(GstSpidarMotion* motion, double depth, double roll,
+                                                GstSpidarError* error);
+
+/*! How quickly force rises with speed, except with GST_SPIDAR_LINEAR: half of the largest force is
+ * reached at 1 / `alpha_s_px` px/s in a picture of 480 rows; 0.01 at first. False unless it is
+ * finite and not negative. */
+GST_SPIDAR_API bool gst_spidar_motion_set_alpha(GstSpidarMotion* motion, double alpha_s_px,
+                                                GstSpidarError* error);
 
 #ifdef __cplusplus
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <gst-spidar/export.h>
+#include <gst-spidar/picture.h>
 #include <gst-spidar/wrench.h>
 
 namespace gst_spidar {
@@ -33,12 +34,30 @@ struct Capabilities {
   bool torque = false;   ///< about all three axes
   /// False for a gamepad that only rumbles: it renders the size of a force.
   bool direction = false;
-  /// Largest limit that set_limits() takes, N.
-  double largest_force_N = 0;
+  double largest_force_N = 0;    ///< largest limit that set_limits() takes, N
+  double largest_torque_Nm = 0;  ///< the same for torques, N m; of little use without `torque`
   /// Largest stiffness of a wall that was measured to be stable in a hand, N/m, with the lag of the
   /// drives that the profile has; small while nobody has measured that (docs/touch.md).
   double largest_stiffness_N_m = 0;
   double rate_Hz = 0;  ///< forces a second, at most
+  /// Size of the surface of set_surface(), whose middle is the centre of the workspace, m; 0 when
+  /// nothing can be touched.
+  double surface_width_m = 0;
+  double surface_height_m = 0;  ///< see surface_width_m
+};
+
+/// A relief that the grip touches from the front: the element's property `touch`.
+struct Surface {
+  /// How near each place is: 255 is nearest. It covers the whole surface, whatever its proportions
+  /// are.
+  GreyPicture picture;
+  /// From 0 to 255, m, at most 0.03. Its middle, 127.5, is in the middle of the workspace. Slopes
+  /// are limited to 1.5.
+  double relief_m = 0.008;
+  /// N/m, above 0 and at most Capabilities::largest_stiffness_N_m.
+  double stiffness_N_m = 200;
+  double friction = 0.3;  ///< coefficient of static friction; that of kinetic friction is 0.8 of it
+  double texture = 0;     ///< how strongly the finest detail is felt as force to the side; 0: not
 };
 
 /// Where the grip is in a tick, and how it moves.
@@ -63,8 +82,7 @@ enum class Energy {
 /// change, and with no new wrench the device ramps to rest. A separate process,
 /// spidar-guardian, zeroes the motors of a real board if this process dies.
 ///
-/// push(), rest(), set_limits() and set_callback() are for one thread at a time, what only reads is
-/// for any thread.
+/// What only reads (is const) is for any thread, all else for one thread at a time.
 class GST_SPIDAR_API Device {
  public:
   /// How long a wrench holds: a program that hangs does not keep pulling.
@@ -114,9 +132,22 @@ class GST_SPIDAR_API Device {
 
   /// Limits the total force (3 N at first) and the total torque (0.1 N m at first) of whatever is
   /// pushed, from the next millisecond on. Throws std::invalid_argument unless both are finite and
-  /// not negative, and the force is one that the profile's strings can give in every direction, or
-  /// 3 N at most.
+  /// not negative, and the profile's strings can give them in every direction and about every axis,
+  /// or they are at most what they are at first.
   void set_limits(double max_force_N, double max_torque_Nm);
+
+  /// Lets the grip touch a surface, until another one or clear_surface(). Its force is added to
+  /// what is pushed, and yields no energy (docs/touch.md). A surface that appears in front of the
+  /// grip lifts it by 40 mm/s at most. `surface.picture` is not needed afterwards.
+  ///
+  /// False when the device takes no surface at present, because it is lost. Throws
+  /// std::invalid_argument when a setting is out of range, for a picture that
+  /// MotionToWrench::analyze() would refuse, and for a device that takes no force towards the
+  /// viewer.
+  bool set_surface(const Surface& surface);
+
+  /// Nothing is touched any more.
+  void clear_surface();
 
   /// Where the grip is. Nothing while that is not known: just after opening, and while the readings
   /// of the device do not fit together.

@@ -5,24 +5,14 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <memory>
 
 #include <gst-spidar/export.h>
+#include <gst-spidar/picture.h>
 #include <gst-spidar/wrench.h>
 
 namespace gst_spidar {
 inline namespace v0 {
-
-/// A grey picture: `height` rows of `width` bytes, 0 black and 255 white. It refers to memory of
-/// the caller, which is only read, and only during the call that it is passed to.
-struct GreyPicture {
-  const std::uint8_t* data = nullptr;  ///< first pixel of the top row
-  int width = 0;                       ///< px, at least 16
-  int height = 0;                      ///< px, at least 16
-  std::ptrdiff_t stride = 0;           ///< bytes from one row to the next, at least `width`
-};
 
 /// How speed becomes force: the element's property `controller`.
 enum class Controller {
@@ -33,9 +23,10 @@ enum class Controller {
 
 /// Which motion is felt: the element's property `motion`.
 enum class FeltMotion {
-  kMean,    ///< of all points
-  kObject,  ///< of the dominant object against the background
-  kCamera,  ///< of the camera
+  kMean,     ///< of all points
+  kObject,   ///< of the dominant object against the background
+  kCamera,   ///< of the camera
+  kObjects,  ///< of all objects, weighted by area and nearness to the pointer
 };
 
 /// What was found in one picture.
@@ -76,6 +67,19 @@ class GST_SPIDAR_API MotionToWrench {
   /// The largest force, from the next picture on. Throws std::invalid_argument unless it is finite
   /// and not negative.
   void set_max_force(double max_force_N);
+  /// Where kObjects is felt most, as shares of the picture's width and height: (0, 0) is its top
+  /// left corner, (1, 1) its bottom right one, and (0.5, 0.5) the place at first. Throws
+  /// std::invalid_argument unless both are finite.
+  void set_pointer(double x, double y);
+  /// How strongly growth is felt as force towards the viewer, and roll as torque about that axis.
+  /// With 1, as at first, they count as the speed that they cause at half the picture's height from
+  /// its centre; 0 turns one off. Throws std::invalid_argument unless both are finite and not
+  /// negative.
+  void set_gains(double depth, double roll);
+  /// How quickly force rises with speed, except with kLinear: half of the largest force is reached
+  /// at 1 / `alpha_s_px` px/s in a picture of 480 rows; 0.01 at first. Throws std::invalid_argument
+  /// unless it is finite and not negative.
+  void set_alpha(double alpha_s_px);
 
  private:
   struct Impl;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "core/grip/picture_size.h"
+
 namespace spidar {
 namespace {
-
-constexpr double kReach = 0.5;  // of the frame
 
 /// Maps −half … half to 0 … 1.
 double share(double at_m, double half_m) {
@@ -17,12 +17,7 @@ double share(double at_m, double half_m) {
 
 }  // namespace
 
-GripPointer::GripPointer(const StringGeometry& geometry) {
-  for (int i = 0; i < geometry.count; ++i) {
-    const Eigen::Vector3d& exit_m = geometry.exit_m[static_cast<size_t>(i)];
-    half_size_m_ = half_size_m_.cwiseMax(kReach * exit_m.head<2>().cwiseAbs());
-  }
-}
+GripPointer::GripPointer(const StringGeometry& geometry) : half_size_m_(half_picture_m(geometry)) {}
 
 Eigen::Vector2d GripPointer::place(const Eigen::Vector3d& position_m) const {
   return {share(position_m.x(), half_size_m_.x()), share(-position_m.y(), half_size_m_.y())};

@@ -13,9 +13,6 @@
 namespace spidar {
 namespace {
 
-/// Dynamic friction as a share of the static one.
-constexpr double kSliding = 0.8;
-
 /// Minimum number of picture samples that are read per relief sample in each direction. Two samples
 /// capture everything that the relief can show, and keep the cost independent of the picture size.
 constexpr int kReadPerCell = 2;
@@ -30,7 +27,7 @@ ContactSettings contact_settings(const TouchProperties& properties, const Profil
   ContactSettings contact;
   contact.stiffness_N_m = std::min(properties.stiffness_N_m, most_stiffness_N_m(profile));
   contact.delay_s = surface_delay_s(assumed_lag_s(profile));
-  contact.friction = {properties.friction, kSliding * properties.friction};
+  contact.friction = friction_of(properties.friction);
   contact.texture = properties.texture;
   validate(contact);
   return contact;

@@ -5,23 +5,16 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/grip/picture_size.h"
+
 namespace spidar {
-namespace {
-
-/// Full deflection of the stick, as a share of the distance from the centre to the strings' exits.
-constexpr double kReach = 0.5;
-
-}  // namespace
 
 ForceFeedbackBoard::ForceFeedbackBoard(std::string name, const Profile& profile,
                                        std::unique_ptr<Transport> transport, Updates updates,
                                        const StickEffects::Options& options)
     : name_(std::move(name)),
-      effects_(std::make_shared<StickEffects>(name_, std::move(transport), updates, options)) {
-  for (int i = 0; i < profile.geometry.count; ++i)
-    reach_m_ = reach_m_.cwiseMax(
-        kReach * profile.geometry.exit_m[static_cast<size_t>(i)].head<2>().cwiseAbs());
-}
+      reach_m_(half_picture_m(profile.geometry)),
+      effects_(std::make_shared<StickEffects>(name_, std::move(transport), updates, options)) {}
 
 LinkFault ForceFeedbackBoard::cycle(const ForceOutput& output, ForceReading& reading,
                                     int64_t) noexcept {

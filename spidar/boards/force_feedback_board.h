@@ -43,7 +43,7 @@ class ForceFeedbackBoard final : public ForceBoard {
 
  private:
   const std::string name_;
-  Eigen::Vector2d reach_m_ = Eigen::Vector2d::Zero();  ///< of the stick, x and y
+  const Eigen::Vector2d reach_m_;  ///< of the stick, x and y
   const std::shared_ptr<StickEffects> effects_;
   std::atomic<int> force_axes_{2};     ///< 1: only x; 0: it only rumbles
   std::atomic<int> position_axes_{2};  ///< 1: only x

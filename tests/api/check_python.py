@@ -104,13 +104,26 @@ class Devices(unittest.TestCase):
                 self.assertIn("the callback has raised TypeError", device.callback_error())
             self.assertTrue(comes_true(lambda: device.push((1, 0, 0)) and device.felt().force_N.x > 0.9))
 
+    def test_a_surface_is_touched(self):
+        with Device("sim") as device:
+            self.assertTrue(device.wait_until_running(30))
+            self.assertTrue(device.set_surface(b"\xff" * 256, 16, 16))
+            # 4 mm in front of the hand: 200 N/m against its 300 N/m give 0.48 N.
+            self.assertTrue(comes_true(lambda: device.felt().force_N.z > 0.3))
+            device.clear_surface()
+            self.assertTrue(comes_true(lambda: abs(device.felt().force_N.z) < 0.05))
+            with self.assertRaisesRegex(ValueError, "at most 800 N/m on this device, got 900"):
+                device.set_surface(b"\xff" * 256, 16, 16, stiffness_N_m=900)
+            with self.assertRaisesRegex(ValueError, "needs 272 bytes; got 256"):
+                device.set_surface(b"\xff" * 256, 16, 17)
+
     def test_what_is_wrong_is_named(self):
         with self.assertRaisesRegex(RuntimeError, 'unknown device "nosuch"; known are'):
             Device("nosuch")
         with self.assertRaisesRegex(RuntimeError, 'unknown profile "nosuch"'):
             Device("sim", "nosuch")
         with Device("sim") as device:
-            with self.assertRaisesRegex(ValueError, "7.2 N at most"):
+            with self.assertRaisesRegex(ValueError, "0 to 7.2 N"):
                 device.set_limits(1e9, 0.1)
             with self.assertRaisesRegex(ValueError, "six finite numbers"):
                 device.push((math.nan, 0, 0))
@@ -176,7 +189,7 @@ class Pictures(unittest.TestCase):
             turned = b"".join(row[-4 * i :] + row[: -4 * i] if i else row for row in rows)
             found = motion.analyze(turned if i % 2 else array.array("B", turned), 240, 240, 0.04 * i)
         self.assertTrue(found.has_picture_before)
-        # As in test_api.cpp; what enters on the left is another part of the texture.
+        # As in test_motion.cpp; what enters on the left is another part of the texture.
         self.assertAlmostEqual(found.velocity_x_px_s, 100, delta=0.03 / 0.04)
         self.assertAlmostEqual(found.wrench.force_N.x, 3 / math.pi * math.atan(0.01 * 200), delta=0.015)
         motion.restart()
@@ -196,7 +209,14 @@ class Pictures(unittest.TestCase):
         ):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 motion.analyze(picture, width, height, 0, stride)
-        for wrong in (lambda: motion.set_motion(9), lambda: motion.set_controller(9), lambda: motion.set_max_force(-1)):
+        for wrong in (
+            lambda: motion.set_motion(9),
+            lambda: motion.set_controller(9),
+            lambda: motion.set_max_force(-1),
+            lambda: motion.set_pointer(math.nan, 0),
+            lambda: motion.set_gains(-1, 0),
+            lambda: motion.set_alpha(-1),
+        ):
             self.assertRaises(ValueError, wrong)
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The interface of libgst-spidar, linked in the same way as by other programs.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -15,7 +16,6 @@
 #include <vector>
 
 #include <gst-spidar/device.h>
-#include <gst-spidar/motion.h>
 #include <gtest/gtest.h>
 
 namespace gst_spidar {
@@ -28,16 +28,14 @@ static_assert(sizeof(Vector3) == 3 * sizeof(double));
 static_assert(sizeof(Quaternion) == 4 * sizeof(double));
 static_assert(sizeof(Wrench) == 2 * sizeof(Vector3));
 static_assert(sizeof(Pose) == sizeof(Vector3) + sizeof(Quaternion));
-static_assert(sizeof(MotionResult) == sizeof(Wrench) + 5 * sizeof(double));
 static_assert(sizeof(GreyPicture) == 2 * sizeof(void*) + 2 * sizeof(int));
 static_assert(sizeof(GripState) == sizeof(Pose) + 2 * sizeof(Vector3) + sizeof(double));
-static_assert(sizeof(Capabilities) == 4 * sizeof(double));
-static_assert(sizeof(Device) == sizeof(void*) && sizeof(MotionToWrench) == sizeof(void*));
+static_assert(sizeof(Capabilities) == 7 * sizeof(double));
+static_assert(sizeof(Surface) == sizeof(GreyPicture) + 4 * sizeof(double));
+static_assert(sizeof(Device) == sizeof(void*));
 static_assert(std::is_nothrow_move_constructible_v<Device> &&
               !std::is_copy_constructible_v<Device>);
 static_assert(static_cast<int>(DeviceState::kLost) == 3);
-static_assert(static_cast<int>(Controller::kAdaptive) == 2);
-static_assert(static_cast<int>(FeltMotion::kCamera) == 2);
 
 /// Events that take milliseconds; the limit is generous for a busy machine.
 bool comes_true(const std::function<bool()>& what) {
@@ -181,6 +179,69 @@ TEST(Device, ACallbackIsFelt) {
   EXPECT_EQ(device.callback_error(), "");
 }
 
+/// A picture of 64 × 64 pixels that changes in columns 28 to 44, which is a bit to the right.
+class Relief {
+ public:
+  Relief(int left, int right) {
+    for (int i = 0; i < kSide * kSide; ++i)
+      pixels_[static_cast<size_t>(i)] =
+          static_cast<uint8_t>(left + (right - left) * std::clamp(i % kSide - 28, 0, 16) / 16);
+    surface.picture = {pixels_.data(), kSide, kSide, kSide};
+  }
+  Surface surface;
+
+ private:
+  static constexpr int kSide = 64;
+  std::vector<uint8_t> pixels_ = std::vector<uint8_t>(size_t{kSide} * kSide);
+};
+
+TEST(Device, ASurfaceIsTouched) {
+  Device device("sim");
+  ASSERT_TRUE(device.wait_until_running(30s));
+  // 4 mm in front of the hand, which is at the centre and yields by 1 N / 300 N/m: with 200 N/m,
+  // 0.48 N hold it 1.6 mm further out. Strings at rest pull it back by 8 · 0.3 N / 0.1 m at most.
+  const Relief wall(255, 255);
+  ASSERT_TRUE(device.set_surface(wall.surface));
+  EXPECT_TRUE(comes_true([&] { return device.felt().force_N.z > 0.4; }));
+  EXPECT_TRUE(comes_true([&] { return device.pose()->position_m.z > 0.0012; }));
+  EXPECT_LT(device.felt().force_N.z, 0.004 * 200);
+  device.clear_surface();
+  EXPECT_TRUE(comes_true([&] { return std::abs(device.felt().force_N.z) < 0.05; }));
+  // The slope of a hill pushes to its foot. At the centre, this one is 7.5 mm above the hand.
+  Relief hill(255, 0);
+  hill.surface.relief_m = 0.03;
+  hill.surface.friction = 0;
+  ASSERT_TRUE(device.set_surface(hill.surface));
+  EXPECT_TRUE(comes_true([&] { return device.felt().force_N.x > 0.1; }));
+  // As many as there may be; the loop takes the newest.
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(device.set_surface(wall.surface));
+  EXPECT_TRUE(comes_true([&] { return std::abs(device.felt().force_N.x) < 0.05; }));
+}
+
+TEST(Device, ASurfaceThatIsWrongIsNamed) {
+  Device device("sim");
+  const auto message = [&](const std::function<void(Surface&)>& change) {
+    Relief relief(0, 255);
+    change(relief.surface);
+    return message_of([&] { device.set_surface(relief.surface); });
+  };
+  EXPECT_EQ(message([](Surface&) {}), "");
+  EXPECT_EQ(message([](Surface& s) { s.stiffness_N_m = 801; }),
+            "the stiffness of a surface must be at most 800 N/m on this device, got 801");
+  EXPECT_EQ(message([](Surface& s) { s.relief_m = 0.04; }),
+            "the height of a relief must be at most 0.03 m on this device, got 0.04");
+  EXPECT_NE(message([](Surface& s) { s.friction = -1; }), "");
+  EXPECT_NE(message([](Surface& s) { s.texture = std::nan(""); }), "");
+  EXPECT_NE(message([](Surface& s) { s.stiffness_N_m = 0; }), "");
+  EXPECT_NE(message([](Surface& s) { s.picture.data = nullptr; }), "");
+  EXPECT_NE(message([](Surface& s) { s.picture.height = 15; }), "");
+  Device stick("sim:ff");
+  EXPECT_EQ(stick.capabilities().surface_width_m, 0);
+  const Relief relief(0, 255);
+  EXPECT_NE(message_of([&] { stick.set_surface(relief.surface); }).find("has no surfaces"),
+            std::string::npos);
+}
+
 TEST(Device, WaitingEndsWhenTheTimeIsOver) {
   const Device device("sim");
   EXPECT_FALSE(device.wait_until_running(0ms));
@@ -193,6 +254,9 @@ TEST(Device, WhatItCanDoIsKnown) {
   // Those of WhatIsWrongIsNamed; stiffness as far as it was measured at a lag of 2 ms.
   EXPECT_DOUBLE_EQ(whole.largest_force_N, 7.2);
   EXPECT_DOUBLE_EQ(whole.largest_stiffness_N_m, 800);
+  EXPECT_GE(whole.largest_torque_Nm, 0.1);
+  EXPECT_GT(whole.surface_width_m, 0);
+  EXPECT_GT(whole.surface_height_m, 0);
   EXPECT_EQ(whole.rate_Hz, 1000);
   const Capabilities stick = Device("sim:ff").capabilities();
   EXPECT_TRUE(stick.force_x && stick.force_y && stick.direction);
@@ -220,8 +284,13 @@ TEST(Device, WhatIsWrongIsNamed) {
   // Eight strings of 4.2 N on spidar-gcc give 7.29 N in the weakest direction.
   EXPECT_NO_THROW(device.set_limits(7.2, 0.1));
   EXPECT_EQ(message_of([&] { device.set_limits(7.3, 0.1); }),
-            "the largest force must be 7.2 N at most, which spidar-gcc can give in every "
-            "direction, got 7.3");
+            "the largest force must be 0 to 7.2 N, which spidar-gcc can give in every direction, "
+            "got 7.3");
+  EXPECT_THROW(device.set_limits(1e9, 0.1), std::invalid_argument);
+  const double most_Nm = device.capabilities().largest_torque_Nm;
+  EXPECT_NO_THROW(device.set_limits(3, most_Nm));
+  EXPECT_NE(message_of([&] { device.set_limits(3, most_Nm + 0.001); }).find("the largest torque"),
+            std::string::npos);
   EXPECT_THROW(device.set_limits(1, std::numeric_limits<double>::infinity()),
                std::invalid_argument);
 }
@@ -231,83 +300,6 @@ TEST(Device, NamesAreListed) {
   for (const std::string& name : list_devices()) has_sim |= name == "sim";
   EXPECT_TRUE(has_sim);
   for (const std::string& name : list_profiles()) EXPECT_NO_THROW(Device("sim", name)) << name;
-}
-
-/// Spots of 4 × 4 pixels that move by whole pixels.
-class MovingPicture {
- public:
-  GreyPicture at(int shift) {
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
-        // Not negative before the division, which would round towards zero.
-        const unsigned spot = static_cast<unsigned>((x - shift + kSide) / 4 * 73 + y / 4 * 151);
-        pixels_[static_cast<size_t>(y * kSide + x)] =
-            static_cast<uint8_t>((spot * 2654435761u) >> 24);
-      }
-    }
-    return {pixels_.data(), kSide, kSide, kSide};
-  }
-
- private:
-  static constexpr int kSide = 240;
-  std::vector<uint8_t> pixels_ = std::vector<uint8_t>(size_t{kSide} * kSide);
-};
-
-MotionResult after_ten(MotionToWrench& motion) {
-  MovingPicture picture;
-  MotionResult found;
-  for (int i = 0; i < 10; ++i) found = motion.analyze(picture.at(4 * i), 40ms * i);
-  return found;
-}
-
-TEST(MotionToWrench, ThePictureMovesToTheRightAndSoDoesTheHand) {
-  MotionToWrench motion;
-  motion.set_motion(FeltMotion::kMean);
-  const MotionResult found = after_ten(motion);
-  EXPECT_TRUE(found.has_picture_before);
-  // 4 px in 40 ms; a mean displacement is right to 0.03 px (the tracker's test).
-  EXPECT_NEAR(found.velocity_x_px_s, 100, 0.03 / 0.04);
-  EXPECT_NEAR(found.velocity_y_px_s, 0, 0.03 / 0.04);
-  // Equation 15 of the paper with α = 0.01 s/px for a picture of 480 lines, which has twice as
-  // many.
-  const double expected_N = 2 * 3 / M_PI * std::atan(0.01 * 200);
-  EXPECT_NEAR(found.wrench.force_N.x, expected_N, 2 * 3 / M_PI * 0.01 * 2 * 0.03 / 0.04);
-}
-
-TEST(MotionToWrench, SettingsAreThoseOfTheElement) {
-  MotionToWrench motion;
-  motion.set_motion(FeltMotion::kMean);
-  const double before_N = after_ten(motion).wrench.force_N.x;
-  motion.restart();
-  motion.set_max_force(1.5);  // half the default
-  EXPECT_NEAR(after_ten(motion).wrench.force_N.x, before_N / 2, 1e-9);
-  motion.restart();
-  motion.set_controller(Controller::kLinear);  // the largest speed is the largest force
-  EXPECT_GT(after_ten(motion).wrench.force_N.x, 1.4);
-}
-
-TEST(MotionToWrench, AfterARestartThereIsNothingToCompareWith) {
-  MotionToWrench motion;
-  motion.set_motion(FeltMotion::kMean);
-  after_ten(motion);
-  motion.restart();
-  MovingPicture picture;
-  const MotionResult found = motion.analyze(picture.at(40), 400ms);
-  EXPECT_FALSE(found.has_picture_before);
-  EXPECT_EQ(found.velocity_x_px_s, 0);
-  EXPECT_EQ(found.wrench.force_N.x, 0);
-}
-
-TEST(MotionToWrench, WhatIsWrongIsNamed) {
-  MotionToWrench motion;
-  MovingPicture picture;
-  const GreyPicture good = picture.at(0);
-  EXPECT_THROW(motion.analyze({}, 0ms), std::invalid_argument);
-  EXPECT_THROW(motion.analyze({good.data, 8, 8, 8}, 0ms), std::invalid_argument);
-  EXPECT_THROW(motion.analyze({good.data, good.width, good.height, good.width - 1}, 0ms),
-               std::invalid_argument);
-  EXPECT_THROW(motion.set_max_force(-1), std::invalid_argument);
-  EXPECT_NO_THROW(motion.analyze(good, 0ms));
 }
 
 }  // namespace

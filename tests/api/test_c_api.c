@@ -104,6 +104,8 @@ static void a_device_tells_what_it_does(const GstSpidarDevice* device) {
   gst_spidar_device_capabilities(device, &can);
   REQUIRE(can.force_x && can.force_y && can.force_z && can.torque && can.direction);
   REQUIRE(can.largest_force_N == 7.2 && can.largest_stiffness_N_m == 800 && can.rate_Hz == 1000);
+  REQUIRE(can.largest_torque_Nm >= 0.1 && can.largest_torque_Nm < 1);
+  REQUIRE(can.surface_width_m > 0.05 && can.surface_height_m > 0.05 && can.surface_width_m < 1);
 }
 
 static void limits_are_those_of_the_device(GstSpidarDevice* device) {
@@ -111,9 +113,26 @@ static void limits_are_those_of_the_device(GstSpidarDevice* device) {
   GstSpidarError error;
   REQUIRE(gst_spidar_device_set_limits(device, 7.2, 0.1, NULL));
   REQUIRE(!gst_spidar_device_set_limits(device, 1e9, 0.1, &error));
-  REQUIRE(error.kind == GST_SPIDAR_ERROR_ARGUMENT && strstr(error.message, "7.2 N at most"));
+  REQUIRE(error.kind == GST_SPIDAR_ERROR_ARGUMENT &&
+          strstr(error.message, "0 to 7.2 N, which spidar-gcc can give"));
   REQUIRE(!gst_spidar_device_push(device, &nan_wrench, &error));
   REQUIRE(error.kind == GST_SPIDAR_ERROR_ARGUMENT && strstr(error.message, "six finite numbers"));
+}
+
+static void a_surface_is_touched(GstSpidarDevice* device) {
+  uint8_t white[16 * 17];
+  GstSpidarSurface surface = {{white, 16, 16, 17}, 0.008, 200, 0.3, 0};
+  GstSpidarWrench felt = {{0, 0, 0}, {0, 0, 0}};
+  GstSpidarError error;
+  memset(white, 255, sizeof white);
+  REQUIRE(gst_spidar_device_set_surface(device, &surface, &error));
+  /* 4 mm in front of the hand: 200 N/m against its 300 N/m give 0.48 N. */
+  COMES_TRUE((gst_spidar_device_felt(device, &felt), felt.force_N.z > 0.3));
+  gst_spidar_device_clear_surface(device);
+  COMES_TRUE((gst_spidar_device_felt(device, &felt), fabs(felt.force_N.z) < 0.05));
+  surface.texture = -1;
+  REQUIRE(!gst_spidar_device_set_surface(device, &surface, &error));
+  REQUIRE(error.kind == GST_SPIDAR_ERROR_ARGUMENT && strstr(error.message, "texture"));
 }
 
 /* What a callback was told and is to say. */
@@ -183,7 +202,7 @@ static void pictures_become_a_wrench(void) {
     REQUIRE(gst_spidar_motion_analyze(motion, &picture, 40000000 * (int64_t)i, &found, &error));
     REQUIRE(found.has_picture_before == (i > 0));
   }
-  /* As in test_api.cpp: 4 px in 40 ms, right to 0.03 px, in a picture of half of 480 lines. */
+  /* As in test_motion.cpp: 4 px in 40 ms, right to 0.03 px, in a picture of half of 480 lines. */
   REQUIRE(fabs(found.velocity_x_px_s - 100) < 0.03 / 0.04);
   REQUIRE(fabs(found.velocity_y_px_s) < 0.03 / 0.04);
   REQUIRE(fabs(found.growth_1_s) < 0.1 && fabs(found.roll_rad_s) < 0.1);
@@ -194,6 +213,13 @@ static void pictures_become_a_wrench(void) {
   REQUIRE(!gst_spidar_motion_set_motion(motion, (GstSpidarFeltMotion)9, &error));
   REQUIRE(!gst_spidar_motion_set_controller(motion, (GstSpidarController)9, &error));
   REQUIRE(!gst_spidar_motion_set_max_force(motion, -1, &error));
+  REQUIRE(gst_spidar_motion_set_motion(motion, GST_SPIDAR_OBJECTS, &error));
+  REQUIRE(gst_spidar_motion_set_pointer(motion, 0.25, 0.75, &error));
+  REQUIRE(!gst_spidar_motion_set_pointer(motion, nan(""), 0, &error));
+  REQUIRE(gst_spidar_motion_set_gains(motion, 0, 2, &error));
+  REQUIRE(!gst_spidar_motion_set_gains(motion, 1, -1, &error) && strstr(error.message, "roll"));
+  REQUIRE(gst_spidar_motion_set_alpha(motion, 0.02, &error));
+  REQUIRE(!gst_spidar_motion_set_alpha(motion, -1, &error) && strstr(error.message, "alpha"));
   picture.stride = 239;
   REQUIRE(!gst_spidar_motion_analyze(motion, &picture, 440000000, &found, &error));
   REQUIRE(error.kind == GST_SPIDAR_ERROR_ARGUMENT && strstr(error.message, "stride 239"));
@@ -211,6 +237,7 @@ int main(void) {
   a_device_tells_what_it_does(device);
   a_push_is_felt(device);
   limits_are_those_of_the_device(device);
+  a_surface_is_touched(device);
   a_callback_is_felt(device);
   gst_spidar_device_close(device);
   gst_spidar_device_close(NULL);

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The surface that an application lets the grip touch.
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+#include <gst-spidar/device.h>
+
+#include "core/touch/relief.h"
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/touch/touch_mailbox.h"
+
+namespace gst_spidar {
+inline namespace v0 {
+
+/// Where a surface lies, and how stiff it may be.
+struct SurfaceRange {
+  Eigen::Vector2d half_size_m = Eigen::Vector2d::Zero();  ///< 0: nothing can be touched
+  double most_stiffness_N_m = 0;
+  double drive_lag_s = 0;
+};
+
+/// One thread at a time. To be destroyed after the loop.
+class TouchedSurface {
+ public:
+  /// See Device::set_surface(). The same range and loop each time.
+  bool set(const Surface& surface, const SurfaceRange& range, spidar::HapticLoop& loop);
+  void clear() noexcept;
+
+ private:
+  spidar::TouchFrame* free_slot() noexcept;
+
+  spidar::ReliefBuilder builder_;
+  std::unique_ptr<spidar::TouchMailbox> mailbox_;  ///< null before the first surface
+};
+
+}  // namespace v0
+}  // namespace gst_spidar
