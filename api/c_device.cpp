@@ -142,6 +142,10 @@ bool gst_spidar_device_velocity(const GstSpidarDevice* device, GstSpidarVector3*
   return gst_spidar::found(device->device.velocity(), velocity_m_s);
 }
 
+uint32_t gst_spidar_device_buttons(const GstSpidarDevice* device) {
+  return device->device.buttons();
+}
+
 bool gst_spidar_device_held(const GstSpidarDevice* device) {
   return device->device.held();
 }

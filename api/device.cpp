@@ -124,6 +124,7 @@ void Device::set_callback(Callback callback, Energy energy) {
       state.velocity_m_s = to_api(input.velocity.linear_m_s);
       state.angular_velocity_rad_s = to_api(input.velocity.angular_rad_s);
       state.interval_s = input.dt_s;
+      state.buttons = input.buttons;
       return from_api(callback(state));
     };
   }
@@ -172,6 +173,11 @@ std::optional<Vector3> Device::velocity() const {
   if (snapshot.pose_trouble != spidar::PoseTrouble::kNone) return std::nullopt;
   const Eigen::Vector3d& velocity_m_s = snapshot.last.velocity.linear_m_s;
   return Vector3{velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z()};
+}
+
+std::uint32_t Device::buttons() const {
+  const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
+  return tick.device == spidar::DeviceState::kLost ? 0 : tick.buttons;
 }
 
 bool Device::held() const {
@@ -233,6 +239,7 @@ Capabilities Device::capabilities() const {
   found.rate_Hz = abilities.rate_Hz;
   found.surface_width_m = 2 * range.surface.half_size_m.x();
   found.surface_height_m = 2 * range.surface.half_size_m.y();
+  found.buttons = abilities.buttons;
   return found;
 }
 

@@ -12,7 +12,20 @@ import ctypes
 import itertools
 import time
 import weakref
-from ctypes import POINTER, byref, c_bool, c_char, c_char_p, c_double, c_int, c_int64, c_size_t, c_ssize_t, c_void_p
+from ctypes import (
+    POINTER,
+    byref,
+    c_bool,
+    c_char,
+    c_char_p,
+    c_double,
+    c_int,
+    c_int64,
+    c_size_t,
+    c_ssize_t,
+    c_uint32,
+    c_void_p,
+)
 from enum import IntEnum
 
 
@@ -48,12 +61,12 @@ class Capabilities(_Struct):
     _most = ("largest_force_N", "largest_torque_Nm", "largest_stiffness_N_m")
     _rest = ("rate_Hz", "surface_width_m", "surface_height_m")
     _can = [(name, c_bool) for name in ("force_x", "force_y", "force_z", "torque", "direction")]
-    _fields_ = [*_can, *((name, c_double) for name in _most + _rest)]
+    _fields_ = [*_can, *((name, c_double) for name in _most + _rest), ("buttons", c_int)]
 
 
 class GripState(_Struct):
     _speeds = [(name, Vector3) for name in ("velocity_m_s", "angular_velocity_rad_s")]
-    _fields_ = [("pose", Pose), *_speeds, ("interval_s", c_double)]
+    _fields_ = [("pose", Pose), *_speeds, ("interval_s", c_double), ("buttons", c_uint32)]
 
 
 class MotionResult(_Struct):
@@ -226,6 +239,10 @@ class Device(_Handle):
     def velocity(self):
         """In m/s, about 3 ms ago; None while the pose is not known."""
         return self._filled("device_velocity", Vector3())
+
+    def buttons(self):
+        """Those that are pressed: the lowest bit is the first button."""
+        return _call("device_buttons", c_uint32, self._handle)
 
     def held(self):
         """False when the force rests because nobody seems to hold the grip."""

@@ -88,6 +88,7 @@ typedef struct {
    * workspace, m; 0 when nothing can be touched. */
   double surface_width_m;
   double surface_height_m; /*!< see surface_width_m */
+  int buttons;             /*!< how many gst_spidar_device_buttons() tells, at most 32 */
 } GstSpidarCapabilities;
 
 /*! A grey picture: `height` rows of `width` bytes, 0 black and 255 white. The memory is the
@@ -115,6 +116,7 @@ typedef struct {
   GstSpidarVector3 velocity_m_s;           /*!< about 3 ms ago */
   GstSpidarVector3 angular_velocity_rad_s; /*!< about the axes of the device, about 3 ms ago */
   double interval_s;                       /*!< since the last tick */
+  uint32_t buttons;                        /*!< as gst_spidar_device_buttons() */
 } GstSpidarGripState;
 
 /*! How much energy a callback may give to the hand. */
@@ -195,6 +197,10 @@ GST_SPIDAR_API bool gst_spidar_device_pose(const GstSpidarDevice* device, GstSpi
  * the pose is not known. */
 GST_SPIDAR_API bool gst_spidar_device_velocity(const GstSpidarDevice* device,
                                                GstSpidarVector3* velocity_m_s);
+
+/*! The buttons that are pressed: the lowest bit is the first button, in the order of the kernel's
+ * joystick driver. None of a device without buttons, nor while it is lost. */
+GST_SPIDAR_API uint32_t gst_spidar_device_buttons(const GstSpidarDevice* device);
 
 /*! False when the force rests, or is returning, because nobody seems to hold the grip. */
 GST_SPIDAR_API bool gst_spidar_device_held(const GstSpidarDevice* device);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -44,6 +45,7 @@ struct Capabilities {
   /// nothing can be touched.
   double surface_width_m = 0;
   double surface_height_m = 0;  ///< see surface_width_m
+  int buttons = 0;              ///< how many Device::buttons() tells, at most 32
 };
 
 /// A relief that the grip touches from the front: the element's property `touch`.
@@ -66,6 +68,7 @@ struct GripState {
   Vector3 velocity_m_s;            ///< about 3 ms ago
   Vector3 angular_velocity_rad_s;  ///< about the axes of the device, about 3 ms ago
   double interval_s = 0;           ///< since the last tick
+  std::uint32_t buttons = 0;       ///< as Device::buttons()
 };
 
 /// How much energy a callback may give to the hand.
@@ -152,6 +155,10 @@ class GST_SPIDAR_API Device {
   /// Where the grip is. Nothing while that is not known: just after opening, and while the readings
   /// of the device do not fit together.
   std::optional<Pose> pose() const;
+
+  /// The buttons that are pressed: the lowest bit is the first button, in the order of the kernel's
+  /// joystick driver. None of a device without buttons, nor while it is lost.
+  std::uint32_t buttons() const;
 
   /// How fast the grip moves, m/s, about 3 ms ago. Nothing while pose() is not known.
   std::optional<Vector3> velocity() const;

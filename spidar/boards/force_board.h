@@ -3,6 +3,8 @@
 /// Interface of a type of device that takes a force itself, without strings.
 #pragma once
 
+#include <cstdint>
+
 #include <Eigen/Core>
 
 #include "spidar/boards/board.h"
@@ -26,6 +28,7 @@ inline ForceOutput scaled(ForceOutput output, double share) noexcept {
 
 struct ForceReading {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the grip, device frame
+  uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
 };
 
 /// Shortens a force that it cannot give, and gives none for one that is not a number.

@@ -21,6 +21,7 @@ LinkFault ForceFeedbackBoard::cycle(const ForceOutput& output, ForceReading& rea
   const LinkFault fault = effects_->cycle(output.force_N.head<2>(), pulls(output));
   if (fault != LinkFault::kNone) return fault;
   reading.position_m.head<2>() = reach_m_.cwiseProduct(effects_->place());
+  reading.buttons = effects_->buttons();
   return LinkFault::kNone;
 }
 
@@ -30,6 +31,7 @@ void ForceFeedbackBoard::open() {
   const ff::Description& found = effects_->description();
   force_axes_ = effects_->effects() > 1 ? 2 : found.constant;
   position_axes_ = found.axes;
+  buttons_ = found.buttons;
 }
 
 GripAbilities ForceFeedbackBoard::abilities() const noexcept {
@@ -39,7 +41,8 @@ GripAbilities ForceFeedbackBoard::abilities() const noexcept {
           force != 0,
           {position > 0, position > 1, false},
           ff::kFullForce_N,
-          1000 / kUpdate_ms};
+          1000 / kUpdate_ms,
+          buttons_};
 }
 
 std::string ForceFeedbackBoard::description() const {

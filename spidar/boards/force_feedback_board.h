@@ -47,6 +47,7 @@ class ForceFeedbackBoard final : public ForceBoard {
   const std::shared_ptr<StickEffects> effects_;
   std::atomic<int> force_axes_{2};     ///< 1: only x; 0: it only rumbles
   std::atomic<int> position_axes_{2};  ///< 1: only x
+  std::atomic<int> buttons_{0};
   bool reopening_ = false;
 };
 

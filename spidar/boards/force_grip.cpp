@@ -52,6 +52,7 @@ ExchangeStatus ForceGrip::exchange(const GripCommand& command) noexcept {
 }
 
 void ForceGrip::see(const ForceReading& answer, const GripCommand& command) noexcept {
+  reading_.buttons = answer.buttons;
   if (answer.position_m.allFinite()) {
     reading_.pose.position_m = answer.position_m;
     trust_.locate(command.now_ns);

@@ -69,6 +69,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   LinkFault cycle(const Eigen::Vector2d& force_N, bool pulls) noexcept;
   /// Position of the stick, −1 … 1, as of the last cycle().
   const Eigen::Vector2d& place() const noexcept { return place_.share(); }
+  uint32_t buttons() const noexcept { return place_.buttons(); }
 
   std::vector<LastWill> last_wills() const;
   /// Of the device that is open.

@@ -51,6 +51,8 @@ class StickPlace {
 
   /// Right and up, −1 … 1, as of the last advance().
   const Eigen::Vector2d& share() const noexcept { return shown_; }
+  /// See ff::Position, as of the last advance().
+  uint32_t buttons() const noexcept { return aim_.position.buttons; }
 
  private:
   struct Aim {

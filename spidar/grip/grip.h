@@ -46,8 +46,9 @@ struct GripReading {
   StringVector tension_N = StringVector::Zero();  ///< told; zero for a grip without strings
   bool held_back = false;  ///< less than was wanted: a string is left out or a motor is warm
 
-  Pose pose;          ///< from the newest good reading
-  GripMotion motion;  ///< of these poses; at rest while the pose is not known
+  Pose pose;             ///< from the newest good reading
+  GripMotion motion;     ///< of these poses; at rest while the pose is not known
+  uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
   PoseTrouble trouble = PoseTrouble::kNotYet;
   double pose_residual_m = 0;
   int faulty_string = -1;      ///< whose length fits no pose that the others allow; −1 if all fit

@@ -16,6 +16,7 @@ struct GripAbilities {
   std::array<bool, 3> position{true, true, true};  ///< axes in which it is measured
   double largest_force_N = 0;                      ///< in every direction that is felt
   int rate_Hz = 1000;                              ///< forces a second, at most
+  int buttons = 0;                                 ///< at most 32
 };
 
 }  // namespace spidar

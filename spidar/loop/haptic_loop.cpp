@@ -126,6 +126,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   record.pose = grip.pose;
   record.pose_residual_m = grip.pose_residual_m;
   record.velocity = grip.motion.velocity();
+  record.buttons = grip.buttons;
   record.faulty_string = grip.faulty_string;
   publish(record);
 }
@@ -173,7 +174,8 @@ void HapticLoop::ask_callback(TickRecord& record, double dt_s) noexcept {
   const Eigen::Vector3d beside_N =
       finite ? record.wanted.force_N : Eigen::Vector3d(Eigen::Vector3d::Zero());
   record.wanted =
-      record.wanted + callback_.call({grip.pose, grip.motion.velocity(), dt_s}, beside_N, limits_);
+      record.wanted +
+      callback_.call({grip.pose, grip.motion.velocity(), dt_s, grip.buttons}, beside_N, limits_);
   record.called_back = true;
 }
 

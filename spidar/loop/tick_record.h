@@ -83,6 +83,7 @@ struct TickRecord {
   Pose pose;                                      ///< from the newest good reading
   double pose_residual_m = 0;
   GripVelocity velocity;   ///< GripMotion::kLag_s behind `pose`; zero while that is not trusted
+  uint32_t buttons = 0;    ///< as GripReading::buttons
   bool held = true;        ///< false: nobody holds the grip, and the wrench is at rest or returning
   int faulty_string = -1;  ///< whose length fits no pose that the others allow; −1 if all fit
   DeviceState device = DeviceState::kClosed;

@@ -43,16 +43,18 @@ struct Description {
   uint8_t autocentre = 0;  ///< FF_AUTOCENTER
   uint8_t effects = 0;     ///< how many effects it holds at once, at most 255
   uint8_t axes = 0;        ///< of its position: 0, 1 (a wheel) or 2
+  uint8_t buttons = 0;     ///< how many of them a position has, at most 32
   /// The driver turns autocentre on when the device is plugged in; other drivers turn it off.
   uint8_t starts_centred = 0;
   std::array<char, 80> name{};
 };
 
-/// Position of the stick: the answer to encode_position(). Plain bytes.
+/// Position of the stick and its buttons: the answer to encode_position(). Plain bytes.
 struct Position {
   static constexpr int kFull = 10'000;
   int16_t right = 0;  ///< −kFull … kFull; 0 without that axis
   int16_t up = 0;
+  uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
 };
 
 constexpr size_t kDescribeSize = 1;

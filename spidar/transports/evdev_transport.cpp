@@ -29,6 +29,9 @@ namespace {
 /// zero, the others leave it alone. Linux provides no way to read it.
 constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
 
+/// As many as ff::Position holds.
+constexpr size_t kMostButtons = 32;
+
 LinkFault fault_of_input(int error) noexcept {
   switch (error) {
     case ENODEV:
@@ -107,11 +110,24 @@ void EvdevTransport::open() {
   const std::string driver = evdev_driver(path);
   starts_centred_ =
       std::find(kCentringDrivers.begin(), kCentringDrivers.end(), driver) != kCentringDrivers.end();
-  find_axes(path);
+  const EvdevTraits traits = evdev_traits(file_);
+  find_buttons(traits);
+  find_axes(path, traits);
 }
 
-void EvdevTransport::find_axes(const std::string& path) {
-  const EvdevTraits traits = evdev_traits(file_);
+/// In the order of the kernel's joystick driver (joydev_connect() in drivers/input/joydev.c), by
+/// which programs number them: those of joysticks and gamepads, then all others.
+void EvdevTransport::find_buttons(const EvdevTraits& traits) {
+  buttons_.clear();
+  const auto add = [&](unsigned begin, unsigned end) {
+    for (unsigned code = begin; code < end && buttons_.size() < kMostButtons; ++code)
+      if (has(traits.keys, code)) buttons_.push_back(static_cast<uint16_t>(code));
+  };
+  add(BTN_JOYSTICK, KEY_CNT);
+  add(BTN_MISC, BTN_JOYSTICK);
+}
+
+void EvdevTransport::find_axes(const std::string& path, const EvdevTraits& traits) {
   right_axis_ = has(traits.axes, ABS_X) ? ABS_X : has(traits.axes, ABS_WHEEL) ? ABS_WHEEL : -1;
   const bool two = axes_ == 0 ? !is_wheel(traits) : axes_ == 2;
   up_axis_ = has(traits.axes, ABS_Y) && two ? ABS_Y : -1;
@@ -133,6 +149,7 @@ ff::Description EvdevTransport::describe() const noexcept {
   call_ioctl(file_, EVIOCGEFFECTS, &effects);
   description.effects = static_cast<uint8_t>(std::clamp(effects, 0, 255));
   description.axes = static_cast<uint8_t>((right_axis_ >= 0) + (up_axis_ >= 0));
+  description.buttons = static_cast<uint8_t>(buttons_.size());
   call_ioctl(file_, EVIOCGNAME(description.name.size() - 1), description.name.data());
   return description;
 }
@@ -144,6 +161,15 @@ bool EvdevTransport::read_position(ff::Position& position) const noexcept {
   if (right_axis_ >= 0 && !place_on(file_, right_axis_, position.right)) return false;
   if (up_axis_ >= 0 && !place_on(file_, up_axis_, position.up)) return false;
   position.up = static_cast<int16_t>(-position.up);  // y of a stick points down
+  return read_buttons(position);
+}
+
+bool EvdevTransport::read_buttons(ff::Position& position) const noexcept {
+  BitSet<KEY_CNT> pressed{};
+  if (buttons_.empty()) return true;
+  if (call_ioctl(file_, EVIOCGKEY(sizeof pressed), pressed.data()) < 0) return false;
+  for (size_t i = 0; i < buttons_.size(); ++i)
+    if (has(pressed, buttons_[i])) position.buttons |= uint32_t{1} << i;
   return true;
 }
 

@@ -3,10 +3,13 @@
 /// Access to force-feedback devices of Linux through evdev.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/transports/transport.h"
+#include "spidar/transports/wheel.h"
 
 namespace spidar {
 
@@ -31,10 +34,12 @@ class EvdevTransport final : public Transport {
 
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& what);
-  void find_axes(const std::string& path);
+  void find_axes(const std::string& path, const EvdevTraits& traits);
+  void find_buttons(const EvdevTraits& traits);
   LinkFault send(ByteView packet, MutableBytes reply, size_t& received) noexcept;
   ff::Description describe() const noexcept;
   bool read_position(ff::Position& position) const noexcept;
+  bool read_buttons(ff::Position& position) const noexcept;
 
   const std::string name_;
   const std::string path_;
@@ -43,6 +48,7 @@ class EvdevTransport final : public Transport {
   bool starts_centred_ = false;
   int right_axis_ = -1;  ///< ABS_…; −1: none
   int up_axis_ = -1;
+  std::vector<uint16_t> buttons_;  ///< BTN_…, in the order in which they are counted
 };
 
 }  // namespace spidar

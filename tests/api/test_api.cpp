@@ -29,8 +29,8 @@ static_assert(sizeof(Quaternion) == 4 * sizeof(double));
 static_assert(sizeof(Wrench) == 2 * sizeof(Vector3));
 static_assert(sizeof(Pose) == sizeof(Vector3) + sizeof(Quaternion));
 static_assert(sizeof(GreyPicture) == 2 * sizeof(void*) + 2 * sizeof(int));
-static_assert(sizeof(GripState) == sizeof(Pose) + 2 * sizeof(Vector3) + sizeof(double));
-static_assert(sizeof(Capabilities) == 7 * sizeof(double));
+static_assert(sizeof(GripState) == sizeof(Pose) + 2 * sizeof(Vector3) + 2 * sizeof(double));
+static_assert(sizeof(Capabilities) == 8 * sizeof(double));
 static_assert(sizeof(Surface) == sizeof(GreyPicture) + 4 * sizeof(double));
 static_assert(sizeof(Device) == sizeof(void*));
 static_assert(std::is_nothrow_move_constructible_v<Device> &&

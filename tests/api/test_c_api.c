@@ -22,7 +22,7 @@ static _Noreturn void fail(int line, const char* what) {
 _Static_assert(sizeof(GstSpidarError) == 1024, "size");
 _Static_assert(sizeof(GstSpidarWrench) == 6 * sizeof(double), "size");
 _Static_assert(sizeof(GstSpidarPose) == 7 * sizeof(double), "size");
-_Static_assert(sizeof(GstSpidarGripState) == 14 * sizeof(double), "size");
+_Static_assert(sizeof(GstSpidarGripState) == 15 * sizeof(double), "size");
 
 /* Events take milliseconds; the limit is generous for a busy machine. */
 #define COMES_TRUE(what)                                         \
@@ -99,6 +99,7 @@ static void a_device_tells_what_it_does(const GstSpidarDevice* device) {
   REQUIRE(fabs(pose.orientation.w - 1) < 0.01);
   REQUIRE(gst_spidar_device_velocity(device, &velocity_m_s) && fabs(velocity_m_s.z) < 0.5);
   REQUIRE(gst_spidar_device_held(device));
+  REQUIRE(gst_spidar_device_buttons(device) == 0);
   REQUIRE(gst_spidar_device_vibration_share(device) == 1);
   REQUIRE(gst_spidar_device_last_fault(device, text, sizeof text) == 0 && text[0] == '\0');
   gst_spidar_device_capabilities(device, &can);
@@ -106,6 +107,7 @@ static void a_device_tells_what_it_does(const GstSpidarDevice* device) {
   REQUIRE(can.largest_force_N == 7.2 && can.largest_stiffness_N_m == 800 && can.rate_Hz == 1000);
   REQUIRE(can.largest_torque_Nm >= 0.1 && can.largest_torque_Nm < 1);
   REQUIRE(can.surface_width_m > 0.05 && can.surface_height_m > 0.05 && can.surface_width_m < 1);
+  REQUIRE(can.buttons == 0);
 }
 
 static void limits_are_those_of_the_device(GstSpidarDevice* device) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <linux/input.h>
 #include <sys/ioctl.h>
+#include <vector>
 
 #include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/evdev_kinds.h"
@@ -18,6 +19,14 @@ namespace {
 void erase_effect(EvdevPort::Effect& effect) {
   effect.plays = effect.used = false;
   effect.right = effect.up = effect.rumble = 0;
+}
+
+std::vector<unsigned> pressed(const EvdevPort& port) {
+  std::vector<unsigned> codes;
+  const std::vector<unsigned> keys = key_bits(port.kind);
+  for (size_t i = 0; i < keys.size(); ++i)
+    if (port.pressed >> i & 1) codes.push_back(keys[i]);
+  return codes;
 }
 
 }  // namespace
@@ -32,6 +41,7 @@ void reset(EvdevPort& port) {
   port.shortest_ns = 0;
   for (auto& axis : port.axis) axis = 0;
   port.axis_end = 1000;
+  port.pressed = 0;
   port.gain = port.autocentre = 0;
   port.upload_ms = port.upload_error = port.interruptions = 0;
   port.query_error = port.event_error = port.setting_error = 0;
@@ -140,7 +150,9 @@ int EvdevDriver::query(unsigned long request, void* argument) {
   if (number == _IOC_NR(EVIOCGBIT(EV_FF, 0))) return put_bits(ff_bits(port_.kind), argument, size);
   if (number == _IOC_NR(EVIOCGBIT(EV_ABS, 0)))
     return put_bits(abs_bits(port_.kind), argument, size);
-  if (number == _IOC_NR(EVIOCGBIT(EV_KEY, 0))) return put_bits({}, argument, size);
+  if (number == _IOC_NR(EVIOCGBIT(EV_KEY, 0)))
+    return put_bits(key_bits(port_.kind), argument, size);
+  if (number == _IOC_NR(EVIOCGKEY(0))) return put_bits(pressed(port_), argument, size);
   if (number >= _IOC_NR(EVIOCGABS(0))) {
     const size_t axis = number - _IOC_NR(EVIOCGABS(0));
     if (axis >= port_.axis.size()) return -EINVAL;

@@ -41,6 +41,11 @@ std::vector<unsigned> abs_bits(EvdevKind kind) {
   return {ABS_X, ABS_Y};
 }
 
+std::vector<unsigned> key_bits(EvdevKind kind) {
+  if (kind == EvdevKind::kStick) return {BTN_0, BTN_TRIGGER, BTN_THUMB};
+  return {};
+}
+
 const char* name_of(EvdevKind kind) {
   switch (kind) {
     case EvdevKind::kStick:

@@ -18,6 +18,8 @@ bool is_constant(EvdevKind kind);
 /// Codes of EV_FF and of EV_ABS that the device has.
 std::vector<unsigned> ff_bits(EvdevKind kind);
 std::vector<unsigned> abs_bits(EvdevKind kind);
+/// Buttons, of EV_KEY.
+std::vector<unsigned> key_bits(EvdevKind kind);
 
 const char* name_of(EvdevKind kind);
 

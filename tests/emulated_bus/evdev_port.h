@@ -42,7 +42,8 @@ struct EvdevPort {
   std::atomic<uint64_t> inode{0};  ///< of its file; a new one each time it is plugged in
   /// Position of the stick, −1000 … 1000: to the right, and towards the user, like ABS_X and ABS_Y.
   std::array<std::atomic<int>, 2> axis{};
-  std::atomic<int> axis_end{0};  ///< largest value that the axes announce; 1000 when plugged in
+  std::atomic<int> axis_end{0};      ///< largest value that the axes announce; 1000 when plugged in
+  std::atomic<uint32_t> pressed{0};  ///< buttons: bits in the order of key_bits()
   std::array<Effect, 4> effect{};
   /// Effects end after their length, as in the kernel. Off when plugged in, because on a busy
   /// machine a test may not start them again in time.

@@ -107,6 +107,17 @@ TEST_F(ForceFeedback, PadsGetTheStrengthOfTheForce) {
   });
 }
 
+TEST_F(ForceFeedback, ButtonsAreNumberedAsByTheKernelsJoystickDriver) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
+  const FeltPlayer player;
+  EXPECT_EQ(player.session->grip().abilities().buttons, 3);
+  EXPECT_EQ(player.now().last.buttons, 0u);
+  port.pressed = 0b011;  // BTN_0, which comes last, and BTN_TRIGGER, which comes first
+  wait_for([&] { return player.now().last.buttons == 0b101; });
+  port.pressed = 0b100;  // BTN_THUMB
+  wait_for([&] { return player.now().last.buttons == 0b010; });
+}
+
 TEST_F(ForceFeedback, TheStickIsTheGripAndRestsAnywhere) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
   const FeltPlayer player;
