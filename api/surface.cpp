@@ -21,14 +21,15 @@ constexpr double kMostRelief_m = 0.03;
 
 [[noreturn]] void refuse(const char* what, double most, const char* unit, double got) {
   std::ostringstream text;
-  text << std::setprecision(4) << what << " must be at most " << most << ' ' << unit
-       << " on this device, got " << got;
+  text << std::setprecision(4) << what << " must be at most " << most << ' ' << unit << ", got "
+       << got;
   throw std::invalid_argument(text.str());
 }
 
 spidar::ContactSettings contact_of(const Surface& surface, const SurfaceRange& range) {
   if (surface.stiffness_N_m > range.most_stiffness_N_m)
-    refuse("the stiffness of a surface", range.most_stiffness_N_m, "N/m", surface.stiffness_N_m);
+    refuse("the stiffness of a surface", range.most_stiffness_N_m, "N/m on this device",
+           surface.stiffness_N_m);
   spidar::ContactSettings contact;
   contact.stiffness_N_m = surface.stiffness_N_m;
   contact.delay_s = spidar::surface_delay_s(range.drive_lag_s);

@@ -10,6 +10,7 @@ gst-spidar/c-api.h. A wrong argument raises ValueError, all else RuntimeError, w
 
 import ctypes
 import itertools
+import threading
 import time
 import weakref
 from ctypes import (
@@ -151,16 +152,30 @@ def list_profiles():
     return _names("list_profiles")
 
 
+_in_thread = threading.local()
+
+
+def _require_no_callback():
+    """What waits for the callback's end would wait for ever in it."""
+    if getattr(_in_thread, "calls_back", False):
+        raise RuntimeError("not within a callback; let it return no force, and do this in another thread")
+
+
 class _Handle:
     """Something of the library, freed once: by close(), when nothing refers to it, or when Python ends."""
 
     def __init__(self, value, free):
         self._value = c_void_p(value)
-        self.close = weakref.finalize(self, _call, free, None, self._value)
+        self._free = weakref.finalize(self, _call, free, None, self._value)
+
+    def close(self):
+        """Frees it; again, this does nothing."""
+        _require_no_callback()
+        self._free()
 
     @property
     def _handle(self):
-        if not self.close.alive:
+        if not self._free.alive:
             raise ValueError(f"this {type(self).__name__} is closed; make another one")
         return self._value
 
@@ -195,9 +210,13 @@ class Device(_Handle):
         """Calls function(GripState) each millisecond and adds the force that it returns, three newtons, or a Wrench,
         to what is pushed; None ends this. Passive, it gives the hand no more energy than the hand has put in, and no
         torque. One that raises, or is late, is not called again: see callback_error()."""
+        _require_no_callback()
+        if function is not None and not callable(function):
+            raise TypeError(f"a callback is a function of a GripState, or None; got {function!r}")
         raised = []
 
         def call(grip, wrench, _):
+            _in_thread.calls_back = True
             try:
                 found = function(GripState.from_buffer_copy(grip[0]))
                 wrench[0] = found if isinstance(found, Wrench) else Wrench(Vector3(*found))
@@ -205,6 +224,8 @@ class Device(_Handle):
             except BaseException as error:  # whatever it is, nobody else would catch it
                 raised.append(f"the callback has raised {type(error).__name__}: {error}")
                 return False
+            finally:
+                _in_thread.calls_back = False
 
         callback = _Callback(call) if function else _Callback()
         _checked("device_set_callback", c_bool, self._handle, callback, None, 0 if passive else 1)

@@ -159,9 +159,10 @@ typedef bool (*GstSpidarCallback)(const GstSpidarGripState* grip, GstSpidarWrenc
 
 /*! Calls `callback` once a millisecond in the thread that drives the device, whenever the pose is
  * known, and adds its wrench to what is pushed. It must return within 0.5 ms, and neither allocate,
- * lock nor wait. One that returns false, or late twenty times in a row, is not called again; NULL
- * ends the calls. When this returns, the callback before has ended. Not to be called within a
- * callback. False when that fails: the callback before remains. */
+ * lock nor wait. A wrench that is not finite counts as none. One that returns false, or late twenty
+ * times in a row, is not called again; NULL ends the calls. When this returns, the callback before
+ * has ended. Not to be called within a callback. False when that fails: the callback before
+ * remains. */
 GST_SPIDAR_API bool gst_spidar_device_set_callback(GstSpidarDevice* device,
                                                    GstSpidarCallback callback, void* user_data,
                                                    GstSpidarEnergy energy, GstSpidarError* error);

@@ -119,10 +119,10 @@ class GST_SPIDAR_API Device {
 
   /// Calls `callback` once a millisecond in the thread that drives the device, whenever pose() is
   /// known, and adds its wrench to what is pushed: for walls and springs, which must follow the
-  /// hand without delay. It must return within 0.5 ms, and neither allocate, lock nor wait. One
-  /// that throws, or is late twenty times in a row, is not called again, and callback_error() says
-  /// why. An empty one removes the one before. If one never returns, the guardian sets a real board
-  /// to rest after 50 ms.
+  /// hand without delay. It must return within 0.5 ms, and neither allocate, lock nor wait. A
+  /// wrench that is not finite counts as none. One that throws, or is late twenty times in a row,
+  /// is not called again, and callback_error() says why. An empty one removes the one before. If
+  /// one never returns, the guardian sets a real board to rest after 50 ms.
   ///
   /// When this returns, the callback before has ended. Not to be called within a callback.
   void set_callback(Callback callback, Energy energy = Energy::kPassive);

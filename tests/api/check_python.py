@@ -117,6 +117,14 @@ class Devices(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "needs 272 bytes; got 256"):
                 device.set_surface(b"\xff" * 256, 16, 17)
 
+    def test_a_callback_cannot_wait_for_itself(self):
+        with Device("sim") as device:
+            for waits in (device.close, lambda: device.set_callback(None)):
+                device.set_callback(lambda grip, waits=waits: waits())
+                self.assertTrue(comes_true(device.callback_error))
+                self.assertIn("RuntimeError: not within a callback", device.callback_error())
+            self.assertRaisesRegex(TypeError, "function of a GripState", device.set_callback, 3)
+
     def test_what_is_wrong_is_named(self):
         with self.assertRaisesRegex(RuntimeError, 'unknown device "nosuch"; known are'):
             Device("nosuch")

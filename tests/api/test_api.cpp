@@ -229,7 +229,7 @@ TEST(Device, ASurfaceThatIsWrongIsNamed) {
   EXPECT_EQ(message([](Surface& s) { s.stiffness_N_m = 801; }),
             "the stiffness of a surface must be at most 800 N/m on this device, got 801");
   EXPECT_EQ(message([](Surface& s) { s.relief_m = 0.04; }),
-            "the height of a relief must be at most 0.03 m on this device, got 0.04");
+            "the height of a relief must be at most 0.03 m, got 0.04");
   EXPECT_NE(message([](Surface& s) { s.friction = -1; }), "");
   EXPECT_NE(message([](Surface& s) { s.texture = std::nan(""); }), "");
   EXPECT_NE(message([](Surface& s) { s.stiffness_N_m = 0; }), "");
