@@ -2,50 +2,14 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/choice/mouse_pointer.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include <gst/video/navigation.h>
-#include <gst/video/video.h>
-
 namespace spidar {
-namespace {
 
-constexpr gint kLeftButton = 1;
-
-/// The mouse may be beside the picture, in the black bars of a window.
-double share(double at_px, int size_px) {
-  if (!std::isfinite(at_px) || size_px <= 0) return 0.5;
-  return std::min(std::max(at_px / size_px, 0.0), 1.0);
-}
-
-std::optional<GstVideoInfo> info_of(GstPad* pad) {
-  GstCaps* const caps = gst_pad_get_current_caps(pad);
-  GstVideoInfo info;
-  const bool known = caps && gst_video_info_from_caps(&info, caps);
-  if (caps) gst_caps_unref(caps);
-  return known ? std::optional<GstVideoInfo>(info) : std::nullopt;
-}
-
-}  // namespace
-
-void MousePointer::take(GstEvent* event, GstPad* source) {
-  gdouble x = 0, y = 0;
-  gint button = 0;
-  const GstNavigationEventType type = gst_navigation_event_get_type(event);
-  const bool moves = type == GST_NAVIGATION_EVENT_MOUSE_MOVE &&
-                     gst_navigation_event_parse_mouse_move_event(event, &x, &y);
-  const bool clicks = type == GST_NAVIGATION_EVENT_MOUSE_BUTTON_PRESS &&
-                      gst_navigation_event_parse_mouse_button_event(event, &button, &x, &y) &&
-                      button == kLeftButton;
-  if (!moves && !clicks) return;
-  const std::optional<GstVideoInfo> info = info_of(source);
-  if (!info) return;
-  const Eigen::Vector2d place(share(x, info->width), share(y, info->height));
+void MousePointer::take(const SinkMouse& mouse) {
+  const bool clicks = mouse.act == SinkMouse::Act::kPress;
+  if (!clicks && mouse.act != SinkMouse::Act::kMove) return;
   const std::lock_guard<std::mutex> lock(mutex_);
-  place_ = place;
-  if (!clicks) return;
-  kept_ = kept_.click == 0 ? KeptObject{++clicks_, place} : KeptObject();
+  place_ = mouse.place;
+  if (clicks) kept_ = kept_.click == 0 ? KeptObject{++clicks_, mouse.place} : KeptObject();
 }
 
 void MousePointer::keep(const std::optional<Eigen::Vector2d>& place) {

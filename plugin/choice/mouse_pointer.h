@@ -7,20 +7,17 @@
 #include <optional>
 
 #include <Eigen/Core>
-#include <gst/gst.h>
 
 #include "core/choice/chosen.h"
 #include "core/picture_turn.h"
+#include "plugin/choice/sink_mouse.h"
 
 namespace spidar {
 
-/// Sinks send moves and clicks upstream, and elements that scale, crop or turn the picture convert
-/// them: here they are in pixels of the frame. Thread-safe.
+/// Moves point, and clicks of the left button keep what is there or let go. Thread-safe.
 class MousePointer {
  public:
-  /// An event that comes from downstream. `source` is the pad that it comes to, whose caps are
-  /// those of the frames. Events other than moves and clicks of the left button are nothing.
-  void take(GstEvent* event, GstPad* source);
+  void take(const SinkMouse& mouse);
 
   /// Of the frame before it is turned: (0, 0) is its top left corner. Nothing before the mouse was
   /// seen.

@@ -13,6 +13,7 @@ namespace spidar {
 
 void MotionDisplay::show(const FrameReport& report, const DisplayProperties& properties,
                          const AnalyzerSettings& settings, GstVideoFrame& frame) {
+  hand_.see(report, GST_VIDEO_FRAME_WIDTH(&frame), GST_VIDEO_FRAME_HEIGHT(&frame));
   const std::shared_ptr<FrameFeed> window_feed = feed();
   const bool shown = properties.overlay || properties.attach_meta || window_feed;
   if (!report.analyzed || !shown) {

@@ -11,6 +11,7 @@
 #include <gst/video/video.h>
 
 #include "plugin/choice/mouse_pointer.h"
+#include "plugin/display/sink_hand.h"
 #include "plugin/engine/motion_engine.h"
 #include "plugin/frame/scene_view.h"
 #include "plugin/properties/display_properties.h"
@@ -23,7 +24,7 @@ class MotionDisplay {
  public:
   /// `engine` and `mouse` are those of `element` and live as long.
   MotionDisplay(GstElement* element, MotionEngine& engine, MousePointer& mouse)
-      : element_(element), engine_(engine), mouse_(mouse) {}
+      : element_(element), engine_(engine), mouse_(mouse), hand_(engine.output()) {}
 
   // --- streaming thread
 
@@ -41,6 +42,8 @@ class MotionDisplay {
 
   // --- any thread
 
+  /// Led by the mouse of a sink.
+  SinkHand& hand() { return hand_; }
   /// The element as a window sees it.
   std::shared_ptr<WindowSource> source() const;
   void open_window();
@@ -57,6 +60,7 @@ class MotionDisplay {
   GstElement* const element_;
   MotionEngine& engine_;
   MousePointer& mouse_;
+  SinkHand hand_;
   // Streaming thread.
   SceneViewer viewer_;
   bool window_waits_ = false;

@@ -51,7 +51,8 @@ std::vector<MotionRow> feel_rows() {
             "grip"},
            {PointerKind::kMouse,
             "The mouse in the window of the video; a click keeps the object that is there, and the "
-            "next one lets go",
+            "next one lets go. While the picture is touched, the left button leads the hand of the "
+            "simulated device instead",
             "mouse"}},
           kControllable, KEPT_IN(pointer)),
       MotionRow::number(
