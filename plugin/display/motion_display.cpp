@@ -44,8 +44,8 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   const bool can_draw =
       (frame.map[0].flags & GST_MAP_WRITE) != 0 && !is_unpacked(*frame.info.finfo);
   if (properties.overlay && can_draw) {
-    draw_overlay(scene, visible, properties.arrow_scale, settings.controller.max_force_N,
-                 report.touch_mark, frame);
+    draw_overlay(scene, felt_objects(scene, settings.motion, report.touch), visible,
+                 properties.arrow_scale, settings.controller.max_force_N, report.touch_mark, frame);
   }
 }
 

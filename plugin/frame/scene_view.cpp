@@ -21,12 +21,56 @@ bool has(const std::vector<SceneTrack>& sorted, uint32_t id) {
   return std::binary_search(sorted.begin(), sorted.end(), wanted, by_id);
 }
 
+Eigen::Vector2d centre_px(const VisiblePart& visible) {
+  return {visible.x + 0.5 * (visible.width - 1), visible.y + 0.5 * (visible.height - 1)};
+}
+
 bool is_in_box(const MovingObject& object, const Eigen::Vector2d& at_px) {
   const Eigen::Vector2d distance_px = (at_px - object.position_px).cwiseAbs();
   return (distance_px.array() <= object.size_px.array() / 2).all();
 }
 
 }  // namespace
+
+std::vector<uint32_t> felt_objects(const SceneView& scene, MotionKind motion,
+                                   const TouchScene& touch) {
+  std::vector<uint32_t> felt;
+  if (touch.on && !(touch.motion_share > 0)) return felt;
+  const bool all = scene.is_free && motion == MotionKind::kObjects;
+  for (const MovingObject& object : scene.objects) {
+    if (object.tracks == 0) continue;
+    if (all || object.id == scene.felt_object) felt.push_back(object.id);
+  }
+  return felt;
+}
+
+ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible) {
+  const Eigen::Vector2d at_px = centre_px(visible) + object.position_px;
+  return {at_px - object.size_px / 2, at_px + object.size_px / 2};
+}
+
+Eigen::Vector2d force_origin_px(const SceneView& scene, const std::vector<uint32_t>& felt,
+                                const VisiblePart& visible) {
+  if (felt.size() != 1) return centre_px(visible);
+  std::vector<Eigen::Vector2d> on_px;
+  Eigen::Vector2d mean_px(0, 0);
+  for (const SceneTrack& track : scene.tracks) {
+    if (track.owner != TrackOwner::kObject || track.object != felt.front()) continue;
+    on_px.emplace_back(track.to.x_px, track.to.y_px);
+    mean_px += on_px.back();
+  }
+  if (on_px.empty()) {
+    const auto is_felt = [&](const MovingObject& object) { return object.id == felt.front(); };
+    const auto object = std::find_if(scene.objects.begin(), scene.objects.end(), is_felt);
+    return centre_px(visible) +
+           (object == scene.objects.end() ? Eigen::Vector2d(0, 0) : object->position_px);
+  }
+  mean_px /= static_cast<double>(on_px.size());
+  // The mean of a curved object lies beside it.
+  return *std::min_element(on_px.begin(), on_px.end(), [&](const auto& a, const auto& b) {
+    return (a - mean_px).squaredNorm() < (b - mean_px).squaredNorm();
+  });
+}
 
 void SceneViewer::reset() {
   scene_ = {};

@@ -10,6 +10,7 @@
 #include "core/motion/objects.h"
 #include "core/picture_turn.h"
 #include "plugin/frame/frame_luma.h"
+#include "plugin/frame/touch_view.h"
 
 namespace spidar {
 
@@ -38,6 +39,22 @@ struct SceneView {
   bool is_free = true;                ///< no rule and no click says what is felt
   PictureTurn turn;                   ///< of the picture before it is shown
 };
+
+/// Ids of the objects in sight whose motion is felt: one, or with MotionKind::kObjects all of which
+/// nobody chose one; none while only the surface is felt.
+std::vector<uint32_t> felt_objects(const SceneView& scene, MotionKind motion,
+                                   const TouchScene& touch);
+
+/// Where the arrow of the felt force begins, in pixels of the frame: on the one object that is
+/// felt, where its tracks are and not merely its box, else in the middle of the picture.
+Eigen::Vector2d force_origin_px(const SceneView& scene, const std::vector<uint32_t>& felt,
+                                const VisiblePart& visible);
+
+/// Corners of an object's box, in pixels of the frame.
+struct ObjectCorners {
+  Eigen::Vector2d low_px, high_px;
+};
+ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible);
 
 /// Assigns tracks to the background or to objects, and tracks their appearance from frame to frame.
 class SceneViewer {

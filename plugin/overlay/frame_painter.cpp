@@ -19,13 +19,14 @@ int offset_of(const GstVideoFormatInfo* format, guint component) {
   return GST_VIDEO_FORMAT_INFO_DEPTH(format, component) > 8 && offset == 1 ? 2 : offset;
 }
 
-/// First and last pixel between two coordinates, within 0 … size − 1. They are clamped as doubles,
-/// because coordinates may lie outside the range of an int.
-int first_pixel(double low, int size) {
-  return static_cast<int>(std::ceil(std::clamp(low, 0.0, static_cast<double>(size))));
+/// First and last pixel between two coordinates, of those from `begin` on. They are clamped as
+/// doubles, because coordinates may lie outside the range of an int.
+int first_pixel(double low, int begin, int size) {
+  return static_cast<int>(
+      std::ceil(std::clamp<double>(low, begin, static_cast<double>(begin) + size)));
 }
-int last_pixel(double high, int size) {
-  return static_cast<int>(std::floor(std::clamp(high, -1.0, size - 1.0)));
+int last_pixel(double high, int begin, int size) {
+  return static_cast<int>(std::floor(std::clamp(high, begin - 1.0, begin + size - 1.0)));
 }
 
 double cross_product(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -85,10 +86,11 @@ void FramePainter::fill(const Eigen::Vector2d* corners_px, size_t count, const C
   }
   const double around = area < 0 ? -1 : 1;
   constexpr double kOnBorder = 1e-9;
-  const int width = GST_VIDEO_FRAME_WIDTH(&frame_), height = GST_VIDEO_FRAME_HEIGHT(&frame_);
-  const int right = last_pixel(high_px.x(), width), bottom = last_pixel(high_px.y(), height);
-  for (int y = first_pixel(low_px.y(), height); y <= bottom; ++y) {
-    for (int x = first_pixel(low_px.x(), width); x <= right; ++x) {
+  const VisiblePart& on = visible_;
+  const int right = last_pixel(high_px.x(), on.x, on.width);
+  const int bottom = last_pixel(high_px.y(), on.y, on.height);
+  for (int y = first_pixel(low_px.y(), on.y, on.height); y <= bottom; ++y) {
+    for (int x = first_pixel(low_px.x(), on.x, on.width); x <= right; ++x) {
       const Eigen::Vector2d at_px(x, y);
       bool inside = true;
       for (size_t i = 0; i < count && inside; ++i) {
@@ -107,16 +109,20 @@ void FramePainter::draw(const ArrowShape& shape, Rgb color) {
   if (shape.has_head) fill(shape.head_px.data(), shape.head_px.size(), value);
 }
 
+void FramePainter::stroke(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
+                          double width_px, Rgb color) {
+  const Eigen::Vector2d along = (to_px - from_px).normalized();
+  const Eigen::Vector2d side = width_px / 2 * Eigen::Vector2d(-along.y(), along.x());
+  const std::array<Eigen::Vector2d, 4> corners_px{from_px - side, to_px - side, to_px + side,
+                                                  from_px + side};
+  fill(corners_px.data(), corners_px.size(), components_of(color));
+}
+
 void FramePainter::cross(const Eigen::Vector2d& centre_px, double size_px, double width_px,
                          Rgb color) {
-  const Components value = components_of(color);
   for (const double lean : {-1.0, 1.0}) {
-    const Eigen::Vector2d along(M_SQRT1_2, lean * M_SQRT1_2);
-    const Eigen::Vector2d side(-along.y(), along.x());
-    const Eigen::Vector2d a = size_px / 2 * along, b = width_px / 2 * side;
-    const std::array<Eigen::Vector2d, 4> stroke_px{centre_px - a - b, centre_px + a - b,
-                                                   centre_px + a + b, centre_px - a + b};
-    fill(stroke_px.data(), stroke_px.size(), value);
+    const Eigen::Vector2d half_px = size_px / 2 * Eigen::Vector2d(M_SQRT1_2, lean * M_SQRT1_2);
+    stroke(centre_px - half_px, centre_px + half_px, width_px, color);
   }
 }
 
@@ -124,11 +130,11 @@ void FramePainter::disc(const Eigen::Vector2d& centre_px, double radius_px, Rgb 
                         double hole_px) {
   if (!centre_px.allFinite() || !(radius_px >= 0)) return;
   const Components value = components_of(color);
-  const int width = GST_VIDEO_FRAME_WIDTH(&frame_), height = GST_VIDEO_FRAME_HEIGHT(&frame_);
-  const int right = last_pixel(centre_px.x() + radius_px, width);
-  const int bottom = last_pixel(centre_px.y() + radius_px, height);
-  for (int y = first_pixel(centre_px.y() - radius_px, height); y <= bottom; ++y) {
-    for (int x = first_pixel(centre_px.x() - radius_px, width); x <= right; ++x) {
+  const VisiblePart& on = visible_;
+  const int right = last_pixel(centre_px.x() + radius_px, on.x, on.width);
+  const int bottom = last_pixel(centre_px.y() + radius_px, on.y, on.height);
+  for (int y = first_pixel(centre_px.y() - radius_px, on.y, on.height); y <= bottom; ++y) {
+    for (int x = first_pixel(centre_px.x() - radius_px, on.x, on.width); x <= right; ++x) {
       const double distance_px = (Eigen::Vector2d(x, y) - centre_px).norm();
       if (distance_px <= radius_px && distance_px > hole_px) set(x, y, value);
     }

@@ -9,20 +9,25 @@
 
 #include <gst/video/video.h>
 
+#include "plugin/frame/frame_luma.h"
 #include "plugin/overlay/arrow.h"
 
 namespace spidar {
 
 /// Draws into a frame mapped for writing. Supports every format whose components have one or two
 /// bytes each: grey, planar and semi-planar YUV, packed RGB. YUV follows the frame's colorimetry; a
-/// subsampled chroma sample is set when any of its pixels is. Shapes are clipped to the frame.
-/// Coordinates are in pixels, with (0, 0) at the centre of the first one.
+/// subsampled chroma sample is set when any of its pixels is. Shapes are clipped to the visible
+/// part. Coordinates are in pixels, with (0, 0) at the centre of the first one.
 class FramePainter {
  public:
-  explicit FramePainter(GstVideoFrame& frame) : frame_(frame) {}
+  FramePainter(GstVideoFrame& frame, const VisiblePart& visible)
+      : frame_(frame), visible_(visible) {}
 
   void draw(const Arrow& arrow) { draw(shape_of(arrow), arrow.color); }
   void draw(const ArrowShape& shape, Rgb color);
+  /// A straight line from end to end.
+  void stroke(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double width_px,
+              Rgb color);
   /// A cross of two strokes, each `size_px` long.
   void cross(const Eigen::Vector2d& centre_px, double size_px, double width_px, Rgb color);
   /// A disc, or a ring whose hole has the radius `hole_px`.
@@ -38,6 +43,7 @@ class FramePainter {
   void set(int x, int y, const Components& value);
 
   GstVideoFrame& frame_;
+  VisiblePart visible_;
 };
 
 }  // namespace spidar

@@ -28,11 +28,8 @@ struct Overlay {
   }
   /// Upper left and lower right corner of an object's box.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> box(const MovingObject& object) const {
-    const VisiblePart& visible = facts.visible;
-    const Eigen::Vector2d centre_px(visible.x + 0.5 * (visible.width - 1),
-                                    visible.y + 0.5 * (visible.height - 1));
-    const Eigen::Vector2d at_px = centre_px + object.position_px;
-    return {map(at_px - object.size_px / 2), map(at_px + object.size_px / 2)};
+    const ObjectCorners corners = corners_of(object, facts.visible);
+    return {map(corners.low_px), map(corners.high_px)};
   }
 };
 
@@ -113,19 +110,6 @@ void draw_objects(const Overlay& over) {
     const double y = low.y() - height >= over.map.shown.y ? low.y() - height : low.y() + 2;
     draw_label(brush, font, im(low.x(), y), is_felt ? kFeltColor : kMutedColor, name);
   }
-}
-
-/// The middle of the one object that is felt, else of the picture.
-Eigen::Vector2d origin_of_force(const Overlay& over) {
-  if (over.felt.size() == 1) {
-    for (const MovingObject& object : over.facts.scene.objects) {
-      if (object.id != over.felt.front()) continue;
-      const auto [low, high] = over.box(object);
-      return (low + high) / 2;
-    }
-  }
-  const Rect& shown = over.map.shown;
-  return {shown.x + shown.width / 2, shown.y + shown.height / 2};
 }
 
 /// In newtons, `along` from `beyond`, or where the picture has room.
@@ -235,7 +219,8 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   draw_tracks(over, style);
   if (picture.detail) draw_points(over);
   draw_objects(over);
-  draw_force(over, facts.scene.wrench, origin_of_force(over), style);
+  const Eigen::Vector2d from_px = map(force_origin_px(facts.scene, over.felt, visible));
+  draw_force(over, facts.scene.wrench, from_px, style);
   if (picture.touch) draw_touch(over, *picture.touch, style);
   brush.list.PopClipRect();
 }

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plugin/overlay/stroke_text.h"
 #include "tests/support/canvas.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_formats.h"
@@ -129,6 +130,71 @@ TEST(Overlay, TheFeltForceIsOneBoldArrowFromTheMiddle) {
   Canvas off("RGB", 641, 481);
   off.draw(scene, 1, 0);  // max-force 0
   EXPECT_EQ(off.at(320, 240), off.untouched());
+}
+
+TEST(Overlay, AnObjectHasItsBoxAndTheFeltOneAThickOneFromWhichTheArrowBegins) {
+  Canvas canvas("RGB", 641, 481);
+  SceneView scene;
+  scene.objects.resize(3);
+  for (uint32_t i = 0; i < 3; ++i) {
+    MovingObject& object = scene.objects[i];
+    object.id = i + 1;
+    object.tracks = i == 2 ? 0 : 5;  // the last one is out of sight
+    object.position_px = {-200 + 200.0 * i, 60};
+    object.size_px = {80, 40};
+  }
+  scene.wrench.force_N = {3, 0, 0};
+  canvas.draw(scene, 1, 3, std::nullopt, {1});
+  const Pixel white{255, 255, 255}, orange{255, 160, 30}, black{0, 0, 0};
+  // The boxes are around (120, 300), (320, 300) and (520, 300).
+  EXPECT_EQ(canvas.at(80, 310), orange);
+  EXPECT_EQ(canvas.at(82, 310), black) << "2 px wide, in 4 px of black";
+  EXPECT_EQ(canvas.at(280, 316), white);
+  EXPECT_EQ(canvas.at(282, 316), canvas.untouched());
+  EXPECT_EQ(canvas.at(480, 310), canvas.untouched());
+  // A fifth of 481 lines to the right, from the middle of the felt one.
+  EXPECT_EQ(canvas.at(121, 300), white);
+  EXPECT_EQ(canvas.at(120 + 94, 300), white);
+  EXPECT_EQ(canvas.at(320, 240), canvas.untouched()) << "nothing in the middle of the picture";
+}
+
+TEST(Overlay, NewtonsStandBeyondTheTipOfTheArrowUprightAsItIsShown) {
+  for (const bool turned : {false, true}) {
+    SCOPED_TRACE(turned);
+    Canvas canvas("RGB", 641, 481);
+    SceneView scene;
+    if (turned) scene.turn = PictureTurn(2);
+    scene.wrench.force_N = {1, 0, 0};  // "1.0 N"
+    canvas.draw(scene);
+    // In heights of 16.8 px: 1, point, 0, space and N are 0.55, 0.1, 0.55, 0.1 and 0.55 wide, with
+    // 0.25 between them. The tip is 481 / 5 / 3 = 32 px from the middle; two widths of it and
+    // 2 · 2.4 px remain free.
+    const double height_px = 0.035 * 481, left_px = 320 + 32.1 + 12 + 4.8,
+                 top_px = 240 - height_px / 2;
+    const auto at = [&](double x, double y) {
+      const double x_px = left_px + height_px * x, y_px = top_px + height_px * y;
+      const auto of = [&](double px, int last) {
+        return static_cast<int>(std::lround(turned ? last - px : px));
+      };
+      return canvas.at(of(x_px, 640), of(y_px, 480));
+    };
+    const Pixel white{255, 255, 255};
+    EXPECT_EQ(at(0.55, 0.25), white) << "the right bar of the 1";
+    EXPECT_NE(at(0, 0.25), white) << "it has no left one";
+    EXPECT_EQ(at(1.15, 0.25), white) << "the left bar of the 0";
+    EXPECT_NE(at(1.15 + 0.275, 0.5), white) << "it has no middle one";
+    EXPECT_EQ(at(2.3 + 0.275, 0.5), white) << "the middle of the N";
+    EXPECT_NE(at(2.3 + 0.45, 0.2), white) << "beside it";
+  }
+}
+
+TEST(Overlay, NumbersHaveTheBarsOfSevenSegments) {
+  const int bars[] = {6, 2, 5, 5, 4, 5, 6, 3, 7, 6};
+  for (int digit = 0; digit < 10; ++digit) {
+    EXPECT_EQ(strokes_of(std::to_string(digit)).size(), static_cast<size_t>(bars[digit])) << digit;
+  }
+  EXPECT_DOUBLE_EQ(stroke_width_of("1.0 N"), 3 * 0.55 + 2 * 0.1 + 4 * 0.25);
+  EXPECT_EQ(stroke_width_of(""), 0);
 }
 
 /// Bytes of `a` that differ in `b`.

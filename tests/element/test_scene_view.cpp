@@ -37,6 +37,28 @@ TEST(Scene, TellsNewAndLostPoints) {
   EXPECT_TRUE(viewer.see(analysis_of(first), visible).lost.empty());
 }
 
+TEST(Scene, TheArrowOfTheForceBeginsOnTheObjectThatIsFelt) {
+  const VisiblePart visible{10, 20, 321, 241};
+  SceneView scene;
+  scene.objects.resize(1);
+  scene.objects[0].id = 7;
+  scene.objects[0].position_px = {-30, 40};
+  const auto origin_px = [&](const std::vector<uint32_t>& felt) {
+    return force_origin_px(scene, felt, visible);
+  };
+  const Eigen::Vector2d middle_px(170, 140);
+  EXPECT_EQ(origin_px({}), middle_px);
+  EXPECT_EQ(origin_px({7, 8}), middle_px) << "not one alone";
+  EXPECT_EQ(origin_px({7}), middle_px + scene.objects[0].position_px) << "nothing else is known";
+  // Three corners of a square, as of a banana: its mean (97, 97) is beside it.
+  for (const ImagePoint at : {ImagePoint{80, 80}, {80, 130}, {130, 80}}) {
+    scene.tracks.push_back({1, at, at, TrackOwner::kObject, 7, false});
+  }
+  scene.tracks.push_back({2, {97, 97}, {97, 97}, TrackOwner::kBackground, 0, false});
+  scene.tracks.push_back({3, {97, 97}, {97, 97}, TrackOwner::kObject, 8, false});
+  EXPECT_EQ(origin_px({7}), Eigen::Vector2d(80, 80));
+}
+
 TEST(Scene, TellsTheBackgroundFromObjects) {
   Background background;
   background.model.kind = ModelKind::kTranslation;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -46,9 +47,10 @@ class Canvas {
   }
 
   void draw(const SceneView& scene, double scale = 1, double max_force_N = 3,
-            const std::optional<TouchMark>& touch = std::nullopt) {
+            const std::optional<TouchMark>& touch = std::nullopt,
+            const std::vector<uint32_t>& felt = {}) {
     with_frame([&](GstVideoFrame& frame) {
-      draw_overlay(scene, visible_part(frame), scale, max_force_N, touch, frame);
+      draw_overlay(scene, felt, visible_part(frame), scale, max_force_N, touch, frame);
     });
   }
 

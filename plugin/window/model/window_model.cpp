@@ -27,14 +27,7 @@ std::string count_of(size_t count, const std::string& noun) {
 }
 
 std::vector<uint32_t> felt_objects(const FrameFacts& facts) {
-  std::vector<uint32_t> felt;
-  if (facts.touch.on && !(facts.touch.motion_share > 0)) return felt;
-  const bool all = facts.scene.is_free && facts.settings.motion == MotionKind::kObjects;
-  for (const MovingObject& object : facts.scene.objects) {
-    if (object.tracks == 0) continue;
-    if (all || object.id == facts.scene.felt_object) felt.push_back(object.id);
-  }
-  return felt;
+  return felt_objects(facts.scene, facts.settings.motion, facts.touch);
 }
 
 std::string felt_line(const ElementState& state, const TouchScene& touch) {

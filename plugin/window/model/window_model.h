@@ -59,8 +59,7 @@ struct FrameFacts {
 /// "1 object", "2 objects".
 std::string count_of(size_t count, const std::string& noun);
 
-/// Ids of the objects in sight whose motion is felt: one, or with kObjects all of which nobody
-/// chose one; none while only the surface is felt.
+/// Ids of the objects in sight whose motion is felt.
 std::vector<uint32_t> felt_objects(const FrameFacts& facts);
 
 /// "felt", or "not felt: " and why, for the last line of the window. While the surface is felt also
