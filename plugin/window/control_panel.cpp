@@ -13,9 +13,28 @@ namespace {
 /// logarithmic slider.
 constexpr double kWide = 100;
 constexpr double kLabelShare = 0.4, kResetWidth_px = 46, kTooltip_px = 340;
+/// Of a number beside its slider, whose handle would cover it; there is none beside a short slider.
+constexpr double kNumber_px = 72, kShortSlider_px = 60;
+
+/// True when it was moved. `format` is that of its number.
+bool slider(const Brush& brush, ImGuiDataType type, void* shown, const void* low, const void* high,
+            const std::string& format, ImGuiSliderFlags flags) {
+  const float number = brush.px(kNumber_px), room = ImGui::GetContentRegionAvail().x - number;
+  if (room < brush.px(kShortSlider_px)) {
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    return ImGui::SliderScalar("##value", type, shown, low, high, format.c_str(), flags);
+  }
+  ImGui::SetNextItemWidth(room);
+  const bool moved = ImGui::SliderScalar("##value", type, shown, low, high, "", flags);
+  ImGui::SameLine();
+  type == ImGuiDataType_Double ? ImGui::Text(format.c_str(), *static_cast<double*>(shown))
+                               : ImGui::Text(format.c_str(), *static_cast<int64_t*>(shown));
+  return moved;
+}
 
 /// True when it was moved.
-bool number_widget(const Setting& setting, const SettingText& text, double& value) {
+bool number_widget(const Brush& brush, const Setting& setting, const SettingText& text,
+                   double& value) {
   ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
   if (setting.low > 0 && setting.high / setting.low > kWide) flags |= ImGuiSliderFlags_Logarithmic;
   // ImGui takes no slider over more than half of a double's range.
@@ -24,15 +43,14 @@ bool number_widget(const Setting& setting, const SettingText& text, double& valu
   const std::string unit = *text.unit ? std::string(" ") + text.unit : "";
   if (setting.kind == Setting::Kind::kNumber || text.per_unit != 1) {
     double shown = value / text.per_unit;
-    const bool moved = ImGui::SliderScalar("##value", ImGuiDataType_Double, &shown, &low, &high,
-                                           ("%.4g" + unit).c_str(), flags);
+    const bool moved =
+        slider(brush, ImGuiDataType_Double, &shown, &low, &high, "%.4g" + unit, flags);
     value = shown * text.per_unit;
     return moved;
   }
   auto whole = static_cast<int64_t>(std::llround(value));
   const auto least = static_cast<int64_t>(low), most = static_cast<int64_t>(high);
-  const bool moved = ImGui::SliderScalar("##value", ImGuiDataType_S64, &whole, &least, &most,
-                                         ("%lld" + unit).c_str(), flags);
+  const bool moved = slider(brush, ImGuiDataType_S64, &whole, &least, &most, "%lld" + unit, flags);
   value = static_cast<double>(whole);
   return moved;
 }
@@ -55,7 +73,8 @@ bool choice_widget(const Setting& setting, double& value) {
   return moved;
 }
 
-bool value_widget(const Setting& setting, const SettingText& text, double& value) {
+bool value_widget(const Brush& brush, const Setting& setting, const SettingText& text,
+                  double& value) {
   switch (setting.kind) {
     case Setting::Kind::kSwitch: {
       bool on = value != 0;
@@ -69,7 +88,7 @@ bool value_widget(const Setting& setting, const SettingText& text, double& value
     case Setting::Kind::kNumber:
       break;
   }
-  return number_widget(setting, text, value);
+  return number_widget(brush, setting, text, value);
 }
 
 void explain(const Brush& brush, const Setting& setting) {
@@ -96,7 +115,7 @@ void draw_setting(const Brush& brush, const Setting& setting, const SettingText&
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-FLT_MIN);
   double value = setting.value;
-  if (value_widget(setting, text, value) && value != setting.value) set(setting.name, value);
+  if (value_widget(brush, setting, text, value) && value != setting.value) set(setting.name, value);
   explain(brush, setting);
   ImGui::TableNextColumn();
   if (is_changed(setting)) {
@@ -192,6 +211,7 @@ void draw_help(double scale) {
       {"R", "the relief over the picture, while it is touched"},
       {"P", "pauses the window; the video and the force continue"},
       {", and .", "a tenth of a second back or forward, in a pause"},
+      {"Wheel, drag", "on force or speed: more or fewer seconds, earlier or later ones"},
       {"S", "saves the window as a PNG file in the current folder"},
       {"H", "this help"},
       {"Q", "closes the window; the video continues"},

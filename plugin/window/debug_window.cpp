@@ -109,7 +109,11 @@ void DebugWindow::say(const std::string& note) {
 void DebugWindow::read() {
   source_gone_ = !source_->read(state_);
   const int64_t before_ns = facts_.running_ns;
-  const bool is_new = feed_->take(picture_, facts_);
+  waiting_.fill(*feed_);
+  // The picture of the moment at which the device is: that on the screen.
+  const bool plays = state_.device && state_.device->loop.last.playing;
+  const bool is_new = waiting_.show(
+      plays ? std::optional(state_.device->loop.last.running_ns) : std::nullopt, picture_, facts_);
   if (is_new) {
     texture_->load(picture_, std::max(shown_width_, 1));
     // Another stream, or the same from the beginning: what was learnt is not of it.
@@ -130,6 +134,7 @@ void DebugWindow::record(bool is_new) {
   if (state_.device) {
     const TickRecord& last = state_.device->loop.last;
     now.felt = last.delivered;
+    now.asked = last.wanted;
     now.wanted_span = state_.device->wanted;
     now.felt_span = state_.device->delivered;
     if (now.felt_span.ticks == 0) {
@@ -165,6 +170,7 @@ void DebugWindow::show_past() {
   if (state_.device) {
     TickRecord& last = state_.device->loop.last;
     last.delivered = moments.back().felt;
+    last.wanted = moments.back().asked;
     last.tension_N = moments.back().tension_N;
     last.pose = moments.back().pose;
     last.contact = moments.back().contact;
@@ -211,7 +217,9 @@ void DebugWindow::draw_panels(int width, int height) {
   const ShownPicture picture = shown_picture(facts);
   const Rect shown = shown_rect(layout.picture, picture, facts);
   draw_picture(brush, layout.picture, picture, facts);
-  use_mouse(shown, facts);
+  const Mouse mouse = given_mouse_ ? *given_mouse_ : read_mouse();
+  use_mouse(mouse, shown, facts);
+  use_plots(mouse, layout);
   if (explains_hand(facts)) draw_hand_line(brush, shown, hand_line(hand_.hand()));
   draw_grip(brush, layout.grip, state_);
   draw_tensions(brush, layout.tensions, state_);

@@ -9,6 +9,7 @@
 
 #include "plugin/window/hand_control.h"
 #include "plugin/window/model/frame_feed.h"
+#include "plugin/window/model/frame_queue.h"
 #include "plugin/window/model/object_click.h"
 #include "plugin/window/model/window_source.h"
 #include "plugin/window/panels.h"
@@ -51,7 +52,8 @@ class DebugWindow {
   void show_relief(const TouchScene& touch);
   bool offers_hand() const;
   bool explains_hand(const FrameFacts& facts) const;
-  void use_mouse(const Rect& picture, const FrameFacts& facts);
+  void use_mouse(const Mouse& mouse, const Rect& picture, const FrameFacts& facts);
+  void use_plots(const Mouse& mouse, const WindowLayout& layout);
   void draw_panels(int width, int height);
   void save();
   void change(const std::string& setting, double value) { source_->set(setting, value); }
@@ -69,6 +71,7 @@ class DebugWindow {
   int width_ = 0, height_ = 0;  // of the frame buffer drawn last
 
   ElementState state_;
+  FrameQueue waiting_;
   PictureCopy picture_;
   FrameFacts facts_;
   Timeline timeline_;
@@ -77,6 +80,8 @@ class DebugWindow {
   std::shared_ptr<const HeightField> relief_;  // what relief_texture_ shows
   HandControl hand_;
   ObjectClick click_;
+  bool plots_down_ = false;
+  std::optional<double> drag_px_;  ///< where a plot was dragged to
   std::optional<Mouse> given_mouse_;
   bool source_gone_ = false;
   bool help_ = false;

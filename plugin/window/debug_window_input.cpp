@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What the user does to a debug window.
+#include <algorithm>
 #include <backends/imgui_impl_glfw.h>
+#include <cmath>
 #include <imgui.h>
 
 #include <GLFW/glfw3.h>
@@ -11,7 +13,7 @@
 namespace spidar {
 namespace {
 
-constexpr double kStep_s = 0.1;
+constexpr double kStep_s = 0.1, kZoom = 1.25;
 constexpr double kLongerArrows = 1.25, kForceStep_N = 0.1;
 
 DebugWindow& window_of(GLFWwindow* window) {
@@ -113,8 +115,7 @@ bool DebugWindow::explains_hand(const FrameFacts& facts) const {
   return offers_hand() && (facts.touch.on || hand_.hand().is_over());
 }
 
-void DebugWindow::use_mouse(const Rect& picture, const FrameFacts& facts) {
-  const Mouse mouse = given_mouse_ ? *given_mouse_ : read_mouse();
+void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture, const FrameFacts& facts) {
   if (const auto wish = click_.update(mouse, timeline_.is_paused() ? Rect() : picture, facts)) {
     source_->choose(wish->place);
   }
@@ -124,6 +125,21 @@ void DebugWindow::use_mouse(const Rect& picture, const FrameFacts& facts) {
   }
   const TouchMap map{GripPointer(state_.device->geometry), facts_.scene.turn};
   hand_.update(mouse, picture, map);
+}
+
+/// The wheel shows more or less of the last seconds, dragging moves them.
+void DebugWindow::use_plots(const Mouse& mouse, const WindowLayout& layout) {
+  const bool is_over =
+      !mouse.taken && (layout.force.has(mouse.at_px) || layout.speed.has(mouse.at_px));
+  if (is_over && mouse.wheel != 0) timeline_.zoom(std::pow(kZoom, -mouse.wheel));
+  const bool begins = mouse.down && !plots_down_ && is_over;
+  plots_down_ = mouse.down;
+  if (!mouse.down) drag_px_.reset();
+  if (begins) drag_px_ = mouse.at_px.x();
+  if (!drag_px_ || !std::isfinite(mouse.at_px.x()) || mouse.at_px.x() == *drag_px_) return;
+  const double moved = (mouse.at_px.x() - *drag_px_) / std::max(layout.force.width, 1.0);
+  timeline_.look_at(timeline_.cursor_s() - moved * timeline_.plotted_s());
+  drag_px_ = mouse.at_px.x();
 }
 
 }  // namespace spidar

@@ -96,30 +96,35 @@ void draw_strings(const Brush& brush, const GripProjection& project, const Devic
   }
 }
 
-/// The force at the hand, as a line in space.
-void draw_force(const GripView& view, const Rect& panel, const TickRecord& last) {
-  const double force_N = last.delivered.force_N.norm();
-  if (force_N < kFeltForce_N || last.max_force_N <= 0) return;
+/// A force at the hand, as a line in space, with its newtons and `which` force it is. Without a
+/// name it is a faint line.
+void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, double most_N,
+                const char* which) {
+  const double force_N = wrench.force_N.norm();
+  if (force_N < kFeltForce_N || most_N <= 0) return;
   const Eigen::Vector2d from = view.project(view.pose.position_m);
   const Eigen::Vector2d direction =
-      (view.project(view.pose.position_m + last.delivered.force_N / force_N * view.radius_m) -
-       from) /
+      (view.project(view.pose.position_m + wrench.force_N / force_N * view.radius_m) - from) /
       view.px(view.radius_m);
   const double length =
-      kForceShare * std::min(panel.width, panel.height) * force_N / last.max_force_N;
+      kForceShare * std::min(panel.width, panel.height) * std::min(force_N / most_N, 1.0);
   const Eigen::Vector2d to = from + length * direction;
   const Brush& brush = view.brush;
   const Eigen::Vector2d along = (to - from).normalized(), side(-along.y(), along.x());
-  const double head = 9 * brush.scale;
-  brush.list.AddLine(im(from), im(to), kFeltColor, brush.px(3.5));
+  const double head = (which ? 9 : 14) * brush.scale;
+  const ImU32 color = which ? kFeltColor : faded(kTextColor, 95);
+  brush.list.AddLine(im(from), im(to), color, brush.px(which ? 3.5 : 7));
   brush.list.AddTriangleFilled(im(to + head * along), im(to + 0.6 * head * side),
-                               im(to - 0.6 * head * side), kFeltColor);
+                               im(to - 0.6 * head * side), color);
+  if (!which) return;
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f N", force_N);
+  std::snprintf(text, sizeof text, "%.1f N %s", force_N, which);
   const Eigen::Vector2d at = to + 2.2 * head * along;
   const ImVec2 size = text_size(brush.fonts.bold, text);
-  draw_label(brush, brush.fonts.bold,
-             im(at.x() - (along.x() < 0 ? size.x + 6 : 0), at.y() - size.y / 2), kFeltColor, text);
+  // Within the panel.
+  const double x = std::clamp(at.x() - (along.x() < 0 ? size.x + 6 : 0), panel.x,
+                              std::max(panel.right() - size.x - brush.px(10), panel.x));
+  draw_label(brush, brush.fonts.bold, im(x, at.y() - size.y / 2), kFeltColor, text);
 }
 
 /// The directions x, y and z of the device in a corner.
@@ -158,7 +163,8 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
   draw_hand(view, false);
   draw_grip_body(view, device);
   draw_hand(view, true);
-  draw_force(view, content, last);
+  draw_force(view, content, last.wanted, last.max_force_N, nullptr);
+  draw_force(view, content, last.delivered, last.max_force_N, "delivered");
   brush.list.PopClipRect();
 }
 

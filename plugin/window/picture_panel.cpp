@@ -112,12 +112,12 @@ void draw_objects(const Overlay& over) {
   }
 }
 
-/// In newtons, `along` from `beyond`, or where the picture has room.
-void draw_size(const Overlay& over, double force_N, const Eigen::Vector2d& beyond,
-               const Eigen::Vector2d& along) {
+/// In newtons and `which` force it is, `along` from `beyond`, or where the picture has room.
+void draw_size(const Overlay& over, double force_N, const char* which,
+               const Eigen::Vector2d& beyond, const Eigen::Vector2d& along) {
   if (force_N < kFeltForce_N) return;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f N", force_N);
+  char text[48];
+  std::snprintf(text, sizeof text, "%.1f N%s", force_N, which);
   const ImFont* font = over.brush.fonts.bold;
   const Eigen::Vector2d size(text_size(font, text).x + over.brush.px(10),
                              font->FontSize + over.brush.px(4));
@@ -132,15 +132,15 @@ void draw_size(const Overlay& over, double force_N, const Eigen::Vector2d& beyon
 }
 
 /// False when it is too short for an arrow.
-bool draw_force(const Overlay& over, const Wrench& wrench, const Eigen::Vector2d& from_px,
-                ArrowStyle style) {
+bool draw_force(const Overlay& over, const Wrench& wrench, const char* which,
+                const Eigen::Vector2d& from_px, ArrowStyle style) {
   style.centre_px = from_px;
   const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
   if (!felt) return false;
   draw_border(over.brush, felt->arrow);
   draw_arrow(over.brush, felt->arrow);
   // Beyond the tip.
-  draw_size(over, wrench.force_N.norm(), felt->arrow.tip_px,
+  draw_size(over, wrench.force_N.norm(), which, felt->arrow.tip_px,
             (felt->arrow.tip_px - felt->arrow.tail_px).normalized());
   return true;
 }
@@ -157,9 +157,9 @@ void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& s
   brush.list.AddCircle(finger, ring_px, IM_COL32(255, 255, 255, 255), 0, ring_px / 4);
   if (!touch.touching) return;
   const Eigen::Vector2d proxy_px = at(touch.proxy);
-  if (!draw_force(over, {touch.force_N, {}}, proxy_px, style)) {
+  if (!draw_force(over, {touch.force_N, {}}, "", proxy_px, style)) {
     const Eigen::Vector2d down(0, 1);
-    draw_size(over, touch.force_N.norm(), proxy_px + 2 * ring_px * down, down);
+    draw_size(over, touch.force_N.norm(), "", proxy_px + 2 * ring_px * down, down);
   }
   const auto radius_px =
       static_cast<float>(proxy_radius_px(touch, style.max_force_N, shown.height));
@@ -220,7 +220,7 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   if (picture.detail) draw_points(over);
   draw_objects(over);
   const Eigen::Vector2d from_px = map(force_origin_px(facts.scene, over.felt, visible));
-  draw_force(over, facts.scene.wrench, from_px, style);
+  draw_force(over, facts.scene.wrench, " wanted", from_px, style);
   if (picture.touch) draw_touch(over, *picture.touch, style);
   brush.list.PopClipRect();
 }

@@ -21,8 +21,8 @@ std::string number(const char* format, double value) {
 }
 
 /// The last seconds before the cursor, as seconds before it.
-PlotAxis time_axis(const Brush& brush, const Rect& panel) {
-  return make_axis(-Timeline::kPlotted_s, 0, Plot::steps_across(brush, panel.width));
+PlotAxis time_axis(const Brush& brush, const Rect& panel, const Timeline& timeline) {
+  return make_axis(-timeline.plotted_s(), 0, Plot::steps_across(brush, panel.width));
 }
 
 template <typename Value>
@@ -43,7 +43,7 @@ std::vector<PlotSpan> spans(const Timeline& timeline, Eigen::Index axis, ForceSp
   return all;
 }
 
-/// Upper end of an axis of speed: fits five seconds, whatever one frame says.
+/// Upper end of an axis of speed: fits what is plotted, whatever one frame says.
 double highest_speed_px_s(const Timeline& timeline) {
   std::vector<double> speeds_px_s;
   for (const Moment& moment : timeline.plotted()) speeds_px_s.push_back(moment.speed_px_s);
@@ -55,12 +55,12 @@ double highest_speed_px_s(const Timeline& timeline) {
 void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
                 double max_force_N) {
   const Timeline::Part moments = timeline.plotted();
-  const Rect content =
-      draw_panel(brush, panel, "Force",
-                 moments.empty() ? "" : number("%.2f N", moments.back().felt.force_N.norm()));
+  const Rect content = draw_panel(
+      brush, panel, "Force",
+      moments.empty() ? "" : number("%.2f N delivered", moments.back().felt.force_N.norm()));
   const double most_N = std::max(max_force_N, kLeastForce_N);
   const PlotAxis y = make_axis(-most_N, most_N, Plot::steps_up(brush, content.height));
-  const Plot plot(brush, content, time_axis(brush, content), y, "s", "N");
+  const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "N");
   for (Eigen::Index axis = 2; axis >= 0; --axis) {
     const ImU32 color = kAxisColors[axis];
     plot.band(spans(timeline, axis, &Moment::wanted_span), faded(color, 95), 3.5);
@@ -79,7 +79,7 @@ void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline)
       brush, panel, "Speed", moments.empty() ? "" : number("%.0f px/s", moments.back().speed_px_s));
   const PlotAxis y =
       make_axis(0, highest_speed_px_s(timeline), Plot::steps_up(brush, content.height));
-  const Plot plot(brush, content, time_axis(brush, content), y, "s", "px/s at 480 lines");
+  const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "px/s at 480 lines");
   const std::vector<PlotPoint> speed =
       series(timeline, [](const Moment& m) { return m.speed_px_s; });
   plot.area(speed, faded(kSpeedColor, 40));

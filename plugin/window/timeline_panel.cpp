@@ -58,7 +58,7 @@ void draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline, do
   plot.line(force, kFeltColor, 1.2);
   // What the plots below show.
   const double cursor = timeline.cursor_s() - newest_s;
-  const double from = std::max(cursor - Timeline::kPlotted_s, -Timeline::kMemory_s);
+  const double from = std::max(cursor - timeline.plotted_s(), -Timeline::kMemory_s);
   brush.list.AddRectFilled(plot.at(from, y.high), plot.at(cursor, y.low), faded(kTextColor, 28));
   plot.upright(cursor, timeline.is_paused() ? kTextColor : kLineColor);
 

@@ -27,7 +27,7 @@ void draw_section(const Brush& brush, const Rect& panel, const TouchScene& scene
   const Eigen::Vector3d& grip_m = tick.pose.position_m;
   std::vector<PlotPoint> line;
   double highest_mm = std::fabs(1e3 * grip_m.z());
-  for (const Eigen::Vector2d& at_m : relief_section(*scene.relief, grip_m.y(), kSectionPoints)) {
+  for (const Eigen::Vector2d& at_m : touched_section(*scene.relief, tick, kSectionPoints)) {
     line.push_back({1e3 * at_m.x(), 1e3 * at_m.y()});
     highest_mm = std::max(highest_mm, std::fabs(line.back().y));
   }

@@ -45,6 +45,21 @@ TEST(Timeline, RemembersAMinuteAndPlotsItsLastFiveSeconds) {
   EXPECT_EQ(&timeline.plotted().back(), &timeline.moments().back());
 }
 
+TEST(Timeline, PlotsMoreOrFewerSecondsWithinBounds) {
+  Timeline timeline;
+  record(timeline, 0, 1000);
+  timeline.zoom(2);
+  EXPECT_NEAR(timeline.plotted().first->time_s, 90, kRounding + 0.1);
+  timeline.zoom(0.25);
+  EXPECT_NEAR(timeline.plotted().first->time_s, 97.5, kRounding + 0.1);
+  timeline.zoom(1e-9);
+  EXPECT_EQ(timeline.plotted_s(), Timeline::kLeastPlotted_s);
+  timeline.zoom(1e9);
+  EXPECT_EQ(timeline.plotted_s(), Timeline::kMostPlotted_s);
+  timeline.forget();
+  EXPECT_EQ(timeline.plotted_s(), Timeline::kMostPlotted_s) << "the choice stays";
+}
+
 TEST(Timeline, TheLargestSpeedStaysUntilItForgets) {
   Timeline timeline;
   timeline.add(moment(0, 500));

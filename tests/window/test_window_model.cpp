@@ -63,8 +63,14 @@ TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
 }
 
 TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
-  for (const auto& [width, height] :
-       {std::pair{1280, 800}, {640, 480}, {3840, 2160}, {20, 10}, {1, 1}, {0, 0}, {500, 2000}}) {
+  for (const auto& [width, height] : {std::pair{1280, 800},
+                                      {640, 480},
+                                      {3840, 2160},
+                                      {20, 10},
+                                      {1, 1},
+                                      {0, 0},
+                                      {500, 2000},
+                                      {700, 960}}) {
     for (const double scale : {0.5, 1.0, 2.0, 8.0}) {
       SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height) + " at " +
                    std::to_string(scale));
@@ -88,6 +94,20 @@ TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
       }
     }
   }
+}
+
+TEST(Layout, PanelsAreStackedInATallWindowAndTheTimelineHasRoomForItsLines) {
+  for (const auto& [width, height] : {std::pair{1500, 900}, {1280, 720}, {800, 600}, {640, 480}}) {
+    const WindowLayout l = lay_out(width, height, 1);
+    EXPECT_GT(l.grip.x, l.picture.right());
+    // Title, button and a line: 7 + 14 + 4, 2 + 20, 10 + 12, with as much as above the title below.
+    EXPECT_GE(l.timeline.height, 76) << height;
+  }
+  const WindowLayout l = lay_out(700, 960, 1);
+  EXPECT_GT(l.picture.width, 650);
+  EXPECT_GT(l.grip.y, l.force.bottom());
+  EXPECT_GT(l.controls.x, l.grip.right());
+  EXPECT_GT(l.controls.width, 300) << "a name, a slider and a button";
 }
 
 TEST(Layout, ThePictureKeepsItsShapeAndItsPlace) {

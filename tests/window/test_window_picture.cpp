@@ -132,6 +132,53 @@ TEST_F(WindowTest, APauseHoldsThePictureAndLooksBack) {
   EXPECT_NEAR(level(), 60, 1) << "the oldest, a minute of steps back";
 }
 
+TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
+  ElementState state;
+  DeviceView& device = state.device.emplace();
+  device.name = "sim";
+  device.loop.last.playing = true;
+  device.loop.last.running_ns = 1'000'000'000;
+  auto feed = std::make_shared<FrameFeed>();
+  Window window(std::make_shared<FakeSource>(state), feed);
+  FrameFacts facts;
+  Screenshot shot;
+  for (const auto& [running_ns, level] : {std::pair{960'000'000, 60}, {1'040'000'000, 160}}) {
+    facts.running_ns = running_ns;
+    give(*feed, facts, level);
+    shot = look(window);
+  }
+  const Eigen::Vector2d middle = map_of(shot)({100, 100});
+  EXPECT_NEAR(at(shot, middle.x(), middle.y()).g, 60, 1);
+}
+
+TEST_F(WindowTest, DraggingAPlotLooksBackAndAClickDoesNot) {
+  auto feed = std::make_shared<FrameFeed>();
+  Window window(std::make_shared<FakeSource>(), feed);
+  const auto level = [&] {
+    const Screenshot shot = look(window);
+    const Eigen::Vector2d middle = map_of(shot)({100, 100});
+    return at(shot, middle.x(), middle.y()).g;
+  };
+  give(*feed, {}, 60);
+  const Screenshot shot = look(window);
+  const Rect plot = lay_out(shot.width, shot.height, 1).force;
+  Mouse mouse;
+  const auto put = [&](double share, bool down) {
+    mouse.at_px = {plot.x + share * plot.width, plot.y + plot.height / 2};
+    mouse.down = down;
+    window.set_mouse(mouse);
+    look(window);
+  };
+  put(0.5, true);
+  put(0.5, false);
+  give(*feed, {}, 100);
+  EXPECT_NEAR(level(), 100, 1);
+  put(0.5, true);
+  put(0.6, true);
+  give(*feed, {}, 160);
+  EXPECT_LE(level(), 101) << "in the past it stays";
+}
+
 TEST_F(WindowTest, APeakBetweenTwoPicturesIsPlotted) {
   /// The highest row of the force's plot in which x, which is red, is drawn, from its top.
   const auto highest_red = [](double peak_N) {

@@ -160,6 +160,22 @@ TEST(ReliefView, ASectionHasTheHeightsOfTheSurface) {
   EXPECT_GT(section[2].y(), section[1].y());
 }
 
+TEST(ReliefView, TheTouchedPointLiesOnTheSectionThatIsDrawn) {
+  const HeightField relief = roof();
+  TickRecord tick;
+  // Friction holds it back from where the grip is, and between two frames the surface is 0.5 mm
+  // nearer than in either.
+  tick.pose.position_m = {0.004, 0.01, -0.001};
+  tick.contact.touching = true;
+  tick.contact.proxy_m = {0.0075, -0.005, relief.at(0.0075, -0.005).z_m + 0.0005};
+  const auto section = touched_section(relief, tick, 9);
+  // Every 7.5 mm: the sixth of them.
+  EXPECT_NEAR(section[5].x(), 0.0075, kRounding);
+  EXPECT_NEAR(section[5].y(), tick.contact.proxy_m.z(), kRounding);
+  tick.contact.touching = false;
+  EXPECT_EQ(touched_section(relief, tick, 9), relief_section(relief, 0.01, 9));
+}
+
 TEST(ReliefView, SaysHowFarTheSurfaceIs) {
   TouchScene scene;
   TickRecord tick;

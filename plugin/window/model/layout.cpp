@@ -8,11 +8,17 @@
 namespace spidar {
 namespace {
 
+/// Of height to width, from which on the panels are stacked.
+constexpr double kTall = 1.1;
 // Shares of the window.
 constexpr double kLeft = 0.66, kGrip = 0.34, kTensions = 0.19;
 constexpr double kTimeline = 0.13, kPlots = 0.23;
+// The same where they are stacked: below kLower are device and settings.
+constexpr double kTallTimeline = 0.1, kTallPlots = 0.18, kLower = 0.64, kTallTensions = 0.14;
 /// Of text, in pixels at a scale of 1; a share of the window at most.
 constexpr double kStatus_px = 34, kStatusMost = 0.1;
+/// The title, the button and a line below each other; a share of the window at most.
+constexpr double kTimeline_px = 94, kTimelineMost = 0.2;
 constexpr double kGap_px = 8;
 
 // Of the view: turned about y, then tilted, radians.
@@ -39,10 +45,13 @@ Rect fit(const Rect& outer, double aspect) {
 
 WindowLayout lay_out(int width, int height, double scale) {
   const double w = std::max(width, 1), h = std::max(height, 1);
-  const double left = kLeft * w, gap = kGap_px * scale / 2;
+  const bool tall = h > kTall * w;
+  const double left = tall ? w : kLeft * w, gap = kGap_px * scale / 2;
   const double status_y = h - std::min(kStatus_px * scale, kStatusMost * h);
-  const double plots_y = status_y - kPlots * h, timeline_y = plots_y - kTimeline * h;
-  const double tensions_y = kGrip * h, controls_y = tensions_y + kTensions * h;
+  const double lower_y = tall ? kLower * h : status_y;
+  const double plots_y = lower_y - (tall ? kTallPlots : kPlots) * h;
+  const double timeline_y = plots_y - std::max((tall ? kTallTimeline : kTimeline) * h,
+                                               std::min(kTimeline_px * scale, kTimelineMost * h));
   const Rect whole = Rect{0, 0, w, h}.inset(gap);
   const auto place = [&](double x, double y, double right_x, double bottom_y) {
     // Within the margin around all.
@@ -54,10 +63,18 @@ WindowLayout lay_out(int width, int height, double scale) {
   WindowLayout layout;
   layout.picture = place(0, 0, left, timeline_y);
   layout.timeline = place(0, timeline_y, left, plots_y);
-  layout.force = place(0, plots_y, 0.42 * left, status_y);
-  layout.speed = place(0.42 * left, plots_y, 0.71 * left, status_y);
-  layout.gain = place(0.71 * left, plots_y, left, status_y);
+  layout.force = place(0, plots_y, 0.42 * left, lower_y);
+  layout.speed = place(0.42 * left, plots_y, 0.71 * left, lower_y);
+  layout.gain = place(0.71 * left, plots_y, left, lower_y);
   layout.status = place(0, status_y, left, h);
+  if (tall) {
+    const double tensions_y = status_y - kTallTensions * h;
+    layout.grip = place(0, lower_y, w / 2, tensions_y);
+    layout.tensions = place(0, tensions_y, w / 2, status_y);
+    layout.controls = place(w / 2, lower_y, w, status_y);
+    return layout;
+  }
+  const double tensions_y = kGrip * h, controls_y = tensions_y + kTensions * h;
   layout.grip = place(left, 0, w, tensions_y);
   layout.tensions = place(left, tensions_y, w, controls_y);
   layout.controls = place(left, controls_y, w, h);

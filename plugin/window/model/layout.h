@@ -17,6 +17,10 @@ struct Rect {
   double x = 0, y = 0, width = 0, height = 0;
   double right() const { return x + width; }
   double bottom() const { return y + height; }
+  /// False for a place that is not finite.
+  bool has(const Eigen::Vector2d& at) const {
+    return at.x() >= x && at.x() < right() && at.y() >= y && at.y() < bottom();
+  }
   /// This far inside on all sides; never less than nothing.
   Rect inset(double margin) const;
 };

@@ -7,18 +7,9 @@
 #include <cstdio>
 
 namespace spidar {
-namespace {
-
-bool is_in(const Rect& rect, const Eigen::Vector2d& at_px) {
-  return at_px.x() >= rect.x && at_px.x() < rect.right() && at_px.y() >= rect.y &&
-         at_px.y() < rect.bottom();
-}
-
-}  // namespace
-
 std::optional<Eigen::Vector3d> MouseHand::update(const Mouse& mouse, const Rect& picture,
                                                  const TouchMap& map) {
-  over_ = mouse.at_px.allFinite() && is_in(picture, mouse.at_px) && !mouse.taken;
+  over_ = picture.has(mouse.at_px) && !mouse.taken;
   const bool begins = mouse.down && !was_down_ && over_;
   was_down_ = mouse.down;
   holds_ = mouse.down && (holds_ || begins);

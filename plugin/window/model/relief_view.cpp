@@ -56,6 +56,16 @@ std::vector<Eigen::Vector2d> relief_section(const HeightField& relief, double y_
   return section;
 }
 
+std::vector<Eigen::Vector2d> touched_section(const HeightField& relief, const TickRecord& tick,
+                                             int points) {
+  const bool touching = tick.contact.touching;
+  const Eigen::Vector3d& at_m = touching ? tick.contact.proxy_m : tick.pose.position_m;
+  const double higher_m = touching ? at_m.z() - relief.at(at_m.x(), at_m.y()).z_m : 0;
+  std::vector<Eigen::Vector2d> section = relief_section(relief, at_m.y(), points);
+  for (Eigen::Vector2d& point_m : section) point_m.y() += higher_m;
+  return section;
+}
+
 std::string depth_line(const TouchScene& scene, const TickRecord& tick) {
   char text[64];
   if (tick.contact.touching) {

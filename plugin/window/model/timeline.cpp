@@ -43,6 +43,10 @@ void Timeline::look_at(double time_s) {
   frozen_->cursor_s = std::clamp(time_s, moments.front().time_s, moments.back().time_s);
 }
 
+void Timeline::zoom(double factor) {
+  plotted_s_ = std::clamp(plotted_s_ * factor, kLeastPlotted_s, kMostPlotted_s);
+}
+
 double Timeline::cursor_s() const {
   if (frozen_) return frozen_->cursor_s;
   return live_.moments.empty() ? 0 : live_.moments.back().time_s;
@@ -53,7 +57,7 @@ Timeline::Part Timeline::plotted() const {
   const double cursor = cursor_s();
   const auto is_before = [](const Moment& moment, double time_s) { return moment.time_s < time_s; };
   const auto is_after = [](double time_s, const Moment& moment) { return time_s < moment.time_s; };
-  return {std::lower_bound(moments.begin(), moments.end(), cursor - kPlotted_s, is_before),
+  return {std::lower_bound(moments.begin(), moments.end(), cursor - plotted_s_, is_before),
           std::upper_bound(moments.begin(), moments.end(), cursor, is_after)};
 }
 

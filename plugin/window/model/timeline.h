@@ -23,6 +23,7 @@ struct Moment {
   double speed_px_s = 0;  ///< of the reference frame, before the filter
   Wrench wanted;          ///< by the controller, of the newest frame
   Wrench felt;            ///< delivered at the grip; zero without a device
+  Wrench asked;           ///< of the device, for what was on the screen
   /// In the ticks since the moment before: wanted for what is on the screen, and delivered.
   ForceSpan wanted_span, felt_span;
   StringVector tension_N = StringVector::Zero();
@@ -35,8 +36,9 @@ struct Moment {
 /// a gap.
 class Timeline {
  public:
-  static constexpr double kMemory_s = 60;   ///< older moments and pictures are forgotten
-  static constexpr double kPlotted_s = 5;   ///< what the plots show, up to the cursor
+  static constexpr double kMemory_s = 60;  ///< older moments and pictures are forgotten
+  static constexpr double kPlotted_s = 5;  ///< what the plots show at first, up to the cursor
+  static constexpr double kLeastPlotted_s = 0.5, kMostPlotted_s = 20;
   static constexpr double kStill_s = 0.25;  ///< between two pictures that are kept
 
   /// Moments in order of time.
@@ -58,7 +60,11 @@ class Timeline {
   double cursor_s() const;
   /// All that can be looked at, oldest first.
   const std::deque<Moment>& moments() const { return shown().moments; }
-  /// The last kPlotted_s before the cursor, and the moment at it; a part of moments().
+  /// What the plots show, seconds.
+  double plotted_s() const { return plotted_s_; }
+  /// They show `factor` times as long.
+  void zoom(double factor);
+  /// The last plotted_s() before the cursor, and the moment at it; a part of moments().
   struct Part {
     std::deque<Moment>::const_iterator first, last;
     auto begin() const { return first; }
@@ -87,6 +93,7 @@ class Timeline {
   Record live_;
   std::optional<Frozen> frozen_;
   double largest_speed_px_s_ = 0;
+  double plotted_s_ = kPlotted_s;
 };
 
 }  // namespace spidar
