@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Compares how the gain controllers would feel: compare_controllers [VIDEO ...]
+/// Compares how the gain controllers would feel: compare_controllers [VIDEO|ANALYSIS.motion ...]
 ///
 /// Measures the motion of a rendered bouncing ball and of each video once, as the element does by
-/// default, applies each controller to it, and prints a table (Markdown) of what a hand would
-/// notice. The figures do not replace asking people.
+/// default, or takes it from what `spidartrack analyze` has measured, applies each controller to
+/// it, and prints a table (Markdown) of what a hand would notice. The figures do not replace asking
+/// people.
 
 #include <cmath>
 #include <cstdint>
@@ -14,6 +15,7 @@
 
 #include <gst/gst.h>
 
+#include "apps/feel/analyzed_film.h"
 #include "apps/feel/figures.h"
 #include "apps/feel/video_film.h"
 #include "tests/support/ball_scene.h"
@@ -70,7 +72,10 @@ int main(int argc, char** argv) {
       "rank correlation |\n|---|---|---|---|---|---|---|\n");
   try {
     print(ball_film(settings), settings.filter);
-    for (int i = 1; i < argc; ++i) print(spidar::read_film(argv[i], settings), settings.filter);
+    for (int i = 1; i < argc; ++i) {
+      const auto read = spidar::is_analysis(argv[i]) ? spidar::read_analysis : spidar::read_film;
+      print(read(argv[i], settings), settings.filter);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 1;

@@ -114,6 +114,8 @@ class Player {
       : filter_(make_filter()) {
     gst_object_ref_sink(filter_);
     if (given(options, "max-force").empty()) set_property(filter_, "max-force=1");
+    // Everyone feels the same of a clip that was analysed before, on a busy machine, too.
+    set_property(filter_, "analysis=auto");
     for (const std::string& assignment : options.assignments) set_property(filter_, assignment);
     for (const std::string& assignment : assignments) set_property(filter_, assignment);
     pipeline_ = make_player(film_uri(clip), filter_, open_screen(options.headless));

@@ -2,12 +2,19 @@
 // Copyright 2026 the gst-spidar authors
 // The statistics of compare_controllers.
 #include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "apps/feel/analyzed_film.h"
 #include "apps/feel/figures.h"
+#include "core/analysis/frame_renderer.h"
 #include "core/force/motion_rendering.h"
+#include "tests/core/motion_rows.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spidar {
 namespace {
@@ -28,6 +35,56 @@ Film film_of(const std::vector<double>& speeds_px_s, int height = 480) {
     film.frames.push_back(frame);
   }
   return film;
+}
+
+TEST(AnalyzedFilm, IsTheMotionThatIsFeltWhileTheFilmIsMeasured) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path / "clip.avi.motion";
+  const test::MeasuredFilm measured = test::random_film(3, 300);
+  std::ofstream(path, std::ios::binary) << measured.file();
+  ASSERT_TRUE(is_analysis(path));
+  EXPECT_FALSE(is_analysis("clip.avi"));
+  const AnalyzerSettings settings;
+  const Film film = read_analysis(path, settings);
+  EXPECT_EQ(film.name, "clip.avi");
+  FrameRenderer live;
+  size_t frames = 0;
+  for (size_t i = 0; i < measured.frames.size(); ++i) {
+    const MotionMoment& moment = measured.moments[i];
+    if (moment.kind != MomentKind::kFrame) continue;
+    AnalyzerSettings coded = settings;
+    coded.pointer = moment.turn.place_coded(settings.pointer);
+    live.configure(coded);
+    MeasuredFrame frame = measured.frames[i];
+    const FrameAnalysis felt = live.render(frame, {moment.stream_ns, moment.turn});
+    ASSERT_LT(frames, film.frames.size());
+    EXPECT_EQ(film.frames[frames].motion.velocity_px_s, felt.motion.velocity_px_s) << i;
+    EXPECT_EQ(film.frames[frames].interval_s, 1e-9 * static_cast<double>(felt.interval_ns)) << i;
+    EXPECT_EQ(film.height, felt.height);
+    ++frames;
+  }
+  EXPECT_EQ(film.frames.size(), frames);
+}
+
+std::string problem_of(const std::string& path) {
+  try {
+    read_analysis(path, {});
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AnalyzedFilm, SaysWhatIsWrong) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path / "clip.motion";
+  EXPECT_EQ(problem_of(path), path + ": it cannot be opened");
+  std::ofstream(path) << "no analysis";
+  EXPECT_EQ(problem_of(path).find(path + ": "), 0u);
+  MotionHeader mean;
+  mean.is_mean = true;
+  std::ofstream(path, std::ios::binary) << test::random_film(3, 10).file(mean);
+  EXPECT_EQ(problem_of(path), path + ": " + wrong_motion(mean, MotionKind::kObject));
 }
 
 TEST(RankCorrelation, DependsOnOrderOnlyAndSharesRanks) {
