@@ -56,8 +56,10 @@ struct DeviceRange {
     largest_force_N = std::floor(10 * std::max(spidar::kAnyForce_N, can.largest_force_N)) / 10;
     if (has_strings)
       largest_torque_Nm = std::floor(1000 * spidar::largest_torque_Nm(profile)) / 1000;
-    if (can.force[2] && can.position[2])
-      surface.half_size_m = spidar::half_picture_m(profile.geometry);
+    const Eigen::Vector3d half_m = spidar::half_room_m(profile.geometry);
+    for (int axis = 0; axis < 3; ++axis)
+      if (can.position[static_cast<size_t>(axis)]) workspace_m[axis] = 2 * half_m[axis];
+    if (can.force[2]) surface.half_size_m = workspace_m.head<2>() / 2;
     surface.most_stiffness_N_m =
         has_strings ? spidar::most_stiffness_N_m(profile) : spidar::kUnmeasuredStiffness_N_m;
     surface.drive_lag_s = has_strings ? spidar::assumed_lag_s(profile) : spidar::kUnmeasuredLag_s;
@@ -75,6 +77,7 @@ struct DeviceRange {
   std::string giver;  ///< a profile, or the device
   double largest_force_N = 0;
   double largest_torque_Nm = spidar::kAnyTorque_Nm;
+  Eigen::Vector3d workspace_m = Eigen::Vector3d::Zero();
   SurfaceRange surface;
 };
 
@@ -237,8 +240,7 @@ Capabilities Device::capabilities() const {
   found.largest_torque_Nm = range.largest_torque_Nm;
   found.largest_stiffness_N_m = range.surface.most_stiffness_N_m;
   found.rate_Hz = abilities.rate_Hz;
-  found.surface_width_m = 2 * range.surface.half_size_m.x();
-  found.surface_height_m = 2 * range.surface.half_size_m.y();
+  found.workspace_m = to_api(range.workspace_m);
   found.buttons = abilities.buttons;
   return found;
 }

@@ -66,6 +66,7 @@ bool TouchedSurface::set(const Surface& surface, const SurfaceRange& range,
         2 * range.half_size_m.x(), 2 * range.half_size_m.y(), spidar::TouchMailbox::kLeastSlots);
     loop.connect_touch(mailbox_.get());
   }
+  if (loop.snapshot().last.device == spidar::DeviceState::kLost) return false;
   spidar::TouchFrame* const frame = free_slot();
   if (frame == nullptr) return false;
   builder_.from_brightness(picture, relief, frame->relief);
@@ -83,7 +84,7 @@ void TouchedSurface::clear() noexcept {
   if (mailbox_) mailbox_->forget();
 }
 
-/// The loop frees those of former surfaces in its next tick, unless the device is lost.
+/// The loop frees those of former surfaces in its next tick, unless the device is lost meanwhile.
 spidar::TouchFrame* TouchedSurface::free_slot() noexcept {
   constexpr int kTicks = 20;
   for (int i = 0; i < kTicks; ++i) {

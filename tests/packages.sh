@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 # Builds the Debian packages in a Debian that has only the packages named by debian/control, checks
-# them with lintian, installs the four into a minimal Debian, plays a clip there with the simulated
+# them with lintian, installs the five into a minimal Debian, plays a clip there with the simulated
 # device, and builds and runs an example. Needs root; nothing of this machine is visible from there.
 #   tests/packages.sh debian-12|debian-13 [FOLDER]   leaves the packages in FOLDER
 # The last line is the result. A small Debian, the compiler cache (ccache) and the downloaded
@@ -110,9 +110,9 @@ largest='NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "commanded_force_x_N") co
 
 try_packages() {
     new_root
-    local name names=(gstreamer1.0-spidar libgst-spidar0 libgst-spidar-dev spidar-tools) packages=()
+    local name names=(gstreamer1.0-spidar libgst-spidar0 libgst-spidar-dev spidar-tools python3-gst-spidar) packages=()
     for name in "${names[@]}"; do packages+=("/$name.deb") && cp "$folder/${name}"_*.deb "$root/$name.deb"; done
-    say "the four packages in a fresh $release"
+    say "the five packages in a fresh $release"
     apt update
     apt install -y --no-install-recommends "${packages[@]}"
     in_root test -f /usr/lib/udev/rules.d/70-spidar.rules -a -x /usr/libexec/gst-spidar/spidar-guardian
@@ -125,10 +125,11 @@ try_packages() {
     in_root spidarctl list | sed -n 1,8p
     in_root spidar-feel max-force=2 -- gst-inspect-1.0 spidarmotion >/dev/null
     in_root spidartrack --version
-    say "an example of libgst-spidar-dev"
+    say "examples of libgst-spidar-dev"
     apt install -y --no-install-recommends g++ pkg-config
     in_root sh -c 'g++ -std=c++17 /usr/share/doc/libgst-spidar-dev/examples/push.cpp \
         $(pkg-config --cflags --libs gst-spidar) -o /tmp/push && /tmp/push'
+    in_root /usr/share/doc/libgst-spidar-dev/examples/push.py
     say "and away with them"
     apt purge -y "${names[@]}"
 }
@@ -136,4 +137,4 @@ try_packages() {
 make_debian "$suite" "$base"
 build_packages
 try_packages
-echo "$release: four packages built and installed, lintian reports nothing, and a clip was felt"
+echo "$release: five packages built and installed, lintian reports nothing, and a clip was felt"

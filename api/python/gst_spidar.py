@@ -59,10 +59,9 @@ class Pose(_Struct):
 
 
 class Capabilities(_Struct):
-    _most = ("largest_force_N", "largest_torque_Nm", "largest_stiffness_N_m")
-    _rest = ("rate_Hz", "surface_width_m", "surface_height_m")
+    _most = ("largest_force_N", "largest_torque_Nm", "largest_stiffness_N_m", "rate_Hz")
     _can = [(name, c_bool) for name in ("force_x", "force_y", "force_z", "torque", "direction")]
-    _fields_ = [*_can, *((name, c_double) for name in _most + _rest), ("buttons", c_int)]
+    _fields_ = [*_can, *((name, c_double) for name in _most), ("workspace_m", Vector3), ("buttons", c_int)]
 
 
 class GripState(_Struct):

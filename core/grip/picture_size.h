@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How large a picture is in the device's frame.
+/// How much room the grip has, and how large a picture is in it.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,15 +9,19 @@
 
 namespace spidar {
 
-/// Half the width and height of a picture, whose middle is the workspace's centre: half of the way
-/// to the box that holds the exits of the strings. There the grip can still be held
-/// (docs/workspace.md).
-inline Eigen::Vector2d half_picture_m(const StringGeometry& geometry) {
+/// How far the grip is to move from the workspace's centre to each side: half of the way to the box
+/// that holds the exits of the strings. There it can still be held (docs/workspace.md).
+inline Eigen::Vector3d half_room_m(const StringGeometry& geometry) {
   constexpr double kReach = 0.5;
-  Eigen::Vector2d half_m = Eigen::Vector2d::Zero();
+  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
   for (int i = 0; i < geometry.count; ++i)
-    half_m = half_m.cwiseMax(kReach * geometry.exit_m[static_cast<size_t>(i)].head<2>().cwiseAbs());
+    half_m = half_m.cwiseMax(kReach * geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
   return half_m;
+}
+
+/// Half the width and height of a picture, whose middle is the workspace's centre.
+inline Eigen::Vector2d half_picture_m(const StringGeometry& geometry) {
+  return half_room_m(geometry).head<2>();
 }
 
 }  // namespace spidar

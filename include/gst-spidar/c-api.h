@@ -84,11 +84,10 @@ typedef struct {
   /*! Largest stiffness of a wall that was measured to be stable in a hand, N/m. */
   double largest_stiffness_N_m;
   double rate_Hz; /*!< forces a second, at most */
-  /*! Size of the surface of gst_spidar_device_set_surface(), whose middle is the centre of the
-   * workspace, m; 0 when nothing can be touched. */
-  double surface_width_m;
-  double surface_height_m; /*!< see surface_width_m */
-  int buttons;             /*!< how many gst_spidar_device_buttons() tells, at most 32 */
+  /*! Width, height and depth of the box around the centre that the grip is to stay in, m, and that
+   * a stick covers; 0 where its place is not measured. */
+  GstSpidarVector3 workspace_m;
+  int buttons; /*!< how many gst_spidar_device_buttons() tells, at most 32 */
 } GstSpidarCapabilities;
 
 /*! A grey picture: `height` rows of `width` bytes, 0 black and 255 white. The memory is the
@@ -102,7 +101,7 @@ typedef struct {
 
 /*! A relief that the grip touches from the front. The values that suit most are in brackets. */
 typedef struct {
-  /*! How near each place is: 255 is nearest. It covers the whole surface. */
+  /*! How near each place is: 255 is nearest. It covers the width and height of the workspace. */
   GstSpidarPicture picture;
   double relief_m; /*!< from 0 to 255, m, at most 0.03 [0.008]; its middle is the workspace's */
   double stiffness_N_m; /*!< N/m, above 0, at most that of the capabilities [200] */

@@ -41,17 +41,16 @@ struct Capabilities {
   /// drives that the profile has; small while nobody has measured that (docs/touch.md).
   double largest_stiffness_N_m = 0;
   double rate_Hz = 0;  ///< forces a second, at most
-  /// Size of the surface of set_surface(), whose middle is the centre of the workspace, m; 0 when
-  /// nothing can be touched.
-  double surface_width_m = 0;
-  double surface_height_m = 0;  ///< see surface_width_m
-  int buttons = 0;              ///< how many Device::buttons() tells, at most 32
+  /// Width, height and depth of the box around the centre that the grip is to stay in, m, and that
+  /// a stick covers; 0 where its place is not measured.
+  Vector3 workspace_m;
+  int buttons = 0;  ///< how many Device::buttons() tells, at most 32
 };
 
 /// A relief that the grip touches from the front: the element's property `touch`.
 struct Surface {
-  /// How near each place is: 255 is nearest. It covers the whole surface, whatever its proportions
-  /// are.
+  /// How near each place is: 255 is nearest. It covers the width and height of the workspace
+  /// (Capabilities::workspace_m), whatever its proportions are.
   GreyPicture picture;
   /// From 0 to 255, m, at most 0.03. Its middle, 127.5, is in the middle of the workspace. Slopes
   /// are limited to 1.5.

@@ -61,6 +61,8 @@ class Devices(unittest.TestCase):
             self.assertEqual(device.last_fault(), "")
             self.assertTrue(device.capabilities().force_z)
             self.assertEqual(device.capabilities().rate_Hz, 1000)
+            self.assertTrue(all(0.02 < size_m < 1 for size_m in device.capabilities().workspace_m))
+            self.assertEqual(device.capabilities().buttons, 0)
             self.assertIn("position_m=Vector3(x=", repr(device.pose()))
 
     def test_waiting_ends_when_the_time_is_over(self):

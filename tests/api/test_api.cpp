@@ -30,7 +30,7 @@ static_assert(sizeof(Wrench) == 2 * sizeof(Vector3));
 static_assert(sizeof(Pose) == sizeof(Vector3) + sizeof(Quaternion));
 static_assert(sizeof(GreyPicture) == 2 * sizeof(void*) + 2 * sizeof(int));
 static_assert(sizeof(GripState) == sizeof(Pose) + 2 * sizeof(Vector3) + 2 * sizeof(double));
-static_assert(sizeof(Capabilities) == 8 * sizeof(double));
+static_assert(sizeof(Capabilities) == 9 * sizeof(double));
 static_assert(sizeof(Surface) == sizeof(GreyPicture) + 4 * sizeof(double));
 static_assert(sizeof(Device) == sizeof(void*));
 static_assert(std::is_nothrow_move_constructible_v<Device> &&
@@ -236,7 +236,7 @@ TEST(Device, ASurfaceThatIsWrongIsNamed) {
   EXPECT_NE(message([](Surface& s) { s.picture.data = nullptr; }), "");
   EXPECT_NE(message([](Surface& s) { s.picture.height = 15; }), "");
   Device stick("sim:ff");
-  EXPECT_EQ(stick.capabilities().surface_width_m, 0);
+  EXPECT_EQ(stick.capabilities().workspace_m.z, 0);
   const Relief relief(0, 255);
   EXPECT_NE(message_of([&] { stick.set_surface(relief.surface); }).find("has no surfaces"),
             std::string::npos);
@@ -255,8 +255,10 @@ TEST(Device, WhatItCanDoIsKnown) {
   EXPECT_DOUBLE_EQ(whole.largest_force_N, 7.2);
   EXPECT_DOUBLE_EQ(whole.largest_stiffness_N_m, 800);
   EXPECT_GE(whole.largest_torque_Nm, 0.1);
-  EXPECT_GT(whole.surface_width_m, 0);
-  EXPECT_GT(whole.surface_height_m, 0);
+  // Half of the box of the exits of spidar-gcc.
+  EXPECT_DOUBLE_EQ(whole.workspace_m.x, 0.059);
+  EXPECT_DOUBLE_EQ(whole.workspace_m.y, 0.064);
+  EXPECT_GT(whole.workspace_m.z, 0.02);
   EXPECT_EQ(whole.rate_Hz, 1000);
   const Capabilities stick = Device("sim:ff").capabilities();
   EXPECT_TRUE(stick.force_x && stick.force_y && stick.direction);

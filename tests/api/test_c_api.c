@@ -106,7 +106,7 @@ static void a_device_tells_what_it_does(const GstSpidarDevice* device) {
   REQUIRE(can.force_x && can.force_y && can.force_z && can.torque && can.direction);
   REQUIRE(can.largest_force_N == 7.2 && can.largest_stiffness_N_m == 800 && can.rate_Hz == 1000);
   REQUIRE(can.largest_torque_Nm >= 0.1 && can.largest_torque_Nm < 1);
-  REQUIRE(can.surface_width_m > 0.05 && can.surface_height_m > 0.05 && can.surface_width_m < 1);
+  REQUIRE(fabs(can.workspace_m.x - 0.059) < 1e-9 && fabs(can.workspace_m.y - 0.064) < 1e-9);
   REQUIRE(can.buttons == 0);
 }
 
