@@ -115,9 +115,9 @@ def check_programs(it, relocatable, compiler):
 
 
 def check_python(it):
-    modules = list(it.folder.glob("**/gst_spidar.py"))
+    modules = list(it.folder.glob("**/gst_spidar/__init__.py"))
     require(len(modules) == 1, "the Python module is not installed once", str(modules))
-    env = {**it.with_library, "PYTHONPATH": str(modules[0].parent), "PYTHONDONTWRITEBYTECODE": "1"}
+    env = {**it.with_library, "PYTHONPATH": str(modules[0].parent.parent), "PYTHONDONTWRITEBYTECODE": "1"}
     said = run(["/usr/bin/python3", str(it.source / "examples/api/push.py")], env)
     require(re.match(r"sim: [\d.]+ N", said), "push.py does not push", said)
     said = run(["/usr/bin/python3", "-c", "import gst_spidar"], {**env, "LD_LIBRARY_PATH": ""}, fails=True)

@@ -139,7 +139,7 @@ class Devices(unittest.TestCase):
                 device.push((math.nan, 0, 0))
             with self.assertRaises(TypeError):
                 device.push(("1", 0, 0))
-        with self.assertRaisesRegex(ValueError, "this Device is closed"):
+        with self.assertRaisesRegex(ValueError, "it is closed; make another one"):
             device.push((1, 0, 0))
         device.close()  # again
 
@@ -177,15 +177,26 @@ called.wait(30)
                 self.assertEqual(done.returncode, status, done.stderr)
                 self.assertNotIn("Fatal", done.stderr)
 
-    def test_threads_share_a_device(self):
-        with Device("sim") as device:
-            readers = [threading.Thread(target=lambda: [device.felt() for _ in range(1000)]) for _ in range(3)]
-            for reader in readers:
-                reader.start()
-            for _ in range(100):
-                device.push((1, 0, 0))
-            for reader in readers:
-                reader.join()
+    def test_threads_share_a_device_until_one_closes_it(self):
+        device = Device("sim")
+        ends = []
+
+        def use(call):
+            try:
+                while True:
+                    call()
+            except ValueError as error:
+                ends.append(str(error))
+
+        calls = (device.felt, lambda: device.push((1, 0, 0)), lambda: device.wait_until_running(1), device.pose)
+        threads = [threading.Thread(target=use, args=(call,)) for call in calls]
+        for thread in threads:
+            thread.start()
+        self.assertTrue(comes_true(lambda: device.felt().force_N.x > 0.5))
+        device.close()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(ends, ["it is closed; make another one"] * 4)
 
 
 class Pictures(unittest.TestCase):
