@@ -70,6 +70,10 @@ Wording wording(NoForceReason limit) noexcept {
       return {"not-chosen",
               "By what was chosen (feel, or a click with pointer=mouse), nothing is felt now: the "
               "rule says so, or its object is not in sight."};
+    case NoForceReason::kCameraUnknown:
+      return {"camera-unknown",
+              "How the camera moves cannot be told: no motion explains more than a small part of "
+              "the picture. What moves against the background is therefore unknown, too."};
     case NoForceReason::kCameraOnly:
       return {"camera-only",
               "Only the camera moves, and motion=object and motion=objects leave that out; with "
@@ -148,6 +152,9 @@ NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion) {
   const bool leaves_out_camera =
       frame.choice.is_free() ? motion == MotionKind::kObject || motion == MotionKind::kObjects
                              : frame.choice.is_kept || frame.choice.rule->is_about_objects();
+  const bool is_unknown = frame.background && frame.background->coverage == 0 &&
+                          frame.features >= static_cast<int>(kLeastVotes);
+  if (leaves_out_camera && is_unknown) return NoForceReason::kCameraUnknown;
   const bool camera_moves = frame.model && *frame.model != ModelKind::kStill;
   return leaves_out_camera && camera_moves ? NoForceReason::kCameraOnly
                                            : NoForceReason::kNothingMoves;

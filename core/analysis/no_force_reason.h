@@ -36,6 +36,7 @@ enum class NoForceReason {
   kFewPictures,
   kTooFewPoints,
   kNotChosen,
+  kCameraUnknown,
   kCameraOnly,
   kNothingMoves,
   kTooWeak,

@@ -27,7 +27,6 @@ constexpr double kNoiseQuantile = 0.3;
 constexpr double kNoiseLearnt = 0.4;  // share of the new value in each frame
 constexpr double kOutlierSigmas = 2.5;
 constexpr double kLeastReach_px = 0.6;
-constexpr size_t kLeastVotes = 12;
 
 /// A model explains the votes when kExplainedShare of them are inliers and their mean ρ is below
 /// kExplained; the ρ of an outlier is 4.
@@ -138,6 +137,15 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
   return scored.coverage >= kLeastCoverage && is_background(scored.model.kind, votes.size_px);
 }
 
+/// Whether the chosen model is the camera's: more of the votes agree than an object has, or all
+/// others may be those of objects.
+bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
+  if (chosen.coverage * votes.all >= kMostObject * voting_) return true;
+  places_px_.clear();
+  for (const Displacement& point : votes.points) places_px_.push_back(point.at_px);
+  return !is_background(ModelKind::kSimilarity, votes.size_px);
+}
+
 /// Returns false when the votes do not determine such a model, or when it does not cover the
 /// picture.
 bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
@@ -203,8 +211,10 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
 /// Uses a low quantile, because some things that move by themselves may not have been recognised
 /// yet. Where little agrees with the model, the picture is plain, or so blurred that the model is
 /// wrong; the noise is then assumed to be that of good pictures. Rest that few blocks agree with is
-/// noise, if most of the picture has texture.
+/// noise, if most of the picture has texture. Where the camera's motion is unknown, so is the
+/// noise.
 void BackgroundEstimator::learn_noise() {
+  if (!background_.is_known) return;
   double found_px = kNoiseAtFirst_px;
   const bool is_textured_rest = is_textured_ && background_.model.kind == ModelKind::kStill;
   if (residuals_px_.size() >= kLeastVotes &&
@@ -223,6 +233,7 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   if (votes.points.size() < kLeastVotes) {
     background_.model = MotionModel();
     background_.coverage = 0;
+    background_.is_known = true;
     background_.sigma_px = noise_px_;
     return background_;
   }
@@ -250,8 +261,9 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   } else if (current.model.kind != ModelKind::kStill) {
     descend(start, votes, current);
   }
-  background_.model = current.model;
-  background_.coverage = current.coverage;
+  background_.is_known = is_proven(current, votes);
+  background_.model = background_.is_known ? current.model : MotionModel();
+  background_.coverage = background_.is_known ? current.coverage : 0;
   background_.sigma_px = noise_px_;
   return background_;
 }

@@ -12,6 +12,8 @@ namespace spidar {
 
 /// A block at the border of the picture counts as two elsewhere, because objects are rarely there.
 constexpr double kBorderVotes = 2;
+/// Fewer votes say nothing about the background.
+constexpr size_t kLeastVotes = 12;
 
 /// Displacements from which the camera's motion is estimated.
 struct BackgroundVotes {
@@ -30,6 +32,9 @@ struct BackgroundVotes {
 /// An object in front of a plain background may have all the votes, and any two objects move like
 /// some similarity. When less than half of the picture votes, a translation therefore needs votes
 /// in two places that are too far apart for one object, and a model above it needs them in three.
+/// Rest needs none, because a plain background shows none. But where there are votes in three
+/// places and hardly any agrees with the model that explains them best, the camera's motion is
+/// unknown.
 ///
 /// Rungs compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil. Trans.
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
@@ -77,6 +82,7 @@ class BackgroundEstimator {
   void weigh(const BackgroundVotes& votes);
   bool covers(Scored& scored, const BackgroundVotes& votes);
   bool is_background(ModelKind kind, const Eigen::Vector2d& size_px);
+  bool is_proven(const Scored& chosen, const BackgroundVotes& votes);
   bool score(ModelKind kind, const MotionModel& start, const BackgroundVotes& votes,
              Scored& scored);
   bool is_explained(const MotionModel& model) const;

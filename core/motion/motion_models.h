@@ -65,7 +65,11 @@ struct MotionModel {
 struct Background {
   MotionModel model;
   double sigma_px = 0;  ///< noise of a displacement, each coordinate
-  double coverage = 1;  ///< share of the picture's votes that agree with the model
+  double coverage = 1;  ///< share of the picture's votes that agree with the model; 0: hardly any
+  /// False where there is texture all over the picture and hardly any of it agrees with the best
+  /// model: how the camera moves is unknown, and with it what moves by itself. The model is 'still'
+  /// then, and `coverage` 0, which is all that a file keeps of it.
+  bool is_known = true;
 };
 
 /// Least squares: minimises Σ w |moved − displacement(at)|², w ≥ 0, one weight for each point.

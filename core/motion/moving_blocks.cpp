@@ -240,6 +240,9 @@ const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
   leave_out_burned_in(field, expected);
   remember_judgements(field);
   ask_neighbours(field.grid());
+  if (!background.is_known) {
+    for (RelativeBlock& block : relative_) block.moves = false;
+  }
   remember_motion(field);
   return relative_;
 }

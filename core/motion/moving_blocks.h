@@ -26,8 +26,8 @@ struct RelativeBlock {
 
 /// Compares each block with the background. A block moves by itself when its motion differs from
 /// the background's by more than noise and the background's motion would explain its pixels clearly
-/// worse. A single block that stands out is an error unless it lasts. Textureless blocks move as
-/// most of their neighbours do.
+/// worse. While the motion of the background is unknown, no block is known to. A single block that
+/// stands out is an error unless it lasts. Textureless blocks move as most of their neighbours do.
 class MovingBlocks {
  public:
   /// `expected` is 1 for each block on which an object was in the previous frame, or is expected in

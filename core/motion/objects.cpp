@@ -228,12 +228,13 @@ int ObjectTracker::count_resting(const Life& life, int& textured) const {
   return all;
 }
 
-/// Nothing moves by itself at the object's place. If most of the object was visible before, it has
-/// come to rest there. If only a rim was visible, it is out of sight and continues with its last
-/// motion.
+/// Nothing is known to move by itself at the object's place. If most of the object was visible
+/// before, it has come to rest there. If only a rim was visible, it is out of sight and continues
+/// with its last motion.
 void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   const int resting = count_resting(life, object.tracks);
+  if (!background_->is_known) object.tracks = 0;
   if (object.tracks > 0 && resting >= kMostShows * life.usual_blocks) {
     for (size_t i = 0; i < owners_before_.size(); ++i) {
       const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;

@@ -33,7 +33,8 @@ struct FieldInFrame {
 /// Follows objects from frame to frame. A region that moves by itself becomes an object in the
 /// second frame in which its motion is similar. A region belongs to the object to which most of its
 /// blocks belonged before, or else to an object out of sight that is expected there, so that an
-/// object that passes behind another one keeps its id. An object is dropped when it has been out of
+/// object that passes behind another one keeps its id. While the motion of the background is
+/// unknown, all objects are out of sight. An object is dropped when it has been out of
 /// sight for kForgotten_s or at rest for kAtRest_s; until then it may stand still.
 class ObjectTracker {
  public:

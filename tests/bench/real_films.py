@@ -230,10 +230,9 @@ class Calm:
                 continue
             self.felt += 1
             self.felt_s += seconds
-            # What is felt is a copy of the dominant object's motion.
-            felt = [o["id"] for o in row["objects"] if o["velocity_px_s"] == row["motion"]["velocity_px_s"]]
-            if felt and felt[0] != last:
-                self.runs, self.changes, last = self.runs + 1, self.changes + (last is not None), felt[0]
+            # 0: none, the force fades
+            if row["object"] not in (0, last):
+                self.runs, self.changes, last = self.runs + 1, self.changes + (last is not None), row["object"]
 
     def row(self, name):
         minutes = max(self.seconds / 60, 1e-9)

@@ -166,10 +166,25 @@ TEST(Background, OneOrTwoObjectsOnAPlainBackgroundAreNotTheBackground) {
         for (size_t i = 0; i < objects; ++i) {
           add_object(source, points, count, places_px[i], moved_px[i], kSigma_px);
         }
-        EXPECT_EQ(estimator.estimate(votes(points, 900)).model.kind, ModelKind::kStill)
+        const Background& found = estimator.estimate(votes(points, 900));
+        EXPECT_EQ(found.model.kind, ModelKind::kStill)
             << objects << " objects of " << count << ", frame " << n;
+        EXPECT_TRUE(found.is_known) << objects << " objects of " << count << ", frame " << n;
       }
     }
+}
+
+TEST(Background, IsUnknownWhereVotesAllOverThePictureAgreeOnNothing) {
+  TrackSource source(11);
+  BackgroundEstimator estimator;
+  settle(estimator, source, sample_model(ModelKind::kSimilarity), 5, kSigma_px);
+  for (int n = 0; n < 10; ++n) {
+    const Background found = settle(estimator, source, MotionModel(), 1, kSigma_px, 200);
+    EXPECT_FALSE(found.is_known) << "frame " << n;
+    EXPECT_EQ(found.coverage, 0) << "frame " << n;
+  }
+  EXPECT_TRUE(
+      settle(estimator, source, sample_model(ModelKind::kSimilarity), 1, kSigma_px).is_known);
 }
 
 TEST(Background, FewVotesInManyPlacesAreEnough) {

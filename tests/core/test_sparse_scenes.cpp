@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Scenes of which little has texture: whether what moves there is the camera or an object.
+// Scenes in which little shows how the camera moves: whether what moves there is the camera or an
+// object.
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
+#include "core/analysis/no_force_reason.h"
 #include "tests/support/moving_scene.h"
 
 namespace spidar::test::sparse_scenes_test {
@@ -86,6 +90,32 @@ TEST(SparseScenes, FewCloudsShowHowTheCameraMoves) {
 
 TEST(SparseScenes, AFaintSkyShowsHowTheCameraMoves) {
   expect_a_pan(0.3, false);
+}
+
+TEST(SparseScenes, NothingIsFeltWhereNothingAgreesHowTheCameraMoves) {
+  // As on broken water, each tile of 32 px drifts by up to 8 px a frame in its own direction.
+  constexpr int kTile_px = 32;
+  const Texture texture(3, 6);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> drift_px(-8, 8);
+  std::vector<Eigen::Vector2d> drifts_px((kWidth / kTile_px + 1) * (kHeight / kTile_px + 1));
+  for (Eigen::Vector2d& each_px : drifts_px) each_px << drift_px(random), drift_px(random);
+  Picture picture(kWidth, kHeight);
+  MotionAnalyzer analyzer;
+  for (int n = 0; n < kFrames; ++n) {
+    picture.fill([&](double x, double y) {
+      const auto tile = static_cast<size_t>(x) / kTile_px +
+                        kWidth / kTile_px * (static_cast<size_t>(y) / kTile_px);
+      const Eigen::Vector2d at_px = Eigen::Vector2d(x, y) - n * drifts_px[tile];
+      return texture.at(at_px.x(), at_px.y());
+    });
+    const FrameAnalysis frame = analyzer.analyze(picture.view(), n * kFrame_ns);
+    if (n == 0) continue;
+    EXPECT_EQ(frame.background->coverage, 0) << n;
+    EXPECT_EQ(frame.wrench.force_N.norm(), 0) << n;
+    EXPECT_STREQ(nick(limit_of(frame, MotionKind::kObject)), "camera-unknown") << n;
+    EXPECT_STREQ(nick(limit_of(frame, MotionKind::kCamera)), "nothing-moves") << n;
+  }
 }
 
 }  // namespace
