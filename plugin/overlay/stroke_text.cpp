@@ -25,7 +25,7 @@ const std::array<std::pair<TextStroke, unsigned>, 7> kBars{{
     {{{0, 1}, {kWide, 1}}, 0b1101101101},
 }};
 
-std::vector<TextStroke> strokes_of(char letter) {
+std::vector<TextStroke> strokes_of_letter(char letter) {
   if (letter == '.') return {{{kNarrow / 2, 1 - kDot}, {kNarrow / 2, 1}}};
   if (letter == 'N') return {{{0, 1}, {0, 0}}, {{0, 0}, {kWide, 1}}, {{kWide, 1}, {kWide, 0}}};
   std::vector<TextStroke> strokes;
@@ -42,7 +42,7 @@ std::vector<TextStroke> strokes_of(const std::string& text) {
   std::vector<TextStroke> strokes;
   Eigen::Vector2d at(0, 0);
   for (const char letter : text) {
-    for (const TextStroke& stroke : strokes_of(letter)) {
+    for (const TextStroke& stroke : strokes_of_letter(letter)) {
       strokes.push_back({at + stroke.from, at + stroke.to});
     }
     at.x() += width_of(letter) + kBetween;
