@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "plugin/window/model/setting_text.h"
 #include "plugin/window/panels.h"
@@ -13,22 +14,31 @@ namespace {
 /// logarithmic slider.
 constexpr double kWide = 100;
 constexpr double kLabelShare = 0.4, kResetWidth_px = 46, kTooltip_px = 340;
-/// Of a number beside its slider, whose handle would cover it; there is none beside a short slider.
-constexpr double kNumber_px = 72, kShortSlider_px = 60;
+/// Of a number beside its slider, whose handle would cover it. A panel without room for that has
+/// numbers that are dragged, and more room for names.
+constexpr double kNumber_px = 72, kShortSlider_px = 68, kNarrow_px = 370, kNarrowLabelShare = 0.47;
+/// Pixels from the lower end of a range to the upper one, and to another value half as large again.
+constexpr double kDragged_px = 200, kHalfAgain_px = 25;
 
 /// True when it was moved. `format` is that of its number.
-bool slider(const Brush& brush, ImGuiDataType type, void* shown, const void* low, const void* high,
-            const std::string& format, ImGuiSliderFlags flags) {
-  const float number = brush.px(kNumber_px), room = ImGui::GetContentRegionAvail().x - number;
-  if (room < brush.px(kShortSlider_px)) {
+template <typename Number>
+bool slider(const Brush& brush, Number& shown, Number low, Number high, const std::string& format,
+            ImGuiSliderFlags flags) {
+  constexpr ImGuiDataType kType =
+      std::is_floating_point_v<Number> ? ImGuiDataType_Double : ImGuiDataType_S64;
+  const float room = ImGui::GetContentRegionAvail().x;
+  if (room < brush.px(kNumber_px + kShortSlider_px)) {
+    const double range = static_cast<double>(high) - static_cast<double>(low);
+    const double size = std::max(std::fabs(static_cast<double>(shown)), 1.0);
+    const double speed = std::min(range / kDragged_px, size / 2 / kHalfAgain_px);
     ImGui::SetNextItemWidth(-FLT_MIN);
-    return ImGui::SliderScalar("##value", type, shown, low, high, format.c_str(), flags);
+    return ImGui::DragScalar("##value", kType, &shown, static_cast<float>(speed), &low, &high,
+                             format.c_str(), flags);
   }
-  ImGui::SetNextItemWidth(room);
-  const bool moved = ImGui::SliderScalar("##value", type, shown, low, high, "", flags);
+  ImGui::SetNextItemWidth(room - brush.px(kNumber_px));
+  const bool moved = ImGui::SliderScalar("##value", kType, &shown, &low, &high, "", flags);
   ImGui::SameLine();
-  type == ImGuiDataType_Double ? ImGui::Text(format.c_str(), *static_cast<double*>(shown))
-                               : ImGui::Text(format.c_str(), *static_cast<int64_t*>(shown));
+  ImGui::Text(format.c_str(), shown);
   return moved;
 }
 
@@ -43,14 +53,13 @@ bool number_widget(const Brush& brush, const Setting& setting, const SettingText
   const std::string unit = *text.unit ? std::string(" ") + text.unit : "";
   if (setting.kind == Setting::Kind::kNumber || text.per_unit != 1) {
     double shown = value / text.per_unit;
-    const bool moved =
-        slider(brush, ImGuiDataType_Double, &shown, &low, &high, "%.4g" + unit, flags);
+    const bool moved = slider(brush, shown, low, high, "%.4g" + unit, flags);
     value = shown * text.per_unit;
     return moved;
   }
   auto whole = static_cast<int64_t>(std::llround(value));
   const auto least = static_cast<int64_t>(low), most = static_cast<int64_t>(high);
-  const bool moved = slider(brush, ImGuiDataType_S64, &whole, &least, &most, "%lld" + unit, flags);
+  const bool moved = slider(brush, whole, least, most, "%lld" + unit, flags);
   value = static_cast<double>(whole);
   return moved;
 }
@@ -134,16 +143,26 @@ void draw_group(const Brush& brush, const Rect& panel, const ElementState& state
     return state.setting(text.property) != nullptr;
   };
   if (std::none_of(group.settings.begin(), group.settings.end(), is_there)) return;
+  const auto differs = [&](const SettingText& text) {
+    const Setting* const setting = state.setting(text.property);
+    return setting && is_changed(*setting);
+  };
+  // A slider must not change its width while it is moved; a number that is dragged may.
+  const bool narrow = panel.width < brush.px(kNarrow_px);
+  const bool has_reset =
+      !narrow || std::any_of(group.settings.begin(), group.settings.end(), differs);
   ImGui::Dummy({0, brush.px(2)});
   ImGui::PushFont(brush.fonts.bold);
   ImGui::TextUnformatted(group.name);
   ImGui::PopFont();
   ImGui::Separator();
   if (!ImGui::BeginTable(group.name, 3)) return;
-  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed,
-                          static_cast<float>(kLabelShare * panel.width));
+  ImGui::TableSetupColumn(
+      "name", ImGuiTableColumnFlags_WidthFixed,
+      static_cast<float>((narrow ? kNarrowLabelShare : kLabelShare) * panel.width));
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, brush.px(kResetWidth_px));
+  ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed,
+                          has_reset ? brush.px(kResetWidth_px) : 1);
   for (const SettingText& text : group.settings) {
     if (const Setting* setting = state.setting(text.property)) {
       draw_setting(brush, *setting, text, set);

@@ -182,7 +182,7 @@ void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& st
   const double most_N = device.max_tension_N.head(device.geometry.count).maxCoeff();
   const bool alike = device.max_tension_N.head(device.geometry.count).minCoeff() == most_N;
   const PlotAxis axis =
-      make_axis(0, most_N, std::max(2, static_cast<int>(area.height / (18 * brush.scale))));
+      make_axis(0, most_N, std::max(3, static_cast<int>(area.height / (18 * brush.scale))));
   if (alike) {
     for (const double tick : axis.ticks()) {
       const double y = area.bottom() - axis.share(tick) * area.height;

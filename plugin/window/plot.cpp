@@ -10,6 +10,21 @@ namespace {
 constexpr double kStepAcross_px = 56, kStepUp_px = 17;
 constexpr double kGap_px = 5;
 
+/// Fills meet without the seams that soft edges would leave between them.
+class PlainEdges {
+ public:
+  explicit PlainEdges(ImDrawList& list) : list_(list), before_(list.Flags) {
+    list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
+  }
+  ~PlainEdges() { list_.Flags = before_; }
+  PlainEdges(const PlainEdges&) = delete;
+  PlainEdges& operator=(const PlainEdges&) = delete;
+
+ private:
+  ImDrawList& list_;
+  ImDrawListFlags before_;
+};
+
 }  // namespace
 
 Plot::Plot(const Brush& brush, const Rect& panel, const PlotAxis& x, const PlotAxis& y,
@@ -78,6 +93,7 @@ void Plot::line(const std::vector<PlotPoint>& points, ImU32 color, double width_
 void Plot::band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px) const {
   std::vector<PlotPoint> outline;
   const auto bounded = [this](double y) { return std::clamp(y, y_.low, y_.high); };
+  const PlainEdges plain(brush_.list);
   brush_.list.PushClipRect(upper_left(area_), lower_right(area_), true);
   for (size_t i = 1; i < spans.size(); ++i) {
     const PlotSpan &a = spans[i - 1], &b = spans[i];
@@ -103,6 +119,7 @@ void Plot::band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px
 }
 
 void Plot::area(const std::vector<PlotPoint>& points, ImU32 color) const {
+  const PlainEdges plain(brush_.list);
   brush_.list.PushClipRect(upper_left(area_), lower_right(area_), true);
   for (size_t i = 1; i < points.size(); ++i) {
     const PlotPoint& a = points[i - 1];

@@ -221,7 +221,7 @@ TEST(GainCurve, SpeedIsThatOfTheReferenceFrame) {
   EXPECT_EQ(controller_speed_px_s(motion, {}, 0), 0);
 }
 
-TEST(FrameFeed, GivesTheNewestFrameOnce) {
+TEST(FrameFeed, GivesTheNewestFramesOnceAndInOrder) {
   init_gstreamer();
   GstVideoInfo info;
   GstCaps* caps = make_caps("I420", 35, 17);
@@ -233,25 +233,29 @@ TEST(FrameFeed, GivesTheNewestFrameOnce) {
   EXPECT_FALSE(feed.wanted()) << "no copies are made while nobody looks";
   EXPECT_FALSE(feed.take(picture, facts));
   feed.want();
-  for (int n = 0; n < 3; ++n) {
+  constexpr int kMost = FrameFeed::kMost;
+  for (int n = 0; n < kMost + 2; ++n) {
     GstBuffer* buffer = make_frame(info, n, 0, 7);
     GstVideoFrame frame;
     gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ);
-    EXPECT_EQ(feed.wanted(), n == 0);
+    EXPECT_EQ(feed.wanted(), n < kMost) << n;
     facts.running_ns = n;
     EXPECT_TRUE(feed.give(frame, facts));
     EXPECT_EQ(GST_MINI_OBJECT_REFCOUNT_VALUE(buffer), 2) << "that of the map; the copy is our own";
     gst_video_frame_unmap(&frame);
     gst_buffer_unref(buffer);
   }
-  facts = {};
-  ASSERT_TRUE(feed.take(picture, facts));
-  EXPECT_EQ(facts.running_ns, 2);
+  for (int n = 2; n < kMost + 2; ++n) {
+    facts = {};
+    ASSERT_TRUE(feed.take(picture, facts));
+    EXPECT_EQ(facts.running_ns, n);
+  }
   GstVideoFrame copy;
   ASSERT_TRUE(gst_video_frame_map(&copy, &picture.info(), picture.buffer(), GST_MAP_READ));
   const auto* luma = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&copy, 0));
   const int stride = GST_VIDEO_FRAME_PLANE_STRIDE(&copy, 0);
-  EXPECT_EQ(luma[16 * stride + 34], static_cast<guint8>(std::lround(texture(34 - 2, 16))));
+  EXPECT_EQ(luma[16 * stride + 34],
+            static_cast<guint8>(std::lround(texture(34 - (kMost + 1), 16))));
   gst_video_frame_unmap(&copy);
   EXPECT_FALSE(feed.take(picture, facts));
 }

@@ -38,23 +38,29 @@ bool PictureCopy::copy(const GstVideoFrame& frame) {
 }
 
 bool FrameFeed::give(const GstVideoFrame& frame, const FrameFacts& facts) {
-  if (!back_.picture.copy(frame)) return false;
-  back_.facts = facts;
+  if (!back_) back_ = std::make_unique<Entry>();
+  if (!back_->picture.copy(frame)) return false;
+  back_->facts = facts;
   const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
   if (!lock.owns_lock()) return false;
-  swap(back_.picture, ready_.picture);
-  std::swap(back_.facts, ready_.facts);
-  fresh_ = true;
-  wanted_.store(false, std::memory_order_release);
+  ready_.push_back(std::move(back_));
+  if (ready_.size() > kMost) {
+    spare_ = std::move(ready_.front());
+    ready_.pop_front();
+  }
+  back_ = std::move(spare_);
+  const size_t wanted = wanted_.load(std::memory_order_relaxed);
+  if (wanted > 0) wanted_.store(wanted - 1, std::memory_order_release);
   return true;
 }
 
 bool FrameFeed::take(PictureCopy& picture, FrameFacts& facts) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!fresh_) return false;
-  swap(picture, ready_.picture);
-  std::swap(facts, ready_.facts);
-  fresh_ = false;
+  if (ready_.empty()) return false;
+  spare_ = std::move(ready_.front());
+  ready_.pop_front();
+  swap(picture, spare_->picture);
+  std::swap(facts, spare_->facts);
   return true;
 }
 

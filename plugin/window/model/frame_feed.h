@@ -4,6 +4,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
+#include <deque>
+#include <memory>
 #include <mutex>
 
 #include <gst/video/video.h>
@@ -32,20 +35,23 @@ class PictureCopy {
   GstBuffer* buffer_ = nullptr;
 };
 
-/// Copies are made only when the window has asked for one, which it does after it has drawn the one
-/// before: never faster than the screen, and not at all while the window is frozen or gone.
+/// Copies are made only of the next kMost frames after the window has asked, which it does whenever
+/// it draws: all that it can show in time even when it draws slowly, and none while it is frozen or
+/// gone.
 class FrameFeed {
  public:
+  static constexpr size_t kMost = 4;
+
   // --- streaming thread
 
-  bool wanted() const noexcept { return wanted_.load(std::memory_order_acquire); }
+  bool wanted() const noexcept { return wanted_.load(std::memory_order_acquire) > 0; }
   /// Copies. False when the window is just looking, or there is no memory: the next frame will do.
   bool give(const GstVideoFrame& frame, const FrameFacts& facts);
 
   // --- window thread
 
-  void want() noexcept { wanted_.store(true, std::memory_order_release); }
-  /// False when nothing has come since the last call.
+  void want() noexcept { wanted_.store(kMost, std::memory_order_release); }
+  /// The oldest of the last kMost. False when there is none.
   bool take(PictureCopy& picture, FrameFacts& facts);
 
  private:
@@ -53,11 +59,11 @@ class FrameFeed {
     PictureCopy picture;
     FrameFacts facts;
   };
-  std::atomic<bool> wanted_{false};
-  Entry back_;  // streaming thread
+  std::atomic<size_t> wanted_{0};
+  std::unique_ptr<Entry> back_;  // streaming thread
   std::mutex mutex_;
-  Entry ready_;
-  bool fresh_ = false;
+  std::deque<std::unique_ptr<Entry>> ready_;
+  std::unique_ptr<Entry> spare_;  // whose memory is used again
 };
 
 }  // namespace spidar

@@ -12,13 +12,13 @@ void FrameQueue::drop_oldest() {
 }
 
 void FrameQueue::fill(FrameFeed& feed) {
-  if (!spare_) spare_ = std::make_unique<Frame>();
-  if (!feed.take(spare_->picture, spare_->facts)) return;
-  std::unique_ptr<Frame> frame = std::move(spare_);
-  if (!waiting_.empty() && frame->facts.running_ns < waiting_.back()->facts.running_ns) {
-    waiting_.clear();
+  for (;;) {
+    if (!spare_) spare_ = std::make_unique<Frame>();
+    if (!feed.take(spare_->picture, spare_->facts)) return;
+    const int64_t running_ns = spare_->facts.running_ns;
+    if (!waiting_.empty() && running_ns < waiting_.back()->facts.running_ns) waiting_.clear();
+    waiting_.push_back(std::move(spare_));
   }
-  waiting_.push_back(std::move(frame));
 }
 
 bool FrameQueue::show(std::optional<int64_t> running_ns, PictureCopy& picture, FrameFacts& facts) {
