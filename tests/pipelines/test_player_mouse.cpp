@@ -40,10 +40,9 @@ double angle_rad(int disc, double frame) {
   return 2 * M_PI * (frame / kTurn_frames + static_cast<double>(disc) / kDiscs);
 }
 
-/// Of the film, which ends after two minutes.
+/// Of the film, which ends after two minutes. Its background tells that the camera rests.
 std::string make_film(const std::filesystem::path& folder) {
   MovingScene scene(kWidth, kHeight);
-  scene.plain_background();
   for (int i = 0; i < kDiscs; ++i) scene.add_disc(kDisc_px);
   std::string turn;
   for (int frame = 0; frame < kTurn_frames; ++frame) {
