@@ -5,10 +5,26 @@
 #include <algorithm>
 
 namespace spidar {
+namespace {
+
+/// Speed on the screen over change of the relative velocity, as root mean squares: below this the
+/// former is an error. Objects that a camera follows had 0.45 and more in 98 % of their frames.
+constexpr double kOnScreen = 0.4;
+constexpr int kLeastChanges = 3;
+
+}  // namespace
 
 void LayerEvidence::add(const Eigen::Vector2d& relative_px_s,
                         const Eigen::Vector2d& background_px_s, double interval_s) {
-  const double newest = seen_s_ == 0 ? 1 : std::min(1.0, interval_s / kMean_s);
+  const double share = std::min(1.0, interval_s / kMean_s);
+  if (seen_s_ > 0) {
+    const Eigen::Vector2d screen_px_s = relative_px_s + background_px_s;
+    screen_px2_s2_ += share * (screen_px_s.squaredNorm() - screen_px2_s2_);
+    changes_px2_s2_ += share * ((relative_px_s - newest_px_s_).squaredNorm() - changes_px2_s2_);
+    ++changes_;
+  }
+  newest_px_s_ = relative_px_s;
+  const double newest = seen_s_ == 0 ? 1 : share;
   relative_px_s_ += newest * (relative_px_s - relative_px_s_);
   background_px_s_ += newest * (background_px_s - background_px_s_);
   seen_s_ += interval_s;
@@ -20,6 +36,10 @@ double LayerEvidence::mean_ratio() const {
   // Without any motion of its own nothing shows that a region is more than a layer.
   constexpr double kLeast_px_s = 1e-6;
   return (relative_px_s_ + background_px_s_).norm() / std::max(relative_px_s, kLeast_px_s);
+}
+
+bool LayerEvidence::is_on_screen() const {
+  return changes_ >= kLeastChanges && screen_px2_s2_ < kOnScreen * kOnScreen * changes_px2_s2_;
 }
 
 double LayerEvidence::ratio() const {

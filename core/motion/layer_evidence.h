@@ -29,6 +29,10 @@ class LayerEvidence {
   /// remains.
   double ratio() const;
 
+  /// Whether it rests on the screen while the camera shakes or changes its speed, as only graphics
+  /// do: what is in the scene shakes with it, and what a camera follows drifts on the screen.
+  bool is_on_screen() const;
+
   /// Longer than a swing of a hand-held camera, which shakes at 2 … 10 Hz; from 0.2 to 0.8 s the
   /// results on real films are the same.
   static constexpr double kMean_s = 0.3;
@@ -38,6 +42,10 @@ class LayerEvidence {
 
   Eigen::Vector2d relative_px_s_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d background_px_s_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d newest_px_s_ = Eigen::Vector2d::Zero();  ///< relative to the background
+  double screen_px2_s2_ = 0;   ///< mean square of the velocity on the screen
+  double changes_px2_s2_ = 0;  ///< and of the change of the relative one from frame to frame
+  int changes_ = 0;
   double seen_s_ = 0;
   double least_ratio_ = std::numeric_limits<double>::infinity();
 };

@@ -38,6 +38,7 @@ double salience(const Region& region, const LayerEvidence& evidence, const Camer
   const double side_px = std::sqrt(region.blocks * kBlockArea_px);
   const double score = side_px * speed_px / (1 + kBorderCost * touching);
   if (!camera.moves()) return score;
+  if (evidence.is_on_screen()) return 0;
   // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;

@@ -21,8 +21,8 @@ struct CameraMotion {
 /// region looks like an effect of the camera's translation in a scene with depth: a layer nearer
 /// than the background extends over the border of the picture, moves on the screen more than it
 /// moves relative to the background, or hardly differs from the noise around the background's
-/// model. 0 for a region that is no object. `was_followed`: it was an object before and may look a
-/// little more like a layer.
+/// model. 0 for a region that is no object but one of these, or graphics. `was_followed`: it was an
+/// object before and may look a little more like a layer.
 double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
                 bool was_followed);
 

@@ -273,6 +273,23 @@ TEST(LayerEvidence, ACameraThatShakesInPlaceSaysNothing) {
   EXPECT_NEAR(evidence.ratio(), 1, 5 * 0.085);
 }
 
+TEST(LayerEvidence, OnlyGraphicsRestOnTheScreenWhileTheCameraShakes) {
+  constexpr double kFrame_s = 0.04;
+  LayerEvidence graphics, object, smooth;
+  for (int n = 0; n < 10; ++n) {
+    const Eigen::Vector2d background_px_s(100, n % 2 == 0 ? 50 : -50);
+    graphics.add(-background_px_s, background_px_s, kFrame_s);
+    object.add({-100, 0}, background_px_s, kFrame_s);
+    smooth.add({-100, 0}, {100, 0}, kFrame_s);
+    EXPECT_EQ(graphics.is_on_screen(), n >= 3) << n;
+    EXPECT_FALSE(object.is_on_screen()) << n << ": it shakes with the camera that follows it";
+    EXPECT_FALSE(smooth.is_on_screen()) << n << ": it may be followed";
+  }
+  const CameraMotion moving{4, 0.25};
+  EXPECT_EQ(salience(region(25, 0, 4), graphics, moving, false), 0);
+  EXPECT_GT(salience(region(25, 0, 4), object, moving, false), 0);
+}
+
 TEST(Salience, IsSpeedTimesTheRootOfTheArea) {
   const CameraMotion still{0, 0.25};
   EXPECT_DOUBLE_EQ(salience(region(16, 0, 3), kNoEvidence, still, false),
