@@ -17,6 +17,7 @@ namespace gst_spidar {
 inline namespace v0 {
 
 /// The same data as a type of the other language, whose members are the same in the same order.
+/// Unlike a cast, it may be given an enum of C that has none of its values.
 template <typename To, typename From>
 To same(const From& from) {
   static_assert(sizeof(To) == sizeof(From));

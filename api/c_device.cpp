@@ -36,9 +36,10 @@ Device::Callback callback_of(GstSpidarCallback callback, void* user_data) {
   };
 }
 
-Energy energy_of(GstSpidarEnergy energy) {
-  if (energy == GST_SPIDAR_PASSIVE) return Energy::kPassive;
-  if (energy == GST_SPIDAR_ANY) return Energy::kAny;
+Energy energy_of(const GstSpidarEnergy& energy) {
+  const int value = same<int>(energy);
+  if (value == GST_SPIDAR_PASSIVE) return Energy::kPassive;
+  if (value == GST_SPIDAR_ANY) return Energy::kAny;
   throw std::invalid_argument("energy must be GST_SPIDAR_PASSIVE or GST_SPIDAR_ANY");
 }
 

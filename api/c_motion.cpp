@@ -34,14 +34,14 @@ void gst_spidar_motion_restart(GstSpidarMotion* motion) {
 bool gst_spidar_motion_set_controller(GstSpidarMotion* motion, GstSpidarController controller,
                                       GstSpidarError* error) {
   return gst_spidar::done(error, [&] {
-    motion->motion.set_controller(static_cast<gst_spidar::Controller>(controller));
+    motion->motion.set_controller(gst_spidar::same<gst_spidar::Controller>(controller));
   });
 }
 
 bool gst_spidar_motion_set_motion(GstSpidarMotion* motion, GstSpidarFeltMotion felt,
                                   GstSpidarError* error) {
   return gst_spidar::done(
-      error, [&] { motion->motion.set_motion(static_cast<gst_spidar::FeltMotion>(felt)); });
+      error, [&] { motion->motion.set_motion(gst_spidar::same<gst_spidar::FeltMotion>(felt)); });
 }
 
 bool gst_spidar_motion_set_max_force(GstSpidarMotion* motion, double max_force_N,
