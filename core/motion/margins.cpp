@@ -85,8 +85,9 @@ void Margins::look(Bars& bars, const BlockField& field, bool are_columns, int ac
   if (bars.is_known() || bars.blocks == 0 || blocks < bars.blocks) bars.begin(blocks);
   for (auto& places : bars.changed) places.resize(static_cast<size_t>(first.places()));
   const int edge = bars.blocks - 1;
-  const bool at_both = first.is_edge(edge, bars.changed[0]) & last.is_edge(edge, bars.changed[1]);
-  bars.pairs += at_both;
+  const bool begins = first.is_edge(edge, bars.changed[0]);
+  const bool ends = last.is_edge(edge, bars.changed[1]);
+  bars.pairs += begins && ends;
 }
 
 void Margins::update(const BlockField& field) {

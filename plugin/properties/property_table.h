@@ -149,8 +149,8 @@ struct Property {
               return g_param_spec_string(n.name, n.nick, n.blurb, or_null(used(defaults)), flags);
             },
             [=](Settings& s, const GValue* v) {
-              const char* const set = g_value_get_string(v);
-              field(s) = set ? set : "";
+              const char* const value = g_value_get_string(v);
+              field(s) = value ? value : "";
             },
             [=](const Settings& s, GValue* v) { g_value_set_string(v, or_null(used(s))); }};
   }

@@ -99,7 +99,7 @@ BUS_API int __open_2(const char* path, int flags);
 BUS_API int __open64_2(const char* path, int flags);
 BUS_API int ioctl(int file, unsigned long request, ...);
 BUS_API int close(int file);
-BUS_API int access(const char* path, int mode);
+BUS_API int access(const char* path, int mode) noexcept;
 BUS_API DIR* opendir(const char* path);
 BUS_API ssize_t write(int file, const void* bytes, size_t length);
 
@@ -143,7 +143,7 @@ int close(int file) {
   return static_cast<int>(syscall(SYS_close, file));
 }
 
-int access(const char* path, int mode) {
+int access(const char* path, int mode) noexcept {
   int address = 0;
   if (std::sscanf(path, "/dev/bus/usb/001/%d", &address) != 1)
     return static_cast<int>(syscall(SYS_faccessat, AT_FDCWD, evdev_path(path).c_str(), mode));

@@ -186,9 +186,10 @@ TEST_F(BadTracks, MessagesAreLoggedUnderTheNameOfTheElement) {
       gst_debug_remove_log_function(collect);
       gst_debug_set_default_threshold(GST_LEVEL_NONE);
       gst_object_unref(opened);
-      EXPECT_TRUE(std::any_of(logged.begin(), logged.end(), [&](const std::string& line) {
-        return line.rfind(element + said, 0) == 0;
-      }));
+      EXPECT_TRUE(std::any_of(logged.begin(), logged.end(),
+                              [&, begin = element + said](const std::string& line) {
+                                return line.rfind(begin, 0) == 0;
+                              }));
     }
   }
 }

@@ -46,9 +46,9 @@ const std::vector<SettingGroup>& setting_groups() {
 }
 
 bool is_changed(const Setting& setting) {
-  constexpr double kRounding = 1e-9;
+  constexpr double kSliderRounding = 1e-9;
   const double size = std::max(std::abs(setting.value), std::abs(setting.initial));
-  return std::abs(setting.value - setting.initial) > kRounding * size;
+  return std::abs(setting.value - setting.initial) > kSliderRounding * size;
 }
 
 }  // namespace spidar
