@@ -34,7 +34,7 @@ void draw_newtons(double force_N, const Arrow& arrow, const VisiblePart& visible
   const Eigen::Vector2d middle_px = (beyond_px + along.cwiseProduct(room_px))
                                         .cwiseMin(first_px + all_px - room_px)
                                         .cwiseMax(first_px + room_px);
-  const auto at_px = [&](const Eigen::Vector2d& in_text) {
+  const auto at_px = [&](const Eigen::Vector2d& in_text) -> Eigen::Vector2d {
     return middle_px + turn.to_coded(Eigen::Vector2d(height_px * in_text - size_px / 2));
   };
   for (const auto& [width_px, color] : {std::pair{3 * line_px, kBlack}, {line_px, kWhite}}) {
