@@ -33,8 +33,8 @@ struct BackgroundVotes {
 /// some similarity. When less than half of the picture votes, a translation therefore needs votes
 /// in two places that are too far apart for one object, and a model above it needs them in three.
 /// Rest needs none, because a plain background shows none. But where there are votes in three
-/// places and hardly any agrees with the model that explains them best, the camera's motion is
-/// unknown.
+/// places, more than objects have, and hardly any agrees with the model that explains them best,
+/// the camera's motion is unknown.
 ///
 /// Rungs compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil. Trans.
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
