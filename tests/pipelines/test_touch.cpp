@@ -7,16 +7,13 @@
 #include <string>
 #include <vector>
 
-#include <gst/video/navigation.h>
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
 #include "plugin/depth/spidar_depth.h"
 #include "plugin/frame/grip_pointer.h"
 #include "plugin/spidar_motion.h"
-#include "spidar/loop/tick_trace.h"
-#include "spidar/simulation/simulated_device.h"
-#include "tests/pipelines/stepped_pipeline.h"
+#include "tests/pipelines/touched_pipeline.h"
 #include "tests/support/rest_force.h"
 
 namespace spidar::test::touch_test {
@@ -26,79 +23,6 @@ constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 constexpr double kRelief_m = 0.008;
 /// The hand is never moved by more than this when a surface rises under it.
 constexpr double kGentle_m_s = 0.05;
-
-std::string film(const std::string& source, const std::string& properties, int width = 320,
-                 int height = 240) {
-  return "videotestsrc name=source " + source +
-         " ! video/x-raw,format=GRAY8,width=" + std::to_string(width) +
-         ",height=" + std::to_string(height) + ",framerate=25/1 ! spidarmotion name=motion " +
-         properties + " ! fakesink name=sink sync=true enable-last-sample=true";
-}
-
-/// A pipeline that plays, ticked every millisecond.
-class Touched {
- public:
-  explicit Touched(const std::string& launch) : pipeline(launch) {
-    pipeline.set_state(GST_STATE_PLAYING);
-    device_ = gst_spidar_motion_engine(GST_SPIDAR_MOTION(pipeline.element())).output().simulated();
-  }
-
-  void hold(double x_m, double y_m, double z_m) {
-    Pose pose;
-    pose.position_m = {x_m, y_m, z_m};
-    device_->set_hand(pose);
-  }
-  FeltState felt() const { return device_->felt(); }
-
-  /// Shows this number of frames.
-  void play(int frames) {
-    for (int n = 0; n < frames; ++n) {
-      const GstClockTime next = pipeline.await();
-      while (pipeline.now() + GST_MSECOND < next) see(pipeline.idle(GST_MSECOND));
-      see(pipeline.step());
-    }
-    pipeline.await();
-  }
-  /// Lets this number of milliseconds pass without a new frame.
-  void wait(int ticks) {
-    for (int n = 0; n < ticks; ++n) see(pipeline.idle(GST_MSECOND));
-  }
-
-  const TickRecord& last() const { return rows_; }
-  /// Largest motion of the grip since the last call.
-  double fastest_m_s() { return std::exchange(fastest_m_s_, 0.0); }
-  const std::string& trace() const { return trace_; }
-
-  /// Of the frame that is on the screen: a pixel at a share of width and height.
-  double luma(double x, double y) const {
-    GstSample* sample = nullptr;
-    g_object_get(pipeline.sink(), "last-sample", &sample, nullptr);
-    GstVideoInfo info;
-    gst_video_info_from_caps(&info, gst_sample_get_caps(sample));
-    GstMapInfo map;
-    gst_buffer_map(gst_sample_get_buffer(sample), &map, GST_MAP_READ);
-    const int column = std::min(static_cast<int>(x * info.width), info.width - 1);
-    const int row = std::min(static_cast<int>(y * info.height), info.height - 1);
-    const double value = map.data[row * info.stride[0] + column];
-    gst_buffer_unmap(gst_sample_get_buffer(sample), &map);
-    gst_sample_unref(sample);
-    return value;
-  }
-
-  SteppedPipeline pipeline;
-
- private:
-  void see(const TickRecord& record) {
-    rows_ = record;
-    append_row(record, trace_);
-    fastest_m_s_ = std::max(fastest_m_s_, device_->felt().velocity_m_s.norm());
-  }
-
-  SimulatedDevice* device_;
-  TickRecord rows_;
-  double fastest_m_s_ = 0;
-  std::string trace_;
-};
 
 /// Black is half of the relief behind the middle of the workspace, white as far before it.
 double height_m(double luma) {
@@ -135,58 +59,11 @@ TEST(Touch, ThePlaneThatSpidardepthAttachesIsTouched) {
   EXPECT_NEAR(surface_m, 0, 2 * 257.0 / 20000 * kRelief_m);
 }
 
-/// To the element, in pixels of a frame of 320 × 240.
-void send(GstElement* element, GstEvent* event) {
-  GstPad* const source = gst_element_get_static_pad(element, "src");
-  gst_pad_send_event(source, event);
-  gst_object_unref(source);
-}
-
-TEST(Touch, TheMouseInTheWindowOfASinkLeadsTheSimulatedHand) {
-  constexpr auto kNoKey = GST_NAVIGATION_MODIFIER_NONE;
-  for (const std::string pointer : {"fixed", "mouse"}) {
-    SCOPED_TRACE(pointer);
-    Touched touched(film("pattern=solid-color foreground-color=0xff808080",
-                         "motion=objects touch=luma pointer=" + pointer));
-    GstElement* const element = touched.pipeline.element();
-    const auto grip_m = [&] {
-      touched.wait(1000);  // the hand needs 44 ms for its 22 mm
-      return touched.last().pose.position_m;
-    };
-    touched.play(5);
-    // Half of the way to the upper right corner.
-    send(element, gst_navigation_event_new_mouse_button_press(1, 240, 60, kNoKey));
-    const Eigen::Vector2d half_m =
-        GripPointer(load_profile(kDefaultProfile).geometry).half_size_m() / 2;
-    if (pointer == "fixed") {
-      EXPECT_LT(grip_m().norm(), 1e-3) << "the mouse of a sink is nobody's";
-      continue;
-    }
-    // The spring of the hand gives way to what the strings must pull at least.
-    EXPECT_LT((grip_m().head<2>() - half_m).norm(), 2e-3);
-    EXPECT_FALSE(touched.last().contact.touching) << "the surface is in the middle";
-    for (int n = 0; n < 12; ++n) {
-      send(element, n % 2 == 0 ? gst_navigation_event_new_mouse_scroll(240, 60, 0, 1, kNoKey)
-                               : gst_navigation_event_new_mouse_button_press(4, 240, 60, kNoKey));
-    }
-    grip_m();
-    // 6 mm deep, between the spring of the hand, 300 N/m, and that of the surface, 500 N/m.
-    EXPECT_NEAR(touched.last().contact.depth_m, 6e-3 * 300 / 800, 1e-3);
-    send(element, gst_navigation_event_new_mouse_button_release(1, 0, 0, kNoKey));
-    EXPECT_LT(grip_m().norm(), 2e-3) << "released";
-    send(element, gst_navigation_event_new_mouse_button_press(1, 240, 60, kNoKey));
-    EXPECT_GT(grip_m().x(), half_m.x() / 2);
-    g_object_set(element, "touch", 0, nullptr);
-    touched.play(1);
-    EXPECT_LT(grip_m().norm(), 2e-3) << "nothing is touched any more";
-  }
-}
-
 TEST(Touch, APlaneAtMidPictureIsStiffnessTimesDepth) {
   const Profile profile = load_profile(kDefaultProfile);
   for (const int stiffness_N_m : {300, 500, 800}) {
-    Touched touched(film("pattern=solid-color foreground-color=0xff808080",
-                         "touch=luma touch-stiffness=" + std::to_string(stiffness_N_m)));
+    Touched touched(touched_film("pattern=solid-color foreground-color=0xff808080",
+                                 "touch=luma touch-stiffness=" + std::to_string(stiffness_N_m)));
     touched.hold(0, 0, -0.009);
     touched.play(50);
     const double z_m = height_m(touched.luma(0.5, 0.5));
@@ -208,12 +85,12 @@ TEST(Touch, APlaneAtMidPictureIsStiffnessTimesDepth) {
 /// wrench, tensions and pose of every tick.
 TEST(Touch, OffIsAsIfThereWereNoSuchProperties) {
   const std::string ball = "pattern=ball";
-  Touched plain(film(ball, ""));
-  Touched off(film(ball,
-                   "touch=off touch-relief=20 touch-stiffness=800 touch-friction=1 "
-                   "touch-texture=3 motion-share=0.3"));
+  Touched plain(touched_film(ball, ""));
+  Touched off(touched_film(ball,
+                           "touch=off touch-relief=20 touch-stiffness=800 touch-friction=1 "
+                           "touch-texture=3 motion-share=0.3"));
   // Switched on, and off again before anything is shown.
-  Touched was_on(film(ball, "touch=luma touch=off"));
+  Touched was_on(touched_film(ball, "touch=luma touch=off"));
   for (Touched* touched : {&plain, &off, &was_on}) {
     touched->hold(0.002, 0.001, -0.006);
     touched->play(50);
@@ -230,8 +107,9 @@ TEST(Touch, OffIsAsIfThereWereNoSuchProperties) {
 
 TEST(Touch, TheFilmIsAddedByItsShare) {
   for (const double share : {0.0, 0.5, 1.0}) {
-    Touched plain(film("pattern=ball", ""));
-    Touched touched(film("pattern=ball", "touch=luma motion-share=" + std::to_string(share)));
+    Touched plain(touched_film("pattern=ball", ""));
+    Touched touched(
+        touched_film("pattern=ball", "touch=luma motion-share=" + std::to_string(share)));
     for (Touched* pipeline : {&plain, &touched}) {
       pipeline->hold(0, 0, 0.004 + 0.01);  // above all that there is
       pipeline->play(50);
@@ -248,7 +126,7 @@ TEST(Touch, ACutIsNoKick) {
   // ones is lower where the grip is: there the hand would sink in at its own speed.
   for (const char* before : {"black", "gradient"}) {
     SCOPED_TRACE(before);
-    Touched touched(film(std::string("pattern=") + before, "touch=luma touch-relief=10"));
+    Touched touched(touched_film(std::string("pattern=") + before, "touch=luma touch-relief=10"));
     touched.hold(0, 0.020, -0.006);
     touched.play(50);
     touched.fastest_m_s();
@@ -267,7 +145,7 @@ TEST(Touch, ACutIsNoKick) {
 
 /// When the contact ends, the hand sinks in at its own speed. After that the surface rises.
 TEST(Touch, PauseSeekMuteAndOffEndIt) {
-  Touched touched(film("pattern=white", "touch=luma"));
+  Touched touched(touched_film("pattern=white", "touch=luma"));
   touched.hold(0, 0, -0.004);
   const auto expect_contact = [&](const char* after) {
     touched.play(50);
@@ -311,8 +189,8 @@ TEST(Touch, PauseSeekMuteAndOffEndIt) {
 
 TEST(Touch, ASeekWhilePlayingIsNoKick) {
   // How fast the hand itself sinks in when the contact ends.
-  Touched paused(film("pattern=white", "touch=luma"));
-  Touched sought(film("pattern=white", "touch=luma"));
+  Touched paused(touched_film("pattern=white", "touch=luma"));
+  Touched sought(touched_film("pattern=white", "touch=luma"));
   for (Touched* touched : {&paused, &sought}) {
     touched->hold(0, 0, -0.004);
     touched->play(50);
@@ -328,7 +206,7 @@ TEST(Touch, ASeekWhilePlayingIsNoKick) {
 }
 
 TEST(Touch, TheLastPictureHoldsUntilTheEnd) {
-  Touched touched(film("pattern=white num-buffers=50", "touch=luma"));
+  Touched touched(touched_film("pattern=white num-buffers=50", "touch=luma"));
   touched.hold(0, 0, -0.004);
   touched.play(50);  // the sink waits for the end of the last one now
   touched.wait(39);
@@ -345,7 +223,7 @@ TEST(Touch, TheLastPictureHoldsUntilTheEnd) {
 TEST(Touch, PlacesAreThoseOfThePointerInPicturesOfAllShapes) {
   for (const auto& [width, height] : {std::pair{320, 240}, {90, 160}, {16, 16}, {1920, 1080}}) {
     SCOPED_TRACE(testing::Message() << width << "x" << height);
-    Touched touched(film("pattern=gradient", "touch=luma touch-friction=0", width, height));
+    Touched touched(touched_film("pattern=gradient", "touch=luma touch-friction=0", width, height));
     const GripPointer pointer(load_profile(kDefaultProfile).geometry);
     for (const double y_m : {-0.016, 0.0, 0.012}) {
       touched.hold(0.004, y_m, -0.008);

@@ -84,6 +84,13 @@ class WindowTest : public testing::Test {
     return map_picture(lay_out(shot.width, shot.height, 1).picture, 0, 0, 320, 240, 1);
   }
 
+  /// Grey level of the frame in the window, where nothing is drawn over it.
+  static int level_in(Window& window) {
+    const Screenshot shot = look(window);
+    const Eigen::Vector2d p = map_of(shot)({100, 100});
+    return at(shot, p.x(), p.y()).g;
+  }
+
   static inline VirtualDisplay* display = nullptr;
 };
 
