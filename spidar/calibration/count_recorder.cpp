@@ -10,12 +10,12 @@
 
 #include "spidar/grip/tension_limits.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/tick_time.h"
 #include "spidar/profiles/toml_field.h"
 
 namespace spidar {
 namespace {
 
-constexpr double kTick_s = 1e-9 * kTick_ns;
 constexpr double kMaxSeconds = 3600;
 
 void check(const RecordingSettings& settings) {

@@ -8,5 +8,6 @@
 namespace spidar {
 
 constexpr int64_t kTick_ns = 1'000'000;  ///< 1 kHz
+constexpr double kTick_s = 1e-9 * kTick_ns;
 
 }  // namespace spidar

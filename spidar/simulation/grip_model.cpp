@@ -13,7 +13,7 @@ namespace {
 /// Step times the highest angular frequency. The method is stable below 2, so the strings'
 /// stiffness t/L may still grow 64-fold: a string may shorten to 1/64 of its length at the centre.
 constexpr double kStepTimesFrequency = 0.25;
-constexpr double kTick_s = 1e-3;
+constexpr double kLongestStep_s = 1e-3;
 
 void check(double value, bool zero_allowed, const char* field) {
   if (std::isfinite(value) && (value > 0 || (zero_allowed && value == 0))) return;
@@ -85,11 +85,13 @@ GripDynamics::GripDynamics(const StringGeometry& geometry, const StringVector& m
   for (int i = 0; i < geometry.count; ++i)
     limit_m_ = limit_m_.cwiseMax(geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
   const double frequency = std::sqrt(max_frequency_squared(geometry, max_tension_N, model));
-  max_step_s_ = frequency > 0 ? std::min(kTick_s, kStepTimesFrequency / frequency) : kTick_s;
-  if (kTick_s / max_step_s_ > kMaxSubsteps)
+  max_step_s_ =
+      frequency > 0 ? std::min(kLongestStep_s, kStepTimesFrequency / frequency) : kLongestStep_s;
+  if (kLongestStep_s / max_step_s_ > kMaxSubsteps)
     throw std::invalid_argument(
         "GripModel is too stiff for its mass: " + std::to_string(frequency) +
-        " rad/s, must be below " + std::to_string(kStepTimesFrequency * kMaxSubsteps / kTick_s) +
+        " rad/s, must be below " +
+        std::to_string(kStepTimesFrequency * kMaxSubsteps / kLongestStep_s) +
         "; use softer springs or a heavier grip");
 }
 

@@ -7,14 +7,9 @@
 #include <utility>
 
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/tick_time.h"
 
 namespace spidar {
-namespace {
-
-constexpr double kTick_s = 1e-9 * kTick_ns;
-
-}  // namespace
-
 ForceHold::ForceHold(Grip& grip, Pace pace) : grip_(grip), pace_(std::move(pace)) {
   command_.dt_s = kTick_s;
   grip_.open();

@@ -8,14 +8,9 @@
 
 #include "spidar/grip/tension_limits.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/tick_time.h"
 
 namespace spidar {
-namespace {
-
-constexpr double kTick_s = 1e-9 * kTick_ns;
-
-}  // namespace
-
 StringHold::StringHold(Device& device, const Profile& profile, Pace pace)
     : device_(device), profile_(profile), pace_(std::move(pace)) {
   device_.open();
