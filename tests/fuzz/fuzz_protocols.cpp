@@ -11,6 +11,7 @@
 #include "numbers.h"
 #include "spidar/protocols/count_unwrapper.h"
 #include "spidar/protocols/force_feedback.h"
+#include "spidar/protocols/inverse3.h"
 #include "spidar/protocols/sh4.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/protocols/uart_motor.h"
@@ -104,6 +105,29 @@ void fuzz_force_feedback(ByteView bytes) {
   }
 }
 
+void fuzz_inverse3(ByteView bytes) {
+  inverse3::State state;
+  std::array<uint8_t, inverse3::kCommandSize> text{};
+  if (inverse3::decode_state(bytes, "", state) == inverse3::Answer::kState) {
+    const size_t length = inverse3::encode_state(state, text);
+    inverse3::State again;
+    require(inverse3::decode_state({text.data(), length}, state.id, again) ==
+                    inverse3::Answer::kState &&
+                (again.position_m - state.position_m).norm() < 2e-6 &&
+                again.buttons == state.buttons,
+            "fuzz_protocols: a state of an Inverse3 is another");
+  }
+  Eigen::Vector3d force_N;
+  if (!inverse3::decode_force(bytes, "", force_N)) return;
+  state.id = "1";
+  const size_t length = inverse3::encode_force(state, force_N, text);
+  require(inverse3::decode_force({text.data(), length}, "1", force_N),
+          "fuzz_protocols: a force is refused by an Inverse3");
+  // Three roundings to a millionth.
+  require(force_N.norm() <= inverse3::kLargestForce_N + 2e-6,
+          "fuzz_protocols: an Inverse3 pulls too hard");
+}
+
 void fuzz_counts(ByteView bytes, int bits) {
   CountUnwrapper unwrapper(bits);
   std::array<uint32_t, kMaxStrings> raw{};
@@ -145,6 +169,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       fuzz_mouse(data[0] & 128 ? rest : first(rest, mouse::kReportSize));
       break;
     default:
+      if (data[0] & 32) {
+        fuzz_inverse3(rest);
+        break;
+      }
       if (data[0] & 64) {
         fuzz_force_feedback(
             first(rest, data[0] & 128 ? size_t{ff::kEffectSize} : size_t{ff::kEventSize}));
