@@ -10,6 +10,7 @@
 #include "spidar/loop/tick_time.h"
 
 namespace spidar {
+
 ForceHold::ForceHold(Grip& grip, Pace pace) : grip_(grip), pace_(std::move(pace)) {
   command_.dt_s = kTick_s;
   grip_.open();

@@ -11,6 +11,7 @@
 #include "spidar/loop/tick_time.h"
 
 namespace spidar {
+
 StringHold::StringHold(Device& device, const Profile& profile, Pace pace)
     : device_(device), profile_(profile), pace_(std::move(pace)) {
   device_.open();
