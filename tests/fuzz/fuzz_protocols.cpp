@@ -12,6 +12,7 @@
 #include "spidar/protocols/count_unwrapper.h"
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/protocols/inverse3.h"
+#include "spidar/protocols/novint_falcon.h"
 #include "spidar/protocols/sh4.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/protocols/uart_motor.h"
@@ -128,6 +129,23 @@ void fuzz_inverse3(ByteView bytes) {
           "fuzz_protocols: an Inverse3 pulls too hard");
 }
 
+void fuzz_falcon(ByteView bytes) {
+  falcon::Packet packet;
+  falcon::Reading reading, again;
+  if (falcon::decode_reading(bytes, reading)) {
+    falcon::encode_reading(reading, packet);
+    require(falcon::decode_reading(packet, again) && again.count == reading.count &&
+                again.buttons == reading.buttons && again.homed == reading.homed,
+            "fuzz_protocols: a reading of a Falcon is another");
+  }
+  falcon::Command command, command_again;
+  if (!falcon::decode_command(bytes, command)) return;
+  falcon::encode_command(command, packet);
+  require(falcon::decode_command(packet, command_again) && command_again.digit == command.digit &&
+              command_again.light == command.light && command_again.homing == command.homing,
+          "fuzz_protocols: a command to a Falcon is another");
+}
+
 void fuzz_counts(ByteView bytes, int bits) {
   CountUnwrapper unwrapper(bits);
   std::array<uint32_t, kMaxStrings> raw{};
@@ -171,6 +189,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     default:
       if (data[0] & 32) {
         fuzz_inverse3(rest);
+        break;
+      }
+      if (data[0] & 16) {
+        fuzz_falcon(data[0] & 128 ? rest : first(rest, falcon::kPacketSize));
         break;
       }
       if (data[0] & 64) {
