@@ -235,39 +235,6 @@ std::string name_text(const std::string& name) {
   return is_word ? name : '"' + name + '"';
 }
 
-std::string text_of(const FeelRule& rule) {
-  std::string text;
-  if (rule.from_ns != 0 || rule.to_ns != FeelRule::kNoEnd) {
-    text = time_text(rule.from_ns) + "-";
-    text += (rule.to_ns == FeelRule::kNoEnd ? "" : time_text(rule.to_ns)) + " ";
-  }
-  switch (rule.kind) {
-    case FeelKind::kObjectAt:
-      text += "object at " + place_text(rule.place);
-      break;
-    case FeelKind::kLargest:
-      text += "largest";
-      break;
-    case FeelKind::kFurthest:
-      for (const Direction& direction : kDirections)
-        if (rule.direction == Eigen::Vector2d(direction.x, direction.y)) text += direction.word;
-      break;
-    case FeelKind::kBox:
-      text += rule.name[0] ? "box " + name_text(rule.name.data()) : "box";
-      break;
-    case FeelKind::kRegion:
-      text += "region " + place_text(rule.place) + " to " + place_text(rule.far_corner);
-      break;
-    case FeelKind::kCamera:
-      text += "camera";
-      break;
-    case FeelKind::kNothing:
-      text += "nothing";
-      break;
-  }
-  return rule.gain == 1 ? text : text + " gain " + number_text(rule.gain);
-}
-
 }  // namespace
 
 FeelRules::FeelRules(std::string_view text) {
@@ -317,8 +284,41 @@ bool FeelRules::has_boxes() const {
 
 std::string FeelRules::text() const {
   std::string text;
-  for (const FeelRule& rule : rules_) text += (text.empty() ? "" : "; ") + text_of(rule);
+  for (const FeelRule& rule : rules_) text += (text.empty() ? "" : "; ") + rule_text(rule);
   return text;
+}
+
+std::string rule_text(const FeelRule& rule) {
+  std::string text;
+  if (rule.from_ns != 0 || rule.to_ns != FeelRule::kNoEnd) {
+    text = time_text(rule.from_ns) + "-";
+    text += (rule.to_ns == FeelRule::kNoEnd ? "" : time_text(rule.to_ns)) + " ";
+  }
+  switch (rule.kind) {
+    case FeelKind::kObjectAt:
+      text += "object at " + place_text(rule.place);
+      break;
+    case FeelKind::kLargest:
+      text += "largest";
+      break;
+    case FeelKind::kFurthest:
+      for (const Direction& direction : kDirections)
+        if (rule.direction == Eigen::Vector2d(direction.x, direction.y)) text += direction.word;
+      break;
+    case FeelKind::kBox:
+      text += rule.name[0] ? "box " + name_text(rule.name.data()) : "box";
+      break;
+    case FeelKind::kRegion:
+      text += "region " + place_text(rule.place) + " to " + place_text(rule.far_corner);
+      break;
+    case FeelKind::kCamera:
+      text += "camera";
+      break;
+    case FeelKind::kNothing:
+      text += "nothing";
+      break;
+  }
+  return rule.gain == 1 ? text : text + " gain " + number_text(rule.gain);
 }
 
 std::string time_text(int64_t ns) {

@@ -69,6 +69,8 @@ class FeelRules {
   std::vector<FeelRule> rules_;
 };
 
+/// One rule, as FeelRules::text() has it.
+std::string rule_text(const FeelRule& rule);
 /// "0:12" or "1:02:03.5", as rules have it.
 std::string time_text(int64_t ns);
 /// "0.31,0.62".

@@ -18,12 +18,23 @@ double score(const FeelRule& rule, const MovingObject& object, const ChoiceFrame
   return direction.dot(object.position_px) / (ObjectChoice::kFurther * frame.height);
 }
 
+/// Whether `now` is the rule `before` in other words, so that its object need not be found anew.
+bool goes_on(const FeelRule& before, const FeelRule& now) {
+  return before.kind == now.kind && before.kind != FeelKind::kBox &&
+         before.from_ns == now.from_ns && before.place == now.place &&
+         before.far_corner == now.far_corner && before.direction == now.direction;
+}
+
 }  // namespace
 
 void ObjectChoice::set_rules(std::shared_ptr<const FeelRules> rules) {
   if (rules == rules_) return;
+  const FeelRule* going_on = nullptr;
+  for (size_t i = 0; rule_ && rules && i < rules->rules().size(); ++i) {
+    if (goes_on(*rule_, rules->rules()[i])) going_on = &rules->rules()[i];
+  }
+  rule_ = going_on;
   rules_ = std::move(rules);
-  rule_ = nullptr;
 }
 
 void ObjectChoice::set_kept(const KeptObject& kept) {

@@ -18,6 +18,7 @@ namespace spidar {
 /// Frames in the order in which they are shown. Allocates nothing.
 class ObjectChoice {
  public:
+  /// A rule that is among them as before goes on with its object.
   void set_rules(std::shared_ptr<const FeelRules> rules);
   void set_kept(const KeptObject& kept);
 

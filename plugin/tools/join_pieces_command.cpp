@@ -11,10 +11,10 @@
 
 #include "core/analysis/motion_join.h"
 #include "plugin/tools/film_analyzer.h"
-#include "plugin/tools/part_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/motion_sidecar.h"
+#include "plugin/track/part_file.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
 

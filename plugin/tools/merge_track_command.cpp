@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "plugin/tools/film_merger.h"
-#include "plugin/tools/part_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/film_reader.h"
+#include "plugin/track/part_file.h"
 #include "plugin/track/sidecar.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"

@@ -9,9 +9,9 @@
 
 #include "plugin/tools/film_stills.h"
 #include "plugin/tools/gnuplot.h"
-#include "plugin/tools/part_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/track/part_file.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "plugin/tools/film_analyzer.h"
-#include "plugin/tools/part_file.h"
 #include "plugin/tools/record_properties.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/motion_sidecar.h"
+#include "plugin/track/part_file.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
 

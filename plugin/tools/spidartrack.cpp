@@ -6,8 +6,8 @@
 
 #include <gst/gst.h>
 
-#include "plugin/tools/part_file.h"
 #include "plugin/tools/spidartrack_commands.h"
+#include "plugin/track/part_file.h"
 #include "spidar/tools/command_line.h"
 
 namespace {

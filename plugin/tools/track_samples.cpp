@@ -15,8 +15,8 @@
 #include "core/track/funscript.h"
 #include "core/track/hjif.h"
 #include "core/track/track_reader.h"
-#include "plugin/tools/part_file.h"
 #include "plugin/tools/trace_track.h"
+#include "plugin/track/part_file.h"
 #include "plugin/track/track_file.h"
 
 namespace spidar {

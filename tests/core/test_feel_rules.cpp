@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/choice/feel_edit.h"
 #include "core/choice/feel_rules.h"
 
 namespace spidar::test::feel_rules_test {
@@ -134,6 +135,38 @@ TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
   }
   EXPECT_EQ(problem("0-nan largest"), "line 1: \"nan\" is no time such as 12.5, 0:12 or 1:02:03");
   EXPECT_NE(problem(std::string("largest\0camera", 14)), "");
+}
+
+std::string after(const std::string& text, const FeelEdit& edit) {
+  std::string result;
+  for (const FeelRule& rule : edited(FeelRules(text).rules(), edit)) {
+    result += (result.empty() ? "" : "; ") + rule_text(rule);
+  }
+  return result;
+}
+
+TEST(FeelEdit, TakesTheTimeOfOtherRules) {
+  const FeelEdit edit{10 * kSecond, 20 * kSecond, Eigen::Vector2d(0.25, 0.5)};
+  const std::string chosen = "0:10-0:20 object at 0.25,0.5";
+  EXPECT_EQ(after("0-10 camera; 20- largest", edit),
+            "0:00-0:10 camera; " + chosen + "; 0:20- largest");
+  EXPECT_EQ(after("largest gain 2", edit),
+            "0:00-0:10 largest gain 2; " + chosen + "; 0:20- largest gain 2");
+  EXPECT_EQ(after("5-12 camera; 12-13 box; 13-14 nothing; 18-25 region 0,0 to 1,1", edit),
+            "0:05-0:10 camera; " + chosen + "; 0:20-0:25 region 0,0 to 1,1");
+  EXPECT_EQ(after("10-20 object at 0.5,0.5 gain 3", edit), chosen);
+  EXPECT_EQ(after("30- camera", edit), chosen + "; 0:30- camera");
+}
+
+TEST(FeelEdit, LeavesNoRuleAboutAnObjectWhosePlaceIsNotKnown) {
+  const FeelEdit edit{10 * kSecond, 20 * kSecond, std::nullopt};
+  EXPECT_EQ(after("5-25 object at 0.5,0.5", edit), "0:05-0:10 object at 0.5,0.5");
+  EXPECT_EQ(after("12-25 object at 0.5,0.5; 25- object at 0,0", edit), "0:25- object at 0,0");
+}
+
+TEST(FeelEdit, WithoutDurationChangesNothing) {
+  EXPECT_EQ(after("largest", {kSecond, kSecond, Eigen::Vector2d(0, 0)}), "largest");
+  EXPECT_EQ(after("largest", {2 * kSecond, kSecond, std::nullopt}), "largest");
 }
 
 }  // namespace

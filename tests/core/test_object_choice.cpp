@@ -224,6 +224,20 @@ std::vector<MovingObject> objects_at(const std::vector<Disc>& discs, int n) {
   return objects;
 }
 
+/// When somebody changes other rules of the file while the film plays.
+TEST(ObjectChoice, ARuleThatIsThereAsBeforeGoesOnWithItsObject) {
+  Player player({small(), large()});
+  player.set_rules(rule_at(0, 2, small()));
+  player.play_to(40);
+  ASSERT_EQ(player.felt(), 0);
+  player.set_rules(rule_at(0, 1.8, small()) + "1.8- camera");
+  player.next();
+  EXPECT_EQ(player.felt(), 0);
+  player.set_rules(rule_at(0, 2, large()));
+  player.next();
+  EXPECT_EQ(player.felt(), -1) << "its object was at that place long ago";
+}
+
 TEST(ObjectChoice, OfTheLargestAndOfThoseAtTheSides) {
   const std::pair<const char*, uint32_t> rules[] = {
       {"largest", 1}, {"leftmost", 1}, {"rightmost", 2}, {"bottommost", 3}};

@@ -14,8 +14,8 @@
 #include <gtest/gtest.h>
 
 #include "plugin/tools/film_recorder.h"
-#include "plugin/tools/part_file.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/track/part_file.h"
 #include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 

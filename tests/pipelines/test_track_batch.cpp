@@ -20,8 +20,8 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-#include "plugin/tools/part_file.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/track/part_file.h"
 #include "tests/pipelines/track_command.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"

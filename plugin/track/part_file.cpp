@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/tools/part_file.h"
+#include "plugin/track/part_file.h"
 
 #include <cerrno>
 #include <csignal>

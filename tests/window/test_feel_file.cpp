@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// The file of rules that the debug window changes.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "plugin/choice/feel_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test::feel_file_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int64_t kSecond = 1'000'000'000;
+const FeelEdit kChoice{kSecond, 2 * kSecond, Eigen::Vector2d(0.25, 0.5)};
+const std::string kChosen = "0:01-0:02 object at 0.25,0.5\n";
+
+class FeelFile : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder.path / name).string(); }
+  std::string text(const std::string& name) const {
+    std::ifstream file(path(name));
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void write(const std::string& name, const std::string& what) const {
+    std::ofstream(path(name)) << what;
+  }
+  std::string problem(const std::string& feel, const std::string& of) const {
+    try {
+      save_feel(feel, of, {kChoice});
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  size_t files() const {
+    return static_cast<size_t>(std::distance(fs::directory_iterator(folder.path), {}));
+  }
+
+  TemporaryFolder folder;
+  const std::string film = (folder.path / "film.avi").string();
+};
+
+TEST_F(FeelFile, IsBesideTheFilmWhereItIsFoundAgain) {
+  EXPECT_EQ(save_feel("", film, {kChoice}), "film.avi.feel has 1 rule.");
+  EXPECT_EQ(text("film.avi.feel"), kChosen);
+  const NamedRules read = read_feel("auto", film);
+  ASSERT_TRUE(read.rules);
+  EXPECT_EQ(read.rules->text() + "\n", kChosen);
+  EXPECT_EQ(files(), 1u) << "nothing else is left";
+}
+
+TEST_F(FeelFile, IsTheOneThatIsThereOrThatTheElementReads) {
+  write("film.feel", "0:05- largest\n");
+  EXPECT_EQ(save_feel("auto", film, {kChoice}), "film.feel has 2 rules.");
+  EXPECT_EQ(text("film.feel"), kChosen + "0:05- largest\n");
+  EXPECT_EQ(save_feel(path("mine.feel"), film, {kChoice}), "mine.feel has 1 rule.");
+  EXPECT_EQ(text("mine.feel"), kChosen);
+}
+
+/// Whoever writes it meanwhile.
+TEST_F(FeelFile, KeepsTheRulesThatItHas) {
+  save_feel("", film, {kChoice});
+  write("film.avi.feel", kChosen + "0:05- camera\n");
+  save_feel("", film, {{3 * kSecond, 4 * kSecond, Eigen::Vector2d(1, 1)}});
+  EXPECT_EQ(text("film.avi.feel"), kChosen + "0:03-0:04 object at 1,1\n0:05- camera\n");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FeelFile, WithRemarksOrMistakesIsKeptUnderAnotherName) {
+  const std::string remark = "0:05- largest  # the dog\n", mistake = "biggest\n";
+  write("film.avi.feel", remark);
+  EXPECT_EQ(save_feel("", film, {kChoice}),
+            "film.avi.feel has 2 rules; what it was before is in film.avi.feel~.");
+  EXPECT_EQ(text("film.avi.feel"), kChosen + "0:05- largest\n");
+  EXPECT_EQ(text("film.avi.feel~"), remark);
+  write("film.avi.feel", mistake);
+  EXPECT_EQ(save_feel("", film, {kChoice}),
+            "film.avi.feel has 1 rule; what it was before is in film.avi.feel~~.");
+  EXPECT_EQ(text("film.avi.feel"), kChosen);
+  EXPECT_EQ(text("film.avi.feel~"), remark);
+  EXPECT_EQ(text("film.avi.feel~~"), mistake);
+}
+
+TEST_F(FeelFile, GoesWithItsLastRule) {
+  save_feel("", film, {kChoice});
+  EXPECT_EQ(save_feel("", film, {{0, 9 * kSecond, std::nullopt}}),
+            "film.avi.feel has no rules left and is removed.");
+  EXPECT_EQ(files(), 0u);
+  EXPECT_EQ(save_feel("", film, {{0, 9 * kSecond, std::nullopt}}),
+            "film.avi.feel has no rules left and is removed.");
+}
+
+TEST_F(FeelFile, SaysWhyItCannotBeWritten) {
+  EXPECT_EQ(problem("", ""), "what is played comes from no file, beside which rules could be kept");
+  EXPECT_EQ(problem("", path("none/film.avi")),
+            path("none/film.avi.feel") + ": there is no folder " + path("none"));
+  fs::create_directory(path("film.avi.feel"));
+  EXPECT_EQ(problem("", film), path("film.avi.feel") + ": it is not a regular file");
+}
+
+}  // namespace
+}  // namespace spidar::test::feel_file_test
