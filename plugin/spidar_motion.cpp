@@ -257,7 +257,7 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
       GST_ELEMENT(self), [self](GstClockTime skipped) { self->engine->skip(skipped); });
   self->warnings = new spidar::BusWarnings(GST_ELEMENT(self));
   self->choice = new spidar::MotionChoice(GST_ELEMENT(self));
-  self->display = new MotionDisplay(GST_ELEMENT(self), *self->engine, self->choice->mouse());
+  self->display = new MotionDisplay(GST_ELEMENT(self), *self->engine, *self->choice);
   // GstVideoFilter would drop late frames before they are analysed; here the application decides
   // that with `qos`.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);

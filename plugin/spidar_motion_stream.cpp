@@ -65,6 +65,7 @@ static void begin_to_load_track(GstSpidarMotion* self) {
   self->engine->set_motion(nullptr, 0);
   const std::string film = spidar::film_of(GST_BASE_TRANSFORM_SINK_PAD(self));
   self->choice->begin_stream(film);
+  self->display->begin_stream(film);
   if (track.empty()) {
     self->loader->begin(spidar::Sidecar::kAnalysis, analysis, film);
   } else {

@@ -3,6 +3,7 @@
 #include "plugin/choice/motion_choice.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "plugin/frame/analytics_meta.h"
 #include "plugin/reports/category.h"
@@ -29,16 +30,20 @@ void MotionChoice::begin_stream(const std::string& film) {
 }
 
 void MotionChoice::read(const std::string& feel, GstPad* sink) {
-  named_ = {};
+  NamedRules found;
   told_.clear();
   warned_of_mean_ = false;
   try {
-    named_ = read_feel(feel, film_);
+    found = read_feel(feel, film_);
   } catch (const std::runtime_error& error) {
     GST_ELEMENT_WARNING(
         element_, RESOURCE, SETTINGS, ("%s.", error.what()),
         ("The rules are not used; 'motion' says what is felt. The name of a file of rules "
          "ends in .feel."));
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    named_ = std::move(found);
   }
   if (!named_.rules) return;
   GST_INFO_OBJECT(element_, "what is felt: %s", named_.rules->text().c_str());

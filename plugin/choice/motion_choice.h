@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <string>
 #include <utility>
@@ -19,12 +20,18 @@
 
 namespace spidar {
 
-/// The rules of `feel`, and the mouse. Streaming thread, but for mouse().
+/// The rules of `feel`, and the mouse. Streaming thread, unless another is named.
 class MotionChoice {
  public:
   explicit MotionChoice(GstElement* element) : element_(element) {}
 
+  /// Any thread.
   MousePointer& mouse() { return mouse_; }
+  /// Null when there are none. Any thread.
+  std::shared_ptr<const FeelRules> rules() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return named_.rules;
+  }
 
   /// Another stream, from the file `film` or, when that is empty, from elsewhere.
   void begin_stream(const std::string& film);
@@ -56,6 +63,7 @@ class MotionChoice {
   MousePointer mouse_;
   std::string film_;
   std::atomic<bool> is_read_{false};
+  mutable std::mutex mutex_;  ///< where another thread reads `named_`, or it changes
   NamedRules named_;
   bool warned_of_mean_ = false;
   std::set<std::pair<int, ChoiceState>> told_;  ///< line and state

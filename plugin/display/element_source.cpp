@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include "plugin/choice/feel_file.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/reports/category.h"
 
@@ -82,8 +84,8 @@ double get_value(GObject* object, const Setting& setting) {
 
 class ElementSource final : public WindowSource {
  public:
-  ElementSource(GstElement* element, MotionEngine& engine, MousePointer& mouse)
-      : engine_(engine), mouse_(mouse) {
+  ElementSource(GstElement* element, MotionEngine& engine, MotionChoice& choice)
+      : engine_(engine), choice_(choice) {
     g_weak_ref_init(&element_, element);
   }
   ~ElementSource() override { g_weak_ref_clear(&element_); }
@@ -97,6 +99,7 @@ class ElementSource final : public WindowSource {
       setting.value = get_value(G_OBJECT(held.get()), setting);
     }
     DeviceView device;
+    state.rules = choice_.rules();
     state.limit = engine_.no_force_reason();
     if (engine_.output().look_at_device(device)) {
       state.device = std::move(device);
@@ -137,7 +140,29 @@ class ElementSource final : public WindowSource {
 
   void choose(const std::optional<Eigen::Vector2d>& place) override {
     const Ref<GstElement> held = hold(element_);
-    if (held) mouse_.keep(place);
+    if (held) choice_.mouse().keep(place);
+  }
+
+  Saved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return {};
+    gchar* property = nullptr;
+    g_object_get(held.get(), "feel", &property, nullptr);
+    const std::string feel = property ? property : "";
+    g_free(property);
+    try {
+      std::string done = save_feel(feel, film, edits);
+      if (!feel.empty() && feel != "auto" && !is_feel_file(feel)) done += " feel=auto reads it.";
+      // Setting it reads the file anew.
+      g_object_set(held.get(), "feel", feel.empty() ? "auto" : feel.c_str(), nullptr);
+      return {true, done};
+    } catch (const std::runtime_error& error) {
+      // Without the folder, for which a small window has no room.
+      std::string why = error.what();
+      const std::string folder = film.substr(0, film.rfind('/') + 1);
+      if (!folder.empty() && why.rfind(folder, 0) == 0) why.erase(0, folder.size());
+      return {false, "Not saved: " + why + "."};
+    }
   }
 
   void warn(const std::string& what, const std::string& advice) override {
@@ -169,14 +194,14 @@ class ElementSource final : public WindowSource {
   GWeakRef element_;
   // Only while the element is held.
   MotionEngine& engine_;
-  MousePointer& mouse_;
+  MotionChoice& choice_;
 };
 
 }  // namespace
 
 std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine,
-                                                  MousePointer& mouse) {
-  return std::make_shared<ElementSource>(element, engine, mouse);
+                                                  MotionChoice& choice) {
+  return std::make_shared<ElementSource>(element, engine, choice);
 }
 
 }  // namespace spidar

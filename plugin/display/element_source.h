@@ -7,15 +7,15 @@
 
 #include <gst/gst.h>
 
-#include "plugin/choice/mouse_pointer.h"
+#include "plugin/choice/motion_choice.h"
 #include "plugin/engine/motion_engine.h"
 #include "plugin/window/model/window_source.h"
 
 namespace spidar {
 
-/// Keeps no reference: the element may go while the window is open. `engine` and `mouse`
+/// Keeps no reference: the element may go while the window is open. `engine` and `choice`
 /// are those of `element`, and live as long.
 std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine,
-                                                  MousePointer& mouse);
+                                                  MotionChoice& choice);
 
 }  // namespace spidar

@@ -2,7 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/display/motion_display.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <utility>
+
+#include <gst/base/gstbasetransform.h>
 
 #include "plugin/display/element_source.h"
 #include "plugin/frame/object_metas.h"
@@ -20,12 +24,14 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
     viewer_.reset();
     return;
   }
+  if (window_feed) follow_film(report);
   const VisiblePart& visible = report.part;
   const SceneView& scene = viewer_.see(report.analysis, visible, report.turn);
   // Before the overlay draws into the frame, because the window draws arrows of its own.
   if (window_feed && window_waits_) {
     FrameFacts facts;
     facts.running_ns = static_cast<int64_t>(report.running_time);
+    facts.film = film_;
     facts.analysis_ms = 1e-6 * static_cast<double>(report.took_ns);
     facts.interval_s = 1e-9 * static_cast<double>(report.analysis.interval_ns);
     facts.visible = visible;
@@ -49,6 +55,30 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   }
 }
 
+void MotionDisplay::begin_stream(const std::string& film) {
+  film_ = {};
+  film_.path = std::make_shared<const std::string>(film);
+}
+
+/// Playback by an analysis tells nothing of a seek, which is known by its length.
+void MotionDisplay::follow_film(const FrameReport& report) {
+  constexpr int64_t kSeek_ns = GST_SECOND;
+  if (!GST_CLOCK_TIME_IS_VALID(report.stream_time)) {
+    film_.stream_ns = -1;
+    return;
+  }
+  const auto now_ns = static_cast<int64_t>(report.stream_time);
+  const bool is_seek = std::llabs(now_ns - film_.stream_ns) > kSeek_ns;
+  if (film_.stream_ns < 0 || report.analysis.restarted || is_seek) {
+    film_.scene_ns = now_ns;
+    gint64 length_ns = 0;
+    GstPad* const sink = GST_BASE_TRANSFORM_SINK_PAD(element_);
+    const bool known = gst_pad_peer_query_duration(sink, GST_FORMAT_TIME, &length_ns);
+    film_.length_ns = known ? std::max<gint64>(length_ns, 0) : 0;
+  }
+  film_.stream_ns = now_ns;
+}
+
 bool MotionDisplay::window_waits() {
   const std::shared_ptr<FrameFeed> window_feed = feed();
   window_waits_ = window_feed && window_feed->wanted();
@@ -66,7 +96,7 @@ std::shared_ptr<Window> MotionDisplay::window() const {
 }
 
 std::shared_ptr<WindowSource> MotionDisplay::source() const {
-  return make_element_source(element_, engine_, mouse_);
+  return make_element_source(element_, engine_, choice_);
 }
 
 void MotionDisplay::open_window() {

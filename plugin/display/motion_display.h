@@ -10,7 +10,7 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/choice/mouse_pointer.h"
+#include "plugin/choice/motion_choice.h"
 #include "plugin/display/sink_hand.h"
 #include "plugin/engine/motion_engine.h"
 #include "plugin/frame/scene_view.h"
@@ -22,9 +22,9 @@ namespace spidar {
 /// One element's overlay, meta and debug window.
 class MotionDisplay {
  public:
-  /// `engine` and `mouse` are those of `element` and live as long.
-  MotionDisplay(GstElement* element, MotionEngine& engine, MousePointer& mouse)
-      : element_(element), engine_(engine), mouse_(mouse), hand_(engine.output()) {}
+  /// `engine` and `choice` are those of `element` and live as long.
+  MotionDisplay(GstElement* element, MotionEngine& engine, MotionChoice& choice)
+      : element_(element), engine_(engine), choice_(choice), hand_(engine.output()) {}
 
   // --- streaming thread
 
@@ -39,6 +39,9 @@ class MotionDisplay {
 
   /// Instead, of a frame that nobody looked at.
   void skip() { viewer_.reset(); }
+
+  /// Another stream, from the file `film` or, when that is empty, from elsewhere.
+  void begin_stream(const std::string& film);
 
   // --- any thread
 
@@ -56,14 +59,16 @@ class MotionDisplay {
 
  private:
   std::shared_ptr<FrameFeed> feed() const;
+  void follow_film(const FrameReport& report);
 
   GstElement* const element_;
   MotionEngine& engine_;
-  MousePointer& mouse_;
+  MotionChoice& choice_;
   SinkHand hand_;
   // Streaming thread.
   SceneViewer viewer_;
   bool window_waits_ = false;
+  FilmMoment film_;  // for the window
 
   mutable std::mutex mutex_;  // never held while a window opens or closes
   std::shared_ptr<Window> window_;

@@ -72,15 +72,18 @@ DebugWindow::DebugWindow(std::shared_ptr<WindowSource> source, std::shared_ptr<F
   texture_.emplace();
   past_texture_.emplace();
   relief_texture_.emplace();
+  object_textures_.emplace();
   install_callbacks();
   feed_->want();
 }
 
 DebugWindow::~DebugWindow() {
+  end_choices();
   make_current();
   texture_.reset();
   past_texture_.reset();
   relief_texture_.reset();
+  object_textures_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext(context_);
@@ -109,13 +112,15 @@ void DebugWindow::say(const std::string& note) {
 void DebugWindow::read() {
   source_gone_ = !source_->read(state_);
   const int64_t before_ns = facts_.running_ns;
+  const std::string film_before = facts_.film.name();
   waiting_.fill(*feed_);
   // The picture of the moment at which the device is: that on the screen.
   const bool plays = state_.device && state_.device->loop.last.playing;
   const bool is_new = waiting_.show(
       plays ? std::optional(state_.device->loop.last.running_ns) : std::nullopt, picture_, facts_);
   if (is_new) {
-    texture_->load(picture_, std::max(shown_width_, 1));
+    if (texture_->load(picture_, std::max(shown_width_, 1))) list_objects();
+    follow_choices(film_before);
     // Another stream, or the same from the beginning: what was learnt is not of it.
     if (facts_.running_ns < before_ns) timeline_.forget();
   }
@@ -219,11 +224,12 @@ void DebugWindow::draw_panels(int width, int height) {
   draw_picture(brush, layout.picture, picture, facts);
   const Mouse mouse = given_mouse_ ? *given_mouse_ : read_mouse();
   use_mouse(mouse, shown, facts);
+  use_objects(mouse, layout.objects);
   use_plots(mouse, layout);
   if (explains_hand(facts)) draw_hand_line(brush, shown, hand_line(hand_.hand()));
   draw_grip(brush, layout.grip, state_);
   draw_tensions(brush, layout.tensions, state_);
-  draw_timeline(brush, layout.timeline, timeline_, controller.max_force_N);
+  draw_choices(brush, layout, mouse);
   draw_force(brush, layout.force, timeline_, controller.max_force_N);
   draw_speed(brush, layout.speed, timeline_);
   if (facts.touch.on && state_.device) {

@@ -3,14 +3,19 @@
 /// One window of GLFW and what is drawn in it.
 #pragma once
 
+#include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "plugin/window/hand_control.h"
 #include "plugin/window/model/frame_feed.h"
 #include "plugin/window/model/frame_queue.h"
 #include "plugin/window/model/object_click.h"
+#include "plugin/window/model/object_list.h"
+#include "plugin/window/model/scene_choices.h"
 #include "plugin/window/model/window_source.h"
 #include "plugin/window/panels.h"
 #include "plugin/window/picture_texture.h"
@@ -54,6 +59,20 @@ class DebugWindow {
   bool explains_hand(const FrameFacts& facts) const;
   void use_mouse(const Mouse& mouse, const Rect& picture, const FrameFacts& facts);
   void use_plots(const Mouse& mouse, const WindowLayout& layout);
+  void list_objects();
+  SceneChoices& choices();
+  void follow_choices(const std::string& film_before);
+  bool is_chosen(const ListedObject& object) const;
+  std::vector<ObjectRow> object_list() const;
+  void use_objects(const Mouse& mouse, const Rect& panel);
+  void choose(const ObjectWish& wish);
+  bool has_unsaved_choices() const;
+  void save_choices();
+  void save_late_ends();
+  void save_choices(const std::string& film, SceneChoices& choices);
+  void remove_choice(const FeelRule& rule);
+  void end_choices();
+  void draw_choices(const Brush& brush, const WindowLayout& layout, const Mouse& mouse);
   void draw_panels(int width, int height);
   void save();
   void change(const std::string& setting, double value) { source_->set(setting, value); }
@@ -80,6 +99,10 @@ class DebugWindow {
   std::shared_ptr<const HeightField> relief_;  // what relief_texture_ shows
   HandControl hand_;
   ObjectClick click_;
+  ObjectList objects_;
+  std::optional<std::array<PictureTexture, ObjectList::kMost>> object_textures_;
+  std::map<std::string, SceneChoices> choices_;  ///< of each film by its path
+  bool objects_down_ = false;
   bool plots_down_ = false;
   std::optional<double> drag_px_;  ///< where a plot was dragged to
   std::optional<Mouse> given_mouse_;

@@ -91,6 +91,9 @@ void DebugWindow::on_key(int key) {
     case GLFW_KEY_PERIOD:
       timeline_.look_at(timeline_.cursor_s() + kStep_s);
       break;
+    case GLFW_KEY_C:
+      save_choices();
+      break;
     case GLFW_KEY_S:
       save_wanted_ = true;
       break;
@@ -117,7 +120,7 @@ bool DebugWindow::explains_hand(const FrameFacts& facts) const {
 
 void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture, const FrameFacts& facts) {
   if (const auto wish = click_.update(mouse, timeline_.is_paused() ? Rect() : picture, facts)) {
-    source_->choose(wish->place);
+    choose(*wish);
   }
   if (!offers_hand() || picture.width <= 0 || click_.holds()) {
     hand_.let_go();

@@ -2,6 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "plugin/window/hand.h"
 #include "plugin/window/model/plot_axis.h"
@@ -75,10 +78,18 @@ void draw_grip_body(const GripView& view, const DeviceView& device) {
   view.brush.list.AddCircle(centre, radius, kTextColor, 32, view.brush.px(1));
 }
 
+/// Where the number of a string is, beside its exit.
+Rect number_rect(const Brush& brush, const GripProjection& project, const DeviceView& device,
+                 int i) {
+  const Eigen::Vector2d exit = project(device.geometry.exit_m[static_cast<size_t>(i)]);
+  const ImVec2 size = text_size(brush.fonts.small, std::to_string(i));
+  const double side = exit.x() < project(Eigen::Vector3d::Zero()).x() ? -1 : 1;
+  return {exit.x() + side * 12 * brush.scale - size.x / 2, exit.y() - size.y / 2, size.x, size.y};
+}
+
 void draw_strings(const Brush& brush, const GripProjection& project, const DeviceView& device) {
   const TickRecord& last = device.loop.last;
   const Eigen::Matrix3d R = last.pose.orientation.toRotationMatrix();
-  const Eigen::Vector2d middle = project(Eigen::Vector3d::Zero());
   for (int i = 0; i < device.geometry.count; ++i) {
     const auto k = static_cast<size_t>(i);
     const double share = share_of_range(device, i);
@@ -87,19 +98,15 @@ void draw_strings(const Brush& brush, const GripProjection& project, const Devic
     brush.list.AddLine(im(exit), im(project(last.pose.position_m + R * device.geometry.grip_m[k])),
                        color, brush.px(1.2 + 2.5 * std::clamp(share, 0.0, 1.0)));
     brush.list.AddCircleFilled(im(exit), brush.px(3.5), kTextColor);
-    const std::string name = std::to_string(i);
-    const ImVec2 size = text_size(brush.fonts.small, name);
-    const double side = exit.x() < middle.x() ? -1 : 1;
-    draw_text(brush, brush.fonts.small,
-              im(exit.x() + side * 12 * brush.scale - size.x / 2, exit.y() - size.y / 2),
-              kMutedColor, name);
+    draw_text(brush, brush.fonts.small, upper_left(number_rect(brush, project, device, i)),
+              kMutedColor, std::to_string(i));
   }
 }
 
-/// A force at the hand, as a line in space, with its newtons and `which` force it is. Without a
-/// name it is a faint line.
+/// A force at the hand, as a line in space, with its newtons and `which` force it is, beside what
+/// is `taken`. Without a name it is a faint line.
 void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, double most_N,
-                const char* which) {
+                const char* which, const std::vector<Rect>& taken) {
   const double force_N = wrench.force_N.norm();
   if (force_N < kFeltForce_N || most_N <= 0) return;
   const Eigen::Vector2d from = view.project(view.pose.position_m);
@@ -118,24 +125,28 @@ void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, d
                                im(to - 0.6 * head * side), color);
   if (!which) return;
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f N %s", force_N, which);
+  std::snprintf(text, sizeof text, "%.1f N", force_N);
   const Eigen::Vector2d at = to + 2.2 * head * along;
-  const ImVec2 size = text_size(brush.fonts.bold, text);
-  // Within the panel.
-  const double x = std::clamp(at.x() - (along.x() < 0 ? size.x + 6 : 0), panel.x,
-                              std::max(panel.right() - size.x - brush.px(10), panel.x));
-  draw_label(brush, brush.fonts.bold, im(x, at.y() - size.y / 2), kFeltColor, text);
+  // Without its name where there is no room for that.
+  for (const std::string& label : {text + (" " + std::string(which)), std::string(text)}) {
+    const ImVec2 size = text_size(brush.fonts.bold, label);
+    const Rect wanted{at.x() - (along.x() < 0 ? size.x + 6 : 0), at.y() - size.y / 2,
+                      size.x + brush.px(10), size.y + brush.px(4)};
+    const std::optional<Rect> place = place_label(panel, wanted, taken);
+    if (place) return draw_label(brush, brush.fonts.bold, upper_left(*place), kFeltColor, label);
+  }
 }
 
 /// The directions x, y and z of the device in a corner.
 void draw_compass(const Brush& brush, const Rect& panel, const GripProjection& project) {
   constexpr const char* kNames[] = {"x", "y", "z"};
-  const Eigen::Vector2d corner(panel.x + 20 * brush.scale, panel.bottom() - 14 * brush.scale);
+  const double length = std::min(20 * brush.scale, 0.14 * panel.height);
+  const Eigen::Vector2d corner(panel.x + length, panel.bottom() - 0.7 * length);
   const Eigen::Vector2d origin = project(Eigen::Vector3d::Zero());
   const double unit = (project(Eigen::Vector3d::UnitY()) - origin).norm();
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector2d along = (project(Eigen::Vector3d::Unit(axis)) - origin) / unit;
-    const Eigen::Vector2d tip = corner + 20 * brush.scale * along;
+    const Eigen::Vector2d tip = corner + length * along;
     brush.list.AddLine(im(corner), im(tip), kAxisColors[axis], brush.px(2));
     draw_text(brush, brush.fonts.small, im(tip.x() + 2 * brush.scale, tip.y() - 12 * brush.scale),
               kAxisColors[axis], kNames[axis]);
@@ -163,14 +174,19 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
   draw_hand(view, false);
   draw_grip_body(view, device);
   draw_hand(view, true);
-  draw_force(view, content, last.wanted, last.max_force_N, nullptr);
-  draw_force(view, content, last.delivered, last.max_force_N, "delivered");
+  std::vector<Rect> numbers;
+  for (int i = 0; device.has_strings && i < device.geometry.count; ++i) {
+    numbers.push_back(number_rect(brush, project, device, i));
+  }
+  draw_force(view, content, last.wanted, last.max_force_N, nullptr, numbers);
+  draw_force(view, content, last.delivered, last.max_force_N, "delivered", numbers);
   brush.list.PopClipRect();
 }
 
 void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& state) {
   const bool strings = !state.device || state.device->has_strings;
-  draw_panel(brush, panel, "String tensions", strings ? "N" : "this device has no strings");
+  const Rect content =
+      draw_panel(brush, panel, "String tensions", strings ? "N" : "this device has no strings");
   if (!strings || !state.device || state.device->geometry.count == 0) return;
   const DeviceView& device = *state.device;
   const Rect area = tension_area(panel, brush.scale);
@@ -207,7 +223,8 @@ void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& st
     const auto centred = [&](double y, ImU32 color, const std::string& text) {
       draw_text(brush, font, im(middle - text_size(font, text).x / 2, y), color, text);
     };
-    centred(bar.range.y - font->FontSize - 3 * brush.scale, kTextColor, value);
+    const double above = bar.range.y - font->FontSize - 3 * brush.scale;
+    if (above >= content.y - 2 * brush.scale) centred(above, kTextColor, value);
     centred(bar.range.bottom() + 4 * brush.scale, kMutedColor, std::to_string(i));
   }
   const std::string below = "string";

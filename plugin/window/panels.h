@@ -7,7 +7,10 @@
 #include <imgui.h>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "plugin/window/model/film_strip.h"
+#include "plugin/window/model/object_list.h"
 #include "plugin/window/model/timeline.h"
 #include "plugin/window/model/window_model.h"
 #include "plugin/window/style.h"
@@ -48,8 +51,22 @@ void draw_section(const Brush& brush, const Rect& panel, const TouchScene& scene
 /// At the lower edge of the picture: how the mouse moves the hand.
 void draw_hand_line(const Brush& brush, const Rect& picture, const std::string& line);
 
-/// The last minute, with a button that pauses it; dragging looks back.
-void draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline, double max_force_N);
+/// The last minute, with a button that pauses it; dragging looks back. Below it the film with its
+/// choices; returns the one that the user clicked, to be removed.
+std::optional<FeelRule> draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline,
+                                      double max_force_N, const FilmStrip& strip);
+
+/// An object in the list.
+struct ObjectRow {
+  const ListedObject* object = nullptr;
+  ImTextureID picture{};  ///< 0: there is none yet
+  double aspect = 1;      ///< of the picture, width / height
+  bool is_chosen = false;
+};
+void draw_objects(const Brush& brush, const Rect& panel, const std::vector<ObjectRow>& rows,
+                  const FrameFacts& facts, const Eigen::Vector2d& mouse_px);
+/// In the title of that panel. True when it was pressed.
+bool draw_save_button(const Brush& brush, const Rect& panel);
 
 /// `note`: what the window has to say at the moment; may be empty.
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,

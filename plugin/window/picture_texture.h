@@ -9,6 +9,7 @@
 #include <gst/video/video.h>
 
 #include "plugin/window/model/frame_feed.h"
+#include "plugin/window/model/layout.h"
 #include "plugin/window/model/still.h"
 
 namespace spidar {
@@ -31,12 +32,17 @@ class PictureTexture {
   /// False when there is none.
   bool copy_to(Still& still, int widest) const;
 
+  /// The same of a part, in shares of the frame. False also when that is empty.
+  bool cut_to(Still& still, const Rect& part, int widest) const;
+
   /// Of the frame that it was made from.
   int frame_width() const { return frame_width_; }
   int frame_height() const { return frame_height_; }
   double pixel_aspect() const { return pixel_aspect_; }
 
   bool empty() const { return width_ == 0; }
+  /// Of what is shown, on a screen with square pixels.
+  double aspect() const { return height_ > 0 ? pixel_aspect_ * width_ / height_ : 1; }
   unsigned id() const { return id_; }
 
  private:

@@ -36,15 +36,57 @@ std::vector<PlotPoint> profile(const Timeline& timeline, double newest_s, int sl
   return points;
 }
 
+/// The part of the panel with the whole film.
+constexpr double kStrip_px = 9, kLeastMark_px = 4;
+
+Rect mark_rect(const Brush& brush, const Rect& place, const FilmStrip& strip,
+               const StripMark& mark) {
+  const double from = place.x + strip.share(mark.rule.from_ns) * place.width;
+  const double to = place.x + strip.share(mark.rule.to_ns) * place.width;
+  return {from, place.y, std::max(to - from, kLeastMark_px * brush.scale), place.height};
+}
+
+void draw_strip(const Brush& brush, const Rect& place, const FilmStrip& strip) {
+  brush.list.AddRectFilled(upper_left(place), lower_right(place), kGridColor, brush.px(2));
+  for (const StripMark& mark : strip.marks) {
+    // A gap between two that follow each other.
+    const Rect rect = mark_rect(brush, place, strip, mark).inset(0.5 * brush.scale);
+    brush.list.AddRectFilled(upper_left(rect), lower_right(rect),
+                             mark.is_new ? kFeltColor : kAccentColor, brush.px(2));
+  }
+  const double now = place.x + strip.share(strip.now_ns) * place.width;
+  const double beyond = 2 * brush.scale;
+  brush.list.AddLine(im(now, place.y - beyond), im(now, place.bottom() + beyond), kTextColor,
+                     brush.px(2));
+}
+
+/// With the mouse over it.
+std::optional<FeelRule> use_strip(const Brush& brush, const Rect& place, const FilmStrip& strip) {
+  ImGui::SetCursorScreenPos(im(place.x, place.y - 2 * brush.scale));
+  ImGui::InvisibleButton("film", im(place.width, place.height + 4 * brush.scale));
+  if (!ImGui::IsItemHovered()) return std::nullopt;
+  const double share = (ImGui::GetIO().MousePos.x - place.x) / place.width;
+  const StripMark* const mark = strip.at(share, kLeastMark_px * brush.scale / place.width);
+  if (!mark) {
+    ImGui::SetTooltip("The film, with marks where an object was chosen or another rule holds");
+    return std::nullopt;
+  }
+  ImGui::SetTooltip("%s%s. A click removes it.", rule_text(mark->rule).c_str(),
+                    mark->is_new ? ", not saved" : "");
+  return ImGui::IsItemClicked() ? std::optional(mark->rule) : std::nullopt;
+}
+
 }  // namespace
 
-void draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline, double max_force_N) {
+std::optional<FeelRule> draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline,
+                                      double max_force_N, const FilmStrip& strip) {
   const Rect left = draw_panel(brush, panel, "Last minute");
   const double button = std::min(96 * brush.scale, left.width / 3);
   const double margin = 10 * brush.scale;
+  const double below = strip.length_ns > 0 ? (kStrip_px + 5) * brush.scale : 0;
   const Rect content{left.x + button + margin, panel.y + 4 * brush.scale,
                      std::max(left.width - button - margin, 1.0),
-                     std::max(panel.height - 10 * brush.scale, 1.0)};
+                     std::max(panel.height - 10 * brush.scale - below, 1.0)};
   draw_text(brush, brush.fonts.small, im(left.x, left.y + 32 * brush.scale), kMutedColor,
             where(timeline));
   const double newest_s = timeline.moments().empty() ? 0 : timeline.moments().back().time_s;
@@ -61,6 +103,10 @@ void draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline, do
   const double from = std::max(cursor - timeline.plotted_s(), -Timeline::kMemory_s);
   brush.list.AddRectFilled(plot.at(from, y.high), plot.at(cursor, y.low), faded(kTextColor, 28));
   plot.upright(cursor, timeline.is_paused() ? kTextColor : kLineColor);
+
+  const Rect film{plot.area().x, content.bottom() + 3 * brush.scale, plot.area().width,
+                  kStrip_px * brush.scale};
+  if (strip.length_ns > 0) draw_strip(brush, film, strip);
 
   ImGui::SetNextWindowPos(upper_left(panel));
   ImGui::SetNextWindowSize(im(panel.width, panel.height));
@@ -81,7 +127,10 @@ void draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline, do
   } else if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("Drag to look back");
   }
+  std::optional<FeelRule> removed;
+  if (strip.length_ns > 0) removed = use_strip(brush, film, strip);
   ImGui::End();
+  return removed;
 }
 
 }  // namespace spidar

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What a person chooses in a player: by the mouse in its window, and by rules.
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/pipelines/chosen_film.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spidar::test::choice_test {
 namespace {
@@ -177,6 +179,48 @@ TEST(Feel, ChoosesLiveByRules) {
   film.next();
   EXPECT_EQ(film.velocity_px_s_, Vector2d(0, 0));
   EXPECT_TRUE(film.warnings_.empty());
+}
+
+/// As the debug window does when choices are saved.
+TEST(Feel, WhatIsSavedHoldsAtOnce) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path / "film.feel";
+  std::ofstream(path) << "0-1.6 " + object_at(1, 0) + "\n";
+  Film film("feel=" + path);
+  film.play_to(20);
+  EXPECT_EQ(film.felt(), 1);
+  const Vector2d later_px = Film::disc_px(2, 25);
+  const FeelEdit edit{GST_SECOND, 2 * GST_SECOND,
+                      Vector2d(0.5 + later_px.x() / kWidth, 0.5 + later_px.y() / kHeight)};
+  EXPECT_TRUE(film.window().save("", {edit}).is_done);
+  int right = 0;
+  for (int n = 20; n < 50; ++n) {
+    film.next();
+    right += film.felt() == (n < 25 ? 1 : 2);
+  }
+  EXPECT_GE(right, kMostFrames * 30) << "the rule that was cut goes on with its object";
+  EXPECT_TRUE(film.warnings_.empty());
+  ElementState state;
+  film.window().read(state);
+  ASSERT_TRUE(state.rules);
+  EXPECT_EQ(state.rules->rules().size(), 2u);
+}
+
+TEST(Feel, WhatCannotBeSavedIsToldAndChangesNothing) {
+  Film film("feel=largest");
+  film.play_to(kKnown);
+  const FeelEdit edit{0, GST_SECOND, Vector2d(0.5, 0.5)};
+  const WindowSource::Saved none = film.window().save("", {edit});
+  EXPECT_FALSE(none.is_done);
+  EXPECT_EQ(none.what,
+            "Not saved: what is played comes from no file, beside which rules could be kept.");
+  EXPECT_EQ(film.window().save("/nowhere/film.avi", {edit}).what,
+            "Not saved: film.avi.feel: there is no folder /nowhere.");
+  film.next();
+  ElementState state;
+  film.window().read(state);
+  ASSERT_TRUE(state.rules);
+  EXPECT_EQ(state.rules->text(), "largest");
 }
 
 TEST(Feel, MistakesAreNamedOnceAndTheVideoGoesOn) {

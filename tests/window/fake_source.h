@@ -45,6 +45,12 @@ class FakeSource final : public WindowSource {
     choices_.push_back(place);
     changed_.notify_all();
   }
+  Saved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    saves_.emplace_back(film, edits);
+    changed_.notify_all();
+    return {true, "saved"};
+  }
   void warn(const std::string& what, const std::string&) override {
     const std::lock_guard<std::mutex> lock(mutex_);
     warnings_.push_back(what);
@@ -91,6 +97,13 @@ class FakeSource final : public WindowSource {
     changed_.wait(lock, [&] { return choices_.size() >= count; });
     return choices_;
   }
+  using Saves = std::vector<std::pair<std::string, std::vector<FeelEdit>>>;
+  /// The same of what was saved.
+  Saves wait_for_saves(size_t count) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return saves_.size() >= count; });
+    return saves_;
+  }
   void wait_until_closed() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [&] { return is_closed_; });
@@ -108,6 +121,7 @@ class FakeSource final : public WindowSource {
   Sets sets_;
   Led led_;
   Places choices_;
+  Saves saves_;
   std::vector<std::string> warnings_;
   bool is_closed_ = false;
   static constexpr uint64_t kAll = std::numeric_limits<uint64_t>::max();

@@ -61,6 +61,7 @@ TEST(ObjectClick, OnTheChosenOneLetsGo) {
   const std::optional<ObjectWish> wish = click.update(mouse_at({150, 50}, true), kPicture, chosen);
   ASSERT_TRUE(wish);
   EXPECT_FALSE(wish->place);
+  EXPECT_EQ(wish->object, 3u);
   click.update(mouse_at({150, 50}, false), kPicture, chosen);
   const std::optional<ObjectWish> other = click.update(mouse_at({50, 50}, true), kPicture, chosen);
   EXPECT_TRUE(other && other->place) << "another one";

@@ -76,7 +76,7 @@ TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
                    std::to_string(scale));
       const WindowLayout l = lay_out(width, height, scale);
       const std::vector<Rect> panels{l.picture, l.timeline, l.force,    l.speed,   l.gain,
-                                     l.status,  l.grip,     l.tensions, l.controls};
+                                     l.status,  l.grip,     l.tensions, l.objects, l.controls};
       for (size_t i = 0; i < panels.size(); ++i) {
         const Rect& a = panels[i];
         EXPECT_GE(a.width, 0);
@@ -108,6 +108,45 @@ TEST(Layout, PanelsAreStackedInATallWindowAndTheTimelineHasRoomForItsLines) {
   EXPECT_GT(l.grip.y, l.force.bottom());
   EXPECT_GT(l.controls.x, l.grip.right());
   EXPECT_GT(l.controls.width, 300) << "a name, a slider and a button";
+}
+
+TEST(Layout, ObjectsAreListedBesideAndBelowEachOther) {
+  for (const auto& [width, height] :
+       {std::pair{1500, 900}, {1280, 720}, {800, 600}, {640, 480}, {700, 960}}) {
+    SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+    const Rect panel = lay_out(width, height, 1).objects;
+    const std::vector<Rect> rows = object_rows(panel, 1, 12);
+    EXPECT_GE(rows.size(), 4u) << "more than two that a person chooses from";
+    for (size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_GE(rows[i].height, 26) << "two lines of text";
+      EXPECT_GE(rows[i].x, panel.x);
+      EXPECT_LE(rows[i].right(), panel.right());
+      EXPECT_LE(rows[i].bottom(), panel.bottom());
+      EXPECT_GE(rows[i].y, panel.y + 25) << "below the title";
+      for (size_t k = 0; k < i; ++k) EXPECT_FALSE(rows[i].overlaps(rows[k]));
+      const Rect picture = row_picture(rows[i], 0.5);
+      EXPECT_NEAR(picture.width, 0.5 * picture.height, kRounding);
+      EXPECT_TRUE(rows[i].has({picture.x, picture.y}));
+    }
+    EXPECT_EQ(object_rows(panel, 1, 1).size(), 1u);
+  }
+  EXPECT_TRUE(object_rows({}, 1, 5).empty());
+}
+
+TEST(Layout, LabelsCoverNothing) {
+  const Rect panel{10, 10, 200, 100}, wanted{50, 50, 60, 20};
+  const Rect free = place_label(panel, wanted, {}).value();
+  EXPECT_EQ(free.x, 50);
+  EXPECT_EQ(free.y, 50);
+  const Rect inside = place_label(panel, {190, -5, 60, 20}, {}).value();
+  EXPECT_EQ(inside.right(), panel.right());
+  EXPECT_EQ(inside.y, panel.y);
+  const std::vector<Rect> numbers = {{60, 55, 8, 12}, {60, 20, 8, 12}, {100, 80, 8, 12}};
+  const Rect beside = place_label(panel, wanted, numbers).value();
+  for (const Rect& number : numbers) EXPECT_FALSE(beside.overlaps(number));
+  // The first number is passed on the right: by 18 px and at most one step of 140 / 16 px.
+  EXPECT_LE(std::hypot(beside.x - wanted.x, beside.y - wanted.y), 18 + 140.0 / 16 + 80.0 / 16);
+  EXPECT_FALSE(place_label(panel, wanted, {panel}));
 }
 
 TEST(Layout, ThePictureKeepsItsShapeAndItsPlace) {

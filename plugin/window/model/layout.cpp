@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace spidar {
 namespace {
@@ -11,20 +12,26 @@ namespace {
 /// Of height to width, from which on the panels are stacked.
 constexpr double kTall = 1.1;
 // Shares of the window.
-constexpr double kLeft = 0.66, kGrip = 0.34, kTensions = 0.19;
+constexpr double kLeft = 0.66, kGrip = 0.27, kTensions = 0.18, kObjects = 0.2;
 constexpr double kTimeline = 0.13, kPlots = 0.23;
 // The same where they are stacked: below kLower are device and settings.
 constexpr double kTallTimeline = 0.1, kTallPlots = 0.18, kLower = 0.64, kTallTensions = 0.14;
+constexpr double kTallObjects = 0.13;
 /// Of text, in pixels at a scale of 1; a share of the window at most.
 constexpr double kStatus_px = 34, kStatusMost = 0.1;
-/// The title, the button and a line below each other; a share of the window at most.
-constexpr double kTimeline_px = 94, kTimelineMost = 0.2;
+/// The title, the button, a line and the film below each other; a share of the window at most.
+constexpr double kTimeline_px = 96, kTimelineMost = 0.2;
 constexpr double kGap_px = 8;
 
 // Of the view: turned about y, then tilted, radians.
 constexpr double kTurn = 0.4, kTilt = 0.3;
 /// Of the panel, for the exits of the strings; the rest is for their numbers.
 constexpr double kFilled = 0.8;
+
+// Of the list of objects, in pixels at a scale of 1: a picture with a name beside it.
+// It grows with the panel.
+constexpr double kRowWidth_px = 88, kRowHeight_px = 26, kMostRowHeight_px = 44, kRowGap_px = 4;
+constexpr double kRowShare = 0.3, kListMargin_px = 10, kListTitle_px = 26;
 
 /// Of the room of a string's bar.
 constexpr double kBarFilled = 0.5;
@@ -71,14 +78,74 @@ WindowLayout lay_out(int width, int height, double scale) {
     const double tensions_y = status_y - kTallTensions * h;
     layout.grip = place(0, lower_y, w / 2, tensions_y);
     layout.tensions = place(0, tensions_y, w / 2, status_y);
-    layout.controls = place(w / 2, lower_y, w, status_y);
+    const double objects_y = lower_y + kTallObjects * h;
+    layout.objects = place(w / 2, lower_y, w, objects_y);
+    layout.controls = place(w / 2, objects_y, w, status_y);
     return layout;
   }
-  const double tensions_y = kGrip * h, controls_y = tensions_y + kTensions * h;
+  const double tensions_y = kGrip * h, objects_y = tensions_y + kTensions * h;
+  const double controls_y = objects_y + kObjects * h;
   layout.grip = place(left, 0, w, tensions_y);
-  layout.tensions = place(left, tensions_y, w, controls_y);
+  layout.tensions = place(left, tensions_y, w, objects_y);
+  layout.objects = place(left, objects_y, w, controls_y);
   layout.controls = place(left, controls_y, w, h);
   return layout;
+}
+
+std::vector<Rect> object_rows(const Rect& panel, double scale, size_t count) {
+  const double gap = kRowGap_px * scale;
+  Rect room = panel.inset(kListMargin_px * scale);
+  room.height = std::max(panel.bottom() - gap - panel.y - kListTitle_px * scale, 0.0);
+  room.y = panel.y + kListTitle_px * scale;
+  const double height =
+      std::clamp(kRowShare * room.height, kRowHeight_px * scale, kMostRowHeight_px * scale);
+  const auto fitting = [&](double length, double one) {
+    return static_cast<size_t>(std::max((length + gap) / (one + gap), 0.0));
+  };
+  const size_t columns = std::max<size_t>(fitting(room.width, kRowWidth_px * scale), 1);
+  const size_t shown = std::min(count, columns * fitting(room.height, height));
+  const double width = (room.width + gap) / static_cast<double>(columns) - gap;
+  std::vector<Rect> rows;
+  for (size_t i = 0; i < shown; ++i) {
+    rows.push_back({room.x + static_cast<double>(i % columns) * (width + gap),
+                    room.y + static_cast<double>(i / columns) * (height + gap), width, height});
+  }
+  return rows;
+}
+
+Rect row_picture(const Rect& row, double aspect) {
+  constexpr double kWidest = 4.0 / 3;
+  const Rect room = Rect{row.x, row.y, kWidest * row.height, row.height}.inset(row.height / 16);
+  return fit(room, aspect);
+}
+
+std::optional<Rect> place_label(const Rect& panel, const Rect& wanted,
+                                const std::vector<Rect>& taken) {
+  constexpr int kSteps = 16;
+  const double across = std::max(panel.width - wanted.width, 0.0);
+  const double down = std::max(panel.height - wanted.height, 0.0);
+  const auto at = [&](double x, double y) {
+    return Rect{std::clamp(x, panel.x, panel.x + across), std::clamp(y, panel.y, panel.y + down),
+                wanted.width, wanted.height};
+  };
+  const auto is_free = [&](const Rect& place) {
+    return std::none_of(taken.begin(), taken.end(),
+                        [&](const Rect& other) { return place.overlaps(other); });
+  };
+  const Rect first = at(wanted.x, wanted.y);
+  if (is_free(first)) return first;
+  std::optional<Rect> best;
+  double nearest = 0;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int k = 0; k <= kSteps; ++k) {
+      const Rect place = at(panel.x + i * across / kSteps, panel.y + k * down / kSteps);
+      const double distance = std::hypot(place.x - first.x, place.y - first.y);
+      if ((best && distance >= nearest) || !is_free(place)) continue;
+      best = place;
+      nearest = distance;
+    }
+  }
+  return best;
 }
 
 PictureMap map_picture(const Rect& panel, double frame_x, double frame_y, double frame_width,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +18,10 @@ struct Rect {
   double x = 0, y = 0, width = 0, height = 0;
   double right() const { return x + width; }
   double bottom() const { return y + height; }
+  /// Touching is none.
+  bool overlaps(const Rect& other) const {
+    return x < other.right() && other.x < right() && y < other.bottom() && other.y < bottom();
+  }
   /// False for a place that is not finite.
   bool has(const Eigen::Vector2d& at) const {
     return at.x() >= x && at.x() < right() && at.y() >= y && at.y() < bottom();
@@ -30,10 +35,21 @@ Rect fit(const Rect& outer, double aspect);
 
 struct WindowLayout {
   Rect picture, timeline, force, speed, gain, status;  ///< left
-  Rect grip, tensions, controls;                       ///< right
+  Rect grip, tensions, objects, controls;              ///< right
 };
 /// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read.
 WindowLayout lay_out(int width, int height, double scale);
+
+/// Places for the objects of a list, beside and below each other in order; as many of `count` as
+/// there is room for below the title of `panel`.
+std::vector<Rect> object_rows(const Rect& panel, double scale, size_t count);
+/// In such a place: a picture of this width / height on the left.
+Rect row_picture(const Rect& row, double aspect);
+
+/// The place for a label that is nearest to `wanted`, within `panel` and beside all that is
+/// `taken`; nothing when there is none.
+std::optional<Rect> place_label(const Rect& panel, const Rect& wanted,
+                                const std::vector<Rect>& taken);
 
 /// From pixels of the frame to pixels of the window.
 struct PictureMap {

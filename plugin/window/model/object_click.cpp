@@ -16,13 +16,16 @@ const MovingObject* object_at(const FrameFacts& facts, const Eigen::Vector2d& pl
   return found;
 }
 
+bool offers_choice(const FrameFacts& facts) {
+  return facts.settings.motion != MotionKind::kMean && !facts.touch.on;
+}
+
 std::optional<ObjectWish> ObjectClick::update(const Mouse& mouse, const Rect& picture,
                                               const FrameFacts& facts) {
   const bool pressed = mouse.down && !was_down_;
   was_down_ = mouse.down;
   holds_ = holds_ && mouse.down;
-  const bool knows_objects = facts.settings.motion != MotionKind::kMean && !facts.touch.on;
-  if (!pressed || mouse.taken || !knows_objects || picture.width <= 0) return std::nullopt;
+  if (!pressed || mouse.taken || !offers_choice(facts) || picture.width <= 0) return std::nullopt;
   const Eigen::Vector2d place((mouse.at_px.x() - picture.x) / picture.width,
                               (mouse.at_px.y() - picture.y) / picture.height);
   // Not a number where there is no mouse.
@@ -31,7 +34,10 @@ std::optional<ObjectWish> ObjectClick::update(const Mouse& mouse, const Rect& pi
   if (!object) return std::nullopt;
   holds_ = true;
   const bool is_chosen = facts.settings.kept.click != 0 && facts.scene.felt_object == object->id;
-  return is_chosen ? ObjectWish() : ObjectWish{place};
+  ObjectWish wish;
+  wish.object = object->id;
+  if (!is_chosen) wish.place = place;
+  return wish;
 }
 
 }  // namespace spidar

@@ -3,6 +3,7 @@
 /// Clicks on the objects of the picture in a debug window.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include <Eigen/Core>
@@ -16,9 +17,13 @@ namespace spidar {
 /// Places are shares of the visible part of the frame.
 const MovingObject* object_at(const FrameFacts& facts, const Eigen::Vector2d& place);
 
+/// Whether objects are known, and not merely touched.
+bool offers_choice(const FrameFacts& facts);
+
 /// What a click asks for.
 struct ObjectWish {
   std::optional<Eigen::Vector2d> place;  ///< of the object that is felt from now on; none: let go
+  uint32_t object = 0;                   ///< the one that was clicked
 };
 
 /// The left button chooses what it is pressed on; on the object that was chosen, it lets go. Where

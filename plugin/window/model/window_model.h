@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/analysis/motion_analyzer.h"
 #include "core/analysis/no_force_reason.h"
+#include "core/choice/feel_rules.h"
 #include "plugin/device/device_view.h"
 #include "plugin/frame/scene_view.h"
 #include "plugin/frame/touch_view.h"
@@ -39,15 +41,31 @@ struct ElementState {
   std::optional<DeviceView> device;  ///< nothing with device=none or while it is closed
   std::vector<Setting> settings;
   NoForceReason limit = NoForceReason::kNone;  ///< of the force in the last second
+  std::shared_ptr<const FeelRules> rules;      ///< of `feel`; null: there are none
 
   /// Null when there is none of this name.
   const Setting* setting(const std::string& setting_name) const;
   double value(const std::string& setting_name, double otherwise) const;
 };
 
+/// Where a frame is in its film.
+struct FilmMoment {
+  std::shared_ptr<const std::string> path;  ///< null or empty: it is from no file
+  int64_t stream_ns = -1;                   ///< −1: not known
+  /// When the scene began, or what was seen of it: at a cut, or after a seek.
+  int64_t scene_ns = -1;
+  int64_t length_ns = 0;  ///< of the film; 0: not known
+
+  std::string name() const { return path ? *path : ""; }
+  bool is_same_scene(const FilmMoment& other) const {
+    return scene_ns == other.scene_ns && (path == other.path || name() == other.name());
+  }
+};
+
 /// What one analysed frame adds to the picture itself.
 struct FrameFacts {
   int64_t running_ns = 0;
+  FilmMoment film;
   double interval_s = 0;  ///< since the frame before; 0: nothing to compare with
   double analysis_ms = 0;
   VisiblePart visible;

@@ -5,9 +5,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include "core/choice/feel_edit.h"
 #include "plugin/window/model/window_model.h"
 
 namespace spidar {
@@ -26,6 +28,13 @@ class WindowSource {
   /// The object at this place of the frame, a share of its visible part, is felt alone; nothing:
   /// what the properties say is.
   virtual void choose(const std::optional<Eigen::Vector2d>& place) = 0;
+  /// Changes the rules in the file of `feel`, or else in the one beside the file `film`; from then
+  /// on they hold. Returns what was done or why not, as a sentence.
+  struct Saved {
+    bool is_done = false;
+    std::string what;
+  };
+  virtual Saved save(const std::string& film, const std::vector<FeelEdit>& edits) = 0;
   /// The window cannot be opened or goes on no more: `what` happened, `advice` to do.
   virtual void warn(const std::string& what, const std::string& advice) = 0;
   /// The user has closed the window.

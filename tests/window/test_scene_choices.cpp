@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What the debug window makes of choices: rules, and marks on the film.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugin/window/model/film_strip.h"
+#include "plugin/window/model/scene_choices.h"
+
+namespace spidar::test::scene_choices_test {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int64_t kSecond = 1'000'000'000, kFrame_ns = 40'000'000;
+
+/// A film that begins at 0, with cuts at whole multiples of two seconds.
+class Film {
+ public:
+  explicit Film(SceneChoices& choices) : choices_(choices) {}
+
+  void play(double from_s, double to_s, const std::vector<uint32_t>& objects) {
+    const auto end_ns = static_cast<int64_t>(to_s * 1e9);
+    for (auto ns = static_cast<int64_t>(from_s * 1e9); ns < end_ns; ns += kFrame_ns) {
+      FrameFacts facts;
+      facts.film.stream_ns = ns;
+      facts.film.scene_ns = ns / (2 * kSecond) * 2 * kSecond;
+      facts.interval_s = 0.04;
+      for (const uint32_t id : objects) {
+        MovingObject object;
+        object.id = id;
+        facts.scene.objects.push_back(object);
+      }
+      choices_.see(facts);
+    }
+  }
+
+ private:
+  SceneChoices& choices_;
+};
+
+ListedObject object(uint32_t id, double first_s, const Vector2d& place) {
+  ListedObject made;
+  made.id = id;
+  made.first_ns = static_cast<int64_t>(first_s * 1e9);
+  made.first_place = place;
+  return made;
+}
+
+/// The rules of the choices, beside those that there were.
+std::string rules(const SceneChoices& choices, const std::string& before = "") {
+  std::vector<FeelRule> now;
+  if (!before.empty()) now = FeelRules(before).rules();
+  for (const FeelEdit& edit : choices.edits()) now = edited(now, edit);
+  std::string text;
+  for (const FeelRule& rule : now) text += (text.empty() ? "" : "; ") + rule_text(rule);
+  return text;
+}
+
+class Choices : public testing::Test {
+ protected:
+  SceneChoices choices;
+  Film film{choices};
+};
+
+TEST_F(Choices, HoldFromTheFirstSightOfTheObjectToTheCut) {
+  film.play(0, 1, {1, 2});
+  choices.choose(object(1, 0.2409, {0.25049, 0.5}));
+  EXPECT_EQ(rules(choices), "0:00.24-0:01 object at 0.25,0.5");
+  film.play(1, 1.5, {1, 2});
+  EXPECT_EQ(rules(choices), "0:00.24-0:01.52 object at 0.25,0.5") << "as far as it is known";
+  film.play(1.52, 3, {3});
+  EXPECT_EQ(rules(choices), "0:00.24-0:02 object at 0.25,0.5");
+  choices.choose(object(3, 2.2, {0.75, 0.5}));
+  film.play(3, 5, {});
+  EXPECT_EQ(rules(choices), "0:00.24-0:02 object at 0.25,0.5; 0:02.2-0:04 object at 0.75,0.5");
+}
+
+TEST_F(Choices, TheLastOneOfASceneCounts) {
+  film.play(0, 1, {1, 2});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  choices.choose(object(2, 0.4, {0.75, 0.5}));
+  film.play(1, 2.1, {1, 2});
+  EXPECT_EQ(rules(choices), "0:00.4-0:02 object at 0.75,0.5");
+  EXPECT_EQ(choices.edits().size(), 1u);
+}
+
+TEST_F(Choices, OneThatCameAfterAnotherHadGoneFollowsIt) {
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  film.play(1, 1.8, {2});
+  choices.choose(object(2, 1.2, {0.75, 0.5}));
+  film.play(1.8, 2.1, {2});
+  EXPECT_EQ(rules(choices), "0:00.2-0:01.2 object at 0.25,0.5; 0:01.2-0:02 object at 0.75,0.5");
+}
+
+TEST_F(Choices, EndWithASeekWhereNoCutWasSeen) {
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  film.play(40, 41, {5});
+  EXPECT_EQ(rules(choices), "0:00.2-0:01 object at 0.25,0.5");
+  choices.choose(object(5, 40.2, {0.75, 0.5}));
+  film.play(0, 0.5, {});
+  EXPECT_EQ(rules(choices), "0:00.2-0:01 object at 0.25,0.5; 0:40.2-0:41 object at 0.75,0.5");
+}
+
+TEST_F(Choices, LetGoOfLeaveWhatTheRulesSay) {
+  const std::string before = "0:00-0:01 camera";
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0, {0.25, 0.5}));
+  EXPECT_EQ(rules(choices, before), "0:00-0:01 object at 0.25,0.5");
+  choices.let_go();
+  EXPECT_EQ(rules(choices, before), before);
+  EXPECT_FALSE(choices.has_unsaved());
+}
+
+TEST_F(Choices, SavedOnesAreSavedAgainWhenTheirEndIsKnown) {
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  EXPECT_TRUE(choices.has_unsaved());
+  EXPECT_FALSE(choices.has_late_end());
+  choices.saved();
+  film.play(1, 2, {1});
+  EXPECT_FALSE(choices.has_unsaved());
+  EXPECT_FALSE(choices.has_late_end());
+  film.play(2, 2.1, {});
+  EXPECT_TRUE(choices.has_late_end());
+  EXPECT_EQ(rules(choices, "0:00.2-0:01 object at 0.25,0.5"), "0:00.2-0:02 object at 0.25,0.5");
+  choices.saved();
+  EXPECT_TRUE(choices.edits().empty());
+}
+
+TEST_F(Choices, SavedAndLetGoOfAreTakenOutOfTheRules) {
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  choices.saved();
+  choices.let_go();
+  EXPECT_TRUE(choices.has_unsaved());
+  EXPECT_EQ(rules(choices, "0:00.2-0:01 object at 0.25,0.5"), "");
+  film.play(1, 2.1, {});
+  EXPECT_FALSE(choices.has_late_end()) << "nothing is saved that nobody asked for";
+}
+
+TEST_F(Choices, ThatCannotBeSavedAreNotTriedAgain) {
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  choices.saved();
+  choices.end_scene();
+  EXPECT_TRUE(choices.has_late_end());
+  choices.not_saved();
+  EXPECT_FALSE(choices.has_late_end());
+  EXPECT_TRUE(choices.has_unsaved());
+}
+
+TEST_F(Choices, AndRulesCanBeRemoved) {
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  choices.remove(200'000'000, 1 * kSecond);
+  choices.remove(4 * kSecond, FeelRule::kNoEnd);
+  EXPECT_EQ(rules(choices, "0:04- largest"), "");
+  EXPECT_TRUE(choices.has_unsaved());
+}
+
+TEST_F(Choices, NeedATimeInTheFilm) {
+  choices.see({});
+  choices.choose(object(1, 0, {0.25, 0.5}));
+  film.play(0, 1, {1});
+  choices.choose(ListedObject());
+  EXPECT_TRUE(choices.edits().empty());
+}
+
+FilmMoment moment(double now_s, double length_s, const std::string& path = "/film.avi") {
+  FilmMoment made;
+  made.path = std::make_shared<const std::string>(path);
+  made.stream_ns = static_cast<int64_t>(now_s * 1e9);
+  made.length_ns = static_cast<int64_t>(length_s * 1e9);
+  return made;
+}
+
+TEST(FilmStrip, MarksRulesAndChoices) {
+  const FeelRules rules("0-10 camera; 20- largest");
+  const std::vector<FeelEdit> edits = {{5 * kSecond, 15 * kSecond, Vector2d(0.5, 0.5)}};
+  const FilmStrip strip = film_strip(moment(50, 100), &rules, edits);
+  EXPECT_DOUBLE_EQ(strip.share(strip.now_ns), 0.5);
+  ASSERT_EQ(strip.marks.size(), 3u);
+  EXPECT_EQ(rule_text(strip.marks[0].rule), "0:00-0:05 camera");
+  EXPECT_EQ(rule_text(strip.marks[1].rule), "0:05-0:15 object at 0.5,0.5");
+  EXPECT_TRUE(strip.marks[1].is_new);
+  EXPECT_FALSE(strip.marks[2].is_new);
+  EXPECT_EQ(strip.share(strip.marks[2].rule.to_ns), 1);
+  EXPECT_EQ(strip.at(0.1, 0), &strip.marks[1]);
+  EXPECT_EQ(strip.at(0.17, 0), nullptr);
+  EXPECT_EQ(strip.at(0.17, 0.025), &strip.marks[1]);
+  EXPECT_EQ(strip.at(0.9, 0), &strip.marks[2]);
+}
+
+TEST(FilmStrip, IsOnlyThereForAFilmAndNeverEndsBeforeIt) {
+  EXPECT_EQ(film_strip(moment(1, 100, ""), nullptr, {}).length_ns, 0);
+  FilmMoment unknown = moment(1, 100);
+  unknown.stream_ns = -1;
+  EXPECT_EQ(film_strip(unknown, nullptr, {}).length_ns, 0);
+  EXPECT_EQ(film_strip({}, nullptr, {}).length_ns, 0);
+  EXPECT_EQ(film_strip(moment(7, 0), nullptr, {}).length_ns, 7 * kSecond);
+  EXPECT_EQ(FilmStrip().share(kSecond), 0);
+}
+
+}  // namespace
+}  // namespace spidar::test::scene_choices_test
