@@ -32,6 +32,7 @@ constexpr DeviceKind kKinds[] = {
     {"mouse", "SPIDAR-mouse", kDefaultProfile, false, Trial::kInferred},
     {"uart", "UART motor boards", kUartProfile, true, Trial::kEmulated},
     {"ff", "force-feedback device", kDefaultProfile, false, Trial::kEmulated},
+    {"inverse3", "Haply Inverse3", kDefaultProfile, false, Trial::kInferred},
 };
 
 /// Simulated devices, whose names have no variable part.
@@ -45,6 +46,7 @@ constexpr DeviceKind kSimulated[] = {
      Trial::kEmulated},
     {"sim:mouse", "simulated SPIDAR-mouse", kDefaultProfile, false, Trial::kEmulated},
     {"sim:ff", "simulated force-feedback joystick", kDefaultProfile, false, Trial::kEmulated},
+    {"sim:inverse3", "simulated Haply Inverse3", kDefaultProfile, false, Trial::kEmulated},
 };
 
 bool begins(const std::string& text, const std::string& with) {

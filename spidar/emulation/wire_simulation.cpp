@@ -9,11 +9,13 @@
 #include "spidar/boards/digits.h"
 #include "spidar/boards/force_feedback_board.h"
 #include "spidar/boards/force_grip.h"
+#include "spidar/boards/inverse3_board.h"
 #include "spidar/boards/mouse_board.h"
 #include "spidar/boards/sh4_board.h"
 #include "spidar/boards/simple_board.h"
 #include "spidar/boards/uart_board.h"
 #include "spidar/emulation/emulated_force_feedback.h"
+#include "spidar/emulation/emulated_inverse3.h"
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
 #include "spidar/simulation/simulated_device.h"
@@ -45,7 +47,7 @@ class SimulatedMotors final : public EmulatedMotors {
   DeviceReading reading_;
 };
 
-/// A mouse or a joystick has neither strings nor encoders: its force has no effect.
+/// What takes a force has neither strings nor encoders here: its force has no effect.
 class NoMotors final : public EmulatedMotors {
  public:
   void put_out(const std::array<int, kMaxStrings>&) noexcept override {}
@@ -110,8 +112,9 @@ std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Prof
         *motors, std::vector<EmulatedUart::Station>{{0, kB3M}, {1, kB3M}})));
     board = std::make_unique<UartBoard>(name, profile, std::move(lines));
   } else {
-    throw DeviceError("unknown simulated board \"" + kind +
-                      "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff");
+    throw DeviceError(
+        "unknown simulated board \"" + kind +
+        "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff, sim:inverse3");
   }
   return std::make_unique<WireSimulation>(std::move(motors), std::move(board));
 }
@@ -130,6 +133,9 @@ std::unique_ptr<Grip> make_grip_simulation(const std::string& kind, const Profil
     board = std::make_unique<ForceFeedbackBoard>(
         name, profile, transport_to(std::make_unique<EmulatedForceFeedback>(motors)),
         ForceFeedbackBoard::Updates::kInCycle);
+  else if (kind == "inverse3")
+    board = std::make_unique<Inverse3Board>(
+        name, "", transport_to(std::make_unique<EmulatedInverse3>(motors)));
   else
     return nullptr;
   return std::make_unique<ForceGrip>(std::move(board), alone());

@@ -17,6 +17,7 @@ struct LastWill {
     kUsb,       ///< usbfs: bulk or interrupt packets to one endpoint
     kTerminal,  ///< a tty, to which packets are written
     kInput,     ///< an input device: each packet is an InputEvent
+    kSocket,    ///< a stream socket, to which packets are written
   };
   /// An event of the type EV_FF. The guardian makes the kernel's structure of it, which has another
   /// size in a 32-bit program than in a 64-bit one, while a host and its guardian may differ in

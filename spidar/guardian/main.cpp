@@ -82,9 +82,9 @@ bool write_all(int file, const uint8_t* bytes, size_t length, int gone) {
   return true;
 }
 
-bool send_terminal(const LastWill& will) {
+bool send_stream(const LastWill& will, int gone) {
   for (uint32_t i = 0; i < will.packets; ++i)
-    if (!write_all(will.file, will.packet[i].data(), will.length[i], EIO)) return false;
+    if (!write_all(will.file, will.packet[i].data(), will.length[i], gone)) return false;
   return true;
 }
 
@@ -107,9 +107,11 @@ bool send_packets(LastWill& will) {
     case LastWill::Wire::kUsb:
       return send_usb(will);
     case LastWill::Wire::kTerminal:
-      return send_terminal(will);
+      return send_stream(will, EIO);
     case LastWill::Wire::kInput:
       return send_input(will);
+    case LastWill::Wire::kSocket:
+      return send_stream(will, EPIPE);  // after ECONNRESET, too
   }
   return true;  // receive() has refused others
 }
@@ -142,7 +144,7 @@ bool receive(LastWill& will, int& host) {
   will.file = files[0];
   host = files[1];
   if (will.magic != LastWill::kMagic || will.packets > LastWill::kMaxPackets ||
-      will.wire > LastWill::Wire::kInput)
+      will.wire > LastWill::Wire::kSocket)
     return false;
   for (uint32_t i = 0; i < will.packets; ++i)
     if (will.length[i] > LastWill::kMaxLength) return false;

@@ -10,6 +10,7 @@
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/force_feedback_board.h"
 #include "spidar/boards/force_grip.h"
+#include "spidar/boards/inverse3_board.h"
 #include "spidar/boards/uart_board.h"
 #include "spidar/boards/usb_board.h"
 #include "spidar/boards/usb_mouse.h"
@@ -19,6 +20,7 @@
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/transports/evdev_transport.h"
 #include "spidar/transports/tty_transport.h"
+#include "spidar/transports/websocket_transport.h"
 
 namespace spidar {
 namespace {
@@ -52,7 +54,7 @@ std::unique_ptr<Board> make_uart(const std::string& spec, const std::string& pat
 int option_value(const std::string& option, const std::string& name, int largest) {
   if (option.compare(0, name.size(), name) != 0) return 0;
   const std::string digits = option.substr(name.size());
-  if (digits.empty() || digits.size() > 3) return 0;
+  if (digits.empty() || digits.size() > 5) return 0;
   if (digits.find_first_not_of("0123456789") != std::string::npos) return 0;
   const int value = std::stoi(digits);
   return value <= largest ? value : 0;
@@ -94,6 +96,23 @@ std::unique_ptr<ForceBoard> make_force_feedback(const std::string& spec, const s
                                               ForceFeedbackBoard::Updates::kOwnThread, options);
 }
 
+/// `rest` is empty, ID, or ID,port=N.
+std::unique_ptr<ForceBoard> make_inverse3(const std::string& spec, const std::string& rest) {
+  constexpr int kLastPort = 65535;
+  const size_t comma = rest.find(',');
+  int port = inverse3::kPort;
+  if (comma != std::string::npos) port = option_value(rest.substr(comma + 1), "port=", kLastPort);
+  if (port == 0 || comma == 0)
+    throw DeviceError(
+        spec + ": write inverse3, inverse3:ID or inverse3:ID,port=N, where N is the " +
+        "port of Haply's service, " + std::to_string(inverse3::kPort) + " unless it was changed");
+  return std::make_unique<Inverse3Board>(
+      spec, rest.substr(0, comma),
+      std::make_unique<WebSocketTransport>(
+          spec, static_cast<uint16_t>(port),
+          "start Haply's Inverse Service (Haply Hub, or: systemctl start haply-inverse-service)"));
+}
+
 BoardSettings resolved(BoardSettings settings, const Profile& profile) {
   if (settings.count_zero != CountZero::kByProfile) return settings;
   const bool calibrated =
@@ -127,6 +146,7 @@ std::unique_ptr<ForceBoard> make_force_board(const std::string& text, const Prof
   const Spec spec(text);
   if (spec.kind == "mouse" && spec.named) return std::make_unique<UsbMouse>(text, spec.rest);
   if (spec.kind == "ff" && spec.named) return make_force_feedback(text, spec.rest, profile);
+  if (spec.kind == "inverse3" && spec.named) return make_inverse3(text, spec.rest);
   return nullptr;
 }
 
@@ -135,8 +155,8 @@ std::unique_ptr<ForceBoard> make_force_board(const std::string& text, const Prof
 std::unique_ptr<Device> make_device(const std::string& text, const Profile& profile,
                                     const BoardSettings& settings) {
   const Spec spec(text);
-  if ((spec.named && (spec.kind == "mouse" || spec.kind == "ff")) || text == "sim:mouse" ||
-      text == "sim:ff")
+  if (make_force_board(text, profile) ||
+      (spec.kind == "sim" && make_grip_simulation(spec.rest, profile)))
     throw DeviceError(text + ": takes a force; it has no strings, and no encoders");
   std::unique_ptr<Board> board;
   if (spec.kind == "sim" && spec.named) return make_simulation(text, spec.rest, profile);
@@ -147,7 +167,7 @@ std::unique_ptr<Device> make_device(const std::string& text, const Profile& prof
     throw DeviceError(
         "unknown device \"" + text +
         "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse, ff, ff:PATH, "
-        "ff:PATH,axes=N, ff:PATH,gain=PERCENT");
+        "ff:PATH,axes=N, ff:PATH,gain=PERCENT, inverse3, inverse3:ID");
   return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
 }
 

@@ -18,7 +18,7 @@ bool is_simulated(const std::string& spec);
 
 /// `spec` is one of
 ///   sim                     the simulated device
-///   sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff
+///   sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff, sim:inverse3
 ///                           the same behind the packets of that board
 ///   usb, usb:ID             CyVerse board; ID: rotary switch, serial number or bus path
 ///   uart:PATH[,PATH]        UART motor boards on serial lines
@@ -27,14 +27,16 @@ bool is_simulated(const std::string& spec);
 ///                           this file; OPTION: axes=1 for a wheel or axes=2 for a joystick, if it
 ///                           is taken for the other; gain=PERCENT of its strength (20);
 ///                           flip=x, y or xy if its driver pushes to the other side
+///   inverse3, inverse3:ID[,port=N]
+///                           Haply Inverse3: the first one of the maker's service, or this one
 /// Opens nothing. Throws DeviceError, which lists the valid names or explains why the board cannot
 /// drive the profile, and std::invalid_argument when a device with strings gets a profile with
 /// fewer than six. "none" is not a device, because it needs no loop.
 std::unique_ptr<Grip> make_grip(const std::string& spec, const Profile& profile,
                                 const BoardSettings& settings = {});
 
-/// The same for volts and counts of the strings. Throws DeviceError for a mouse and a joystick,
-/// too, which have none.
+/// The same for volts and counts of the strings. Throws DeviceError for a device that
+/// takes a force, too, which has none.
 std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
                                     const BoardSettings& settings = {});
 

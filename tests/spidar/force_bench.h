@@ -8,8 +8,10 @@
 
 #include "spidar/boards/force_feedback_board.h"
 #include "spidar/boards/force_grip.h"
+#include "spidar/boards/inverse3_board.h"
 #include "spidar/boards/mouse_board.h"
 #include "spidar/emulation/emulated_force_feedback.h"
+#include "spidar/emulation/emulated_inverse3.h"
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/emulation/emulated_usb.h"
 #include "tests/support/pushed_grip.h"
@@ -17,10 +19,10 @@
 
 namespace spidar::test {
 
-enum class ForceKind { kMouse, kForceFeedback };
+enum class ForceKind { kMouse, kForceFeedback, kInverse3 };
 
 inline std::string name_of(ForceKind kind) {
-  return kind == ForceKind::kMouse ? "mouse" : "ff";
+  return kind == ForceKind::kMouse ? "mouse" : kind == ForceKind::kInverse3 ? "inverse3" : "ff";
 }
 
 /// The digits of the motors are the force: right, up.
@@ -32,6 +34,10 @@ struct ForceBench {
       return std::make_unique<MouseBoard>(
           "mouse",
           std::make_unique<EmulatedTransport>(std::make_unique<EmulatedMouse>(recorded), wire));
+    if (kind == ForceKind::kInverse3)
+      return std::make_unique<Inverse3Board>(
+          "inverse3", "",
+          std::make_unique<EmulatedTransport>(std::make_unique<EmulatedInverse3>(recorded), wire));
     return std::make_unique<ForceFeedbackBoard>(
         "ff", profile,
         std::make_unique<EmulatedTransport>(std::make_unique<EmulatedForceFeedback>(recorded),
@@ -51,7 +57,10 @@ struct ForceBench {
   }
 
   /// Number of exchanges in which it communicates with the device once.
-  int cycles() const { return kind == ForceKind::kMouse ? 4 : ForceFeedbackBoard::kUpdate_ms; }
+  int cycles() const {
+    if (kind == ForceKind::kInverse3) return 1;
+    return kind == ForceKind::kMouse ? 4 : ForceFeedbackBoard::kUpdate_ms;
+  }
 
   const ForceKind kind;
   const Profile profile = load_profile("spidar-g6x3-v2-r");

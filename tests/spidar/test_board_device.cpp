@@ -149,19 +149,25 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
     } catch (const DeviceError& error) {
       EXPECT_EQ(error.what(), "unknown device \"" + spec +
                                   "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, "
-                                  "mouse, ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT");
+                                  "mouse, ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT, "
+                                  "inverse3, inverse3:ID");
     }
   }
   for (const std::string spec :
        {"usb", "usb:3", "usb:1-2.3", "uart:/dev/ttyUSB0,/dev/ttyUSB1", "mouse", "sim:sh4",
-        "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "ff", "ff:/dev/input/event3"}) {
+        "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3", "ff",
+        "ff:/dev/input/event3", "inverse3", "inverse3:049D", "inverse3:049D,port=8500"}) {
     EXPECT_EQ(make_grip(spec, profile)->name(), spec);
   }
-  for (const std::string spec : {"mouse", "sim:mouse", "sim:ff", "ff", "ff:/dev/input/event3"}) {
+  for (const std::string spec :
+       {"mouse", "sim:mouse", "sim:ff", "sim:inverse3", "ff", "ff:/dev/input/event3", "inverse3"}) {
     EXPECT_FALSE(make_grip(spec, profile)->traits().has_strings) << spec;
     EXPECT_THROW(make_device(spec, profile), DeviceError) << spec;
   }
   EXPECT_THROW(make_grip("sim:x", profile), DeviceError);
+  for (const char* spec : {"inverse3:,port=1", "inverse3:A,port=0", "inverse3:A,port=65536",
+                           "inverse3:A,x=1", "inverse3:"})
+    EXPECT_THROW(make_grip(spec, profile), DeviceError) << spec;
   EXPECT_THROW(make_device("uart:/dev/a,", profile), DeviceError);
 }
 

@@ -31,7 +31,8 @@ class ForceBoards : public testing::TestWithParam<ForceKind>, public ForceBench 
   ForceReading reading;
 };
 INSTANTIATE_TEST_SUITE_P(, ForceBoards,
-                         testing::Values(ForceKind::kMouse, ForceKind::kForceFeedback),
+                         testing::Values(ForceKind::kMouse, ForceKind::kForceFeedback,
+                                         ForceKind::kInverse3),
                          [](const auto& kind) { return name_of(kind.param); });
 
 TEST_P(ForceBoards, OpenLeavesThemAtRest) {
@@ -196,6 +197,25 @@ TEST(ForceGrip, ThePoseBecomesKnownOnlyWithoutAForceAndIsLostWithTheAnswers) {
            PoseTrust::kMaxMisses);
   EXPECT_FALSE(grip->reading().knows_pose());
   EXPECT_EQ(grip->reading().delivered.force_N.x(), 1) << "the last that was acknowledged";
+}
+
+TEST(ForceGrip, AnInverse3TakesForcesAndGivesPositionsInAllAxes) {
+  ForceBench bench(ForceKind::kInverse3);
+  bench.motors.count[0] = 10'000;
+  bench.motors.count[1] = -20'000;
+  bench.motors.count[2] = 30'000;
+  bench.motors.inputs = 5;
+  const auto grip = bench.grip();
+  grip->open();
+  EXPECT_EQ(grip->description(), "Haply Inverse3 049D, service 3.5");
+  GripCommand command = told(0.1, 0.2);
+  command.wrench.force_N.z() = -0.3;
+  ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+  EXPECT_EQ(bench.motors.digit[0], 100);
+  EXPECT_EQ(bench.motors.digit[1], 200);
+  EXPECT_EQ(bench.motors.digit[2], -300);
+  EXPECT_TRUE(grip->reading().pose.position_m.isApprox(Eigen::Vector3d(0.01, -0.02, 0.03), 1e-9));
+  EXPECT_EQ(grip->reading().buttons, 5u);
 }
 
 TEST(ForceGrip, TheStickHasAVelocity) {

@@ -177,12 +177,12 @@ TEST(Spidarctl, ListTellsDevicesApart) {
 
 TEST(Spidarctl, InfoReadsEachBoard) {
   for (const std::string device :
-       {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff"}) {
+       {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3"}) {
     SCOPED_TRACE(device);
     const CommandResult outcome = run_spidarctl("info " + device);
     EXPECT_EQ(outcome.status, 0);
     expect_contains(outcome.text, "device    " + device + "\n");
-    const bool strings = device != "sim:mouse" && device != "sim:ff";
+    const bool strings = device != "sim:mouse" && device != "sim:ff" && device != "sim:inverse3";
     expect_contains(outcome.text,
                     strings ? "\n  string  N smallest" : "\n  axis     force  position");
   }
@@ -190,6 +190,7 @@ TEST(Spidarctl, InfoReadsEachBoard) {
   EXPECT_EQ(joystick.find("string"), std::string::npos) << joystick;
   expect_contains(joystick, "force     3 N at most, 200 times a second\n");
   expect_contains(joystick, "  right      yes    0.0 mm\n  up         yes    0.0 mm\n");
+  expect_contains(run_spidarctl("info sim:inverse3").text, "10 N at most, 1000 times a second\n");
   expect_contains(run_spidarctl("info sim:mouse").text, "  right      yes  no\n");
   expect_contains(run_spidarctl("info sim:ff --json").text, "\"largest_force_N\" : 3.0");
   expect_contains(run_spidarctl("info sim:ff").text,

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/boards/inverse3_board.h"
+
+#include <utility>
+
+#include "spidar/boards/opening.h"
+
+namespace spidar {
+
+Inverse3Board::Inverse3Board(std::string name, std::string id, std::unique_ptr<Transport> transport)
+    : name_(std::move(name)),
+      id_(std::move(id)),
+      transport_(std::move(transport)),
+      answer_(inverse3::kStateSize) {}
+
+LinkFault Inverse3Board::ask(size_t length, inverse3::State& state, int64_t deadline_ns) noexcept {
+  const Transfer transfer =
+      transport_->exchange({{text_.data(), length}}, {answer_.data(), answer_.size()}, deadline_ns);
+  // An answer is as long as it is.
+  if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort)
+    return transfer.fault;
+  const ByteView text(answer_.data(), transfer.received);
+  switch (inverse3::decode_state(text, wanted(), state)) {
+    case inverse3::Answer::kState:
+      return LinkFault::kNone;
+    case inverse3::Answer::kAbsent:
+      return LinkFault::kGone;
+    case inverse3::Answer::kBroken:
+      break;
+  }
+  return text.u8(text.size - 1) == '}' ? LinkFault::kWrongReply : LinkFault::kShort;
+}
+
+void Inverse3Board::refuse(const std::string& why) {
+  close();
+  throw DeviceError(name_ + ": " + why);
+}
+
+void Inverse3Board::open() {
+  close();
+  transport_->open();
+  const LinkFault fault = open_exchange(
+      [&](int64_t deadline_ns) { return ask(inverse3::encode_query(text_), device_, deadline_ns); },
+      *transport_);
+  if (fault == LinkFault::kGone)
+    refuse("Haply's service knows no Inverse3" + (wanted().empty() ? "" : " " + wanted()) +
+           ": plug it in, and wait until its light is steady");
+  if (fault != LinkFault::kNone)
+    refuse(std::string("Haply's service does not answer as it should: ") + to_string(fault) +
+           "; version 3.1 or later is needed");
+  if (!device_.powered) refuse("the Inverse3 " + device_.id + " has no power: connect its supply");
+  if (!device_.calibrated)
+    refuse("the Inverse3 " + device_.id +
+           " is not calibrated: put its handle into the inkwell until its light is steady");
+  opened_ = true;
+  ask(inverse3::encode_start(device_, text_), now_, monotonic_now_ns() + kSecond_ns / 10);
+}
+
+LinkFault Inverse3Board::cycle(const ForceOutput& output, ForceReading& reading,
+                               int64_t deadline_ns) noexcept {
+  const LinkFault fault =
+      ask(inverse3::encode_force(device_, output.force_N, text_), now_, deadline_ns);
+  if (fault != LinkFault::kNone) return fault;
+  if (!now_.powered || !now_.calibrated) return LinkFault::kRefused;
+  reading.position_m = now_.position_m;
+  reading.buttons = now_.buttons;
+  return LinkFault::kNone;
+}
+
+void Inverse3Board::close() noexcept {
+  if (opened_)
+    ask(inverse3::encode_force(device_, Eigen::Vector3d::Zero(), text_), now_,
+        monotonic_now_ns() + kSecond_ns / 10);
+  opened_ = false;
+  transport_->close();
+}
+
+std::string Inverse3Board::description() const {
+  return "Haply Inverse3 " + device_.id + ", service " +
+         (device_.version == inverse3::Version::k35 ? "3.5" : "3.1");
+}
+
+std::vector<LastWill> Inverse3Board::last_wills() const {
+  std::array<uint8_t, inverse3::kCommandSize> zero{};
+  std::array<uint8_t, LastWill::kMaxLength> frame{};
+  const size_t length = inverse3::encode_force(device_, Eigen::Vector3d::Zero(), zero);
+  const size_t framed = inverse3::encode_frame({zero.data(), length}, frame);
+  return wills(*transport_, {{frame.data(), framed}});
+}
+
+}  // namespace spidar

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/transports/websocket_transport.h"
+
+#include <algorithm>
+#include <array>
+#include <libwebsockets.h>
+#include <utility>
+#include <vector>
+
+#include "spidar/device_error.h"
+#include "spidar/realtime/monotonic.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kHost = "localhost";
+constexpr int64_t kGreetingWait_ns = 2 * kSecond_ns;
+constexpr int64_t kAnswerWait_ns = 5'000'000;
+/// Of a message to the service.
+constexpr size_t kLongest = 4096;
+/// Of an answer. What is longer is no answer of a service for devices.
+constexpr size_t kMost = 1 << 20;
+
+/// Wakes the loop of libwebsockets, which may look at its timers just before it waits.
+struct Alarm {
+  lws_sorted_usec_list_t entry{};  // first, so that it has the address of the alarm
+  lws_context* context = nullptr;
+
+  static void ring(lws_sorted_usec_list_t* entry) {
+    lws_cancel_service(reinterpret_cast<Alarm*>(entry)->context);
+  }
+};
+
+}  // namespace
+
+class WebSocketTransport::Connection {
+ public:
+  explicit Connection(uint16_t port);
+  ~Connection() { lws_context_destroy(context_); }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  bool wait_until_open(int64_t deadline_ns) {
+    return run([this] { return state_ != State::kConnecting; }, deadline_ns) &&
+           state_ == State::kOpen;
+  }
+  /// Waits for an answer; false if there is none.
+  bool receive(int64_t deadline_ns) {
+    if (!run([this] { return complete_ || gone(); }, deadline_ns) || !complete_) return false;
+    complete_ = false;
+    answered_ = true;
+    return true;
+  }
+  void send(std::initializer_list<ByteView> packets) noexcept;
+
+  bool gone() const noexcept { return state_ == State::kGone; }
+  /// The last message has been answered.
+  bool answered() const noexcept { return answered_; }
+  const std::vector<uint8_t>& answer() const noexcept { return incoming_; }
+  int file() const noexcept { return lws_get_socket_fd(socket_); }
+  const std::string& error() const noexcept { return error_; }
+
+ private:
+  enum class State { kConnecting, kOpen, kGone };
+
+  static int handle(lws* socket, lws_callback_reasons reason, void*, void* in, size_t length);
+  void take(const uint8_t* bytes, size_t length);
+  void write();
+  template <typename Done>
+  bool run(const Done& done, int64_t deadline_ns);
+
+  const std::array<lws_protocols, 2> protocols_{lws_protocols{"", handle, 0, 0, 0, nullptr, 0},
+                                                lws_protocols{}};
+  lws_context* context_ = nullptr;
+  lws* socket_ = nullptr;
+  Alarm alarm_;
+  State state_ = State::kConnecting;
+  std::string error_;
+  std::array<uint8_t, LWS_PRE + kLongest> outgoing_{};
+  size_t pending_ = 0;  ///< length of the message that is to be written
+  bool answered_ = false;
+  bool complete_ = false;
+  std::vector<uint8_t> incoming_;
+};
+
+WebSocketTransport::Connection::Connection(uint16_t port) {
+  // The level is one for the whole process; the default prints what this class reports itself.
+  lws_set_log_level(0, nullptr);
+  lws_context_creation_info about{};
+  about.port = CONTEXT_PORT_NO_LISTEN;
+  about.protocols = protocols_.data();
+  about.user = this;
+  about.http_proxy_address = "";  // not that of the environment: the service is on this computer
+  context_ = lws_create_context(&about);
+  if (!context_) throw DeviceError("libwebsockets cannot be used");
+  alarm_.context = context_;
+  lws_client_connect_info to{};
+  to.context = context_;
+  to.address = to.host = kHost;
+  to.port = port;
+  to.path = "/";
+  to.local_protocol_name = protocols_[0].name;
+  to.pwsi = &socket_;
+  if (!lws_client_connect_via_info(&to)) state_ = State::kGone;
+}
+
+int WebSocketTransport::Connection::handle(lws* socket, lws_callback_reasons reason, void*,
+                                           void* in, size_t length) {
+  auto* self = static_cast<Connection*>(lws_context_user(lws_get_context(socket)));
+  switch (reason) {
+    case LWS_CALLBACK_CLIENT_ESTABLISHED:
+      self->state_ = State::kOpen;
+      break;
+    case LWS_CALLBACK_CLIENT_CONNECTION_ERROR:
+      if (in) self->error_.assign(static_cast<const char*>(in), length);
+      self->state_ = State::kGone;
+      break;
+    case LWS_CALLBACK_CLIENT_CLOSED:
+      self->state_ = State::kGone;
+      break;
+    case LWS_CALLBACK_CLIENT_RECEIVE:
+      self->take(static_cast<const uint8_t*>(in), length);
+      break;
+    case LWS_CALLBACK_CLIENT_WRITEABLE:
+      self->write();
+      break;
+    default:
+      break;
+  }
+  return 0;
+}
+
+void WebSocketTransport::Connection::take(const uint8_t* bytes, size_t length) {
+  if (complete_ || lws_is_first_fragment(socket_)) incoming_.clear();
+  complete_ = false;
+  if (incoming_.size() + length <= kMost) incoming_.insert(incoming_.end(), bytes, bytes + length);
+  complete_ = lws_is_final_fragment(socket_) != 0;
+}
+
+void WebSocketTransport::Connection::write() {
+  if (pending_ == 0) return;
+  const int written = lws_write(socket_, outgoing_.data() + LWS_PRE, pending_, LWS_WRITE_TEXT);
+  if (written < static_cast<int>(pending_)) state_ = State::kGone;
+  pending_ = 0;
+}
+
+void WebSocketTransport::Connection::send(std::initializer_list<ByteView> packets) noexcept {
+  pending_ = 0;
+  for (const ByteView packet : packets) {
+    const size_t length = std::min(packet.size, kLongest - pending_);
+    std::copy_n(packet.data, length, outgoing_.data() + LWS_PRE + pending_);
+    pending_ += length;
+  }
+  answered_ = false;
+  complete_ = false;
+  lws_callback_on_writable(socket_);
+}
+
+/// Runs the loop of libwebsockets. False at the deadline.
+template <typename Done>
+bool WebSocketTransport::Connection::run(const Done& done, int64_t deadline_ns) {
+  while (!done()) {
+    const int64_t left_ns = deadline_ns - monotonic_now_ns();
+    if (left_ns <= 0) break;
+    lws_sul_schedule(context_, 0, &alarm_.entry, Alarm::ring, left_ns / 1000 + 1);
+    if (lws_service(context_, 0) < 0) state_ = State::kGone;
+    if (gone()) break;
+  }
+  lws_sul_schedule(context_, 0, &alarm_.entry, nullptr, LWS_SET_TIMER_USEC_CANCEL);
+  return done();
+}
+
+WebSocketTransport::WebSocketTransport(std::string name, uint16_t port, std::string cure)
+    : name_(std::move(name)), port_(port), cure_(std::move(cure)) {}
+
+WebSocketTransport::~WebSocketTransport() {
+  close();
+}
+
+void WebSocketTransport::open() {
+  close();
+  const int64_t deadline_ns = monotonic_now_ns() + kGreetingWait_ns;
+  const std::string at = std::string(kHost) + ":" + std::to_string(port_);
+  auto connection = std::make_unique<Connection>(port_);
+  if (!connection->wait_until_open(deadline_ns))
+    throw DeviceError(name_ + ": no service answers at " + at +
+                      (connection->error().empty() ? "" : " (" + connection->error() + ")") + "; " +
+                      cure_);
+  if (!connection->receive(deadline_ns))
+    throw DeviceError(name_ + ": the service at " + at + " does not say what is plugged in; " +
+                      cure_);
+  connection_ = std::move(connection);
+}
+
+Transfer WebSocketTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                                      int64_t deadline_ns) noexcept {
+  if (!connection_ || connection_->gone()) return {LinkFault::kGone, 0};
+  if (!connection_->answered()) connection_->receive(deadline_ns);
+  if (connection_->answered()) {
+    connection_->send(packets);
+    connection_->receive(deadline_ns);
+  }
+  if (connection_->gone()) return {LinkFault::kGone, 0};
+  if (!connection_->answered()) return {LinkFault::kTimeout, 0};
+  const std::vector<uint8_t>& answer = connection_->answer();
+  const size_t length = std::min(answer.size(), reply.size);
+  std::copy_n(answer.begin(), length, reply.data);
+  if (answer.size() > reply.size) return {LinkFault::kBabble, length};
+  return {length < reply.size ? LinkFault::kShort : LinkFault::kNone, length};
+}
+
+void WebSocketTransport::recover() noexcept {
+  if (connection_ && !connection_->answered())
+    connection_->receive(monotonic_now_ns() + kAnswerWait_ns);
+}
+
+std::optional<LastWill> WebSocketTransport::last_will() const {
+  if (!connection_ || connection_->gone()) throw DeviceError(name_ + ": the service has ended");
+  LastWill will;
+  will.wire = LastWill::Wire::kSocket;
+  will.file = connection_->file();
+  return will;
+}
+
+void WebSocketTransport::close() noexcept {
+  connection_.reset();
+}
+
+}  // namespace spidar

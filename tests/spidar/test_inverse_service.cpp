@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The Inverse3 through a real WebSocket, on a service of this computer.
+///
+/// The process that is killed is another instance of this program.
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "spidar/profiles/profile.h"
+#include "spidar/session/device_factory.h"
+#include "tests/spidar/guardian_victim.h"
+#include "tests/support/inverse_service.h"
+#include "tests/support/pushed_grip.h"
+
+namespace spidar::test {
+namespace {
+
+std::unique_ptr<Grip> make(const std::string& spec) {
+  return make_grip(spec, load_profile(kDefaultProfile));
+}
+
+std::string open_error(Grip& grip) {
+  try {
+    grip.open();
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Until the condition holds; returns the last status. Time-outs are those of a busy machine.
+template <typename Condition>
+ExchangeStatus exchange_until(Grip& grip, const GripCommand& command, const Condition& condition) {
+  ExchangeStatus status = ExchangeStatus::kOk;
+  wait_for([&] {
+    status = grip.exchange(command);
+    return condition();
+  });
+  return status;
+}
+
+[[noreturn]] void pull_for_ever(const std::string& spec) {
+  const auto grip = make(spec);
+  grip->open();
+  for (;;) {
+    if (grip->exchange(told(1)) != ExchangeStatus::kLost) continue;
+    grip->close();
+    grip->open();
+  }
+}
+
+TEST(InverseService, ForcesArriveAndPositionsComeBack) {
+  InverseService service;
+  inverse3::State device = InverseService::device("049D");
+  device.position_m = {0.01, 0.02, -0.03};
+  device.buttons = 2;
+  service.plug({device});
+  const auto grip = make(service.spec("049D"));
+  grip->open();
+  EXPECT_EQ(grip->description(), "Haply Inverse3 049D, service 3.5");
+  GripCommand command = told(1, 2);
+  command.wrench.force_N.z() = -0.5;
+  exchange_until(*grip, command, [&] { return grip->reading().buttons == 2 && service.pulls(); });
+  EXPECT_TRUE(service.force_N("049D").isApprox(Eigen::Vector3d(1, 2, -0.5), 1e-6));
+  EXPECT_TRUE(grip->reading().pose.position_m.isApprox(device.position_m, 1e-9));
+  const uint64_t before = grip->health().count(LinkFault::kNone);
+  exchange_until(*grip, command,
+                 [&] { return grip->health().count(LinkFault::kNone) >= before + 1000; });
+  RecordProperty("round_trip_median_us",
+                 std::to_string(grip->health().round_trip_median_ns / 1000));
+  RecordProperty("round_trip_p99_us", std::to_string(grip->health().round_trip_p99_ns / 1000));
+  grip->close();
+  EXPECT_TRUE(service.force_N("049D").isZero(0)) << "closing ends at zero";
+}
+
+TEST(InverseService, AnAbsentOneIsNamedWithItsCure) {
+  std::string spec;
+  {
+    InverseService service;
+    spec = service.spec("049D");
+  }
+  const auto grip = make(spec);
+  const std::string what = open_error(*grip);
+  EXPECT_EQ(what.find(spec + ": no service answers at localhost:"), 0u) << what;
+  EXPECT_NE(what.find("start Haply's Inverse Service"), std::string::npos) << what;
+}
+
+/// The service is on this computer, wherever the proxy is.
+TEST(InverseService, NoProxyIsAsked) {
+  InverseService service;
+  setenv("http_proxy", "http://127.0.0.1:1", 1);
+  EXPECT_EQ(open_error(*make(service.spec("049D"))), "");
+  unsetenv("http_proxy");
+}
+
+TEST(InverseService, WhatItLacksIsSaid) {
+  InverseService service;
+  const auto error = [&](const std::vector<inverse3::State>& devices) {
+    service.plug(devices);
+    return open_error(*make(service.spec("049D")));
+  };
+  const std::string prefix = service.spec("049D") + ": ";
+  inverse3::State device = InverseService::device("049D");
+  EXPECT_EQ(error({}), prefix +
+                           "Haply's service knows no Inverse3 049D: plug it in, and wait until "
+                           "its light is steady");
+  EXPECT_EQ(error({InverseService::device("B")}).find(prefix + "Haply's service knows no"), 0u);
+  device.powered = false;
+  EXPECT_EQ(error({device}), prefix + "the Inverse3 049D has no power: connect its supply");
+  device.powered = true;
+  device.calibrated = false;
+  EXPECT_EQ(error({device}), prefix +
+                                 "the Inverse3 049D is not calibrated: put its handle into the "
+                                 "inkwell until its light is steady");
+  service.broken = true;
+  EXPECT_NE(error({device}).find("does not answer as it should"), std::string::npos);
+  service.broken = false;
+  EXPECT_EQ(error({InverseService::device("049D")}), "");
+}
+
+TEST(InverseService, TwoDevicesAreToldApart) {
+  InverseService service;
+  service.plug({InverseService::device("049D"), InverseService::device("B")});
+  const auto one = make(service.spec("049D"));
+  one->open();
+  exchange_until(*one, told(1), [&] { return service.pulls(); });
+  EXPECT_TRUE(service.force_N("B").isZero(0));
+  one->close();
+  const auto other = make(service.spec("B"));
+  other->open();
+  exchange_until(*other, told(0, 1), [&] { return !service.force_N("B").isZero(0); });
+  EXPECT_FALSE(service.pulls());
+}
+
+TEST(InverseService, AnUnpluggedDeviceIsLostUntilItIsBack) {
+  InverseService service;
+  const auto grip = make(service.spec("049D"));
+  grip->open();
+  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  service.plug({InverseService::device("B")});
+  ExchangeStatus status = ExchangeStatus::kOk;
+  wait_for([&] { return (status = grip->exchange(told(1))) == ExchangeStatus::kLost; });
+  EXPECT_EQ(grip->health().last_fault, LinkFault::kGone);
+  EXPECT_NE(open_error(*grip), "") << "the other one is not taken instead";
+  service.plug({InverseService::device("B"), InverseService::device("049D")});
+  EXPECT_EQ(open_error(*grip), "");
+}
+
+TEST(InverseService, ItMayEndAndComeBack) {
+  std::unique_ptr<InverseService> service = std::make_unique<InverseService>();
+  const int port = service->port();
+  const auto grip = make(service->spec("049D"));
+  grip->open();
+  exchange_until(*grip, told(1), [&] { return service->pulls(); });
+  service.reset();
+  wait_for([&] { return grip->exchange(told(1)) == ExchangeStatus::kLost; });
+  EXPECT_NE(open_error(*grip), "");
+  service = std::make_unique<InverseService>(port);
+  EXPECT_EQ(open_error(*grip), "");
+  exchange_until(*grip, told(1), [&] { return service->pulls(); });
+  EXPECT_TRUE(service->pulls());
+}
+
+/// Or the forces of seconds would follow when it wakes up.
+TEST(InverseService, NothingIsSentToOneThatDoesNotAnswer) {
+  InverseService service;
+  const auto grip = make(service.spec("049D"));
+  grip->open();
+  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  service.mute = true;
+  for (int i = 0; i < 50; ++i) grip->exchange(told(2));
+  wait_for([&] { return grip->health().count(LinkFault::kTimeout) >= 3; });
+  EXPECT_LE(service.held, 1);
+}
+
+/// It answers the rest of what it was asked, and the device goes on.
+TEST(InverseService, ABrokenAnswerIsAFaultAndForgotten) {
+  InverseService service;
+  const auto grip = make(service.spec("049D"));
+  grip->open();
+  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  service.broken = true;
+  exchange_until(*grip, told(1), [&] { return grip->health().errors() > 0; });
+  EXPECT_EQ(grip->health().last_fault, LinkFault::kShort) << "does not end as JSON does";
+  service.broken = false;
+  const uint64_t before = grip->health().count(LinkFault::kNone);
+  exchange_until(*grip, told(1), [&] { return grip->health().count(LinkFault::kNone) > before; });
+}
+
+/// This service keeps a force for ever, so it is the guardian that ends it.
+TEST(InverseService, TheGuardianEndsTheForceOfAKilledPlayer) {
+  InverseService service;
+  for (int times = 0; times < 3; ++times) {
+    Victim victim(service.spec("049D"), "");
+    wait_for([&] { return service.pulls() || !victim.lives(); });
+    ASSERT_TRUE(victim.lives());
+    const int64_t killed_ns = monotonic_now_ns();
+    victim.end(SIGKILL);
+    wait_for([&] { return !service.pulls(); });
+    RecordProperty("force_ended_us_" + std::to_string(times),
+                   std::to_string((service.let_go_ns - killed_ns) / 1000));
+  }
+}
+
+TEST(InverseService, TheGuardianEndsTheForceOfAStoppedPlayer) {
+  InverseService service;
+  Victim victim(service.spec("049D"), "");
+  for (int times = 0; times < 3; ++times) {
+    wait_for([&] { return service.pulls() || !victim.lives(); });
+    ASSERT_TRUE(victim.lives());
+    const int64_t stopped_ns = monotonic_now_ns();
+    victim.send(SIGSTOP);
+    wait_for([&] { return !service.pulls(); });
+    RecordProperty("force_ended_us_" + std::to_string(times),
+                   std::to_string((service.let_go_ns - stopped_ns) / 1000));
+    victim.send(SIGCONT);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test
+
+int main(int argc, char** argv) {
+  if (argc == 4 && std::strcmp(argv[1], "--pull") == 0) spidar::test::pull_for_ever(argv[2]);
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
