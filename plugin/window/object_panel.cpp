@@ -85,13 +85,12 @@ bool draw_save_button(const Brush& brush, const Rect& panel) {
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBackground);
   const bool is_pressed = ImGui::Button("Save choices");
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("Writes them as rules into the file beside the film (C)");
-  }
+  const bool is_over = ImGui::IsItemHovered();
   ImGui::End();
   ImGui::PopFont();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(2);
+  if (is_over) ImGui::SetTooltip("Writes them as rules into the file beside the film (C)");
   return is_pressed;
 }
 

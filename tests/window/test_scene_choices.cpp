@@ -189,6 +189,7 @@ TEST(FilmStrip, MarksRulesAndChoices) {
   EXPECT_EQ(rule_text(strip.marks[0].rule), "0:00-0:05 camera");
   EXPECT_EQ(rule_text(strip.marks[1].rule), "0:05-0:15 object at 0.5,0.5");
   EXPECT_TRUE(strip.marks[1].is_new);
+  EXPECT_FALSE(strip.marks[0].is_new) << "only shorter";
   EXPECT_FALSE(strip.marks[2].is_new);
   EXPECT_EQ(strip.share(strip.marks[2].rule.to_ns), 1);
   EXPECT_EQ(strip.at(0.1, 0), &strip.marks[1]);

@@ -118,11 +118,11 @@ TEST(Layout, ObjectsAreListedBesideAndBelowEachOther) {
     const std::vector<Rect> rows = object_rows(panel, 1, 12);
     EXPECT_GE(rows.size(), 4u) << "more than two that a person chooses from";
     for (size_t i = 0; i < rows.size(); ++i) {
-      EXPECT_GE(rows[i].height, 26) << "two lines of text";
+      EXPECT_GE(rows[i].height, 28) << "two lines of text";
       EXPECT_GE(rows[i].x, panel.x);
       EXPECT_LE(rows[i].right(), panel.right());
       EXPECT_LE(rows[i].bottom(), panel.bottom());
-      EXPECT_GE(rows[i].y, panel.y + 25) << "below the title";
+      EXPECT_GE(rows[i].y, panel.y + 24) << "below the title";
       for (size_t k = 0; k < i; ++k) EXPECT_FALSE(rows[i].overlaps(rows[k]));
       const Rect picture = row_picture(rows[i], 0.5);
       EXPECT_NEAR(picture.width, 0.5 * picture.height, kRounding);

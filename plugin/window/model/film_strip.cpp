@@ -35,7 +35,10 @@ FilmStrip film_strip(const FilmMoment& film, const FeelRules* rules,
   strip.length_ns = std::max(film.length_ns, film.stream_ns);
   for (const FeelRule& rule : now) {
     if (rule.to_ns != FeelRule::kNoEnd) strip.length_ns = std::max(strip.length_ns, rule.to_ns);
-    const auto is_same = [&](const FeelRule& other) { return rule_text(other) == rule_text(rule); };
+    // A choice that is saved grows with its scene.
+    const auto is_same = [&](const FeelRule& other) {
+      return other.from_ns == rule.from_ns && other.kind == rule.kind && other.place == rule.place;
+    };
     strip.marks.push_back({rule, std::none_of(before.begin(), before.end(), is_same)});
   }
   return strip;

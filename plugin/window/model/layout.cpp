@@ -30,8 +30,8 @@ constexpr double kFilled = 0.8;
 
 // Of the list of objects, in pixels at a scale of 1: a picture with a name beside it.
 // It grows with the panel.
-constexpr double kRowWidth_px = 88, kRowHeight_px = 26, kMostRowHeight_px = 44, kRowGap_px = 4;
-constexpr double kRowShare = 0.3, kListMargin_px = 10, kListTitle_px = 26;
+constexpr double kRowWidth_px = 88, kRowHeight_px = 28, kMostRowHeight_px = 44, kRowGap_px = 3;
+constexpr double kRowShare = 0.36, kListMargin_px = 10, kListTitle_px = 24;
 
 /// Of the room of a string's bar.
 constexpr double kBarFilled = 0.5;
