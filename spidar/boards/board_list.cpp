@@ -7,7 +7,9 @@
 #include "spidar/boards/usb_kinds.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/protocols/inverse3.h"
 #include "spidar/transports/evdev_list.h"
+#include "spidar/transports/listening_port.h"
 #include "spidar/transports/tty_list.h"
 #include "spidar/transports/usb_bus.h"
 
@@ -88,6 +90,14 @@ BoardInfo force_feedback(const EvdevInfo& device) {
   return board;
 }
 
+/// To ask the service would be a session there.
+BoardInfo inverse3_service() {
+  BoardInfo board = of_name("inverse3");
+  board.path = "localhost:" + std::to_string(inverse3::kPort);
+  board.note = "if it is plugged in, which only Haply's service knows";
+  return board;
+}
+
 BoardInfo uart_board(const std::string& device, const std::string& path) {
   BoardInfo board = of_name(device);
   board.path = path;
@@ -136,6 +146,7 @@ std::vector<BoardInfo> list_boards() {
   for (const TtyLine& line : list_tty_lines())
     if (line.named) boards.push_back(uart_board("uart:" + line.path, line.path));
   for (const EvdevInfo& device : list_force_feedback()) boards.push_back(force_feedback(device));
+  if (is_listening(inverse3::kPort)) boards.push_back(inverse3_service());
   for (const DeviceKind& simulated : kSimulated) boards.push_back(of_name(simulated.kind));
   return boards;
 }

@@ -35,8 +35,8 @@ struct BoardInfo {
 
 /// Returns the devices that are plugged in, then the simulated ones. Opens and sends nothing. A
 /// serial line does not identify the board behind it, so only lines that a udev rule names
-/// /dev/spidar… are listed. Input devices are listed if they have force feedback. A machine without
-/// USB has no USB devices.
+/// /dev/spidar… are listed. An Inverse3 is listed while its service runs. Input devices are listed
+/// if they have force feedback. A machine without USB has no USB devices.
 std::vector<BoardInfo> list_boards();
 
 /// Returns the default profile for a device name, which the board can drive, or the general default

@@ -3,14 +3,18 @@
 /// The Inverse3 through a real WebSocket, on a service of this computer.
 ///
 /// The process that is killed is another instance of this program.
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "spidar/boards/board_list.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/transports/listening_port.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/inverse_service.h"
 #include "tests/support/pushed_grip.h"
@@ -119,6 +123,22 @@ TEST(InverseService, WhatItLacksIsSaid) {
   EXPECT_NE(error({device}).find("does not answer as it should"), std::string::npos);
   service.broken = false;
   EXPECT_EQ(error({InverseService::device("049D")}), "");
+}
+
+TEST(InverseService, ItIsListedWhileItListens) {
+  uint16_t port = 0;
+  {
+    const InverseService service;
+    port = static_cast<uint16_t>(service.port());
+    EXPECT_TRUE(is_listening(port));
+    EXPECT_EQ(service.clients, 0) << "it is not asked";
+  }
+  EXPECT_FALSE(is_listening(port));
+  const std::vector<BoardInfo> boards = list_boards();
+  const bool listed = std::any_of(boards.begin(), boards.end(), [](const BoardInfo& board) {
+    return board.device == "inverse3";
+  });
+  EXPECT_EQ(listed, is_listening(inverse3::kPort));
 }
 
 TEST(InverseService, TwoDevicesAreToldApart) {

@@ -23,7 +23,7 @@ namespace spidar::test {
 /// by itself, but after a time that is not published.
 class InverseService {
  public:
-  /// Port 0: any. Serves one client at a time.
+  /// Port 0: any.
   explicit InverseService(int port = 0) {
     lws_set_log_level(0, nullptr);
     lws_context_creation_info about{};
@@ -83,21 +83,25 @@ class InverseService {
   std::atomic<int64_t> let_go_ns{0};  ///< when the first force became zero
 
  private:
-  static int handle(lws* socket, lws_callback_reasons reason, void*, void* in, size_t length) {
+  /// What a session keeps is the number of answers that are due.
+  static int handle(lws* socket, lws_callback_reasons reason, void* session, void* in,
+                    size_t length) {
+    int* due = static_cast<int*>(session);
     auto* self = static_cast<InverseService*>(lws_context_user(lws_get_context(socket)));
-    if (reason == LWS_CALLBACK_ESTABLISHED) self->greet(socket);
-    if (reason == LWS_CALLBACK_RECEIVE) self->take(socket, static_cast<const char*>(in), length);
-    if (reason == LWS_CALLBACK_SERVER_WRITEABLE) self->write(socket);
+    if (reason == LWS_CALLBACK_ESTABLISHED) self->greet(socket, *due);
+    if (reason == LWS_CALLBACK_RECEIVE)
+      self->take(socket, *due, static_cast<const char*>(in), length);
+    if (reason == LWS_CALLBACK_SERVER_WRITEABLE) self->write(socket, *due);
     return 0;
   }
 
-  void greet(lws* socket) {
+  void greet(lws* socket, int& due) {
     ++clients;
-    due_ = 1;
+    due = 1;
     lws_callback_on_writable(socket);
   }
 
-  void take(lws* socket, const char* bytes, size_t length) {
+  void take(lws* socket, int& due, const char* bytes, size_t length) {
     if (lws_is_first_fragment(socket)) incoming_.clear();
     incoming_.append(bytes, length);
     if (!lws_is_final_fragment(socket)) return;
@@ -107,7 +111,7 @@ class InverseService {
       ++held;
       return;
     }
-    ++due_;
+    ++due;
     lws_callback_on_writable(socket);
   }
 
@@ -137,21 +141,20 @@ class InverseService {
     return all.dump();
   }
 
-  void write(lws* socket) {
-    if (due_ == 0) return;
-    --due_;
+  void write(lws* socket, int& due) {
+    if (due == 0) return;
+    --due;
     const std::string answer = std::string(LWS_PRE, '\0') + text();
     std::vector<uint8_t> bytes(answer.begin(), answer.end());
     lws_write(socket, bytes.data() + LWS_PRE, bytes.size() - LWS_PRE, LWS_WRITE_TEXT);
-    if (due_ > 0) lws_callback_on_writable(socket);
+    if (due > 0) lws_callback_on_writable(socket);
   }
 
-  const std::array<lws_protocols, 2> protocols_{lws_protocols{"", handle, 0, 0, 0, nullptr, 0},
-                                                lws_protocols{}};
+  const std::array<lws_protocols, 2> protocols_{
+      lws_protocols{"", handle, sizeof(int), 0, 0, nullptr, 0}, lws_protocols{}};
   lws_context* context_ = nullptr;
   int port_ = 0;
   std::atomic<bool> stop_{false};
-  int due_ = 0;
   std::string incoming_;
   std::mutex mutex_;
   std::vector<inverse3::State> devices_{device("049D")};
