@@ -32,6 +32,7 @@ struct DeviceKind {
 constexpr DeviceKind kKinds[] = {
     {"usb", "CyVerse USB 2.0", kPositiveProfile, true, Trial::kEmulated},
     {"mouse", "SPIDAR-mouse", kDefaultProfile, false, Trial::kInferred},
+    {"falcon", "Novint Falcon", kDefaultProfile, false, Trial::kEmulated},
     {"uart", "UART motor boards", kUartProfile, true, Trial::kEmulated},
     {"ff", "force-feedback device", kDefaultProfile, false, Trial::kEmulated},
     {"inverse3", "Haply Inverse3", kDefaultProfile, false, Trial::kInferred},
@@ -49,6 +50,7 @@ constexpr DeviceKind kSimulated[] = {
     {"sim:mouse", "simulated SPIDAR-mouse", kDefaultProfile, false, Trial::kEmulated},
     {"sim:ff", "simulated force-feedback joystick", kDefaultProfile, false, Trial::kEmulated},
     {"sim:inverse3", "simulated Haply Inverse3", kDefaultProfile, false, Trial::kEmulated},
+    {"sim:falcon", "simulated Novint Falcon in a hand", kDefaultProfile, false, Trial::kEmulated},
 };
 
 bool begins(const std::string& text, const std::string& with) {

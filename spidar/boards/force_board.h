@@ -9,6 +9,7 @@
 
 #include "spidar/boards/board.h"
 #include "spidar/grip/grip_abilities.h"
+#include "spidar/grip/pose_trouble.h"
 
 namespace spidar {
 
@@ -28,7 +29,9 @@ inline ForceOutput scaled(ForceOutput output, double share) noexcept {
 
 struct ForceReading {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the grip, device frame
-  uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
+  PoseTrouble trouble =
+      PoseTrouble::kNoReading;  ///< why the position is not a number, if it is not
+  uint32_t buttons = 0;         ///< those that are pressed; the first one is the lowest bit
 };
 
 /// Shortens a force that it cannot give, and gives none for one that is not a number.

@@ -2,12 +2,26 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/boards/force_grip.h"
 
+#include <array>
 #include <utility>
 
+#include "spidar/profiles/profile.h"
+
 namespace spidar {
+namespace {
+
+/// A grip that is free in all axes flies when it is let go; a stick does not. Torques are not felt,
+/// and the lag of the drives is not known.
+GripTraits traits_of(const GripAbilities& can) noexcept {
+  const std::array<bool, 3> all{true, true, true};
+  const bool free = can.direction && can.force == all && can.position == all;
+  return {false, free, 0, free ? Profile::kDriveLag_s : 0};
+}
+
+}  // namespace
 
 ForceGrip::ForceGrip(std::unique_ptr<ForceBoard> board, const BoardSettings& settings)
-    : board_(std::move(board)), link_(*board_, settings) {}
+    : board_(std::move(board)), traits_(traits_of(board_->abilities())), link_(*board_, settings) {}
 
 void ForceGrip::open() {
   link_.open();
@@ -59,7 +73,7 @@ void ForceGrip::see(const ForceReading& answer, const GripCommand& command) noex
     trust_.succeed(command.wrench.stacked().isZero(0));
   } else {
     ++reading_.pose_errors;
-    trust_.fail(PoseTrouble::kNoReading);
+    trust_.fail(answer.trouble);
   }
   if (trust_.trusted())
     reading_.motion.see(reading_.pose, trust_.located_ns());

@@ -37,8 +37,7 @@ class ForceGrip final : public Grip {
   void see(const ForceReading& answer, const GripCommand& command) noexcept;
 
   const std::unique_ptr<ForceBoard> board_;
-  /// Nobody needs to be protected from a stick that lets go of the hand, and torques are not felt.
-  const GripTraits traits_{false, false, 0, 0};
+  const GripTraits traits_;
   GripReading reading_;
   PoseTrust trust_;
   BoardLink<ForceOutput, ForceReading> link_;

@@ -5,9 +5,10 @@
 #include <cstdio>
 #include <utility>
 
+#include "spidar/boards/falcon_board.h"
+#include "spidar/boards/mouse_board.h"
 #include "spidar/boards/sh4_board.h"
 #include "spidar/boards/simple_board.h"
-#include "spidar/protocols/spidar_mouse.h"
 
 namespace spidar {
 namespace {
@@ -16,6 +17,12 @@ template <typename BoardType>
 std::unique_ptr<Board> make(const std::string& name, const Profile& profile,
                             std::unique_ptr<Transport> transport) {
   return std::make_unique<BoardType>(name, profile, std::move(transport));
+}
+
+template <typename BoardType>
+std::unique_ptr<ForceBoard> make_force(const std::string& name,
+                                       std::unique_ptr<Transport> transport) {
+  return std::make_unique<BoardType>(name, std::move(transport));
 }
 
 }  // namespace
@@ -36,7 +43,8 @@ const std::vector<UsbBoardKind>& usb_kinds() {
        Trial::kEmulated,
        "endpoints and D/A range are inferred",
        {sh4::kEndpointOut, sh4::kEndpointIn, false},
-       make<Sh4Board>},
+       make<Sh4Board>,
+       nullptr},
       {UsbFamily::kCyverse,
        usb_simple::kVendor,
        usb_simple::kProduct,
@@ -44,7 +52,8 @@ const std::vector<UsbBoardKind>& usb_kinds() {
        Trial::kEmulated,
        "endpoints and D/A range are inferred",
        {usb_simple::kEndpointOut, usb_simple::kEndpointIn, false},
-       make<SimpleBoard>},
+       make<SimpleBoard>,
+       nullptr},
       {UsbFamily::kMouse,
        mouse::kVendor,
        mouse::kProduct,
@@ -52,13 +61,31 @@ const std::vector<UsbBoardKind>& usb_kinds() {
        Trial::kInferred,
        "other devices have this id; asked when it is opened",
        {mouse::kEndpointOut, mouse::kEndpointIn, true},
-       nullptr},
+       nullptr,
+       make_force<MouseBoard>},
+      {UsbFamily::kFalcon,
+       falcon::kVendor,
+       falcon::kProduct,
+       "Novint Falcon",
+       Trial::kEmulated,
+       "reach and scale of the force are inferred",
+       {falcon::kEndpointOut, falcon::kEndpointIn, false},
+       nullptr,
+       make_force<FalconBoard>},
   };
   return kinds;
 }
 
 const char* device_of(UsbFamily family) noexcept {
-  return family == UsbFamily::kMouse ? "mouse" : "usb";
+  switch (family) {
+    case UsbFamily::kCyverse:
+      return "usb";
+    case UsbFamily::kMouse:
+      return "mouse";
+    case UsbFamily::kFalcon:
+      return "falcon";
+  }
+  return "";
 }
 
 }  // namespace spidar

@@ -10,6 +10,7 @@
 
 #include "spidar/boards/board.h"
 #include "spidar/boards/board_list.h"
+#include "spidar/boards/force_board.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/transports/usb_transport.h"
 
@@ -18,6 +19,7 @@ namespace spidar {
 enum class UsbFamily {
   kCyverse,  ///< "usb": SH4 or Simple
   kMouse,    ///< "mouse": SPIDAR-mouse, whose USB id other devices also use
+  kFalcon,   ///< "falcon": Novint Falcon
 };
 
 struct UsbBoardKind {
@@ -32,13 +34,17 @@ struct UsbBoardKind {
   std::unique_ptr<Board> (*make)(const std::string& name, const Profile& profile,
                                  std::unique_ptr<Transport> transport);
 
+  /// Null for one with strings.
+  std::unique_ptr<ForceBoard> (*make_force)(const std::string& name,
+                                            std::unique_ptr<Transport> transport);
+
   /// "0cec:0205"
   std::string id() const;
 };
 
 const std::vector<UsbBoardKind>& usb_kinds();
 
-/// "usb" or "mouse", for make_device().
+/// "usb", "mouse" or "falcon", for make_grip().
 const char* device_of(UsbFamily family) noexcept;
 
 }  // namespace spidar

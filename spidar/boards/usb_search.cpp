@@ -63,7 +63,7 @@ void UsbSearch::open_matching(const std::vector<Candidate>& found, const Open& o
   const bool ask = family_ == UsbFamily::kMouse || wanted >= 0;
   std::string listed, trouble;
   for (const Candidate& candidate : found) {
-    listed += " usb:" + candidate.device.path;
+    listed += std::string(" ") + device_of(family_) + ":" + candidate.device.path;
     if (!ask) continue;
     try {
       const int rotary = open(candidate);

@@ -8,6 +8,7 @@
 
 #include "core/grip/string_geometry.h"
 #include "spidar/protocols/bytes.h"
+#include "spidar/protocols/ftdi.h"
 
 namespace spidar {
 
@@ -32,6 +33,8 @@ class EmulatedBoard {
   /// Writes the next reply that is due and returns its length; 0 when no reply is due or `reply` is
   /// too small.
   virtual size_t reply(MutableBytes bytes) noexcept = 0;
+  /// Takes a request of the vendor; false where there is no such request.
+  virtual bool control(const VendorRequest&) noexcept { return false; }
 };
 
 }  // namespace spidar

@@ -42,6 +42,14 @@ Transfer EmulatedTransport::exchange(std::initializer_list<ByteView> packets, Mu
   return {received < reply.size ? LinkFault::kShort : LinkFault::kNone, received};
 }
 
+LinkFault EmulatedTransport::control(const VendorRequest& request, int64_t) noexcept {
+  const LinkFault fault = wire_->fault.load(std::memory_order_relaxed);
+  if (fault == LinkFault::kGone) open_ = false;
+  if (!open_) return LinkFault::kGone;
+  if (fault == LinkFault::kStall || fault == LinkFault::kTimeout) return fault;
+  return board_->control(request) ? LinkFault::kNone : LinkFault::kStall;
+}
+
 void EmulatedTransport::recover() noexcept {
   std::array<uint8_t, 512> old{};
   while (board_->reply(old) > 0) {

@@ -26,6 +26,7 @@ class EmulatedTransport final : public Transport {
   void open() override;
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept override;
+  LinkFault control(const VendorRequest& request, int64_t deadline_ns) noexcept override;
   void recover() noexcept override;
   std::optional<LastWill> last_will() const override { return std::nullopt; }
   void close() noexcept override { open_ = false; }

@@ -7,6 +7,7 @@
 
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/digits.h"
+#include "spidar/boards/falcon_board.h"
 #include "spidar/boards/force_feedback_board.h"
 #include "spidar/boards/force_grip.h"
 #include "spidar/boards/inverse3_board.h"
@@ -18,6 +19,7 @@
 #include "spidar/emulation/emulated_inverse3.h"
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
+#include "spidar/emulation/held_falcon.h"
 #include "spidar/simulation/simulated_device.h"
 
 namespace spidar {
@@ -114,7 +116,7 @@ std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Prof
   } else {
     throw DeviceError(
         "unknown simulated board \"" + kind +
-        "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff, sim:inverse3");
+        "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff, sim:inverse3, sim:falcon");
   }
   return std::make_unique<WireSimulation>(std::move(motors), std::move(board));
 }
@@ -136,6 +138,8 @@ std::unique_ptr<Grip> make_grip_simulation(const std::string& kind, const Profil
   else if (kind == "inverse3")
     board = std::make_unique<Inverse3Board>(
         name, "", transport_to(std::make_unique<EmulatedInverse3>(motors)));
+  else if (kind == "falcon")
+    board = std::make_unique<FalconBoard>(name, transport_to(std::make_unique<HeldFalcon>()));
   else
     return nullptr;
   return std::make_unique<ForceGrip>(std::move(board), alone());

@@ -31,8 +31,8 @@ std::unique_ptr<Device> make_wire_simulation(
     std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>(),
     const SimulatedMechanics& mechanics = {});
 
-/// A device without strings behind its packets, "mouse", "ff" or "inverse3": its force has no
-/// effect. Null for any other.
+/// A device without strings behind its packets: "mouse", "ff" or "inverse3", whose force has no
+/// effect, or "falcon", which a hand holds. Null for any other.
 std::unique_ptr<Grip> make_grip_simulation(const std::string& kind, const Profile& profile);
 
 }  // namespace spidar

@@ -12,6 +12,7 @@ enum class PoseTrouble {
   kNoFit,      ///< the string lengths fit no pose
   kJump,       ///< a pose that a hand could not have reached since the last one
   kOutside,    ///< a pose outside the frame, or turned so far that the strings would tangle
+  kNotHomed,   ///< encoders have not passed their marks since the device was switched on
   kFrozen,     ///< no counter moves, although the force on the grip has changed
 };
 
@@ -30,6 +31,9 @@ constexpr const char* to_string(PoseTrouble trouble) noexcept {
       return "the grip seems to move faster than a hand can";
     case PoseTrouble::kOutside:
       return "the grip seems to be outside the frame or turned right round";
+    case PoseTrouble::kNotHomed:
+      return "the device does not know its zero: pull the grip all the way out, then push it all "
+             "the way in";
     case PoseTrouble::kFrozen:
       return "no encoder counts, although the force has changed";
   }

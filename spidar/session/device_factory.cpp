@@ -13,7 +13,7 @@
 #include "spidar/boards/inverse3_board.h"
 #include "spidar/boards/uart_board.h"
 #include "spidar/boards/usb_board.h"
-#include "spidar/boards/usb_mouse.h"
+#include "spidar/boards/usb_force_board.h"
 #include "spidar/emulation/wire_simulation.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/protocols/uart_motor.h"
@@ -144,9 +144,12 @@ struct Spec {
 /// Null for a device with strings, and for an unknown one.
 std::unique_ptr<ForceBoard> make_force_board(const std::string& text, const Profile& profile) {
   const Spec spec(text);
-  if (spec.kind == "mouse" && spec.named) return std::make_unique<UsbMouse>(text, spec.rest);
-  if (spec.kind == "ff" && spec.named) return make_force_feedback(text, spec.rest, profile);
-  if (spec.kind == "inverse3" && spec.named) return make_inverse3(text, spec.rest);
+  if (!spec.named) return nullptr;
+  for (const UsbFamily family : {UsbFamily::kMouse, UsbFamily::kFalcon})
+    if (spec.kind == device_of(family))
+      return std::make_unique<UsbForceBoard>(family, text, spec.rest);
+  if (spec.kind == "ff") return make_force_feedback(text, spec.rest, profile);
+  if (spec.kind == "inverse3") return make_inverse3(text, spec.rest);
   return nullptr;
 }
 
@@ -167,7 +170,7 @@ std::unique_ptr<Device> make_device(const std::string& text, const Profile& prof
     throw DeviceError(
         "unknown device \"" + text +
         "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse, ff, ff:PATH, "
-        "ff:PATH,axes=N, ff:PATH,gain=PERCENT, inverse3, inverse3:ID");
+        "ff:PATH,axes=N, ff:PATH,gain=PERCENT, inverse3, inverse3:ID, falcon, falcon:ID");
   return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
 }
 

@@ -18,11 +18,12 @@ bool is_simulated(const std::string& spec);
 
 /// `spec` is one of
 ///   sim                     the simulated device
-///   sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff, sim:inverse3
+///   sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff, sim:inverse3, sim:falcon
 ///                           the same behind the packets of that board
 ///   usb, usb:ID             CyVerse board; ID: rotary switch, serial number or bus path
 ///   uart:PATH[,PATH]        UART motor boards on serial lines
 ///   mouse, mouse:ID         SPIDAR-mouse; ID: serial number or bus path
+///   falcon, falcon:ID       Novint Falcon; ID: serial number or bus path
 ///   ff, ff:PATH[,OPTION]…   joystick, wheel or gamepad with force feedback: the first one, or
 ///                           this file; OPTION: axes=1 for a wheel or axes=2 for a joystick, if it
 ///                           is taken for the other; gain=PERCENT of its strength (20);

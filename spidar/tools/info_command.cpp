@@ -3,6 +3,7 @@
 #include <array>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
@@ -21,7 +22,7 @@ its strings, or the axes in which it gives a force and a position.
 
 struct FoundBoard {
   DeviceReading reading;       // of a device with strings
-  Eigen::Vector3d position_m;  // of a device without
+  Eigen::Vector3d position_m;  // of a device without; not numbers while it is not known
   LinkHealth health;
   std::string description;  // reported by the open device
 };
@@ -43,7 +44,8 @@ bool read_position(ChosenDevice& chosen, FoundBoard& found) {
   bool read = false;
   ForceHold hold(*chosen.grip, every_millisecond());
   hold.stay(0.1, [&](const GripReading& reading) {
-    found.position_m = reading.pose.position_m;
+    found.position_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (reading.knows_pose()) found.position_m = reading.pose.position_m;
     return read = true;
   });
   found.health = chosen.grip->health();
@@ -89,7 +91,9 @@ void print_axes(const GripAbilities& can, const FoundBoard& found) {
     if (!can.force[i] && !can.position[i]) continue;
     std::cout << "  " << std::left << std::setw(7) << kAxes[i] << std::right << std::setw(7)
               << (can.force[i] ? "yes" : "no");
-    if (can.position[i])
+    if (can.position[i] && !found.position_m.allFinite())
+      std::cout << "  not known";
+    else if (can.position[i])
       std::cout << std::setw(7) << std::fixed << std::setprecision(1)
                 << 1e3 * found.position_m[static_cast<Eigen::Index>(i)] << " mm";
     else
@@ -131,7 +135,7 @@ void add_axes(const GripAbilities& can, const FoundBoard& found, toml::table& ta
   toml::table position_m;
   for (size_t i = 0; i < kAxes.size(); ++i) {
     if (can.force[i]) force.push_back(kAxes[i]);
-    if (can.position[i])
+    if (can.position[i] && found.position_m.allFinite())
       position_m.insert(kAxes[i], found.position_m[static_cast<Eigen::Index>(i)]);
   }
   table.insert("force_axes", force);

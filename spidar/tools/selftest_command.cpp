@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <array>
 #include <iostream>
 #include <string>
 
@@ -23,10 +24,14 @@ of the encoders, it determines which motor and which encoder are connected to wh
 of them are reversed. Hold the grip loosely at the centre, with the elbow on the table. Motors whose
 responses are unclear, because the hand moved, are pulled again, up to twice.
 
+Of a Novint Falcon (falcon), determines whether it moves in the direction of the force: pushes it to
+each side for 0.2 s, four times. Hold its grip loosely at the centre.
+
 Of a joystick or wheel (ff), determines whether it moves in the direction of the force: pushes it to
 each side for 0.2 s, four times, with half of the force that its gain allows. Take the hand away.
 
-  --newton N             tension of a pull above the minimum tension, 0.1 to 2 (default 0.5)
+  --newton N             tension of a pull above the minimum tension, or force of a push, 0.1
+                         to 2 (default 0.5)
   --write-profile FILE.toml
                          write a profile that matches the wiring, if a profile can express it:
                          signs, and strings whose motor and encoder are at another channel
@@ -90,35 +95,51 @@ const char* side_of(double moved_m) {
   return moved_m <= -StickTest::kLeast_m ? "moves against the force" : "does not move";
 }
 
-/// Directions of a joystick or wheel, of which drivers differ.
-int test_stick_command(const SelftestOptions& options, ChosenDevice& chosen) {
+/// Advice for a stick whose driver pushes to the other side, or not at all.
+void advise_on_stick(bool x, bool y) {
+  const std::string sides = std::string(x ? "x" : "") + (y ? "y" : "");
+  if (sides.empty())
+    std::cout << "An axis that does not move is not tested. Let go of the stick, or try more "
+                 "strength: ff:PATH,gain=50\n";
+  else
+    std::cout << "Its driver pushes to the other side. Write flip=" << sides
+              << ": device=ff:PATH,flip=" << sides << '\n';
+}
+
+constexpr std::array<const char*, 3> kSides{"right  ", "up     ", "forward"};
+
+/// Directions of a device that takes a force.
+int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
+  const bool stick = is_stick(options.common.device);
   if (!options.yes && !is_simulated(options.common.device) &&
-      !confirm("Push " + chosen.name() +
-               " to all sides with a part of its strength? Take the hand away.")) {
+      !confirm("Push " + chosen.name() + " to all sides with a part of its strength? " +
+               (stick ? "Take the hand away." : "Hold its grip loosely at the centre."))) {
     std::cerr << "nothing was pushed\n";
     return kFailed;
   }
   catch_signals();
-  const StickTest test = test_stick(*chosen.grip, every_millisecond());
+  const double push_N = stick ? chosen.grip->abilities().largest_force_N / 2 : options.newton;
+  const StickTest test = test_stick(*chosen.grip, every_millisecond(), push_N);
   if (!test.complete) {
     std::cerr << "interrupted; the force is zero\n";
     return kInterrupted;
   }
-  const bool up = chosen.grip->abilities().force[1];
-  std::cout << "right  " << side_of(test.moved_m[0]) << '\n';
-  if (up) std::cout << "up     " << side_of(test.moved_m[1]) << '\n';
-  const bool x = test.moved_m[0] <= -StickTest::kLeast_m,
-             y = test.moved_m[1] <= -StickTest::kLeast_m;
-  const bool right =
-      test.moved_m[0] >= StickTest::kLeast_m && (!up || test.moved_m[1] >= StickTest::kLeast_m);
-  if (x || y)
-    std::cout << "Its driver pushes to the other side. Write flip=" << (x ? "x" : "")
-              << (y ? "y" : "") << ": device=ff:PATH,flip=" << (x ? "x" : "") << (y ? "y" : "")
-              << '\n';
-  else if (!right)
-    std::cout << "An axis that does not move is not tested. Let go of the stick, or try more "
-                 "strength: ff:PATH,gain=50\n";
+  const GripAbilities can = chosen.grip->abilities();
+  bool right = true;
+  std::array<bool, 3> against{};
+  for (size_t axis = 0; axis < kSides.size(); ++axis) {
+    if (!can.force[axis]) continue;
+    std::cout << kSides[axis] << "  " << side_of(test.moved_m[axis]) << '\n';
+    right = right && test.moved_m[axis] >= StickTest::kLeast_m;
+    against[axis] = test.moved_m[axis] <= -StickTest::kLeast_m;
+  }
+  if (stick && !right) advise_on_stick(against[0], against[1]);
   return right ? kDone : kFailed;
+}
+
+/// Whether it takes a force and says where it is.
+bool answers_pushes(const ChosenDevice& chosen) {
+  return chosen.grip && chosen.grip->abilities().position[0];
 }
 
 }  // namespace
@@ -130,7 +151,7 @@ int selftest_command(int argc, char** argv) {
     return kDone;
   }
   ChosenDevice chosen = choose_device(options.common);
-  if (is_stick(options.common.device)) return test_stick_command(options, chosen);
+  if (answers_pushes(chosen)) return test_push_command(options, chosen);
   require_strings(chosen.board, "selftest");
   miswire(options.sim_wiring, options.common.device, chosen.profile, chosen.device);
   if (!options.output.empty()) check_folder_of(options.output);

@@ -10,6 +10,7 @@
 #include "spidar/guardian/last_will.h"
 #include "spidar/link_fault.h"
 #include "spidar/protocols/bytes.h"
+#include "spidar/protocols/ftdi.h"
 
 namespace spidar {
 
@@ -39,6 +40,10 @@ class Transport {
   /// packets may have arrived.
   virtual Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                             int64_t deadline_ns) noexcept = 0;
+
+  /// Sends a request of the vendor that has no data; kRefused where there is no such pipe. Blocks
+  /// as exchange() does.
+  virtual LinkFault control(const VendorRequest&, int64_t) noexcept { return LinkFault::kRefused; }
 
   /// To be called after a fault: clears stalls and discards pending replies. May block for some
   /// milliseconds.

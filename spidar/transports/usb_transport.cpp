@@ -30,6 +30,12 @@ LinkFault fault_of_submit(int error) noexcept {
   }
 }
 
+/// Of a control transfer, which libusb submits and waits for.
+LinkFault fault_of_control(int error) noexcept {
+  if (error == LIBUSB_SUCCESS) return LinkFault::kNone;
+  return error == LIBUSB_ERROR_TIMEOUT ? LinkFault::kTimeout : fault_of_submit(error);
+}
+
 LinkFault fault_of(libusb_transfer_status status) noexcept {
   switch (status) {
     case LIBUSB_TRANSFER_COMPLETED:
@@ -242,6 +248,15 @@ Transfer UsbTransport::exchange(std::initializer_list<ByteView> packets, Mutable
   if (fault == LinkFault::kNone && received < reply.size) fault = LinkFault::kShort;
   std::copy_n(in.bytes.begin(), std::min(received, reply.size), reply.data);
   return {fault, received};
+}
+
+LinkFault UsbTransport::control(const VendorRequest& request, int64_t deadline_ns) noexcept {
+  if (!handle_) return LinkFault::kGone;
+  // Zero would wait for ever.
+  const auto left_ms = std::max<int64_t>((deadline_ns - monotonic_now_ns()) / 1'000'000, 1);
+  return fault_of_control(libusb_control_transfer(handle_, ftdi::kRequestType, request.request,
+                                                  request.value, 0, nullptr, 0,
+                                                  static_cast<unsigned>(left_ms)));
 }
 
 void UsbTransport::recover() noexcept {

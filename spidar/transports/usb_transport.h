@@ -38,6 +38,7 @@ class UsbTransport final : public Transport {
   void open() override;
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept override;
+  LinkFault control(const VendorRequest& request, int64_t deadline_ns) noexcept override;
   void recover() noexcept override;
   std::optional<LastWill> last_will() const override;
   void close() noexcept override;

@@ -33,19 +33,19 @@ bool push(ForceHold& hold, const Eigen::Vector3d& force_N, double& moved_m) {
 
 }  // namespace
 
-StickTest test_stick(Grip& grip, const Pace& pace) {
+StickTest test_stick(Grip& grip, const Pace& pace, double push_N) {
   StickTest test;
   ForceHold hold(grip, pace);
   const GripAbilities can = grip.abilities();
   test.complete = hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s);
-  for (const size_t axis : {size_t{0}, size_t{1}}) {
+  if (test.complete && !grip.reading().knows_pose())
+    throw DeviceError(grip.name() + ": " + to_string(grip.reading().trouble));
+  for (size_t axis = 0; axis < test.moved_m.size(); ++axis) {
     if (!can.direction || !can.force[axis]) continue;
     double moved_m = 0;
     for (const double side : {1.0, -1.0, -1.0, 1.0}) {
-      const double force_N = side * can.largest_force_N / 2;
-      test.complete =
-          test.complete &&
-          push(hold, force_N * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis)), moved_m);
+      const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
+      test.complete = test.complete && push(hold, side * push_N * along, moved_m);
     }
     test.moved_m[axis] = moved_m / 4;
   }

@@ -92,11 +92,13 @@ TEST_F(DeviceProvider, ListsBoardsAndTheSimulatedOne) {
   plug(0, UsbKind::kSh4, "A1");
   plug(1, UsbKind::kSimple).forbidden = true;
   plug(2, UsbKind::kMouse);
+  plug(3, UsbKind::kFalcon);
   Devices found = devices();
-  EXPECT_EQ(found.size(), 4u);
+  EXPECT_EQ(found.size(), 5u);
   ASSERT_EQ(found.count("usb:1-1"), 1u);
   ASSERT_EQ(found.count("usb:1-2"), 1u);
   ASSERT_EQ(found.count("mouse:1-3"), 1u);
+  ASSERT_EQ(found.count("falcon:1-4"), 1u);
   ASSERT_EQ(found.count("sim"), 1u);
   GstDevice* sh4 = found["usb:1-1"];
   EXPECT_EQ(text_in(sh4, "board"), "CyVerse USB 2.0 SH4");

@@ -25,6 +25,8 @@ UsbPort& plug_into(BusState& state, size_t port, UsbKind kind, const char* seria
   p.fault = LinkFault::kNone;
   p.serial = {};
   std::strncpy(p.serial.data(), serial, p.serial.size() - 1);
+  p.falcon.loaded = false;
+  p.falcon.baud = 0;
   p.address = ++state.last_address;
   p.kind = kind;
   return p;
@@ -33,6 +35,7 @@ UsbPort& plug_into(BusState& state, size_t port, UsbKind kind, const char* seria
 UsbKind kind_named(const std::string& name) {
   if (name == "sh4") return UsbKind::kSh4;
   if (name == "simple") return UsbKind::kSimple;
+  if (name == "falcon") return UsbKind::kFalcon;
   return name == "mouse" ? UsbKind::kMouse : UsbKind::kNone;
 }
 

@@ -8,13 +8,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "spidar/emulation/emulated_falcon.h"
 #include "spidar/link_fault.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/exported.h"
 
 namespace spidar::test {
 
-enum class UsbKind : int { kNone, kSh4, kSimple, kMouse };
+enum class UsbKind : int { kNone, kSh4, kSimple, kMouse, kFalcon };
 
 /// One port of the bus and the device in it. Any process may change any member at any time.
 struct UsbPort {
@@ -22,16 +23,17 @@ struct UsbPort {
   std::atomic<int> address{0};  ///< a new one every time something is plugged in
   std::array<char, 32> serial{};
 
-  std::array<std::atomic<int>, 8> digit{};      ///< digits of the D/A; mouse: mN, x and y
-  std::array<std::atomic<int32_t>, 8> count{};  ///< counts of the encoders
-  std::atomic<uint16_t> inputs{0};              ///< bits 4–7: rotary switch
-  std::atomic<uint64_t> updates{0};             ///< how often the digits were set
+  std::array<std::atomic<int>, 8> digit{};      ///< digits of the D/A; mouse, Falcon: mN
+  std::array<std::atomic<int32_t>, 8> count{};  ///< counts of the encoders; Falcon: µm
+  std::atomic<uint16_t> inputs{0};   ///< bits 4–7: rotary switch; or see EmulatedFalcon
+  std::atomic<uint64_t> updates{0};  ///< how often the digits were set
 
   /// Applied to all transfers until it is changed. kGone is reserved for unplug().
   std::atomic<LinkFault> fault{LinkFault::kNone};
   std::atomic<bool> forbidden{false};   ///< open() gives EACCES
   std::atomic<bool> has_driver{false};  ///< a kernel driver that must be detached first
   std::atomic<uint64_t> halts_cleared{0};
+  FalconMemory falcon;
 
   bool at_rest() const {
     for (const auto& d : digit)
@@ -63,8 +65,9 @@ struct BusState {
 
 /// The bus of this process. If $SPIDAR_EMULATED_BUS is the name of a file, which is created if
 /// necessary, the bus is shared with all processes that have the same value. If it is "sh4",
-/// "simple" or "mouse", the process has a bus of its own with such a board; "stick", "wheel" or
-/// "pad", with such an input device. Without it, the process has an empty bus of its own.
+/// "simple", "mouse" or "falcon", the process has a bus of its own with such a board; "stick",
+/// "wheel" or "pad", with such an input device. Without it, the process has an empty bus of its
+/// own.
 BUS_API BusState& bus();
 
 /// Adds the device to the list of the bus, as 1-1, 1-2, …, at rest.

@@ -40,7 +40,7 @@ struct UsbFile {
         port_number(shared.port),
         port(bus().port[port_number]),
         motors(port),
-        board(make_board(port.kind, motors)) {}
+        board(make_board(port, motors)) {}
 
   SharedFile& shared;
   const size_t port_number;
@@ -158,10 +158,19 @@ void answer(UsbFile& f) {
   }
 }
 
+/// Requests of the vendor that have no data; the buffer begins with the setup packet.
+bool control(UsbFile& f, const usbdevfs_urb& urb) {
+  const ByteView setup(static_cast<const uint8_t*>(urb.buffer), 8);
+  if (setup.u8(0) != ftdi::kRequestType || setup.u16(6) != 0) return false;
+  return f.board->control({setup.u8(1), setup.u16(2)});
+}
+
 int submit(UsbFile& f, usbdevfs_urb* urb) {
   if (!f.shared.claimed && urb->type != USBDEVFS_URB_TYPE_CONTROL) return -ENOENT;
   if (const int status = status_of(f.port.fault)) {
     finish(f, urb, status, 0);
+  } else if (urb->type == USBDEVFS_URB_TYPE_CONTROL) {
+    finish(f, urb, control(f, *urb) ? 0 : -EPIPE, 0);
   } else if (urb->endpoint & kIn) {
     f.waiting.push_back(urb);
     answer(f);

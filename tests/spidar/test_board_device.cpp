@@ -142,7 +142,8 @@ TEST(BoardDevice, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
 
 TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
   const Profile profile = load_profile("spidar-g6x3-v2-r");
-  for (const std::string spec : {"foo", "", "usb:", "sim:", "uart", "uart:", "mouse:", "ff:"}) {
+  for (const std::string spec :
+       {"foo", "", "usb:", "sim:", "uart", "uart:", "mouse:", "ff:", "falcon:"}) {
     try {
       make_grip(spec, profile);
       FAIL() << spec;
@@ -150,17 +151,18 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
       EXPECT_EQ(error.what(), "unknown device \"" + spec +
                                   "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, "
                                   "mouse, ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT, "
-                                  "inverse3, inverse3:ID");
+                                  "inverse3, inverse3:ID, falcon, falcon:ID");
     }
   }
   for (const std::string spec :
        {"usb", "usb:3", "usb:1-2.3", "uart:/dev/ttyUSB0,/dev/ttyUSB1", "mouse", "sim:sh4",
         "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3", "ff",
-        "ff:/dev/input/event3", "inverse3", "inverse3:049D", "inverse3:049D,port=8500"}) {
+        "ff:/dev/input/event3", "inverse3", "inverse3:049D", "inverse3:049D,port=8500", "falcon",
+        "falcon:1-2", "sim:falcon"}) {
     EXPECT_EQ(make_grip(spec, profile)->name(), spec);
   }
-  for (const std::string spec :
-       {"mouse", "sim:mouse", "sim:ff", "sim:inverse3", "ff", "ff:/dev/input/event3", "inverse3"}) {
+  for (const std::string spec : {"mouse", "sim:mouse", "sim:ff", "sim:inverse3", "ff",
+                                 "ff:/dev/input/event3", "inverse3", "falcon", "sim:falcon"}) {
     EXPECT_FALSE(make_grip(spec, profile)->traits().has_strings) << spec;
     EXPECT_THROW(make_device(spec, profile), DeviceError) << spec;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Devices that take a force: every kind with its emulation, without a wire, and the grip on them.
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -32,7 +33,7 @@ class ForceBoards : public testing::TestWithParam<ForceKind>, public ForceBench 
 };
 INSTANTIATE_TEST_SUITE_P(, ForceBoards,
                          testing::Values(ForceKind::kMouse, ForceKind::kForceFeedback,
-                                         ForceKind::kInverse3),
+                                         ForceKind::kInverse3, ForceKind::kFalcon),
                          [](const auto& kind) { return name_of(kind.param); });
 
 TEST_P(ForceBoards, OpenLeavesThemAtRest) {
@@ -144,7 +145,7 @@ TEST_P(ForceBoards, TheHapticLoopDrivesThemAndTheForceLasts) {
   EXPECT_EQ(now.last.commanded.force_N, Eigen::Vector3d(1, 0.5, 0));
   EXPECT_EQ(now.last.delivered.force_N, Eigen::Vector3d(1, 0.5, 0));
   EXPECT_EQ(now.pose_trouble, PoseTrouble::kNone);
-  EXPECT_EQ(motors.digit[0] / 2, motors.digit[1]);
+  EXPECT_NEAR(motors.digit[0] / 2, motors.digit[1], rounding());
   EXPECT_GT(motors.digit[1], 0);
 }
 
@@ -216,6 +217,99 @@ TEST(ForceGrip, AnInverse3TakesForcesAndGivesPositionsInAllAxes) {
   EXPECT_EQ(bench.motors.digit[2], -300);
   EXPECT_TRUE(grip->reading().pose.position_m.isApprox(Eigen::Vector3d(0.01, -0.02, 0.03), 1e-9));
   EXPECT_EQ(grip->reading().buttons, 5u);
+}
+
+TEST(ForceGrip, AFalconTakesForcesAndGivesPositionsInAllAxes) {
+  ForceBench bench(ForceKind::kFalcon);
+  const auto grip = bench.grip();
+  grip->open();
+  EXPECT_EQ(grip->description(), "Novint Falcon");
+  GripCommand command = told(1, 2);
+  command.wrench.force_N.z() = -3;
+  for (const Eigen::Vector3d& at_mm :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(30, -20, 10), Eigen::Vector3d(-25, 30, -30)}) {
+    for (size_t axis = 0; axis < 3; ++axis)
+      bench.motors.count[axis] = static_cast<int>(1000 * at_mm[static_cast<Eigen::Index>(axis)]);
+    // The force is that for the place of the answer before.
+    for (int i = 0; i < 2; ++i) ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+    // Half a count of each encoder is 0.018 degrees, at some 60 mm/rad.
+    EXPECT_LT((1000 * grip->reading().pose.position_m - at_mm).norm(), 0.05) << at_mm.transpose();
+    for (size_t axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(bench.motors.digit[axis],
+                  1000 * command.wrench.force_N[static_cast<Eigen::Index>(axis)],
+                  2 * bench.rounding())
+          << at_mm.transpose();
+  }
+}
+
+/// Every place of the 50 mm around the centre, in every direction.
+TEST(ForceGrip, AFalconGivesItsLargestForceEverywhere) {
+  ForceBench bench(ForceKind::kFalcon);
+  const auto grip = bench.grip();
+  grip->open();
+  const double most_N = grip->abilities().largest_force_N;
+  for (int i = 0; i < 2000; ++i) {
+    const double turn = 2.4 * i, up = 1 - (i % 41) / 20.0, side = std::sqrt(1 - up * up);
+    const Eigen::Vector3d at_mm =
+        50 * Eigen::Vector3d(side * std::cos(turn), side * std::sin(turn), up);
+    for (size_t axis = 0; axis < 3; ++axis)
+      bench.motors.count[axis] = static_cast<int>(1000 * at_mm[static_cast<Eigen::Index>(axis)]);
+    const double way = 0.37 * i, out = 1 - (i % 53) / 26.0, across = std::sqrt(1 - out * out);
+    GripCommand command = told(1);
+    command.wrench.force_N =
+        2 * most_N * Eigen::Vector3d(across * std::cos(way), out, across * std::sin(way));
+    for (int again = 0; again < 2; ++again) ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+    const Eigen::Vector3d delivered =
+        1e-3 * Eigen::Vector3d(bench.motors.digit[0], bench.motors.digit[1], bench.motors.digit[2]);
+    ASSERT_LT((delivered - command.wrench.force_N / 2).norm(), 6e-3 * bench.rounding())
+        << at_mm.transpose();
+  }
+}
+
+/// 0.1 kg that nobody holds, from one side of the workspace to the other. 3 N alone would make it
+/// 2.4 m/s fast.
+TEST(ForceGrip, AReleasedFalconStaysSlow) {
+  ForceBench bench(ForceKind::kFalcon);
+  SessionSettings by_hand;
+  by_hand.threaded = false;
+  HapticSession session(bench.grip(), by_hand);
+  int64_t now_ns = 0;
+  session.loop().set_playback_clock({now_ns, 0, 1.0, true});
+  double at_m = -0.05, speed_m_s = 0, fastest_m_s = 0;
+  bench.motors.count[0] = -50'000;
+  const auto tick = [&] {
+    now_ns += kTick_ns;
+    session.loop().tick(now_ns, now_ns);
+  };
+  while (now_ns < kSecond_ns) tick();
+  ASSERT_TRUE(session.loop().schedule(lasting({3, 0, 0})));
+  for (; at_m < 0.05 && now_ns < 3 * kSecond_ns; tick()) {
+    speed_m_s += kTick_s * 1e-3 * bench.motors.digit[0] / 0.1;
+    at_m += kTick_s * speed_m_s;
+    bench.motors.count[0] = static_cast<int>(std::lround(1e6 * at_m));
+    fastest_m_s = std::max(fastest_m_s, speed_m_s);
+  }
+  EXPECT_GT(fastest_m_s, 0.3) << "is not pushed";
+  EXPECT_LT(fastest_m_s, 1.2);
+}
+
+TEST(ForceGrip, AFalconWithoutItsZeroHasNoPositionAndNoForce) {
+  ForceBench bench(ForceKind::kFalcon);
+  bench.motors.inputs = 0x35;  // two encoders; buttons 1 and 3
+  const auto grip = bench.grip();
+  grip->open();
+  EXPECT_NE(grip->description().find("push it all the way in"), std::string::npos);
+  for (int i = 0; i < 2 * PoseTrust::kGoodPoses; ++i)
+    ASSERT_EQ(grip->exchange(told(2)), ExchangeStatus::kOk);
+  EXPECT_TRUE(bench.motors.all_zero());
+  EXPECT_EQ(grip->reading().trouble, PoseTrouble::kNotHomed);
+  EXPECT_EQ(grip->reading().buttons, 5u);
+  bench.motors.inputs = 0x70;
+  for (int i = 0; i < 2 * PoseTrust::kGoodPoses; ++i)
+    ASSERT_EQ(grip->exchange(told(0)), ExchangeStatus::kOk);
+  EXPECT_TRUE(grip->reading().knows_pose());
+  ASSERT_EQ(grip->exchange(told(2)), ExchangeStatus::kOk);
+  EXPECT_NEAR(bench.motors.digit[0], 2000, bench.rounding());
 }
 
 TEST(ForceGrip, TheStickHasAVelocity) {

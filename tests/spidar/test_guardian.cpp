@@ -89,6 +89,21 @@ TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsKilled) {
   }
 }
 
+TEST(Guardian, ZeroesAFalconWhenTheHostIsKilledOrStopped) {
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    UsbPort& port = plug(0, UsbKind::kFalcon);
+    port.falcon.loaded = true;
+    port.inputs = 0x70;  // homed
+    Victim victim("falcon", kUsbProfile);
+    wait_for([&] { return !port.at_rest() || !victim.lives(); });
+    ASSERT_TRUE(victim.lives());
+    victim.send(signal);
+    wait_for([&] { return port.at_rest(); });
+    victim.end(SIGKILL);
+    clear_bus();
+  }
+}
+
 TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsStopped) {
   for (const UsbKind kind : {UsbKind::kSh4, UsbKind::kSimple}) {
     UsbPort& port = plug(0, kind);

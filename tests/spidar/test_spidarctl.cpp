@@ -177,12 +177,14 @@ TEST(Spidarctl, ListTellsDevicesApart) {
 
 TEST(Spidarctl, InfoReadsEachBoard) {
   for (const std::string device :
-       {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3"}) {
+       {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3",
+        "sim:falcon"}) {
     SCOPED_TRACE(device);
     const CommandResult outcome = run_spidarctl("info " + device);
     EXPECT_EQ(outcome.status, 0);
     expect_contains(outcome.text, "device    " + device + "\n");
-    const bool strings = device != "sim:mouse" && device != "sim:ff" && device != "sim:inverse3";
+    const bool strings = device != "sim:mouse" && device != "sim:ff" && device != "sim:inverse3" &&
+                         device != "sim:falcon";
     expect_contains(outcome.text,
                     strings ? "\n  string  N smallest" : "\n  axis     force  position");
   }
@@ -191,11 +193,24 @@ TEST(Spidarctl, InfoReadsEachBoard) {
   expect_contains(joystick, "force     3 N at most, 200 times a second\n");
   expect_contains(joystick, "  right      yes    0.0 mm\n  up         yes    0.0 mm\n");
   expect_contains(run_spidarctl("info sim:inverse3").text, "10 N at most, 1000 times a second\n");
+  const std::string falcon = run_spidarctl("info sim:falcon").text;
+  expect_contains(falcon, "found     Novint Falcon\n");
+  expect_contains(falcon, "force     4.4 N at most, 1000 times a second\n");
+  expect_contains(falcon, "  forward    yes    0.0 mm\n");
   expect_contains(run_spidarctl("info sim:mouse").text, "  right      yes  no\n");
   expect_contains(run_spidarctl("info sim:ff --json").text, "\"largest_force_N\" : 3.0");
   expect_contains(run_spidarctl("info sim:ff").text,
                   "found     emulated stick at 20 % of its strength, force feedback on two axes");
   expect_contains(run_spidarctl("info sim:sh4 --json").text, "\"profile\" : \"spidar-g6x3-v2-r\"");
+}
+
+TEST(Spidarctl, SelftestPushesWhatTakesAForce) {
+  const CommandResult outcome = run_spidarctl("selftest sim:falcon");
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* side : {"right  ", "up     ", "forward"})
+    expect_contains(outcome.text, side + std::string("  moves with the force\n"));
+  EXPECT_EQ(run_spidarctl("selftest sim:ff").status, 1);
+  expect_contains(run_spidarctl("selftest sim:ff").text, "right    does not move\n");
 }
 
 TEST(Spidarctl, MonitorShowsTheGrip) {

@@ -68,6 +68,7 @@ TEST(Spidarctl, ConformanceWithoutPullsLeavesTheMotorsAtZero) {
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "counters    0 of 8 moved\nmotors      not tried\n");
   EXPECT_EQ(run_spidarctl("conformance sim:mouse --seconds 0.1").status, 0);
+  EXPECT_EQ(run_spidarctl("conformance sim:falcon --no-pull --seconds 0.1").status, 0);
 }
 
 }  // namespace

@@ -83,10 +83,11 @@ TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
     settings.guardian = false;
     settings.threaded = false;  // a thread may get no processor for 20 exchanges
     const auto grip = make_grip(spec, load_profile(kDefaultProfile), settings);
-    const StickTest test = test_stick(*grip, [] {
+    const auto pace = [] {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       return true;
-    });
+    };
+    const StickTest test = test_stick(*grip, pace, grip->abilities().largest_force_N / 2);
     EXPECT_TRUE(test.complete);
     return test.moved_m;
   };
@@ -96,7 +97,7 @@ TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
   const std::string spec = "ff:/dev/input/event0";
   for (const auto& [option, right, up] :
        {std::tuple{"", 1, 1}, {"", -1, 1}, {"", 1, -1}, {"", 0, 0}}) {
-    const std::array<double, 2> found_m = moved_m(spec + option, right, up);
+    const std::array<double, 3> found_m = moved_m(spec + option, right, up);
     EXPECT_EQ(side(found_m[0]), right);
     EXPECT_EQ(side(found_m[1]), up);
   }

@@ -107,8 +107,8 @@ TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
   // What a board begins with is a profile that it can drive.
   for (const std::string device :
        {"usb:1-1", "usb:1-2", "usb:5", "uart:/dev/ttyUSB0", "mouse", "sim", "sim:sh4", "sim:simple",
-        "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3", "ff", "ff:/dev/input/event0",
-        "inverse3"})
+        "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3", "sim:falcon", "falcon", "falcon:1-4",
+        "ff", "ff:/dev/input/event0", "inverse3"})
     EXPECT_NO_THROW(make_grip(device, load_profile(board_info(device).profile))) << device;
 }
 

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/boards/falcon_board.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "spidar/boards/falcon_kinematics.h"
+#include "spidar/boards/opening.h"
+
+namespace spidar {
+namespace {
+
+constexpr int64_t kPatience_ns = kSecond_ns / 10;
+/// The published program tries a hundred times, of which few are needed.
+constexpr int kHellos = 10;
+/// The published ones have 7 to 9 kB.
+constexpr size_t kMostFirmware = 65'536;
+
+int64_t soon_ns() noexcept {
+  return monotonic_now_ns() + kPatience_ns;
+}
+
+std::string firmware_path() {
+  if (const char* named = std::getenv("SPIDAR_FALCON_FIRMWARE"); named && *named) return named;
+  const char* home = std::getenv("HOME");
+  return (home ? std::string(home) : "") + "/.local/share/gst-spidar/novint-falcon.bin";
+}
+
+std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {
+  const std::string path = firmware_path();
+  std::error_code not_there;
+  const bool is_file = std::filesystem::is_regular_file(path, not_there);
+  std::ifstream file(path, std::ios::binary);
+  if (!is_file || !file.is_open())
+    throw DeviceError(name + ": has not got its firmware (" + to_string(answer) + "), and " + path +
+                      " cannot be read; SPIDAR_FALCON_FIRMWARE names the file, which is "
+                      "firmware/nvent_firmware.bin in the sources of libnifalcon");
+  const std::vector<uint8_t> firmware{std::istreambuf_iterator<char>(file), {}};
+  if (firmware.empty() || firmware.size() > kMostFirmware)
+    throw DeviceError(name + ": " + path + " has " + std::to_string(firmware.size()) +
+                      " bytes and is no firmware of a Falcon, which has some 8 kB");
+  return firmware;
+}
+
+}  // namespace
+
+FalconBoard::FalconBoard(std::string name, std::unique_ptr<Transport> transport)
+    : name_(std::move(name)), transport_(std::move(transport)) {}
+
+template <typename Requests>
+LinkFault FalconBoard::set_line(const Requests& requests) noexcept {
+  for (const VendorRequest& request : requests) {
+    const LinkFault fault = transport_->control(request, soon_ns());
+    if (fault != LinkFault::kNone) return fault;
+  }
+  return LinkFault::kNone;
+}
+
+/// Sends the bytes and waits until the answer is full. Packets from the chip begin with its status
+/// and contain any part of an answer, or nothing.
+LinkFault FalconBoard::say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept {
+  if (std::exchange(stale_, true)) transport_->control(ftdi::kDropReceived, deadline_ns);
+  std::array<uint8_t, ftdi::kPacketSize> in{};
+  for (size_t filled = 0, sent = 0; filled < answer.size; sent = 1) {
+    const Transfer transfer = sent ? transport_->exchange({}, in, deadline_ns)
+                                   : transport_->exchange({bytes}, in, deadline_ns);
+    if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort)
+      return transfer.fault;
+    if (transfer.received < ftdi::kStatusSize) return LinkFault::kShort;
+    const size_t came = transfer.received - ftdi::kStatusSize;
+    if (came > answer.size - filled) return LinkFault::kBabble;
+    std::copy_n(in.begin() + ftdi::kStatusSize, came, answer.data + filled);
+    filled += came;
+    // A chip whose device is silent still sends its status.
+    if (came == 0 && monotonic_now_ns() >= deadline_ns) return LinkFault::kTimeout;
+  }
+  stale_ = false;
+  return LinkFault::kNone;
+}
+
+LinkFault FalconBoard::ask(const falcon::Command& command, int64_t deadline_ns) noexcept {
+  falcon::encode_command(command, out_);
+  falcon::Packet answer{};
+  const LinkFault fault = say(out_, answer, deadline_ns);
+  if (fault != LinkFault::kNone) return fault;
+  if (falcon::decode_reading(answer, seen_)) return LinkFault::kNone;
+  stale_ = true;
+  return LinkFault::kWrongReply;
+}
+
+/// Whether the firmware answers.
+LinkFault FalconBoard::start() noexcept {
+  const LinkFault fault = set_line(falcon::kRunLine);
+  if (fault != LinkFault::kNone) return fault;
+  return open_exchange([this](int64_t deadline_ns) { return ask({}, deadline_ns); }, *transport_);
+}
+
+LinkFault FalconBoard::greet_loader() noexcept {
+  LinkFault fault = set_line(falcon::kHelloLine);
+  std::array<uint8_t, falcon::kHelloAnswer.size()> answer{};
+  for (int i = 0; i < kHellos && fault == LinkFault::kNone; ++i) {
+    const LinkFault said = say(falcon::kHello, answer, soon_ns());
+    if (said == LinkFault::kGone) return said;
+    // With a zero in front, its end does not fit.
+    const size_t zero = answer[0] == 0 ? 1 : 0;
+    if (std::equal(answer.begin() + zero, answer.end(), falcon::kHelloAnswer.begin()))
+      return set_line(falcon::kLoadLine);
+    if (i + 1 == kHellos) fault = said == LinkFault::kNone ? LinkFault::kWrongReply : said;
+  }
+  return fault;
+}
+
+/// Every piece is echoed, which is how errors on the line are noticed.
+LinkFault FalconBoard::load(const std::vector<uint8_t>& firmware) noexcept {
+  LinkFault fault = greet_loader();
+  std::array<uint8_t, falcon::kPieceSize> echo{};
+  const auto send = [&](ByteView piece) {
+    if (fault != LinkFault::kNone) return;
+    fault = say(piece, {echo.data(), piece.size}, soon_ns());
+    if (fault == LinkFault::kNone && !std::equal(piece.data, piece.data + piece.size, echo.begin()))
+      fault = LinkFault::kWrongEcho;
+  };
+  send(falcon::kLoad);
+  for (size_t at = 0; at < firmware.size(); at += falcon::kPieceSize)
+    send({firmware.data() + at, std::min(falcon::kPieceSize, firmware.size() - at)});
+  return fault;
+}
+
+void FalconBoard::begin() {
+  LinkFault fault = start();
+  if (fault == LinkFault::kTimeout || fault == LinkFault::kWrongReply) {
+    fault = load(read_firmware(name_, fault));
+    if (fault == LinkFault::kNone) fault = start();
+  }
+  if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+  see();
+}
+
+void FalconBoard::open() {
+  transport_->open();
+  try {
+    begin();
+  } catch (...) {
+    transport_->close();
+    throw;
+  }
+}
+
+/// From the counts, if they are counted from the marks.
+void FalconBoard::see() noexcept {
+  place_.reset();
+  if (!seen_.all_homed()) return;
+  const Eigen::Vector3d angles_rad(falcon::angle_rad(seen_.count[0]),
+                                   falcon::angle_rad(seen_.count[1]),
+                                   falcon::angle_rad(seen_.count[2]));
+  const auto position_m = falcon::grip_position(angles_rad);
+  const auto jacobian = position_m ? falcon::jacobian(angles_rad, *position_m) : std::nullopt;
+  if (jacobian) place_ = {*position_m, *jacobian};
+}
+
+/// Shortened together, where one motor cannot give its part, so that the direction remains.
+std::array<int, 3> FalconBoard::digits_for(const Eigen::Vector3d& force_N) const noexcept {
+  std::array<int, 3> digits{};
+  if (!place_ || !force_N.allFinite()) return digits;
+  Eigen::Vector3d wanted = falcon::kDigitsPerNm * (place_->jacobian.transpose() * force_N);
+  const double most = wanted.cwiseAbs().maxCoeff();
+  if (most > falcon::kMostDigit) wanted *= falcon::kMostDigit / most;
+  for (size_t i = 0; i < digits.size(); ++i)
+    digits[i] = static_cast<int>(std::lround(wanted[static_cast<Eigen::Index>(i)]));
+  return digits;
+}
+
+LinkFault FalconBoard::cycle(const ForceOutput& output, ForceReading& reading,
+                             int64_t deadline_ns) noexcept {
+  falcon::Command command;
+  command.digit = digits_for(output.force_N);
+  command.light = seen_.all_homed() ? falcon::Light::kGreen : falcon::Light::kRed;
+  const LinkFault fault = ask(command, deadline_ns);
+  if (fault != LinkFault::kNone) return fault;
+  see();
+  reading.position_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (place_) reading.position_m = place_->position_m;
+  reading.trouble = seen_.all_homed() ? PoseTrouble::kNoFit : PoseTrouble::kNotHomed;
+  reading.buttons = seen_.buttons;
+  return LinkFault::kNone;
+}
+
+void FalconBoard::recover() noexcept {
+  transport_->recover();
+  stale_ = true;
+}
+
+std::vector<LastWill> FalconBoard::last_wills() const {
+  falcon::Packet rest;
+  falcon::encode_command({}, rest);
+  return wills(*transport_, {rest});
+}
+
+std::string FalconBoard::description() const {
+  return std::string("Novint Falcon") +
+         (seen_.all_homed() ? "" : "; pull its grip all the way out, then push it all the way in");
+}
+
+}  // namespace spidar

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The Novint Falcon: three axes of force and position, and four buttons.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spidar/boards/force_board.h"
+#include "spidar/protocols/novint_falcon.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// Its firmware, which it forgets without power, is not ours to ship. open() takes it from the file
+/// that $SPIDAR_FALCON_FIRMWARE names, or from ~/.local/share/gst-spidar/novint-falcon.bin, if the
+/// device does not answer without. That takes up to three seconds.
+///
+/// Until every encoder has passed its mark there is no position and no force: the user pulls the
+/// grip all the way out and pushes it all the way in.
+class FalconBoard final : public ForceBoard {
+ public:
+  FalconBoard(std::string name, std::unique_ptr<Transport> transport);
+
+  void open() override;
+  LinkFault cycle(const ForceOutput& output, ForceReading& reading,
+                  int64_t deadline_ns) noexcept override;
+  void recover() noexcept override;
+  void close() noexcept override { transport_->close(); }
+  std::vector<LastWill> last_wills() const override;
+  std::string description() const override;
+  GripAbilities abilities() const noexcept override { return kAbilities; }
+  const std::string& name() const noexcept override { return name_; }
+
+ private:
+  /// At libnifalcon's scale, the motors can give this in every direction within 50 mm of the
+  /// centre. The maker states more than 8.9 N (2 lb), which then is for the best direction.
+  static constexpr double kMostForce_N = 4.4;
+  static constexpr GripAbilities kAbilities{{true, true, true}, false, true, {true, true, true},
+                                            kMostForce_N,       1000,  4};
+
+  /// Where the grip was in the last answer.
+  struct Place {
+    Eigen::Vector3d position_m;
+    Eigen::Matrix3d jacobian;
+  };
+
+  template <typename Requests>
+  LinkFault set_line(const Requests& requests) noexcept;
+  LinkFault say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept;
+  LinkFault ask(const falcon::Command& command, int64_t deadline_ns) noexcept;
+  LinkFault start() noexcept;
+  LinkFault greet_loader() noexcept;
+  LinkFault load(const std::vector<uint8_t>& firmware) noexcept;
+  void begin();
+  void see() noexcept;
+  std::array<int, 3> digits_for(const Eigen::Vector3d& force_N) const noexcept;
+
+  const std::string name_;
+  const std::unique_ptr<Transport> transport_;
+  falcon::Packet out_{};
+  falcon::Reading seen_;
+  std::optional<Place> place_;
+  bool stale_ = false;  ///< bytes of an exchange that failed may still arrive
+};
+
+}  // namespace spidar

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A Novint Falcon through unmodified libusb, on an emulated bus: its firmware, and what can happen
+/// on the way.
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "spidar/boards/board_list.h"
+#include "spidar/realtime/monotonic.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/support/pushed_grip.h"
+
+namespace spidar::test::usb_falcon_test {
+namespace {
+
+constexpr uint16_t kHomed = 0x70;
+
+class UsbFalcon : public testing::Test {
+ protected:
+  UsbFalcon() {
+    clear_bus();
+    write_firmware(8492);  // bytes of the published one
+    setenv("SPIDAR_FALCON_FIRMWARE", path.c_str(), 1);
+  }
+  ~UsbFalcon() override {
+    clear_bus();
+    unsetenv("SPIDAR_FALCON_FIRMWARE");
+    std::filesystem::remove(path);
+  }
+
+  void write_firmware(size_t bytes) const {
+    std::ofstream file(path, std::ios::binary);
+    for (size_t i = 0; i < bytes; ++i) file.put(static_cast<char>(i * i >> 3));
+  }
+  static UsbPort& plug_homed(size_t port, const char* serial = "") {
+    UsbPort& plugged = plug(port, UsbKind::kFalcon, serial);
+    plugged.inputs = kHomed;
+    return plugged;
+  }
+  std::unique_ptr<Grip> grip(const std::string& spec = "falcon", bool threaded = false) const {
+    BoardSettings settings;
+    settings.guardian = false;
+    settings.threaded = threaded;
+    return make_grip(spec, load_profile(kDefaultProfile), settings);
+  }
+  std::string opening(Grip& grip) const {
+    try {
+      grip.open();
+      return {};
+    } catch (const DeviceError& error) {
+      return error.what();
+    }
+  }
+
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("falcon-" + std::to_string(getpid()))).string();
+};
+
+TEST_F(UsbFalcon, GetsItsFirmwareOnceAfterEachPlugIn) {
+  UsbPort& port = plug_homed(1);
+  const auto falcon = grip();
+  for (int times = 0; times < 2; ++times) {
+    ASSERT_EQ(opening(*falcon), "");
+    EXPECT_TRUE(port.falcon.loaded);
+    EXPECT_EQ(falcon->description(), "at 1-2: Novint Falcon");
+    falcon->close();
+    // Without the file: it still has it.
+    std::filesystem::remove(path);
+  }
+  plug_homed(1);
+  EXPECT_NE(opening(*falcon).find(path), std::string::npos);
+  write_firmware(8492);
+  EXPECT_EQ(opening(*falcon), "");
+}
+
+TEST_F(UsbFalcon, SaysWhatIsWrongWithTheFirmware) {
+  plug_homed(0);
+  std::filesystem::remove(path);
+  EXPECT_EQ(opening(*grip()),
+            "falcon: has not got its firmware (time-out), and " + path +
+                " cannot be read; SPIDAR_FALCON_FIRMWARE names the file, which is "
+                "firmware/nvent_firmware.bin in the sources of libnifalcon");
+  write_firmware(100'000);
+  EXPECT_EQ(opening(*grip()), "falcon: " + path +
+                                  " has 100000 bytes and is no firmware of a Falcon, which has "
+                                  "some 8 kB");
+  write_firmware(0);
+  EXPECT_NE(opening(*grip()).find("is no firmware of a Falcon"), std::string::npos);
+  setenv("SPIDAR_FALCON_FIRMWARE", "/tmp", 1);
+  EXPECT_NE(opening(*grip()).find("/tmp cannot be read"), std::string::npos);
+  unsetenv("SPIDAR_FALCON_FIRMWARE");
+  setenv("HOME", "/no/such/home", 1);
+  EXPECT_NE(opening(*grip()).find("/no/such/home/.local/share/gst-spidar/novint-falcon.bin"),
+            std::string::npos);
+}
+
+TEST_F(UsbFalcon, IsListedAndFoundByPathOrSerial) {
+  plug_homed(0, "F1").falcon.loaded = true;
+  UsbPort& second = plug_homed(2);
+  second.falcon.loaded = true;
+  const std::vector<BoardInfo> boards = list_boards();
+  EXPECT_EQ(boards[0].device, "falcon:1-1");
+  EXPECT_EQ(boards[0].name, "Novint Falcon");
+  EXPECT_EQ(boards[0].usb_id, "0403:cb48");
+  EXPECT_EQ(boards[0].serial, "F1");
+  EXPECT_FALSE(board_info("falcon").has_strings);
+  EXPECT_EQ(opening(*grip()),
+            "falcon: there are several boards, name one of falcon:1-1 falcon:1-3");
+  const auto by_serial = grip("falcon:F1"), by_path = grip("falcon:1-3");
+  EXPECT_EQ(opening(*by_serial), "");
+  EXPECT_EQ(opening(*by_path), "");
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(by_path->exchange(told(1)), ExchangeStatus::kOk);
+  EXPECT_FALSE(second.at_rest());
+  EXPECT_TRUE(bus().port[0].at_rest());
+  clear_bus();
+  EXPECT_EQ(opening(*grip()), "falcon: no Novint Falcon (0403:cb48) is plugged in");
+}
+
+TEST_F(UsbFalcon, ExchangesAThousandTimes) {
+  UsbPort& port = plug_homed(0);
+  const auto falcon = grip();
+  ASSERT_EQ(opening(*falcon), "");
+  for (int i = 1; i <= 1000; ++i) {
+    port.count[1] = 20 * i;  // to 20 mm
+    ASSERT_EQ(falcon->exchange(told(1e-3 * i)), ExchangeStatus::kOk) << i;
+    // Half a count of each encoder, at some 60 mm/rad.
+    ASSERT_NEAR(falcon->reading().pose.position_m.y(), 2e-5 * i, 5e-5);
+  }
+  EXPECT_EQ(falcon->health().count(LinkFault::kNone), 1000u);
+  falcon->close();
+  EXPECT_TRUE(port.at_rest());
+}
+
+/// An answer that comes after its exchange failed must not be taken for that of the next one.
+TEST_F(UsbFalcon, EveryFaultIsNamedAndPasses) {
+  UsbPort& port = plug_homed(0);
+  const auto falcon = grip();
+  ASSERT_EQ(opening(*falcon), "");
+  int moved_um = 0;
+  for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kStall, LinkFault::kShort,
+                                LinkFault::kBabble, LinkFault::kBusError, LinkFault::kWrongReply}) {
+    port.fault = fault;
+    ASSERT_EQ(falcon->exchange(told(1)),
+              fault == LinkFault::kTimeout ? ExchangeStatus::kTimeout : ExchangeStatus::kBadReply)
+        << to_string(fault);
+    EXPECT_EQ(falcon->health().count(fault), 1u) << to_string(fault);
+    port.fault = LinkFault::kNone;
+    port.count[0] = moved_um += 3000;
+    ASSERT_EQ(falcon->exchange(told(1)), ExchangeStatus::kOk) << to_string(fault);
+    EXPECT_NEAR(falcon->reading().pose.position_m.x(), 1e-6 * moved_um, 5e-5) << to_string(fault);
+  }
+}
+
+TEST_F(UsbFalcon, TheLoopLosesItAndTakesItBackWithItsFirmware) {
+  plug_homed(0);
+  HapticSession session(grip("falcon", true));
+  const auto wait_for_state = [&](DeviceState state) {
+    while (session.loop().snapshot().last.device != state)
+      sleep_until_ns(monotonic_now_ns() + 1000);
+  };
+  wait_for_state(DeviceState::kRunning);
+  unplug(0, EPROTO);
+  wait_for_state(DeviceState::kLost);
+  UsbPort& port = plug_homed(0);
+  EXPECT_FALSE(port.falcon.loaded);
+  wait_for_state(DeviceState::kRunning);
+  EXPECT_TRUE(port.falcon.loaded);
+}
+
+}  // namespace
+}  // namespace spidar::test::usb_falcon_test
