@@ -114,9 +114,9 @@ std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Prof
         *motors, std::vector<EmulatedUart::Station>{{0, kB3M}, {1, kB3M}})));
     board = std::make_unique<UartBoard>(name, profile, std::move(lines));
   } else {
-    throw DeviceError(
-        "unknown simulated board \"" + kind +
-        "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff, sim:inverse3, sim:falcon");
+    throw DeviceError("unknown simulated board \"" + kind +
+                      "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff, "
+                      "sim:inverse3, sim:falcon");
   }
   return std::make_unique<WireSimulation>(std::move(motors), std::move(board));
 }

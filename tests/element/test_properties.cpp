@@ -59,9 +59,8 @@ std::string error_at_ready(const char* properties) {
 }
 
 TEST(Properties, UnsetProfileIsOneThatTheBoardCanDrive) {
-  for (const std::string device :
-       {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3",
-        "sim:falcon"})
+  for (const std::string device : {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse",
+                                   "sim:ff", "sim:inverse3", "sim:falcon"})
     EXPECT_EQ(error_at_ready(("device=" + device).c_str()), "") << device;
   // What is asked for is not replaced.
   EXPECT_NE(error_at_ready("device=sim:sh4 profile=spidar-gcc").find("negative volts"),

@@ -34,9 +34,9 @@ class PortMotors final : public EmulatedMotors {
   UsbPort& port_;
 };
 
-inline std::unique_ptr<EmulatedBoard> make_board(UsbPort& port, EmulatedMotors& motors) {
-  const UsbKind kind = port.kind;
-  if (kind == UsbKind::kFalcon) return std::make_unique<EmulatedFalcon>(motors, port.falcon);
+inline std::unique_ptr<EmulatedBoard> make_board(UsbKind kind, EmulatedMotors& motors,
+                                                 FalconMemory& falcon) {
+  if (kind == UsbKind::kFalcon) return std::make_unique<EmulatedFalcon>(motors, falcon);
   if (kind == UsbKind::kSimple) return std::make_unique<EmulatedSimple>(motors);
   if (kind == UsbKind::kMouse) return std::make_unique<EmulatedMouse>(motors);
   return std::make_unique<EmulatedSh4>(motors);

@@ -40,7 +40,7 @@ struct UsbFile {
         port_number(shared.port),
         port(bus().port[port_number]),
         motors(port),
-        board(make_board(port, motors)) {}
+        board(make_board(port.kind, motors, port.falcon)) {}
 
   SharedFile& shared;
   const size_t port_number;

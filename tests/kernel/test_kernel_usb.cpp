@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -98,6 +99,37 @@ TEST_F(KernelUsb, ThousandsOfExchangesCarryVoltsAndCounts) {
   EXPECT_EQ(health.errors() + health.count(LinkFault::kTimeout), 0u);
   device->close();
   EXPECT_TRUE(bench.all_zero());
+}
+
+/// Its FTDI chip takes requests on the control pipe, and answers come in several packets.
+TEST(KernelFalcon, TakesItsFirmwareAndExchanges) {
+  const std::string firmware = "/tmp/firmware.bin";
+  std::ofstream(firmware) << std::string(8492, 'x');
+  setenv("SPIDAR_FALCON_FIRMWARE", firmware.c_str(), 1);
+  MotorBench bench;
+  bench.inputs = 0x70;  // homed
+  RecordedMotors motors{bench};
+  UsbipBoard board{motors, "EMULATED", UsbKind::kFalcon};
+  board.plug();
+  wait_for(listed);
+  BoardSettings settings;
+  settings.threaded = false;
+  const auto grip = make_grip("falcon:EMULATED", load_profile(kDefaultProfile), settings);
+  grip->open();
+  GripCommand command;
+  command.power = 1;
+  command.wrench.force_N.x() = 1;
+  for (int done = 0; done < 1000; ++done) {
+    bench.count[1] = 20 * done;
+    ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk) << "exchange " << done;
+    // Half a count of each encoder, at some 60 mm/rad.
+    ASSERT_NEAR(grip->reading().pose.position_m.y(), 2e-5 * done, 5e-5) << "exchange " << done;
+  }
+  EXPECT_FALSE(bench.all_zero());
+  grip->close();
+  EXPECT_TRUE(bench.all_zero());
+  board.unplug();
+  wait_for([] { return !listed(); });
 }
 
 /// A session that plays the constant force of a film.

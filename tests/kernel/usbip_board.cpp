@@ -10,15 +10,15 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "spidar/emulation/emulated_usb.h"
 #include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/descriptors.h"
+#include "tests/emulated_bus/port_board.h"
 
 namespace spidar::test {
 namespace {
 
 constexpr const char* kAttach = "/sys/devices/platform/vhci_hcd.0/attach";
-constexpr uint32_t kOut = 2, kIn = 6;
+constexpr uint32_t kOut = 2;
 /// No request of a driver of these boards is longer; the kernel's own are shorter.
 constexpr size_t kMaxLength = 4096;
 
@@ -33,9 +33,9 @@ bool read_all(int socket, void* bytes, size_t size) {
 }
 
 /// Waits while the kernel is still detaching the previous board from the host controller.
-void attach(int socket) {
-  // Port 0, a device number that only messages show, 3: high speed.
-  const std::string line = "0 " + std::to_string(socket) + " 65538 3";
+void attach(int socket, bool full_speed) {
+  // Port 0, a device number that only messages show, the speed: 2 full, 3 high.
+  const std::string line = "0 " + std::to_string(socket) + " 65538 " + (full_speed ? "2" : "3");
   for (;;) {
     const int file = open(kAttach, O_WRONLY | O_CLOEXEC);
     const bool written = file >= 0 && write(file, line.data(), line.size()) >= 0;
@@ -49,8 +49,8 @@ void attach(int socket) {
 
 }  // namespace
 
-UsbipBoard::UsbipBoard(EmulatedMotors& motors, std::string serial)
-    : motors_(motors), serial_(std::move(serial)) {}
+UsbipBoard::UsbipBoard(EmulatedMotors& motors, std::string serial, UsbKind kind)
+    : motors_(motors), serial_(std::move(serial)), kind_(kind) {}
 
 UsbipBoard::~UsbipBoard() {
   unplug();
@@ -64,7 +64,7 @@ void UsbipBoard::plug() {
   socket_ = ends[0];
   unplug_in_transfer_ = false;
   thread_ = std::thread([this] { serve(socket_); });
-  attach(ends[1]);
+  attach(ends[1], kind_ == UsbKind::kFalcon);
   close(ends[1]);
 }
 
@@ -76,8 +76,9 @@ void UsbipBoard::unplug() {
 }
 
 void UsbipBoard::serve(int socket) {
-  EmulatedSh4 board(motors_);
-  board_ = &board;
+  falcon_.loaded = false;
+  const auto board = make_board(kind_, motors_, falcon_);
+  board_ = board.get();
   waiting_.clear();
   UsbipHeader header;
   while (read_all(socket, header.data(), header.size())) {
@@ -94,7 +95,8 @@ void UsbipBoard::serve(int socket) {
 /// Returns false to pull the board out.
 bool UsbipBoard::take(const UsbipRequest& request, const std::vector<uint8_t>& data) {
   if (request.endpoint == 0) return control(request);
-  if (request.in && request.endpoint == kIn) {
+  const uint32_t in = kind_ == UsbKind::kFalcon ? 1 : 6;
+  if (request.in && request.endpoint == in) {
     waiting_.push_back(request);
     return !unplug_in_transfer_ && answer();
   }
@@ -128,6 +130,8 @@ bool UsbipBoard::unlink(const UsbipRequest& request) {
 
 bool UsbipBoard::control(const UsbipRequest& request) {
   const auto& setup = request.setup;
+  if (setup[0] == ftdi::kRequestType && board_->control({setup[1], ByteView(setup).u16(2)}))
+    return reply(UsbipCommand::kSubmitReply, request.sequence, 0);
   switch (setup[1]) {
     case kGetDescriptor: {
       const std::string data = descriptor(setup[3], setup[2]);
@@ -148,7 +152,7 @@ bool UsbipBoard::control(const UsbipRequest& request) {
 
 /// Empty: there is none.
 std::string UsbipBoard::descriptor(uint8_t type, uint8_t index) const {
-  const std::string all = descriptors_of(UsbKind::kSh4);
+  const std::string all = descriptors_of(kind_);
   if (type == kDevice) return all.substr(0, kDeviceLength);
   if (type == kConfiguration) return all.substr(kDeviceLength);
   if (type != kString) return {};

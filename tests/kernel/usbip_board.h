@@ -10,15 +10,17 @@
 #include <vector>
 
 #include "spidar/emulation/emulated_board.h"
+#include "spidar/emulation/emulated_falcon.h"
+#include "tests/emulated_bus/bus_state.h"
 #include "tests/kernel/usbip_packets.h"
 
 namespace spidar::test {
 
-/// An SH4 board behind the kernel's vhci-hcd, which gets its packets through a socket.
+/// A board behind the kernel's vhci-hcd, which gets its packets through a socket.
 class UsbipBoard {
  public:
   /// Initially not plugged in. `motors` must outlive it.
-  UsbipBoard(EmulatedMotors& motors, std::string serial);
+  UsbipBoard(EmulatedMotors& motors, std::string serial, UsbKind kind = UsbKind::kSh4);
   ~UsbipBoard();
   UsbipBoard(const UsbipBoard&) = delete;
   UsbipBoard& operator=(const UsbipBoard&) = delete;
@@ -48,11 +50,13 @@ class UsbipBoard {
 
   EmulatedMotors& motors_;
   const std::string serial_;
+  const UsbKind kind_;
   std::thread thread_;
   std::atomic<bool> unplug_in_transfer_{false};
   std::atomic<size_t> abandoned_{0};
   int socket_ = -1;
   // Of the thread.
+  FalconMemory falcon_;
   EmulatedBoard* board_ = nullptr;
   std::deque<UsbipRequest> waiting_;  // IN, for the board to say something
 };

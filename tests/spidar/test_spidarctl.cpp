@@ -176,9 +176,8 @@ TEST(Spidarctl, ListTellsDevicesApart) {
 }
 
 TEST(Spidarctl, InfoReadsEachBoard) {
-  for (const std::string device :
-       {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3",
-        "sim:falcon"}) {
+  for (const std::string device : {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse",
+                                   "sim:ff", "sim:inverse3", "sim:falcon"}) {
     SCOPED_TRACE(device);
     const CommandResult outcome = run_spidarctl("info " + device);
     EXPECT_EQ(outcome.status, 0);
