@@ -228,10 +228,11 @@ void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& st
     centred(bar.range.bottom() + 4 * brush.scale, kMutedColor, std::to_string(i));
   }
   const std::string below = "string";
-  draw_text(brush, font,
-            im(area.x + (area.width - text_size(font, below).x) / 2,
-               area.bottom() + 5 * brush.scale + font->FontSize),
-            kMutedColor, below);
+  const double caption_y = area.bottom() + 5 * brush.scale + font->FontSize;
+  if (caption_y + font->FontSize <= panel.bottom()) {
+    const double middle = area.x + (area.width - text_size(font, below).x) / 2;
+    draw_text(brush, font, im(middle, caption_y), kMutedColor, below);
+  }
   brush.list.PopClipRect();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include "plugin/window/model/object_click.h"
 #include "plugin/window/panels.h"
 
 namespace spidar {
@@ -8,7 +9,7 @@ namespace {
 constexpr ImU32 kRowColor = IM_COL32(34, 38, 47, 255), kOverColor = IM_COL32(54, 61, 76, 255);
 
 const char* state_of(const ObjectRow& row) {
-  if (!row.object->is_in_sight) return "out of sight";
+  if (!row.object->is_in_sight) return "hidden";
   if (row.is_chosen) return "chosen";
   return row.object->is_felt ? "felt" : "";
 }
@@ -67,7 +68,7 @@ void draw_objects(const Brush& brush, const Rect& panel, const std::vector<Objec
     draw_text(brush, brush.fonts.small, upper_left(content), kMutedColor, why_none(facts));
   }
   for (size_t i = 0; i < places.size(); ++i) {
-    draw_row(brush, places[i], rows[i], places[i].has(mouse_px));
+    draw_row(brush, places[i], rows[i], offers_choice(facts) && places[i].has(mouse_px));
   }
 }
 

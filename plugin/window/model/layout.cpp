@@ -30,7 +30,8 @@ constexpr double kFilled = 0.8;
 
 // Of the list of objects, in pixels at a scale of 1: a picture with a name beside it.
 // It grows with the panel.
-constexpr double kRowWidth_px = 88, kRowHeight_px = 28, kMostRowHeight_px = 44, kRowGap_px = 3;
+constexpr double kName_px = 46, kRowHeight_px = 28, kMostRowHeight_px = 44, kRowGap_px = 3;
+constexpr double kRowPicture = 4.0 / 3;  // width of the picture over the height of the row
 constexpr double kRowShare = 0.36, kListMargin_px = 10, kListTitle_px = 24;
 
 /// Of the room of a string's bar.
@@ -102,7 +103,8 @@ std::vector<Rect> object_rows(const Rect& panel, double scale, size_t count) {
   const auto fitting = [&](double length, double one) {
     return static_cast<size_t>(std::max((length + gap) / (one + gap), 0.0));
   };
-  const size_t columns = std::max<size_t>(fitting(room.width, kRowWidth_px * scale), 1);
+  const size_t columns =
+      std::max<size_t>(fitting(room.width, kRowPicture * height + kName_px * scale), 1);
   const size_t shown = std::min(count, columns * fitting(room.height, height));
   const double width = (room.width + gap) / static_cast<double>(columns) - gap;
   std::vector<Rect> rows;
@@ -114,8 +116,7 @@ std::vector<Rect> object_rows(const Rect& panel, double scale, size_t count) {
 }
 
 Rect row_picture(const Rect& row, double aspect) {
-  constexpr double kWidest = 4.0 / 3;
-  const Rect room = Rect{row.x, row.y, kWidest * row.height, row.height}.inset(row.height / 16);
+  const Rect room = Rect{row.x, row.y, kRowPicture * row.height, row.height}.inset(row.height / 16);
   return fit(room, aspect);
 }
 
