@@ -56,7 +56,8 @@ struct DeviceRange {
     largest_force_N = std::floor(10 * std::max(spidar::kAnyForce_N, can.largest_force_N)) / 10;
     if (has_strings)
       largest_torque_Nm = std::floor(1000 * spidar::largest_torque_Nm(profile)) / 1000;
-    const Eigen::Vector3d half_m = spidar::half_room_m(profile.geometry);
+    const Eigen::Vector3d half_m =
+        spidar::half_room_m(spidar::with_room(profile.geometry, can.half_room_m));
     for (int axis = 0; axis < 3; ++axis)
       if (can.position[static_cast<size_t>(axis)]) workspace_m[axis] = 2 * half_m[axis];
     if (can.force[2]) surface.half_size_m = workspace_m.head<2>() / 2;

@@ -3,6 +3,8 @@
 /// How much room the grip has, and how large a picture is in it.
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 #include "core/grip/string_geometry.h"
@@ -17,6 +19,18 @@ inline Eigen::Vector3d half_room_m(const StringGeometry& geometry) {
   for (int i = 0; i < geometry.count; ++i)
     half_m = half_m.cwiseMax(kReach * geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
   return half_m;
+}
+
+/// Stretched until half_room_m() is `half_m`, in the axes in which that is not zero: for a device
+/// without strings, which has room of its own.
+inline StringGeometry with_room(StringGeometry geometry, const std::array<double, 3>& half_m) {
+  const Eigen::Vector3d before_m = half_room_m(geometry);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double wanted_m = half_m[static_cast<size_t>(axis)];
+    if (!(wanted_m > 0 && before_m[axis] > 0)) continue;
+    for (Eigen::Vector3d& exit_m : geometry.exit_m) exit_m[axis] *= wanted_m / before_m[axis];
+  }
+  return geometry;
 }
 
 /// Half the width and height of a picture, whose middle is the workspace's centre.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/grip/picture_size.h"
 #include "plugin/device/session_stats.h"
 #include "plugin/reports/category.h"
 #include "spidar/grip/string_grip.h"
@@ -87,6 +88,7 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
     follower->set_latency(latency_);
     follower->set_offset(offset_ns_);
     profile_ = profile;
+    profile_.geometry = with_room(profile.geometry, grip.abilities().half_room_m);
     session_ = std::move(session);
     simulated_ = simulated;
     follower_ = std::move(follower);

@@ -32,9 +32,16 @@ class Inverse3Board final : public ForceBoard {
   const std::string& name() const noexcept override { return name_; }
 
  private:
-  static constexpr GripAbilities kAbilities{
-      {true, true, true}, false, true, {true, true, true}, inverse3::kLargestForce_N, 1000,
-      inverse3::kButtons};
+  /// Of the square in the circle of kReach_m.
+  static constexpr double kRoom_m = 0.7 * inverse3::kReach_m;
+  static constexpr GripAbilities kAbilities{{true, true, true},
+                                            false,
+                                            true,
+                                            {true, true, true},
+                                            inverse3::kLargestForce_N,
+                                            1000,
+                                            inverse3::kButtons,
+                                            {kRoom_m, kRoom_m, kRoom_m}};
 
   /// Sends the first bytes of text_, and reads the state of the device.
   LinkFault ask(size_t length, inverse3::State& state, int64_t deadline_ns) noexcept;

@@ -17,6 +17,8 @@ struct GripAbilities {
   double largest_force_N = 0;                      ///< in every direction that is felt
   int rate_Hz = 1000;                              ///< forces a second, at most
   int buttons = 0;                                 ///< at most 32
+  /// How far the grip is to move from its middle to each side; 0: as far as in the profile.
+  std::array<double, 3> half_room_m{};
 };
 
 }  // namespace spidar

@@ -260,6 +260,13 @@ TEST(Device, WhatItCanDoIsKnown) {
   EXPECT_DOUBLE_EQ(whole.workspace_m.y, 0.064);
   EXPECT_GT(whole.workspace_m.z, 0.02);
   EXPECT_EQ(whole.rate_Hz, 1000);
+  const Capabilities desktop = Device("sim:inverse3").capabilities();
+  EXPECT_TRUE(desktop.force_x && desktop.force_y && desktop.force_z && desktop.direction);
+  EXPECT_FALSE(desktop.torque);
+  EXPECT_DOUBLE_EQ(desktop.largest_force_N, 10);
+  EXPECT_DOUBLE_EQ(desktop.workspace_m.x, 0.14);
+  EXPECT_DOUBLE_EQ(desktop.workspace_m.z, 0.14);
+  EXPECT_EQ(desktop.buttons, 3);
   const Capabilities stick = Device("sim:ff").capabilities();
   EXPECT_TRUE(stick.force_x && stick.force_y && stick.direction);
   EXPECT_FALSE(stick.force_z || stick.torque);

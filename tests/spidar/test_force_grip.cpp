@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/grip/picture_size.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
@@ -212,6 +213,10 @@ TEST(ForceGrip, AnInverse3TakesForcesAndGivesPositionsInAllAxes) {
   GripCommand command = told(0.1, 0.2);
   command.wrench.force_N.z() = -0.3;
   ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+  const StringGeometry room = with_room(bench.profile.geometry, grip->abilities().half_room_m);
+  EXPECT_TRUE(half_room_m(room).isApproxToConstant(0.07, 1e-12));
+  EXPECT_EQ(half_room_m(with_room(bench.profile.geometry, {})),
+            half_room_m(bench.profile.geometry));
   EXPECT_EQ(bench.motors.digit[0], 100);
   EXPECT_EQ(bench.motors.digit[1], 200);
   EXPECT_EQ(bench.motors.digit[2], -300);
