@@ -88,9 +88,12 @@ void DeviceWarnings::check_pose(const HapticSession& session) {
         element_, RESOURCE, READ,
         ("The pose of the grip is unknown: %s. There is no force until it is known again.",
          to_string(loop.pose_trouble)),
-        ("The strings have their minimum tension. Possible causes: slack strings, dead encoders, "
-         "or a grip that was not at the centre when the device was opened: start again with the "
-         "grip there, or calibrate the device (spidarctl calibrate)."));
+        ("%s", session.grip().traits().has_strings
+                   ? "The strings have their minimum tension. Possible causes: slack strings, dead "
+                     "encoders, or a grip that was not at the centre when the device was opened: "
+                     "start again with the grip there, or calibrate the device (spidarctl "
+                     "calibrate)."
+                   : "spidarctl info shows what the device says of itself."));
   }
   if (loop.held_back && loop.motor_heat > MotorHeat::kLimitFrom && !held_back_) {
     held_back_ = true;

@@ -38,8 +38,9 @@ class FalconBoard final : public ForceBoard {
   /// At libnifalcon's scale, the motors can give this in every direction within 50 mm of the
   /// centre. The maker states more than 8.9 N (2 lb), which then is for the best direction.
   static constexpr double kMostForce_N = 4.4;
+  /// The corners of a picture are 49.5 mm from the centre, those of the whole room 54.6 mm.
   static constexpr GripAbilities kAbilities{{true, true, true}, false, true, {true, true, true},
-                                            kMostForce_N,       1000,  4};
+                                            kMostForce_N,       1000,  4,    {0.035, 0.035, 0.023}};
 
   /// Where the grip was in the last answer.
   struct Place {

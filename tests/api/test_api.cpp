@@ -267,6 +267,10 @@ TEST(Device, WhatItCanDoIsKnown) {
   EXPECT_DOUBLE_EQ(desktop.workspace_m.x, 0.14);
   EXPECT_DOUBLE_EQ(desktop.workspace_m.z, 0.14);
   EXPECT_EQ(desktop.buttons, 3);
+  const Capabilities falcon = Device("sim:falcon").capabilities();
+  EXPECT_DOUBLE_EQ(falcon.largest_force_N, 4.4);
+  EXPECT_DOUBLE_EQ(falcon.workspace_m.x, 0.07);
+  EXPECT_EQ(falcon.buttons, 4);
   const Capabilities stick = Device("sim:ff").capabilities();
   EXPECT_TRUE(stick.force_x && stick.force_y && stick.direction);
   EXPECT_FALSE(stick.force_z || stick.torque);

@@ -8,9 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/grip/picture_size.h"
 #include "spidar/boards/falcon_kinematics.h"
-#include "spidar/profiles/profile.h"
 
 namespace spidar::test::falcon_kinematics_test {
 namespace {
@@ -138,12 +136,6 @@ TEST(FalconKinematics, WhateverTheAnglesAPlaceFitsThemOrThereIsNone) {
     ASSERT_TRUE(again->isApprox(angles, 1e-4)) << angles.transpose();
   }
   EXPECT_GT(found, 10'000);
-}
-
-/// The default profile states how much room a picture gets.
-TEST(FalconKinematics, APictureIsWithinReach) {
-  const Vector3d half_m = half_room_m(load_profile(kDefaultProfile).geometry);
-  EXPECT_LT(half_m.norm(), falcon::kReach_m);
 }
 
 }  // namespace

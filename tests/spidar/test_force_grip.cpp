@@ -271,6 +271,23 @@ TEST(ForceGrip, AFalconGivesItsLargestForceEverywhere) {
   }
 }
 
+TEST(ForceGrip, AFalconReachesTheWholeRoomThatItStates) {
+  ForceBench bench(ForceKind::kFalcon);
+  const auto grip = bench.grip();
+  const std::array<double, 3> half_m = grip->abilities().half_room_m;
+  grip->open();
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d at_m;
+    for (int axis = 0; axis < 3; ++axis) {
+      at_m[axis] = (corner >> axis & 1 ? 1 : -1) * half_m[static_cast<size_t>(axis)];
+      bench.motors.count[static_cast<size_t>(axis)] = static_cast<int>(1e6 * at_m[axis]);
+    }
+    ASSERT_EQ(grip->exchange(told(0)), ExchangeStatus::kOk);
+    // Half a count of each encoder, at some 80 mm/rad here.
+    EXPECT_LT((grip->reading().pose.position_m - at_m).norm(), 6e-5) << at_m.transpose();
+  }
+}
+
 /// 0.1 kg that nobody holds, from one side of the workspace to the other. 3 N alone would make it
 /// 2.4 m/s fast.
 TEST(ForceGrip, AReleasedFalconStaysSlow) {
