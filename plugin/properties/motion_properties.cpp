@@ -13,7 +13,8 @@ MotionRow device_row() {
   return MotionRow::text(
       {"device", "Device",
        "Haptic device: 'sim' (simulated SPIDAR), a board that 'spidarctl list' prints "
-       "('usb', 'usb:ID', 'uart:PATH', 'mouse', 'ff', 'falcon'), or 'none' (analysis only). "
+       "('usb', 'usb:ID', 'uart:PATH', 'mouse', 'ff', 'falcon', 'inverse3'), or 'none' (analysis "
+       "only). "
        "Opened in the change from NULL to READY"},
       kReady, KEPT_IN(device));
 }

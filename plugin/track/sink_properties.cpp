@@ -18,9 +18,8 @@ const PropertyTable<SinkProperties>& sink_properties() {
       SinkRow::text(
           {"device", "Device",
            "Haptic device: 'sim' (simulated SPIDAR) or a board that 'spidarctl list' prints "
-           "('usb', 'usb:ID', 'uart:PATH', 'mouse', 'ff', 'falcon'). Opened in the change from "
-           "NULL to "
-           "READY"},
+           "('usb', 'usb:ID', 'uart:PATH', 'mouse', 'ff', 'falcon', 'inverse3'). Opened in the "
+           "change from NULL to READY"},
           kReady, KEPT_IN(device)),
       profile_row<SinkProperties>(),
       SinkRow::number({"max-force", "Maximum force", "Largest force on the grip, in newtons"}, 0,

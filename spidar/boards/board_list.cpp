@@ -49,7 +49,8 @@ constexpr DeviceKind kSimulated[] = {
      Trial::kEmulated},
     {"sim:mouse", "simulated SPIDAR-mouse", kDefaultProfile, false, Trial::kEmulated},
     {"sim:ff", "simulated force-feedback joystick", kDefaultProfile, false, Trial::kEmulated},
-    {"sim:inverse3", "simulated Haply Inverse3", kDefaultProfile, false, Trial::kEmulated},
+    {"sim:inverse3", "simulated Haply Inverse3 in a hand", kDefaultProfile, false,
+     Trial::kEmulated},
     {"sim:falcon", "simulated Novint Falcon in a hand", kDefaultProfile, false, Trial::kEmulated},
 };
 

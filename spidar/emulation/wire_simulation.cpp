@@ -20,6 +20,7 @@
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
 #include "spidar/emulation/held_falcon.h"
+#include "spidar/emulation/spring_hand.h"
 #include "spidar/simulation/simulated_device.h"
 
 namespace spidar {
@@ -54,6 +55,17 @@ class NoMotors final : public EmulatedMotors {
  public:
   void put_out(const std::array<int, kMaxStrings>&) noexcept override {}
   std::array<int32_t, kMaxStrings> counts() noexcept override { return {}; }
+};
+
+/// In a hand.
+class HeldInverse3 final : public EmulatedBoard {
+ public:
+  void receive(ByteView bytes) noexcept override { board_.receive(bytes); }
+  size_t reply(MutableBytes bytes) noexcept override { return board_.reply(bytes); }
+
+ private:
+  SpringHand hand_;
+  EmulatedInverse3 board_{hand_};
 };
 
 /// Without a thread and a guardian.
@@ -136,8 +148,8 @@ std::unique_ptr<Grip> make_grip_simulation(const std::string& kind, const Profil
         name, profile, transport_to(std::make_unique<EmulatedForceFeedback>(motors)),
         ForceFeedbackBoard::Updates::kInCycle);
   else if (kind == "inverse3")
-    board = std::make_unique<Inverse3Board>(
-        name, "", transport_to(std::make_unique<EmulatedInverse3>(motors)));
+    board =
+        std::make_unique<Inverse3Board>(name, "", transport_to(std::make_unique<HeldInverse3>()));
   else if (kind == "falcon")
     board = std::make_unique<FalconBoard>(name, transport_to(std::make_unique<HeldFalcon>()));
   else

@@ -18,7 +18,7 @@ const Eigen::Vector3d kMiddle_m(0, -0.1, 0.18);
 constexpr size_t kIdLength = 64;
 
 Eigen::Vector3d to_device(const Eigen::Vector3d& haply) noexcept {
-  return {haply.x(), haply.z(), -haply.y()};
+  return {haply.x(), haply.z(), 0 - haply.y()};
 }
 
 Eigen::Vector3d to_haply(const Eigen::Vector3d& device) noexcept {

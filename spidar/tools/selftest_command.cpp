@@ -24,8 +24,8 @@ of the encoders, it determines which motor and which encoder are connected to wh
 of them are reversed. Hold the grip loosely at the centre, with the elbow on the table. Motors whose
 responses are unclear, because the hand moved, are pulled again, up to twice.
 
-Of a Novint Falcon (falcon), determines whether it moves in the direction of the force: pushes it to
-each side for 0.2 s, four times. Hold its grip loosely at the centre.
+Of a Novint Falcon (falcon) or Haply Inverse3 (inverse3), determines whether it moves in the direction
+of the force: pushes it to each side for 0.2 s, four times. Hold its grip loosely at the centre.
 
 Of a joystick or wheel (ff), determines whether it moves in the direction of the force: pushes it to
 each side for 0.2 s, four times, with half of the force that its gain allows. Take the hand away.

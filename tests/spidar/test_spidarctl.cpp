@@ -204,10 +204,12 @@ TEST(Spidarctl, InfoReadsEachBoard) {
 }
 
 TEST(Spidarctl, SelftestPushesWhatTakesAForce) {
-  const CommandResult outcome = run_spidarctl("selftest sim:falcon");
-  EXPECT_EQ(outcome.status, 0);
-  for (const char* side : {"right  ", "up     ", "forward"})
-    expect_contains(outcome.text, side + std::string("  moves with the force\n"));
+  for (const char* command : {"selftest sim:falcon", "selftest sim:inverse3"}) {
+    const CommandResult outcome = run_spidarctl(command);
+    EXPECT_EQ(outcome.status, 0) << command;
+    for (const char* side : {"right  ", "up     ", "forward"})
+      expect_contains(outcome.text, side + std::string("  moves with the force\n"));
+  }
   EXPECT_EQ(run_spidarctl("selftest sim:ff").status, 1);
   expect_contains(run_spidarctl("selftest sim:ff").text, "right    does not move\n");
 }
