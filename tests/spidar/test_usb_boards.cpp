@@ -2,7 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 /// USB boards through unmodified libusb, on an emulated bus.
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -277,14 +280,25 @@ TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
   EXPECT_TRUE(right.at_rest());
 }
 
-TEST(UsbKinds, EachHasAUdevRule) {
-  std::ifstream file(UDEV_RULES);
-  const std::string rules{std::istreambuf_iterator<char>(file), {}};
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The software centre of a desktop finds the package by the modalias.
+TEST(UsbKinds, EachHasAUdevRuleAndAModalias) {
+  const std::filesystem::path rules_path = UDEV_RULES;
+  const std::string rules = text_of(rules_path);
+  const std::string metainfo =
+      text_of(rules_path.parent_path() / "org.gst_spidar.tools.metainfo.xml");
   for (const UsbBoardKind& kind : usb_kinds()) {
     const std::string id = kind.id();
     const std::string rule = "ATTR{idVendor}==\"" + id.substr(0, 4) + "\", ATTR{idProduct}==\"" +
                              id.substr(5) + "\", TAG+=\"uaccess\"";
     EXPECT_NE(rules.find(rule), std::string::npos) << kind.name << ": no line with " << rule;
+    std::array<char, 24> alias{};
+    std::snprintf(alias.data(), alias.size(), "usb:v%04Xp%04Xd*", kind.vendor, kind.product);
+    EXPECT_NE(metainfo.find(alias.data()), std::string::npos) << kind.name << ": " << alias.data();
   }
 }
 
