@@ -32,11 +32,14 @@ class Film {
       for (const uint32_t id : objects) {
         MovingObject object;
         object.id = id;
+        object.tracks = 10;
         facts.scene.objects.push_back(object);
       }
+      facts.settings.kept.click = click;
       choices_.see(facts);
     }
   }
+  uint32_t click = 0;  ///< that the element knows of
 
  private:
   SceneChoices& choices_;
@@ -105,6 +108,22 @@ TEST_F(Choices, EndWithASeekWhereNoCutWasSeen) {
   choices.choose(object(5, 40.2, {0.75, 0.5}));
   film.play(0, 0.5, {});
   EXPECT_EQ(rules(choices), "0:00.2-0:01 object at 0.25,0.5; 0:40.2-0:41 object at 0.75,0.5");
+}
+
+/// When the film is played again, what `motion` says is felt from there on, as it was here.
+TEST_F(Choices, EndWhereTheObjectWasSeenLastWhenItIsLost) {
+  film.click = 1;
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  film.click = 0;
+  film.play(1, 1.04, {1});  // the element knows of the one before and that it was let go of
+  film.click = 2;
+  film.play(1.04, 1.4, {1});
+  film.play(1.4, 1.8, {2});
+  EXPECT_EQ(rules(choices), "0:00.2-0:01.8 object at 0.25,0.5") << "it may come back";
+  film.click = 0;
+  film.play(1.8, 2.2, {2});
+  EXPECT_EQ(rules(choices), "0:00.2-0:01.4 object at 0.25,0.5");
 }
 
 TEST_F(Choices, LetGoOfLeaveWhatTheRulesSay) {

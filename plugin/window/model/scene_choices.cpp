@@ -37,14 +37,24 @@ bool SceneChoices::see(const FrameFacts& facts) {
   }
   const int64_t frame_ns = std::llround(1e9 * facts.interval_s);
   end_ns_ = film_.stream_ns + std::clamp<int64_t>(frame_ns, 0, kLongestFrame_ns);
-  for (Choice& choice : choices_) {
-    if (!choice.grows) continue;
-    choice.edit.to_ns = whole(end_ns_);
-    for (const MovingObject& object : facts.scene.objects) {
-      if (object.id == choice.object) choice.seen_ns = film_.stream_ns;
-    }
-  }
+  click_ = facts.settings.kept.click;
+  for (Choice& choice : choices_) follow(choice, facts);
   return has_ended;
+}
+
+void SceneChoices::follow(Choice& choice, const FrameFacts& facts) {
+  if (!choice.grows) return;
+  const bool is_kept = click_ != 0 && click_ != choice.click_before;
+  const std::vector<MovingObject>& objects = facts.scene.objects;
+  const bool is_seen = (is_kept && facts.scene.felt_object != 0) ||
+                       std::any_of(objects.begin(), objects.end(), [&](const MovingObject& object) {
+                         return object.id == choice.object && object.tracks > 0;
+                       });
+  if (is_seen) choice.seen_ns = end_ns_;
+  const bool is_lost = choice.is_kept && !is_kept;
+  choice.is_kept = is_kept;
+  choice.edit.to_ns = whole(is_lost ? choice.seen_ns : end_ns_);
+  if (is_lost) choice.grows = choice.is_saved = false;
 }
 
 bool SceneChoices::end_scene() {
@@ -74,7 +84,7 @@ void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
 void SceneChoices::choose(const ListedObject& object) {
   if (film_.stream_ns < 0 || object.first_ns < 0) return;
   const int64_t from_ns = whole(object.first_ns);
-  take_back([&](const Choice& other) { return other.seen_ns >= object.first_ns; });
+  take_back([&](const Choice& other) { return other.seen_ns > object.first_ns; });
   for (Choice& other : choices_) {
     if (!other.grows) continue;  // else the object came after this one had gone
     other.grows = other.is_saved = false;
@@ -83,7 +93,8 @@ void SceneChoices::choose(const ListedObject& object) {
   Choice choice;
   choice.edit = {from_ns, whole(end_ns_), whole(object.first_place)};
   choice.object = object.id;
-  choice.seen_ns = film_.stream_ns;
+  choice.click_before = click_;
+  choice.seen_ns = end_ns_;
   choice.grows = true;
   choices_.push_back(choice);
 }

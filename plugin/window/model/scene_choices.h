@@ -15,7 +15,8 @@ namespace spidar {
 
 /// A choice is a rule from the moment at which its object was seen first up to the end of the
 /// scene, which is known once a cut has come. Until then, and where a seek leaves the scene
-/// before, it ends with what was seen of the scene. Times are whole milliseconds.
+/// before, it ends with what was seen of the scene; where the object is lost, when that was seen
+/// last. Times are whole milliseconds.
 class SceneChoices {
  public:
   /// The next frame that is on the screen. True when a choice ends because its scene has ended.
@@ -45,17 +46,21 @@ class SceneChoices {
   struct Choice {
     FeelEdit edit;
     uint32_t object = 0;
-    int64_t seen_ns = 0;  ///< the object
-    bool grows = false;   ///< with the scene
+    int64_t seen_ns = 0;        ///< the object
+    uint32_t click_before = 0;  ///< what the element knew of when it was made
+    bool is_kept = false;       ///< by the element, which knows of the click
+    bool grows = false;         ///< with the scene
     bool is_removal = false;
     bool is_saved = false;
     bool was_saved = false;  ///< with an earlier end
   };
+  void follow(Choice& choice, const FrameFacts& facts);
   void take_back(const std::function<bool(const Choice&)>& which);
 
   std::vector<Choice> choices_;
   FilmMoment film_;
   int64_t end_ns_ = 0;  ///< of the frame that was seen last
+  uint32_t click_ = 0;  ///< the same
 };
 
 }  // namespace spidar
