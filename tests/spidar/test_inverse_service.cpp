@@ -14,6 +14,7 @@
 #include "spidar/boards/board_list.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
 #include "spidar/transports/listening_port.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/inverse_service.h"
@@ -35,15 +36,14 @@ std::string open_error(Grip& grip) {
   return "";
 }
 
-/// Until the condition holds; returns the last status. Time-outs are those of a busy machine.
+/// Until the condition holds. Opens the device again when it is lost: on a busy machine, the
+/// guardian may have found that this process stood still.
 template <typename Condition>
-ExchangeStatus exchange_until(Grip& grip, const GripCommand& command, const Condition& condition) {
-  ExchangeStatus status = ExchangeStatus::kOk;
+void exchange_until(Grip& grip, const GripCommand& command, const Condition& condition) {
   wait_for([&] {
-    status = grip.exchange(command);
+    if (grip.exchange(command) == ExchangeStatus::kLost) open_error(grip);
     return condition();
   });
-  return status;
 }
 
 [[noreturn]] void pull_for_ever(const std::string& spec) {
@@ -184,6 +184,34 @@ TEST(InverseService, ItMayEndAndComeBack) {
   EXPECT_TRUE(service->pulls());
 }
 
+/// The loop reopens it by itself.
+TEST(InverseService, TheLoopLosesItAndGoesOnWithIt) {
+  std::unique_ptr<InverseService> service = std::make_unique<InverseService>();
+  const int port = service->port();
+  const HapticSession session(make(service->spec("049D")));
+  const auto is = [&](DeviceState state) { return session.loop().snapshot().last.device == state; };
+  wait_for([&] { return is(DeviceState::kRunning); });
+  service.reset();
+  wait_for([&] { return is(DeviceState::kLost); });
+  service = std::make_unique<InverseService>(port);
+  wait_for([&] { return is(DeviceState::kRunning); });
+  EXPECT_GT(service->messages, 0);
+}
+
+TEST(InverseService, AnEarlierOneTakesForcesUnderItsOwnKey) {
+  InverseService service;
+  inverse3::State device = InverseService::device("049D");
+  device.version = inverse3::Version::k31;
+  device.position_m = {0.01, 0.02, -0.03};
+  service.plug({device});
+  const auto grip = make(service.spec("049D"));
+  grip->open();
+  EXPECT_EQ(grip->description(), "Haply Inverse3 049D, service 3.1");
+  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  exchange_until(*grip, told(1), [&] { return !grip->reading().pose.position_m.isZero(0); });
+  EXPECT_TRUE(grip->reading().pose.position_m.isApprox(device.position_m, 1e-6));
+}
+
 /// Or the forces of seconds would follow when it wakes up.
 TEST(InverseService, NothingIsSentToOneThatDoesNotAnswer) {
   InverseService service;
@@ -191,8 +219,10 @@ TEST(InverseService, NothingIsSentToOneThatDoesNotAnswer) {
   grip->open();
   exchange_until(*grip, told(1), [&] { return service.pulls(); });
   service.mute = true;
-  for (int i = 0; i < 50; ++i) grip->exchange(told(2));
-  wait_for([&] { return grip->health().count(LinkFault::kTimeout) >= 3; });
+  wait_for([&] {
+    grip->exchange(told(2));
+    return grip->health().count(LinkFault::kTimeout) >= 3;
+  });
   EXPECT_LE(service.held, 1);
 }
 
