@@ -64,7 +64,8 @@ LinkFault FalconBoard::set_line(const Requests& requests) noexcept {
 }
 
 /// Sends the bytes and waits until the answer is full. Packets from the chip begin with its status
-/// and contain any part of an answer, or nothing.
+/// and contain any part of an answer, or nothing: it sends its status also while the device is
+/// silent, which the transport ends at the deadline.
 LinkFault FalconBoard::say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept {
   if (std::exchange(stale_, true)) transport_->control(ftdi::kDropReceived, deadline_ns);
   std::array<uint8_t, ftdi::kPacketSize> in{};
@@ -78,8 +79,6 @@ LinkFault FalconBoard::say(ByteView bytes, MutableBytes answer, int64_t deadline
     if (came > answer.size - filled) return LinkFault::kBabble;
     std::copy_n(in.begin() + ftdi::kStatusSize, came, answer.data + filled);
     filled += came;
-    // A chip whose device is silent still sends its status.
-    if (came == 0 && monotonic_now_ns() >= deadline_ns) return LinkFault::kTimeout;
   }
   stale_ = false;
   return LinkFault::kNone;

@@ -36,7 +36,7 @@ class FalconBoard final : public ForceBoard {
 
  private:
   /// At libnifalcon's scale, the motors can give this in every direction within 50 mm of the
-  /// centre. The maker states more than 8.9 N (2 lb), which then is for the best direction.
+  /// centre. Often quoted, without a source, are 8.9 N (2 lb).
   static constexpr double kMostForce_N = 4.4;
   /// The corners of a picture are 49.5 mm from the centre, those of the whole room 54.6 mm.
   static constexpr GripAbilities kAbilities{{true, true, true}, false, true, {true, true, true},

@@ -20,8 +20,8 @@ namespace spidar::falcon {
 /// which use 0.075 to 0.175 m).
 constexpr double kCentre_m = 0.125;
 
-/// The grip reaches every place up to here from the origin, m, as the lengths give it. The maker
-/// states 4 inches in each axis.
+/// The grip reaches every place up to here from the origin, m, as the lengths give it. Often
+/// quoted is a cube of 4 inches.
 constexpr double kReach_m = 0.055;
 
 /// Range of an arm, radians. Within kReach_m, −0.65 to 1.5 are needed; the stops are not published
