@@ -29,6 +29,9 @@ class LayerEvidence {
   /// remains.
   double ratio() const;
 
+  /// The same over the last frames only.
+  double mean_ratio() const;
+
   /// Whether it rests on the screen while the camera shakes or changes its speed, as only graphics
   /// do: what is in the scene shakes with it, and what a camera follows drifts on the screen.
   bool is_on_screen() const;
@@ -38,8 +41,6 @@ class LayerEvidence {
   static constexpr double kMean_s = 0.3;
 
  private:
-  double mean_ratio() const;
-
   Eigen::Vector2d relative_px_s_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d background_px_s_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d newest_px_s_ = Eigen::Vector2d::Zero();  ///< relative to the background

@@ -14,10 +14,13 @@ constexpr int kPairs = 40;
 /// A pair of points closer together than this share of the spread of all points does not determine
 /// rotation and growth.
 constexpr double kLeastDistanceShare = 0.5;
-/// The first steps tolerate larger deviations, because the start is only as accurate as two points.
+/// The start may deviate by this many times σ, and each step tolerates half as much as the one
+/// before: a start is only as accurate as two points, and a similarity where the scene needs more.
+/// With σ alone, the blocks of one object that move alike often agree with a similarity that is
+/// more exact than any of the background's.
+constexpr double kFarther = 16;
+constexpr int kSteps = 6;
 constexpr int kFarSteps = 2;
-constexpr int kSteps = 5;
-constexpr double kFarther = 8;
 
 /// The similarity that moves both points as they moved.
 MotionModel through(const Displacement& a, const Displacement& b) {
@@ -38,14 +41,20 @@ double spread_px2(const std::vector<Displacement>& points) {
   return points.empty() ? 0 : sum / static_cast<double>(points.size());
 }
 
-}  // namespace
-
-double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence, double limit) {
+/// Σ w ρ with this σ. Stops when the sum exceeds `limit`, and then returns a value above it.
+double cost_within(double sigma_px, const MotionModel& model, const WeightedDisplacements& evidence,
+                   double limit) {
   double cost = 0;
   for (size_t i = 0; i < evidence.points.size() && cost <= limit; ++i) {
-    cost += evidence.weights[i] * point_cost(model, evidence.points[i], evidence.sigma_px);
+    cost += evidence.weights[i] * point_cost(model, evidence.points[i], sigma_px);
   }
   return cost;
+}
+
+}  // namespace
+
+double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence) {
+  return cost_within(evidence.sigma_px, model, evidence, 1e300);
 }
 
 RobustFitter::RobustFitter() {
@@ -56,8 +65,9 @@ MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
                                 const std::vector<MotionModel>& known) {
   MotionModel best;
   double least = 1e300;
+  const double far_px = kFarther * evidence.sigma_px;
   const auto consider = [&](const MotionModel& model) {
-    const double cost = robust_cost(model, evidence, least);
+    const double cost = cost_within(far_px, model, evidence, least);
     if (!(cost < least)) return;
     least = cost;
     best = model;

@@ -28,9 +28,8 @@ inline double point_cost(const MotionModel& model, const Displacement& point, do
   return std::min(e2 / (sigma_px * sigma_px), kMostCost);
 }
 
-/// Σ w ρ. Stops when the sum exceeds `limit`, and then returns a value above it.
-double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence,
-                   double limit = 1e300);
+/// Σ w ρ.
+double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence);
 
 /// Finds models with a small robust_cost() in a bounded number of steps. The same evidence gives
 /// the same model, bit for bit. Allocates nothing for up to kMostDisplacements points.

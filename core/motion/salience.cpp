@@ -39,6 +39,8 @@ double salience(const Region& region, const LayerEvidence& evidence, const Camer
   const double score = side_px * speed_px / (1 + kBorderCost * touching);
   if (!camera.moves()) return score;
   if (evidence.is_on_screen()) return 0;
+  // The ground. A large object that the camera follows goes against the background.
+  if (region.spans_picture && evidence.mean_ratio() > 1) return 0;
   // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;

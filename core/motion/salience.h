@@ -20,9 +20,9 @@ struct CameraMotion {
 /// √area × speed, px² of the field's picture. The score is lower when the camera moves and the
 /// region looks like an effect of the camera's translation in a scene with depth: a layer nearer
 /// than the background extends over the border of the picture, moves on the screen more than it
-/// moves relative to the background, or hardly differs from the noise around the background's
-/// model. 0 for a region that is no object but one of these, or graphics. `was_followed`: it was an
-/// object before and may look a little more like a layer.
+/// moves relative to the background, is as wide as the picture, or hardly differs from the noise
+/// around the background's model. 0 for a region that is no object but one of these, or graphics.
+/// `was_followed`: it was an object before and may look a little more like a layer.
 double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
                 bool was_followed);
 

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Measures whether the right motion is felt in real films. real_films.py BUILD FOLDER [OLDER_BUILD] runs the
-spidarmotion of a meson build folder on the films of FOLDER and writes three tables into docs/tables-tracking.md: a row
-for each of its settings, and one for OLDER_BUILD, the build folder of an older version; films of which a
-corner is cut off; methods with the processor time that each takes, see bench_real_film.cpp. The last is
-also written to BUILD/real_films.csv, for real_films.gp. real_films.py BUILD --calm FILM... prints how
-calm the force is in films of which no truth is known.
+spidarmotion of a meson build folder on the films of FOLDER and writes four tables into docs/tables-tracking.md: how
+often each model of the camera's motion is chosen; a row for each of its settings, and one for OLDER_BUILD, the
+build folder of an older version; films of which a corner is cut off; methods with the processor time that each
+takes, see bench_real_film.cpp. The last is also written to BUILD/real_films.csv, for real_films.gp.
+real_films.py BUILD --calm FILM... prints how calm the force is in films of which no truth is known.
 
 FOLDER holds films that GStreamer can decode. Beside a film, NAME.csv gives the true motion of its
 object against the background: lines `frame,x,y`, the first frame being 0, in pixels of the film
@@ -34,6 +34,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
 REFERENCE_LINES = 480
@@ -305,6 +306,20 @@ def compare_settings(build, older, films):
     table.write()
 
 
+def count_rungs(build, films):
+    """How often each model of the camera's motion is chosen."""
+    rungs = ["still", "translation", "similarity", "affine", "homography"]
+    table = Table("rungs", "films", *(f"{rung} %" for rung in rungs), "unknown or plain %")
+    for name, chosen in (("with an object", [f for f in films if f.with_suffix(".csv").exists()]),
+                         ("camera only", [f for f in films if not f.with_suffix(".csv").exists()])):
+        found = Counter(row["background"]["model"] if row["background"]["coverage"] > 0 else "unknown"
+                        for film in chosen for row in analyse(build, film, []) if row["background"])
+        if found:
+            shares = [f"{100 * found[rung] / found.total():.0f}" for rung in [*rungs, "unknown"]]
+            table.add(f"| {name} | " + " | ".join(shares) + " |")
+    table.write()
+
+
 def check_plugin(build):
     if not list((build / "plugin").glob("libgstspidar.*")):
         sys.exit(f"real_films.py: no plugin in {build}/plugin: build it with meson compile")
@@ -339,6 +354,7 @@ def main():
     if not any(f.with_suffix(".csv").exists() for f in films):
         sys.exit(f"real_films.py: no film in {folder} has a NAME.csv with the true motion of its object")
     check([build] + ([older] if older else []))
+    count_rungs(build, films)
     compare_settings(build, older, films)
     compare_corners(build, films)
     compare_methods(build, films)

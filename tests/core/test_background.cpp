@@ -289,6 +289,33 @@ TEST(Background, StillScenesWithOneObjectCauseNoFit) {
   }
 }
 
+TEST(Background, AFastCameraIsFoundBesideAnObjectThatMovesAsOne) {
+  // Points move by 5 px on average otherwise than the best similarity says, and by 16 px in a
+  // corner, so that the similarity with which most of them agree exactly is the object's.
+  MotionModel truth = sample_model(ModelKind::kHomography);
+  truth.shift_px *= 1.5;
+  truth.linear *= 1.5;
+  truth.perspective_1_px *= 1.5;
+  for (uint32_t seed = 1; seed <= 40; ++seed) {
+    TrackSource source(seed);
+    auto points = source.moved(truth, 240, kSigma_px);
+    for (int i = 0; i < 60; ++i) {
+      const double x_px = source.uniform(-60, 60);
+      points.push_back(source.moved(truth, {x_px, source.uniform(-60, 60)}, kSigma_px));
+      points.back().moved_px.x() += 6;
+    }
+    BackgroundEstimator estimator;
+    const Background& found = estimator.estimate(votes(points));
+    EXPECT_EQ(found.model.kind, ModelKind::kHomography) << "seed " << seed;
+    // As above, of 240 points: √(8 / 480) = 0.13 σ.
+    for (const Eigen::Vector2d& at : {Eigen::Vector2d(0, 0), Eigen::Vector2d(300, 160)}) {
+      EXPECT_LT((found.model.displacement_px(at) - truth.displacement_px(at)).norm(),
+                4 * 5 * 0.13 * kSigma_px)
+          << "seed " << seed;
+    }
+  }
+}
+
 TEST(Background, FewOrNoPointsAreStill) {
   BackgroundEstimator estimator;
   TrackSource source(5);

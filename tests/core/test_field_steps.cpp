@@ -298,6 +298,19 @@ TEST(Salience, IsSpeedTimesTheRootOfTheArea) {
                    3 * salience(region(8, 0, 1), kNoEvidence, still, false));
 }
 
+TEST(Salience, TheGroundHasNoneWhileTheCameraMoves) {
+  const CameraMotion still{0, 0.25};
+  const CameraMotion moving{4, 0.25};
+  Region wide = region(25, 0, 4);
+  EXPECT_GT(salience(wide, evidence_of({4, 0}, {1, 0}), moving, false), 0);
+  wide.spans_picture = true;
+  EXPECT_EQ(salience(wide, evidence_of({4, 0}, {1, 0}), moving, false), 0);
+  EXPECT_EQ(salience(wide, evidence_of({4, 0}, {1, 0}), moving, true), 0);
+  EXPECT_GT(salience(wide, evidence_of({4, 0}, {-4, 0}), moving, false), 0)
+      << "it goes against the background: the camera follows it";
+  EXPECT_GT(salience(wide, evidence_of({4, 0}, {0, 0}), still, false), 0);
+}
+
 TEST(Salience, WhatLeansOnTheBorderHasNoneWhileTheCameraMoves) {
   const CameraMotion still{0, 0.25};
   const CameraMotion moving{10, 0.25};
