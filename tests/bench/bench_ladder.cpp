@@ -165,7 +165,7 @@ int main() {
   spidar::bench::pin_to_one_core();
   std::printf(
       "| the scene needs | still | translation | similarity | affine | homography | chosen | right "
-      "rung % |\n"
+      "rung %% |\n"
       "|---|---|---|---|---|---|---|---|\n");
   std::array<double, kModelKinds + 1> worst_us{};
   for (const bool with_object : {false, true}) {

@@ -306,10 +306,10 @@ def compare_settings(build, older, films):
     table.write()
 
 
-def count_rungs(build, films):
+def count_models(build, films):
     """How often each model of the camera's motion is chosen."""
     rungs = ["still", "translation", "similarity", "affine", "homography"]
-    table = Table("rungs", "films", *(f"{rung} %" for rung in rungs), "unknown or plain %")
+    table = Table("models", "films", *(f"{rung} %" for rung in rungs), "unknown or plain %")
     for name, chosen in (("with an object", [f for f in films if f.with_suffix(".csv").exists()]),
                          ("camera only", [f for f in films if not f.with_suffix(".csv").exists()])):
         found = Counter(row["background"]["model"] if row["background"]["coverage"] > 0 else "unknown"
@@ -354,7 +354,7 @@ def main():
     if not any(f.with_suffix(".csv").exists() for f in films):
         sys.exit(f"real_films.py: no film in {folder} has a NAME.csv with the true motion of its object")
     check([build] + ([older] if older else []))
-    count_rungs(build, films)
+    count_models(build, films)
     compare_settings(build, older, films)
     compare_corners(build, films)
     compare_methods(build, films)
