@@ -62,6 +62,8 @@ LinkFault Inverse3Board::cycle(const ForceOutput& output, ForceReading& reading,
   const LinkFault fault =
       ask(inverse3::encode_force(device_, output.force_N, text_), now_, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
+  // The origin of its positions is elsewhere.
+  if (now_.version != device_.version) return LinkFault::kWrongReply;
   if (!now_.powered || !now_.calibrated) return LinkFault::kRefused;
   reading.position_m = now_.position_m;
   reading.buttons = now_.buttons;

@@ -19,6 +19,9 @@ constexpr int64_t kGreetingWait_ns = 2 * kSecond_ns;
 constexpr int64_t kAnswerWait_ns = 5'000'000;
 /// Of a message to the service.
 constexpr size_t kLongest = 4096;
+/// Files of a connection and of its loop, with room to spare. Without a limit, libwebsockets fills
+/// tables for as many files as the process may open.
+constexpr unsigned kMostFiles = 16;
 /// Of an answer. What is longer is no answer of a service for devices.
 constexpr size_t kMost = 1 << 20;
 
@@ -91,6 +94,7 @@ WebSocketTransport::Connection::Connection(uint16_t port) {
   about.port = CONTEXT_PORT_NO_LISTEN;
   about.protocols = protocols_.data();
   about.user = this;
+  about.fd_limit_per_thread = kMostFiles;
   about.http_proxy_address = "";  // not that of the environment: the service is on this computer
   context_ = lws_create_context(&about);
   if (!context_) throw DeviceError("libwebsockets cannot be used");
@@ -197,7 +201,8 @@ Transfer WebSocketTransport::exchange(std::initializer_list<ByteView> packets, M
                                       int64_t deadline_ns) noexcept {
   if (!connection_ || connection_->gone()) return {LinkFault::kGone, 0};
   if (!connection_->answered()) connection_->receive(deadline_ns);
-  if (connection_->answered()) {
+  // It may have ended with that answer, and libwebsockets has freed it.
+  if (connection_->answered() && !connection_->gone()) {
     connection_->send(packets);
     connection_->receive(deadline_ns);
   }

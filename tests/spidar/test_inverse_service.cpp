@@ -4,9 +4,12 @@
 ///
 /// The process that is killed is another instance of this program.
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
+#include <malloc.h>
 #include <string>
+#include <sys/resource.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,6 +19,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/transports/listening_port.h"
+#include "spidar/transports/websocket_transport.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/inverse_service.h"
 #include "tests/support/pushed_grip.h"
@@ -238,6 +242,65 @@ TEST(InverseService, ABrokenAnswerIsAFaultAndForgotten) {
   service.broken = false;
   const uint64_t before = grip->health().count(LinkFault::kNone);
   exchange_until(*grip, told(1), [&] { return grip->health().count(LinkFault::kNone) > before; });
+}
+
+/// The positions of the versions differ by 0.2 m, which would be a jerk.
+TEST(InverseService, AStateOfAnotherVersionIsNoPosition) {
+  InverseService service;
+  const auto grip = make(service.spec("049D"));
+  grip->open();
+  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  const Eigen::Vector3d before_m = grip->reading().pose.position_m;
+  inverse3::State earlier = InverseService::device("049D");
+  earlier.version = inverse3::Version::k31;
+  earlier.position_m = {0.05, 0, 0};
+  service.plug({earlier});
+  exchange_until(*grip, told(1), [&] { return grip->health().count(LinkFault::kWrongReply) >= 3; });
+  EXPECT_TRUE(grip->reading().pose.position_m.isApprox(before_m));
+}
+
+class InverseTransport : public testing::Test {
+ protected:
+  Transfer ask(int64_t patience_ns) {
+    const size_t length = inverse3::encode_query(query);
+    return transport.exchange({{query.data(), length}}, {answer.data(), answer.size()},
+                              monotonic_now_ns() + patience_ns);
+  }
+
+  InverseService service;
+  std::array<uint8_t, inverse3::kCommandSize> query{};
+  std::array<uint8_t, 4096> answer{};
+  WebSocketTransport transport{"inverse3", static_cast<uint16_t>(service.port()), "start it"};
+};
+
+/// Nothing is sent on a connection that ended with the answer: libwebsockets has freed it, as the
+/// suite `valgrind` shows.
+TEST_F(InverseTransport, AConnectionThatEndsWithAnAnswerIsGone) {
+  transport.open();
+  service.mute = true;
+  ASSERT_EQ(ask(kSecond_ns / 100).fault, LinkFault::kTimeout);
+  service.break_protocol();
+  EXPECT_EQ(ask(10 * kSecond_ns).fault, LinkFault::kGone);
+}
+
+/// In a container, a process may have a billion files.
+TEST_F(InverseTransport, MemoryDoesNotGrowWithTheLimitOfFiles) {
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
+  const auto used_with = [&](rlim_t files) {
+    const rlimit now{files, limit.rlim_max};
+    EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &now), 0);
+    const struct mallinfo2 before = mallinfo2();
+    transport.open();
+    const struct mallinfo2 after = mallinfo2();
+    transport.close();
+    return static_cast<int64_t>(after.uordblks + after.hblkhd) -
+           static_cast<int64_t>(before.uordblks + before.hblkhd);
+  };
+  used_with(256);  // what is kept from the first connection
+  const int64_t few = used_with(256), many = used_with(limit.rlim_max);
+  setrlimit(RLIMIT_NOFILE, &limit);
+  EXPECT_LT(many, few + 4096);
 }
 
 /// This service keeps a force for ever, so it is the guardian that ends it.

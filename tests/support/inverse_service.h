@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <sys/socket.h>
 #include <thread>
 #include <vector>
 
@@ -74,6 +75,12 @@ class InverseService {
     return !force_N_[0].isZero(0);
   }
 
+  /// Sends a state that nobody asked for, and with it a frame that RFC 6455 forbids.
+  void break_protocol() {
+    breaks_ = true;
+    lws_cancel_service(context_);
+  }
+
   std::string first_ = "049D";      ///< whose force is the first one
   std::atomic<bool> mute{false};    ///< takes messages, and answers none
   std::atomic<int> held{0};         ///< number of messages without an answer since it was muted
@@ -92,11 +99,14 @@ class InverseService {
     if (reason == LWS_CALLBACK_RECEIVE)
       self->take(socket, *due, static_cast<const char*>(in), length);
     if (reason == LWS_CALLBACK_SERVER_WRITEABLE) self->write(socket, *due);
+    if (reason == LWS_CALLBACK_EVENT_WAIT_CANCELLED && self->breaks_.exchange(false))
+      self->write_forbidden();
     return 0;
   }
 
   void greet(lws* socket, int& due) {
     ++clients;
+    newest_ = socket;
     due = 1;
     lws_callback_on_writable(socket);
   }
@@ -150,11 +160,21 @@ class InverseService {
     if (due > 0) lws_callback_on_writable(socket);
   }
 
+  /// Both frames at once, so that they arrive together.
+  void write_forbidden() {
+    const std::string state = text();
+    std::string frames = "\x81\x7E";  // the last of a text, whose length follows in two bytes
+    frames += {static_cast<char>(state.size() >> 8), static_cast<char>(state.size() & 0xFF)};
+    frames += state + '\x83' + '\0';  // no kind of frame has the number 3
+    send(lws_get_socket_fd(newest_), frames.data(), frames.size(), MSG_NOSIGNAL);
+  }
+
   const std::array<lws_protocols, 2> protocols_{
       lws_protocols{"", handle, sizeof(int), 0, 0, nullptr, 0}, lws_protocols{}};
   lws_context* context_ = nullptr;
   int port_ = 0;
-  std::atomic<bool> stop_{false};
+  std::atomic<bool> stop_{false}, breaks_{false};
+  lws* newest_ = nullptr;
   std::string incoming_;
   std::mutex mutex_;
   std::vector<inverse3::State> devices_{device("049D")};
