@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "plugin/track/beside_film.h"
@@ -68,6 +69,8 @@ void replace_file(const std::string& path, const std::string& text) {
   if (written != static_cast<ssize_t>(text.size())) {
     throw std::runtime_error(path + ": cannot be written: is the disk full?");
   }
+  struct stat before {};
+  if (stat(path.c_str(), &before) == 0) fchmod(part.descriptor(), before.st_mode & 0777);
   part.publish();
 }
 

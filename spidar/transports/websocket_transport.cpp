@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <libwebsockets.h>
 #include <utility>
 #include <vector>
@@ -96,7 +97,11 @@ WebSocketTransport::Connection::Connection(uint16_t port) {
   about.user = this;
   about.fd_limit_per_thread = kMostFiles;
   about.http_proxy_address = "";  // not that of the environment: the service is on this computer
+  // libwebsockets ignores it for the whole process, although it sends with MSG_NOSIGNAL.
+  struct sigaction of_process {};
+  sigaction(SIGPIPE, nullptr, &of_process);
   context_ = lws_create_context(&about);
+  sigaction(SIGPIPE, &of_process, nullptr);
   if (!context_) throw DeviceError("libwebsockets cannot be used");
   alarm_.context = context_;
   lws_client_connect_info to{};

@@ -13,7 +13,7 @@ namespace spidar {
 
 /// libwebsockets does the work, in the thread that calls: its loop runs only inside of these
 /// functions. It was preferred to libsoup, which aborts the process if the player has loaded
-/// libsoup 2.4 as well. A side effect is that SIGPIPE is ignored from the first open() on.
+/// libsoup 2.4 as well.
 ///
 /// A message is sent only when the one before has been answered. After a time-out the next exchange
 /// waits for that answer first, and drops it, so that messages never queue up in the service.

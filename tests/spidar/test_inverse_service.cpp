@@ -5,6 +5,7 @@
 /// The process that is killed is another instance of this program.
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <malloc.h>
@@ -186,6 +187,19 @@ TEST(InverseService, ItMayEndAndComeBack) {
   EXPECT_EQ(open_error(*grip), "");
   exchange_until(*grip, told(1), [&] { return service->pulls(); });
   EXPECT_TRUE(service->pulls());
+}
+
+/// Or a program whose output nobody reads would go on for ever.
+TEST(InverseService, SigpipeIsLeftToTheProcess) {
+  std::unique_ptr<InverseService> service = std::make_unique<InverseService>();
+  const auto before = std::signal(SIGPIPE, SIG_DFL);  // the service here ignores it
+  const auto grip = make(service->spec("049D"));
+  grip->open();
+  exchange_until(*grip, told(1), [&] { return service->pulls(); });
+  service.reset();  // and what is sent after that does not end this process
+  wait_for([&] { return grip->exchange(told(1)) == ExchangeStatus::kLost; });
+  grip->close();
+  EXPECT_EQ(std::signal(SIGPIPE, before), SIG_DFL);
 }
 
 /// The loop reopens it by itself.

@@ -73,6 +73,15 @@ TEST_F(FeelFile, KeepsTheRulesThatItHas) {
   EXPECT_EQ(files(), 1u);
 }
 
+/// Who may read it, and write it.
+TEST_F(FeelFile, KeepsItsPermissions) {
+  write("film.avi.feel", kChosen);
+  const fs::perms only_owner = fs::perms::owner_read | fs::perms::owner_write;
+  fs::permissions(path("film.avi.feel"), only_owner);
+  save_feel("", film, {{3 * kSecond, 4 * kSecond, Eigen::Vector2d(1, 1)}});
+  EXPECT_EQ(fs::status(path("film.avi.feel")).permissions(), only_owner);
+}
+
 TEST_F(FeelFile, WithRemarksOrMistakesIsKeptUnderAnotherName) {
   const std::string remark = "0:05- largest  # the dog\n", mistake = "biggest\n";
   write("film.avi.feel", remark);
