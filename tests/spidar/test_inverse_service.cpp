@@ -244,6 +244,22 @@ TEST(InverseService, NothingIsSentToOneThatDoesNotAnswer) {
   EXPECT_LE(service.held, 1);
 }
 
+/// The driver sends nothing before it is answered, so that the guardian does.
+TEST(InverseService, ZeroIsSentToOneThatDoesNotAnswerWhenItIsClosed) {
+  InverseService service;
+  const auto grip = make(service.spec("049D"));
+  grip->open();
+  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  service.mute = true;
+  wait_for([&] {
+    return grip->exchange(told(1)) == ExchangeStatus::kLost ||
+           grip->health().count(LinkFault::kTimeout) >= 3;
+  });
+  grip->close();
+  wait_for([&] { return !service.pulls(); });
+  EXPECT_FALSE(service.pulls());
+}
+
 /// It answers the rest of what it was asked, and the device goes on.
 TEST(InverseService, ABrokenAnswerIsAFaultAndForgotten) {
   InverseService service;
