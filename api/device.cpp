@@ -14,9 +14,9 @@
 #include "api/surface.h"
 #include "api/vectors.h"
 #include "core/grip/picture_size.h"
-#include "spidar/boards/board_list.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/profiles/force_range.h"
+#include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 

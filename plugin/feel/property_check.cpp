@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "spidar/boards/board_list.h"
+#include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 
 namespace spidar {

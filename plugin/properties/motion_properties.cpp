@@ -4,7 +4,7 @@
 
 #include "plugin/properties/device_rows.h"
 #include "plugin/properties/motion_rows.h"
-#include "spidar/boards/board_list.h"
+#include "spidar/session/board_list.h"
 
 namespace spidar {
 namespace {

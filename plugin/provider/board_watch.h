@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "spidar/boards/board_list.h"
+#include "spidar/session/board_list.h"
 
 namespace spidar {
 

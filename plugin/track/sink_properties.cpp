@@ -3,7 +3,7 @@
 #include "plugin/track/sink_properties.h"
 
 #include "plugin/properties/device_rows.h"
-#include "spidar/boards/board_list.h"
+#include "spidar/session/board_list.h"
 
 namespace spidar {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "spidar/boards/board.h"
-#include "spidar/boards/board_list.h"
 #include "spidar/boards/force_board.h"
+#include "spidar/boards/trial.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/transports/usb_transport.h"
 

@@ -6,11 +6,11 @@
 #include <memory>
 #include <string>
 
-#include "spidar/boards/board_list.h"
 #include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/session/board_list.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {

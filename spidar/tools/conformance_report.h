@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "spidar/boards/board_list.h"
 #include "spidar/delay/delay_test.h"
+#include "spidar/session/board_list.h"
 #include "spidar/tools/observed_device.h"
 #include "spidar/wiring/wiring_answers.h"
 #include "spidar/wiring/wiring_report.h"

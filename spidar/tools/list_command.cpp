@@ -3,8 +3,8 @@
 #include <iomanip>
 #include <iostream>
 
-#include "spidar/boards/board_list.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/session/board_list.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/json_text.h"

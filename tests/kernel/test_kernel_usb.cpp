@@ -17,11 +17,11 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_list.h"
 #include "spidar/boards/digits.h"
 #include "spidar/grip/tension_limits.h"
 #include "spidar/guardian/last_will.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/kernel/usbip_board.h"

@@ -13,8 +13,8 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/boards/board_list.h"
 #include "spidar/protocols/force_feedback.h"
+#include "spidar/session/board_list.h"
 #include "tests/support/felt_player.h"
 
 namespace spidar::test {

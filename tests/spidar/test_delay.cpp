@@ -10,12 +10,12 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_list.h"
 #include "spidar/delay/delay_test.h"
 #include "spidar/delay/lag_verdict.h"
 #include "spidar/emulation/wire_simulation.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/stiffness_limit.h"
+#include "spidar/session/board_list.h"
 #include "tests/support/tampered_device.h"
 
 namespace spidar::test::delay_test {

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_list.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/transports/evdev_list.h"

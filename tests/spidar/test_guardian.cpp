@@ -18,7 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/board_device.h"
-#include "spidar/boards/board_list.h"
+#include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/emulated_bus/bus_state.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_list.h"
+#include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/transports/wheel.h"
 #include "tests/emulated_bus/bus_state.h"

@@ -6,17 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "spidar/boards/trial.h"
+
 namespace spidar {
-
-/// How far a driver has been tested.
-enum class Trial {
-  kHardware,  ///< on the real board
-  kEmulated,  ///< on an emulated board that follows the published description
-  kInferred,  ///< parts of it are inferred, which an emulation cannot confirm
-};
-
-/// "tried on hardware", "emulated", "inferred".
-const char* to_string(Trial trial) noexcept;
 
 /// A device that make_device() can open.
 struct BoardInfo {

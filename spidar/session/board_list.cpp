@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/boards/board_list.h"
+#include "spidar/session/board_list.h"
 
 #include <unistd.h>
 
@@ -122,18 +122,6 @@ BoardInfo usb_board(const UsbBoardKind& kind, const UsbDeviceInfo& device) {
 }
 
 }  // namespace
-
-const char* to_string(Trial trial) noexcept {
-  switch (trial) {
-    case Trial::kHardware:
-      return "tried on hardware";
-    case Trial::kEmulated:
-      return "emulated";
-    case Trial::kInferred:
-      return "inferred";
-  }
-  return "unknown";
-}
 
 std::vector<BoardInfo> list_boards() {
   std::vector<BoardInfo> boards;
