@@ -54,7 +54,15 @@ void Inverse3Board::open() {
     refuse("the Inverse3 " + device_.id +
            " is not calibrated: put its handle into the inkwell until its light is steady");
   opened_ = true;
-  ask(inverse3::encode_start(device_, text_), now_, monotonic_now_ns() + kSecond_ns / 10);
+  // Without the preset, positions would be elsewhere.
+  const LinkFault start = open_exchange(
+      [&](int64_t deadline_ns) {
+        return ask(inverse3::encode_start(device_, text_), now_, deadline_ns);
+      },
+      *transport_);
+  if (start != LinkFault::kNone)
+    refuse(std::string("Haply's service does not answer the beginning of a session: ") +
+           to_string(start) + "; restart it");
 }
 
 LinkFault Inverse3Board::cycle(const ForceOutput& output, ForceReading& reading,

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "spidar/boards/falcon_kinematics.h"
+#include "spidar/emulation/spring_hand.h"
 
 namespace spidar {
 namespace {
@@ -85,19 +86,13 @@ void EmulatedFalcon::run(uint8_t byte) noexcept {
 }
 
 void EmulatedFalcon::obey(const falcon::Command& command) noexcept {
-  const std::array<int32_t, kMaxStrings> at_um = motors_.counts();
-  const Eigen::Vector3d position_m = 1e-6 * Eigen::Vector3d(at_um[0], at_um[1], at_um[2]);
+  const Eigen::Vector3d at_m = position_m(motors_);
   // Beyond its reach, the grip stays where it was.
-  angles_rad_ = falcon::arm_angles(position_m).value_or(angles_rad_);
-  const Eigen::Vector3d milli_N = 1000 * force_N(command.digit, angles_rad_, position_m);
-  std::array<int, kMaxStrings> digits{};
+  angles_rad_ = falcon::arm_angles(at_m).value_or(angles_rad_);
+  put_out_N(motors_, force_N(command.digit, angles_rad_, at_m));
   falcon::Reading reading;
-  for (size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    digits[i] = static_cast<int>(std::lround(milli_N[axis]));
-    reading.count[i] = falcon::count_at(angles_rad_[axis]);
-  }
-  motors_.put_out(digits);
+  for (size_t i = 0; i < 3; ++i)
+    reading.count[i] = falcon::count_at(angles_rad_[static_cast<Eigen::Index>(i)]);
   const uint16_t inputs = motors_.inputs();
   reading.buttons = inputs & 0xF;
   if (command.homing) reading.homed = inputs >> 4 & 7;

@@ -13,9 +13,21 @@
 
 namespace spidar {
 
-/// A hand that holds the grip at the centre, as a spring and a damper, and moves with the force.
-/// Its digits are the force in millinewtons, its counts the position in micrometres: to the right,
-/// up, towards the viewer.
+/// For motors whose digits are the force in millinewtons and whose counts are the position in
+/// micrometres: to the right, up, towards the viewer.
+inline void put_out_N(EmulatedMotors& motors, const Eigen::Vector3d& force_N) noexcept {
+  std::array<int, kMaxStrings> milli_N{};
+  for (size_t i = 0; i < 3; ++i)
+    milli_N[i] = static_cast<int>(std::lround(1e3 * force_N[static_cast<Eigen::Index>(i)]));
+  motors.put_out(milli_N);
+}
+inline Eigen::Vector3d position_m(EmulatedMotors& motors) noexcept {
+  const std::array<int32_t, kMaxStrings> at_um = motors.counts();
+  return 1e-6 * Eigen::Vector3d(at_um[0], at_um[1], at_um[2]);
+}
+
+/// A hand that holds the grip at the centre, as a spring and a damper, and moves with the force, in
+/// the units of put_out_N() and position_m().
 class SpringHand final : public EmulatedMotors {
  public:
   explicit SpringHand(uint16_t inputs = 0) noexcept : inputs_(inputs) {}
@@ -49,6 +61,18 @@ class SpringHand final : public EmulatedMotors {
   int64_t now_ns_ = monotonic_now_ns();
   Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero(), v_m_s_ = Eigen::Vector3d::Zero(),
                   at_m_ = Eigen::Vector3d::Zero();
+};
+
+/// A board without strings in such a hand. `Emulated` takes its motors.
+template <typename Emulated>
+class Held final : public EmulatedBoard {
+ public:
+  void receive(ByteView bytes) noexcept override { board_.receive(bytes); }
+  size_t reply(MutableBytes bytes) noexcept override { return board_.reply(bytes); }
+
+ private:
+  SpringHand hand_;
+  Emulated board_{hand_};
 };
 
 }  // namespace spidar

@@ -7,20 +7,11 @@
 
 #include "spidar/boards/board_device.h"
 #include "spidar/boards/digits.h"
-#include "spidar/boards/falcon_board.h"
-#include "spidar/boards/force_feedback_board.h"
-#include "spidar/boards/force_grip.h"
-#include "spidar/boards/inverse3_board.h"
-#include "spidar/boards/mouse_board.h"
 #include "spidar/boards/sh4_board.h"
 #include "spidar/boards/simple_board.h"
 #include "spidar/boards/uart_board.h"
-#include "spidar/emulation/emulated_force_feedback.h"
-#include "spidar/emulation/emulated_inverse3.h"
 #include "spidar/emulation/emulated_uart.h"
 #include "spidar/emulation/emulated_usb.h"
-#include "spidar/emulation/held_falcon.h"
-#include "spidar/emulation/spring_hand.h"
 #include "spidar/simulation/simulated_device.h"
 
 namespace spidar {
@@ -50,39 +41,11 @@ class SimulatedMotors final : public EmulatedMotors {
   DeviceReading reading_;
 };
 
-/// What takes a force has neither strings nor encoders here: its force has no effect.
-class NoMotors final : public EmulatedMotors {
- public:
-  void put_out(const std::array<int, kMaxStrings>&) noexcept override {}
-  std::array<int32_t, kMaxStrings> counts() noexcept override { return {}; }
-};
-
-/// In a hand.
-class HeldInverse3 final : public EmulatedBoard {
- public:
-  void receive(ByteView bytes) noexcept override { board_.receive(bytes); }
-  size_t reply(MutableBytes bytes) noexcept override { return board_.reply(bytes); }
-
- private:
-  SpringHand hand_;
-  EmulatedInverse3 board_{hand_};
-};
-
-/// Without a thread and a guardian.
-BoardSettings alone() {
-  BoardSettings settings;
-  // The simulated user begins at the centre, from which the profile's home offsets are counted.
-  settings.count_zero = CountZero::kNever;
-  settings.guardian = false;
-  settings.threaded = false;
-  return settings;
-}
-
 /// Owns the device to which its transport's board is connected.
 class WireSimulation final : public Device {
  public:
   WireSimulation(std::unique_ptr<EmulatedMotors> motors, std::unique_ptr<Board> board)
-      : motors_(std::move(motors)), device_(std::move(board), alone()) {}
+      : motors_(std::move(motors)), device_(std::move(board), settings_of_simulation()) {}
 
   void open() override { device_.open(); }
   ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
@@ -99,6 +62,14 @@ class WireSimulation final : public Device {
 };
 
 }  // namespace
+
+BoardSettings settings_of_simulation() {
+  BoardSettings settings;
+  settings.count_zero = CountZero::kNever;
+  settings.guardian = false;
+  settings.threaded = false;
+  return settings;
+}
 
 std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Profile& profile,
                                              std::shared_ptr<EmulatedWire> wire,
@@ -126,35 +97,9 @@ std::unique_ptr<Device> make_wire_simulation(const std::string& kind, const Prof
         *motors, std::vector<EmulatedUart::Station>{{0, kB3M}, {1, kB3M}})));
     board = std::make_unique<UartBoard>(name, profile, std::move(lines));
   } else {
-    throw DeviceError("unknown simulated board \"" + kind +
-                      "\"; known are: sim:sh4, sim:simple, sim:uart, sim:mouse, sim:ff, "
-                      "sim:inverse3, sim:falcon");
+    return nullptr;
   }
   return std::make_unique<WireSimulation>(std::move(motors), std::move(board));
-}
-
-std::unique_ptr<Grip> make_grip_simulation(const std::string& kind, const Profile& profile) {
-  static NoMotors motors;  // has nothing that could be shared
-  const auto transport_to = [](std::unique_ptr<EmulatedBoard> board) {
-    return std::make_unique<EmulatedTransport>(std::move(board), std::make_shared<EmulatedWire>());
-  };
-  const std::string name = "sim:" + kind;
-  std::unique_ptr<ForceBoard> board;
-  if (kind == "mouse")
-    board =
-        std::make_unique<MouseBoard>(name, transport_to(std::make_unique<EmulatedMouse>(motors)));
-  else if (kind == "ff")
-    board = std::make_unique<ForceFeedbackBoard>(
-        name, profile, transport_to(std::make_unique<EmulatedForceFeedback>(motors)),
-        ForceFeedbackBoard::Updates::kInCycle);
-  else if (kind == "inverse3")
-    board =
-        std::make_unique<Inverse3Board>(name, "", transport_to(std::make_unique<HeldInverse3>()));
-  else if (kind == "falcon")
-    board = std::make_unique<FalconBoard>(name, transport_to(std::make_unique<HeldFalcon>()));
-  else
-    return nullptr;
-  return std::make_unique<ForceGrip>(std::move(board), alone());
 }
 
 }  // namespace spidar

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "spidar/boards/board_settings.h"
 #include "spidar/device.h"
 #include "spidar/emulation/emulated_transport.h"
-#include "spidar/grip/grip.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/simulation/simulated_device.h"
 
@@ -23,16 +23,16 @@ struct SimulatedMechanics {
 
 /// `board`: "sh4", "simple" or "uart". Grip, hand and motors are those of
 /// SimulatedDevice. Volts and counts pass through the packets and the code that drives the real
-/// board. No thread and no guardian is started. `wire` causes faults. Throws DeviceError for
-/// another board, or when the board cannot drive the profile, and std::invalid_argument as
+/// board. No thread and no guardian is started. `wire` causes faults. Null for another board.
+/// Throws DeviceError when the board cannot drive the profile, and std::invalid_argument as
 /// SimulatedDevice does.
 std::unique_ptr<Device> make_wire_simulation(
     const std::string& board, const Profile& profile,
     std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>(),
     const SimulatedMechanics& mechanics = {});
 
-/// A device without strings behind its packets: "mouse", "ff" or "inverse3", whose force has no
-/// effect, or "falcon", which a hand holds. Null for any other.
-std::unique_ptr<Grip> make_grip_simulation(const std::string& kind, const Profile& profile);
+/// Those of a board behind which everything is simulated: no thread and no guardian. The simulated
+/// user begins at the centre, from which the profile's home offsets are counted.
+BoardSettings settings_of_simulation();
 
 }  // namespace spidar

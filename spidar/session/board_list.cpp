@@ -2,12 +2,14 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/session/board_list.h"
 
+#include <optional>
 #include <unistd.h>
 
 #include "spidar/boards/usb_kinds.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/protocols/inverse3.h"
+#include "spidar/session/force_devices.h"
 #include "spidar/transports/evdev_list.h"
 #include "spidar/transports/listening_port.h"
 #include "spidar/transports/tty_list.h"
@@ -20,52 +22,49 @@ namespace {
 constexpr const char* kPositiveProfile = "spidar-g6x3-v2-r";
 constexpr const char* kUartProfile = "spidar-g6x4";
 
-/// Properties of a kind of device, selected by the part of its name before the colon.
+/// Properties of a kind of device, selected by the part of its name before the colon. Those of
+/// devices without strings are in force_devices().
 struct DeviceKind {
   const char* kind;
   const char* name;
   const char* profile;
-  bool has_strings;  ///< otherwise it takes a force instead of tensions
   Trial trial;
+  bool has_strings = true;  ///< otherwise it takes a force instead of tensions
 };
 
 constexpr DeviceKind kKinds[] = {
-    {"usb", "CyVerse USB 2.0", kPositiveProfile, true, Trial::kEmulated},
-    {"mouse", "SPIDAR-mouse", kDefaultProfile, false, Trial::kInferred},
-    {"falcon", "Novint Falcon", kDefaultProfile, false, Trial::kEmulated},
-    {"uart", "UART motor boards", kUartProfile, true, Trial::kEmulated},
-    {"ff", "force-feedback device", kDefaultProfile, false, Trial::kEmulated},
-    {"inverse3", "Haply Inverse3", kDefaultProfile, false, Trial::kInferred},
+    {"usb", "CyVerse USB 2.0", kPositiveProfile, Trial::kEmulated},
+    {"uart", "UART motor boards", kUartProfile, Trial::kEmulated},
 };
 
-/// Simulated devices, whose names have no variable part.
+/// Simulated devices with strings, whose names have no variable part.
 constexpr DeviceKind kSimulated[] = {
-    {"sim", "simulated SPIDAR", kDefaultProfile, true, Trial::kEmulated},
-    {"sim:sh4", "simulated SPIDAR behind the SH4 board's packets", kPositiveProfile, true,
+    {"sim", "simulated SPIDAR", kDefaultProfile, Trial::kEmulated},
+    {"sim:sh4", "simulated SPIDAR behind the SH4 board's packets", kPositiveProfile,
      Trial::kEmulated},
-    {"sim:simple", "simulated SPIDAR behind the Simple board's packets", kPositiveProfile, true,
+    {"sim:simple", "simulated SPIDAR behind the Simple board's packets", kPositiveProfile,
      Trial::kEmulated},
-    {"sim:uart", "simulated SPIDAR behind the UART boards' packets", kUartProfile, true,
+    {"sim:uart", "simulated SPIDAR behind the UART boards' packets", kUartProfile,
      Trial::kEmulated},
-    {"sim:mouse", "simulated SPIDAR-mouse", kDefaultProfile, false, Trial::kEmulated},
-    {"sim:ff", "simulated force-feedback joystick", kDefaultProfile, false, Trial::kEmulated},
-    {"sim:inverse3", "simulated Haply Inverse3 in a hand", kDefaultProfile, false,
-     Trial::kEmulated},
-    {"sim:falcon", "simulated Novint Falcon in a hand", kDefaultProfile, false, Trial::kEmulated},
 };
 
 bool begins(const std::string& text, const std::string& with) {
   return text.compare(0, with.size(), with) == 0;
 }
 
-/// Null when no device has this name.
-const DeviceKind* kind_of(const std::string& device) {
+/// Nothing when no device has this name.
+std::optional<DeviceKind> kind_of(const std::string& device) {
   for (const DeviceKind& simulated : kSimulated)
-    if (device == simulated.kind) return &simulated;
-  const std::string kind = device.substr(0, device.find(':'));
+    if (device == simulated.kind) return simulated;
+  const size_t colon = device.find(':');
+  const std::string kind = device.substr(0, colon);
   for (const DeviceKind& known : kKinds)
-    if (kind == known.kind) return &known;
-  return nullptr;
+    if (kind == known.kind) return known;
+  const bool is_sim = kind == "sim" && colon != std::string::npos;
+  const ForceDevice* force = force_device(is_sim ? device.substr(colon + 1) : kind);
+  if (!force) return std::nullopt;
+  return DeviceKind{force->kind, is_sim ? force->simulated : force->title, kDefaultProfile,
+                    is_sim ? Trial::kEmulated : force->trial, false};
 }
 
 /// Everything that the name alone determines.
@@ -73,7 +72,7 @@ BoardInfo of_name(const std::string& device) {
   BoardInfo board;
   board.device = device;
   board.profile = default_profile(device);
-  if (const DeviceKind* kind = kind_of(device)) {
+  if (const auto kind = kind_of(device)) {
     board.name = kind->name;
     board.trial = kind->trial;
     board.has_strings = kind->has_strings;
@@ -139,11 +138,13 @@ std::vector<BoardInfo> list_boards() {
   for (const EvdevInfo& device : list_force_feedback()) boards.push_back(force_feedback(device));
   if (is_listening(inverse3::kPort)) boards.push_back(inverse3_service());
   for (const DeviceKind& simulated : kSimulated) boards.push_back(of_name(simulated.kind));
+  for (const ForceDevice& device : force_devices())
+    boards.push_back(of_name(std::string("sim:") + device.kind));
   return boards;
 }
 
 std::string default_profile(const std::string& device) {
-  const DeviceKind* kind = kind_of(device);
+  const auto kind = kind_of(device);
   return kind ? kind->profile : kDefaultProfile;
 }
 

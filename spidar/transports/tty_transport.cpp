@@ -52,7 +52,8 @@ void ask_for_low_latency(int file) noexcept {
 
 }  // namespace
 
-TtyTransport::TtyTransport(std::string path, int baud) : path_(std::move(path)), baud_(baud) {}
+TtyTransport::TtyTransport(std::string name, std::string path, int baud)
+    : name_(std::move(name)), path_(std::move(path)), baud_(baud) {}
 
 TtyTransport::~TtyTransport() {
   close();
@@ -69,7 +70,7 @@ void TtyTransport::fail(const std::string& what) {
   if (error == ENOENT) advice = "; serial lines are /dev/ttyUSB0, /dev/serial/by-id/…";
   if (error == ENOTTY) advice = "; it is no serial line";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
-  throw DeviceError("uart:" + path_ + ": " + what + ": " + std::strerror(error) + advice);
+  throw DeviceError(name_ + ": " + what + ": " + std::strerror(error) + advice);
 }
 
 void TtyTransport::open() {

@@ -12,8 +12,8 @@ namespace spidar {
 /// Raw mode, 8N1, no flow control, and low latency if the driver supports it.
 class TtyTransport final : public Transport {
  public:
-  /// `baud` is any rate that the driver accepts.
-  TtyTransport(std::string path, int baud);
+  /// `name` is the device's, for error messages; `baud` any rate that the driver accepts.
+  TtyTransport(std::string name, std::string path, int baud);
   ~TtyTransport() override;
 
   void open() override;
@@ -28,6 +28,7 @@ class TtyTransport final : public Transport {
   [[noreturn]] void fail(const std::string& what);
   LinkFault wait_for(short events, int64_t deadline_ns) noexcept;
 
+  const std::string name_;
   const std::string path_;
   const int baud_;
   int file_ = -1;

@@ -148,10 +148,11 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
       make_grip(spec, profile);
       FAIL() << spec;
     } catch (const DeviceError& error) {
-      EXPECT_EQ(error.what(), "unknown device \"" + spec +
-                                  "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, "
-                                  "mouse, ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT, "
-                                  "inverse3, inverse3:ID, falcon, falcon:ID");
+      EXPECT_EQ(error.what(),
+                "unknown device \"" + spec +
+                    "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, "
+                    "mouse, mouse:ID, ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT, "
+                    "inverse3, inverse3:ID, falcon, falcon:ID");
     }
   }
   for (const std::string spec :

@@ -130,6 +130,16 @@ TEST(InverseService, WhatItLacksIsSaid) {
   EXPECT_EQ(error({InverseService::device("049D")}), "");
 }
 
+TEST(InverseService, WithoutItsPresetItIsNotUsed) {
+  InverseService service;
+  service.ignore("preset");
+  const auto grip = make(service.spec("049D"));
+  EXPECT_NE(open_error(*grip).find("does not answer the beginning of a session"),
+            std::string::npos);
+  service.ignore("");
+  EXPECT_EQ(open_error(*grip), "");
+}
+
 TEST(InverseService, ItIsListedWhileItListens) {
   uint16_t port = 0;
   {

@@ -75,6 +75,12 @@ class InverseService {
     return !force_N_[0].isZero(0);
   }
 
+  /// Messages in which `key` occurs get no answer.
+  void ignore(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    ignored_ = key;
+  }
+
   /// Sends a state that nobody asked for, and with it a frame that RFC 6455 forbids.
   void break_protocol() {
     breaks_ = true;
@@ -83,7 +89,7 @@ class InverseService {
 
   std::string first_ = "049D";      ///< whose force is the first one
   std::atomic<bool> mute{false};    ///< takes messages, and answers none
-  std::atomic<int> held{0};         ///< number of messages without an answer since it was muted
+  std::atomic<int> held{0};         ///< number of messages without an answer that it did not answer
   std::atomic<bool> broken{false};  ///< answers no JSON
   std::atomic<int> clients{0};      ///< connections so far
   std::atomic<int> messages{0};
@@ -117,12 +123,17 @@ class InverseService {
     if (!lws_is_final_fragment(socket)) return;
     ++messages;
     keep_forces();
-    if (mute) {
+    if (mute || is_ignored()) {
       ++held;
       return;
     }
     ++due;
     lws_callback_on_writable(socket);
+  }
+
+  bool is_ignored() {
+    const std::lock_guard lock(mutex_);
+    return !ignored_.empty() && incoming_.find(ignored_) != std::string::npos;
   }
 
   void keep_forces() {
@@ -173,6 +184,7 @@ class InverseService {
       lws_protocols{"", handle, sizeof(int), 0, 0, nullptr, 0}, lws_protocols{}};
   lws_context* context_ = nullptr;
   int port_ = 0;
+  std::string ignored_;
   std::atomic<bool> stop_{false}, breaks_{false};
   lws* newest_ = nullptr;
   std::string incoming_;
