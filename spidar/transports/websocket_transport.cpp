@@ -16,6 +16,8 @@ namespace spidar {
 namespace {
 
 constexpr const char* kHost = "localhost";
+/// Not looked up: a container may have no /etc/hosts.
+constexpr const char* kAddress = "127.0.0.1";
 constexpr int64_t kGreetingWait_ns = 2 * kSecond_ns;
 constexpr int64_t kAnswerWait_ns = 5'000'000;
 /// Of a message to the service.
@@ -106,7 +108,8 @@ WebSocketTransport::Connection::Connection(uint16_t port) {
   alarm_.context = context_;
   lws_client_connect_info to{};
   to.context = context_;
-  to.address = to.host = kHost;
+  to.address = kAddress;
+  to.host = kHost;
   to.port = port;
   to.path = "/";
   to.local_protocol_name = protocols_[0].name;
