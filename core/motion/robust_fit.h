@@ -38,7 +38,8 @@ class RobustFitter {
   RobustFitter();
 
   /// The best of the similarities through pairs of points (MSAC: Torr and Zisserman: MLESAC, 2000)
-  /// and the `known` models.
+  /// and the `known` models, where deviations of up to 32 σ count as less than outliers: refine()
+  /// narrows that.
   MotionModel start(const WeightedDisplacements& evidence, const std::vector<MotionModel>& known);
 
   /// The model of the given kind to which iteratively reweighted least squares converges from

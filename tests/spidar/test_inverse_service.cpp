@@ -4,13 +4,10 @@
 ///
 /// The process that is killed is another instance of this program.
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <malloc.h>
 #include <string>
-#include <sys/resource.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,7 +17,6 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/transports/listening_port.h"
-#include "spidar/transports/websocket_transport.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/inverse_service.h"
 #include "tests/support/pushed_grip.h"
@@ -49,6 +45,14 @@ void exchange_until(Grip& grip, const GripCommand& command, const Condition& con
     if (grip.exchange(command) == ExchangeStatus::kLost) open_error(grip);
     return condition();
   });
+}
+
+/// A device of the service that is open and pulls.
+std::unique_ptr<Grip> pulling(InverseService& service) {
+  std::unique_ptr<Grip> grip = make(service.spec("049D"));
+  grip->open();
+  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  return grip;
 }
 
 [[noreturn]] void pull_for_ever(const std::string& spec) {
@@ -172,9 +176,7 @@ TEST(InverseService, TwoDevicesAreToldApart) {
 
 TEST(InverseService, AnUnpluggedDeviceIsLostUntilItIsBack) {
   InverseService service;
-  const auto grip = make(service.spec("049D"));
-  grip->open();
-  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  const auto grip = pulling(service);
   service.plug({InverseService::device("B")});
   ExchangeStatus status = ExchangeStatus::kOk;
   wait_for([&] { return (status = grip->exchange(told(1))) == ExchangeStatus::kLost; });
@@ -243,9 +245,7 @@ TEST(InverseService, AnEarlierOneTakesForcesUnderItsOwnKey) {
 /// Or the forces of seconds would follow when it wakes up.
 TEST(InverseService, NothingIsSentToOneThatDoesNotAnswer) {
   InverseService service;
-  const auto grip = make(service.spec("049D"));
-  grip->open();
-  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  const auto grip = pulling(service);
   service.mute = true;
   wait_for([&] {
     grip->exchange(told(2));
@@ -257,9 +257,7 @@ TEST(InverseService, NothingIsSentToOneThatDoesNotAnswer) {
 /// The driver sends nothing before it is answered, so that the guardian does.
 TEST(InverseService, ZeroIsSentToOneThatDoesNotAnswerWhenItIsClosed) {
   InverseService service;
-  const auto grip = make(service.spec("049D"));
-  grip->open();
-  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  const auto grip = pulling(service);
   service.mute = true;
   wait_for([&] {
     return grip->exchange(told(1)) == ExchangeStatus::kLost ||
@@ -273,9 +271,7 @@ TEST(InverseService, ZeroIsSentToOneThatDoesNotAnswerWhenItIsClosed) {
 /// It answers the rest of what it was asked, and the device goes on.
 TEST(InverseService, ABrokenAnswerIsAFaultAndForgotten) {
   InverseService service;
-  const auto grip = make(service.spec("049D"));
-  grip->open();
-  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  const auto grip = pulling(service);
   service.broken = true;
   exchange_until(*grip, told(1), [&] { return grip->health().errors() > 0; });
   EXPECT_EQ(grip->health().last_fault, LinkFault::kShort) << "does not end as JSON does";
@@ -287,9 +283,7 @@ TEST(InverseService, ABrokenAnswerIsAFaultAndForgotten) {
 /// The positions of the versions differ by 0.2 m, which would be a jerk.
 TEST(InverseService, AStateOfAnotherVersionIsNoPosition) {
   InverseService service;
-  const auto grip = make(service.spec("049D"));
-  grip->open();
-  exchange_until(*grip, told(1), [&] { return service.pulls(); });
+  const auto grip = pulling(service);
   const Eigen::Vector3d before_m = grip->reading().pose.position_m;
   inverse3::State earlier = InverseService::device("049D");
   earlier.version = inverse3::Version::k31;
@@ -297,50 +291,6 @@ TEST(InverseService, AStateOfAnotherVersionIsNoPosition) {
   service.plug({earlier});
   exchange_until(*grip, told(1), [&] { return grip->health().count(LinkFault::kWrongReply) >= 3; });
   EXPECT_TRUE(grip->reading().pose.position_m.isApprox(before_m));
-}
-
-class InverseTransport : public testing::Test {
- protected:
-  Transfer ask(int64_t patience_ns) {
-    const size_t length = inverse3::encode_query(query);
-    return transport.exchange({{query.data(), length}}, {answer.data(), answer.size()},
-                              monotonic_now_ns() + patience_ns);
-  }
-
-  InverseService service;
-  std::array<uint8_t, inverse3::kCommandSize> query{};
-  std::array<uint8_t, 4096> answer{};
-  WebSocketTransport transport{"inverse3", static_cast<uint16_t>(service.port()), "start it"};
-};
-
-/// Nothing is sent on a connection that ended with the answer: libwebsockets has freed it, as the
-/// suite `valgrind` shows.
-TEST_F(InverseTransport, AConnectionThatEndsWithAnAnswerIsGone) {
-  transport.open();
-  service.mute = true;
-  ASSERT_EQ(ask(kSecond_ns / 100).fault, LinkFault::kTimeout);
-  service.break_protocol();
-  EXPECT_EQ(ask(10 * kSecond_ns).fault, LinkFault::kGone);
-}
-
-/// In a container, a process may have a billion files.
-TEST_F(InverseTransport, MemoryDoesNotGrowWithTheLimitOfFiles) {
-  rlimit limit{};
-  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
-  const auto used_with = [&](rlim_t files) {
-    const rlimit now{files, limit.rlim_max};
-    EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &now), 0);
-    const struct mallinfo2 before = mallinfo2();
-    transport.open();
-    const struct mallinfo2 after = mallinfo2();
-    transport.close();
-    return static_cast<int64_t>(after.uordblks + after.hblkhd) -
-           static_cast<int64_t>(before.uordblks + before.hblkhd);
-  };
-  used_with(256);  // what is kept from the first connection
-  const int64_t few = used_with(256), many = used_with(limit.rlim_max);
-  setrlimit(RLIMIT_NOFILE, &limit);
-  EXPECT_LT(many, few + 4096);
 }
 
 /// This service keeps a force for ever, so it is the guardian that ends it.
