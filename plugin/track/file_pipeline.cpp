@@ -58,16 +58,22 @@ GstElement* FilePipeline::add_fakesink() const {
   return sink;
 }
 
+void FilePipeline::pause() const {
+  gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
+  const Bus messages = bus();
+  gst_bus_set_flushing(messages.get(), TRUE);
+  gst_bus_set_flushing(messages.get(), FALSE);
+}
+
 GstMessageType FilePipeline::play_until(GstMessageType awaited, GstClockTime limit) const {
   const auto types = static_cast<GstMessageType>(awaited | GST_MESSAGE_EOS | GST_MESSAGE_ERROR);
-  const std::unique_ptr<GstBus, void (*)(gpointer)> bus(gst_element_get_bus(pipeline_.get()),
-                                                        gst_object_unref);
+  const Bus messages = bus();
   bool failed =
       gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING) == GST_STATE_CHANGE_FAILURE;
   uint64_t read = read_;
   GstClockTime silent = 0;
   for (GstClockTime waited = 0; waited < limit; waited += kLook) {
-    GstMessage* message = gst_bus_timed_pop_filtered(bus.get(), kLook, types);
+    GstMessage* message = gst_bus_timed_pop_filtered(messages.get(), kLook, types);
     if (message) {
       const GstMessageType type = GST_MESSAGE_TYPE(message);
       const std::string reason = type == GST_MESSAGE_ERROR ? text_of(message) : std::string();

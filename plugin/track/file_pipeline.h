@@ -33,11 +33,17 @@ class FilePipeline {
   /// read for kLongestSilence, because some demuxers stop at damage without an error, or when
   /// `*stopped` has become true.
   GstMessageType play_until(GstMessageType awaited, GstClockTime limit = GST_CLOCK_TIME_NONE) const;
+  /// Holds the streams where they are, until play_until(), and forgets messages that have come: an
+  /// EOS that follows a seek is then that of the seek.
+  void pause() const;
   /// No callback runs any more.
   void stop() const { gst_element_set_state(pipeline_.get(), GST_STATE_NULL); }
 
  private:
   static constexpr GstClockTime kLongestSilence = 10 * GST_SECOND;
+
+  using Bus = std::unique_ptr<GstBus, void (*)(gpointer)>;
+  Bus bus() const { return {gst_element_get_bus(pipeline_.get()), gst_object_unref}; }
 
   const std::atomic<bool>* const stopped_;
   mutable std::atomic<uint64_t> read_{0};

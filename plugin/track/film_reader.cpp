@@ -24,7 +24,7 @@ constexpr size_t kStartBytes = size_t{8} << 20;
 /// From the last key frame to the end of the film there may be so much.
 constexpr size_t kEndBytes = size_t{64} << 20;
 /// Where the end is searched, before the end of the container: sound may be longer than the
-/// pictures.
+/// pictures, and a demuxer without an index may come out behind the last key frame.
 constexpr int64_t kBeforeEnd_ns[] = {0, 20'000'000'000};
 constexpr GstClockTime kLongestSearch = 10 * GST_SECOND;
 
@@ -46,8 +46,8 @@ class FilmReader {
       film_.duration_ns = duration_ns;
     }
     for (const int64_t before_ns : kBeforeEnd_ns) {
-      if (ended || film_.duration_ns <= before_ns) break;
-      ended = read_from(film_.duration_ns - before_ns);
+      if (ended || film_.duration_ns <= 0) break;
+      ended = read_from(std::max<int64_t>(0, film_.duration_ns - before_ns));
     }
     missing_ = why_missing(parser_);
     file_.stop();
@@ -59,6 +59,7 @@ class FilmReader {
 
   /// Whether there were pictures until the end of the film.
   bool read_from(int64_t time_ns) {
+    file_.pause();
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       part_ = Part::kEnd;
