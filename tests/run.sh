@@ -46,7 +46,8 @@ build() {
     ninja -C "$1" -j"$(nproc)" "${@:2}" || { checks+=(--failed "build in $1/") && false; }
 }
 
-# run_tests FOLDER [meson test option...]: what they need is built. Up to five programs that fail while others
+# run_tests FOLDER PATIENCE [meson test option...]: what they need is built. A time-out, PATIENCE times that of
+# the test, is for what hangs, not for what is slow on a busy machine. Up to five programs that fail while others
 # run beside them run again alone. Those that pass then count as passed, and the summary names them: on a busy
 # machine, for instance, a guardian sets a device to rest whose player gets no processor time for 50 ms.
 run_tests() {
@@ -54,13 +55,13 @@ run_tests() {
     # Results of an earlier run would stand for a test program that crashes in this one.
     rm -f "$1"/*.xml "$1"/meson-logs/testlog*
     # Twice as many as processors: many tests wait for a clock instead of computing.
-    meson test -C "$1" --no-rebuild --num-processes "$((2 * $(nproc)))" --print-errorlogs "${@:2}" || {
+    meson test -C "$1" --no-rebuild -t "$2" --num-processes "$((2 * $(nproc)))" --print-errorlogs "${@:3}" || {
         local failed
         mapfile -t failed < <(python3 tests/summary.py --list-failed "$1")
         # More than a few are no matter of a busy machine.
         if ((${#failed[@]} > 0 && ${#failed[@]} < 6)); then
             say "again, alone: ${failed[*]}"
-            meson test -C "$1" --no-rebuild --num-processes 1 --print-errorlogs --logbase testlog-alone "${failed[@]}" || true
+            meson test -C "$1" --no-rebuild -t "$2" --num-processes 1 --print-errorlogs --logbase testlog-alone "${failed[@]}" || true
         fi
     }
     [[ ! -f $1/meson-logs/testlog.json ]] || builds+=("$1")
@@ -109,7 +110,7 @@ case ${1-} in
     install_packages build test
     configure build
     # Benchmarks are built while the tests run.
-    build build meson-test-prereq && build_ahead build && run_tests build
+    build build meson-test-prereq && build_ahead build && run_tests build 2
     build build || true
     ;;
 --ci)
@@ -146,7 +147,7 @@ case ${1-} in
     export GST_REGISTRY_FORK=no
     if build build-ci-address; then
         build_ahead build-ci-thread "${threaded_targets[@]}"
-        run_tests build-ci-address -t 4 --no-suite short-films
+        run_tests build-ci-address 4 --no-suite short-films
     fi
     check_site build-ci-address
     say "thread sanitizer: what runs on several threads, and a player to which anything is done at random." \
@@ -159,7 +160,7 @@ case ${1-} in
         "valgrind. Each by meson test -C build --suite NAME"
     threaded=(haptic_session shared_memory simulated_faults tick_trace touch_mailbox boards usb_boards force_feedback
         uart_line wrench_callback guardian play_numbers play_traces pipelines_random_operations)
-    ! build build-ci-thread "${threaded_targets[@]}" || run_tests build-ci-thread -t 8 "${threaded[@]}"
+    ! build build-ci-thread "${threaded_targets[@]}" || run_tests build-ci-thread 8 "${threaded[@]}"
     ;;
 *)
     echo "error: unknown option $1; usage: tests/run.sh [--ci]" >&2
