@@ -3,17 +3,26 @@
 #include "core/motion/dominant_object.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace spidar {
 namespace {
 
-/// Memory for the objects of two frames, see ObjectTracker::kMostObjects.
-constexpr size_t kMostRivals = 32;
+/// Memory for the objects of a frame, see ObjectTracker::kMostObjects.
+constexpr size_t kMostRivals = 16;
+
+/// The rate at which a reason grows, see the class.
+double growth(double prominence, double of_followed) {
+  if (prominence == 0) return -1;
+  const double claim = DominantObject::kClearly * of_followed;
+  return (prominence - claim) / (prominence + claim);
+}
 
 }  // namespace
 
 DominantObject::DominantObject() {
   rivals_.reserve(kMostRivals);
+  next_.reserve(kMostRivals);
 }
 
 void DominantObject::reset() {
@@ -21,45 +30,40 @@ void DominantObject::reset() {
   rivals_.clear();
 }
 
-/// Updates the means. Of the objects that are not in the list any more, only the one that is
-/// followed is remembered.
-void DominantObject::gather(const std::vector<MovingObject>& objects, double interval_s) {
-  for (Rival& rival : rivals_) rival.now = nullptr;
-  for (const MovingObject& object : objects) {
-    const auto known = std::find_if(rivals_.begin(), rivals_.end(),
-                                    [&](const Rival& rival) { return rival.id == object.id; });
-    if (known == rivals_.end()) {
-      rivals_.push_back({object.id, 0, &object});
-    } else {
-      known->now = &object;
-    }
-  }
-  rivals_.erase(
-      std::remove_if(rivals_.begin(), rivals_.end(),
-                     [this](const Rival& rival) { return !rival.now && rival.id != id_; }),
-      rivals_.end());
-  const double newest = std::min(1.0, interval_s / kMean_s);
-  for (Rival& rival : rivals_) {
-    const double prominence = rival.now ? rival.now->prominence : 0;
-    rival.prominence += newest * (prominence - rival.prominence);
-  }
+double DominantObject::reason_before(uint32_t id) const {
+  const auto known = std::find_if(rivals_.begin(), rivals_.end(),
+                                  [id](const Rival& rival) { return rival.id == id; });
+  return known == rivals_.end() ? lost_s_ / 2 : known->reason_s;
 }
 
 const MovingObject* DominantObject::choose(const std::vector<MovingObject>& objects,
                                            double interval_s) {
-  gather(objects, interval_s);
-  const Rival* best = nullptr;
-  double most = 0;
-  for (const Rival& rival : rivals_) {
-    const bool is_followed = rival.id == id_;
-    if (!is_followed && rival.now->prominence == 0) continue;
-    const double prominence = rival.prominence * (is_followed ? kClearly : 1);
-    if (prominence <= most) continue;
-    best = &rival;
-    most = prominence;
+  const auto found = std::find_if(objects.begin(), objects.end(),
+                                  [this](const MovingObject& one) { return one.id == id_; });
+  const MovingObject* const followed = found == objects.end() ? nullptr : &*found;
+  const bool in_sight = followed && followed->tracks > 0;
+  if (in_sight) lost_s_ = 0;
+  // In the frame that is nearest to that time.
+  const double enough_s = std::max(0.0, kReason_s - interval_s / 2);
+  const double least_s = in_sight ? -kReason_s : 0;
+  const MovingObject* best = nullptr;
+  next_.clear();
+  for (const MovingObject& object : objects) {
+    if (&object == followed) continue;
+    const double more_s =
+        interval_s * growth(object.prominence, in_sight ? followed->prominence : 0);
+    const double reason_s = std::max(least_s, std::max(least_s, reason_before(object.id)) + more_s);
+    next_.push_back({object.id, reason_s});
+    if (object.prominence == 0 || (id_ != 0 && reason_s <= enough_s)) continue;
+    if (!best || object.prominence > best->prominence) best = &object;
   }
-  id_ = best ? best->id : 0;
-  return best ? best->now : nullptr;
+  std::swap(rivals_, next_);
+  if (!in_sight) lost_s_ += interval_s;
+  if (!best) return followed;
+  id_ = best->id;
+  lost_s_ = 0;
+  rivals_.clear();
+  return best;
 }
 
 }  // namespace spidar

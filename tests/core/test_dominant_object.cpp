@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,13 +10,21 @@
 namespace spidar::test::dominant_object_test {
 namespace {
 
-/// A fifth of kMean_s: a frame is 0.2 of a mean, and 0.8 of it is from before.
+/// A fifth of kReason_s.
 constexpr double kFrame_s = 0.04;
+constexpr int kLong = 100;  // frames
 
 MovingObject object(uint32_t id, double prominence) {
   MovingObject made;
   made.id = id;
   made.prominence = prominence;
+  made.tracks = 4;
+  return made;
+}
+
+MovingObject out_of_sight(uint32_t id) {
+  MovingObject made = object(id, 0);
+  made.tracks = 0;
   return made;
 }
 
@@ -28,55 +36,76 @@ uint32_t choice(DominantObject& dominant, const std::vector<MovingObject>& objec
   return chosen ? chosen->id : 0;
 }
 
-constexpr int kLong = 100;  // frames: a mean no longer changes, 0.8^100 < 1e-9
-
 TEST(DominantObject, IsTheMostProminentOneToBeginWith) {
   DominantObject dominant;
-  EXPECT_EQ(choice(dominant, {}), 0u);
+  EXPECT_EQ(choice(dominant, {}, kLong), 0u);
   EXPECT_EQ(choice(dominant, {object(1, 5), object(2, 9), object(3, 7)}), 2u);
 }
 
 TEST(DominantObject, StaysWhenAnotherIsALittleMoreProminent) {
-  DominantObject dominant;
-  choice(dominant, {object(1, 10), object(2, 9)});
-  for (int n = 0; n < kLong; ++n) {
-    ASSERT_EQ(choice(dominant, {object(1, 10), object(2, 19)}), 1u) << n;
+  // Also at two frames a second, where a single one is longer than kReason_s.
+  for (const double interval_s : {kFrame_s, 0.5}) {
+    DominantObject dominant;
+    choice(dominant, {object(1, 10), object(2, 9)});
+    for (int n = 0; n < kLong; ++n) {
+      ASSERT_EQ(choice(dominant, {object(1, 10), object(2, 29)}, 1, interval_s), 1u) << n;
+    }
   }
 }
 
 TEST(DominantObject, StaysWhenAnotherStandsOutInAFewFramesOnly) {
   DominantObject dominant;
-  choice(dominant, {object(1, 10), object(2, 9)}, kLong);
-  // The mean rises from 9 to 9 + 0.2 · 41 = 17.2, less than twice 10, and falls back.
+  choice(dominant, {object(1, 10), object(2, 9)});
+  // The reason rises by 0.04 s · (50 − 30) / 80 in a frame, and falls by 0.04 s · (30 − 9) / 39:
+  // after 17 and nine frames by 0.17 s and 0.19 s.
   for (int n = 0; n < kLong; ++n) {
-    ASSERT_EQ(choice(dominant, {object(1, 10), object(2, 50)}), 1u) << n;
-    ASSERT_EQ(choice(dominant, {object(1, 10), object(2, 9)}, kLong), 1u) << n;
+    ASSERT_EQ(choice(dominant, {object(1, 10), object(2, 50)}, 17), 1u) << n;
+    ASSERT_EQ(choice(dominant, {object(1, 10), object(2, 9)}, 9), 1u) << n;
   }
 }
 
-TEST(DominantObject, GoesToOneThatIsClearlyMoreProminentForLongEnough) {
-  // 40 − 35 exp(−t / kMean_s) = 2 · 10, at any frame rate; seen in the next frame.
-  const double after_s = DominantObject::kMean_s * std::log(35.0 / 20);
-  for (const double interval_s : {0.01, 0.02, 0.04}) {
-    DominantObject dominant;
-    choice(dominant, {object(1, 10), object(2, 5)}, 10 * kLong, interval_s);
-    const std::vector<MovingObject> outshone = {object(1, 10), object(2, 40)};
-    int frames = 1;
-    while (choice(dominant, outshone, 1, interval_s) == 1 && frames < kLong) ++frames;
-    EXPECT_NEAR(frames * interval_s, after_s, interval_s);
-    // And does not come back for less.
-    EXPECT_EQ(choice(dominant, {object(1, 79), object(2, 40)}, kLong, interval_s), 2u);
+/// Seconds until object 2 of `objects` takes over.
+double time_to_leave(DominantObject& dominant, const std::vector<MovingObject>& objects,
+                     double interval_s = kFrame_s) {
+  int frames = 1;
+  while (choice(dominant, objects, 1, interval_s) != 2 && frames < 2 * kLong) ++frames;
+  return frames * interval_s;
+}
+
+TEST(DominantObject, GoesToAnotherTheSoonerTheMoreItStandsOut) {
+  // At any frame rate after kReason_s (p + 30) / (p − 30): 0.6 s, 0.4 s, 0.3 s. Half a frame of
+  // reason are up to 1.5 frames of time.
+  for (const double prominence : {60.0, 90.0, 150.0}) {
+    const double after_s = DominantObject::kReason_s * (prominence + 30) / (prominence - 30);
+    for (const double interval_s : {0.01, 0.02, 0.04}) {
+      DominantObject dominant;
+      choice(dominant, {object(1, 10), object(2, 5)}, 1, interval_s);
+      const std::vector<MovingObject> outshone = {object(1, 10), object(2, prominence)};
+      EXPECT_NEAR(time_to_leave(dominant, outshone, interval_s), after_s, 1.6 * interval_s);
+      // And does not come back for less than three times as much.
+      const std::vector<MovingObject> again = {object(1, 2.9 * prominence), object(2, prominence)};
+      EXPECT_EQ(choice(dominant, again, kLong, interval_s), 2u);
+    }
   }
+}
+
+TEST(DominantObject, MayRestForLongerWhenItHasStoodOutForLong) {
+  const std::vector<MovingObject> at_rest = {object(1, 0), object(2, 5)};
+  DominantObject dominant;
+  choice(dominant, {object(1, 10), object(2, 5)});
+  EXPECT_NEAR(time_to_leave(dominant, at_rest), DominantObject::kReason_s, kFrame_s / 2);
+  dominant.reset();
+  choice(dominant, {object(1, 10), object(2, 5)}, kLong);
+  EXPECT_NEAR(time_to_leave(dominant, at_rest), 2 * DominantObject::kReason_s, kFrame_s / 2);
 }
 
 TEST(DominantObject, StaysWithOneThatIsMissingInAFewFrames) {
   DominantObject dominant;
-  choice(dominant, {object(1, 10), object(2, 9)}, kLong);
-  // At rest or out of sight, and taken for a layer of the scene.
-  for (const auto& without : {std::vector<MovingObject>{object(1, 0), object(2, 9)},
+  choice(dominant, {object(1, 10), object(2, 9)});
+  // Out of sight, and taken for a layer of the scene.
+  for (const auto& without : {std::vector<MovingObject>{out_of_sight(1), object(2, 9)},
                               std::vector<MovingObject>{object(2, 9)}}) {
-    // 2 · 10 · 0.8³ = 10.2 > 9.
-    EXPECT_NE(choice(dominant, without, 3), 2u);
+    EXPECT_NE(choice(dominant, without, 4), 2u);
     EXPECT_EQ(choice(dominant, {object(1, 10), object(2, 9)}, kLong), 1u);
   }
 }
@@ -84,26 +113,35 @@ TEST(DominantObject, StaysWithOneThatIsMissingInAFewFrames) {
 TEST(DominantObject, LeavesOneThatIsGone) {
   DominantObject dominant;
   choice(dominant, {object(1, 10), object(2, 9)}, kLong);
-  // 2 · 10 · 0.8⁴ = 8.2 < 9.
-  EXPECT_EQ(choice(dominant, {object(2, 9)}, 3), 0u);
+  // 5 · 0.04 s = kReason_s.
+  EXPECT_EQ(choice(dominant, {object(2, 9)}, 4), 0u);
   EXPECT_EQ(choice(dominant, {object(2, 9)}), 2u);
   EXPECT_EQ(choice(dominant, {}, kLong), 0u);
 }
 
 TEST(DominantObject, DoesNotGoToOneThatRests) {
   DominantObject dominant;
-  choice(dominant, {object(1, 10), object(2, 9)}, kLong);
+  choice(dominant, {object(1, 10), object(2, 9)});
   EXPECT_EQ(choice(dominant, {object(2, 0)}, kLong), 0u);
 }
 
-TEST(DominantObject, ALoneOneIsFollowedAtOnce) {
+TEST(DominantObject, OneThatAppearsAfterALossIsFollowedTheSoonerTheLongerAgoThatWas) {
+  // Half of the frames without any object count, of five.
+  for (const auto& [without, with] : {std::pair(1, 5), std::pair(6, 2), std::pair(8, 1)}) {
+    DominantObject dominant;
+    EXPECT_EQ(choice(dominant, {object(1, 10)}), 1u);
+    EXPECT_EQ(choice(dominant, {}, without), 0u);
+    int frames = 1;
+    while (choice(dominant, {object(2, 1)}) == 0 && frames < kLong) ++frames;
+    EXPECT_EQ(frames, with) << without;
+  }
+}
+
+TEST(DominantObject, AfterACutTheFirstOneIsFollowedAtOnce) {
   DominantObject dominant;
   EXPECT_EQ(choice(dominant, {object(1, 10)}), 1u);
-  // Half a second later nothing is left of it: 2 · 10 · 0.8¹³ = 1.1 < 0.2 · 10.
-  EXPECT_EQ(choice(dominant, {}, 12), 0u);
-  EXPECT_EQ(choice(dominant, {object(2, 10)}), 2u);
   dominant.reset();
-  EXPECT_EQ(choice(dominant, {object(3, 1)}), 3u);
+  EXPECT_EQ(choice(dominant, {object(2, 1)}), 2u);
 }
 
 }  // namespace
