@@ -65,15 +65,25 @@ ExchangeStatus ForceGrip::exchange(const GripCommand& command) noexcept {
   return status;
 }
 
+/// A stick is no hand: it snaps back, and its driver reports seldom.
+PoseTrouble ForceGrip::judge(const ForceReading& answer, int64_t now_ns) const noexcept {
+  if (!answer.position_m.allFinite()) return answer.trouble;
+  const double way_m = (answer.position_m - reading_.pose.position_m).norm();
+  return traits_.can_fly && trust_.is_jump(way_m, now_ns) ? PoseTrouble::kJump : PoseTrouble::kNone;
+}
+
 void ForceGrip::see(const ForceReading& answer, const GripCommand& command) noexcept {
   reading_.buttons = answer.buttons;
-  if (answer.position_m.allFinite()) {
+  const PoseTrouble trouble = judge(answer, command.now_ns);
+  if (trouble == PoseTrouble::kNone || trouble == PoseTrouble::kJump) {
     reading_.pose.position_m = answer.position_m;
     trust_.locate(command.now_ns);
+  }
+  if (trouble == PoseTrouble::kNone) {
     trust_.succeed(command.wrench.stacked().isZero(0));
   } else {
     ++reading_.pose_errors;
-    trust_.fail(answer.trouble);
+    trust_.fail(trouble, trouble == PoseTrouble::kJump);
   }
   if (trust_.trusted())
     reading_.motion.see(reading_.pose, trust_.located_ns());

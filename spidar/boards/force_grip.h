@@ -35,6 +35,7 @@ class ForceGrip final : public Grip {
  private:
   ForceOutput output_for(const GripCommand& command) const noexcept;
   void see(const ForceReading& answer, const GripCommand& command) noexcept;
+  PoseTrouble judge(const ForceReading& answer, int64_t now_ns) const noexcept;
 
   const std::unique_ptr<ForceBoard> board_;
   const GripTraits traits_;

@@ -8,9 +8,6 @@
 namespace spidar {
 namespace {
 
-/// Allows for noise of the pose, and for the time between reading the encoders and the clock.
-constexpr double kJumpMargin_m = 2e-3;
-
 double reach_m(const StringGeometry& geometry) {
   double reach = 0;
   for (int i = 0; i < geometry.count; ++i) {
@@ -37,7 +34,6 @@ void GripWatch::reset() noexcept {
   pose_ = {};
   residual_m_ = 0;
   faulty_string_ = -1;
-  located_ = false;
   counted_ = frozen_ = false;
   solver_.reset();
 }
@@ -48,11 +44,10 @@ PoseTrouble GripWatch::judge(const PoseResult& result, int64_t now_ns) const noe
   const double turn_rad = 2 * std::acos(std::min(1.0, std::fabs(pose.orientation.w())));
   if (pose.position_m.cwiseAbs().maxCoeff() > reach_m_ || turn_rad > kMaxTurn_rad)
     return PoseTrouble::kOutside;
-  if (!located_) return PoseTrouble::kNone;
+  // A rotation counts as the way of the points at which the strings are tied.
   const double way_m = (pose.position_m - pose_.position_m).norm() +
                        radius_m_ * pose.orientation.angularDistance(pose_.orientation);
-  const double passed_s = 1e-9 * static_cast<double>(now_ns - trust_.located_ns());
-  return way_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m ? PoseTrouble::kJump : PoseTrouble::kNone;
+  return trust_.is_jump(way_m, now_ns) ? PoseTrouble::kJump : PoseTrouble::kNone;
 }
 
 bool GripWatch::is_frozen(const DeviceReading& reading, const Wrench& applied,
@@ -82,7 +77,6 @@ void GripWatch::see(const DeviceReading& reading, const Wrench& applied, bool ma
   if (trouble == PoseTrouble::kNone || trouble == PoseTrouble::kJump) {
     // The next poses are compared with the pose after a jump, because the grip may really be there.
     pose_ = result.pose;
-    located_ = true;
     trust_.locate(now_ns);
   }
   if (trouble == PoseTrouble::kNone && frozen) trouble = PoseTrouble::kFrozen;

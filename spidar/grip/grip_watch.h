@@ -23,8 +23,6 @@ namespace spidar {
 /// nor throws after construction.
 class GripWatch {
  public:
-  /// No hand is faster. A rotation counts as the speed of the points at which the strings are tied.
-  static constexpr double kMaxSpeed_m_s = 10;
   /// At this rotation, strings from all sides have tangled long before.
   static constexpr double kMaxTurn_rad = 2.1;
   /// A hand yields by some millimetres when the force changes by kFrozenForce_N, and a count is
@@ -81,7 +79,6 @@ class GripWatch {
   Pose pose_;
   double residual_m_ = 0;
   int faulty_string_ = -1;
-  bool located_ = false;  ///< pose_ is of this device since it was opened
   uint64_t pose_errors_ = 0;
   uint64_t string_faults_ = 0;
 

@@ -20,9 +20,21 @@ class PoseTrust {
   static constexpr int64_t kPoseTimeout_ns = 50'000'000;
   /// Good poses in a row before the pose is trusted again.
   static constexpr int kGoodPoses = 20;
+  /// No hand is faster.
+  static constexpr double kMaxSpeed_m_s = 10;
+  /// Allows for noise of the pose, and for the time between reading the sensors and the clock.
+  static constexpr double kJumpMargin_m = 2e-3;
 
+  /// Whether a grip that is so far from its newest pose has moved faster than a hand can.
+  bool is_jump(double way_m, int64_t now_ns) const noexcept {
+    const double passed_s = 1e-9 * static_cast<double>(now_ns - located_ns_);
+    return located_ && way_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m;
+  }
   /// A pose was read at this time, good or not.
-  void locate(int64_t now_ns) noexcept { located_ns_ = now_ns; }
+  void locate(int64_t now_ns) noexcept {
+    located_ = true;
+    located_ns_ = now_ns;
+  }
   /// The pose that was read is good. `may_trust`: trust may begin with it; existing trust is kept
   /// in any case.
   void succeed(bool may_trust) noexcept {
@@ -63,6 +75,7 @@ class PoseTrust {
   PoseTrouble trouble_ = PoseTrouble::kNotYet;
   int misses_ = 0;
   int good_poses_ = 0;
+  bool located_ = false;
   int64_t located_ns_ = 0;
 };
 

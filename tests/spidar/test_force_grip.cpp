@@ -3,6 +3,7 @@
 /// Devices that take a force: every kind with its emulation, without a wire, and the grip on them.
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -172,33 +173,66 @@ TEST(ForceGrip, GivesNeitherTorqueNorWhatTheDeviceCannotGive) {
   EXPECT_TRUE(grip->reading().delivered.force_N.isApprox(Eigen::Vector3d(0.3, 0.4, 0), 1e-12));
 }
 
-/// See Grip::exchange().
-TEST(ForceGrip, ThePoseBecomesKnownOnlyWithoutAForceAndIsLostWithTheAnswers) {
-  ForceBench bench(ForceKind::kForceFeedback);
-  const auto grip = bench.grip();
-  grip->open();
-  GripCommand command = told(1);
-  const auto exchange = [&](int times) {
+/// A grip that is driven tick by tick.
+struct Driven {
+  explicit Driven(ForceKind kind) : bench(kind) { grip->open(); }
+  void exchange(int times) {
     for (int i = 0; i < times; ++i) {
       command.now_ns += kTick_ns;
       grip->check_age(command.now_ns);
       grip->exchange(command);
     }
-  };
-  exchange(2 * PoseTrust::kGoodPoses);
-  EXPECT_FALSE(grip->reading().knows_pose());
-  command.wrench = {};
-  exchange(1);
-  EXPECT_TRUE(grip->reading().knows_pose());
-  command.wrench.force_N.x() = 1;
-  exchange(10);
-  EXPECT_TRUE(grip->reading().knows_pose());
-  bench.wire->fault = LinkFault::kGone;
+  }
+
+  ForceBench bench;
+  const std::unique_ptr<ForceGrip> grip = bench.grip();
+  GripCommand command = told(1);
+};
+
+/// See Grip::exchange().
+TEST(ForceGrip, ThePoseBecomesKnownOnlyWithoutAForceAndIsLostWithTheAnswers) {
+  Driven stick(ForceKind::kForceFeedback);
+  stick.exchange(2 * PoseTrust::kGoodPoses);
+  EXPECT_FALSE(stick.grip->reading().knows_pose());
+  stick.command.wrench = {};
+  stick.exchange(1);
+  EXPECT_TRUE(stick.grip->reading().knows_pose());
+  stick.command.wrench.force_N.x() = 1;
+  stick.exchange(10);
+  EXPECT_TRUE(stick.grip->reading().knows_pose());
+  stick.bench.wire->fault = LinkFault::kGone;
   // Single failed updates are no loss.
-  exchange(static_cast<int>(UpdateWatch::kFailures) * ForceFeedbackBoard::kUpdate_ms +
-           PoseTrust::kMaxMisses);
-  EXPECT_FALSE(grip->reading().knows_pose());
-  EXPECT_EQ(grip->reading().delivered.force_N.x(), 1) << "the last that was acknowledged";
+  stick.exchange(static_cast<int>(UpdateWatch::kFailures) * ForceFeedbackBoard::kUpdate_ms +
+                 PoseTrust::kMaxMisses);
+  EXPECT_FALSE(stick.grip->reading().knows_pose());
+  EXPECT_EQ(stick.grip->reading().delivered.force_N.x(), 1) << "the last that was acknowledged";
+}
+
+/// A device, or its service, that measures from another origin from now on.
+TEST(ForceGrip, AJumpIsNotFollowedUntilItHasLasted) {
+  Driven device(ForceKind::kInverse3);
+  device.command.wrench = {};
+  device.exchange(PoseTrust::kGoodPoses);
+  ASSERT_TRUE(device.grip->reading().knows_pose());
+  device.bench.motors.count[0] = 200'000;  // µm
+  device.exchange(1);
+  EXPECT_EQ(device.grip->reading().trouble, PoseTrouble::kJump);
+  device.exchange(PoseTrust::kGoodPoses - 1);
+  EXPECT_FALSE(device.grip->reading().knows_pose());
+  device.exchange(1);
+  EXPECT_TRUE(device.grip->reading().knows_pose());
+  EXPECT_NEAR(device.grip->reading().pose.position_m.x(), 0.2, 1e-9);
+  EXPECT_TRUE(device.grip->reading().motion.velocity().linear_m_s.isZero(0));
+}
+
+TEST(ForceGrip, AStickMaySnapBack) {
+  Driven stick(ForceKind::kForceFeedback);
+  stick.command.wrench = {};
+  stick.exchange(PoseTrust::kGoodPoses);
+  stick.bench.motors.count[0] = ff::Position::kFull;
+  stick.exchange(ForceFeedbackBoard::kUpdate_ms);
+  EXPECT_TRUE(stick.grip->reading().knows_pose());
+  EXPECT_GT(stick.grip->reading().pose.position_m.x(), 0.01);
 }
 
 TEST(ForceGrip, AnInverse3TakesForcesAndGivesPositionsInAllAxes) {
