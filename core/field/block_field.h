@@ -3,6 +3,7 @@
 /// How each part of the picture moves, from one frame to the next.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/field/block_kernels.h"
@@ -48,6 +49,10 @@ class BlockField {
   /// `base` is the frame reduced by a power of 2.
   Result update(const PaddedImage& base);
 
+  /// From the next update() on, the picture is up to so many steps coarser, see field_scale().
+  /// `before` is the base of the last update(). Returns how the grid of blocks changes with it.
+  std::optional<GridChange> set_coarser(int steps, const PaddedImage& before);
+
   /// The picture is shown again: all blocks stand still.
   void stand_still();
 
@@ -77,6 +82,7 @@ class BlockField {
 
  private:
   void resize(const PaddedImage& base);
+  void reduce(const PaddedImage& base);
   void begin();
   void compensate_light();
   void find_hints();
@@ -85,9 +91,11 @@ class BlockField {
   void refine(size_t index);
 
   FieldScale scale_ = FieldScale::kSame;
+  int coarser_ = 0;
   int base_width_ = 0;
   int base_height_ = 0;
   bool has_picture_ = false;
+  PaddedImage half_;
   PaddedImage before_;
   PaddedImage now_;
   BlockGrid grid_;

@@ -9,12 +9,14 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "core/field/block_kernels.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
 namespace {
 
 constexpr double kArea_px2 = 427.0 * 240.0;
+constexpr double kLeastCoarseSide_px = 5 * kBlock_px;
 
 // A pixel of the reduced picture covers one and a half of the base, so three in a row a, b, c
 // become the two (2 a + b) / 3 and (b + 2 c) / 3. In two dimensions the weights are 4, 2, 2 and 1
@@ -118,7 +120,7 @@ void reduce_to_two_thirds_by(const PaddedImage& image, PaddedImage& reduced, Row
 
 }  // namespace
 
-FieldScale field_scale(int base_width, int base_height) {
+FieldScale field_scale(int base_width, int base_height, int coarser) {
   FieldScale best = FieldScale::kSame;
   double least = 1e300;
   for (const FieldScale scale : {FieldScale::kSame, FieldScale::kTwoThirds, FieldScale::kHalf}) {
@@ -131,6 +133,11 @@ FieldScale field_scale(int base_width, int base_height) {
       best = scale;
     }
   }
+  for (; coarser > 0 && best != FieldScale::kQuarter; --coarser) {
+    const auto next = static_cast<FieldScale>(static_cast<int>(best) + 1);
+    if (std::min(base_width, base_height) / pixels_to_one(next) < kLeastCoarseSide_px) break;
+    best = next;
+  }
   return best;
 }
 
@@ -142,11 +149,16 @@ double pixels_to_one(FieldScale scale) {
       return 1.5;
     case FieldScale::kHalf:
       return 2;
+    case FieldScale::kThird:
+      return 3;
+    case FieldScale::kQuarter:
+      return 4;
   }
   return 1;
 }
 
-void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& picture) {
+void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& half,
+                     PaddedImage& picture) {
   switch (scale) {
     case FieldScale::kSame:
       picture.resize(base.width(), base.height());
@@ -159,6 +171,13 @@ void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& pic
       break;
     case FieldScale::kHalf:
       halve(base, picture);
+      break;
+    case FieldScale::kThird:
+      halve(base, half);
+      vectors::reduce_to_two_thirds(half, picture);
+      break;
+    case FieldScale::kQuarter:
+      reduce_blocks(base.view(), 4, picture);
       break;
   }
   picture.repeat_border();

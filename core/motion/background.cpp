@@ -56,6 +56,14 @@ void BackgroundVotes::clear() {
   all = 0;
 }
 
+Background in_pixels_of(const Background& background, double scale) {
+  Background result = background;
+  result.model.shift_px *= scale;
+  result.model.perspective_1_px /= scale;
+  result.sigma_px *= scale;
+  return result;
+}
+
 BackgroundEstimator::BackgroundEstimator() {
   evidence_.points.reserve(kMostDisplacements);
   evidence_.weights.reserve(kMostDisplacements);
@@ -71,6 +79,11 @@ void BackgroundEstimator::reset() {
   patience_ = 0;
   frames_since_climb_ = kClimbInterval;
   refused_cost_ = 0;
+}
+
+void BackgroundEstimator::change_pixels(double ratio) {
+  background_ = in_pixels_of(background_, ratio);
+  noise_px_ = std::clamp(ratio * noise_px_, kLeastNoise_px, kMostNoise_px);
 }
 
 /// The weights are scaled so that their sum is the number of equally weighted points that carry the

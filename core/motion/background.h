@@ -27,6 +27,9 @@ struct BackgroundVotes {
   void clear();
 };
 
+/// The same background in smaller pixels: `scale` of them make one of the old.
+Background in_pixels_of(const Background& background, double scale);
+
 /// Chooses, from frame to frame, the lowest rung of the ladder that explains the votes.
 ///
 /// An object in front of a plain background may have all the votes, and any two objects move like
@@ -70,6 +73,9 @@ class BackgroundEstimator {
 
   /// Forgets everything, after a cut or a seek.
   void reset();
+
+  /// The votes of the next frame are in smaller pixels: `ratio` of them make one of the old.
+  void change_pixels(double ratio);
 
  private:
   struct Scored {

@@ -3,6 +3,7 @@
 #include "core/motion/layer_evidence.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 namespace spidar {
 namespace {
@@ -29,6 +30,14 @@ void LayerEvidence::add(const Eigen::Vector2d& relative_px_s,
   background_px_s_ += newest * (background_px_s - background_px_s_);
   seen_s_ += interval_s;
   if (seen_s_ >= kMean_s) least_ratio_ = std::min(least_ratio_, mean_ratio());
+}
+
+void LayerEvidence::change_pixels(double ratio) {
+  for (Eigen::Vector2d* velocity : {&relative_px_s_, &background_px_s_, &newest_px_s_}) {
+    *velocity *= ratio;
+  }
+  screen_px2_s2_ *= ratio * ratio;
+  changes_px2_s2_ *= ratio * ratio;
 }
 
 double LayerEvidence::mean_ratio() const {

@@ -23,6 +23,9 @@ class LayerEvidence {
   void add(const Eigen::Vector2d& relative_px_s, const Eigen::Vector2d& background_px_s,
            double interval_s);
 
+  /// Pixels are smaller from now on: `ratio` of them make one of the old.
+  void change_pixels(double ratio);
+
   /// Speed on the screen over speed relative to the background: above 1 for a layer, below 1 for
   /// what the camera follows, 1 while the camera rests or shakes in place. A layer keeps its ratio
   /// for as long as the camera travels, an object does not: the lowest mean over a whole kMean_s

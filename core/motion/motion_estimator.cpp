@@ -29,15 +29,6 @@ constexpr double kMostDearer = 0.04;
 /// Blocks in the list of tracks have ids from this one on.
 constexpr uint32_t kFirstBlockId = 1u << 31;
 
-/// The same background in smaller pixels: `scale` of them make one of the old.
-Background in_pixels_of(const Background& background, double scale) {
-  Background result = background;
-  result.model.shift_px *= scale;
-  result.model.perspective_1_px /= scale;
-  result.sigma_px *= scale;
-  return result;
-}
-
 /// Mean of ρ over the votes, see point_cost().
 double mean_cost(const MotionModel& model, const BackgroundVotes& votes, double sigma_px) {
   double sum = 0;
@@ -201,6 +192,12 @@ void MotionEstimator::report_tracks(const ReducedFrame& reduced) {
 SceneMotion MotionEstimator::estimate(const ImageView& frame, const ReducedFrame& reduced,
                                       const FieldPoints::Settings& points, int64_t interval_ns) {
   SceneMotion scene;
+  if (!reduced.is_repeated()) {
+    if (const auto change = field_.set_coarser(coarser_, reduced.before())) {
+      estimator_.change_pixels(change->ratio);
+      objects_.change_grid(*change);
+    }
+  }
   if (reduced.is_repeated() && field_.has_picture()) {
     field_.stand_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {

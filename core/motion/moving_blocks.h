@@ -45,6 +45,9 @@ class MovingBlocks {
 
   void reset();
 
+  /// The field has another grid from the next frame on.
+  void change_grid(const GridChange& change);
+
  private:
   enum class Judgement : uint8_t { kStill, kMoves, kUnknown, kBurnedIn };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "core/motion/salience.h"
 #include "core/quantile.h"
@@ -62,6 +63,24 @@ void ObjectTracker::reset() {
   owners_.clear();
   lives_.clear();
   objects_.clear();
+}
+
+/// `object` is in pixels of the frame.
+void ObjectTracker::Life::change_pixels(double ratio) {
+  region.blocks = std::max(1, static_cast<int>(std::lround(ratio * ratio * region.blocks)));
+  for (Eigen::Vector2d* length :
+       {&region.position_px, &region.low_px, &region.high_px, &region.relative_px,
+        &region.background_px, &velocity_px_s, &expected_px, &expected_px_s, &expected_sides_px}) {
+    *length *= ratio;
+  }
+  usual_blocks *= ratio * ratio;
+  evidence.change_pixels(ratio);
+}
+
+void ObjectTracker::change_grid(const GridChange& change) {
+  moving_.change_grid(change);
+  change.apply(owners_);
+  for (Life& life : lives_) life.change_pixels(change.ratio);
 }
 
 bool ObjectTracker::is_same_motion(const Life& life, const Region& region,

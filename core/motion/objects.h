@@ -64,6 +64,9 @@ class ObjectTracker {
   /// Forgets everything, after a cut or a seek.
   void reset();
 
+  /// The field has another grid from the next frame on. Objects stay what they are.
+  void change_grid(const GridChange& change);
+
   static constexpr double kForgotten_s = 0.5;
   static constexpr double kAtRest_s = 1.0;
   static constexpr size_t kMostObjects = 16;
@@ -91,6 +94,7 @@ class ObjectTracker {
     bool is_layer = false;  ///< looks more like a part of the scene than like an object
 
     bool is_born() const;
+    void change_pixels(double ratio);
   };
 
   void claim(const FieldInFrame& frame);

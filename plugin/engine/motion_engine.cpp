@@ -29,6 +29,8 @@ void MotionEngine::close() {
 
 std::string MotionEngine::start(const std::string& trace_path, const AnalyzerSettings& settings) {
   stats_.reset();
+  ladder_ = {};
+  told_rung_ = 0;
   restart_timing();
   return trace_path.empty() ? std::string() : trace_.open(trace_path, settings);
 }

@@ -14,6 +14,7 @@
 
 #include "core/analysis/motion_analyzer.h"
 #include "core/analysis/motion_replay.h"
+#include "core/analysis/work_ladder.h"
 #include "plugin/device/haptic_output.h"
 #include "plugin/engine/stream_orientation.h"
 #include "plugin/frame/frame_luma.h"
@@ -69,6 +70,8 @@ class MotionEngine {
   /// The sink has stepped over so much of running time: it shows what follows as much earlier.
   void skip(GstClockTime duration);
   GstStructure* stats() const;
+  /// Frames that were analysed since the stream began.
+  uint64_t frames() const { return stats_.frames(); }
   /// What has kept the force from being felt in the last second of what is on the screen.
   NoForceReason no_force_reason() const;
 
@@ -85,6 +88,8 @@ class MotionEngine {
   /// Pictures are not analysed: frames are found in this file by their stream time, which is
   /// `later_ns` later than there. Null: they are again.
   void set_motion(std::shared_ptr<const MotionFile> file, int64_t later_ns);
+  /// Processor time that the analysis of a frame may take from now on; 0: no limit.
+  void set_budget_us(int budget_us) { budget_us_ = budget_us; }
   /// The pointer of `settings` is a place of the frame before it is turned.
   FrameReport process(const GstVideoFrame& frame, const GstSegment& segment,
                       const AnalyzerSettings& settings, const TouchProperties& touch);
@@ -115,6 +120,8 @@ class MotionEngine {
                FrameReport& report);
   bool replay(const GstVideoFrame& frame, const GstSegment& segment, AnalyzerSettings settings,
               FrameReport& report);
+  void analyze_within_budget(const ImageView& picture, AnalyzerSettings settings, int64_t paced_ns,
+                             const FilmPlace& film, FrameReport& report);
   const MeasuredFrame& measured() const;
   /// Of the picture in which the wrench was found.
   const PictureTurn& wrench_turn() const { return replay_.active() ? replay_.turn() : turn_; }
@@ -135,6 +142,9 @@ class MotionEngine {
   StreamOrientation orientation_;
   PictureTurn turn_;
   MotionAnalyzer analyzer_;
+  WorkLadder ladder_;
+  int budget_us_ = 0;
+  int told_rung_ = 0;
   MotionReplay replay_;
   std::atomic<uint64_t> replayed_{0};  // frames since set_motion()
   FrameLuma luma_;

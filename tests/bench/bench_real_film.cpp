@@ -5,7 +5,8 @@
 /// decoding, and the height of the picture.
 ///   bench_real_film METHOD FILM
 /// METHOD is one of the element's settings or one of two flows:
-///   default, fast, fine, opencv, mean, paper
+///   default, fast, fine, mean, paper
+///   rung=N     what a budget leaves of `default`, see WorkLadder; budget=US: that which it leaves
 ///   dis       dense flow (DIS, preset medium) at half size
 ///   vectors   motion vectors of the coded film, which must be H.264 without B frames
 /// For the two flows, a homography is fitted robustly at every 16th pixel, and the object is the
@@ -30,6 +31,7 @@ extern "C" {
 #include <opencv2/video/tracking.hpp>
 
 #include "core/analysis/motion_analyzer.h"
+#include "core/analysis/work_ladder.h"
 #include "core/motion/robust_fit.h"
 
 namespace {
@@ -48,10 +50,10 @@ constexpr int kGrid_px = 16;
 /// it moved moves by itself: of four thresholds tried, the one with which DIS is right most often.
 constexpr double kLeastShare = 0.2;
 
-double cpu_ms() {
+int64_t cpu_ns() {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+  return int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
 }
 
 /// Flow at each point of a grid, px; where it is not known, nothing.
@@ -145,15 +147,26 @@ class Method {
 
 class Element final : public Method {
  public:
-  explicit Element(const AnalyzerSettings& settings) : analyzer_(settings) {}
+  Element(const AnalyzerSettings& settings, int64_t budget_ns)
+      : settings_(settings), analyzer_(settings) {
+    ladder_.set_budget_ns(budget_ns);
+  }
   Vector2d find(const AVFrame& frame, int64_t time_ns) override {
     const ImageView luma{frame.data[0], frame.width, frame.height, frame.linesize[0]};
+    if (ladder_.budget_ns() > 0) {
+      settings_.less_work = ladder_.rung();
+      analyzer_.configure(settings_);
+    }
+    const int64_t begin_ns = cpu_ns();
     const auto found = analyzer_.analyze(luma, time_ns);
+    ladder_.add(cpu_ns() - begin_ns, !found.restarted && !found.same_picture);
     return found.motion.velocity_px_s * (static_cast<double>(found.interval_ns) * 1e-9);
   }
 
  private:
+  AnalyzerSettings settings_;
   spidar::MotionAnalyzer analyzer_;
+  spidar::WorkLadder ladder_;
 };
 
 class Dis final : public Method {
@@ -229,12 +242,18 @@ std::unique_ptr<Method> make_method(const std::string& name) {
   if (name == "fine") settings.tracker.quality = spidar::TrackerQuality::kFine;
   if (name == "mean") settings.motion = spidar::MotionKind::kMean;
   if (name == "paper") settings = spidar::paper_settings();
+  if (name.rfind("rung=", 0) == 0) {
+    settings.less_work = std::stoi(name.substr(5));
+    return std::make_unique<Element>(settings, 0);
+  }
+  if (name.rfind("budget=", 0) == 0)
+    return std::make_unique<Element>(settings, int64_t{1000} * std::stoi(name.substr(7)));
   const std::vector<std::string> known{"default", "fast", "fine", "mean", "paper"};
   if (std::find(known.begin(), known.end(), name) == known.end()) {
     throw std::runtime_error("no method '" + name + "'; there are default, fast, fine, " +
-                             "mean, paper, dis and vectors");
+                             "mean, paper, rung=N, budget=US, dis and vectors");
   }
-  return std::make_unique<Element>(settings);
+  return std::make_unique<Element>(settings, 0);
 }
 
 /// Frames of the first video of a file, with motion vectors where the format has them.
@@ -301,10 +320,10 @@ int main(int argc, char** argv) try {
   const auto method = make_method(argv[1]);
   int n = 0;
   Film(argv[2]).play([&](const AVFrame& frame, int64_t time_ns) {
-    const double before_ms = cpu_ms();
+    const int64_t begin_ns = cpu_ns();
     const Vector2d found_px = method->find(frame, time_ns);
-    std::printf("%d,%.4f,%.4f,%.4f,%d\n", n++, found_px.x(), found_px.y(), cpu_ms() - before_ms,
-                frame.height);
+    std::printf("%d,%.4f,%.4f,%.4f,%d\n", n++, found_px.x(), found_px.y(),
+                1e-6 * static_cast<double>(cpu_ns() - begin_ns), frame.height);
   });
   return 0;
 } catch (const std::exception& error) {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Updates the four tables and the picture of real films in docs/tables-tracking.md:
+# Updates the five tables and the picture of real films in docs/tables-tracking.md:
 #   tests/bench/real_films.sh BUILD FOLDER [OLDER_BUILD]
 # real_films.py describes the contents of FOLDER; no film is part of this repository. OLDER_BUILD is
 # the build folder of another version, for a row of the first table; without it that row is missing.

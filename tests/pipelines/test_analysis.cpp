@@ -227,6 +227,8 @@ TEST_F(Analysis, RefusesWhatItCannotRender) {
   expect_refused("render " + motion + " -- device=sim", 2, "changes nothing in a track");
   expect_refused("render " + motion + " track.mp3", 2, "ends in none of .flac, .mka, .wav");
   expect_refused("analyze " + film + " -- max-force=2", 2, "it is for spidartrack render");
+  for (const char* command : {"analyze ", "record ", "render "})
+    expect_refused(command + film + " -- budget=300", 2, "what is recorded is the same on every");
   const std::string whole = bytes_of(motion);
   std::ofstream(motion, std::ios::binary) << whole.substr(0, whole.size() / 2);
   expect_refused("render " + motion, 1, "its end is missing");

@@ -97,6 +97,10 @@ void ElementHarness::drain() {
         gst_message_parse_error(message, &error, nullptr);
         errors_.emplace_back(error->message);
         break;
+      case GST_MESSAGE_QOS:
+        qualities_.emplace_back();
+        gst_message_parse_qos_values(message, nullptr, nullptr, &qualities_.back());
+        break;
       default:
         break;
     }
@@ -118,6 +122,11 @@ const std::vector<std::string>& ElementHarness::warnings() {
 const std::vector<std::string>& ElementHarness::errors() {
   drain();
   return errors_;
+}
+
+const std::vector<gint>& ElementHarness::qualities() {
+  drain();
+  return qualities_;
 }
 
 MotionEngine& ElementHarness::engine() {
