@@ -162,10 +162,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     self->choice->check(report.analysis.choice, settings.kept, report.stream_time);
   }
   if (display.overlay) self->warnings->check_overlay(frame->info);
-  if (report.budget && report.budget->has_new_rung) {
-    GST_DEBUG_OBJECT(self, "rung %d of the analysis", report.budget->rung);
-    post_budget_message(GST_ELEMENT(self), frame->buffer, report, self->engine->frames());
-  }
+  post_budget_message(GST_ELEMENT(self), frame->buffer, report, self->engine->frames());
   if (report.analyzed && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, report, &self->unread_messages);
   }

@@ -3,10 +3,11 @@
 #include "core/field/block_field.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
+
+#include "core/field/light_change.h"
 
 namespace spidar {
 namespace {
@@ -15,76 +16,6 @@ namespace {
 constexpr float kMostStep_px = 1;
 /// Pixels of the picture to one pixel of the coarse picture.
 constexpr int kCoarser = 4;
-
-/// Mean brightness of two pictures of the same size, grey levels, and the ratio of their contrasts.
-struct LightChange {
-  double mean_before = 0;
-  double mean_now = 0;
-  double gain = 1;
-
-  bool is_noticed() const {
-    constexpr double kNoticed_grey = 1.5;
-    constexpr double kNoticedGain = 0.03;
-    return std::abs(mean_now - mean_before) > kNoticed_grey || std::abs(gain - 1) > kNoticedGain;
-  }
-};
-
-void mean_and_variance(const PaddedImage& picture, double& mean, double& variance) {
-  int64_t sum = 0;
-  int64_t squares = 0;
-  for (int y = 0; y < picture.height(); ++y) {
-    const uint8_t* row = picture.row(y);
-    int row_sum = 0;
-    int row_squares = 0;
-    for (int x = 0; x < picture.width(); ++x) {
-      row_sum += row[x];
-      row_squares += row[x] * row[x];
-    }
-    sum += row_sum;
-    squares += row_squares;
-  }
-  const auto n = static_cast<double>(picture.width()) * picture.height();
-  mean = static_cast<double>(sum) / n;
-  variance = static_cast<double>(squares) / n - mean * mean;
-}
-
-LightChange light_change(const PaddedImage& before, const PaddedImage& now) {
-  LightChange change;
-  double variance_before = 0;
-  double variance_now = 0;
-  mean_and_variance(before, change.mean_before, variance_before);
-  mean_and_variance(now, change.mean_now, variance_now);
-  // Contrast below one grey level is mostly rounding error.
-  if (variance_before >= 1 && variance_now >= 1) {
-    change.gain = std::sqrt(variance_now / variance_before);
-  }
-  return change;
-}
-
-/// Whether replacing the values of `before` makes it clearly more like `now`.
-bool makes_alike(const PaddedImage& before, const PaddedImage& now,
-                 const std::array<uint8_t, 256>& table) {
-  constexpr double kAlike = 0.8;
-  int64_t as_it_was = 0;
-  int64_t replaced = 0;
-  for (int y = 0; y < now.height(); ++y) {
-    const uint8_t* p = before.row(y);
-    const uint8_t* q = now.row(y);
-    for (int x = 0; x < now.width(); ++x) {
-      as_it_was += std::abs(q[x] - p[x]);
-      replaced += std::abs(q[x] - table[p[x]]);
-    }
-  }
-  return static_cast<double>(replaced) < kAlike * static_cast<double>(as_it_was);
-}
-
-void replace_values(const std::array<uint8_t, 256>& table, PaddedImage& picture) {
-  for (int y = 0; y < picture.height(); ++y) {
-    uint8_t* row = picture.row(y);
-    for (int x = 0; x < picture.width(); ++x) row[x] = table[row[x]];
-  }
-  picture.repeat_border();
-}
 
 /// A frame counts as a cut when the best matches of all blocks differ by at least kLeastCut_grey a
 /// pixel on the mean, and more than kCutShare of the textured blocks are lost. A block is textured
@@ -189,7 +120,7 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
     before_.resize(now_.width(), now_.height());
     return Result::kFirst;
   }
-  compensate_light();
+  compensate_light(coarse_before_, coarse_now_, before_);
   find_hints();
   search_.find(before_, now_, grid_, hints_, matches_);
   if (is_cut()) {
@@ -223,22 +154,6 @@ bool BlockField::is_cut() const {
     }
   }
   return lost > kCutShare * with_texture;
-}
-
-/// When the brightness of the whole picture has changed (a flickering lamp, a fade, a shutter),
-/// adapts the picture before to the new brightness. The change counts only if that makes the two
-/// pictures more alike.
-void BlockField::compensate_light() {
-  const LightChange change = light_change(coarse_before_, coarse_now_);
-  if (!change.is_noticed()) return;
-  std::array<uint8_t, 256> table;
-  for (size_t v = 0; v < table.size(); ++v) {
-    const double value = change.gain * (static_cast<double>(v) - change.mean_before);
-    table[v] = static_cast<uint8_t>(std::clamp(value + change.mean_now + 0.5, 0.0, 255.0));
-  }
-  if (!makes_alike(coarse_before_, coarse_now_, table)) return;
-  replace_values(table, coarse_before_);
-  replace_values(table, before_);
 }
 
 /// Searches a picture of a quarter of the resolution, in which each block covers four by four of

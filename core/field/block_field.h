@@ -84,7 +84,6 @@ class BlockField {
   void resize(const PaddedImage& base);
   void reduce(const PaddedImage& base);
   void begin();
-  void compensate_light();
   void find_hints();
   bool is_cut() const;
   bool is_in_reach(int left_px, int top_px) const;

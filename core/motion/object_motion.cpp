@@ -14,14 +14,15 @@ constexpr size_t kLeastForSimilarity = 6;
 /// rigid.
 constexpr double kObjectNoiseShare = 0.1;
 /// Points belong to the object if their motion differs from the median of its blocks by at most
-/// kPointReachShare of it plus kPointReach_px, px of the field's picture. They are used instead of
-/// the blocks if there are at least kLeastPoints of them and kPointShare of the number of blocks.
+/// kPointReachShare of it plus kObjectPointReach_px, px of the field's picture. They are used
+/// instead of the blocks if there are at least kLeastPoints of them and kPointShare of the number
+/// of blocks.
 constexpr double kPointReachShare = 0.35;
-constexpr double kPointReach_px = 0.5;
+constexpr double kObjectPointReach_px = 0.5;
 constexpr double kLeastPoints = 4;
 constexpr double kPointShare = 0.5;
 /// Noise of a point's displacement, px of the field's picture, plus a share of the displacement.
-constexpr double kPointNoise_px = 0.1;
+constexpr double kObjectPointNoise_px = 0.1;
 constexpr double kPointNoiseShare = 0.03;
 /// The object is rigid when the mean ρ of its points is below this; the ρ of an outlier is 4.
 constexpr double kRigid = 1;
@@ -61,11 +62,12 @@ bool ObjectMeter::collect_points(uint32_t key, const Region& region, const Motio
     Displacement relative = point.moved;
     relative.moved_px -= evidence.background.model.displacement_px(relative.at_px);
     const Eigen::Vector2d expected_px = motion.displacement_px(relative.at_px);
-    const double reach_px = kPointReachShare * expected_px.norm() + kPointReach_px;
+    const double reach_px = kPointReachShare * expected_px.norm() + kObjectPointReach_px;
     if ((relative.moved_px - expected_px).norm() < reach_px) collected_.points.push_back(relative);
   }
   collected_.weights.assign(collected_.points.size(), 1.0);
-  collected_.sigma_px = std::max(kPointNoise_px, kPointNoiseShare * region.relative_px.norm());
+  collected_.sigma_px =
+      std::max(kObjectPointNoise_px, kPointNoiseShare * region.relative_px.norm());
   const auto n = static_cast<double>(collected_.points.size());
   return n >= kLeastPoints && n >= kPointShare * region.blocks;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "core/motion/salience.h"
 #include "core/quantile.h"
@@ -65,9 +64,8 @@ void ObjectTracker::reset() {
   objects_.clear();
 }
 
-/// `object` is in pixels of the frame.
 void ObjectTracker::Life::change_pixels(double ratio) {
-  region.blocks = std::max(1, static_cast<int>(std::lround(ratio * ratio * region.blocks)));
+  region.blocks = static_cast<int>(std::ceil(ratio * ratio * region.blocks));
   for (Eigen::Vector2d* length :
        {&region.position_px, &region.low_px, &region.high_px, &region.relative_px,
         &region.background_px, &velocity_px_s, &expected_px, &expected_px_s, &expected_sides_px}) {
@@ -124,7 +122,7 @@ ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const Fiel
   return best;
 }
 
-/// The key of a new object; 0 when there are too many objects.
+/// The key of a new object; 0 when there are too many.
 uint32_t ObjectTracker::create(const Region& region) {
   if (lives_.size() >= kMostObjects) return 0;
   lives_.emplace_back();

@@ -14,6 +14,7 @@ constexpr gint kRungs = WorkLadder::kLowest + 1;
 
 void post_budget_message(GstElement* element, GstBuffer* buffer, const FrameReport& report,
                          guint64 frames) {
+  if (!report.budget || !report.budget->has_new_rung) return;
   const BudgetReport& budget = *report.budget;
   GstMessage* const message =
       gst_message_new_qos(GST_OBJECT(element), FALSE, report.running_time, report.stream_time,

@@ -9,7 +9,7 @@
 
 namespace spidar {
 
-/// Posts GStreamer's QoS message for a frame whose rung is not that of the frame before. Its
+/// Posts GStreamer's QoS message if the rung of a frame is not that of the frame before. Its
 /// quality is 1 000 000 on rung 0, as GStreamer has it, and a fifth less on each next one. Its
 /// proportion is the time that the frame took over the budget; no frame is dropped.
 void post_budget_message(GstElement* element, GstBuffer* buffer, const FrameReport& report,

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <random>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -149,52 +148,6 @@ TEST(FieldSteps, ThePictureHasAboutTheSameAreaWhateverTheFrame) {
   EXPECT_EQ(field_scale(270, 480), FieldScale::kSame);
   EXPECT_EQ(field_scale(900, 900), FieldScale::kHalf);
   EXPECT_EQ(field_scale(600, 20), FieldScale::kSame) << "no side becomes less than 16 px";
-}
-
-TEST(FieldSteps, ForLessWorkThePictureIsSmaller) {
-  EXPECT_EQ(field_scale(427, 240, 1), FieldScale::kTwoThirds);
-  EXPECT_EQ(field_scale(427, 240, 3), FieldScale::kThird);
-  EXPECT_EQ(field_scale(640, 360, 3), FieldScale::kQuarter);
-  EXPECT_EQ(field_scale(640, 360, 9), FieldScale::kQuarter) << "there is no smaller one";
-  EXPECT_EQ(field_scale(160, 120, 3), FieldScale::kTwoThirds) << "of which 80 px are five blocks";
-}
-
-TEST(FieldSteps, ASmallerPictureHasTheMeanOfItsArea) {
-  PaddedImage base, half, picture;
-  base.resize(72, 48);
-  for (int y = 0; y < 48; ++y) {
-    for (int x = 0; x < 72; ++x) base.row(y)[x] = static_cast<uint8_t>(2 * x + y);
-  }
-  base.repeat_border();
-  for (const FieldScale scale : {FieldScale::kThird, FieldScale::kQuarter}) {
-    const auto pixels = static_cast<int>(pixels_to_one(scale));
-    reduce_to_field(base, scale, half, picture);
-    ASSERT_EQ(picture.width(), 72 / pixels);
-    ASSERT_EQ(picture.height(), 48 / pixels);
-    for (int y = 0; y < picture.height(); ++y) {
-      for (int x = 0; x < picture.width(); ++x) {
-        // Of a slope the value in the middle, and each of two reductions is rounded. Every second
-        // row of four is read, whose middle is half a pixel higher.
-        const double middle = (pixels - 1) / 2.0;
-        const double value = 2 * (pixels * x + middle) + pixels * y + middle;
-        EXPECT_NEAR(picture.row(y)[x], value, scale == FieldScale::kThird ? 1 : 0.5 + 0.5);
-      }
-    }
-  }
-}
-
-TEST(FieldSteps, AFinerGridHasInEachBlockWhatWasThere) {
-  // Two by two blocks become four by four, which divide each of them.
-  const GridChange change{BlockGrid::over(32, 32), BlockGrid::over(64, 64), 2};
-  std::vector<int> values{1, 2, 3, 4};
-  change.apply(values);
-  EXPECT_EQ(values, (std::vector<int>{1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 4, 4, 3, 3, 4, 4}));
-  const GridChange back{change.to, change.from, 0.5};
-  back.apply(values);
-  EXPECT_EQ(values, (std::vector<int>{1, 2, 3, 4}));
-  std::vector<int> none;
-  change.apply(none);
-  EXPECT_TRUE(none.empty());
 }
 
 /// Of a block's displacement by the Gauss–Newton step from the nearest whole pixel, which is

@@ -2,10 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // An object keeps its id while it is in view, meets others or is hidden, and loses it when it has
 // gone.
-#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -136,40 +134,6 @@ TEST(ObjectIdentity, TwoThatPassEachOtherKeepTheirs) {
   film.discs = {straight(3, {150, 100}, {6, 0}), straight(4, {490, 260}, {-6, 0})};
   const auto seen = watch(film, 40);
   EXPECT_NE(only_id(seen, film.discs[0], kFound, 39), only_id(seen, film.discs[1], kFound, 39));
-}
-
-/// A budget makes the analysis change how coarse its picture is. Meanwhile the object stays what it
-/// is, and its force does not jump.
-TEST(ObjectIdentity, StaysWhileTheWorkChanges) {
-  // Larger than two blocks of the coarsest picture, which are 64 px of these frames wide.
-  Film film;
-  film.discs = {straight(3, {100, 180}, {6, 0}, 90)};
-  film.pan_px = {-2, 1};
-  AnalyzerSettings settings;
-  MotionAnalyzer analyzer(settings);
-  constexpr int kRungs[] = {0, 4, 1, 3, 2, 0, 2, 1};
-  constexpr int kFramesOnRung = 8;
-  std::set<uint32_t> ids;
-  Eigen::Vector3d last_N = Eigen::Vector3d::Zero();
-  double largest_step_N = 0;
-  for (int n = 0; n < static_cast<int>(std::size(kRungs)) * kFramesOnRung; ++n) {
-    settings.less_work = kRungs[n / kFramesOnRung];
-    analyzer.configure(settings);
-    const auto picture = test::draw([&](int k, const Vector2d& at) { return film.grey(k, at); }, n);
-    const FrameAnalysis found = analyzer.analyze(picture.view(), n * kSceneFrame_ns);
-    ASSERT_EQ(found.restarted, n == 0) << n;
-    if (n < kFound) continue;
-    EXPECT_NE(found.felt_object, 0u) << n;
-    ids.insert(found.felt_object);
-    // It rises at first.
-    if (n > kFramesOnRung / 2) {
-      largest_step_N = std::max(largest_step_N, (found.wrench.force_N - last_N).norm());
-    }
-    last_N = found.wrench.force_N;
-  }
-  EXPECT_EQ(ids.size(), 1u);
-  // About the Weber fraction of the hand (docs/feeling.md).
-  EXPECT_LT(largest_step_N, 0.1 * last_N.norm());
 }
 
 /// Frames in which the discs are further apart than this, from the first pair on.
