@@ -8,8 +8,8 @@
 namespace spidar {
 namespace {
 
-/// How much more each rung costs than the next lower one, at most: 854 × 480 px, all of them
-/// (docs/tables-tracking.md). Where reading the frame is most of the cost, it is less.
+/// Cost of each rung over that of the next lower one, at most: as measured with frames of 854 × 480
+/// px. It is less where reading the frame is most of the cost.
 constexpr std::array<double, WorkLadder::kLowest> kDearer{1.4, 2.2, 1.7, 1.7};
 /// A higher rung that costs less than this in addition is not to be expected.
 constexpr double kLeastDearer = 1.1;

@@ -27,6 +27,7 @@ DominantObject::DominantObject() {
 
 void DominantObject::reset() {
   id_ = 0;
+  lost_s_ = 0;
   rivals_.clear();
 }
 

@@ -13,16 +13,17 @@ namespace spidar {
 /// Stays with an object until there has been reason enough to leave it, so that the force does not
 /// jump between similar objects, nor to one that stands out in a few frames only.
 ///
-/// The reason for each other object grows at the rate (p − c f) / (p + c f), for its prominence p,
-/// that of the object that is followed f, and c = kClearly: 1 when the latter rests or is out of
-/// sight, 0 when the other one is three times as prominent, −1 when the other one rests. At
-/// kReason_s it takes over. So an eye decides where to look next: by a signal that rises to a
-/// threshold, the faster the more the target stands out (Carpenter and Williams 1995).
+/// For each rival, a reason to follow it grows at the rate (p − c f) / (p + c f), where p is the
+/// prominence of the rival, f that of the followed object, and c = kClearly. The rate is 1 when the
+/// followed object rests or is out of sight, 0 when the rival is three times as prominent, and −1
+/// when the rival rests. A rival whose reason reaches kReason_s is followed instead. An eye decides
+/// in a similar way where to look next: a signal rises to a threshold (Carpenter and Williams
+/// 1995).
 ///
-/// A reason falls to −kReason_s at most, and not below 0 while the object that is followed is out
-/// of sight: what has stood out for long may rest for twice kReason_s. An object that appears while
-/// that one is out of sight begins with half of the time since it was lost, so that after twice
-/// kReason_s it is followed at once. At first the most prominent object is followed at once.
+/// No reason falls below −kReason_s, nor below 0 while the followed object is out of sight. An
+/// object that has stood out for long may therefore rest for twice kReason_s. A rival that appears
+/// while the followed object is out of sight begins with half of the time for which that has been
+/// lost: after twice kReason_s it is followed at once. The first object is followed at once, too.
 class DominantObject {
  public:
   DominantObject();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kRungs = WorkLadder::kLowest + 1;
 using Costs = std::array<double, kRungs>;  // µs
-/// As measured: docs/tables-tracking.md.
+/// The steps are about as large as those of docs/tables-tracking.md.
 constexpr Costs kFilm{840, 750, 354, 266, 211};
 
 struct Played {

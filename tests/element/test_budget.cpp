@@ -74,6 +74,12 @@ class Film {
   int n_ = 0;
 };
 
+void expect_nothing_left_out(Film& film) {
+  EXPECT_EQ(film.count("budget-rung"), 0u);
+  EXPECT_EQ(film.count("above-budget"), 0u);
+  EXPECT_TRUE(film.h.qualities().empty());
+}
+
 TEST(Budget, WithTooLittleTheLeastIsDoneAndTheForceIsStillThere) {
   Film film("budget=" + std::to_string(kTooLittle_us));
   film.play(30);
@@ -96,9 +102,7 @@ TEST(Budget, WithPlentyAllIsDoneSoon) {
 TEST(Budget, NoneSaysNothing) {
   Film film("");
   film.play(10);
-  EXPECT_EQ(film.count("budget-rung"), 0u);
-  EXPECT_EQ(film.count("above-budget"), 0u);
-  EXPECT_TRUE(film.h.qualities().empty());
+  expect_nothing_left_out(film);
 }
 
 TEST(Budget, ChangesWhilePlaying) {
@@ -126,9 +130,7 @@ TEST(Budget, ChangesWhilePlaying) {
 TEST(Budget, DoesNothingWithTheMeanOfPoints) {
   Film film("budget=1 motion=mean");
   film.play(5);
-  EXPECT_EQ(film.count("budget-rung"), 0u);
-  EXPECT_EQ(film.count("above-budget"), 0u);
-  EXPECT_TRUE(film.h.qualities().empty());
+  expect_nothing_left_out(film);
 }
 
 std::string bytes_of(const std::string& path) {
