@@ -209,10 +209,10 @@ TEST(Semantics, AfterTheEndItCanBePlayedAgain) {
 }
 
 /// Frames of an application's that are drawn when they are asked for, from where they are: 4 px
-/// further each.
+/// further each. It draws in a streaming thread of the pipeline, which must end before it.
 class DrawnFrames {
  public:
-  explicit DrawnFrames(SteppedPipeline& pipeline) {
+  void connect(SteppedPipeline& pipeline) {
     GstElement* source = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "source");
     GstCaps* caps = make_caps("GRAY8", 320, 240);
     gst_video_info_from_caps(&info_, caps);
@@ -241,9 +241,10 @@ class DrawnFrames {
 };
 
 TEST(Semantics, FramesThatAnApplicationDrawsOnDemand) {
+  DrawnFrames frames;
   SteppedPipeline pipeline("appsrc name=source " + kMotion +
                            "! queue max-size-buffers=2 ! fakesink name=sink sync=true");
-  const DrawnFrames frames(pipeline);
+  frames.connect(pipeline);
   pipeline.set_state(GST_STATE_PLAYING);
   play_segment(pipeline);
   pipeline.seek(2 * GST_SECOND);
