@@ -101,7 +101,7 @@ def analyse(build, film, properties, crop=()):
         environment = dict(
             os.environ,
             GST_PLUGIN_PATH=str(build / "plugin"),
-            GST_REGISTRY=str(Path(folder) / "registry"),
+            GST_REGISTRY=str(build / "real_films.registry"),
         )
         environment.setdefault("SPIDAR_PROFILE_PATH", "spidar/profiles/shipped")
         subprocess.run(
@@ -411,4 +411,5 @@ def main():
     compare_budgets(build, films)
 
 
-main()
+if __name__ == "__main__":
+    main()
