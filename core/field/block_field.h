@@ -28,7 +28,10 @@ struct MotionBlock {
   float residual = 0;
   int difference = 0;  ///< Σ |now − before| at the nearest whole pixel
 
-  float texture() const { return xx + yy; }
+  /// Least sum of the tensor's eigenvalues, (grey / px)².
+  static constexpr float kLeastTexture = 4;
+  /// Whether the motion is known in one direction at least.
+  bool has_texture() const { return xx + yy > kLeastTexture; }
   /// Smaller eigenvalue of the structure tensor. It is large when the motion is known in every
   /// direction, also along an edge.
   float weakest_texture() const;

@@ -56,6 +56,16 @@ void BackgroundVotes::clear() {
   all = 0;
 }
 
+double BackgroundVotes::cast() const {
+  double votes = 0;
+  for (const uint8_t is_at_border : at_border) votes += is_at_border ? kBorderVotes : 1;
+  return votes;
+}
+
+bool BackgroundVotes::are_few() const {
+  return points.size() < kLeastVotes || cast() < kMostObject * all;
+}
+
 Background in_pixels_of(const Background& background, double scale) {
   Background result = background;
   result.model.shift_px *= scale;
@@ -100,8 +110,7 @@ void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
   }
   for (double& weight : evidence_.weights) weight *= sum / squares;
   effective_points_ = sum * sum / squares;
-  voting_ = 0;
-  for (const uint8_t at_border : votes.at_border) voting_ += at_border ? kBorderVotes : 1;
+  voting_ = votes.cast();
   is_textured_ = voting_ >= kTexturedShare * votes.all;
 }
 

@@ -24,6 +24,10 @@ struct BackgroundVotes {
   double all = 0;                  ///< votes of the whole picture, including its textureless parts
   Eigen::Vector2d size_px{1, 1};   ///< of the picture
 
+  /// Votes of all points together, without their weights.
+  double cast() const;
+  /// Whether a single object could have cast them all, or they are too few for any model.
+  bool are_few() const;
   void clear();
 };
 

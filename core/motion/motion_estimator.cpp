@@ -14,6 +14,9 @@ constexpr int kBorderBlocks = 2;
 /// known to a fraction of a pixel, and its vote approaches a full one well above kFullTexture.
 constexpr auto kLeastVoteTexture = static_cast<double>(BlockField::kRegularization);
 constexpr double kFullTexture = 24;
+/// Edges show the camera's motion if this share of their structure runs across their main
+/// direction; it is a half where they run in all directions.
+constexpr double kLeastAcross = 0.1;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
 
@@ -63,9 +66,12 @@ MotionEstimator::MotionEstimator() {
 
 /// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
 /// block has in both directions and the better its motion fits; it counts twice at the border of
-/// the picture, and half for a block that moved by itself until now.
-void MotionEstimator::collect_votes() {
+/// the picture, and half for a block that moved by itself until now. Of an edge the motion along
+/// it is not known: edges vote only where little else does, as in a picture out of focus. Returns
+/// whether the voters have edges in more than one direction.
+bool MotionEstimator::collect_votes(Voters voters) {
   votes_.clear();
+  MotionBlock together;
   const BlockGrid& grid = field_.grid();
   const std::vector<float>& persistence = objects_.persistence();
   const int left = objects_.margins().columns();
@@ -79,7 +85,9 @@ void MotionEstimator::collect_votes() {
       const auto i = static_cast<size_t>(row * grid.columns + column);
       const MotionBlock& block = field_.blocks()[i];
       const double texture = static_cast<double>(block.weakest_texture());
-      if (texture < kLeastVoteTexture || votes_.points.size() >= kMostDisplacements) continue;
+      const bool may_vote = voters == Voters::kEdgesToo ? block.has_texture() && texture > 0
+                                                        : texture >= kLeastVoteTexture;
+      if (!may_vote || votes_.points.size() >= kMostDisplacements) continue;
       if (objects_.is_burned_in(i)) continue;
       double weight = texture / (texture + kFullTexture) /
                       (1 + static_cast<double>(block.residual) / kBadResidual);
@@ -94,8 +102,14 @@ void MotionEstimator::collect_votes() {
       votes_.weights.push_back(weight);
       votes_.at_border.push_back(at_border);
       votes_.sources.push_back(i);
+      const float all_texture = block.xx + block.yy;
+      together.xx += block.xx / all_texture;
+      together.xy += block.xy / all_texture;
+      together.yy += block.yy / all_texture;
     }
   }
+  return static_cast<double>(together.weakest_texture()) >
+         kLeastAcross * static_cast<double>(votes_.points.size());
 }
 
 /// The points in px of the field's picture.
@@ -212,7 +226,8 @@ SceneMotion MotionEstimator::estimate(const ImageView& frame, const ReducedFrame
   const double interval_s = static_cast<double>(interval_ns) * 1e-9;
   points_.follow(frame, reduced, field_);
   collect_points(reduced, points_.tracks());
-  collect_votes();
+  collect_votes(Voters::kTextured);
+  if (votes_.are_few() && !collect_votes(Voters::kEdgesToo)) collect_votes(Voters::kTextured);
   Background background = estimator_.estimate(votes_);
   refine_background(background);
   const double scale = reduced.factor() * field_.scale();

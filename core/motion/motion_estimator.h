@@ -36,7 +36,9 @@ class MotionEstimator {
   void reset();
 
  private:
-  void collect_votes();
+  enum class Voters { kTextured, kEdgesToo };
+
+  bool collect_votes(Voters voters);
   void collect_points(const ReducedFrame& reduced, const std::vector<Track>& tracks);
   void refine_background(Background& background);
   void choose_points(const ImageView& frame, const ReducedFrame& reduced,

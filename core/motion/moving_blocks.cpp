@@ -14,8 +14,6 @@ namespace {
 constexpr float kLeastMotion_px = 0.35f;
 constexpr float kLeastMotionWhileStill_px = 0.15f;
 constexpr float kMotionSigmas = 3;
-/// Below this sum of the tensor's eigenvalues, (grey / px)², a block has too little texture.
-constexpr float kLeastBlockTexture = 4;
 /// By how many squared grey levels the background's motion must fit worse on average, according to
 /// the structure tensor, and by how many more for each unit of residual of the block's own motion.
 constexpr float kLeastEvidence = 3;
@@ -115,7 +113,7 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     relative.background_y_px = moved_px.y();
     relative.x_px = block.moved_x_px - moved_px.x();
     relative.y_px = block.moved_y_px - moved_px.y();
-    relative.has_texture = block.texture() > kLeastBlockTexture;
+    relative.has_texture = block.has_texture();
     relative.is_new = seen_before(field, i, relative) < kSeenBefore;
     residuals_.push_back(block.residual);
   }

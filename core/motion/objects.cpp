@@ -36,11 +36,10 @@ constexpr double kNewest = 0.5;
 constexpr double kCameraStill_px = 0.25;
 /// An object that was clearly no layer of the scene for this many frames may become more like one.
 constexpr int kProvenAfter = 3;
-/// A region larger than this share of the picture is an error of the background and not an object.
-/// The share is much smaller when little supports the background.
-constexpr double kMostOfPicture = 0.75;
-constexpr double kMostOfUnknown = 0.4;
-constexpr double kKnownCoverage = 0.07;
+/// A region that is larger than this share of the picture, and than kMostOfCoverage times the share
+/// that agrees with the background, is an error of the background and not an object.
+constexpr double kMostOfPicture = 0.4;
+constexpr double kMostOfCoverage = 2;
 /// Median of the length of a vector whose coordinates have standard deviation 1: √(2 ln 2).
 constexpr double kRayleighMedian = 1.1774;
 
@@ -212,8 +211,8 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   measure(life, frame);
   const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
   const bool goes_on = life.frames_seen > 0 && velocity_px_s.dot(life.velocity_px_s) > 0;
-  const double share = life.is_rigid || !goes_on ? 1 : kNewest;
-  life.velocity_px_s += share * (velocity_px_s - life.velocity_px_s);
+  const double newest = life.is_rigid || !goes_on ? 1 : kNewest;
+  life.velocity_px_s += newest * (velocity_px_s - life.velocity_px_s);
   expect(life, frame);
   life.evidence.add(velocity_px_s, life.region.background_px / frame.interval_s, frame.interval_s);
   ++life.frames_seen;
@@ -222,8 +221,8 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   life.resting_s = 0;
   place(life, frame);
   MovingObject& object = life.object;
-  const double known = background_->coverage < kKnownCoverage ? kMostOfUnknown : kMostOfPicture;
-  const bool too_large = life.region.blocks > known * static_cast<double>(owners_.size());
+  const double share = life.region.blocks / static_cast<double>(owners_.size());
+  const bool too_large = share > std::max(kMostOfPicture, kMostOfCoverage * background_->coverage);
   CameraMotion camera = camera_;
   if (camera.moves()) camera.noise_px = std::max(camera.noise_px, noise_around(life.key));
   life.proven += salience(life.region, life.evidence, camera, false) > 0;

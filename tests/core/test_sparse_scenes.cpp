@@ -92,6 +92,25 @@ TEST(SparseScenes, AFaintSkyShowsHowTheCameraMoves) {
   expect_a_pan(0.3, false);
 }
 
+TEST(SparseScenes, EdgesShowHowTheCameraMovesWhereTheyAreAllThereIs) {
+  // Stripes that are so wide that hardly any block sees more than one edge.
+  constexpr double kMoved_px = 4;
+  Picture picture(kWidth, kHeight);
+  MotionAnalyzer analyzer;
+  for (int n = 0; n < kFrames; ++n) {
+    picture.fill([&](double x, double y) {
+      const double u = x + kMoved_px * n;
+      return 128 + 60 * std::tanh(8 * std::sin((u + 40 * std::sin(y / 60)) / 20));
+    });
+    const FrameAnalysis frame = analyzer.analyze(picture.view(), n * kFrame_ns);
+    if (n == 0) continue;
+    ASSERT_STREQ(to_string(*frame.model), "translation") << n;
+    // To the tenth of a pixel that blocks are accurate to.
+    EXPECT_NEAR(frame.background->model.shift_px.x(), -kMoved_px, 0.1) << n;
+    EXPECT_TRUE(frame.object_list->empty()) << n;
+  }
+}
+
 TEST(SparseScenes, NothingIsFeltWhereNothingAgreesHowTheCameraMoves) {
   // As on broken water, each tile of 32 px drifts by up to 8 px a frame in its own direction.
   constexpr int kTile_px = 32;
