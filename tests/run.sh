@@ -94,6 +94,23 @@ check_site() {
     fi
 }
 
+# compile_executed FOLDER: what is linked with each program there, so that it leaves in FOLDER/executed/, if there is
+# one, which functions it has executed.
+compile_executed() {
+    mkdir -p "$1"
+    clang++ -std=c++17 -O1 -fPIC "-DEXECUTED_IN=\"$PWD/$1/executed\"" -c tests/support/executed.cpp -o "$1/executed.o"
+}
+
+# check_executed FOLDER: the tests there execute something of each source.
+check_executed() {
+    say "sources that no test executes"
+    if tests/check_executed.py "$1"; then
+        checks+=(--passed "sources executed")
+    else
+        checks+=(--failed "sources executed: see above")
+    fi
+}
+
 # run_on_bare_debian RESULTS
 run_on_bare_debian() {
     local what="tests/run.sh and examples/play.sh --ball on a bare Debian"
@@ -121,12 +138,16 @@ case ${1-} in
     # use of a pointer would double the compiler's time: null and object-size, where the address
     # sanitizer finds most of the same; alignment, which x86 does not need; and vptr, wrong casts
     # between classes. Clang compiles with the address sanitizer in some 60 % of GCC's time, and finds what
-    # GCC does not. With the thread sanitizer, GCC takes variables of std::regex for uninitialised.
+    # GCC does not; in its DWARF 5, addr2line of Debian 12 takes one file for another. With the thread sanitizer,
+    # GCC takes variables of std::regex for uninitialised.
     unchecked=-fno-sanitize=null,object-size,alignment,vptr
     flags="'-g1','-fno-omit-frame-pointer','$unchecked'"
     sanitized=(-Doptimization=1 -Ddebug=false -Db_lundef=false -Dbenchmarks=disabled)
-    CC=clang CXX=clang++ configure build-ci-address "${sanitized[@]}" "-Dcpp_args=[$flags]" \
-        -Db_sanitize=address,undefined -Dapps=false -Dtest_suites=api,core,element,pipelines,spidar,window
+    compile_executed build-ci-address
+    CC=clang CXX=clang++ configure build-ci-address "${sanitized[@]}" \
+        "-Dcpp_args=['-gdwarf-4',$flags,'-fsanitize-coverage=func,trace-pc-guard']" \
+        "-Dcpp_link_args=$PWD/build-ci-address/executed.o" -Db_sanitize=address,undefined -Dapps=false \
+        -Dtest_suites=api,core,element,pipelines,spidar,window
     configure build-ci-thread "${sanitized[@]}" "-Dcpp_args=[$flags,'-Wno-maybe-uninitialized']" \
         -Db_sanitize=thread -Dwindow=disabled -Dtest_suites=apps,pipelines,spidar
     threaded_targets=(tests/spidar/test_{spidar,usb,guardian} tests/emulated_bus/emulated-guardian
@@ -147,7 +168,9 @@ case ${1-} in
     export GST_REGISTRY_FORK=no
     if build build-ci-address; then
         build_ahead build-ci-thread "${threaded_targets[@]}"
+        rm -rf build-ci-address/executed && mkdir build-ci-address/executed
         run_tests build-ci-address 4 --no-suite short-films
+        check_executed build-ci-address
     fi
     check_site build-ci-address
     say "thread sanitizer: what runs on several threads, and a player to which anything is done at random." \

@@ -166,6 +166,24 @@ TEST_F(Time, FramesWithoutTimestampAreShownAndWarnedAboutOnce) {
   EXPECT_NE(h.warnings()[0].find("timestamp"), std::string::npos);
 }
 
+void append_to(GstDebugCategory*, GstDebugLevel, const gchar*, const gchar*, gint, GObject*,
+               GstDebugMessage* message, gpointer lines) {
+  *static_cast<std::string*>(lines) += std::string(gst_debug_message_get(message)) + "\n";
+}
+
+TEST_F(Time, TheLogSaysWhyAFrameIsNotAnalysed) {
+  std::string log;
+  gst_debug_set_threshold_for_name("spidarmotion", GST_LEVEL_DEBUG);
+  gst_debug_add_log_function(append_to, &log, nullptr);
+  h.push_moved(0, 0, GST_CLOCK_TIME_NONE);
+  for (int n = 0; n < 3; ++n) h.push_moved(n, 0, 0);
+  gst_debug_remove_log_function(append_to);
+  gst_debug_unset_threshold_for_name("spidarmotion");
+  EXPECT_NE(log.find("is not analysed: it has no timestamp\n"), std::string::npos) << log;
+  EXPECT_NE(log.find("is not analysed: its timestamp is equal or nearly"), std::string::npos)
+      << log;
+}
+
 TEST_F(Time, ASegmentInBytesHasNoTimeToBeFeltIn) {
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_BYTES);
