@@ -17,11 +17,10 @@ constexpr float kMostStep_px = 1;
 /// Pixels of the picture to one pixel of the coarse picture.
 constexpr int kCoarser = 4;
 
-/// A frame counts as a cut when the best matches of all blocks differ by at least kLeastCut_grey a
-/// pixel on the mean, and more than kCutShare of the textured blocks are lost. A block is textured
-/// when its pixels differ from their mean by at least kLeastContrast_grey, and lost when its best
-/// match leaves more than kLostShare of that difference.
-constexpr int kLeastCut_grey = 5;
+/// A frame counts as a cut when the best matches of all blocks differ by at least
+/// kLeastContrast_grey a pixel on the mean, and more than kCutShare of the textured blocks are
+/// lost. A block is textured when its pixels differ from their mean by as much, and lost when its
+/// best match leaves more than kLostShare of that difference.
 constexpr int kLeastContrast_grey = 4;
 constexpr double kCutShare = 0.8;
 constexpr double kLostShare = 0.5;
@@ -137,7 +136,7 @@ bool BlockField::is_cut() const {
   int64_t between = 0;
   for (const BlockMatch& match : matches_) between += match.difference;
   const auto pixels = static_cast<int64_t>(grid_.size()) * kBlockArea_px;
-  if (between < kLeastCut_grey * pixels) return false;
+  if (between < kLeastContrast_grey * pixels) return false;
   int with_texture = 0;
   int lost = 0;
   int left = grid_.size();

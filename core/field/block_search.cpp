@@ -14,18 +14,20 @@ namespace spidar {
 namespace {
 
 /// By how much a match must improve for each pixel that it deviates from the median of its
-/// neighbours: an eighth of a grey level for each pixel of the block, for up to kMostDeviation_px.
+/// neighbours: an eighth of a grey level for each pixel of the block, for up to half a block.
 constexpr int kLambda = kBlockArea_px / 8;
-constexpr int kMostDeviation_px = 8;
+constexpr int kMostDeviation_px = kBlock_px / 2;
 /// A block that differs by at most one grey level a pixel is not improved further.
 constexpr int kGoodDifference = kBlockArea_px;
 /// From three grey levels a pixel on, the block may have jumped, and the hints are tried.
 constexpr int kDoubtfulDifference = 3 * kBlockArea_px;
-/// From eight grey levels a pixel on, no candidate fits, and the search is widened.
+/// From eight grey levels a pixel on, no candidate fits, and the search is widened: as far as a
+/// block is wide, in halves down to a quarter of it.
 constexpr int kBadDifference = 8 * kBlockArea_px;
-constexpr int kFarthest_px = 16;
-constexpr int kNearest_px = 4;
-constexpr int kMostSteps = 8;
+constexpr int kFarthest_px = kBlock_px;
+constexpr int kNearest_px = kBlock_px / 4;
+/// A walk goes as far as a deviation costs more and more.
+constexpr int kMostSteps = kMostDeviation_px;
 
 struct Vector {
   int dx;

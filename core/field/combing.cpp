@@ -17,7 +17,7 @@ namespace {
 /// within kSame_grey on the line after. Noise of σ = 5 grey levels makes 2 of 100 000 pixels look
 /// like this.
 constexpr int kComb_grey = 20;
-constexpr int kSame_grey = 10;
+constexpr int kSame_grey = kComb_grey / 2;
 /// A frame counts as combed from this share of its pixels on: an object on 5 % of the frame, with
 /// combs on one of its pixels in ten.
 constexpr double kCombed = 0.005;

@@ -16,12 +16,6 @@ struct LightChange {
   double mean_before = 0;
   double mean_now = 0;
   double gain = 1;
-
-  bool is_noticed() const {
-    constexpr double kNoticed_grey = 1.5;
-    constexpr double kNoticedGain = 0.03;
-    return std::abs(mean_now - mean_before) > kNoticed_grey || std::abs(gain - 1) > kNoticedGain;
-  }
 };
 
 void mean_and_variance(const PaddedImage& picture, double& mean, double& variance) {
@@ -86,7 +80,6 @@ void replace_values(const std::array<uint8_t, 256>& table, PaddedImage& picture)
 void compensate_light(PaddedImage& coarse_before, const PaddedImage& coarse_now,
                       PaddedImage& before) {
   const LightChange change = light_change(coarse_before, coarse_now);
-  if (!change.is_noticed()) return;
   std::array<uint8_t, 256> table;
   for (size_t v = 0; v < table.size(); ++v) {
     const double value = change.gain * (static_cast<double>(v) - change.mean_before);

@@ -8,32 +8,31 @@
 namespace spidar {
 namespace {
 
-/// Minimum number of pixels needed to decide that a block stays constant.
-constexpr int kLeastPixels = 16;
+/// Minimum number of pixels needed to decide that a block stays constant: a line across it.
+constexpr int kLeastPixels = kBlock_px;
 /// Minimum share of pixels that are exactly equal. With noise of one grey level after reduction,
 /// 0.35 of the pixels of a static object are exactly equal. For graphics it is nearly all of them,
 /// or 0.6 if an encoder adds noise. A share of 0.5 separates the two; the standard deviation of the
 /// count is √n / 2. Saturated white and black parts of an object have no noise either, so a block
-/// that has moved needs a higher share.
+/// that has moved needs a share halfway to all of them.
 constexpr float kExactShare = 0.5f;
-constexpr float kExactShareElsewhere = 0.75f;
-/// A block that moved by less than this counts as not moved, px of the field's picture.
-constexpr float kInPlace_px = 0.5f;
-/// Largest apparent motion that the film in the same block gives to a block with static graphics.
+constexpr float kExactShareElsewhere = (1 + kExactShare) / 2;
+/// Largest apparent motion that the film in the same block gives to a block with static graphics,
+/// px of the field's picture. A block that moved by less than half of it counts as not moved.
 constexpr float kDrawnAlong_px = 1;
-/// Mean squared difference that the noise of the film cannot explain: the larger of this multiple
-/// of the noise and this number of squared grey levels.
+constexpr float kInPlace_px = kDrawnAlong_px / 2;
+/// A mean squared difference above this multiple of the noise, twice its standard deviation, is not
+/// explained by the noise of the film.
 constexpr float kTimesNoise = 4;
-constexpr float kLeastResidual_grey2 = 6;
 /// Score of a block: a pair in which it stays constant adds kGain, every other pair subtracts 1.
 /// From kLasting on, which needs two such pairs, the block counts as burned in without a new sign,
 /// for at most five further pairs.
 constexpr int kGain = 3;
-constexpr int kLasting = 4;
-constexpr int kMost = 9;
+constexpr int kLasting = kGain + 1;
+constexpr int kMost = 3 * kGain;
 /// Offset at which constant pixels next to a block are searched: the edge of a bar may be just
 /// outside.
-constexpr int kBeside_px = 4;
+constexpr int kBeside_px = kBlock_px / 4;
 
 bool is_same(const StayingPixels& staying, float least_share) {
   const auto near = static_cast<float>(staying.near);
@@ -63,7 +62,7 @@ void BurnedIn::begin(const BlockField& field, bool camera_moves, float noise_gre
   signs_.assign(blocks, Sign::kNone);
   if (lasting_.size() != blocks) lasting_.assign(blocks, 0);
   camera_moves_ = camera_moves;
-  unexplained_grey2_ = std::max(kLeastResidual_grey2, kTimesNoise * noise_grey2);
+  unexplained_grey2_ = kTimesNoise * noise_grey2;
 }
 
 bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {

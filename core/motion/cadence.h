@@ -25,7 +25,7 @@ class Cadence {
   static constexpr int64_t kRest_ns = 85'000'000;
   /// Pictures that are further apart than this are not compared: a cartoon drawn on threes, plus a
   /// frame.
-  static constexpr int64_t kLongest_ns = 170'000'000;
+  static constexpr int64_t kLongest_ns = 2 * kRest_ns;
   /// How many intervals are remembered.
   static constexpr size_t kPictures = 24;
 

@@ -8,11 +8,8 @@
 namespace spidar {
 namespace {
 
-/// Least motion relative to the background, px of the field's picture: 0.7 px in a frame of 480
-/// lines. It is less while the camera is still, because no error in a model of its motion is
-/// possible then.
-constexpr float kLeastMotion_px = 0.35f;
-constexpr float kLeastMotionWhileStill_px = 0.15f;
+/// Least motion relative to the background, standard deviations of what follows the background:
+/// the noise of one coordinate exceeds it in 0.3 % of the blocks.
 constexpr float kMotionSigmas = 3;
 /// By how many squared grey levels the background's motion must fit worse on average, according to
 /// the structure tensor, and by how many more for each unit of residual of the block's own motion.
@@ -20,10 +17,8 @@ constexpr float kLeastEvidence = 3;
 constexpr float kEvidencePerResidual = 0.1f;
 /// A known object may become slower by this factor before it counts as resting. Otherwise it would
 /// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster
-/// limbs. Before a still camera it may become even slower, because no error in a model of the
-/// camera's motion is possible.
+/// limbs.
 constexpr float kSlower = 0.6f;
-constexpr float kSlowerWhileStill = 0.25f;
 /// By how many grey levels a pixel the background's motion must fit worse in the picture itself: a
 /// constant, a share of the picture's noise, and a share of the residual of the block's own motion.
 constexpr float kWorse_grey = 0.5f;
@@ -44,12 +39,8 @@ constexpr int kNeighboursOfStill = 7;
 
 /// A block that stood out in two of the last frames needs only one moving neighbour.
 constexpr float kLeastLasting = 0.5f;
-constexpr int kNeighboursOfLasting = 1;
-/// Weights of the newest frame in the memory of earlier ones. kBeside: weight of a block that stood
-/// out next to the one from which this block came.
-constexpr float kStandsOutLearnt = 0.4f;
-constexpr float kBeside = 0.9f;
-constexpr float kPersistenceLearnt = 0.5f;
+/// Weight of the newest frame in the memory of earlier ones.
+constexpr float kLearnt = 0.4f;
 
 /// Share of a block that was in the previous picture if it moved with the background.
 float seen_before(const BlockField& field, size_t index, const RelativeBlock& block) {
@@ -129,9 +120,8 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
   if (!relative.has_texture) return Judgement::kUnknown;
   const float x = relative.x_px;
   const float y = relative.y_px;
-  const float slower = !expected ? 1 : camera_is_still_ ? kSlowerWhileStill : kSlower;
-  const float least_px =
-      slower * std::max(kLeastMotion_px, kMotionSigmas * static_cast<float>(noise_px));
+  const float slower = expected ? kSlower : 1;
+  const float least_px = slower * kMotionSigmas * static_cast<float>(noise_px);
   if (x * x + y * y < least_px * least_px) return Judgement::kStill;
   const float evidence = x * x * block.xx + 2 * x * y * block.xy + y * y * block.yy;
   const float least_evidence = slower * slower * kLeastEvidence;
@@ -182,8 +172,7 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
       bool moves = false;
       switch (judgements_[index]) {
         case Judgement::kMoves:
-          moves = moving >= kLeastNeighbours ||
-                  (moving >= kNeighboursOfLasting && stood_out_[index] > kLeastLasting);
+          moves = moving >= kLeastNeighbours || (moving > 0 && stood_out_[index] > kLeastLasting);
           break;
         case Judgement::kUnknown:
           moves = moving >= kNeighboursOfUnknown && 3 * moving >= 2 * known;
@@ -208,14 +197,13 @@ void MovingBlocks::remember_judgements(const BlockField& field) {
   const auto columns = static_cast<size_t>(field.grid().columns);
   for (size_t i = 0; i < n; ++i) {
     const size_t origin = origin_of(field, i);
-    float beside = 0;
-    if (origin % columns > 0) beside = std::max(beside, stood_out_before_[origin - 1]);
-    if (origin % columns + 1 < columns) beside = std::max(beside, stood_out_before_[origin + 1]);
-    if (origin >= columns) beside = std::max(beside, stood_out_before_[origin - columns]);
-    if (origin + columns < n) beside = std::max(beside, stood_out_before_[origin + columns]);
-    const float before = std::max(stood_out_before_[origin], kBeside * beside);
+    float before = stood_out_before_[origin];
+    if (origin % columns > 0) before = std::max(before, stood_out_before_[origin - 1]);
+    if (origin % columns + 1 < columns) before = std::max(before, stood_out_before_[origin + 1]);
+    if (origin >= columns) before = std::max(before, stood_out_before_[origin - columns]);
+    if (origin + columns < n) before = std::max(before, stood_out_before_[origin + columns]);
     const float now = judgements_[i] == Judgement::kMoves ? 1.0f : 0.0f;
-    stood_out_[i] = before + kStandsOutLearnt * (now - before);
+    stood_out_[i] = before + kLearnt * (now - before);
   }
 }
 
@@ -227,7 +215,7 @@ void MovingBlocks::remember_motion(const BlockField& field) {
   for (size_t i = 0; i < n; ++i) {
     const float before = persistence_before_[origin_of(field, i)];
     const float now = relative_[i].moves ? 1.0f : 0.0f;
-    persistence_[i] = before + kPersistenceLearnt * (now - before);
+    persistence_[i] = before + kLearnt * (now - before);
   }
 }
 

@@ -8,22 +8,10 @@
 namespace spidar {
 namespace {
 
-/// Number of blocks from which rotation and growth are considered, if the GRIC prefers them.
-constexpr size_t kLeastForSimilarity = 6;
-/// The blocks of an object differ in motion by this share in addition to noise, because it is not
-/// rigid.
-constexpr double kObjectNoiseShare = 0.1;
-/// Points belong to the object if their motion differs from the median of its blocks by at most
-/// kPointReachShare of it plus kObjectPointReach_px, px of the field's picture. They are used
-/// instead of the blocks if there are at least kLeastPoints of them and kPointShare of the number
-/// of blocks.
-constexpr double kPointReachShare = 0.35;
-constexpr double kObjectPointReach_px = 0.5;
-constexpr double kLeastPoints = 4;
-constexpr double kPointShare = 0.5;
-/// Noise of a point's displacement, px of the field's picture, plus a share of the displacement.
+/// From this many points on the object, they are used instead of the blocks.
+constexpr size_t kLeastPoints = 4;
+/// Noise of a point's displacement, px of the field's picture.
 constexpr double kObjectPointNoise_px = 0.1;
-constexpr double kPointNoiseShare = 0.03;
 /// The object is rigid when the mean ρ of its points is below this; the ρ of an outlier is 4.
 constexpr double kRigid = 1;
 
@@ -35,8 +23,7 @@ ObjectMeter::ObjectMeter() {
 }
 
 /// Collects the textured blocks of an object.
-void ObjectMeter::collect_blocks(uint32_t key, const Region& region,
-                                 const ObjectEvidence& evidence) {
+void ObjectMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
   collected_.points.clear();
   const std::vector<MotionBlock>& blocks = evidence.field.blocks();
   for (size_t i = 0; i < evidence.owners.size(); ++i) {
@@ -48,13 +35,12 @@ void ObjectMeter::collect_blocks(uint32_t key, const Region& region,
     collected_.points.push_back({0, at_px - moved_px, moved_px});
   }
   collected_.weights.assign(collected_.points.size(), 1.0);
-  collected_.sigma_px =
-      std::max(2 * evidence.background.sigma_px, kObjectNoiseShare * region.relative_px.norm());
+  collected_.sigma_px = 2 * evidence.background.sigma_px;
 }
 
 /// Collects the points on the object whose motion is close to `motion`. Returns false when they are
 /// too few.
-bool ObjectMeter::collect_points(uint32_t key, const Region& region, const MotionModel& motion,
+bool ObjectMeter::collect_points(uint32_t key, const MotionModel& motion,
                                  const ObjectEvidence& evidence) {
   collected_.points.clear();
   for (const PlacedPoint& point : evidence.points) {
@@ -62,23 +48,20 @@ bool ObjectMeter::collect_points(uint32_t key, const Region& region, const Motio
     Displacement relative = point.moved;
     relative.moved_px -= evidence.background.model.displacement_px(relative.at_px);
     const Eigen::Vector2d expected_px = motion.displacement_px(relative.at_px);
-    const double reach_px = kPointReachShare * expected_px.norm() + kObjectPointReach_px;
-    if ((relative.moved_px - expected_px).norm() < reach_px) collected_.points.push_back(relative);
+    const double apart_px = (relative.moved_px - expected_px).norm();
+    if (apart_px < alike_px(expected_px.norm())) collected_.points.push_back(relative);
   }
   collected_.weights.assign(collected_.points.size(), 1.0);
-  collected_.sigma_px =
-      std::max(kObjectPointNoise_px, kPointNoiseShare * region.relative_px.norm());
-  const auto n = static_cast<double>(collected_.points.size());
-  return n >= kLeastPoints && n >= kPointShare * region.blocks;
+  collected_.sigma_px = kObjectPointNoise_px;
+  return collected_.points.size() >= kLeastPoints;
 }
 
 /// Chooses a similarity if it is better than a translation by its price in the GRIC, and again by
 /// the same amount so that the choice does not flicker.
 void ObjectMeter::climb(MotionModel& motion) {
-  const size_t n = collected_.points.size();
-  if (motion.kind == ModelKind::kSimilarity || n < kLeastForSimilarity) return;
+  if (motion.kind == ModelKind::kSimilarity) return;
   const auto similarity = fitter_.refine(ModelKind::kSimilarity, motion, collected_);
-  const double price = 4 * std::log(4 * static_cast<double>(n));
+  const double price = 4 * std::log(4 * static_cast<double>(collected_.points.size()));
   if (similarity &&
       robust_cost(*similarity, collected_) + price < robust_cost(motion, collected_)) {
     motion = *similarity;
@@ -91,10 +74,10 @@ ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
   found.model.kind = ModelKind::kTranslation;
   found.model.shift_px = region.relative_px;
   found.relative_px = region.relative_px;
-  collect_blocks(key, region, evidence);
+  collect_blocks(key, evidence);
   climb(found.model);
   found.tracks = static_cast<int>(collected_.points.size());
-  if (collect_points(key, region, found.model, evidence)) {
+  if (collect_points(key, found.model, evidence)) {
     const auto refined = fitter_.refine(found.model.kind, found.model, collected_);
     if (refined) found.model = *refined;
     climb(found.model);

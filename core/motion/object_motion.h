@@ -51,9 +51,8 @@ class ObjectMeter {
   ObjectMotion measure(uint32_t key, const Region& region, const ObjectEvidence& evidence);
 
  private:
-  void collect_blocks(uint32_t key, const Region& region, const ObjectEvidence& evidence);
-  bool collect_points(uint32_t key, const Region& region, const MotionModel& motion,
-                      const ObjectEvidence& evidence);
+  void collect_blocks(uint32_t key, const ObjectEvidence& evidence);
+  bool collect_points(uint32_t key, const MotionModel& motion, const ObjectEvidence& evidence);
   void climb(MotionModel& motion);
 
   RobustFitter fitter_;

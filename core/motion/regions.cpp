@@ -11,10 +11,10 @@
 namespace spidar {
 namespace {
 
-/// Neighbours move alike when their motions differ by less than kAlikeShare of the faster one plus
-/// kAlike_px, px of the field's picture.
-constexpr float kAlikeShare = 0.5f;
-constexpr float kAlike_px = 0.3f;
+/// See alike_px(). The share is that of limbs against their body; the rest is three times the noise
+/// of a block, px of the field's picture.
+constexpr double kAlikeShare = 0.5;
+constexpr double kAlike_px = 0.3;
 /// A region is as wide as the picture if fewer columns than this are missing: one at each side.
 constexpr int kSpareColumns = 3;
 
@@ -25,7 +25,7 @@ bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
       std::max(a.x_px * a.x_px + a.y_px * a.y_px, b.x_px * b.x_px + b.y_px * b.y_px);
   const float x = a.x_px - b.x_px;
   const float y = a.y_px - b.y_px;
-  const float most_px = kAlike_px + kAlikeShare * std::sqrt(fastest_px2);
+  const auto most_px = static_cast<float>(alike_px(static_cast<double>(std::sqrt(fastest_px2))));
   return x * x + y * y < most_px * most_px;
 }
 
@@ -42,6 +42,10 @@ bool is_at_border(const BlockGrid& grid, const std::vector<RelativeBlock>& relat
 }
 
 }  // namespace
+
+double alike_px(double fastest_px) {
+  return kAlikeShare * fastest_px + kAlike_px;
+}
 
 int RegionFinder::root_of(int block) {
   auto i = static_cast<size_t>(block);

@@ -33,6 +33,10 @@ struct Region {
   double roundness = 0;
 };
 
+/// Two motions of the same thing differ by less than this, px of the field's picture; `fastest_px`
+/// is the length of the longer one.
+double alike_px(double fastest_px);
+
 /// Label of blocks that belong to no region.
 constexpr int16_t kNoRegion = -1;
 

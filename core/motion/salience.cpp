@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tracking/corner.h"
+
 namespace spidar {
 namespace {
 
-/// See Region::roundness.
-constexpr double kLeastRoundness = 0.02;
 /// Blocks at the border divided by the square root of all blocks: 1 for a square that touches one
 /// side.
 constexpr double kBorder = 1.2;
-/// How much touching the border lowers the score in every case.
-constexpr double kBorderCost = 0.5;
 /// A region that moves against the background by less than this many standard deviations of the
 /// blocks around it is one of the scene's layers: the further the layers are apart, the more each
 /// differs from a single model of them all. The limit rises with
@@ -31,12 +29,12 @@ constexpr double kLeastLikelihood = 0.25;
 
 double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
                 bool was_followed) {
-  if (region.roundness < kLeastRoundness) return 0;
+  if (region.roundness < static_cast<double>(kLeastRoundness)) return 0;
   const double speed_px = region.relative_px.norm();
   if (speed_px == 0) return 0;
   const double touching = region.border_blocks / std::sqrt(static_cast<double>(region.blocks));
   const double side_px = std::sqrt(region.blocks * kBlockArea_px);
-  const double score = side_px * speed_px / (1 + kBorderCost * touching);
+  const double score = side_px * speed_px;
   if (!camera.moves()) return score;
   if (evidence.is_on_screen()) return 0;
   // The ground. A large object that the camera follows goes against the background.

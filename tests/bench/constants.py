@@ -35,7 +35,11 @@ KINDS = {
         padded_image.kCacheLine padded_image.kRowsAhead regions.kNoRegion window_kernels.kPixelOne
         window_kernels.kDerivativeOne window_kernels.kDifferenceOne window_kernels.kGainOne window_match.kMostGain""",
     "derived: computed from others, or a number of mathematics": """
-        block_kernels.kBlockArea_px block_kernels.kHalf block_search.kBlockReach_px corner.kPixels
+        block_kernels.kBlockArea_px block_kernels.kHalf block_search.kBlockReach_px block_search.kMostDeviation_px
+        block_search.kFarthest_px block_search.kNearest_px block_search.kMostSteps burned_in.kLeastPixels
+        burned_in.kExactShareElsewhere
+        burned_in.kInPlace_px burned_in.kLasting burned_in.kMost burned_in.kBeside_px cadence.kLongest_ns
+        combing.kSame_grey corner.kPixels
         corner.kTensorBlock_px corner.kMostBlocks corner.kHalf_px luma_neighbourhood.kBefore_px
         luma_neighbourhood.kRight_px luma_neighbourhood.kBelow_px luma_neighbourhood.kMostWhole_px
         luma_neighbourhood.kWidest_px luma_neighbourhood.kHighest_px motion_estimator.kLeastVoteTexture
