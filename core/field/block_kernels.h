@@ -48,6 +48,7 @@ struct StayingPixels {
 
   bool operator==(const StayingPixels& o) const { return near == o.near && exact == o.exact; }
 };
+/// Largest difference of a staying pixel, grey levels: noise and coding of what is drawn in place.
 constexpr int kNear_grey = 3;
 /// A pixel counts as staying when the motion would have changed it by this many grey levels more
 /// than it has changed.

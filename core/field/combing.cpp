@@ -26,6 +26,7 @@ constexpr double kCombed = 0.005;
 constexpr int kFrames = 240;
 
 constexpr int kLines = 4;
+/// kLines of so many lines of the frame are looked at, to save time.
 constexpr int kEvery = 16;
 using Lines = std::array<const uint8_t*, kLines>;
 

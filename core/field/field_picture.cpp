@@ -15,6 +15,8 @@
 namespace spidar {
 namespace {
 
+/// Area to which a frame is reduced, as nearly as the scales allow, and the least side of a picture
+/// that is made coarser to keep a budget.
 constexpr double kArea_px2 = 427.0 * 240.0;
 constexpr double kLeastCoarseSide_px = 5 * kBlock_px;
 

@@ -53,6 +53,7 @@ LightChange light_change(const PaddedImage& before, const PaddedImage& now) {
 /// Whether replacing the values of `before` makes it clearly more like `now`.
 bool makes_alike(const PaddedImage& before, const PaddedImage& now,
                  const std::array<uint8_t, 256>& table) {
+  // Share of the difference that may be left: a smaller gain may be chance.
   constexpr double kAlike = 0.8;
   int64_t as_it_was = 0;
   int64_t replaced = 0;

@@ -37,6 +37,7 @@ class Margins {
 
   void reset();
 
+  /// Pairs of pictures: an object may look like a bar in one or two.
   static constexpr int kLasting = 3;
 
  private:

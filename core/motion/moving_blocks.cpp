@@ -29,6 +29,7 @@ constexpr float kWorseShare = 0.15f;
 /// into view and it cannot be compared.
 constexpr float kSeenBefore = 0.5f;
 
+/// A block that stands out moves if this many around it do: errors seldom lie side by side.
 constexpr int kLeastNeighbours = 3;
 /// A block without texture moves if this many blocks around it do and they are most of those with
 /// texture.

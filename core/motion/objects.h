@@ -67,6 +67,7 @@ class ObjectTracker {
   /// The field has another grid from the next frame on. Objects stay what they are.
   void change_grid(const GridChange& change);
 
+  /// Times, s: longer than what usually hides an object, and than a pause in its motion.
   static constexpr double kForgotten_s = 0.5;
   static constexpr double kAtRest_s = 1.0;
   static constexpr size_t kMostObjects = 16;

@@ -52,6 +52,7 @@ class RegionFinder {
   /// The region of each block, or kNoRegion.
   const std::vector<int16_t>& labels() const { return labels_; }
 
+  /// A single block is more often an error of its motion than an object.
   static constexpr int kLeastBlocks = 2;
   static constexpr size_t kMostRegions = 128;  ///< for which memory is reserved
 

@@ -14,6 +14,7 @@
 namespace spidar {
 namespace {
 
+/// Longer side to which a frame is reduced, as nearly as powers of 2 allow.
 constexpr int kBaseSide_px = 480;
 
 #if CV_SIMD128
