@@ -26,7 +26,7 @@ constexpr double kNoiseAtFirst_px = 0.1;
 constexpr double kNoiseQuantile = 0.3;
 constexpr double kNoiseLearnt = 0.4;  // share of the new value in each frame
 constexpr double kOutlierSigmas = 2.5;
-constexpr double kLeastReach_px = 0.6;
+constexpr double kLeastReach_px = 0.45;
 
 /// A model explains the votes when kExplainedShare of them are inliers and their mean ρ is below
 /// kExplained; the ρ of an outlier is 4.

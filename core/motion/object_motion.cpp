@@ -8,7 +8,8 @@
 namespace spidar {
 namespace {
 
-/// From this many points on the object, they are used instead of the blocks.
+/// Points are used instead of the blocks if there are this many, and half as many as blocks: fewer
+/// are of a part of the object that moves by itself.
 constexpr size_t kLeastPoints = 4;
 /// Noise of a point's displacement, px of the field's picture.
 constexpr double kObjectPointNoise_px = 0.1;
@@ -40,7 +41,7 @@ void ObjectMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
 
 /// Collects the points on the object whose motion is close to `motion`. Returns false when they are
 /// too few.
-bool ObjectMeter::collect_points(uint32_t key, const MotionModel& motion,
+bool ObjectMeter::collect_points(uint32_t key, size_t blocks, const MotionModel& motion,
                                  const ObjectEvidence& evidence) {
   collected_.points.clear();
   for (const PlacedPoint& point : evidence.points) {
@@ -53,7 +54,7 @@ bool ObjectMeter::collect_points(uint32_t key, const MotionModel& motion,
   }
   collected_.weights.assign(collected_.points.size(), 1.0);
   collected_.sigma_px = kObjectPointNoise_px;
-  return collected_.points.size() >= kLeastPoints;
+  return collected_.points.size() >= std::max<size_t>(kLeastPoints, blocks / 2);
 }
 
 /// Chooses a similarity if it is better than a translation by its price in the GRIC, and again by
@@ -77,7 +78,7 @@ ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
   collect_blocks(key, evidence);
   climb(found.model);
   found.tracks = static_cast<int>(collected_.points.size());
-  if (collect_points(key, found.model, evidence)) {
+  if (collect_points(key, static_cast<size_t>(region.blocks), found.model, evidence)) {
     const auto refined = fitter_.refine(found.model.kind, found.model, collected_);
     if (refined) found.model = *refined;
     climb(found.model);

@@ -52,7 +52,8 @@ class ObjectMeter {
 
  private:
   void collect_blocks(uint32_t key, const ObjectEvidence& evidence);
-  bool collect_points(uint32_t key, const MotionModel& motion, const ObjectEvidence& evidence);
+  bool collect_points(uint32_t key, size_t blocks, const MotionModel& motion,
+                      const ObjectEvidence& evidence);
   void climb(MotionModel& motion);
 
   RobustFitter fitter_;

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/motion/robust_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -14,11 +15,11 @@ constexpr int kPairs = 40;
 /// A pair of points closer together than this share of the spread of all points does not determine
 /// rotation and growth.
 constexpr double kLeastDistanceShare = 0.5;
-/// The start may deviate by this many times σ, and each step tolerates half as much as the one
-/// before: a start is only as accurate as two points, and a similarity where the scene needs more.
-/// With σ alone, the blocks of one object that move alike often agree with a similarity that is
-/// more exact than any of the background's.
-constexpr double kFarther = 16;
+/// The start may deviate by this, px of the field's picture, and each step tolerates half as much
+/// as the one before: a start is only as accurate as two points, and a similarity where the scene
+/// needs more. With σ alone, the blocks of one object that move alike often agree with a similarity
+/// that is more exact than any of the background's.
+constexpr double kFar_px = 4.8;
 constexpr int kSteps = 6;
 constexpr int kFarSteps = 2;
 
@@ -65,7 +66,7 @@ MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
                                 const std::vector<MotionModel>& known) {
   MotionModel best;
   double least = 1e300;
-  const double far_px = kFarther * evidence.sigma_px;
+  const double far_px = std::max(kFar_px, evidence.sigma_px);
   const auto consider = [&](const MotionModel& model) {
     const double cost = cost_within(far_px, model, evidence, least);
     if (!(cost < least)) return;
@@ -92,7 +93,7 @@ std::optional<MotionModel> RobustFitter::refine(ModelKind kind, const MotionMode
   if (kind == ModelKind::kStill) return MotionModel();
   weights_.resize(evidence.points.size());
   for (int step = 0; step < kSteps && model; ++step) {
-    const double reach_px = 2 * evidence.sigma_px * std::max(1.0, std::ldexp(kFarther, -step));
+    const double reach_px = 2 * std::max(evidence.sigma_px, std::ldexp(kFar_px, -step));
     for (size_t i = 0; i < weights_.size(); ++i) {
       const Displacement& point = evidence.points[i];
       const double e2 = (point.moved_px - model->displacement_px(point.at_px)).squaredNorm();
