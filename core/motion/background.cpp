@@ -162,7 +162,7 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
 /// Whether the chosen model is the camera's: more of the votes agree than an object has, or all
 /// others may be those of objects in front of a plain background.
 bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
-  if (voting_ < kMostObject * votes.all) return true;
+  if (votes.with_edges || voting_ < kMostObject * votes.all) return true;
   if (chosen.coverage * votes.all >= kMostObject * voting_) return true;
   places_px_.clear();
   for (const Displacement& point : votes.points) places_px_.push_back(point.at_px);

@@ -71,6 +71,7 @@ MotionEstimator::MotionEstimator() {
 /// whether the voters have edges in more than one direction.
 bool MotionEstimator::collect_votes(Voters voters) {
   votes_.clear();
+  votes_.with_edges = voters == Voters::kEdgesToo;
   MotionBlock together;
   const BlockGrid& grid = field_.grid();
   const std::vector<float>& persistence = objects_.persistence();

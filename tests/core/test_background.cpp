@@ -187,6 +187,19 @@ TEST(Background, IsUnknownWhereVotesAllOverThePictureAgreeOnNothing) {
       settle(estimator, source, sample_model(ModelKind::kSimilarity), 1, kSigma_px).is_known);
 }
 
+TEST(Background, EdgesThatAgreeOnNothingDoNotMakeItUnknown) {
+  // Coding errors around an object in front of a plain wall have edges.
+  TrackSource source(11);
+  BackgroundEstimator estimator;
+  std::vector<Displacement> points;
+  for (int i = 0; i < 200; ++i) points.push_back(source.stray());
+  BackgroundVotes given = votes(points);
+  given.with_edges = true;
+  EXPECT_TRUE(estimator.estimate(given).is_known);
+  given.with_edges = false;
+  EXPECT_FALSE(estimator.estimate(given).is_known);
+}
+
 TEST(Background, FewVotesInManyPlacesAreEnough) {
   // 60 of 900, as of a sky with few clouds: 15 clouds of four points.
   for (const ModelKind kind : {ModelKind::kTranslation, ModelKind::kSimilarity}) {
