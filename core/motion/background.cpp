@@ -54,6 +54,7 @@ void BackgroundVotes::clear() {
   at_border.clear();
   sources.clear();
   all = 0;
+  with_edges = false;
 }
 
 double BackgroundVotes::cast() const {

@@ -23,7 +23,7 @@ struct BackgroundVotes {
   std::vector<size_t> sources;     ///< one for each point: its index for learn_noise()
   double all = 0;                  ///< votes of the whole picture, including its textureless parts
   Eigen::Vector2d size_px{1, 1};   ///< of the picture
-  /// Edges vote, too: those of coding errors agree on nothing, which says nothing of the camera.
+  /// Edges vote, too. Those of coding errors agree on no motion, which does not make it unknown.
   bool with_edges = false;
 
   /// Votes of all points together, without their weights.

@@ -66,9 +66,9 @@ MotionEstimator::MotionEstimator() {
 
 /// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
 /// block has in both directions and the better its motion fits; it counts twice at the border of
-/// the picture, and half for a block that moved by itself until now. Of an edge the motion along
-/// it is not known: edges vote only where little else does, as in a picture out of focus. Returns
-/// whether the voters have edges in more than one direction.
+/// the picture, and half for a block that moved by itself until now. How an edge moves along itself
+/// is not known; edges therefore vote only where little else does, as in a picture out of focus.
+/// Returns whether the voters have edges in more than one direction.
 bool MotionEstimator::collect_votes(Voters voters) {
   votes_.clear();
   votes_.with_edges = voters == Voters::kEdgesToo;

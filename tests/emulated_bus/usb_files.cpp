@@ -5,7 +5,6 @@
 // Readiness: the file is one end of a socket pair. Its send buffer is kept full while there is
 // nothing to reap, so that poll(POLLOUT) waits. Closing the other end with unread data causes
 // POLLERR, as when a device is pulled out.
-// POLLERR, which is how a device that was pulled out looks.
 #include "tests/emulated_bus/usb_files.h"
 
 #include <algorithm>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Motors go to zero when the process that drives them is killed.
-///
-/// The process that is killed is another instance of this program, with a device, and a file in
-/// which it reports that it pulls.
+/// Motors go to zero when the process that drives them is killed: another instance of this program,
+/// with a device, and a file in which it reports that it pulls.
 #include <atomic>
 #include <cerrno>
 #include <chrono>

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What tells an object from a layer of the scene, and how much it stands out.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/motion/layer_evidence.h"
+#include "core/motion/salience.h"
+
+namespace spidar::test::salience_test {
+namespace {
+
+Region region(int blocks, int border_blocks, double speed_px) {
+  Region made;
+  made.blocks = blocks;
+  made.border_blocks = border_blocks;
+  made.relative_px << speed_px, 0;
+  made.roundness = 1;
+  return made;
+}
+
+/// A second of constant motion, of which the first 0.3 s have no influence left: 0.96^25 < e^-3 /
+/// 10 of it, below the tolerances here.
+LayerEvidence evidence_of(const Eigen::Vector2d& relative_px,
+                          const Eigen::Vector2d& background_px) {
+  constexpr int kFrames = 25;
+  constexpr double kFrame_s = 1.0 / kFrames;
+  LayerEvidence evidence;
+  for (int n = 0; n < kFrames; ++n) {
+    evidence.add(relative_px / kFrame_s, background_px / kFrame_s, kFrame_s);
+  }
+  return evidence;
+}
+
+const LayerEvidence kNoEvidence;
+
+TEST(LayerEvidence, IsSpeedOnTheScreenOverSpeedAgainstTheBackground) {
+  EXPECT_DOUBLE_EQ(evidence_of({3, 0}, {0, 0}).ratio(), 1) << "the camera rests";
+  EXPECT_DOUBLE_EQ(evidence_of({3, 0}, {-3, 0}).ratio(), 0) << "the camera follows it";
+  EXPECT_DOUBLE_EQ(evidence_of({3, 0}, {6, 0}).ratio(), 3) << "a layer";
+  EXPECT_DOUBLE_EQ(evidence_of({3, 0}, {0, 4}).ratio(), 5.0 / 3);
+  EXPECT_GT(evidence_of({0, 0}, {1, 0}).ratio(), 1000) << "a part of the background";
+  EXPECT_EQ(kNoEvidence.ratio(), 0);
+}
+
+TEST(LayerEvidence, AnObjectThatTurnsIntoTheBackgroundsDirectionRemainsOne) {
+  constexpr double kFrame_s = 0.04;
+  LayerEvidence evidence;
+  for (int n = 0; n < 25; ++n) evidence.add({-10, 0}, {10, 0}, kFrame_s);
+  for (int n = 0; n < 25; ++n) evidence.add({10, 0}, {10, 0}, kFrame_s);
+  EXPECT_NEAR(evidence.ratio(), 0, 1e-9) << "no layer moves both ways";
+}
+
+TEST(LayerEvidence, ACameraThatShakesInPlaceSaysNothing) {
+  constexpr double kFrame_s = 0.04;
+  LayerEvidence evidence;
+  // At 6.25 Hz, two swings in the time constant: what is left of them in the mean is below
+  // 1 / √(1 + (2π · 6.25 · 0.3)²) = 0.085 of their size, 5 times the object's speed.
+  for (int n = 0; n < 50; ++n) {
+    const double swing = 5 * std::sin(n * kFrame_s * 6.25 * 2 * M_PI);
+    evidence.add({10, 0}, {10 * swing, 0}, kFrame_s);
+  }
+  EXPECT_NEAR(evidence.ratio(), 1, 5 * 0.085);
+}
+
+TEST(LayerEvidence, OnlyGraphicsRestOnTheScreenWhileTheCameraShakes) {
+  constexpr double kFrame_s = 0.04;
+  LayerEvidence graphics, object, smooth;
+  for (int n = 0; n < 10; ++n) {
+    const Eigen::Vector2d background_px_s(100, n % 2 == 0 ? 50 : -50);
+    graphics.add(-background_px_s, background_px_s, kFrame_s);
+    object.add({-100, 0}, background_px_s, kFrame_s);
+    smooth.add({-100, 0}, {100, 0}, kFrame_s);
+    EXPECT_EQ(graphics.is_on_screen(), n >= 3) << n;
+    EXPECT_FALSE(object.is_on_screen()) << n << ": it shakes with the camera that follows it";
+    EXPECT_FALSE(smooth.is_on_screen()) << n << ": it may be followed";
+  }
+  const CameraMotion moving{4, 0.25};
+  EXPECT_EQ(salience(region(25, 0, 4), graphics, moving, false), 0);
+  EXPECT_GT(salience(region(25, 0, 4), object, moving, false), 0);
+}
+
+TEST(Salience, IsSpeedTimesTheRootOfTheArea) {
+  const CameraMotion still{0, 0.25};
+  EXPECT_DOUBLE_EQ(salience(region(16, 0, 3), kNoEvidence, still, false),
+                   2 * salience(region(4, 0, 3), kNoEvidence, still, false));
+  EXPECT_DOUBLE_EQ(salience(region(8, 0, 3), kNoEvidence, still, false),
+                   3 * salience(region(8, 0, 1), kNoEvidence, still, false));
+}
+
+TEST(Salience, TheGroundHasNoneWhileTheCameraMoves) {
+  const CameraMotion still{0, 0.25};
+  const CameraMotion moving{4, 0.25};
+  Region wide = region(25, 0, 4);
+  EXPECT_GT(salience(wide, evidence_of({4, 0}, {1, 0}), moving, false), 0);
+  wide.spans_picture = true;
+  EXPECT_EQ(salience(wide, evidence_of({4, 0}, {1, 0}), moving, false), 0);
+  EXPECT_EQ(salience(wide, evidence_of({4, 0}, {1, 0}), moving, true), 0);
+  EXPECT_GT(salience(wide, evidence_of({4, 0}, {-4, 0}), moving, false), 0)
+      << "it goes against the background: the camera follows it";
+  EXPECT_GT(salience(wide, evidence_of({4, 0}, {0, 0}), still, false), 0);
+}
+
+TEST(Salience, WhatLeansOnTheBorderHasNoneWhileTheCameraMoves) {
+  const CameraMotion still{0, 0.25};
+  const CameraMotion moving{10, 0.25};
+  const Region layer = region(25, 12, 5);
+  EXPECT_GT(salience(layer, kNoEvidence, still, false), 0);
+  EXPECT_EQ(salience(layer, kNoEvidence, moving, false), 0);
+  EXPECT_GT(salience(region(25, 2, 5), kNoEvidence, moving, false), 0);
+  EXPECT_EQ(salience(region(25, 8, 5), kNoEvidence, moving, false), 0);
+  EXPECT_GT(salience(region(25, 8, 5), kNoEvidence, moving, true), 0)
+      << "an object that leaves the picture";
+}
+
+TEST(Salience, ALayerThatMovesWithTheBackgroundIsNoObject) {
+  const CameraMotion moving{10, 0.25};
+  const Region slow = region(25, 0, 1.8);
+  EXPECT_GT(salience(slow, evidence_of({9, 0}, {-10, 0}), moving, false), 0) << "it is followed";
+  EXPECT_EQ(salience(slow, evidence_of({1.8, 0}, {10, 0}), moving, false), 0) << "a near layer";
+  EXPECT_EQ(salience(slow, evidence_of({1.8, 0}, {0, 10}), moving, false), 0);
+  EXPECT_GT(salience(slow, evidence_of({1.8, 0}, {1.8, 0}), moving, true), 0)
+      << "an object may look a little like a layer";
+}
+
+TEST(Salience, WhatDiffersLikeTheSceneItselfHasNone) {
+  const CameraMotion noisy{5, 0.25, 0.5};
+  EXPECT_EQ(salience(region(25, 0, 2), kNoEvidence, noisy, false), 0) << "4 standard deviations";
+  EXPECT_GT(salience(region(25, 0, 2), kNoEvidence, noisy, true), 0) << "an object that slows down";
+  EXPECT_GT(salience(region(25, 0, 3), kNoEvidence, noisy, false), 0) << "6 standard deviations";
+  EXPECT_EQ(salience(region(25, 0, 3), evidence_of({1, 0}, {0.3, 0}), noisy, false), 0)
+      << "6, but more like a layer";
+  EXPECT_GT(salience(region(25, 0, 2), kNoEvidence, {0, 0.25, 0.5}, false), 0) << "no camera moves";
+}
+
+TEST(Salience, ASingleEdgeHasNone) {
+  Region edge = region(10, 0, 5);
+  edge.roundness = 0;
+  EXPECT_EQ(salience(edge, kNoEvidence, {0, 0.25}, false), 0);
+}
+
+}  // namespace
+}  // namespace spidar::test::salience_test
