@@ -7,8 +7,6 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
-#if CV_SIMD128
-
 namespace spidar {
 
 /// Σ |a − b| over rows of 16 pixels. x86 adds up eight pixels in one instruction; taking its two
@@ -45,5 +43,3 @@ class DifferenceSum {
 };
 
 }  // namespace spidar
-
-#endif

@@ -196,8 +196,8 @@ void BlockField::refine(size_t index) {
   const int x_px = grid_.x_px(column);
   const int y_px = grid_.y_px(row);
   const BlockSums s =
-      vectors::compare_blocks({now_.row(y_px) + x_px, now_.stride()},
-                              {before_.row(y_px + match.dy) + x_px + match.dx, before_.stride()});
+      compare_blocks({now_.row(y_px) + x_px, now_.stride()},
+                     {before_.row(y_px + match.dy) + x_px + match.dx, before_.stride()});
 
   // Derivatives are 1/4 of the sums' units. An offset common to all pixels is not motion.
   const auto mean = [](int32_t sum) { return static_cast<float>(sum) / kBlockArea_px; };
@@ -249,10 +249,10 @@ int BlockField::difference_if_moved(int block, float x_px, float y_px) const {
   const auto there = [&](int j, int i) {
     return BlockPixels{before_.row(y.pixel + j) + x.pixel + i, before_.stride()};
   };
-  int least = vectors::bilinear_difference(here, there(0, 0), x.fraction, y.fraction);
+  int least = bilinear_difference(here, there(0, 0), x.fraction, y.fraction);
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < 2; ++i) {
-      least = std::min(least, vectors::block_difference(here, there(j, i), least));
+      least = std::min(least, block_difference(here, there(j, i), least));
     }
   }
   return least;
@@ -273,9 +273,9 @@ StayingPixels BlockField::staying_pixels(int block, float x_px, float y_px, int 
   if (!is_in_reach(left, top) || !is_in_reach(from_x.pixel, from_y.pixel) ||
       !is_in_reach(to_x.pixel, to_y.pixel))
     return {};
-  return vectors::staying_pixels({now_.row(top) + left, now_.stride()},
-                                 {before_.row(top) + left, before_.stride()},
-                                 moved(before_, from_x, from_y), moved(now_, to_x, to_y));
+  return spidar::staying_pixels({now_.row(top) + left, now_.stride()},
+                                {before_.row(top) + left, before_.stride()},
+                                moved(before_, from_x, from_y), moved(now_, to_x, to_y));
 }
 
 }  // namespace spidar

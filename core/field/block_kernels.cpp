@@ -6,9 +6,8 @@
 
 #include "core/difference_sum.h"
 
-namespace spidar::vectors {
+namespace spidar {
 
-#if CV_SIMD128
 namespace {
 
 using cv::v_int16x8;
@@ -163,23 +162,5 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
   return {total(xx), total(xy), total(yy),          total_of_lanes(sx), total_of_lanes(sy),
           total(xd), total(yd), total_of_lanes(sd), total(dd)};
 }
-#else
-int block_difference(BlockPixels a, BlockPixels b, int limit) {
-  return plain::block_difference(a, b, limit);
-}
 
-int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y) {
-  return plain::bilinear_difference(now, before, fraction_x, fraction_y);
-}
-
-BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
-  return plain::compare_blocks(now, before);
-}
-
-StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
-                             const MovedBlock& to) {
-  return plain::staying_pixels(now, before, from, to);
-}
-#endif
-
-}  // namespace spidar::vectors
+}  // namespace spidar

@@ -62,7 +62,6 @@ struct MovedBlock {
   int fraction_y = 0;
 };
 
-namespace vectors {
 /// Σ |a − b|. Stops after half of the rows when their sum has reached `limit`, and then returns
 /// that sum.
 int block_difference(BlockPixels a, BlockPixels b, int limit);
@@ -83,15 +82,4 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before);
 /// column and row of `from` and `to`.
 StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
                              const MovedBlock& to);
-}  // namespace vectors
-
-/// The same functions pixel by pixel, as they are defined.
-namespace plain {
-int block_difference(BlockPixels a, BlockPixels b, int limit);
-int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y);
-BlockSums compare_blocks(BlockPixels now, BlockPixels before);
-StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
-                             const MovedBlock& to);
-}  // namespace plain
-
 }  // namespace spidar

@@ -130,7 +130,7 @@ class Walk {
     const int dearer = kLambda * std::min(deviation_px, kMostDeviation_px);
     if (dearer >= cost_) return false;
     const BlockPixels there{origin_ + v.dy * before_.stride() + v.dx, before_.stride()};
-    const int difference = vectors::block_difference(block_, there, cost_ - dearer);
+    const int difference = block_difference(block_, there, cost_ - dearer);
     if (difference + dearer >= cost_) return false;
     cost_ = difference + dearer;
     difference_ = difference;

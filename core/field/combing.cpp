@@ -45,7 +45,6 @@ int combs_plain(const Lines& lines, int x, int width) {
   return combs;
 }
 
-#if CV_SIMD128
 /// The same for the first columns, as many as fill whole vectors; `done` is their number.
 int combs_vectors(const Lines& lines, int width, int& done) {
   const cv::v_uint8x16 comb = cv::v_setall_u8(kComb_grey);
@@ -65,10 +64,10 @@ int combs_vectors(const Lines& lines, int width, int& done) {
   }
   return static_cast<int>(combs);
 }
-#endif
 
-template <typename Count>
-double comb_share_by(const ImageView& frame, std::vector<uint8_t>& memory, Count&& count) {
+}  // namespace
+
+double comb_share(const ImageView& frame, std::vector<uint8_t>& memory) {
   const auto width = static_cast<size_t>(frame.width);
   memory.resize(kLines * width);
   int64_t combs = 0;
@@ -80,28 +79,12 @@ double comb_share_by(const ImageView& frame, std::vector<uint8_t>& memory, Count
       copy_row(frame, 0, y + static_cast<int>(k), frame.width, line);
       lines[k] = line;
     }
-    combs += count(lines);
+    int done = 0;
+    combs += combs_vectors(lines, frame.width, done);
+    combs += combs_plain(lines, done, frame.width);
     pixels += frame.width;
   }
   return pixels > 0 ? static_cast<double>(combs) / static_cast<double>(pixels) : 0;
-}
-
-}  // namespace
-
-double comb_share(const ImageView& frame, std::vector<uint8_t>& lines) {
-  return comb_share_by(frame, lines, [&](const Lines& of) {
-    int done = 0;
-    int combs = 0;
-#if CV_SIMD128
-    combs = combs_vectors(of, frame.width, done);
-#endif
-    return combs + combs_plain(of, done, frame.width);
-  });
-}
-
-double plain::comb_share(const ImageView& frame, std::vector<uint8_t>& lines) {
-  return comb_share_by(frame, lines,
-                       [&](const Lines& of) { return combs_plain(of, 0, frame.width); });
 }
 
 bool Combing::see(const ImageView& frame) {

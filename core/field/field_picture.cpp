@@ -54,7 +54,6 @@ void reduce_rows_plain(const uint8_t* const rows[3], int x, int width, uint8_t* 
   }
 }
 
-#if CV_SIMD128
 using cv::v_uint16x8;
 using cv::v_uint8x16;
 
@@ -106,19 +105,6 @@ int reduce_rows_vectors(const uint8_t* const rows[3], int width, uint8_t* upper,
   }
   return x;
 }
-#endif
-
-template <typename Rows>
-void reduce_to_two_thirds_by(const PaddedImage& image, PaddedImage& reduced, Rows&& reduce_rows) {
-  reduced.resize(image.width() * 2 / 3, image.height() * 2 / 3);
-  for (int y = 0; y < reduced.height(); y += 2) {
-    const int from = y / 2 * 3;
-    const bool has_lower = y + 1 < reduced.height();
-    const uint8_t* const rows[3] = {image.row(from), image.row(from + 1),
-                                    image.row(has_lower ? from + 2 : from + 1)};
-    reduce_rows(rows, reduced.width(), reduced.row(y), has_lower ? reduced.row(y + 1) : nullptr);
-  }
-}
 
 }  // namespace
 
@@ -169,14 +155,14 @@ void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& hal
       }
       break;
     case FieldScale::kTwoThirds:
-      vectors::reduce_to_two_thirds(base, picture);
+      reduce_to_two_thirds(base, picture);
       break;
     case FieldScale::kHalf:
       halve(base, picture);
       break;
     case FieldScale::kThird:
       halve(base, half);
-      vectors::reduce_to_two_thirds(half, picture);
+      reduce_to_two_thirds(half, picture);
       break;
     case FieldScale::kQuarter:
       reduce_blocks(base.view(), 4, picture);
@@ -185,30 +171,18 @@ void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& hal
   picture.repeat_border();
 }
 
-namespace vectors {
-
 void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced) {
-  reduce_to_two_thirds_by(
-      image, reduced, [](const uint8_t* const rows[3], int width, uint8_t* upper, uint8_t* lower) {
-        int x = 0;
-#if CV_SIMD128
-        x = reduce_rows_vectors(rows, width, upper, lower);
-#endif
-        reduce_rows_plain(rows, x, width, upper, lower);
-      });
+  reduced.resize(image.width() * 2 / 3, image.height() * 2 / 3);
+  for (int y = 0; y < reduced.height(); y += 2) {
+    const int from = y / 2 * 3;
+    const bool has_lower = y + 1 < reduced.height();
+    const uint8_t* const rows[3] = {image.row(from), image.row(from + 1),
+                                    image.row(has_lower ? from + 2 : from + 1)};
+    uint8_t* const upper = reduced.row(y);
+    uint8_t* const lower = has_lower ? reduced.row(y + 1) : nullptr;
+    const int done = reduce_rows_vectors(rows, reduced.width(), upper, lower);
+    reduce_rows_plain(rows, done, reduced.width(), upper, lower);
+  }
 }
-
-}  // namespace vectors
-
-namespace plain {
-
-void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced) {
-  reduce_to_two_thirds_by(
-      image, reduced, [](const uint8_t* const rows[3], int width, uint8_t* upper, uint8_t* lower) {
-        reduce_rows_plain(rows, 0, width, upper, lower);
-      });
-}
-
-}  // namespace plain
 
 }  // namespace spidar

@@ -24,11 +24,6 @@ double pixels_to_one(FieldScale scale);
 void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& half,
                      PaddedImage& picture);
 
-namespace vectors {
 void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced);
-}
-namespace plain {
-void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced);
-}
 
 }  // namespace spidar

@@ -59,7 +59,6 @@ constexpr int kTensorBlock_px = kCornerStep_px;
 constexpr int kMostBlocks = kMostCornerBox_px / kTensorBlock_px;
 using TensorRow = std::array<Tensor, kMostBlocks>;
 
-#if CV_SIMD128
 /// Tensors of two blocks side by side.
 void two_blocks(const uint8_t* pixels, ptrdiff_t stride, Tensor* to) {
   cv::v_int32x4 xx = cv::v_setzero_s32();
@@ -92,7 +91,6 @@ void two_blocks(const uint8_t* pixels, ptrdiff_t stride, Tensor* to) {
   split(sx, &Tensor::x);
   split(sy, &Tensor::y);
 }
-#endif
 
 Tensor one_block(const uint8_t* pixels, ptrdiff_t stride) {
   Tensor sum;
@@ -107,11 +105,9 @@ Tensor one_block(const uint8_t* pixels, ptrdiff_t stride) {
 
 void row_of_blocks(const uint8_t* pixels, ptrdiff_t stride, int blocks, TensorRow& to) {
   int k = 0;
-#if CV_SIMD128
   for (; k + 2 <= blocks; k += 2) {
     two_blocks(pixels + k * kTensorBlock_px, stride, &to[static_cast<size_t>(k)]);
   }
-#endif
   for (; k < blocks; ++k) {
     to[static_cast<size_t>(k)] = one_block(pixels + k * kTensorBlock_px, stride);
   }
@@ -150,29 +146,5 @@ Corner best_corner(const PaddedImage& image, const PixelBox& box) {
   }
   return best;
 }
-
-namespace plain {
-
-Corner best_corner(const PaddedImage& image, const PixelBox& box) {
-  const int x1 = std::min(box.x1, box.x0 + kMostCornerBox_px);
-  const int y1 = std::min(box.y1, box.y0 + kMostCornerBox_px);
-  Corner best;
-  for (int y0 = box.y0; y0 + kCornerWindow_px <= y1; y0 += kCornerStep_px) {
-    for (int x0 = box.x0; x0 + kCornerWindow_px <= x1; x0 += kCornerStep_px) {
-      Tensor window;
-      for (int y = y0; y < y0 + kCornerWindow_px; ++y) {
-        for (int x = x0; x < x0 + kCornerWindow_px; ++x) {
-          window.add(image.row(y)[x + 1] - image.row(y)[x - 1],
-                     image.row(y + 1)[x] - image.row(y - 1)[x]);
-        }
-      }
-      const float found = strength(window);
-      if (found > best.strength) best = {window_centre(x0, y0), found};
-    }
-  }
-  return best;
-}
-
-}  // namespace plain
 
 }  // namespace spidar

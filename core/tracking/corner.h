@@ -41,8 +41,4 @@ constexpr int kMostCornerBox_px = 64;
 /// `box` must lie inside the image. A box smaller than a window has no corner.
 Corner best_corner(const PaddedImage& image, const PixelBox& box);
 
-namespace plain {
-Corner best_corner(const PaddedImage& image, const PixelBox& box);
-}
-
 }  // namespace spidar

@@ -14,18 +14,17 @@ void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to) {
     std::memcpy(to, from, static_cast<size_t>(columns));
     return;
   }
-#if CV_SIMD128
-  constexpr int kLanes = 16;
-  if (columns >= kLanes) {
-    with_reader(frame.sample, [&](const auto& reader) {
-      const auto copy = [&](int k) { cv::v_store(to + k, reader.load(from + k * reader.kBytes)); };
+  with_reader(frame.sample, [&](const auto& reader) {
+    constexpr int kLanes = 16;
+    const auto copy = [&](int k) { cv::v_store(to + k, reader.load(from + k * reader.kBytes)); };
+    if (columns < kLanes) {
+      for (int k = 0; k < columns; ++k)
+        to[k] = static_cast<uint8_t>(reader.at(from + k * reader.kBytes));
+    } else {
       for (int k = 0; k + kLanes <= columns; k += kLanes) copy(k);
       copy(columns - kLanes);  // the rest, overlapping pixels already copied
-    });
-    return;
-  }
-#endif
-  plain::copy_row(frame, x, y, columns, to);
+    }
+  });
 }
 
 ImageView in_8_bits(const ImageView& frame, std::vector<uint8_t>& buffer) {
@@ -37,15 +36,5 @@ ImageView in_8_bits(const ImageView& frame, std::vector<uint8_t>& buffer) {
   }
   return {buffer.data(), frame.width, frame.height, frame.width};
 }
-
-namespace plain {
-
-void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to) {
-  with_reader(frame.sample, [&](const auto& reader) {
-    for (int k = 0; k < columns; ++k) to[k] = static_cast<uint8_t>(reader.at(frame.at(x + k, y)));
-  });
-}
-
-}  // namespace plain
 
 }  // namespace spidar

@@ -16,9 +16,4 @@ void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to);
 /// Returns the frame itself if it has 8 bits, otherwise a converted copy in `buffer`.
 ImageView in_8_bits(const ImageView& frame, std::vector<uint8_t>& buffer);
 
-/// Reference implementation, pixel by pixel, for tests of the fast version.
-namespace plain {
-void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to);
-}  // namespace plain
-
 }  // namespace spidar

@@ -19,11 +19,7 @@ struct LumaBytes {
   explicit LumaBytes(const LumaSample&) {}
 
   int at(const uint8_t* pixel) const { return *pixel; }
-#if CV_SIMD128
-  cv::v_uint8x16 load(const uint8_t* pixels) const {
-    return cv::v_load(pixels);
-  }
-#endif
+  cv::v_uint8x16 load(const uint8_t* pixels) const { return cv::v_load(pixels); }
 };
 
 /// Pixels of one 16-bit word, big or little endian.
@@ -37,7 +33,6 @@ struct LumaWords {
     const int word = kBigEndian ? pixel[0] << 8 | pixel[1] : pixel[1] << 8 | pixel[0];
     return std::min(word >> shift, 255);
   }
-#if CV_SIMD128
   cv::v_uint8x16 load(const uint8_t* pixels) const {
     return cv::v_pack(half(pixels), half(pixels + 16));
   }
@@ -48,7 +43,6 @@ struct LumaWords {
     if constexpr (kBigEndian) words = (words << 8) | (words >> 8);
     return words >> shift;
   }
-#endif
 
   int shift;
 };

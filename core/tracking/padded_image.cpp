@@ -17,7 +17,6 @@ namespace {
 /// Longer side to which a frame is reduced, as nearly as powers of 2 allow.
 constexpr int kBaseSide_px = 480;
 
-#if CV_SIMD128
 using cv::v_int16x8;
 using cv::v_int32x4;
 using cv::v_uint16x8;
@@ -63,7 +62,6 @@ void store_means(const v_uint16x8& sums, unsigned count, uint8_t* to) {
   const auto inverse = static_cast<uint16_t>(65536 / count);
   cv::v_pack_store(to, cv::v_mul_hi(sums + cv::v_setall_u16(half), cv::v_setall_u16(inverse)));
 }
-#endif
 
 /// Number of rows of blocks by which pixels are prefetched. Without prefetching, the processor
 /// stalls at each row of a frame with skipped rows, and takes three times as long in total.
@@ -93,7 +91,6 @@ uint8_t block_mean(const Reader& reader, const SourceRows& row, int x) {
   return static_cast<uint8_t>((sum + row.count() / 2u) / row.count());
 }
 
-#if CV_SIMD128
 template <int kFactor, typename Reader>
 int reduce_by_power_of_2(const Reader& reader, const SourceRows& row, uint8_t* to) {
   constexpr int kCacheLine = 64;
@@ -128,7 +125,6 @@ int reduce_with_vectors(const Reader& reader, const SourceRows& row, uint8_t* to
       return 0;
   }
 }
-#endif
 
 }  // namespace
 
@@ -182,10 +178,7 @@ void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
       continue;
     }
     with_reader(frame.sample, [&](const auto& reader) {
-      int x = 0;
-#if CV_SIMD128
-      x = reduce_with_vectors(reader, row, to);
-#endif
+      int x = reduce_with_vectors(reader, row, to);
       for (; x < row.columns; ++x) to[x] = block_mean(reader, row, x);
     });
   }
@@ -194,32 +187,5 @@ void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
 void halve(const PaddedImage& image, PaddedImage& half) {
   reduce_blocks(image.view(), 2, half);
 }
-
-namespace plain {
-
-void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
-  reduced.resize(frame.width / factor, frame.height / factor);
-  for (int y = 0; y < reduced.height(); ++y) {
-    for (int x = 0; x < reduced.width(); ++x) {
-      int sum = 0;
-      int count = 0;
-      for (int j = 0; j < factor; j += row_step(factor)) {
-        for (int i = 0; i < factor; ++i) {
-          uint8_t pixel = 0;
-          plain::copy_row(frame, x * factor + i, y * factor + j, 1, &pixel);
-          sum += pixel;
-          ++count;
-        }
-      }
-      reduced.row(y)[x] = static_cast<uint8_t>((sum + count / 2) / count);
-    }
-  }
-}
-
-void halve(const PaddedImage& image, PaddedImage& half) {
-  plain::reduce_blocks(image.view(), 2, half);
-}
-
-}  // namespace plain
 
 }  // namespace spidar

@@ -58,10 +58,4 @@ void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced);
 /// Mean of each 2 × 2 block, rounded.
 void halve(const PaddedImage& image, PaddedImage& half);
 
-/// Reference implementations, pixel by pixel, for tests of the fast versions.
-namespace plain {
-void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced);
-void halve(const PaddedImage& image, PaddedImage& half);
-}  // namespace plain
-
 }  // namespace spidar

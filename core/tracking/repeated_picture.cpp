@@ -27,13 +27,9 @@ unsigned block_change(const ImageView& a, const ImageView& b, int x, int y, int 
 }
 
 unsigned whole_block_change(const ImageView& a, const ImageView& b, int x, int y) {
-#if CV_SIMD128
   DifferenceSum sum;
   for (int j = 0; j < kComparedBlock_px; ++j) sum.add(a.at(x, y + j), b.at(x, y + j));
   return sum.total();
-#else
-  return block_change(a, b, x, y, kComparedBlock_px, kComparedBlock_px);
-#endif
 }
 
 /// Mean of the largest values.
@@ -57,36 +53,23 @@ class LargestMean {
   std::array<float, kChangedBlocks> largest_{};  ///< in descending order
 };
 
-template <typename Change>
-float largest(const ImageView& now, Change&& change) {
+}  // namespace
+
+float largest_change(const ImageView& before, const ImageView& now) {
   LargestMean most;
   size_t blocks = 0;
   for (int y = 0; y < now.height; y += kComparedBlock_px) {
     const int rows = std::min(kComparedBlock_px, now.height - y);
     for (int x = 0; x < now.width; x += kComparedBlock_px) {
       const int columns = std::min(kComparedBlock_px, now.width - x);
-      const auto sum = static_cast<float>(change(x, y, columns, rows));
-      most.add(sum / static_cast<float>(rows * columns));
+      const bool whole = columns == kComparedBlock_px && rows == kComparedBlock_px;
+      const unsigned sum = whole ? whole_block_change(before, now, x, y)
+                                 : block_change(before, now, x, y, columns, rows);
+      most.add(static_cast<float>(sum) / static_cast<float>(rows * columns));
       ++blocks;
     }
   }
   return most.mean(blocks);
-}
-
-}  // namespace
-
-float largest_change(const ImageView& before, const ImageView& now) {
-  return largest(now, [&](int x, int y, int columns, int rows) {
-    return columns == kComparedBlock_px && rows == kComparedBlock_px
-               ? whole_block_change(before, now, x, y)
-               : block_change(before, now, x, y, columns, rows);
-  });
-}
-
-float plain::largest_change(const ImageView& before, const ImageView& now) {
-  return largest(now, [&](int x, int y, int columns, int rows) {
-    return block_change(before, now, x, y, columns, rows);
-  });
 }
 
 RepeatedPicture::Rhythm RepeatedPicture::rhythm(float share) const {

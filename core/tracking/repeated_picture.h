@@ -70,8 +70,4 @@ constexpr size_t kChangedBlocks = 8;
 /// bottom.
 float largest_change(const ImageView& before, const ImageView& now);
 
-namespace plain {
-float largest_change(const ImageView& before, const ImageView& now);
-}
-
 }  // namespace spidar

@@ -6,9 +6,8 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
-namespace spidar::vectors {
+namespace spidar {
 
-#if CV_SIMD128
 namespace {
 
 using cv::v_int16x8;
@@ -140,21 +139,10 @@ DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& 
   }
   return {total(sx), total(sy), total(sd), total(sdd), total(sp), total(spp)};
 }
-#else
-template <int kSide>
-TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to) {
-  return plain::read_template(from, to);
-}
-
-template <int kSide>
-DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& with, int gain) {
-  return plain::compare(window, with, gain);
-}
-#endif
 
 template TemplateSums read_template(const WindowSource&, TemplatePixels<16>&);
 template TemplateSums read_template(const WindowSource&, TemplatePixels<24>&);
 template DifferenceSums compare(const WindowSource&, const TemplatePixels<16>&, int);
 template DifferenceSums compare(const WindowSource&, const TemplatePixels<24>&, int);
 
-}  // namespace spidar::vectors
+}  // namespace spidar

@@ -84,7 +84,6 @@ constexpr int template_rows(int side) {
   return side + 3;
 }
 
-namespace vectors {
 /// Reads a template whose upper left pixel is one pixel right of and below `from`. Derivatives are
 /// central differences.
 template <int kSide>
@@ -94,15 +93,5 @@ TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to);
 /// 1/kGainOne, multiplies the contrast of the template.
 template <int kSide>
 DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& with, int gain);
-
-}  // namespace vectors
-
-/// Reference implementations.
-namespace plain {
-template <int kSide>
-TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to);
-template <int kSide>
-DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& with, int gain);
-}  // namespace plain
 
 }  // namespace spidar

@@ -59,7 +59,7 @@ bool WindowTemplate<kSide>::read(const ReadablePixels& image, ImagePoint centre)
                     source)) {
     return false;
   }
-  const TemplateSums sums = vectors::read_template(source, pixels_);
+  const TemplateSums sums = read_template(source, pixels_);
   constexpr float kPixels = kSide * kSide;
   mean_x_ = static_cast<float>(sums.x) / kPixels;
   mean_y_ = static_cast<float>(sums.y) / kPixels;
@@ -98,7 +98,7 @@ bool WindowTemplate<kSide>::find(const ReadablePixels& image, const MatchSetting
     WindowSource source;
     if (!image.source(begin.x_px, begin.y_px, kSide + 1, kSide + 1, source)) return false;
     const auto fixed_gain = static_cast<int>(gain * kGainOne);
-    const DifferenceSums sums = vectors::compare(source, pixels_, fixed_gain);
+    const DifferenceSums sums = compare(source, pixels_, fixed_gain);
     left = variance(sums.difference, sums.squared, kPixels) / (kDifferenceOne * kDifferenceOne);
 
     const auto difference = static_cast<float>(sums.difference);

@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cstdlib>
+/// The functions of core/tracking/window_kernels.h, and reduce_blocks() for pixels of one byte,
+/// pixel by pixel, as they are defined.
+#pragma once
 
+#include <cstdint>
+
+#include "core/tracking/padded_image.h"
 #include "core/tracking/window_kernels.h"
 
-namespace spidar::plain {
-namespace {
+namespace spidar::test::plain {
 
 /// Interpolated pixel in pixel units, `x`, `y` whole pixels from the source.
-int interpolated(const WindowSource& from, int x, int y) {
+inline int interpolated(const WindowSource& from, int x, int y) {
   const uint8_t* p = from.pixels + y * from.stride + x;
   const uint8_t* q = p + from.stride;
   const BilinearWeights& w = from.weights;
   return (w.w00 * p[0] + w.w01 * p[1] + w.w10 * q[0] + w.w11 * q[1] + 4) >> 3;
 }
 
-int derivative(int after, int before) {
+inline int derivative(int after, int before) {
   return (after - before + 2) >> 2;
 }
 
-int difference_units(int pixel) {
+inline int difference_units(int pixel) {
   return (pixel + 2) >> 2;
 }
-
-}  // namespace
 
 template <int kSide>
 TemplateSums read_template(const WindowSource& from, TemplatePixels<kSide>& to) {
@@ -69,9 +71,22 @@ DifferenceSums compare(const WindowSource& window, const TemplatePixels<kSide>& 
   return sums;
 }
 
-template TemplateSums read_template(const WindowSource&, TemplatePixels<16>&);
-template TemplateSums read_template(const WindowSource&, TemplatePixels<24>&);
-template DifferenceSums compare(const WindowSource&, const TemplatePixels<16>&, int);
-template DifferenceSums compare(const WindowSource&, const TemplatePixels<24>&, int);
+/// Mean of the pixels of each block that are used, rounded.
+inline void reduce_blocks(const ImageView& frame, int factor, PaddedImage& reduced) {
+  reduced.resize(frame.width / factor, frame.height / factor);
+  for (int y = 0; y < reduced.height(); ++y) {
+    for (int x = 0; x < reduced.width(); ++x) {
+      int sum = 0;
+      int count = 0;
+      for (int j = 0; j < factor; j += row_step(factor)) {
+        for (int i = 0; i < factor; ++i) {
+          sum += *frame.at(x * factor + i, y * factor + j);
+          ++count;
+        }
+      }
+      reduced.row(y)[x] = static_cast<uint8_t>((sum + count / 2) / count);
+    }
+  }
+}
 
-}  // namespace spidar::plain
+}  // namespace spidar::test::plain

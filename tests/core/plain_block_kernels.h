@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+/// The functions of core/field/block_kernels.h pixel by pixel, as they are defined.
+#pragma once
+
 #include <algorithm>
 #include <cstdlib>
 
 #include "core/field/block_kernels.h"
 
-namespace spidar::plain {
-namespace {
+namespace spidar::test::plain {
 
-int interpolated(const uint8_t* pixel, ptrdiff_t stride, int fraction_x, int fraction_y) {
+inline int interpolated(const uint8_t* pixel, ptrdiff_t stride, int fraction_x, int fraction_y) {
   const uint8_t* below = pixel + stride;
   const int upper = (kFractionOne - fraction_x) * pixel[0] + fraction_x * pixel[1];
   const int lower = (kFractionOne - fraction_x) * below[0] + fraction_x * below[1];
   return ((kFractionOne - fraction_y) * upper + fraction_y * lower + 128) >> 8;
 }
 
-}  // namespace
-
-int block_difference(BlockPixels a, BlockPixels b, int limit) {
+inline int block_difference(BlockPixels a, BlockPixels b, int limit) {
   int sum = 0;
   for (int y = 0; y < kBlock_px; ++y) {
     if (y == kBlock_px / 2 && sum >= limit) return sum;
@@ -28,7 +28,8 @@ int block_difference(BlockPixels a, BlockPixels b, int limit) {
   return sum;
 }
 
-int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y) {
+inline int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x,
+                               int fraction_y) {
   int sum = 0;
   for (int y = 0; y < kBlock_px; ++y) {
     for (int x = 0; x < kBlock_px; ++x) {
@@ -40,7 +41,7 @@ int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int
   return sum;
 }
 
-BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
+inline BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
   BlockSums sums;
   for (int y = 0; y < kBlock_px; ++y) {
     for (int x = 0; x < kBlock_px; ++x) {
@@ -63,8 +64,8 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
   return sums;
 }
 
-StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
-                             const MovedBlock& to) {
+inline StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
+                                    const MovedBlock& to) {
   const auto moved = [](const MovedBlock& block, int x, int y) {
     return interpolated(block.pixels.pixels + y * block.pixels.stride + x, block.pixels.stride,
                         block.fraction_x, block.fraction_y);
@@ -85,4 +86,4 @@ StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlo
   return staying;
 }
 
-}  // namespace spidar::plain
+}  // namespace spidar::test::plain
