@@ -172,11 +172,6 @@ std::optional<LoopSnapshot> HapticOutput::snapshot() const {
   return session_->loop().snapshot();
 }
 
-DeviceState HapticOutput::device_state() const {
-  const std::optional<LoopSnapshot> loop = snapshot();
-  return loop ? loop->last.device : DeviceState::kClosed;
-}
-
 bool HapticOutput::look_at_device(DeviceView& view) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!session_) return false;

@@ -63,8 +63,6 @@ class HapticOutput {
   const Profile& profile() const { return profile_; }
   /// Nothing while closed.
   std::optional<LoopSnapshot> snapshot() const;
-  /// kClosed while closed.
-  DeviceState device_state() const;
   /// False while closed.
   bool look_at_device(DeviceView& view);
   /// Leads the hand of the device "sim" to a place, see SimulatedDevice::lead_hand(). False for

@@ -6,37 +6,19 @@
 #include "plugin/track/track_input.h"
 
 namespace spidar {
-namespace {
-
-struct Sound {
-  int channels = 0, rate_Hz = 0;
-};
-
-Sound sound_of(const GstCaps* caps) {
-  Sound sound;
-  const GstStructure* structure = gst_caps_get_structure(caps, 0);
-  gst_structure_get_int(structure, "channels", &sound.channels);
-  gst_structure_get_int(structure, "rate", &sound.rate_Hz);
-  return sound;
-}
-
-}  // namespace
 
 StreamKind kind_of(const GstCaps* caps) {
   if (!caps || gst_caps_is_empty(caps) || gst_caps_is_any(caps)) return StreamKind::kOther;
-  const std::string name = gst_structure_get_name(gst_caps_get_structure(caps, 0));
+  const GstStructure* structure = gst_caps_get_structure(caps, 0);
+  const std::string name = gst_structure_get_name(structure);
   if (name.rfind("video/", 0) == 0 || name.rfind("image/", 0) == 0) return StreamKind::kVideo;
   if (name.rfind("audio/", 0) != 0) return StreamKind::kOther;
-  const Sound sound = sound_of(caps);
-  const bool haptic = sound.channels == static_cast<int>(kTrackChannels) && sound.rate_Hz > 0 &&
-                      sound.rate_Hz <= TrackInput::kHighestRate_Hz;
+  int channels = 0, rate_Hz = 0;
+  gst_structure_get_int(structure, "channels", &channels);
+  gst_structure_get_int(structure, "rate", &rate_Hz);
+  const bool haptic = channels == static_cast<int>(kTrackChannels) && rate_Hz > 0 &&
+                      rate_Hz <= TrackInput::kHighestRate_Hz;
   return haptic ? StreamKind::kHapticTrack : StreamKind::kSound;
-}
-
-std::string describe_sound(const GstCaps* caps) {
-  const Sound sound = sound_of(caps);
-  if (sound.channels <= 0 || sound.rate_Hz <= 0) return {};
-  return std::to_string(sound.channels) + " channels, " + std::to_string(sound.rate_Hz) + " Hz";
 }
 
 std::string why_missing(GstElement* bin) {

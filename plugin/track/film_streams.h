@@ -19,9 +19,6 @@ enum class StreamKind {
 /// Of the caps of a parsed or decoded stream.
 StreamKind kind_of(const GstCaps* caps);
 
-/// "2 channels, 48000 Hz"; empty when the caps do not say so.
-std::string describe_sound(const GstCaps* caps);
-
 /// Why no pictures, or no sound, come from the demuxers in `bin`, as the rest of a sentence; empty
 /// unless there is a known reason.
 std::string why_missing(GstElement* bin);

@@ -53,16 +53,10 @@ void EmulatedSimple::receive(ByteView bytes) noexcept {
     case usb_simple::Command::kLatchCounters: {
       const std::array<int32_t, kMaxStrings> counts = motors_.counts();
       usb_simple::Reading reading;
-      for (size_t i = 0; i < usb_simple::kChannels; ++i) reading.counter[i] = counts[i] - zero_[i];
+      for (size_t i = 0; i < usb_simple::kChannels; ++i) reading.counter[i] = counts[i];
       reading.inputs = static_cast<uint8_t>(motors_.inputs() & 0xFF);
       usb_simple::encode_reading(reading, packet_);
       due_ = true;
-      break;
-    }
-    case usb_simple::Command::kClearCounters: {
-      const std::array<int32_t, kMaxStrings> counts = motors_.counts();
-      for (size_t i = 0; i < usb_simple::kChannels; ++i)
-        if (said.channels >> i & 1) zero_[i] = counts[i];
       break;
     }
     case usb_simple::Command::kEncoderDirection:

@@ -33,7 +33,6 @@ class EmulatedSimple final : public EmulatedBoard {
  private:
   EmulatedMotors& motors_;
   usb_simple::Packet packet_{};
-  std::array<int32_t, kMaxStrings> zero_{};
   bool due_ = false;
 };
 

@@ -62,8 +62,6 @@ class GripWatch {
   uint64_t pose_errors() const noexcept { return pose_errors_; }
   /// How often a string became faulty, or a different one did.
   uint64_t string_faults() const noexcept { return string_faults_; }
-  /// Resets both counters to zero.
-  void clear_counters() noexcept { pose_errors_ = string_faults_ = 0; }
 
  private:
   PoseTrouble judge(const PoseResult& result, int64_t now_ns) const noexcept;

@@ -45,9 +45,4 @@ void TraceThread::drain_locked() noexcept {
   error_.store(trace_.status().error, std::memory_order_relaxed);
 }
 
-TraceStatus TraceThread::status() const noexcept {
-  const std::lock_guard lock(mutex_);
-  return trace_.status();
-}
-
 }  // namespace spidar

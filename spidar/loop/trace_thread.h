@@ -26,7 +26,6 @@ class TraceThread {
   /// Writes all records so far.
   void drain() noexcept;
 
-  TraceStatus status() const noexcept;
   /// TraceStatus::error, without waiting for the file.
   int error() const noexcept { return error_.load(std::memory_order_relaxed); }
 
@@ -35,7 +34,7 @@ class TraceThread {
   void drain_locked() noexcept;
 
   HapticLoop& loop_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::condition_variable wake_;
   bool stop_ = false;
   TickTrace trace_;

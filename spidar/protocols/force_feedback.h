@@ -61,7 +61,6 @@ constexpr size_t kDescribeSize = 1;
 constexpr size_t kPositionSize = 2;
 constexpr size_t kEventSize = 2 * sizeof(long) + 8;           ///< struct input_event
 constexpr size_t kEffectSize = sizeof(void*) == 8 ? 48 : 44;  ///< struct ff_effect
-constexpr size_t kNumberSize = 2;  ///< the answer to an effect: its number
 
 using EventBytes = std::array<uint8_t, kEventSize>;
 using EffectBytes = std::array<uint8_t, kEffectSize>;

@@ -7,18 +7,10 @@ namespace {
 
 constexpr uint8_t kControl = 0xA2;
 constexpr uint8_t kControlDirection = 0x1A;
-constexpr uint8_t kControlClear = 0x19;
 constexpr uint8_t kSetDac = 0x52;
 constexpr uint8_t kLatch = 0x51;
 constexpr size_t kDigitsAt = 1;
 constexpr size_t kInputsAt = 3 * kChannels;
-
-void encode_control(uint8_t what, uint8_t channels, Packet& packet) noexcept {
-  packet.fill(0);
-  packet[0] = kControl;
-  packet[1] = what;
-  packet[2] = channels;
-}
 
 int32_t sign_extended(uint32_t counter24) noexcept {
   constexpr uint32_t kSign = 1u << 23;
@@ -28,11 +20,10 @@ int32_t sign_extended(uint32_t counter24) noexcept {
 }  // namespace
 
 void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept {
-  encode_control(kControlDirection, channels, packet);
-}
-
-void encode_clear_counters(uint8_t channels, Packet& packet) noexcept {
-  encode_control(kControlClear, channels, packet);
+  packet.fill(0);
+  packet[0] = kControl;
+  packet[1] = kControlDirection;
+  packet[2] = channels;
 }
 
 void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept {
@@ -50,9 +41,8 @@ bool decode_command(ByteView packet, HostPacket& command) noexcept {
   if (packet.size != kPacketSize) return false;
   switch (packet.u8(0)) {
     case kControl:
-      if (packet.u8(1) != kControlDirection && packet.u8(1) != kControlClear) return false;
-      command.command =
-          packet.u8(1) == kControlClear ? Command::kClearCounters : Command::kEncoderDirection;
+      if (packet.u8(1) != kControlDirection) return false;
+      command.command = Command::kEncoderDirection;
       command.channels = packet.u8(2);
       return true;
     case kSetDac:

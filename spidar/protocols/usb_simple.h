@@ -26,7 +26,6 @@ using DacDigits = std::array<uint16_t, kChannels>;
 
 enum class Command {
   kEncoderDirection,  ///< one bit for each channel: order of the encoder's phases
-  kClearCounters,     ///< one bit for each channel
   kSetDac,
   kLatchCounters,  ///< the next packet from the board holds the counters at this moment
 };
@@ -40,14 +39,13 @@ struct Reading {
 };
 
 void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept;
-void encode_clear_counters(uint8_t channels, Packet& packet) noexcept;
 void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept;
 void encode_latch(Packet& packet) noexcept;
 
 /// A packet to the board, decoded.
 struct HostPacket {
   Command command = Command::kLatchCounters;
-  uint8_t channels = 0;  ///< of kEncoderDirection and kClearCounters
+  uint8_t channels = 0;  ///< of kEncoderDirection
   DacDigits digits{};    ///< of kSetDac
 };
 

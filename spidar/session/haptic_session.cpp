@@ -99,10 +99,6 @@ void HapticSession::drain_trace() noexcept {
   if (impl_->trace) impl_->trace->drain();
 }
 
-TraceStatus HapticSession::trace_status() const noexcept {
-  return impl_->trace ? impl_->trace->status() : TraceStatus{};
-}
-
 int HapticSession::trace_error() const noexcept {
   return impl_->trace ? impl_->trace->error() : 0;
 }

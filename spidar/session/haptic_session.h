@@ -52,9 +52,7 @@ class HapticSession {
   /// Writes the trace up to the last tick; with a thread this happens by itself. The trace consumes
   /// the loop's records: pop_record() is for sessions without a trace.
   void drain_trace() noexcept;
-  /// All zero without a trace.
-  TraceStatus trace_status() const noexcept;
-  /// TraceStatus::error, at once: trace_status() may wait for a disk.
+  /// See TraceStatus::error; 0 without a trace.
   int trace_error() const noexcept;
 
   /// CLOCK_MONOTONIC, nanoseconds.

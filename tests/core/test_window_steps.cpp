@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // The steps of following a window, compared with their definitions: the vector code gives the same
 // bits.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>

@@ -121,7 +121,7 @@ TEST_F(DeviceTest, ALossIsAWarningAndTheVideoContinues) {
   EXPECT_TRUE(loop().reopen());
   tick(300);
   EXPECT_EQ(push_next(), GST_FLOW_OK);
-  EXPECT_EQ(h->engine().output().device_state(), DeviceState::kRunning);
+  EXPECT_EQ(h->engine().output().snapshot()->last.device, DeviceState::kRunning);
 
   device().set_fault(ExchangeStatus::kLost);
   tick(2);

@@ -285,7 +285,7 @@ TEST(HapticTrace, FullDiskIsAWarningAndTheForceGoesOn) {
   push_until_warned(h);
   ASSERT_EQ(h.warnings().size(), 1u);
   EXPECT_NE(h.warnings()[0].find(g_strerror(ENOSPC)), std::string::npos);
-  EXPECT_NE(h.engine().output().device_state(), DeviceState::kLost);
+  EXPECT_NE(h.engine().output().snapshot()->last.device, DeviceState::kLost);
 }
 
 TEST(Stats, NameTheModelOfTheBackground) {

@@ -94,11 +94,6 @@ TEST(UsbSimple, CommandsAreThoseOfTheFactSheet) {
   EXPECT_EQ(said.command, usb_simple::Command::kEncoderDirection);
   EXPECT_EQ(said.channels, 0xFF);
 
-  usb_simple::encode_clear_counters(0xFF, packet);
-  EXPECT_EQ(bytes_of(packet), padded({0xA2, 0x19, 0xFF}, 32));
-  ASSERT_TRUE(usb_simple::decode_command(packet, said));
-  EXPECT_EQ(said.command, usb_simple::Command::kClearCounters);
-
   std::vector<uint8_t> set_dac{0x52};
   set_dac.insert(set_dac.end(), kDigitBytes.begin(), kDigitBytes.end());
   usb_simple::encode_set_dac(kDigits, packet);
