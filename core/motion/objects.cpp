@@ -224,7 +224,7 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const double share = life.region.blocks / static_cast<double>(owners_.size());
   const bool too_large = share > std::max(kMostOfPicture, kMostOfCoverage * background_->coverage);
   CameraMotion camera = camera_;
-  if (camera.moves()) camera.noise_px = std::max(camera.noise_px, noise_around(life.key));
+  if (camera.moves()) camera.noise_px = noise_around(life.key);
   life.proven += salience(life.region, life.evidence, camera, false) > 0;
   const bool was_followed = life.proven >= kProvenAfter;
   object.prominence = too_large ? 0 : salience(life.region, life.evidence, camera, was_followed);
@@ -308,7 +308,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   }
   background_ = &background;
   relative_ = &moving_.find(field, background, expected_);
-  camera_ = {0, kCameraStill_px, background.sigma_px};
+  camera_ = {0, kCameraStill_px, 0, background.coverage * static_cast<double>(n)};
   for (const RelativeBlock& block : *relative_) {
     camera_.speed_px += std::hypot(block.background_x_px, block.background_y_px);
   }

@@ -15,8 +15,6 @@ namespace {
 /// of a block, px of the field's picture.
 constexpr double kAlikeShare = 0.5;
 constexpr double kAlike_px = 0.3;
-/// A region is as wide as the picture if fewer columns than this are missing: one at each side.
-constexpr int kSpareColumns = 3;
 
 /// Blocks without texture are taken to move as their neighbours do.
 bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
@@ -91,8 +89,6 @@ void RegionFinder::describe(const BlockField& field, const std::vector<RelativeB
     x_px_.push_back(relative[i].x_px);
     y_px_.push_back(relative[i].y_px);
   }
-  region.spans_picture =
-      region.high_px.x() - region.low_px.x() > (grid.columns - kSpareColumns) * kBlock_px;
   const double trace = tensor(0, 0) + tensor(1, 1);
   const double root = std::hypot(tensor(0, 0) - tensor(1, 1), 2 * tensor(0, 1));
   region.roundness = trace > 0 ? (trace - root) / (trace + root) : 0;

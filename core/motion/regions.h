@@ -20,8 +20,6 @@ struct Region {
   /// Number of them at the border of the picture, of the part of it that was in the previous
   /// picture, or of something burned in that covers the film.
   int border_blocks = 0;
-  /// Whether it is as wide as the picture, but for a block at each side.
-  bool spans_picture = false;
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero();       ///< upper left corner of its box
   Eigen::Vector2d high_px = Eigen::Vector2d::Zero();      ///< lower right

@@ -15,11 +15,14 @@ namespace {
 constexpr double kBorder = 1.2;
 /// A region that moves against the background by less than this many standard deviations of the
 /// blocks around it is one of the scene's layers: the further the layers are apart, the more each
-/// differs from a single model of them all. The limit rises with
-/// LayerEvidence::ratio() where that is above 1.
+/// differs from a single model of them all. The limit rises with the cube of
+/// LayerEvidence::ratio() where that is above 1: hardly any object moves so much like a layer.
 constexpr double kNoiseSigmas = 5;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;
+/// A region that moves like a layer and is larger than this share of the background is the other
+/// layer of a scene with two: the ground.
+constexpr double kLayerShare = 0.5;
 /// A region with a smaller likelihood is not an object. Away from the border this is a
 /// LayerEvidence::ratio() above 2: a layer that is further away than half of the background's
 /// distance.
@@ -37,13 +40,14 @@ double salience(const Region& region, const LayerEvidence& evidence, const Camer
   const double score = side_px * speed_px;
   if (!camera.moves()) return score;
   if (evidence.is_on_screen()) return 0;
-  // The ground. A large object that the camera follows goes against the background.
-  if (region.spans_picture && evidence.mean_ratio() > 1) return 0;
+  // A large object that the camera follows goes against the background.
+  const bool is_layer = evidence.mean_ratio() > kTrusted;
+  if (is_layer && region.blocks > kLayerShare * camera.blocks) return 0;
   // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
   const double doubt = std::max(1.0, evidence.ratio() / trust);
-  if (speed_px * trust < kNoiseSigmas * doubt * camera.noise_px) return 0;
+  if (speed_px * trust < kNoiseSigmas * doubt * doubt * doubt * camera.noise_px) return 0;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));
   const double likelihood = inside / (doubt * doubt);
   return likelihood < kLeastLikelihood ? 0 : likelihood * score;

@@ -13,6 +13,7 @@ struct CameraMotion {
   double speed_px = 0;  ///< mean displacement of the background over the picture
   double still_px = 0;  ///< below this the camera counts as still
   double noise_px = 0;  ///< standard deviation of what follows the background
+  double blocks = 0;    ///< number of blocks that follow the background
 
   bool moves() const { return speed_px >= still_px; }
 };
@@ -20,9 +21,9 @@ struct CameraMotion {
 /// √area × speed, px² of the field's picture. The score is lower when the camera moves and the
 /// region looks like an effect of the camera's translation in a scene with depth: a layer nearer
 /// than the background extends over the border of the picture, moves on the screen more than it
-/// moves relative to the background, is as wide as the picture, or hardly differs from the noise
-/// around the background's model. 0 for a region that is no object but one of these, or graphics.
-/// `was_followed`: it was an object before and may look a little more like a layer.
+/// moves relative to the background, is as large as the background, or hardly differs from the
+/// noise around the background's model. 0 for a region that is no object but one of these, or
+/// graphics. `was_followed`: it was an object before and may look a little more like a layer.
 double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
                 bool was_followed);
 

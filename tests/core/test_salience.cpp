@@ -76,7 +76,7 @@ TEST(LayerEvidence, OnlyGraphicsRestOnTheScreenWhileTheCameraShakes) {
     EXPECT_FALSE(object.is_on_screen()) << n << ": it shakes with the camera that follows it";
     EXPECT_FALSE(smooth.is_on_screen()) << n << ": it may be followed";
   }
-  const CameraMotion moving{4, 0.25};
+  const CameraMotion moving{4, 0.25, 0, 100};
   EXPECT_EQ(salience(region(25, 0, 4), graphics, moving, false), 0);
   EXPECT_GT(salience(region(25, 0, 4), object, moving, false), 0);
 }
@@ -89,22 +89,21 @@ TEST(Salience, IsSpeedTimesTheRootOfTheArea) {
                    3 * salience(region(8, 0, 1), kNoEvidence, still, false));
 }
 
-TEST(Salience, TheGroundHasNoneWhileTheCameraMoves) {
-  const CameraMotion still{0, 0.25};
-  const CameraMotion moving{4, 0.25};
-  Region wide = region(25, 0, 4);
-  EXPECT_GT(salience(wide, evidence_of({4, 0}, {1, 0}), moving, false), 0);
-  wide.spans_picture = true;
-  EXPECT_EQ(salience(wide, evidence_of({4, 0}, {1, 0}), moving, false), 0);
-  EXPECT_EQ(salience(wide, evidence_of({4, 0}, {1, 0}), moving, true), 0);
-  EXPECT_GT(salience(wide, evidence_of({4, 0}, {-4, 0}), moving, false), 0)
+TEST(Salience, AnotherLayerAsLargeAsTheBackgroundHasNoneWhileTheCameraMoves) {
+  const CameraMotion still{0, 0.25, 0, 40};
+  const CameraMotion moving{4, 0.25, 0, 40};
+  const LayerEvidence layer = evidence_of({4, 0}, {2, 0});
+  EXPECT_GT(salience(region(20, 0, 4), layer, moving, false), 0) << "half of it";
+  EXPECT_EQ(salience(region(21, 0, 4), layer, moving, false), 0);
+  EXPECT_EQ(salience(region(21, 0, 4), layer, moving, true), 0);
+  EXPECT_GT(salience(region(21, 0, 4), evidence_of({4, 0}, {-4, 0}), moving, false), 0)
       << "it goes against the background: the camera follows it";
-  EXPECT_GT(salience(wide, evidence_of({4, 0}, {0, 0}), still, false), 0);
+  EXPECT_GT(salience(region(21, 0, 4), evidence_of({4, 0}, {0, 0}), still, false), 0);
 }
 
 TEST(Salience, WhatLeansOnTheBorderHasNoneWhileTheCameraMoves) {
   const CameraMotion still{0, 0.25};
-  const CameraMotion moving{10, 0.25};
+  const CameraMotion moving{10, 0.25, 0, 100};
   const Region layer = region(25, 12, 5);
   EXPECT_GT(salience(layer, kNoEvidence, still, false), 0);
   EXPECT_EQ(salience(layer, kNoEvidence, moving, false), 0);
@@ -115,7 +114,7 @@ TEST(Salience, WhatLeansOnTheBorderHasNoneWhileTheCameraMoves) {
 }
 
 TEST(Salience, ALayerThatMovesWithTheBackgroundIsNoObject) {
-  const CameraMotion moving{10, 0.25};
+  const CameraMotion moving{10, 0.25, 0, 100};
   const Region slow = region(25, 0, 1.8);
   EXPECT_GT(salience(slow, evidence_of({9, 0}, {-10, 0}), moving, false), 0) << "it is followed";
   EXPECT_EQ(salience(slow, evidence_of({1.8, 0}, {10, 0}), moving, false), 0) << "a near layer";
@@ -125,7 +124,7 @@ TEST(Salience, ALayerThatMovesWithTheBackgroundIsNoObject) {
 }
 
 TEST(Salience, WhatDiffersLikeTheSceneItselfHasNone) {
-  const CameraMotion noisy{5, 0.25, 0.5};
+  const CameraMotion noisy{5, 0.25, 0.5, 100};
   EXPECT_EQ(salience(region(25, 0, 2), kNoEvidence, noisy, false), 0) << "4 standard deviations";
   EXPECT_GT(salience(region(25, 0, 2), kNoEvidence, noisy, true), 0) << "an object that slows down";
   EXPECT_GT(salience(region(25, 0, 3), kNoEvidence, noisy, false), 0) << "6 standard deviations";
