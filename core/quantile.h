@@ -10,6 +10,9 @@
 
 namespace spidar {
 
+/// Median of the length of a vector whose coordinates have standard deviation 1: √(2 ln 2).
+constexpr double kRayleighMedian = 1.1774;
+
 /// The value that the share `share`, 0 … 1, of [first, last) does not exceed. The range must not be
 /// empty; its order is changed.
 template <typename Iterator>

@@ -26,13 +26,14 @@
  * The element posts a `spidar-motion` element message for each frame when
  * #spidarmotion:post-messages is set, with these fields: `timestamp`, `stream-time`,
  * `running-time`, `duration` (#GstClockTime), `features`, `tracked` (uint), `velocity-x`,
- * `velocity-y` (pixels of the frame per second of running time; x right, y down), `force-x`,
- * `force-y`, `force-z` (newtons; x right, y up, z towards the viewer), `torque-x`, `torque-y`,
- * `torque-z` (newton metres), `repeated` (boolean: the frame shows the picture before again),
- * `object` (uint: the one object that is felt, by its id, 0 when it is none or not one alone),
- * `limit` (string: what has kept the force of the last second from being felt, "none" when it was)
- * and, unless that is "none", `limit-reason` (string: the same as a sentence). `stats` has the last
- * two for the picture on the screen.
+ * `velocity-y` (pixels of the frame per second of running time; x right, y down), `velocity-error`
+ * (the same unit: how far from them the true ones are at most, in 95 % of the frames; 0 when it is
+ * not that of one object), `force-x`, `force-y`, `force-z` (newtons; x right, y up, z towards the
+ * viewer), `torque-x`, `torque-y`, `torque-z` (newton metres), `repeated` (boolean: the frame shows
+ * the picture before again), `object` (uint: the one object that is felt, by its id, 0 when it is
+ * none or not one alone), `limit` (string: what has kept the force of the last second from being
+ * felt, "none" when it was) and, unless that is "none", `limit-reason` (string: the same as a
+ * sentence). `stats` has the last two for the picture on the screen.
  *
  * ## Example launch lines
  * |[

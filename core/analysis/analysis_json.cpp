@@ -97,6 +97,7 @@ void write(Writer& json, const MovingObject& object) {
       .field("position_px", object.position_px)
       .field("size_px", object.size_px)
       .field("velocity_px_s", object.relative_px_s)
+      .field("error_px_s", object.error_px_s)
       .field("on_screen_px_s", object.on_screen_px_s)
       .field("growth_1_s", object.growth_1_s)
       .field("roll_rad_s", object.roll_rad_s)

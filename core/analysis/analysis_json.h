@@ -22,8 +22,8 @@ struct JsonOptions {
 ///     wrench: {force_N: [x, y, z], torque_Nm: [x, y, z]},
 ///     background: {model, shift_px, linear: [[xx, xy], [yx, yy]], perspective_1_px, sigma_px,
 ///                  coverage} or null,
-///     objects: [{id, position_px, size_px, velocity_px_s, on_screen_px_s, growth_1_s, roll_rad_s,
-///                model, tracks, prominence}, …],
+///     objects: [{id, position_px, size_px, velocity_px_s, error_px_s, on_screen_px_s, growth_1_s,
+///                roll_rad_s, model, tracks, prominence}, …],
 ///     points: [[id, x, y, moved x, moved y], …] where they are in this frame, only with `points`
 ///
 /// (see ImageMotion, MotionModel and MovingObject; an object's velocity is against the background).

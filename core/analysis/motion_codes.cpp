@@ -52,7 +52,7 @@ ObjectCode encode_object(const MovingObject& object, double side_px) {
   code.velocity_y = to_half(object.relative_px_s.y() / side_px);
   code.growth = to_half(object.growth_1_s);
   code.roll = to_half(object.roll_rad_s);
-  code.noise = to_half(object.noise_px_s / side_px);
+  code.error = to_half(object.error_px_s / side_px);
   code.area = to_half(object.area_px2 / (side_px * side_px));
   code.prominence = to_half(object.prominence);
   code.tracks = static_cast<uint16_t>(std::clamp(object.tracks, 0, 65535));
@@ -72,7 +72,7 @@ MovingObject decode_object(const ObjectCode& code, double side_px, const Backgro
       object.relative_px_s + background.model.displacement_px(object.position_px) / interval_s;
   object.growth_1_s = from_half(code.growth);
   object.roll_rad_s = from_half(code.roll);
-  object.noise_px_s = from_half(code.noise) * side_px;
+  object.error_px_s = from_half(code.error) * side_px;
   object.area_px2 = from_half(code.area) * side_px * side_px;
   object.prominence = from_half(code.prominence);
   object.tracks = code.tracks;

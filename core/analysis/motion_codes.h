@@ -26,7 +26,7 @@ struct ObjectCode {
   int16_t x = 0, y = 0;
   uint16_t width = 0, height = 0;
   uint16_t velocity_x = 0, velocity_y = 0;  ///< relative to the background
-  uint16_t growth = 0, roll = 0, noise = 0, area = 0, prominence = 0;
+  uint16_t growth = 0, roll = 0, error = 0, area = 0, prominence = 0;
   uint16_t tracks = 0;
   uint8_t model = 0;  ///< ModelKind
 };

@@ -70,7 +70,7 @@ const Column<ObjectRow> kObjectColumns[] = {
     SPIDAR_COLUMN(ObjectRow, "object_velocity_y", object.velocity_y, false),
     SPIDAR_COLUMN(ObjectRow, "object_growth", object.growth, false),
     SPIDAR_COLUMN(ObjectRow, "object_roll", object.roll, false),
-    SPIDAR_COLUMN(ObjectRow, "object_noise", object.noise, false),
+    SPIDAR_COLUMN(ObjectRow, "object_error", object.error, false),
     SPIDAR_COLUMN(ObjectRow, "object_area", object.area, true),
     SPIDAR_COLUMN(ObjectRow, "object_prominence", object.prominence, true),
     SPIDAR_COLUMN(ObjectRow, "object_tracks", object.tracks, true),

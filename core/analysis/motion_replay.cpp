@@ -26,7 +26,7 @@ void play_at(MeasuredFrame& frame, double rate) {
     object.on_screen_px_s *= rate;
     object.growth_1_s *= rate;
     object.roll_rad_s *= rate;
-    object.noise_px_s *= faster;
+    object.error_px_s *= faster;
   }
   if (frame.background && rate < 0) {
     frame.background->model.shift_px *= -1;

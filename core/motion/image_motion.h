@@ -19,7 +19,8 @@ struct ImageMotion {
   double growth_1_s = 0;
   double roll_rad_s = 0;  ///< rotation from x to y: clockwise as seen on the screen
   int tracked = 0;        ///< number of points from which it was measured
-  /// Standard error of each coordinate of the velocity; 0: not known.
+  /// Standard error of each coordinate of the velocity, of what changes from frame to frame; 0: not
+  /// known.
   double noise_px_s = 0;
 };
 

@@ -11,6 +11,10 @@
 
 namespace spidar {
 
+/// Length below which 95 % of the vectors are whose coordinates have a Gaussian error of standard
+/// deviation 1: √(−2 ln 0.05).
+constexpr double kErrorSigmas = 2.4477;
+
 /// One object in one frame. Image frame I relative to the centre of the frame: x right, y down.
 struct MovingObject {
   uint32_t id = 0;  ///< constant while the object exists, never reused
@@ -21,8 +25,10 @@ struct MovingObject {
   double growth_1_s = 0;                                     ///< as in ImageMotion, relative to …
   double roll_rad_s = 0;                                     ///< … the background
   ModelKind model = ModelKind::kTranslation;                 ///< translation or similarity
-  int tracks = 0;         ///< points or blocks from which it was measured; 0: out of sight
-  double noise_px_s = 0;  ///< standard error of each coordinate of relative_px_s
+  int tracks = 0;  ///< points or blocks from which it was measured; 0: out of sight
+  /// The true velocity against the background is less than this away from relative_px_s in 95 % of
+  /// the frames in which the object is in sight; 0: not known.
+  double error_px_s = 0;
   double area_px2 = 0;    ///< of its blocks together
   double prominence = 0;  ///< how likely a viewer watches it, see salience()
 };

@@ -87,7 +87,6 @@ ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
     found.is_rigid = robust_cost(found.model, collected_) < kRigid * n;
     found.relative_px = found.model.displacement_px(region.position_px - region.relative_px);
   }
-  found.sigma_px = collected_.sigma_px;
   return found;
 }
 

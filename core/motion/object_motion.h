@@ -36,7 +36,6 @@ struct ObjectEvidence {
 struct ObjectMotion {
   MotionModel model;            ///< translation or similarity
   Eigen::Vector2d relative_px;  ///< of the middle of the object
-  double sigma_px = 0;          ///< noise of the displacements that were used
   int tracks = 0;               ///< number of points or blocks that were used
   bool is_rigid = false;        ///< all its points agree with one motion
 };

@@ -40,8 +40,6 @@ constexpr int kProvenAfter = 3;
 /// that agrees with the background, is an error of the background and not an object.
 constexpr double kMostOfPicture = 0.4;
 constexpr double kMostOfCoverage = 2;
-/// Median of the length of a vector whose coordinates have standard deviation 1: √(2 ln 2).
-constexpr double kRayleighMedian = 1.1774;
 
 }  // namespace
 
@@ -178,18 +176,16 @@ void ObjectTracker::place(Life& life, const FieldInFrame& frame) const {
       object.relative_px_s + frame.scale * region.background_px / frame.interval_s;
 }
 
-void ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
+ObjectMotion ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
-  const ObjectMotion found = meter_.measure(
-      life.key, life.region, {frame.field, *relative_, owners_, frame.points, *background_});
+  const ObjectMotion found = meter_.measure(life.key, life.region, evidence_in(frame));
   life.is_rigid = found.is_rigid;
   life.region.relative_px = found.relative_px;
   object.tracks = found.tracks;
   object.model = found.model.kind;
   object.growth_1_s = found.model.growth() / frame.interval_s;
   object.roll_rad_s = found.model.roll_rad() / frame.interval_s;
-  object.noise_px_s = frame.scale * found.sigma_px / 2 /
-                      std::sqrt(static_cast<double>(std::max(object.tracks, 1))) / frame.interval_s;
+  return found;
 }
 
 /// How far blocks outside an object are from the background, as a standard deviation: in a scene
@@ -208,11 +204,12 @@ double ObjectTracker::noise_around(uint32_t key) {
 }
 
 void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
-  measure(life, frame);
+  const ObjectMotion found = measure(life, frame);
   const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
   const bool goes_on = life.frames_seen > 0 && velocity_px_s.dot(life.velocity_px_s) > 0;
   const double newest = life.is_rigid || !goes_on ? 1 : kNewest;
   life.velocity_px_s += newest * (velocity_px_s - life.velocity_px_s);
+  const double late_px_s = (velocity_px_s - life.velocity_px_s).norm();
   expect(life, frame);
   life.evidence.add(velocity_px_s, life.region.background_px / frame.interval_s, frame.interval_s);
   ++life.frames_seen;
@@ -229,6 +226,9 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const bool was_followed = life.proven >= kProvenAfter;
   object.prominence = too_large ? 0 : salience(life.region, life.evidence, camera, was_followed);
   life.is_layer = object.prominence == 0;
+  if (!life.is_born() || life.is_layer) return;
+  const double error_px = bound_.px(life.key, life.region, found, evidence_in(frame));
+  object.error_px_s = frame.scale * (error_px / frame.interval_s + late_px_s);
 }
 
 /// Blocks of the object that now move with the background. `textured`: those of them that have
@@ -259,6 +259,7 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
     life.expected_px_s.setZero();
     life.resting_s += frame.interval_s;
     life.unseen_s = 0;
+    object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
   } else {
     object.tracks = 0;
     life.unseen_s += frame.interval_s;

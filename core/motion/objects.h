@@ -10,6 +10,7 @@
 
 #include "core/field/block_field.h"
 #include "core/motion/background.h"
+#include "core/motion/error_bound.h"
 #include "core/motion/layer_evidence.h"
 #include "core/motion/motion_models.h"
 #include "core/motion/moving_blocks.h"
@@ -108,13 +109,17 @@ class ObjectTracker {
   void miss(Life& life, const FieldInFrame& frame);
   void expect(Life& life, const FieldInFrame& frame) const;
   void go_on_unseen(Life& life, const FieldInFrame& frame) const;
-  void measure(Life& life, const FieldInFrame& frame);
+  ObjectEvidence evidence_in(const FieldInFrame& frame) const {
+    return {frame.field, *relative_, owners_, frame.points, *background_};
+  }
+  ObjectMotion measure(Life& life, const FieldInFrame& frame);
   void place(Life& life, const FieldInFrame& frame) const;
   double noise_around(uint32_t key);
 
   MovingBlocks moving_;
   RegionFinder finder_;
   ObjectMeter meter_;
+  ErrorBound bound_;
   const std::vector<RelativeBlock>* relative_ = nullptr;
   CameraMotion camera_;
   const Background* background_ = nullptr;

@@ -38,7 +38,8 @@ ImageMotion weighted_motion(const std::vector<MovingObject>& objects, Weight&& w
     sum.growth_1_s += weight * object.growth_1_s;
     sum.roll_rad_s += weight * object.roll_rad_s;
     sum.tracked += object.tracks;
-    variance += weight * weight * object.noise_px_s * object.noise_px_s;
+    const double noise_px_s = kNoiseOfError * object.error_px_s;
+    variance += weight * weight * noise_px_s * noise_px_s;
   }
   if (weights == 0) return sum;
   sum.velocity_px_s /= weights;
@@ -67,7 +68,7 @@ ImageMotion motion_of(const MovingObject& object) {
   motion.growth_1_s = object.growth_1_s;
   motion.roll_rad_s = object.roll_rad_s;
   motion.tracked = object.tracks;
-  motion.noise_px_s = object.noise_px_s;
+  motion.noise_px_s = kNoiseOfError * object.error_px_s;
   return motion;
 }
 

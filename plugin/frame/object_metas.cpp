@@ -45,8 +45,9 @@ GstStructure* motion_of_object(const MovingObject& object, bool felt, int width,
       static_cast<guint>(height), "velocity-x", G_TYPE_DOUBLE, object.relative_px_s.x(),
       "velocity-y", G_TYPE_DOUBLE, object.relative_px_s.y(), "screen-velocity-x", G_TYPE_DOUBLE,
       object.on_screen_px_s.x(), "screen-velocity-y", G_TYPE_DOUBLE, object.on_screen_px_s.y(),
-      "growth", G_TYPE_DOUBLE, object.growth_1_s, "roll", G_TYPE_DOUBLE, object.roll_rad_s, "felt",
-      G_TYPE_BOOLEAN, felt ? TRUE : FALSE, nullptr);
+      "velocity-error", G_TYPE_DOUBLE, object.error_px_s, "growth", G_TYPE_DOUBLE,
+      object.growth_1_s, "roll", G_TYPE_DOUBLE, object.roll_rad_s, "felt", G_TYPE_BOOLEAN,
+      felt ? TRUE : FALSE, nullptr);
 }
 
 }  // namespace

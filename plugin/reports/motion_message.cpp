@@ -2,9 +2,22 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/reports/motion_message.h"
 
+#include "core/motion/moving_object.h"
 #include "plugin/reports/limit_watch.h"
 
 namespace spidar {
+namespace {
+
+/// Of the one object that is felt; 0 if it is none, or not one alone.
+double felt_error_px_s(const FrameAnalysis& frame) {
+  if (!frame.object_list) return 0;
+  for (const MovingObject& object : *frame.object_list) {
+    if (object.id == frame.felt_object) return object.error_px_s;
+  }
+  return 0;
+}
+
+}  // namespace
 
 void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameReport& report,
                          gint* unread) {
@@ -24,9 +37,10 @@ void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameRepo
       "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),  //
       "object", G_TYPE_UINT, frame.felt_object,                          //
       "velocity-x", G_TYPE_DOUBLE, velocity.x(), "velocity-y", G_TYPE_DOUBLE, velocity.y(),
-      "force-x", G_TYPE_DOUBLE, force.x(), "force-y", G_TYPE_DOUBLE, force.y(), "force-z",
-      G_TYPE_DOUBLE, force.z(), "torque-x", G_TYPE_DOUBLE, torque.x(), "torque-y", G_TYPE_DOUBLE,
-      torque.y(), "torque-z", G_TYPE_DOUBLE, torque.z(), nullptr);
+      "velocity-error", G_TYPE_DOUBLE, felt_error_px_s(frame), "force-x", G_TYPE_DOUBLE, force.x(),
+      "force-y", G_TYPE_DOUBLE, force.y(), "force-z", G_TYPE_DOUBLE, force.z(), "torque-x",
+      G_TYPE_DOUBLE, torque.x(), "torque-y", G_TYPE_DOUBLE, torque.y(), "torque-z", G_TYPE_DOUBLE,
+      torque.z(), nullptr);
   describe_limit(report.limit, s);
   GstMessage* const message = gst_message_new_element(GST_OBJECT(element), s);
   g_atomic_int_inc(unread);

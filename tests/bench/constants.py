@@ -43,7 +43,7 @@ KINDS = {
         corner.kTensorBlock_px corner.kMostBlocks corner.kHalf_px luma_neighbourhood.kBefore_px
         luma_neighbourhood.kRight_px luma_neighbourhood.kBelow_px luma_neighbourhood.kMostWhole_px
         luma_neighbourhood.kWidest_px luma_neighbourhood.kHighest_px motion_estimator.kLeastVoteTexture
-        objects.kRayleighMedian padded_image.kHalf padded_image.kBlock window_kernels.kStride window_match.kPixels
+        error_bound.kAround_px error_bound.kMedianVariance moving_object.kErrorSigmas padded_image.kHalf padded_image.kBlock window_kernels.kStride window_match.kPixels
         window_match.kScale""",
     "sizes that the code is compiled for: blocks, windows, rings": """
         block_field.kCoarser block_kernels.kBlock_px cadence.kPictures corner.kCornerWindow_px corner.kCornerStep_px

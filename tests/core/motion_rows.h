@@ -86,7 +86,7 @@ inline MeasuredFilm random_film(uint32_t seed, size_t count) {
         object.relative_px_s = {uniform(-500, 500), uniform(-500, 500)};
         object.growth_1_s = uniform(-1, 1);
         object.roll_rad_s = uniform(-1, 1);
-        object.noise_px_s = uniform(0, 10);
+        object.error_px_s = uniform(0, 10);
         object.area_px2 = uniform(64, 10000);
         object.prominence = uniform(0, 1);
         object.tracks = static_cast<int>(random() % 50);

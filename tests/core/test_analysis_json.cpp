@@ -77,6 +77,8 @@ TEST(AnalysisJson, HasEverythingThatWasFoundToTheLastBit) {
   EXPECT_EQ(j["objects"][0]["id"], object.id);
   expect_vector(j["objects"][0]["position_px"], object.position_px);
   expect_vector(j["objects"][0]["velocity_px_s"], object.relative_px_s);
+  EXPECT_EQ(j["objects"][0]["error_px_s"].get<double>(), object.error_px_s);
+  EXPECT_GT(object.error_px_s, 0);
   expect_vector(j["objects"][0]["on_screen_px_s"], object.on_screen_px_s);
   EXPECT_EQ(j["objects"][0]["tracks"], object.tracks);
 

@@ -26,7 +26,7 @@ void expect_same(const MovingObject& a, const MovingObject& b) {
   EXPECT_EQ(a.on_screen_px_s, b.on_screen_px_s);
   EXPECT_EQ(a.growth_1_s, b.growth_1_s);
   EXPECT_EQ(a.roll_rad_s, b.roll_rad_s);
-  EXPECT_EQ(a.noise_px_s, b.noise_px_s);
+  EXPECT_EQ(a.error_px_s, b.error_px_s);
   EXPECT_EQ(a.area_px2, b.area_px2);
   EXPECT_EQ(a.prominence, b.prominence);
   EXPECT_EQ(a.tracks, b.tracks);

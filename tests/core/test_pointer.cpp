@@ -25,7 +25,7 @@ MovingObject object(double x_px, double y_px, double size_px, double speed_px_s)
   made.relative_px_s << speed_px_s, 0;
   made.growth_1_s = speed_px_s / 100;
   made.roll_rad_s = -speed_px_s / 100;
-  made.noise_px_s = 1;
+  made.error_px_s = 1 / kNoiseOfError;
   made.tracks = 10;
   return made;
 }

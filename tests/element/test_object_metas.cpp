@@ -32,6 +32,7 @@ struct Region {
   gint id;
   double x, y, width, height;
   Vector2d velocity_px_s, screen_px_s;
+  double error_px_s;
   bool felt;
 };
 
@@ -49,6 +50,7 @@ std::vector<Region> regions_of(GstBuffer* buffer) {
                 static_cast<double>(region->h),
                 {0, 0},
                 {0, 0},
+                0,
                 false};
     gboolean felt = FALSE;
     const GstStructure* const motion =
@@ -57,7 +59,8 @@ std::vector<Region> regions_of(GstBuffer* buffer) {
       gst_structure_get(motion, "velocity-x", G_TYPE_DOUBLE, &read.velocity_px_s.x(), "velocity-y",
                         G_TYPE_DOUBLE, &read.velocity_px_s.y(), "screen-velocity-x", G_TYPE_DOUBLE,
                         &read.screen_px_s.x(), "screen-velocity-y", G_TYPE_DOUBLE,
-                        &read.screen_px_s.y(), "felt", G_TYPE_BOOLEAN, &felt, nullptr);
+                        &read.screen_px_s.y(), "velocity-error", G_TYPE_DOUBLE, &read.error_px_s,
+                        "felt", G_TYPE_BOOLEAN, &felt, nullptr);
     }
     read.felt = felt != FALSE;
     regions.push_back(read);
@@ -134,6 +137,8 @@ TEST_F(ObjectMetas, HaveTheBoxAndTheVelocityOfEachObject) {
       EXPECT_NEAR((region.screen_px_s - step_px / kFrame_s).norm(), 0, off_px_s);
       // The background goes to the right, too.
       EXPECT_NEAR((region.velocity_px_s - (step_px - kPan_px) / kFrame_s).norm(), 0, off_px_s);
+      EXPECT_GT(region.error_px_s, 0);
+      EXPECT_LT(region.error_px_s, step_px.norm() / kFrame_s);
     }
     EXPECT_EQ(found, 1) << disc;
   }

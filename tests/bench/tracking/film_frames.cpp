@@ -52,16 +52,21 @@ std::vector<Picture> draw_all(test::Film& film, int frames) {
   return pictures;
 }
 
-std::vector<Picture> coded(const std::vector<Picture>& frames) {
+std::vector<Picture> coded(const std::vector<Picture>& frames, Coder coder) {
   const Picture& first = frames.front();
   constexpr double kBitsPerPixel = 0.06;
   const double kbit_s = kBitsPerPixel * 30e-3 * first.width * first.height;
+  const std::string encoder =
+      coder == Coder::kX264
+          ? "x264enc threads=1 speed-preset=veryfast bitrate=" +
+                std::to_string(static_cast<int>(kbit_s))
+          : "openh264enc bitrate=" + std::to_string(static_cast<int>(1000 * kbit_s)) +
+                " ! h264parse";
   const std::string size =
       "width=" + std::to_string(first.width) + ",height=" + std::to_string(first.height);
-  Pipeline pipeline(
-      "appsrc name=source format=time max-bytes=0 caps=video/x-raw,format=I420," + size +
-      ",framerate=30/1,colorimetry=bt709 ! x264enc threads=1 speed-preset=veryfast bitrate=" +
-      std::to_string(static_cast<int>(kbit_s)) + " ! avdec_h264 ! appsink name=sink sync=false");
+  Pipeline pipeline("appsrc name=source format=time max-bytes=0 caps=video/x-raw,format=I420," +
+                    size + ",framerate=30/1,colorimetry=bt709 ! " + encoder +
+                    " ! avdec_h264 ! appsink name=sink sync=false");
   pipeline.play();
   const Element source = pipeline.by_name("source");
   for (size_t n = 0; n < frames.size(); ++n) {
@@ -76,8 +81,9 @@ std::vector<Picture> coded(const std::vector<Picture>& frames) {
     result.push_back(picture_of(sample));
   }
   if (result.size() != frames.size()) {
-    throw std::runtime_error("x264 and avdec_h264 gave " + std::to_string(result.size()) + " of " +
-                             std::to_string(frames.size()) + " frames: " + pipeline.problem());
+    throw std::runtime_error("the encoder and avdec_h264 gave " + std::to_string(result.size()) +
+                             " of " + std::to_string(frames.size()) +
+                             " frames: " + pipeline.problem());
   }
   return result;
 }

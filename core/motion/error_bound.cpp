@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/motion/error_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/moving_object.h"
+#include "core/quantile.h"
+
+namespace spidar {
+namespace {
+
+/// Standard deviation of what is the same for all blocks of a thing, px of the field's picture: how
+/// far the interpolation between pixels is off at one fraction of a pixel. Of pans without noise it
+/// is between 0.01 and 0.03.
+constexpr double kSharedError_px = 0.025;
+/// The background is compared with its model up to this far from the object's box: two blocks and a
+/// half, so that two whole ones are within it.
+constexpr double kAround_px = 2.5 * kBlock_px;
+/// Variance of a median over that of a mean.
+constexpr double kMedianVariance = M_PI / 2;
+
+bool is_around(const Region& region, const Eigen::Vector2d& at_px) {
+  const double outside_px = (region.low_px - at_px).cwiseMax(at_px - region.high_px).maxCoeff();
+  return outside_px > 0 && outside_px < kAround_px;
+}
+
+}  // namespace
+
+ErrorBound::ErrorBound() {
+  squares_px2_.reserve(kMostDisplacements);
+  beside_x_px_.reserve(kMostDisplacements);
+  beside_y_px_.reserve(kMostDisplacements);
+}
+
+/// Variance of each coordinate that comes from the object's blocks: of their median, and of the
+/// least squares over all their pixels, mean residual / Σ g gᵀ, in its worst direction. Blocks do
+/// not overlap, so that each counts as a measurement.
+double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
+                                    const ObjectEvidence& evidence) {
+  squares_px2_.clear();
+  MotionBlock sum;
+  for (size_t i = 0; i < evidence.owners.size(); ++i) {
+    const RelativeBlock& relative = evidence.relative[i];
+    if (evidence.owners[i] != key || !relative.has_texture) continue;
+    const MotionBlock& block = evidence.field.blocks()[i];
+    const Eigen::Vector2d moved_px(relative.x_px, relative.y_px);
+    const Eigen::Vector2d from_px = Eigen::Vector2d(block.x_px, block.y_px) - moved_px;
+    squares_px2_.push_back((moved_px - found.model.displacement_px(from_px)).squaredNorm());
+    sum.xx += block.xx;
+    sum.xy += block.xy;
+    sum.yy += block.yy;
+    sum.residual += block.residual;
+  }
+  if (squares_px2_.empty()) return 0;
+  const auto n = static_cast<double>(squares_px2_.size());
+  const double middle_px2 = median(squares_px2_.begin(), squares_px2_.end());
+  const double texture =
+      static_cast<double>(std::max(sum.weakest_texture(), BlockField::kRegularization));
+  return kMedianVariance * middle_px2 / (kRayleighMedian * kRayleighMedian * n) +
+         static_cast<double>(sum.residual) / (n * kBlockArea_px * texture);
+}
+
+/// The same of the background: the median of what its model leaves over beside the object, or the
+/// noise of a single block where nothing shows it.
+double ErrorBound::background_variance_px2(const Region& region, const ObjectEvidence& evidence) {
+  beside_x_px_.clear();
+  beside_y_px_.clear();
+  for (size_t i = 0; i < evidence.owners.size(); ++i) {
+    const MotionBlock& block = evidence.field.blocks()[i];
+    const RelativeBlock& relative = evidence.relative[i];
+    if (evidence.owners[i] != 0 || relative.is_new ||
+        !is_around(region, {block.x_px, block.y_px}) ||
+        block.weakest_texture() < BlockField::kRegularization) {
+      continue;
+    }
+    beside_x_px_.push_back(relative.x_px);
+    beside_y_px_.push_back(relative.y_px);
+  }
+  const bool moves = evidence.background.model.kind != ModelKind::kStill;
+  const double shared_px2 = moves ? kSharedError_px * kSharedError_px : 0;
+  if (beside_x_px_.empty()) {
+    const double noise_px = moves ? evidence.background.sigma_px : 0;
+    return shared_px2 + noise_px * noise_px;
+  }
+  const Eigen::Vector2d left_px(median(beside_x_px_.begin(), beside_x_px_.end()),
+                                median(beside_y_px_.begin(), beside_y_px_.end()));
+  return shared_px2 + left_px.squaredNorm() / 2;
+}
+
+double ErrorBound::px(uint32_t key, const Region& region, const ObjectMotion& found,
+                      const ObjectEvidence& evidence) {
+  return kErrorSigmas *
+         std::sqrt(own_variance_px2(key, found, evidence) +
+                   background_variance_px2(region, evidence) + kSharedError_px * kSharedError_px);
+}
+
+}  // namespace spidar
