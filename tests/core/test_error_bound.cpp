@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
+#include "core/motion/error_bound.h"
 #include "core/quantile.h"
 #include "tests/support/film_studio.h"
 #include "tests/support/motion_cases.h"
@@ -106,6 +108,46 @@ TEST(ErrorBound, IsLargerAlongAnEdgeAndInNoise) {
   ASSERT_GT(usual_px, 0);
   EXPECT_GT(median_bound_px(frames_of(striped_object(12, 1.5))), usual_px);
   EXPECT_GT(median_bound_px(frames_of(striped_object(50, 6))), usual_px);
+}
+
+/// Bound of a thing of `side` × `side` blocks, all of which agree on its motion, in a picture with
+/// contrast `across` in x, 50 grey levels in y and noise of σ = 3.
+double bound_of_blocks_px(double across, int side) {
+  BlockField field;
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 3);
+  for (int n = 0; n < 2; ++n) {
+    PaddedImage picture;
+    picture.resize(320, 240);
+    for (int y = 0; y < 240; ++y) {
+      for (int x = 0; x < 320; ++x) {
+        const double grey = 128 + across * std::sin(x / 4.0) + 50 * std::sin(y / 4.0);
+        picture.row(y)[x] = static_cast<uint8_t>(grey + noise(random));
+      }
+    }
+    picture.repeat_border();
+    field.update(picture);
+  }
+  std::vector<RelativeBlock> relative(field.blocks().size());
+  std::vector<uint32_t> owners(relative.size());
+  for (int i = 0; i < static_cast<int>(owners.size()); ++i) {
+    const int columns = field.grid().columns;
+    relative[static_cast<size_t>(i)].has_texture = true;
+    owners[static_cast<size_t>(i)] = i % columns < side && i / columns < side;
+  }
+  ObjectMotion found;
+  found.model.kind = ModelKind::kTranslation;
+  return ErrorBound().px(1, Region(), found, {field, relative, owners, {}, Background()});
+}
+
+TEST(ErrorBound, BlocksOfAnEdgeAgreeAndAreUnsureAllTheSame) {
+  EXPECT_GT(bound_of_blocks_px(0, 1), 2 * bound_of_blocks_px(50, 1));
+  // A sum of what all blocks share and of a part that falls with their number: 1, 1/4, 1/16. That
+  // of one block has a standard error of √(2 · 2 / 256) = 12 % from its residual and its texture,
+  // that of four 6 % of a difference that is 3/4 of it: together 14 %, and three of them.
+  const auto variance = [](int side) { return std::pow(bound_of_blocks_px(0, side), 2); };
+  const double falls = (variance(1) - variance(4)) / (variance(2) - variance(4));
+  EXPECT_NEAR(falls, 5, 3 * 0.14 * 5);
 }
 
 TEST(ErrorBound, AnObjectThatStopsIsAtRestWithinTheNoise) {
