@@ -6,5 +6,5 @@
 set -eu
 cd "$(dirname "$0")/../.."
 build=${1:?usage: tests/bench/pathologies.sh BUILD [CLIP...]}
-meson compile -C "$build" gstspidar
+meson compile -C "$build" plugin/gstspidar
 exec python3 tests/bench/pathologies.py "$@"

@@ -16,6 +16,6 @@ shift 2
 command -v gnuplot >/dev/null || { echo 'real_films.sh: the picture needs gnuplot' >&2; exit 1; }
 ninja -C "$build" -t targets all | grep -q '^tests/bench/bench_real_film:' ||
     { echo "real_films.sh: no bench_real_film in $build: it needs libavformat-dev" >&2; exit 1; }
-meson compile -C "$build" gstspidar bench_real_film
+meson compile -C "$build" plugin/gstspidar bench_real_film
 python3 tests/bench/real_films.py "$build" "$folder" "$@"
 gnuplot -e "csv='$build/real_films.csv'; picture='docs/figures/real_films.png'" tests/bench/real_films.gp
