@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include <opencv2/core/hal/intrin.hpp>
+#include "core/vectors.h"
 
 namespace spidar {
 

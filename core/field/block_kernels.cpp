@@ -2,9 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/field/block_kernels.h"
 
-#include <opencv2/core/hal/intrin.hpp>
-
 #include "core/difference_sum.h"
+#include "core/vectors.h"
 
 namespace spidar {
 

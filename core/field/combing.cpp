@@ -5,10 +5,9 @@
 #include <array>
 #include <cstdlib>
 
-#include <opencv2/core/hal/intrin.hpp>
-
 #include "core/tracking/luma_row.h"
 #include "core/tracking/padded_image.h"
+#include "core/vectors.h"
 
 namespace spidar {
 namespace {

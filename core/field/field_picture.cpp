@@ -7,10 +7,9 @@
 #include <cmath>
 #include <cstring>
 
-#include <opencv2/core/hal/intrin.hpp>
-
 #include "core/field/block_kernels.h"
 #include "core/tracking/tracker.h"
+#include "core/vectors.h"
 
 namespace spidar {
 namespace {

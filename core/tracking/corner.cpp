@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include <opencv2/core/hal/intrin.hpp>
+#include "core/vectors.h"
 
 namespace spidar {
 namespace {

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include <opencv2/core/hal/intrin.hpp>
-
 #include "core/image_view.h"
+#include "core/vectors.h"
 
 namespace spidar {
 

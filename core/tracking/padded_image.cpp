@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include <opencv2/core/hal/intrin.hpp>
-
 #include "core/tracking/luma_row.h"
 #include "core/tracking/luma_words.h"
 #include "core/tracking/tracker.h"
+#include "core/vectors.h"
 
 namespace spidar {
 namespace {

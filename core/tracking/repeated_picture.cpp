@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include <opencv2/core/hal/intrin.hpp>
-
 #include "core/difference_sum.h"
+#include "core/vectors.h"
 
 namespace spidar {
 namespace {

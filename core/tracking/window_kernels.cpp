@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include <opencv2/core/hal/intrin.hpp>
+#include "core/vectors.h"
 
 namespace spidar {
 
