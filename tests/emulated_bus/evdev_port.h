@@ -77,7 +77,7 @@ struct EvdevPort {
   std::atomic<bool> interrupted{false};  ///< the last call was
 };
 
-constexpr size_t kEvdevPorts = 4;
+constexpr size_t kEvdevPorts = 6;
 
 /// Lists the device so that it can be opened, with fresh effects and counters. Sysfs names `driver`
 /// as its kernel driver, by default the one of driver_of(); the driver determines `autocentre`.
