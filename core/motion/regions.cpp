@@ -39,6 +39,17 @@ bool is_at_border(const BlockGrid& grid, const std::vector<RelativeBlock>& relat
          is_unknown(i + columns);
 }
 
+/// Whether something burned in covers the block or one of its eight neighbours.
+bool is_beside_graphics(const BlockGrid& grid, const std::vector<RelativeBlock>& relative,
+                        int column, int row) {
+  for (int j = std::max(row - 1, 0); j <= std::min(row + 1, grid.rows - 1); ++j) {
+    for (int i = std::max(column - 1, 0); i <= std::min(column + 1, grid.columns - 1); ++i) {
+      if (relative[static_cast<size_t>(j * grid.columns + i)].is_covered) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 double alike_px(double fastest_px) {
@@ -75,6 +86,7 @@ void RegionFinder::describe(const BlockField& field, const std::vector<RelativeB
     const int row = static_cast<int>(i) / grid.columns;
     ++region.blocks;
     region.border_blocks += is_at_border(grid, relative, column, row);
+    region.graphics_blocks += is_beside_graphics(grid, relative, column, row);
     const Eigen::Vector2d at_px(block.x_px, block.y_px);
     region.position_px += at_px;
     region.low_px =

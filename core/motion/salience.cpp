@@ -23,6 +23,8 @@ constexpr double kTrusted = 1.4;
 /// A region that moves like a layer and is larger than this share of the background is the other
 /// layer of a scene with two: the ground.
 constexpr double kLayerShare = 0.5;
+/// A region of which this share adjoins graphics is their edge, mixed with the film behind it.
+constexpr double kGraphicsShare = 0.4;
 /// A region with a smaller likelihood is not an object. Away from the border this is a
 /// LayerEvidence::ratio() above 2: a layer that is further away than half of the background's
 /// distance.
@@ -46,6 +48,7 @@ double salience(const Region& region, const LayerEvidence& evidence, const Camer
   // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
+  if (region.graphics_blocks >= kGraphicsShare * trust * region.blocks) return 0;
   const double doubt = std::max(1.0, evidence.ratio() / trust);
   if (speed_px * trust < kNoiseSigmas * doubt * doubt * doubt * camera.noise_px) return 0;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));

@@ -133,6 +133,20 @@ TEST(Salience, WhatDiffersLikeTheSceneItselfHasNone) {
   EXPECT_GT(salience(region(25, 0, 2), kNoEvidence, {0, 0.25, 0.5}, false), 0) << "no camera moves";
 }
 
+TEST(Salience, WhatMostlyAdjoinsGraphicsHasNoneWhileTheCameraMoves) {
+  const CameraMotion still{0, 0.25, 0, 100};
+  const CameraMotion moving{5, 0.25, 0, 100};
+  Region edge = region(10, 0, 5);
+  edge.graphics_blocks = 3;
+  EXPECT_GT(salience(edge, kNoEvidence, moving, false), 0) << "an object that appears beside them";
+  edge.graphics_blocks = 5;
+  EXPECT_EQ(salience(edge, kNoEvidence, moving, false), 0);
+  EXPECT_GT(salience(edge, kNoEvidence, moving, true), 0) << "an object that passes by";
+  edge.graphics_blocks = 6;
+  EXPECT_EQ(salience(edge, kNoEvidence, moving, true), 0);
+  EXPECT_GT(salience(edge, kNoEvidence, still, false), 0) << "graphics rest with the scene";
+}
+
 TEST(Salience, ASingleEdgeHasNone) {
   Region edge = region(10, 0, 5);
   edge.roundness = 0;
