@@ -8,22 +8,10 @@
 #include <utility>
 
 #include "core/field/light_change.h"
+#include "core/tracking/window_match.h"
 
 namespace spidar {
 namespace {
-
-/// Largest refinement. The search result is either within half a pixel of the true place or wrong.
-constexpr float kMostStep_px = 1;
-/// Pixels of the picture to one pixel of the coarse picture.
-constexpr int kCoarser = 4;
-
-/// A frame counts as a cut when the best matches of all blocks differ by at least
-/// kLeastContrast_grey a pixel on the mean, and more than kCutShare of the textured blocks are
-/// lost. A block is textured when its pixels differ from their mean by as much, and lost when its
-/// best match leaves more than kLostShare of that difference.
-constexpr int kLeastContrast_grey = 4;
-constexpr double kCutShare = 0.8;
-constexpr double kLostShare = 0.5;
 
 /// Σ |pixel − mean| of a block.
 int difference_from_mean(const PaddedImage& picture, int x_px, int y_px) {
@@ -130,29 +118,31 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
   return Result::kMoved;
 }
 
-/// After a cut, hardly any block matches the old picture better than its own mean does. In a
-/// picture that moves, however fast, some blocks still match.
+/// After a cut, the best matches of all blocks are doubtful on the mean, and nearly all of the
+/// textured blocks are lost. A block is textured when its pixels differ from their mean by as much
+/// as a doubtful match, and lost when its best match shows something else. In a picture that moves,
+/// however fast, some blocks still match.
 bool BlockField::is_cut() const {
   int64_t between = 0;
   for (const BlockMatch& match : matches_) between += match.difference;
   const auto pixels = static_cast<int64_t>(grid_.size()) * kBlockArea_px;
-  if (between < kLeastContrast_grey * pixels) return false;
+  if (between < kDoubtful_grey * pixels) return false;
   int with_texture = 0;
   int lost = 0;
   int left = grid_.size();
   for (int row = 0; row < grid_.rows; ++row) {
     for (int column = 0; column < grid_.columns; ++column) {
       // Even if all that are left were lost.
-      if (!(lost + left > kCutShare * (with_texture + left))) return false;
+      if (!(lost + left > kNearlyAll * (with_texture + left))) return false;
       --left;
       const int within = difference_from_mean(now_, grid_.x_px(column), grid_.y_px(row));
-      if (within < kLeastContrast_grey * kBlockArea_px) continue;
+      if (within < kDoubtful_grey * kBlockArea_px) continue;
       ++with_texture;
       const int found = matches_[static_cast<size_t>(row * grid_.columns + column)].difference;
-      lost += found > kLostShare * within;
+      lost += static_cast<float>(found) > kSameThing * static_cast<float>(within);
     }
   }
-  return lost > kCutShare * with_texture;
+  return lost > kNearlyAll * with_texture;
 }
 
 /// Searches a picture of a quarter of the resolution, in which each block covers four by four of
@@ -213,11 +203,11 @@ void BlockField::refine(size_t index) {
   const float dd = mean(s.squared) - d * d;
 
   // now(p) = before(p + from − e): e = −(Σ g gᵀ)⁻¹ Σ g d.
-  const float a = block.xx + kRegularization;
-  const float b = block.yy + kRegularization;
+  const float a = block.xx + MotionBlock::kRegularization;
+  const float b = block.yy + MotionBlock::kRegularization;
   const float determinant = a * b - block.xy * block.xy;
   const auto clamp = [](float step_px) {
-    return std::min(std::max(step_px, -kMostStep_px), kMostStep_px);
+    return std::min(std::max(step_px, -kMostOff_px), kMostOff_px);
   };
   const float ex = clamp(-(b * xd - block.xy * yd) / determinant);
   const float ey = clamp(-(a * yd - block.xy * xd) / determinant);

@@ -12,6 +12,13 @@
 
 namespace spidar {
 
+/// How far a block's motion in whole pixels may be off: it is right to half a pixel, or wrong. What
+/// is further away shows something else, px of the picture in which motion is measured.
+constexpr float kMostOff_px = 1;
+
+/// From this share on, blocks count as nearly all of them, and a difference as nearly all of it.
+constexpr double kNearlyAll = 0.8;
+
 /// A block of kBlock_px × kBlock_px pixels of the picture in which motion is measured. Lengths are
 /// in pixels of that picture, measured from its centre; x right, y down.
 struct MotionBlock {
@@ -28,10 +35,12 @@ struct MotionBlock {
   float residual = 0;
   int difference = 0;  ///< Σ |now − before| at the nearest whole pixel
 
-  /// Least sum of the tensor's eigenvalues, (grey / px)².
-  static constexpr float kLeastTexture = 4;
-  /// Whether the motion is known in one direction at least.
-  bool has_texture() const { return xx + yy > kLeastTexture; }
+  /// Added to the diagonal of the structure tensor, (grey / px)²: with hardly any texture, the
+  /// result of the search in whole pixels is kept.
+  static constexpr float kRegularization = 2;
+  /// Whether the motion is known in one direction at least: the structure is more than what is
+  /// added to both.
+  bool has_texture() const { return xx + yy > 2 * kRegularization; }
   /// Smaller eigenvalue of the structure tensor. It is large when the motion is known in every
   /// direction, also along an edge.
   float weakest_texture() const;
@@ -78,10 +87,6 @@ class BlockField {
   /// while their surroundings moved by (`x_px`, `y_px`); none when that is out of reach.
   StayingPixels staying_pixels(int block, float x_px, float y_px, int beside_x_px = 0,
                                int beside_y_px = 0) const;
-
-  /// Added to the diagonal of the structure tensor, (grey / px)²: with hardly any texture, the
-  /// result of the search in whole pixels is kept.
-  static constexpr float kRegularization = 2;
 
  private:
   void resize(const PaddedImage& base);

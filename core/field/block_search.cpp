@@ -19,8 +19,6 @@ constexpr int kLambda = kBlockArea_px / 8;
 constexpr int kMostDeviation_px = kBlock_px / 2;
 /// A block that differs by at most one grey level a pixel is not improved further.
 constexpr int kGoodDifference = kBlockArea_px;
-/// From three grey levels a pixel on, the block may have jumped, and the hints are tried.
-constexpr int kDoubtfulDifference = 3 * kBlockArea_px;
 /// From eight grey levels a pixel on, no candidate fits, and the search is widened: as far as a
 /// block is wide, in halves down to a quarter of it.
 constexpr int kBadDifference = 8 * kBlockArea_px;
@@ -228,7 +226,7 @@ void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const 
       if (walk.difference() > kGoodDifference) walk.walk_downhill();
       // The search is widened only if no nearby place fits, because a repetitive pattern looks the
       // same in many places.
-      if (walk.difference() > kDoubtfulDifference) {
+      if (walk.difference() > kDoubtful_grey * kBlockArea_px) {
         if (hints.empty()) {
           if (!has_sums) before_sums_.read(before);
           has_sums = true;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "core/field/block_kernels.h"
 #include "core/tracking/luma_row.h"
 #include "core/tracking/padded_image.h"
 #include "core/vectors.h"
@@ -25,8 +26,9 @@ constexpr double kCombed = 0.005;
 constexpr int kFrames = 240;
 
 constexpr int kLines = 4;
-/// kLines of so many lines of the frame are looked at, to save time.
-constexpr int kEvery = 16;
+/// kLines of so many lines of the frame are looked at, to save time: some of every block, which
+/// covers at least as many.
+constexpr int kEvery = kBlock_px;
 using Lines = std::array<const uint8_t*, kLines>;
 
 /// Number of pixels from column `x` on that look like a comb.

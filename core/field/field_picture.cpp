@@ -14,10 +14,10 @@
 namespace spidar {
 namespace {
 
-/// Area to which a frame is reduced, as nearly as the scales allow, and the least side of a picture
-/// that is made coarser to keep a budget.
+/// Area to which a frame is reduced, as nearly as the scales allow.
 constexpr double kArea_px2 = 427.0 * 240.0;
-constexpr double kLeastCoarseSide_px = 5 * kBlock_px;
+/// Least side of a picture that is made coarser to keep a budget: a block of its coarse picture.
+constexpr double kLeastCoarseSide_px = kCoarser * kBlock_px;
 
 // A pixel of the reduced picture covers one and a half of the base, so three in a row a, b, c
 // become the two (2 a + b) / 3 and (b + 2 c) / 3. In two dimensions the weights are 4, 2, 2 and 1

@@ -7,12 +7,16 @@
 
 namespace spidar {
 
+/// Pixels of the picture to one of the coarse picture, in which BlockField looks for what has
+/// jumped.
+constexpr int kCoarser = 4;
+
 /// How much smaller this picture is than the base of the pyramid.
 enum class FieldScale { kSame, kTwoThirds, kHalf, kThird, kQuarter };
 
 /// 1, 2/3 or 1/2 of its sides, whichever brings its area nearest to 427 × 240 px without going
-/// below kMinSide_px. For less work, up to `coarser` ≥ 0 steps smaller, as long as five blocks fit
-/// into the shorter side: fewer do not tell what moves.
+/// below kMinSide_px. For less work, up to `coarser` ≥ 0 steps smaller, as long as a block fits
+/// into the coarse picture of it: without one, nothing that has jumped is found.
 FieldScale field_scale(int base_width, int base_height, int coarser = 0);
 
 /// Pixels of the base to one pixel of the picture: 1, 1.5, 2, 3 or 4.

@@ -15,12 +15,6 @@ constexpr size_t kMostPoints = 512;
 /// Where blocks want kSome points, every third column of every second row gets one.
 constexpr int kColumnsForOne = 3;
 constexpr int kRowsForOne = 2;
-/// A weaker corner is not followed, (grey / px)²; rounding to grey levels alone gives 0.04.
-constexpr float kLeastStrength = 2;
-constexpr int kWindow_px = 16;
-/// A point that is further than this from where its block went shows something else, px of the
-/// field's picture.
-constexpr float kMostFromBlock_px = 1;
 constexpr MatchSettings kMatch{4, 0.02f, 2};
 
 /// Block of the grid at a place of the base; outside the grid, the nearest block.
@@ -64,16 +58,16 @@ size_t FieldPoints::block_at(const ReducedFrame& reduced, const BlockField& fiel
 /// Follows the point to the new frame. Returns false when it is lost.
 bool FieldPoints::find(Point& point, const FineWindow& fine, const ImageView& frame,
                        const ReducedFrame& reduced, const BlockField& field) {
-  WindowTemplate<kWindow_px> window;
+  WindowTemplate<kPointWindow_px> window;
   if (!window.read(ReadablePixels(reduced.before()), point.at)) return false;
   WindowMatch match;
   match.centre = expected(field, point.at);
   MatchSettings settings = kMatch;
-  settings.reach_px = kMostFromBlock_px * static_cast<float>(field.scale());
+  settings.reach_px = kMostOff_px * static_cast<float>(field.scale());
   if (!window.find(ReadablePixels(reduced.base()), settings, match)) return false;
-  if (match.residual > FineWindow::kSameThing) return false;
+  if (match.residual > kSameThing) return false;
   const auto inside = [](float px, int size) {
-    return px > kWindow_px / 2 && px < static_cast<float>(size - kWindow_px / 2);
+    return px > kPointWindow_px / 2 && px < static_cast<float>(size - kPointWindow_px / 2);
   };
   if (!inside(match.centre.x_px, reduced.base().width()) ||
       !inside(match.centre.y_px, reduced.base().height())) {
@@ -122,13 +116,13 @@ void FieldPoints::add(PointWish wish, const ReducedFrame& reduced, const BlockFi
       return static_cast<int>(static_cast<float>(px) * scale);
     };
     PixelBox box;
-    box.x0 = std::max(base_px(grid.x_px(column)), kWindow_px / 2);
-    box.y0 = std::max(base_px(grid.y_px(row)), kWindow_px / 2);
-    box.x1 = std::min(base_px(grid.x_px(column) + kBlock_px), base.width() - kWindow_px / 2);
-    box.y1 = std::min(base_px(grid.y_px(row) + kBlock_px), base.height() - kWindow_px / 2);
+    box.x0 = std::max(base_px(grid.x_px(column)), kPointWindow_px / 2);
+    box.y0 = std::max(base_px(grid.y_px(row)), kPointWindow_px / 2);
+    box.x1 = std::min(base_px(grid.x_px(column) + kBlock_px), base.width() - kPointWindow_px / 2);
+    box.y1 = std::min(base_px(grid.y_px(row) + kBlock_px), base.height() - kPointWindow_px / 2);
     if (box.x1 - box.x0 < kCornerWindow_px || box.y1 - box.y0 < kCornerWindow_px) continue;
     const Corner corner = best_corner(base, box);
-    if (corner.strength < kLeastStrength) continue;
+    if (corner.strength < MotionBlock::kRegularization) continue;
     points_.emplace_back();
     Point& point = points_.back();
     point.id = next_id_++;

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "core/field/block_field.h"
+
 namespace spidar {
 namespace {
 
@@ -53,8 +55,6 @@ LightChange light_change(const PaddedImage& before, const PaddedImage& now) {
 /// Whether replacing the values of `before` makes it clearly more like `now`.
 bool makes_alike(const PaddedImage& before, const PaddedImage& now,
                  const std::array<uint8_t, 256>& table) {
-  // Share of the difference that may be left: a smaller gain may be chance.
-  constexpr double kAlike = 0.8;
   int64_t as_it_was = 0;
   int64_t replaced = 0;
   for (int y = 0; y < now.height(); ++y) {
@@ -65,7 +65,8 @@ bool makes_alike(const PaddedImage& before, const PaddedImage& now,
       replaced += std::abs(q[x] - table[p[x]]);
     }
   }
-  return static_cast<double>(replaced) < kAlike * static_cast<double>(as_it_was);
+  // If nearly all of the difference is left, the gain may be chance.
+  return static_cast<double>(replaced) < kNearlyAll * static_cast<double>(as_it_was);
 }
 
 void replace_values(const std::array<uint8_t, 256>& table, PaddedImage& picture) {

@@ -8,39 +8,30 @@
 namespace spidar {
 namespace {
 
-/// If this share of all votes is cast, no object can have them all.
-constexpr double kTexturedShare = 0.5;
 /// Shares of the picture's votes: an object in front of a plain background hardly covers more than
 /// kMostObject, and a model that fewer votes than kLeastCoverage agree with does not count.
 constexpr double kMostObject = 0.2;
 constexpr double kLeastCoverage = 0.06;
-/// From this many places on, an object is looked for around every second one, and so on: this
-/// bounds the time.
-constexpr size_t kManyPlaces = 64;
+/// If this share of all votes is cast, two objects cannot have them all.
+constexpr double kTexturedShare = 2 * kMostObject;
 
 /// Noise of a displacement, px of the picture in which motion is measured. A vote that deviates by
 /// more than kOutlierSigmas · noise, and by at least kLeastReach_px, is an outlier.
-constexpr double kLeastNoise_px = 0.05;
-constexpr double kMostNoise_px = 2;
-constexpr double kNoiseAtFirst_px = 0.1;
 constexpr double kNoiseQuantile = 0.3;
-constexpr double kNoiseLearnt = 0.4;  // share of the new value in each frame
 constexpr double kOutlierSigmas = 2.5;
 constexpr double kLeastReach_px = 0.45;
 
-/// A model explains the votes when kExplainedShare of them are inliers and their mean ρ is below
-/// kExplained; the ρ of an outlier is 4.
-constexpr double kExplainedShare = 0.6;
+/// A model explains the votes when most of them are inliers and their mean ρ is below kExplained;
+/// the ρ of an outlier is 4.
 constexpr double kExplained = 0.3;
 constexpr double kMargin = 3;  // parameters
-constexpr int kPatience = 5;
 /// After an attempt at a higher rung that did not help, the next one is made after this many
-/// frames, or when the mean ρ has risen.
-constexpr int kClimbInterval = 5;
+/// frames, or when the mean ρ has risen. A lower rung is taken after as many.
+constexpr int kPatience = 5;
 constexpr double kRisen = 0.1;
 /// Above this mean ρ half of the votes are outliers and the camera's motion is not known: every
 /// frame is searched from scratch.
-constexpr double kLost = 2;
+constexpr double kLost = kMostCost / 2;
 
 ModelKind next(ModelKind kind, int step) {
   return static_cast<ModelKind>(static_cast<int>(kind) + step);
@@ -86,15 +77,15 @@ BackgroundEstimator::BackgroundEstimator() {
 
 void BackgroundEstimator::reset() {
   background_ = Background();
-  noise_px_ = kNoiseAtFirst_px;
+  noise_px_ = kUsualNoise_px;
   patience_ = 0;
-  frames_since_climb_ = kClimbInterval;
+  frames_since_climb_ = kPatience;
   refused_cost_ = 0;
 }
 
 void BackgroundEstimator::change_pixels(double ratio) {
   background_ = in_pixels_of(background_, ratio);
-  noise_px_ = std::clamp(ratio * noise_px_, kLeastNoise_px, kMostNoise_px);
+  noise_px_ = std::max(ratio * noise_px_, kSharedError_px);
 }
 
 /// The weights are scaled so that their sum is the number of equally weighted points that carry the
@@ -125,7 +116,8 @@ bool BackgroundEstimator::is_background(ModelKind kind, const Eigen::Vector2d& s
   for (int n = 0; n < objects; ++n) {
     size_t most = 0;
     Eigen::Vector2d middle_px(0, 0);
-    const size_t step = 1 + places_px_.size() / kManyPlaces;
+    // Of many places, every second one, and so on: this bounds the time.
+    const size_t step = 1 + places_px_.size() / kTries;
     for (size_t i = 0; i < places_px_.size(); i += step) {
       size_t near = 0;
       for (const Eigen::Vector2d& other_px : places_px_) {
@@ -188,17 +180,16 @@ bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
 }
 
 bool BackgroundEstimator::is_explained(const MotionModel& model) const {
-  double all = 0;
   double inliers = 0;
+  double outliers = 0;
   double cost = 0;
   for (size_t i = 0; i < evidence_.points.size(); ++i) {
     const double rho = point_cost(model, evidence_.points[i], evidence_.sigma_px);
-    all += evidence_.weights[i];
+    (rho < kMostCost ? inliers : outliers) += evidence_.weights[i];
     if (rho >= kMostCost) continue;
-    inliers += evidence_.weights[i];
     cost += evidence_.weights[i] * rho;
   }
-  return inliers > kExplainedShare * all && cost < kExplained * inliers;
+  return inliers > outliers && cost < kExplained * inliers;
 }
 
 /// Looks for a higher rung that is better. Returns false when there is none.
@@ -239,7 +230,7 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
 /// noise.
 void BackgroundEstimator::learn_noise() {
   if (!background_.is_known) return;
-  double found_px = kNoiseAtFirst_px;
+  double found_px = kUsualNoise_px;
   const bool is_textured_rest = is_textured_ && background_.model.kind == ModelKind::kStill;
   if (residuals_px_.size() >= kLeastVotes &&
       (is_textured_rest || background_.coverage >= kMostObject)) {
@@ -249,7 +240,7 @@ void BackgroundEstimator::learn_noise() {
     // Quantiles of a Rayleigh distribution.
     found_px = *place / std::sqrt(-2 * std::log(1 - kNoiseQuantile));
   }
-  noise_px_ += kNoiseLearnt * (std::clamp(found_px, kLeastNoise_px, kMostNoise_px) - noise_px_);
+  noise_px_ += kLearnt * (std::max(found_px, kSharedError_px) - noise_px_);
 }
 
 const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
@@ -274,10 +265,10 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   ++frames_since_climb_;
   bool climbed = false;
   const bool is_due =
-      frames_since_climb_ >= kClimbInterval || cost > refused_cost_ + kRisen || cost > kLost;
+      frames_since_climb_ >= kPatience || cost > refused_cost_ + kRisen || cost > kLost;
   if (!explained && is_due) {
     climbed = climb(start, votes, current);
-    frames_since_climb_ = climbed ? kClimbInterval : 0;
+    frames_since_climb_ = climbed ? kPatience : 0;
     refused_cost_ = cost;
   }
   if (climbed) {

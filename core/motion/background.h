@@ -12,6 +12,8 @@ namespace spidar {
 
 /// A block at the border of the picture counts as two elsewhere, because objects are rarely there.
 constexpr double kBorderVotes = 2;
+/// Weight of the newest frame in what is learnt from frame to frame.
+constexpr double kLearnt = 0.4;
 /// Fewer votes say nothing about the background.
 constexpr size_t kLeastVotes = 12;
 
@@ -39,8 +41,9 @@ Background in_pixels_of(const Background& background, double scale);
 /// Chooses, from frame to frame, the lowest rung of the ladder that explains the votes.
 ///
 /// An object in front of a plain background may have all the votes, and any two objects move like
-/// some similarity. When less than half of the picture votes, a translation therefore needs votes
-/// in two places that are too far apart for one object, and a model above it needs them in three.
+/// some similarity. When so few votes are cast that two objects may have them all, a translation
+/// needs votes in two places that are too far apart for one object, and a model above it needs them
+/// in three.
 /// Rest needs none, because a plain background shows none. But where there are votes in three
 /// places, more than objects have, and hardly any agrees with the model that explains them best,
 /// the camera's motion is unknown.

@@ -10,15 +10,15 @@
 namespace spidar {
 namespace {
 
-/// Intervals that differ by less than this share count as equal: rounding and jitter of a clock.
+/// Intervals that differ by less than this share count as equal: rounding and jitter of a clock. So
+/// do speeds.
 constexpr double kSameInterval = 0.25;
 /// When at least this share of the intervals is equal, the others are accidents and not part of a
 /// rhythm.
 constexpr double kAccidents = 5.0 / 6;
-/// Fewer pictures do not show a rhythm.
-constexpr size_t kEnough = 4;
-/// By how much the logarithm of the speed must fit one interval better than the even one.
-constexpr double kClearly = 0.22;
+/// Fewer pictures do not show a rhythm: two periods of the shortest one, in which two pictures are
+/// shown for different times.
+constexpr size_t kEnough = 2 * 2;
 
 }  // namespace
 
@@ -152,7 +152,7 @@ double LostFrames::correction(int64_t interval_ns, int64_t shown_for_ns, double 
     const double other = static_cast<double>(interval_ns) / static_cast<double>(shown_for_ns);
     const double off = std::abs(std::log(speed_px_s / speed_px_s_));
     const double other_off = std::abs(std::log(speed_px_s * other / speed_px_s_));
-    if (other_off + kClearly < off) factor = other;
+    if (other_off + std::log(1 + kSameInterval) < off) factor = other;
   }
   speed_px_s_ = factor * speed_px_s;
   return factor;

@@ -11,10 +11,6 @@
 namespace spidar {
 namespace {
 
-/// Standard deviation of what is the same for all blocks of a thing, px of the field's picture: how
-/// far the interpolation between pixels is off at one fraction of a pixel. Of pans without noise it
-/// is between 0.01 and 0.03.
-constexpr double kSharedError_px = 0.025;
 /// The background is compared with its model up to this far from the object's box: two blocks and a
 /// half, so that two whole ones are within it.
 constexpr double kAround_px = 2.5 * kBlock_px;
@@ -57,7 +53,7 @@ double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
   const auto n = static_cast<double>(squares_px2_.size());
   const double middle_px2 = median(squares_px2_.begin(), squares_px2_.end());
   const double texture =
-      static_cast<double>(std::max(sum.weakest_texture(), BlockField::kRegularization));
+      static_cast<double>(std::max(sum.weakest_texture(), MotionBlock::kRegularization));
   return kMedianVariance * middle_px2 / (kRayleighMedian * kRayleighMedian * n) +
          static_cast<double>(sum.residual) / (n * kBlockArea_px * texture);
 }
@@ -72,7 +68,7 @@ double ErrorBound::background_variance_px2(const Region& region, const ObjectEvi
     const RelativeBlock& relative = evidence.relative[i];
     if (evidence.owners[i] != 0 || relative.is_new ||
         !is_around(region, {block.x_px, block.y_px}) ||
-        block.weakest_texture() < BlockField::kRegularization) {
+        block.weakest_texture() < MotionBlock::kRegularization) {
       continue;
     }
     beside_x_px_.push_back(relative.x_px);

@@ -11,12 +11,10 @@ namespace {
 /// Mean difference of a block's pixels, grey levels: an encoder changes less in what stays the
 /// same, noise and motion more.
 constexpr float kChanged_grey = 0.5f;
-/// Share of the blocks along the edge that must change.
-constexpr double kEdgeShare = 0.75;
-/// Largest share of the picture on one side, to the nearest line: 12 % are bars of 2.35:1 in a
-/// picture of 16:9, or beside one of 4:3. With more, a large box in front of a still scene without
-/// noise would pass for a film in a frame.
-constexpr double kMostOfSide = 0.125;
+/// Largest share of the picture on one side, to the nearest line: that of a film of 4:3 in a
+/// picture of 16:9; 2.35:1 in 16:9 has a little less. With more, a large box in front of a still
+/// scene without noise would pass for a film in a frame.
+constexpr double kMostOfSide = (1 - (4 / 3.0) / (16 / 9.0)) / 2;
 
 /// The rows, or the columns, of blocks as seen from one side of the picture.
 struct Side {
@@ -60,7 +58,7 @@ struct Side {
       if (mark == 0) mark = has_changed(line, place) || has_changed(line + 1, place);
       all += mark;
     }
-    return all >= kEdgeShare * (places() - 2 * across);
+    return all >= kNearlyAll * (places() - 2 * across);
   }
 };
 

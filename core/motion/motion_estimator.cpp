@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tracking/corner.h"
+
 namespace spidar {
 namespace {
 
@@ -12,20 +14,14 @@ namespace {
 constexpr int kBorderBlocks = 2;
 /// Smaller eigenvalue of the structure tensor, (grey / px)²: a block may vote where its motion is
 /// known to a fraction of a pixel, and its vote approaches a full one well above kFullTexture.
-constexpr auto kLeastVoteTexture = static_cast<double>(BlockField::kRegularization);
+constexpr auto kLeastVoteTexture = static_cast<double>(MotionBlock::kRegularization);
 constexpr double kFullTexture = 24;
-/// Edges show the camera's motion if this share of their structure runs across their main
-/// direction; it is a half where they run in all directions.
-constexpr double kLeastAcross = 0.1;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
 
 /// Points that agree with the background of the blocks to within kPointReach_px, px of the field's
-/// picture, refine its model if there are kPointsForEach of them for each point that the model
-/// needs.
+/// picture, refine its model.
 constexpr double kPointReach_px = 0.5;
-constexpr double kPointNoise_px = 0.1;
-constexpr int kPointsForEach = 4;
 /// By how much the refinement may raise the mean ρ of the blocks' votes. The ρ of an outlier is 4,
 /// so this is as if one vote in a hundred became an outlier.
 constexpr double kMostDearer = 0.04;
@@ -68,7 +64,7 @@ MotionEstimator::MotionEstimator() {
 /// block has in both directions and the better its motion fits; it counts twice at the border of
 /// the picture, and half for a block that moved by itself until now. How an edge moves along itself
 /// is not known; edges therefore vote only where little else does, as in a picture out of focus.
-/// Returns whether the voters have edges in more than one direction.
+/// Returns whether the voters together have edges in more than one direction.
 bool MotionEstimator::collect_votes(Voters voters) {
   votes_.clear();
   votes_.with_edges = voters == Voters::kEdgesToo;
@@ -109,8 +105,8 @@ bool MotionEstimator::collect_votes(Voters voters) {
       together.yy += block.yy / all_texture;
     }
   }
-  return static_cast<double>(together.weakest_texture()) >
-         kLeastAcross * static_cast<double>(votes_.points.size());
+  const float across = together.weakest_texture();
+  return across > kLeastRoundness * (together.xx + together.yy - across);
 }
 
 /// The points in px of the field's picture.
@@ -144,9 +140,8 @@ void MotionEstimator::refine_background(Background& background) {
       evidence_.points.push_back(point.moved);
     }
   }
-  if (evidence_.points.size() < static_cast<size_t>(kPointsForEach * least_points(kind))) return;
   evidence_.weights.assign(evidence_.points.size(), 1.0);
-  evidence_.sigma_px = kPointNoise_px;
+  evidence_.sigma_px = kUsualNoise_px;
   const auto refined = fitter_.refine(kind, background.model, evidence_);
   if (!refined) return;
   // Far from the points the refined model must agree with the old one.

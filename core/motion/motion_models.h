@@ -21,10 +21,6 @@ constexpr int kModelKinds = 5;
 constexpr int parameters(ModelKind kind) {
   return 2 * static_cast<int>(kind);
 }
-/// Points that determine it, 0 … 4; each gives two equations.
-constexpr int least_points(ModelKind kind) {
-  return static_cast<int>(kind);
-}
 /// "still", "translation", "similarity", "affine", "homography".
 const char* to_string(ModelKind kind);
 

@@ -11,8 +11,6 @@ namespace {
 /// Points are used instead of the blocks if there are this many, and half as many as blocks: fewer
 /// are of a part of the object that moves by itself.
 constexpr size_t kLeastPoints = 4;
-/// Noise of a point's displacement, px of the field's picture.
-constexpr double kObjectPointNoise_px = 0.1;
 /// The object is rigid when the mean ρ of its points is below this; the ρ of an outlier is 4.
 constexpr double kRigid = 1;
 
@@ -53,7 +51,7 @@ bool ObjectMeter::collect_points(uint32_t key, size_t blocks, const MotionModel&
     if (apart_px < alike_px(expected_px.norm())) collected_.points.push_back(relative);
   }
   collected_.weights.assign(collected_.points.size(), 1.0);
-  collected_.sigma_px = kObjectPointNoise_px;
+  collected_.sigma_px = kUsualNoise_px;
   return collected_.points.size() >= std::max<size_t>(kLeastPoints, blocks / 2);
 }
 

@@ -9,16 +9,10 @@
 namespace spidar {
 namespace {
 
-/// Number of pairs of points: when half of the votes belong to the background, one pair in four has
-/// no outlier, and with a probability of 1e-5 none of these pairs is.
-constexpr int kPairs = 40;
-/// A pair of points closer together than this share of the spread of all points does not determine
-/// rotation and growth.
-constexpr double kLeastDistanceShare = 0.5;
 /// The start may deviate by this, px of the field's picture, and each step tolerates half as much
-/// as the one before: a start is only as accurate as two points, and a similarity where the scene
-/// needs more. With σ alone, the blocks of one object that move alike often agree with a similarity
-/// that is more exact than any of the background's.
+/// as the one before, down to σ: a start is only as accurate as two points, and a similarity where
+/// the scene needs more. With σ alone, the blocks of one object that move alike often agree with a
+/// similarity that is more exact than any of the background's.
 constexpr double kFar_px = 4.8;
 constexpr int kSteps = 6;
 constexpr int kFarSteps = 2;
@@ -34,12 +28,6 @@ MotionModel through(const Displacement& a, const Displacement& b) {
   model.linear << grow, -turn, turn, grow;
   model.shift_px = a.moved_px - model.linear * a.at_px;
   return model;
-}
-
-double spread_px2(const std::vector<Displacement>& points) {
-  double sum = 0;
-  for (const Displacement& point : points) sum += point.at_px.squaredNorm();
-  return points.empty() ? 0 : sum / static_cast<double>(points.size());
 }
 
 /// Σ w ρ with this σ. Stops when the sum exceeds `limit`, and then returns a value above it.
@@ -76,13 +64,12 @@ MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
   for (const MotionModel& model : known) consider(model);
   const size_t n = evidence.points.size();
   if (n < 2) return best;
-  const double least_px2 = kLeastDistanceShare * kLeastDistanceShare * spread_px2(evidence.points);
   // std::minstd_rand gives the same numbers on every machine; the distributions of <random> do not.
   std::minstd_rand random;
-  for (int k = 0; k < kPairs; ++k) {
+  for (size_t k = 0; k < kTries; ++k) {
     const Displacement& a = evidence.points[random() % n];
     const Displacement& b = evidence.points[random() % n];
-    if ((b.at_px - a.at_px).squaredNorm() > least_px2) consider(through(a, b));
+    if (a.at_px != b.at_px) consider(through(a, b));
   }
   return best;
 }

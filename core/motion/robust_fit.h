@@ -18,6 +18,18 @@ struct WeightedDisplacements {
   double sigma_px = 1;          ///< noise of a displacement, each coordinate, > 0
 };
 
+/// Samples in which the best is looked for. When half of the votes belong to the background, one
+/// pair in four has no outlier, and with a probability of 1e-5 none of so many pairs is.
+constexpr size_t kTries = 40;
+
+/// Noise of a displacement where it has not been measured, each coordinate, px of the field's
+/// picture: that of blocks with much texture, and of points in a picture with noise.
+constexpr double kUsualNoise_px = 0.1;
+/// Standard deviation of what is the same for all blocks of a thing, px of the field's picture: how
+/// far the interpolation between pixels is off at one fraction of a pixel. Of pans without noise it
+/// is between 0.01 and 0.03. No noise is assumed to be less.
+constexpr double kSharedError_px = 0.025;
+
 /// ρ of Torr's GRIC: min(e²/σ², λ₃ (r − d)), with λ₃ = 2, r = 4 coordinates of a track, and d = 2,
 /// the dimension of the set of tracks that a model allows. Every point that deviates by more than 2
 /// σ is an outlier and costs the same.
@@ -38,7 +50,7 @@ class RobustFitter {
   RobustFitter();
 
   /// The best of the similarities through pairs of points (MSAC: Torr and Zisserman: MLESAC, 2000)
-  /// and the `known` models, where deviations of up to 32 σ count as less than outliers: refine()
+  /// and the `known` models, where deviations of several px count as less than outliers: refine()
   /// narrows that.
   MotionModel start(const WeightedDisplacements& evidence, const std::vector<MotionModel>& known);
 

@@ -3,18 +3,16 @@
 #include "core/tracking/fine_window.h"
 
 namespace spidar {
-namespace {
-
-/// Refinement in the frame pays off from this share of the strength in the reduced picture on, both
-/// measured over the same area, because a window in the frame has more than twice the pixels.
-constexpr float kFineStrength = 0.25f;
-
-}  // namespace
 
 ImagePoint FineWindow::place(LumaNeighbourhood& neighbourhood, const ImageView& frame, int factor,
                              const CoarsePlace& coarse) const {
   const auto scale = static_cast<float>(factor);
-  if (scale * scale * window_.strength() < kFineStrength * coarse.strength) return coarse.at;
+  // Refinement in the frame pays off if it tells at least as much about the place, which strength
+  // times pixels does.
+  constexpr float kPixels = LumaNeighbourhood::kWindow_px * LumaNeighbourhood::kWindow_px;
+  constexpr float kCoarsePixels = kPointWindow_px * kPointWindow_px;
+  const float strength = scale * scale * window_.strength();
+  if (kPixels * strength < kCoarsePixels * coarse.strength) return coarse.at;
   MatchSettings settings;
   settings.iterations = 3;
   settings.step_px = 0.03f;

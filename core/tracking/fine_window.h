@@ -10,6 +10,9 @@
 
 namespace spidar {
 
+/// Side of the window in which a point is searched in the reduced picture.
+constexpr int kPointWindow_px = 16;
+
 /// Result of the search for a point in the reduced picture.
 struct CoarsePlace {
   ImagePoint at;           ///< px of the frame
@@ -29,9 +32,6 @@ class FineWindow {
   /// their inverse variances; otherwise it is the coarse position.
   ImagePoint place(LumaNeighbourhood& neighbourhood, const ImageView& frame, int factor,
                    const CoarsePlace& coarse) const;
-
-  /// Upper limit of the residual of an accepted match, see WindowMatch.
-  static constexpr float kSameThing = 0.5f;
 
  private:
   WindowTemplate<LumaNeighbourhood::kWindow_px> window_;

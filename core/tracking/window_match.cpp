@@ -10,9 +10,9 @@ namespace {
 
 /// Smaller changes of contrast are ignored, because the estimate is no more accurate.
 constexpr float kGainNoticed = 0.1f;
-/// Upper limit of compare().
+/// Upper limit of compare(), and what it is in the opposite direction.
 constexpr float kMostGain = 1.99f;
-constexpr float kLeastGain = 0.25f;
+constexpr float kLeastGain = 1 / kMostGain;
 
 float variance(int64_t sum, int64_t squared, float n) {
   const float mean = static_cast<float>(sum) / n;

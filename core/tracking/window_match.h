@@ -35,6 +35,9 @@ struct MatchSettings {
   float reach_px = 6;     ///< largest distance from the start
 };
 
+/// A match that leaves more than this share of the contrast shows something else.
+constexpr float kSameThing = 0.5f;
+
 struct WindowMatch {
   ImagePoint centre;
   /// Standard deviation of the difference from the template, relative to its contrast; about √2 for

@@ -30,32 +30,33 @@ KINDS = {
         regions.kMostRegions corner.kMostCornerBox_px""",
     "arithmetic: fixed point, lanes, guards of a division": """
         block_field.kMost_px block_kernels.kFractionOne combing.kLines corner.kTwice field_picture.kNinth
-        layer_evidence.kLeast_px_s luma_row.kLanes luma_words.kBytes motion_estimator.kFirstBlockId
-        motion_models.kSteps motion_models.kSmall motion_models.kUnit_px motion_models.kModelKinds
-        padded_image.kCacheLine padded_image.kRowsAhead regions.kNoRegion window_kernels.kPixelOne
-        window_kernels.kDerivativeOne window_kernels.kDifferenceOne window_kernels.kGainOne window_match.kMostGain""",
+        layer_evidence.kLeast_px_s luma_row.kLanes luma_words.kBytes motion_estimator.kFirstBlockId motion_models.kSteps
+        motion_models.kSmall motion_models.kUnit_px motion_models.kModelKinds padded_image.kCacheLine
+        padded_image.kRowsAhead regions.kNoRegion window_kernels.kPixelOne window_kernels.kDerivativeOne
+        window_kernels.kDifferenceOne window_kernels.kGainOne window_match.kMostGain""",
     "derived: computed from others, or a number of mathematics": """
-        block_kernels.kBlockArea_px block_kernels.kHalf block_search.kBlockReach_px block_search.kMostDeviation_px
-        block_search.kFarthest_px block_search.kNearest_px block_search.kMostSteps burned_in.kLeastPixels
-        burned_in.kExactShareElsewhere
-        burned_in.kInPlace_px burned_in.kLasting burned_in.kMost burned_in.kBeside_px cadence.kLongest_ns
-        combing.kSame_grey corner.kPixels
-        corner.kTensorBlock_px corner.kMostBlocks corner.kHalf_px luma_neighbourhood.kBefore_px
-        luma_neighbourhood.kRight_px luma_neighbourhood.kBelow_px luma_neighbourhood.kMostWhole_px
-        luma_neighbourhood.kWidest_px luma_neighbourhood.kHighest_px motion_estimator.kLeastVoteTexture
-        error_bound.kAround_px error_bound.kMedianVariance moving_object.kErrorSigmas padded_image.kHalf padded_image.kBlock window_kernels.kStride window_match.kPixels
-        window_match.kScale""",
+        background.kLost background.kTexturedShare block_kernels.kBlockArea_px block_kernels.kHalf
+        block_search.kBlockReach_px block_search.kMostDeviation_px block_search.kFarthest_px block_search.kNearest_px
+        block_search.kMostSteps burned_in.kLeastPixels burned_in.kExactShareElsewhere burned_in.kInPlace_px
+        burned_in.kLasting burned_in.kMost burned_in.kBeside_px cadence.kEnough cadence.kLongest_ns combing.kEvery
+        combing.kSame_grey corner.kPixels corner.kTensorBlock_px corner.kMostBlocks corner.kHalf_px
+        luma_neighbourhood.kBefore_px luma_neighbourhood.kRight_px luma_neighbourhood.kBelow_px
+        luma_neighbourhood.kMostWhole_px luma_neighbourhood.kWidest_px luma_neighbourhood.kHighest_px
+        motion_estimator.kLeastVoteTexture error_bound.kAround_px error_bound.kMedianVariance
+        field_picture.kLeastCoarseSide_px fine_window.kPixels fine_window.kCoarsePixels margins.kMostOfSide
+        moving_object.kErrorSigmas padded_image.kHalf padded_image.kBlock window_kernels.kStride window_match.kLeastGain
+        window_match.kPixels window_match.kScale""",
     "sizes that the code is compiled for: blocks, windows, rings": """
-        block_field.kCoarser block_kernels.kBlock_px cadence.kPictures corner.kCornerWindow_px corner.kCornerStep_px
-        field_points.kWindow_px luma_neighbourhood.kWindow_px luma_neighbourhood.kMostReach_px padded_image.kPad_px
+        block_kernels.kBlock_px cadence.kPictures corner.kCornerWindow_px corner.kCornerStep_px field_picture.kCoarser
+        fine_window.kPointWindow_px luma_neighbourhood.kWindow_px luma_neighbourhood.kMostReach_px padded_image.kPad_px
         repeated_picture.kComparedBlock_px repeated_picture.kFrames repeated_picture.kChangedBlocks""",
     "the paper's method, which `motion=object` does not use": """
         opencv_tracker.kThinnedOut opencv_tracker.kSelectionInterval opencv_tracker.kFoundAfterCut
         opencv_tracker.kMinForCut point_flow.kWindow_px point_flow.kMaxLevel point_flow.kMinMeanGradient
         point_flow.kMinEigenvalue point_flow.kMaxReturn_px point_flow.kRounding point_flow.kHalf
-        point_flow.kWithDerivatives point_flow.kReuseInput point_selection.kNeighbourhood_px
-        point_selection.kSobel_px point_selection.kMinWeakestGradient point_selection.kMinResponse
-        tracker.kMostFeatures tracker.kReferenceHeight_px tracker.kMinSide_px luma_reduce.kReducedSide_px""",
+        point_flow.kWithDerivatives point_flow.kReuseInput point_selection.kNeighbourhood_px point_selection.kSobel_px
+        point_selection.kMinWeakestGradient point_selection.kMinResponse tracker.kMostFeatures
+        tracker.kReferenceHeight_px tracker.kMinSide_px luma_reduce.kReducedSide_px""",
 }
 DEFINITION = re.compile(r"^(?P<indent> *)(?P<static>static )?constexpr (?P<type>auto|bool|double|float|int|int16_t|"
                         r"int64_t|size_t|uint32_t|unsigned) (?P<name>k[A-Z]\w*) = (?P<value>[^;]+);"
@@ -118,7 +119,7 @@ def make_tunable(copy, constants):
             storage = found["static"] and "inline static" or (file.suffix == ".h" and "inline") or "static"
             if keys[name].kind is not None:
                 if set(re.findall(r"k[A-Z]\w*", found["value"])) & chosen:
-                    return found[0].replace("constexpr", "const")
+                    return found[0].replace("static constexpr", "inline static const").replace("constexpr", "const")
                 return found[0]
             value = f'static_cast<{kind}>(tuned("{keys[name].variable}", {found["value"]}))'
             return f"{found['indent']}{storage} const {kind} {name} = {value};"

@@ -154,7 +154,7 @@ TEST(FieldSteps, ThePictureHasAboutTheSameAreaWhateverTheFrame) {
 /// px, where the texture's cubic B-splines over 8 px end. And each grey level is rounded `rounded`
 /// times, σ² = 1/12 each, over 256 pixels: five deviations.
 double block_tolerance_px(double step_px, double weakest_texture, double rounded) {
-  const double regularization = BlockField::kRegularization;
+  const double regularization = MotionBlock::kRegularization;
   const double bias = regularization / (weakest_texture + regularization) + 0.1;
   return bias * step_px + 5 * std::sqrt(rounded / 12 / (256 * weakest_texture));
 }

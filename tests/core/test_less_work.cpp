@@ -24,7 +24,7 @@ TEST(LessWork, ThePictureIsSmaller) {
   EXPECT_EQ(field_scale(427, 240, 3), FieldScale::kThird);
   EXPECT_EQ(field_scale(640, 360, 3), FieldScale::kQuarter);
   EXPECT_EQ(field_scale(640, 360, 9), FieldScale::kQuarter) << "there is no smaller one";
-  EXPECT_EQ(field_scale(160, 120, 3), FieldScale::kTwoThirds) << "of which 80 px are five blocks";
+  EXPECT_EQ(field_scale(160, 120, 3), FieldScale::kTwoThirds) << "of half, a quarter has no block";
 }
 
 TEST(LessWork, ASmallerPictureHasTheMeanOfItsArea) {
