@@ -117,7 +117,7 @@ bool BackgroundEstimator::is_background(ModelKind kind, const Eigen::Vector2d& s
     size_t most = 0;
     Eigen::Vector2d middle_px(0, 0);
     // Of many places, every second one, and so on: this bounds the time.
-    const size_t step = 1 + places_px_.size() / kTries;
+    const size_t step = 1 + places_px_.size() / kMostTries;
     for (size_t i = 0; i < places_px_.size(); i += step) {
       size_t near = 0;
       for (const Eigen::Vector2d& other_px : places_px_) {
@@ -240,7 +240,7 @@ void BackgroundEstimator::learn_noise() {
     // Quantiles of a Rayleigh distribution.
     found_px = *place / std::sqrt(-2 * std::log(1 - kNoiseQuantile));
   }
-  noise_px_ += kLearnt * (std::max(found_px, kSharedError_px) - noise_px_);
+  noise_px_ += kNewestWeight * (std::max(found_px, kSharedError_px) - noise_px_);
 }
 
 const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {

@@ -13,7 +13,7 @@ namespace spidar {
 /// A block at the border of the picture counts as two elsewhere, because objects are rarely there.
 constexpr double kBorderVotes = 2;
 /// Weight of the newest frame in what is learnt from frame to frame.
-constexpr double kLearnt = 0.4;
+constexpr double kNewestWeight = 0.4;
 /// Fewer votes say nothing about the background.
 constexpr size_t kLeastVotes = 12;
 

@@ -202,7 +202,7 @@ void MovingBlocks::remember_judgements(const BlockField& field) {
     if (origin >= columns) before = std::max(before, stood_out_before_[origin - columns]);
     if (origin + columns < n) before = std::max(before, stood_out_before_[origin + columns]);
     const float now = judgements_[i] == Judgement::kMoves ? 1.0f : 0.0f;
-    stood_out_[i] = before + static_cast<float>(kLearnt) * (now - before);
+    stood_out_[i] = before + static_cast<float>(kNewestWeight) * (now - before);
   }
 }
 
@@ -214,7 +214,7 @@ void MovingBlocks::remember_motion(const BlockField& field) {
   for (size_t i = 0; i < n; ++i) {
     const float before = persistence_before_[origin_of(field, i)];
     const float now = relative_[i].moves ? 1.0f : 0.0f;
-    persistence_[i] = before + static_cast<float>(kLearnt) * (now - before);
+    persistence_[i] = before + static_cast<float>(kNewestWeight) * (now - before);
   }
 }
 

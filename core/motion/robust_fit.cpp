@@ -66,7 +66,7 @@ MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
   if (n < 2) return best;
   // std::minstd_rand gives the same numbers on every machine; the distributions of <random> do not.
   std::minstd_rand random;
-  for (size_t k = 0; k < kTries; ++k) {
+  for (size_t k = 0; k < kMostTries; ++k) {
     const Displacement& a = evidence.points[random() % n];
     const Displacement& b = evidence.points[random() % n];
     if (a.at_px != b.at_px) consider(through(a, b));

@@ -20,7 +20,7 @@ struct WeightedDisplacements {
 
 /// Samples in which the best is looked for. When half of the votes belong to the background, one
 /// pair in four has no outlier, and with a probability of 1e-5 none of so many pairs is.
-constexpr size_t kTries = 40;
+constexpr size_t kMostTries = 40;
 
 /// Noise of a displacement where it has not been measured, each coordinate, px of the field's
 /// picture: that of blocks with much texture, and of points in a picture with noise.
