@@ -24,7 +24,7 @@ constexpr double kTrusted = 1.4;
 /// layer of a scene with two: the ground.
 constexpr double kLayerShare = 0.5;
 /// A region of which this share adjoins graphics is their edge, mixed with the film behind it.
-constexpr double kGraphicsShare = 0.4;
+constexpr double kGraphicsShare = 0.5;
 /// A region with a smaller likelihood is not an object. Away from the border this is a
 /// LayerEvidence::ratio() above 2: a layer that is further away than half of the background's
 /// distance.

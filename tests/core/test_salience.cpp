@@ -137,12 +137,12 @@ TEST(Salience, WhatMostlyAdjoinsGraphicsHasNoneWhileTheCameraMoves) {
   const CameraMotion still{0, 0.25, 0, 100};
   const CameraMotion moving{5, 0.25, 0, 100};
   Region edge = region(10, 0, 5);
-  edge.graphics_blocks = 3;
+  edge.graphics_blocks = 4;
   EXPECT_GT(salience(edge, kNoEvidence, moving, false), 0) << "an object that appears beside them";
   edge.graphics_blocks = 5;
   EXPECT_EQ(salience(edge, kNoEvidence, moving, false), 0);
   EXPECT_GT(salience(edge, kNoEvidence, moving, true), 0) << "an object that passes by";
-  edge.graphics_blocks = 6;
+  edge.graphics_blocks = 7;
   EXPECT_EQ(salience(edge, kNoEvidence, moving, true), 0);
   EXPECT_GT(salience(edge, kNoEvidence, still, false), 0) << "graphics rest with the scene";
 }
