@@ -71,18 +71,19 @@ float largest_change(const ImageView& before, const ImageView& now) {
   return most.mean(blocks);
 }
 
-RepeatedPicture::Rhythm RepeatedPicture::rhythm() const {
+RepeatedPicture::Rhythm RepeatedPicture::rhythm(float share) const {
   Rhythm rhythm;
   float largest = 0;  // change of a run
   size_t begin = 0;   // of a run, in frames ago
   bool in_run = false;
   for (size_t i = count_; i-- > 0;) {
     const float change = latest(i);
-    if (in_run && kShare * change > largest) {
+    if (in_run && share * change > largest) {
+      ++rhythm.dips;
       for (size_t k = begin; k > i; --k) rhythm.is_dip[k] = true;
       in_run = false;
     }
-    if (change < kShare * rhythm.large) {
+    if (change < share * rhythm.large) {
       largest = in_run ? std::max(largest, change) : change;
       if (!in_run) begin = i;
       in_run = true;
@@ -106,8 +107,10 @@ bool RepeatedPicture::is_due(const Rhythm& rhythm) const {
 }
 
 bool RepeatedPicture::is_small(float change) const {
-  const Rhythm latest = rhythm();
-  return change < kShare * latest.large && is_due(latest);
+  const Rhythm any = rhythm(kShare);
+  if (any.dips >= kDips && change < kShare * any.large) return true;
+  const Rhythm periodic = rhythm(kShareWhenDue);
+  return change < kShareWhenDue * periodic.large && is_due(periodic);
 }
 
 RepeatedPicture::Kind RepeatedPicture::look(const ImageView& before, const ImageView& now) {

@@ -19,9 +19,8 @@ namespace spidar {
 /// number is small so that a small object still counts.
 ///
 /// In a telecined film the encoder changes a repeated field by up to 0.41 of the change before it,
-/// while different pictures change by at least 0.6 of it. An object that slows down and reverses
-/// also changes less, so that a small change counts as noise only when the cadence of the film
-/// predicts a repetition.
+/// while different pictures change by at least 0.6 of it. The limit is therefore higher when the
+/// cadence of the film predicts a repetition.
 class RepeatedPicture {
  public:
   enum class Kind {
@@ -36,19 +35,25 @@ class RepeatedPicture {
   /// Call when the next pictures are unrelated to the previous ones.
   void restart() { count_ = 0; }
 
-  /// Largest coding noise, as a share of the change before and after it, if the changes one and two
-  /// periods ago were as small. A period has at least two frames.
-  static constexpr float kShare = 0.5f;
-  /// Frames in which two periods must fit. 24 pictures per second in 30 frames repeat every fifth.
+  /// Largest coding noise, as a share of the change before and after it.
+  static constexpr float kShare = 0.3f;
+  /// At least kDips such dips must have occurred within kFrames frames, in whatever rhythm, because
+  /// an object that slows down and reverses also causes one. 24 pictures per second in 30 frames
+  /// have two in ten.
   static constexpr size_t kFrames = 12;
+  static constexpr int kDips = 2;
+  /// The limit for the noise if the changes one and two periods ago were as small relative to their
+  /// neighbours. A period has at least two frames.
+  static constexpr float kShareWhenDue = 0.5f;
 
  private:
   /// Dips: runs of small changes between two large ones.
   struct Rhythm {
+    int dips = 0;
     float large = 0;                     ///< latest large change
     std::array<bool, kFrames> is_dip{};  ///< by age in frames: whether the change was in a dip
   };
-  Rhythm rhythm() const;
+  Rhythm rhythm(float share) const;
   bool is_due(const Rhythm& rhythm) const;
   bool is_small(float change) const;
   float latest(size_t i) const { return changes_[(next_ + 2 * kFrames - 1 - i) % kFrames]; }
