@@ -70,7 +70,7 @@ struct Background {
 
 /// Least squares: minimises Σ w |moved − displacement(at)|², w ≥ 0, one weight for each point.
 /// Returns nothing when the points do not determine the model: too few, in one place, or on one
-/// line. The homography is found by a fixed number of Gauss–Newton steps from the affine solution,
+/// line. The homography is found by at most four Gauss–Newton steps from the affine solution,
 /// because the perspective between successive frames is small.
 std::optional<MotionModel> fit_model(ModelKind kind, const std::vector<Displacement>& points,
                                      const std::vector<double>& weights);

@@ -20,7 +20,8 @@ struct Region {
   /// Number of them at the border of the picture, of the part of it that was in the previous
   /// picture, or of something burned in that covers the film.
   int border_blocks = 0;
-  int graphics_blocks = 0;  ///< number of them beside something burned in
+  /// Number of them that something burned in covers, or that have such a neighbour.
+  int graphics_blocks = 0;
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero();       ///< upper left corner of its box
   Eigen::Vector2d high_px = Eigen::Vector2d::Zero();      ///< lower right

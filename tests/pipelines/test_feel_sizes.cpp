@@ -57,7 +57,7 @@ std::vector<double> forces_while_playing(const std::vector<Tick>& ticks) {
 
 TEST_F(FeelSizes, AFilmThatIsTooSmallOrTooLargePlays) {
   for (const auto& [width, height] : {Size{8, 8}, Size{8208, 16}}) {
-    // Frames pass while the device is opened, 40 ms each: the last of them come 2 s later.
+    // They last two seconds, so that the device is open before the last of them.
     make_film({{width, height}}, 50);
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
     const CommandResult outcome = feel("playbin3");
