@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "tests/emulated_bus/claim_locks.h"
 #include "tests/emulated_bus/evdev_files.h"
 #include "tests/emulated_bus/usb_files.h"
 

@@ -17,15 +17,14 @@
 #include <linux/usbdevice_fs.h>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
-#include <vector>
 
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/claim_locks.h"
 #include "tests/emulated_bus/port_board.h"
 
 namespace spidar::test {
@@ -100,11 +99,6 @@ UsbFile* adopt(int file) {
     return f;
   }
   return nullptr;
-}
-
-int& lock_file() {
-  static int file = -1;
-  return file;
 }
 
 void make_ready(UsbFile& f) {
@@ -207,18 +201,6 @@ int bulk(UsbFile& f, usbdevfs_bulktransfer& transfer) {
   return static_cast<int>(transfer.len);
 }
 
-/// 0 when it locks or unlocks the board with this address for all holders of a copy of the
-/// descriptor. Not the port: a board that is plugged in is claimed by nobody, whoever still holds
-/// files of the one before.
-int lock_board(int file, int address, short type) {
-  struct flock lock {};
-  lock.l_type = type;
-  lock.l_whence = SEEK_SET;
-  lock.l_start = address;
-  lock.l_len = 1;
-  return fcntl(file, F_OFD_SETLK, &lock);
-}
-
 /// Excludes other processes by a lock, and this one by a check. A file that is passed on is claimed
 /// already. After the death of its first owner others could claim it as well, which usbfs would not
 /// allow.
@@ -231,26 +213,14 @@ int claim(UsbFile& f, bool detach) {
     if (other && other != &f && other->shared.address == f.shared.address && other->shared.claimed)
       return -EBUSY;
   }
-  if (lock_file() >= 0) {
-    // A separate lock, because a lock shared by copies of a descriptor ends with the last of them.
-    const std::string path = "/proc/self/fd/" + std::to_string(lock_file());
-    const int own = real_open(path.c_str(), O_RDWR | O_CLOEXEC, 0);
-    if (own < 0 || lock_board(own, f.shared.address, F_WRLCK) != 0) {
-      syscall(SYS_close, own);
-      return -EBUSY;
-    }
-    f.claim_lock = own;
-  }
+  if (!lock_board(f.shared.address, f.claim_lock)) return -EBUSY;
   f.shared.claimed = true;
   return 0;
 }
 
 int release(UsbFile& f) {
   f.shared.claimed = false;
-  if (f.claim_lock < 0) return 0;
-  lock_board(f.claim_lock, f.shared.address, F_UNLCK);
-  syscall(SYS_close, f.claim_lock);
-  f.claim_lock = -1;
+  unlock_board(f.shared.address, f.claim_lock);
   return 0;
 }
 
@@ -290,10 +260,6 @@ int handle(UsbFile& f, unsigned long request, void* argument) {
 
 int real_open(const char* path, int flags, unsigned mode) {
   return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
-}
-
-void set_lock_file(int file) {
-  lock_file() = file;
 }
 
 int open_usb_file(size_t port) {

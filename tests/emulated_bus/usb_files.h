@@ -10,10 +10,6 @@ namespace spidar::test {
 /// open(2) without emulation.
 int real_open(const char* path, int flags, unsigned mode);
 
-/// Claims are locks in this file, so that they end with the last process that has inherited the
-/// device file; −1: claims hold within this process only.
-void set_lock_file(int file);
-
 /// A descriptor of the device in that port, or −1 and errno.
 int open_usb_file(size_t port);
 
