@@ -13,6 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . tests/install.sh
 
 ahead=     # the process of build_ahead
+declare -A begun=()  # the processes of begin_check, by name
 builds=()  # folders with test results
 checks=()  # arguments for summary.py: what is no meson test
 
@@ -34,8 +35,9 @@ build_ahead() {
 
 # Ninja removes what is half made.
 stop_building_ahead() {
-    [[ -z $ahead ]] || kill "$ahead" 2>/dev/null || true
-    wait
+    [[ -n $ahead ]] || return 0
+    kill "$ahead" 2>/dev/null || true
+    wait "$ahead" || true
     ahead=
 }
 
@@ -83,17 +85,6 @@ check_layout() {
     fi
 }
 
-# check_site FOLDER: Doxygen reads the public headers, and Sphinx the pages, without a warning. The site stays in
-# FOLDER/docs/site, the report in FOLDER/docs/report.pdf.
-check_site() {
-    say "site: doxygen $(doxygen --version), $(sphinx-build --version)"
-    if meson compile -C "$1" docs report; then
-        checks+=(--passed "site and report")
-    else
-        checks+=(--failed "site and report: meson compile -C $1 docs report")
-    fi
-}
-
 # compile_executed FOLDER: what is linked with each program there, so that it leaves in FOLDER/executed/, if there is
 # one, which functions it has executed.
 compile_executed() {
@@ -101,14 +92,22 @@ compile_executed() {
     clang++ -std=c++17 -O1 -fPIC "-DEXECUTED_IN=\"$PWD/$1/executed\"" -c tests/support/executed.cpp -o "$1/executed.o"
 }
 
-# check_executed FOLDER: the tests there execute something of each source.
-check_executed() {
-    say "sources that no test executes"
-    if tests/check_executed.py "$1"; then
-        checks+=(--passed "sources executed")
-    else
-        checks+=(--failed "sources executed: see above")
-    fi
+# begin_check NAME COMMAND...: begins a check, beside what follows.
+begin_check() {
+    nice -n 19 "${@:2}" >"$(check_output "$1")" 2>&1 &
+    begun[$1]=$!
+}
+
+check_output() { echo "build-ci-address/${1// /-}.log"; }
+
+# end_check NAME: waits for it and says what it printed, if it has begun.
+end_check() {
+    [[ -n ${begun[$1]-} ]] || return 0
+    say "$1"
+    local result=(--passed "$1")
+    wait "${begun[$1]}" || result=(--failed "$1: see above")
+    cat "$(check_output "$1")"
+    checks+=("${result[@]}")
 }
 
 # run_on_bare_debian RESULTS
@@ -172,9 +171,12 @@ case ${1-} in
         build_ahead build-ci-thread "${threaded_targets[@]}"
         rm -rf build-ci-address/executed && mkdir build-ci-address/executed
         run_tests build-ci-address 4 --no-suite short-films
-        check_executed build-ci-address
+        # The tests there execute something of each source.
+        begin_check "sources executed" tests/check_executed.py build-ci-address
     fi
-    check_site build-ci-address
+    # Doxygen reads the public headers, and Sphinx the pages, without a warning. The site stays in docs/site there, the
+    # report in docs/report.pdf.
+    begin_check "site and report" meson compile -C build-ci-address docs report
     say "thread sanitizer: what runs on several threads, and a player to which anything is done at random." \
         "GLib and GStreamer are not built with it: their locks are told to it (tests/support/tsan_glib.cpp)," \
         "what they do between themselves it does not see"
@@ -186,6 +188,8 @@ case ${1-} in
     threaded=(haptic_session shared_memory simulated_faults tick_trace touch_mailbox boards usb_boards force_feedback
         uart_line wrench_callback guardian play_numbers play_traces pipelines_random_operations)
     ! build build-ci-thread "${threaded_targets[@]}" || run_tests build-ci-thread 8 "${threaded[@]}"
+    end_check "sources executed"
+    end_check "site and report"
     ;;
 *)
     echo "error: unknown option $1; usage: tests/run.sh [--ci]" >&2
