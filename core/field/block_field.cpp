@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/field/light_change.h"
-#include "core/tracking/window_match.h"
+#include "core/tracking/shares.h"
 
 namespace spidar {
 namespace {
@@ -139,7 +139,7 @@ bool BlockField::is_cut() const {
       if (within < kDoubtful_grey * kBlockArea_px) continue;
       ++with_texture;
       const int found = matches_[static_cast<size_t>(row * grid_.columns + column)].difference;
-      lost += static_cast<float>(found) > kSameThing * static_cast<float>(within);
+      lost += found > kMost * within;
     }
   }
   return lost > kNearlyAll * with_texture;

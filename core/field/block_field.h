@@ -16,9 +16,6 @@ namespace spidar {
 /// is further away shows something else, px of the picture in which motion is measured.
 constexpr float kMostOff_px = 1;
 
-/// From this share on, blocks count as nearly all of them, and a difference as nearly all of it.
-constexpr double kNearlyAll = 0.8;
-
 /// A block of kBlock_px × kBlock_px pixels of the picture in which motion is measured. Lengths are
 /// in pixels of that picture, measured from its centre; x right, y down.
 struct MotionBlock {

@@ -104,8 +104,8 @@ StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlo
                              const MovedBlock& to) {
   const v_uint8x16 none = cv::v_setzero_u8();
   const v_uint8x16 one = cv::v_setall_u8(1);
-  const v_uint8x16 most = cv::v_setall_u8(kNear_grey);
-  const v_uint8x16 clearly = cv::v_setall_u8(kClearlyStays_grey);
+  const v_uint8x16 most = cv::v_setall_u8(kDoubtful_grey);
+  const v_uint8x16 clearly = cv::v_setall_u8(kClear_grey);
   InterpolatedRows moved_from(from);
   InterpolatedRows moved_to(to);
   unsigned near = 0;

@@ -12,6 +12,14 @@ namespace spidar {
 constexpr int kBlock_px = 16;
 constexpr int kBlockArea_px = kBlock_px * kBlock_px;
 
+/// Differences of a pixel, or of a block on the mean over its pixels, grey levels. Up to
+/// kRounding_grey there is none: pixels are whole grey levels, and an encoder changes less in what
+/// stays the same. Up to kDoubtful_grey it may be noise and coding alone; from kClear_grey on, the
+/// two show something else.
+constexpr float kRounding_grey = 0.5f;
+constexpr int kDoubtful_grey = 3;
+constexpr int kClear_grey = 8;
+
 /// Upper left pixel of a block in a picture. Rows are `stride` bytes apart.
 struct BlockPixels {
   const uint8_t* pixels;
@@ -41,18 +49,14 @@ struct BlockSums {
   }
 };
 
-/// Counts the pixels of a block that stayed in place although their surroundings moved.
+/// Counts the pixels of a block that stayed in place although their surroundings moved: they have
+/// changed by at least kClear_grey less than the motion would have changed them.
 struct StayingPixels {
-  int near = 0;   ///< pixels that have changed by kNear_grey at most
+  int near = 0;   ///< pixels that have changed by kDoubtful_grey at most
   int exact = 0;  ///< those of them that have not changed at all
 
   bool operator==(const StayingPixels& o) const { return near == o.near && exact == o.exact; }
 };
-/// Largest difference of a staying pixel, grey levels: noise and coding of what is drawn in place.
-constexpr int kNear_grey = 3;
-/// A pixel counts as staying when the motion would have changed it by this many grey levels more
-/// than it has changed.
-constexpr int kClearlyStays_grey = 8;
 
 /// A block that begins between pixels: each pixel is read `fraction_x`, `fraction_y` (0 …
 /// kFractionOne) of a pixel further to the right and down.

@@ -17,11 +17,8 @@ namespace {
 /// neighbours: an eighth of a grey level for each pixel of the block, for up to half a block.
 constexpr int kLambda = kBlockArea_px / 8;
 constexpr int kMostDeviation_px = kBlock_px / 2;
-/// A block that differs by at most one grey level a pixel is not improved further.
-constexpr int kGoodDifference = kBlockArea_px;
-/// From eight grey levels a pixel on, no candidate fits, and the search is widened: as far as a
-/// block is wide, in halves down to a quarter of it.
-constexpr int kBadDifference = 8 * kBlockArea_px;
+/// Where no candidate fits, the search is widened: as far as a block is wide, in halves down to a
+/// quarter of it.
 constexpr int kFarthest_px = kBlock_px;
 constexpr int kNearest_px = kBlock_px / 4;
 /// A walk goes as far as a deviation costs more and more.
@@ -223,7 +220,8 @@ void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const 
       if (has_left) walk.add_candidate(vector_of(last_[i - 1]));
       walk.add_candidate({0, 0});
       walk.try_candidates();
-      if (walk.difference() > kGoodDifference) walk.walk_downhill();
+      const auto difference = static_cast<float>(walk.difference());
+      if (difference > kRounding_grey * kBlockArea_px) walk.walk_downhill();
       // The search is widened only if no nearby place fits, because a repetitive pattern looks the
       // same in many places.
       if (walk.difference() > kDoubtful_grey * kBlockArea_px) {
@@ -233,7 +231,7 @@ void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const 
           walk.search_everywhere(before_sums_);
         } else {
           walk.try_hint(vector_of(hints[i]));
-          if (walk.difference() > kBadDifference) walk.search_far();
+          if (walk.difference() > kClear_grey * kBlockArea_px) walk.search_far();
         }
         walk.walk_downhill();
       }

@@ -15,9 +15,6 @@ namespace spidar {
 /// and the interpolation read around them.
 constexpr int kBlockReach_px = PaddedImage::kPad_px - 2;
 
-/// From this mean difference of its pixels on, grey levels, a block may have jumped.
-constexpr int kDoubtful_grey = 3;
-
 /// Blocks side by side, centred on the picture. The strip that is left at each border is narrower
 /// than a block.
 struct BlockGrid {

@@ -65,7 +65,7 @@ bool FieldPoints::find(Point& point, const FineWindow& fine, const ImageView& fr
   MatchSettings settings = kMatch;
   settings.reach_px = kMostOff_px * static_cast<float>(field.scale());
   if (!window.find(ReadablePixels(reduced.base()), settings, match)) return false;
-  if (match.residual > kSameThing) return false;
+  if (!match.is_same_thing()) return false;
   const auto inside = [](float px, int size) {
     return px > kPointWindow_px / 2 && px < static_cast<float>(size - kPointWindow_px / 2);
   };

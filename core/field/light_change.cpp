@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "core/field/block_field.h"
+#include "core/tracking/shares.h"
 
 namespace spidar {
 namespace {

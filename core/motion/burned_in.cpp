@@ -5,39 +5,36 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/robust_fit.h"
+#include "core/tracking/shares.h"
+
 namespace spidar {
 namespace {
 
 /// Minimum number of pixels needed to decide that a block stays constant: a line across it.
 constexpr int kLeastPixels = kBlock_px;
-/// Minimum share of pixels that are exactly equal. With noise of one grey level after reduction,
-/// 0.35 of the pixels of a static object are exactly equal. For graphics it is nearly all of them,
-/// or 0.6 if an encoder adds noise. A share of 0.5 separates the two; the standard deviation of the
-/// count is √n / 2. Saturated white and black parts of an object have no noise either, so a block
-/// that has moved needs a share halfway to all of them.
-constexpr float kExactShare = 0.5f;
-constexpr float kExactShareElsewhere = (1 + kExactShare) / 2;
-/// Largest apparent motion that the film in the same block gives to a block with static graphics,
-/// px of the field's picture. A block that moved by less than half of it counts as not moved.
-constexpr float kDrawnAlong_px = 1;
-constexpr float kInPlace_px = kDrawnAlong_px / 2;
-/// A mean squared difference above this multiple of the noise, twice its standard deviation, is not
-/// explained by the noise of the film.
-constexpr float kTimesNoise = 4;
+/// Minimum share of pixels that are exactly equal: most of them. With noise of one grey level after
+/// reduction, 0.35 of the pixels of a static object are exactly equal. For graphics it is nearly
+/// all of them, or 0.6 if an encoder adds noise; the standard deviation of the count is √n / 2.
+/// Saturated white and black parts of an object have no noise either, so a block that has moved
+/// needs a share halfway to all of them.
+constexpr double kExactShareElsewhere = (1 + kMost) / 2;
+/// A block with static graphics, which the film in it draws along, moves by less than kMostOff_px.
+/// One that moved by less than half of it, px of the field's picture, counts as not moved.
+constexpr float kInPlace_px = kMostOff_px / 2;
 /// Score of a block: a pair in which it stays constant adds kGain, every other pair subtracts 1.
 /// From kLasting on, which needs two such pairs, the block counts as burned in without a new sign,
 /// for at most five further pairs.
 constexpr int kGain = 3;
 constexpr int kLasting = kGain + 1;
-constexpr int kMost = 3 * kGain;
+constexpr int kMostScore = 3 * kGain;
 /// Offset at which constant pixels next to a block are searched: the edge of a bar may be just
 /// outside.
 constexpr int kBeside_px = kBlock_px / 4;
 
-bool is_same(const StayingPixels& staying, float least_share) {
-  const auto near = static_cast<float>(staying.near);
-  const auto exact = static_cast<float>(staying.exact);
-  return staying.near >= kLeastPixels && exact > least_share * near + std::sqrt(near) / 2;
+bool is_same(const StayingPixels& staying, double least_share) {
+  const double near = staying.near;
+  return near >= kLeastPixels && staying.exact > least_share * near + std::sqrt(near) / 2;
 }
 
 }  // namespace
@@ -62,7 +59,8 @@ void BurnedIn::begin(const BlockField& field, bool camera_moves, float noise_gre
   signs_.assign(blocks, Sign::kNone);
   if (lasting_.size() != blocks) lasting_.assign(blocks, 0);
   camera_moves_ = camera_moves;
-  unexplained_grey2_ = kTimesNoise * noise_grey2;
+  // Twice the standard deviation of the film's noise is not explained by it.
+  unexplained_grey2_ = static_cast<float>(kMostCost) * noise_grey2;
 }
 
 bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {
@@ -82,7 +80,7 @@ void BurnedIn::look(const BlockField& field, const Block& block) {
   const StayingPixels staying = field.staying_pixels(static_cast<int>(block.index),
                                                      block.background_x_px, block.background_y_px);
   Sign& sign = signs_[block.index];
-  if (is_same(staying, moved_px < kDrawnAlong_px ? kExactShare : kExactShareElsewhere)) {
+  if (is_same(staying, moved_px < kMostOff_px ? kMost : kExactShareElsewhere)) {
     sign = Sign::kStays;
   } else if (own.residual > unexplained_grey2_) {
     const bool in_place = moved_px < kInPlace_px;
@@ -107,7 +105,7 @@ bool BurnedIn::is_beside_staying(const BlockGrid& grid, size_t index) const {
 void BurnedIn::end(const BlockGrid& grid) {
   for (size_t i = 0; i < signs_.size(); ++i) {
     const int change = signs_[i] == Sign::kStays ? kGain : -1;
-    lasting_[i] = static_cast<uint8_t>(std::clamp(lasting_[i] + change, 0, kMost));
+    lasting_[i] = static_cast<uint8_t>(std::clamp(lasting_[i] + change, 0, kMostScore));
   }
   holds_.assign(signs_.size(), 0);
   covers_.assign(signs_.size(), 0);

@@ -75,7 +75,7 @@ class BurnedIn {
 
   Margins margins_;
   std::vector<Sign> signs_;
-  std::vector<uint8_t> lasting_;  ///< score of how long each block stayed constant, 0 … kMost
+  std::vector<uint8_t> lasting_;  ///< score of how long each block stayed constant, 0 … kMostScore
   std::vector<uint8_t> holds_;
   std::vector<uint8_t> covers_;
   bool camera_moves_ = false;

@@ -11,7 +11,6 @@ namespace {
 /// Speed on the screen over change of the relative velocity, as root mean squares: below this the
 /// former is an error. Objects that a camera follows had 0.45 and more in 98 % of their frames.
 constexpr double kOnScreen = 0.4;
-constexpr int kLeastChanges = 3;
 
 }  // namespace
 
@@ -22,7 +21,6 @@ void LayerEvidence::add(const Eigen::Vector2d& relative_px_s,
     const Eigen::Vector2d screen_px_s = relative_px_s + background_px_s;
     screen_px2_s2_ += share * (screen_px_s.squaredNorm() - screen_px2_s2_);
     changes_px2_s2_ += share * ((relative_px_s - newest_px_s_).squaredNorm() - changes_px2_s2_);
-    ++changes_;
   }
   newest_px_s_ = relative_px_s;
   const double newest = seen_s_ == 0 ? 1 : share;
@@ -48,7 +46,7 @@ double LayerEvidence::mean_ratio() const {
 }
 
 bool LayerEvidence::is_on_screen() const {
-  return changes_ >= kLeastChanges && screen_px2_s2_ < kOnScreen * kOnScreen * changes_px2_s2_;
+  return screen_px2_s2_ < kOnScreen * kOnScreen * changes_px2_s2_;
 }
 
 double LayerEvidence::ratio() const {

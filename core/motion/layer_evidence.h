@@ -49,7 +49,6 @@ class LayerEvidence {
   Eigen::Vector2d newest_px_s_ = Eigen::Vector2d::Zero();  ///< relative to the background
   double screen_px2_s2_ = 0;   ///< mean square of the velocity on the screen
   double changes_px2_s2_ = 0;  ///< and of the change of the relative one from frame to frame
-  int changes_ = 0;
   double seen_s_ = 0;
   double least_ratio_ = std::numeric_limits<double>::infinity();
 };

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tracking/shares.h"
+
 namespace spidar {
 namespace {
 
-/// Mean difference of a block's pixels, grey levels: an encoder changes less in what stays the
-/// same, noise and motion more.
-constexpr float kChanged_grey = 0.5f;
 /// Largest share of the picture on one side, to the nearest line: that of a film of 4:3 in a
 /// picture of 16:9; 2.35:1 in 16:9 has a little less. With more, a large box in front of a still
 /// scene without noise would pass for a film in a frame.
@@ -31,7 +30,7 @@ struct Side {
     const int columns = field.grid().columns;
     const int block = are_columns ? place * columns + line : line * columns + place;
     const auto difference = static_cast<float>(field.difference_if_moved(block, 0, 0));
-    return difference > kChanged_grey * kBlockArea_px;
+    return difference > kRounding_grey * kBlockArea_px;
   }
 
   bool stands(int line) const {

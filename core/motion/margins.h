@@ -12,6 +12,10 @@
 
 namespace spidar {
 
+/// What shows in so many pictures, or pairs of them, is no error: in one or two, an object may look
+/// like a bar, and a layer like an object.
+constexpr int kLastingPictures = 3;
+
 /// How many rows and columns of blocks at each side of the picture do not show the film: letterbox
 /// bars, a still frame around it, or both, with the blocks through which their edge goes. The
 /// border of the film counts as the picture's border.
@@ -19,7 +23,7 @@ namespace spidar {
 /// Lines (rows or columns) of blocks that stay the same are a bar when next to them nearly the
 /// whole line changes: the edge of a film is straight, that of a thing in front of a wall at rest
 /// is not. A bar is as wide as the one on the opposite side, give or take a block. It is known
-/// after kLasting such pairs of pictures, and until something in it changes.
+/// after kLastingPictures such pairs of pictures, and until something in it changes.
 class Margins {
  public:
   /// Compares the two pictures of the field.
@@ -37,9 +41,6 @@ class Margins {
 
   void reset();
 
-  /// Pairs of pictures: an object may look like a bar in one or two.
-  static constexpr int kLasting = 3;
-
  private:
   /// The bars on two opposite sides.
   struct Bars {
@@ -48,7 +49,7 @@ class Margins {
     /// Places along both edges that have changed since the bars have been there.
     std::array<std::vector<uint8_t>, 2> changed;
 
-    bool is_known() const { return pairs >= kLasting; }
+    bool is_known() const { return pairs >= kLastingPictures; }
     void begin(int width);
   };
 

@@ -31,9 +31,6 @@ Means means_of(const std::vector<Displacement>& points, const std::vector<double
   return means;
 }
 
-/// Points closer together than this do not determine rotation and growth, px rms.
-constexpr double kLeastSpread_px = 1;
-
 /// Relative to the means the shift cancels; the linear part remains.
 bool fit_linear(const std::vector<Displacement>& points, const std::vector<double>& weights,
                 const Means& means, MotionModel& model) {
@@ -45,8 +42,8 @@ bool fit_linear(const std::vector<Displacement>& points, const std::vector<doubl
     scatter += weights[i] * q * q.transpose();
     cross += weights[i] * d * q.transpose();
   }
-  const double spread_px2 = scatter.trace() / means.weight;
-  if (!(spread_px2 > kLeastSpread_px * kLeastSpread_px)) return false;
+  // All are in one place.
+  if (!(scatter.trace() > 0)) return false;
   if (model.kind == ModelKind::kSimilarity) {
     const double grow = cross.trace() / scatter.trace();
     const double turn = (cross(1, 0) - cross(0, 1)) / scatter.trace();

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tracking/shares.h"
+
 namespace spidar {
 namespace {
 
-/// Least motion relative to the background, standard deviations of what follows the background:
-/// the noise of one coordinate exceeds it in 0.3 % of the blocks.
-constexpr float kMotionSigmas = 3;
 /// By how many squared grey levels the background's motion must fit worse on average, according to
 /// the structure tensor, and by how many more for each unit of residual of the block's own motion.
 constexpr float kLeastEvidence = 3;
@@ -19,15 +18,10 @@ constexpr float kEvidencePerResidual = 0.1f;
 /// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster
 /// limbs.
 constexpr float kSlower = 0.6f;
-/// By how many grey levels a pixel the background's motion must fit worse in the picture itself: a
-/// constant, a share of the picture's noise, and a share of the residual of the block's own motion.
-constexpr float kWorse_grey = 0.5f;
+/// By how much the background's motion must fit worse in the picture itself: kRounding_grey, a
+/// share of the picture's noise, and a share of the difference that the block's own motion leaves.
 constexpr float kWorseByNoise = 0.3f;
 constexpr float kWorseShare = 0.15f;
-
-/// If less than this share of a block was in the picture before, the camera has just brought it
-/// into view and it cannot be compared.
-constexpr float kSeenBefore = 0.5f;
 
 /// A block that stands out moves if this many around it do: errors seldom lie side by side.
 constexpr int kLeastNeighbours = 3;
@@ -104,7 +98,8 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     relative.x_px = block.moved_x_px - moved_px.x();
     relative.y_px = block.moved_y_px - moved_px.y();
     relative.has_texture = block.has_texture();
-    relative.is_new = seen_before(field, i, relative) < kSeenBefore;
+    // If less of it was in the picture before, the camera has just brought it into view.
+    relative.is_new = static_cast<double>(seen_before(field, i, relative)) < kMost;
     residuals_.push_back(block.residual);
   }
   const auto third = residuals_.begin() + static_cast<ptrdiff_t>(residuals_.size() / 3);
@@ -120,7 +115,7 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
   const float x = relative.x_px;
   const float y = relative.y_px;
   const float slower = expected ? kSlower : 1;
-  const float least_px = slower * kMotionSigmas * static_cast<float>(noise_px);
+  const float least_px = slower * static_cast<float>(kMotionSigmas * noise_px);
   if (x * x + y * y < least_px * least_px) return Judgement::kStill;
   const float evidence = x * x * block.xx + 2 * x * y * block.xy + y * y * block.yy;
   const float least_evidence = slower * slower * kLeastEvidence;
@@ -134,7 +129,7 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
   const float worse = static_cast<float>(with_background - block.difference);
   const float least_worse =
       expected ? 0
-               : kBlockArea_px * (kWorse_grey + kWorseByNoise * std::sqrt(picture_noise_)) +
+               : kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(picture_noise_)) +
                      kWorseShare * static_cast<float>(block.difference);
   return worse < least_worse ? Judgement::kStill : Judgement::kMoves;
 }

@@ -12,6 +12,10 @@
 
 namespace spidar {
 
+/// Least motion relative to another, standard deviations of what follows that: the noise of one
+/// coordinate exceeds it in 0.3 % of the blocks.
+constexpr double kMotionSigmas = 3;
+
 /// Properties of a block in addition to its motion. Lengths are in pixels of the field's picture.
 struct RelativeBlock {
   float x_px = 0;  ///< motion relative to the background

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/margins.h"
 #include "core/motion/salience.h"
 #include "core/quantile.h"
+#include "core/tracking/shares.h"
 
 namespace spidar {
 namespace {
 
-/// Regions belong to the same object when their motions differ by less than kSameMotion of the
-/// motion plus kSameMotion_px.
-constexpr double kSameMotion = 0.5;
-constexpr double kSameMotion_px = 1;
 /// An object exists once it has been seen in kBornAfter frames with a total of kBornAfterBlocks
 /// blocks, so that a small one must be seen more often.
 constexpr int kBornAfter = 2;
@@ -24,22 +22,11 @@ constexpr int kBornAfterBlocks = 8;
 constexpr double kReach = 0.75;
 /// Time constant with which the usual number of blocks of an object falls; it rises at once.
 constexpr double kUsual_s = 0.8;
-/// When less than this share of the usual blocks shows, only a rim is visible: the rest of the
-/// object is hidden.
-constexpr double kMostShows = 0.5;
 /// A lost object continues for this long, because its blocks may fail for a frame or two.
 constexpr double kCoast_s = 0.05;
 /// Weight of the newest value in the velocity of an object that is not rigid. This delays it by a
 /// frame.
 constexpr double kNewest = 0.5;
-/// A camera that moves by less than this counts as still, px of the field's picture in a frame.
-constexpr double kCameraStill_px = 0.25;
-/// An object that was clearly no layer of the scene for this many frames may become more like one.
-constexpr int kProvenAfter = 3;
-/// A region that is larger than this share of the picture, and than kMostOfCoverage times the share
-/// that agrees with the background, is an error of the background and not an object.
-constexpr double kMostOfPicture = 0.4;
-constexpr double kMostOfCoverage = 2;
 
 }  // namespace
 
@@ -78,11 +65,13 @@ void ObjectTracker::change_grid(const GridChange& change) {
   for (Life& life : lives_) life.change_pixels(change.ratio);
 }
 
+/// As alike_px(), but with how far off the motion of a block may be.
 bool ObjectTracker::is_same_motion(const Life& life, const Region& region,
                                    const FieldInFrame& frame) const {
   const Eigen::Vector2d expected_px = life.velocity_px_s * frame.interval_s;
   const double fastest_px = std::max(expected_px.norm(), region.relative_px.norm());
-  return (region.relative_px - expected_px).norm() < kSameMotion * fastest_px + kSameMotion_px;
+  return (region.relative_px - expected_px).norm() <
+         kAlikeShare * fastest_px + static_cast<double>(kMostOff_px);
 }
 
 /// The object to which most blocks of the region belonged; null when most belonged to none.
@@ -218,12 +207,14 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   life.resting_s = 0;
   place(life, frame);
   MovingObject& object = life.object;
+  // What covers most of the picture, and twice what agrees with the background, is its error.
   const double share = life.region.blocks / static_cast<double>(owners_.size());
-  const bool too_large = share > std::max(kMostOfPicture, kMostOfCoverage * background_->coverage);
+  const bool too_large = share > kMost && kMost * share > background_->coverage;
   CameraMotion camera = camera_;
-  if (camera.moves()) camera.noise_px = noise_around(life.key);
+  if (camera.moves) camera.noise_px = noise_around(life.key);
   life.proven += salience(life.region, life.evidence, camera, false) > 0;
-  const bool was_followed = life.proven >= kProvenAfter;
+  // What was clearly no layer of the scene for so long may become more like one.
+  const bool was_followed = life.proven >= kLastingPictures;
   object.prominence = too_large ? 0 : salience(life.region, life.evidence, camera, was_followed);
   life.is_layer = object.prominence == 0;
   if (!life.is_born() || life.is_layer) return;
@@ -244,14 +235,14 @@ int ObjectTracker::count_resting(const Life& life, int& textured) const {
   return all;
 }
 
-/// Nothing is known to move by itself at the object's place. If most of the object was visible
+/// Nothing is known to move by itself at the object's place. If most of its usual blocks were there
 /// before, it has come to rest there. If only a rim was visible, it is out of sight and continues
 /// with its last motion.
 void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   const int resting = count_resting(life, object.tracks);
   if (!background_->is_known) object.tracks = 0;
-  if (object.tracks > 0 && resting >= kMostShows * life.usual_blocks) {
+  if (object.tracks > 0 && resting >= kMost * life.usual_blocks) {
     for (size_t i = 0; i < owners_before_.size(); ++i) {
       const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;
       if (is_its) owners_[i] = life.key;
@@ -283,7 +274,8 @@ void ObjectTracker::expect(Life& life, const FieldInFrame& frame) const {
   const double forgotten = std::min(1.0, frame.interval_s / kUsual_s);
   life.usual_blocks =
       std::max(blocks, life.usual_blocks + forgotten * (blocks - life.usual_blocks));
-  if (blocks < kMostShows * life.usual_blocks) {
+  // Only a rim is visible: the rest of the object is hidden.
+  if (blocks < kMost * life.usual_blocks) {
     go_on_unseen(life, frame);
     return;
   }
@@ -309,11 +301,8 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   }
   background_ = &background;
   relative_ = &moving_.find(field, background, expected_);
-  camera_ = {0, kCameraStill_px, 0, background.coverage * static_cast<double>(n)};
-  for (const RelativeBlock& block : *relative_) {
-    camera_.speed_px += std::hypot(block.background_x_px, block.background_y_px);
-  }
-  camera_.speed_px /= static_cast<double>(std::max<size_t>(n, 1));
+  camera_ = {background.model.kind != ModelKind::kStill, 0,
+             background.coverage * static_cast<double>(n)};
 
   claim(frame);
   for (size_t i = 0; i < n; ++i) {

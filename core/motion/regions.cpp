@@ -6,15 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/motion/robust_fit.h"
 #include "core/quantile.h"
 
 namespace spidar {
 namespace {
-
-/// See alike_px(). The share is that of limbs against their body; the rest is three times the noise
-/// of a block, px of the field's picture.
-constexpr double kAlikeShare = 0.5;
-constexpr double kAlike_px = 0.3;
 
 /// Blocks without texture are taken to move as their neighbours do.
 bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
@@ -53,7 +49,7 @@ bool is_beside_graphics(const BlockGrid& grid, const std::vector<RelativeBlock>&
 }  // namespace
 
 double alike_px(double fastest_px) {
-  return kAlikeShare * fastest_px + kAlike_px;
+  return kAlikeShare * fastest_px + kMotionSigmas * kUsualNoise_px;
 }
 
 int RegionFinder::root_of(int block) {

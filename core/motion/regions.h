@@ -33,8 +33,11 @@ struct Region {
   double roundness = 0;
 };
 
-/// Two motions of the same thing differ by less than this, px of the field's picture; `fastest_px`
-/// is the length of the longer one.
+/// Of the motion of a body, by how much that of its limbs may differ from it.
+constexpr double kAlikeShare = 0.5;
+
+/// Two motions of the same thing differ by less than this, px of the field's picture: kAlikeShare
+/// of `fastest_px`, the length of the longer one, and the noise of a block.
 double alike_px(double fastest_px);
 
 /// Label of blocks that belong to no region.

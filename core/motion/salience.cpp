@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/tracking/corner.h"
+#include "core/tracking/shares.h"
 
 namespace spidar {
 namespace {
@@ -20,11 +21,6 @@ constexpr double kBorder = 1.2;
 constexpr double kNoiseSigmas = 5;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;
-/// A region that moves like a layer and is larger than this share of the background is the other
-/// layer of a scene with two: the ground.
-constexpr double kLayerShare = 0.5;
-/// A region of which this share adjoins graphics is their edge, mixed with the film behind it.
-constexpr double kGraphicsShare = 0.5;
 /// A region with a smaller likelihood is not an object. Away from the border this is a
 /// LayerEvidence::ratio() above 2: a layer that is further away than half of the background's
 /// distance.
@@ -40,15 +36,17 @@ double salience(const Region& region, const LayerEvidence& evidence, const Camer
   const double touching = region.border_blocks / std::sqrt(static_cast<double>(region.blocks));
   const double side_px = std::sqrt(region.blocks * kBlockArea_px);
   const double score = side_px * speed_px;
-  if (!camera.moves()) return score;
+  if (!camera.moves) return score;
   if (evidence.is_on_screen()) return 0;
-  // A large object that the camera follows goes against the background.
+  // What moves like a layer and has most of the background's size is the other layer of a scene
+  // with two: the ground. A large object that the camera follows goes against the background.
   const bool is_layer = evidence.mean_ratio() > kTrusted;
-  if (is_layer && region.blocks > kLayerShare * camera.blocks) return 0;
+  if (is_layer && region.blocks > kMost * camera.blocks) return 0;
   // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
-  if (region.graphics_blocks >= kGraphicsShare * trust * region.blocks) return 0;
+  // The edge of graphics, mixed with the film behind it.
+  if (region.graphics_blocks >= kMost * trust * region.blocks) return 0;
   const double doubt = std::max(1.0, evidence.ratio() / trust);
   if (speed_px * trust < kNoiseSigmas * doubt * doubt * doubt * camera.noise_px) return 0;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));

@@ -10,12 +10,9 @@ namespace spidar {
 
 /// Motion of the camera, lengths in pixels of the field's picture.
 struct CameraMotion {
-  double speed_px = 0;  ///< mean displacement of the background over the picture
-  double still_px = 0;  ///< below this the camera counts as still
+  bool moves = false;
   double noise_px = 0;  ///< standard deviation of what follows the background
   double blocks = 0;    ///< number of blocks that follow the background
-
-  bool moves() const { return speed_px >= still_px; }
 };
 
 /// √area × speed, px² of the field's picture. The score is lower when the camera moves and the

@@ -20,7 +20,7 @@ ImagePoint FineWindow::place(LumaNeighbourhood& neighbourhood, const ImageView& 
   WindowMatch match;
   match.centre = coarse.at;
   const ReadablePixels pixels = neighbourhood.around(frame, coarse.at, settings.reach_px);
-  if (!window_.find(pixels, settings, match) || match.residual > kSameThing) return coarse.at;
+  if (!window_.find(pixels, settings, match) || !match.is_same_thing()) return coarse.at;
   const float coarse_px2 = scale * scale * coarse.variance_px2;
   const float both_px2 = coarse_px2 + match.variance_px2;
   const float share = both_px2 > 0 ? coarse_px2 / both_px2 : 1;

@@ -5,6 +5,7 @@
 
 #include "core/image_view.h"
 #include "core/tracking/padded_image.h"
+#include "core/tracking/shares.h"
 #include "core/tracking/tracker.h"
 #include "core/tracking/window_kernels.h"
 
@@ -35,14 +36,13 @@ struct MatchSettings {
   float reach_px = 6;     ///< largest distance from the start
 };
 
-/// A match that leaves more than this share of the contrast shows something else.
-constexpr float kSameThing = 0.5f;
-
 struct WindowMatch {
   ImagePoint centre;
   /// Standard deviation of the difference from the template, relative to its contrast; about √2 for
   /// unrelated windows.
   float residual = 0;
+  /// A match that leaves most of the contrast shows something else.
+  bool is_same_thing() const { return static_cast<double>(residual) <= kMost; }
   /// Variance of the centre along its less certain direction, assuming that the residual is noise:
   /// residual variance / (n λ), px².
   float variance_px2 = 0;

@@ -38,7 +38,7 @@ KINDS = {
         background.kLost background.kTexturedShare block_kernels.kBlockArea_px block_kernels.kHalf
         block_search.kBlockReach_px block_search.kMostDeviation_px block_search.kFarthest_px block_search.kNearest_px
         block_search.kMostSteps burned_in.kLeastPixels burned_in.kExactShareElsewhere burned_in.kInPlace_px
-        burned_in.kLasting burned_in.kMost burned_in.kBeside_px cadence.kEnough cadence.kLongest_ns combing.kEvery
+        burned_in.kLasting burned_in.kMostScore burned_in.kBeside_px cadence.kEnough cadence.kLongest_ns combing.kEvery
         combing.kSame_grey corner.kPixels corner.kTensorBlock_px corner.kMostBlocks corner.kHalf_px
         luma_neighbourhood.kBefore_px luma_neighbourhood.kRight_px luma_neighbourhood.kBelow_px
         luma_neighbourhood.kMostWhole_px luma_neighbourhood.kWidest_px luma_neighbourhood.kHighest_px

@@ -78,7 +78,7 @@ inline StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const M
       const int changed = std::abs(is - was);
       const int moving =
           std::max(std::abs(is - moved(from, x, y)), std::abs(was - moved(to, x, y)));
-      if (changed > kNear_grey || moving - changed < kClearlyStays_grey) continue;
+      if (changed > kDoubtful_grey || moving - changed < kClear_grey) continue;
       ++staying.near;
       staying.exact += changed == 0;
     }
