@@ -58,6 +58,7 @@ ElementFacts facts_of(const GstStructure* stats) {
   ElementFacts facts;
   facts.analysis_ms_median = number_of(stats, "analysis-ms-median");
   facts.analysis_ms_max = number_of(stats, "analysis-ms-max");
+  facts.track_frames = count_of(stats, "track-frames");
   facts.device = text_of(stats, "device");
   if (facts.device.empty()) return facts;
   facts.device_state = text_of(stats, "device-state");

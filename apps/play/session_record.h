@@ -39,7 +39,7 @@ class SessionRecord {
 
   /// For use after the playback, by one thread: the numbers to print and the curves to draw.
   struct Numbers {
-    uint64_t frames = 0;  ///< analysed
+    uint64_t frames = 0;  ///< with a force of their own: analysed, or of a track
     uint64_t shown = 0;
     double duration_s = 0;  ///< of the video that was played
     /// Number of frames, by the nick of spidar::NoForceReason.

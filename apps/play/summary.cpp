@@ -36,6 +36,15 @@ std::string time_line(const SessionRecord::Numbers& numbers) {
                  numbers.skew.size_ms().quantile(0.5), numbers.skew.size_ms().quantile(0.99));
 }
 
+std::string analysis_line(const ElementFacts& facts) {
+  if (facts.track_frames > 0) {
+    return text_of("Analysis: none of %" PRIu64 " frames, whose force is that of a haptic track.",
+                   facts.track_frames);
+  }
+  return text_of("Analysis: %.2f ms a frame in the median, %.2f ms at most.",
+                 facts.analysis_ms_median, facts.analysis_ms_max);
+}
+
 std::string device_line(const ElementFacts& facts) {
   if (facts.device.empty()) return "Device: none.";
   std::string problems;
@@ -63,8 +72,6 @@ std::string device_line(const ElementFacts& facts) {
 std::string summary_text(const SessionRecord::Numbers& numbers, const ElementFacts& facts) {
   return text_of("Video: %.1f s, %" PRIu64 " frames, %" PRIu64 " of them shown.\n",
                  numbers.duration_s, numbers.frames, numbers.shown) +
-         force_line(numbers) + "\n" + time_line(numbers) + "\n" +
-         text_of("Analysis: %.2f ms a frame in the median, %.2f ms at most.\n",
-                 facts.analysis_ms_median, facts.analysis_ms_max) +
+         force_line(numbers) + "\n" + time_line(numbers) + "\n" + analysis_line(facts) + "\n" +
          device_line(facts) + "\n";
 }

@@ -11,7 +11,8 @@
 /// What the element's `stats` tell of a playback; fields as in docs/elements/spidarmotion.md.
 struct ElementFacts {
   double analysis_ms_median = 0, analysis_ms_max = 0;
-  std::string device;  ///< empty: none
+  uint64_t track_frames = 0;  ///< played by a haptic track
+  std::string device;         ///< empty: none
   std::string device_state;
   std::string pose_trouble = "none";
   uint64_t times_lost = 0;
@@ -21,5 +22,5 @@ struct ElementFacts {
 };
 
 /// Five lines: what was played, its force, whether force and picture were in time, how long the
-/// analysis took, and the problems of the device.
+/// analysis took or that a track took its place, and the problems of the device.
 std::string summary_text(const SessionRecord::Numbers& numbers, const ElementFacts& facts);

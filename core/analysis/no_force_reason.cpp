@@ -84,6 +84,9 @@ Wording wording(NoForceReason limit) noexcept {
       return {"too-weak",
               "The force is weaker than a hand feels (0.04 N): the motion is slow, or alpha, "
               "depth-gain, roll-gain or max-force is small."};
+    case NoForceReason::kSilentTrack:
+      return {"silent-track",
+              "The haptic track has no force here, or less than a hand feels (0.04 N)."};
     case NoForceReason::kNoRelief:
       return {"no-relief",
               "There is no surface to touch: no frame with a relief is on the screen, or the video "

@@ -40,6 +40,7 @@ enum class NoForceReason {
   kCameraOnly,
   kNothingMoves,
   kTooWeak,
+  kSilentTrack,  ///< a haptic track is played in place of the video's motion
   kNoRelief,     ///< these three while touching: there is no surface,
   kNotTouching,  ///< the grip is in front of it,
   kLightTouch,   ///< or touches it too lightly

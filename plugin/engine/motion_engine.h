@@ -125,6 +125,9 @@ class MotionEngine {
   const MeasuredFrame& measured() const;
   /// Of the picture in which the wrench was found.
   const PictureTurn& wrench_turn() const { return replay_.active() ? replay_.turn() : turn_; }
+  Wrench play_track(GstBuffer* frame, GstClockTime default_duration, const GstSegment& segment,
+                    int64_t running_ns);
+  void write_row(FrameReport& report);
   bool trace_moment(std::optional<MotionMoment> moment, bool is_measured);
   void end_gap(int64_t running_ns);
   void run_out(GstClockTime running_time);

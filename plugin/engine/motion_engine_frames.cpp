@@ -63,6 +63,10 @@ void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
     return;
   }
   const int64_t running_ns = static_cast<int64_t>(running_time);
+  if (player_.active()) {
+    play_track(buffer, 0, segment, running_ns);
+    return;
+  }
   const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
   // videorate makes such a gap of a frame that is shown again.
   std::optional<FrameAnalysis> analysis;
@@ -78,10 +82,11 @@ void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
     schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
                    wrench_turn().to_shown(scaled(analysis->wrench, motion_share_)),
                    analysis->repeated});
-    limit_watch_.repeat(schedule_.at_sink_ns(running_ns), analysis->wrench);
+    limit_watch_.add(schedule_.at_sink_ns(running_ns), analysis->wrench,
+                     NoForceReason::kRepeatedFrames);
   } else {
     run_out(running_time);
-    limit_watch_.repeat(schedule_.at_sink_ns(running_ns), Wrench());
+    limit_watch_.add(schedule_.at_sink_ns(running_ns), Wrench(), NoForceReason::kRepeatedFrames);
   }
   pacer_.pass(time);
 }
@@ -170,6 +175,32 @@ bool MotionEngine::analyze(const GstVideoFrame& frame, const GstSegment& segment
   return true;
 }
 
+/// Gives what is felt while a frame is shown, of which the largest wrench is returned.
+Wrench MotionEngine::play_track(GstBuffer* frame, GstClockTime default_duration,
+                                const GstSegment& segment, int64_t running_ns) {
+  limit_watch_.set_touching(false);
+  const int64_t shown_ns = schedule_.at_sink_ns(running_ns);
+  const auto place =
+      place_of(frame, default_duration, segment, shown_ns, schedule_.rate_multiplier());
+  if (!place) return {};
+  const Wrench largest = player_.play(*place);
+  const bool silent = size_N(largest) < kFeltForce_N;
+  const std::optional<LoopSnapshot> loop = output_.snapshot();
+  const bool weak = !silent && loop && loop->last.max_force_N < kFeltForce_N;
+  limit_watch_.add(shown_ns, weak ? Wrench() : largest,
+                   silent ? NoForceReason::kSilentTrack : NoForceReason::kTooWeak);
+  return largest;
+}
+
+/// Why nothing is felt, and the trace.
+void MotionEngine::write_row(FrameReport& report) {
+  report.limit = limit_watch_.limit(output_.snapshot(), false);
+  if (!trace_.is_open()) return;
+  report.trace_failed =
+      !trace_.write(static_cast<int64_t>(report.running_time),
+                    static_cast<int64_t>(report.stream_time), report.analysis, report.limit);
+}
+
 FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSegment& segment,
                                         const AnalyzerSettings& settings,
                                         const TouchProperties& touch) {
@@ -193,12 +224,11 @@ FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSeg
   }
   const int64_t running_ns = static_cast<int64_t>(report.running_time);
   if (player_.active()) {
-    const auto place = place_of(frame.buffer, nominal_duration(frame.info), segment,
-                                schedule_.at_sink_ns(running_ns), schedule_.rate_multiplier());
-    if (place) player_.play(*place);
+    report.analysis.wrench =
+        play_track(frame.buffer, nominal_duration(frame.info), segment, running_ns);
     if (touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
-    limit_watch_.set_touching(false);
     reliefs_.end(schedule_.at_sink_ns(running_ns));
+    write_row(report);
     return report;
   }
   if (!replay_.active() && !follows(frame, segment, report)) return report;
@@ -217,7 +247,8 @@ FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSeg
 
   const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;
   pacer_.take(time, moved);
-  limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis, settings.motion);
+  limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis.wrench,
+                   limit_of(report.analysis, settings.motion));
   limit_watch_.set_touching(touch.kind != TouchKind::kOff);
   // This share of the film's motion is felt, reported and shown in addition to touch.
   motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
@@ -228,11 +259,7 @@ FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSeg
     schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
                    report.analysis.wrench, report.analysis.repeated});
   }
-  report.limit = limit_watch_.limit(output_.snapshot(), false);
-  if (trace_.is_open()) {
-    report.trace_failed = !trace_.write(running_ns, static_cast<int64_t>(report.stream_time),
-                                        report.analysis, report.limit);
-  }
+  write_row(report);
   stats_.add(report.analysis, report.took_ns, report.budget);
   return report;
 }

@@ -44,16 +44,9 @@ NoForceReason limit_of_contact(const LoopSnapshot& loop) {
   return contact.touching ? NoForceReason::kLightTouch : NoForceReason::kNotTouching;
 }
 
-void LimitWatch::add(int64_t shown_ns, const FrameAnalysis& frame, MotionKind motion) {
-  const NoForceReason limit = limit_of(frame, motion);
+void LimitWatch::add(int64_t shown_ns, const Wrench& wrench, NoForceReason limit) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  frames_.add(shown_ns, size_N(frame.wrench), limit);
-  newest_ns_ = shown_ns;
-}
-
-void LimitWatch::repeat(int64_t shown_ns, const Wrench& wrench) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  frames_.add(shown_ns, size_N(wrench), NoForceReason::kRepeatedFrames);
+  frames_.add(shown_ns, size_N(wrench), limit);
   newest_ns_ = shown_ns;
 }
 

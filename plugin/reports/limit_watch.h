@@ -26,10 +26,9 @@ NoForceReason limit_of_contact(const LoopSnapshot& loop);
 /// Thread-safe.
 class LimitWatch {
  public:
-  /// A frame that the sink shows at the running time `shown_ns`.
-  void add(int64_t shown_ns, const FrameAnalysis& frame, MotionKind motion);
-  /// The same for a frame that has no picture and stands for the one before.
-  void repeat(int64_t shown_ns, const Wrench& wrench);
+  /// A frame that the sink shows at the running time `shown_ns`, with its wrench, and the reason
+  /// for one that is too weak to feel.
+  void add(int64_t shown_ns, const Wrench& wrench, NoForceReason limit);
   /// Running time begins anew.
   void forget();
   void set_muted(bool muted);

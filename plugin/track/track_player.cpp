@@ -40,9 +40,10 @@ void TrackPlayer::set_track(TrackFile track) {
   frames_ = 0;
 }
 
-void TrackPlayer::play(const FramePlace& frame) {
+Wrench TrackPlayer::play(const FramePlace& frame) {
   ++frames_;
   replay_.play(frame, [this](const TrackBlock& block) { schedule_.add(block); });
+  return replay_.largest(frame);
 }
 
 std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_duration,

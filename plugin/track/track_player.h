@@ -38,8 +38,8 @@ class TrackPlayer {
   void set_track(TrackFile track);
   /// The next frame has nothing to do with the one before.
   void restart() { replay_.restart(); }
-  /// Gives the samples that belong to this frame.
-  void play(const FramePlace& frame);
+  /// Gives the samples that belong to this frame, and returns the largest wrench of them.
+  Wrench play(const FramePlace& frame);
 
  private:
   BlockSchedule schedule_;

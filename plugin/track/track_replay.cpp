@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/analysis/no_force_reason.h"
+
 namespace spidar {
 namespace {
 
@@ -69,6 +71,22 @@ void TrackReplay::play(const FramePlace& frame,
       give(timed(track_.blocks[next_], frame));
     }
   }
+}
+
+Wrench TrackReplay::largest(const FramePlace& frame) const {
+  const int64_t other_ns = frame.stream_ns + (frame.rate < 0 ? -frame.length_ns : frame.length_ns);
+  const int64_t begin_ns = std::min(frame.stream_ns, other_ns);
+  const int64_t end_ns = std::max({frame.stream_ns, other_ns, begin_ns + 1});
+  Wrench largest;
+  for (size_t at = block_at(begin_ns);
+       at < track_.blocks.size() && track_.blocks[at].begin_ns < end_ns; ++at) {
+    const TrackBlock& block = track_.blocks[at];
+    for (size_t i = 0; i < block.count && block.time_ns(i) < end_ns; ++i) {
+      const Wrench wrench = to_wrench(block.samples[i]);
+      if (block.time_ns(i + 1) > begin_ns && size_N(wrench) > size_N(largest)) largest = wrench;
+    }
+  }
+  return largest;
 }
 
 }  // namespace spidar

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "core/wrench.h"
 #include "plugin/track/track_file.h"
 
 namespace spidar {
@@ -37,6 +38,9 @@ class TrackReplay {
   /// Gives what is not yet given of the samples that are felt while the frame is shown. After a
   /// jump, or at another rate, it begins with the block that the frame is in.
   void play(const FramePlace& frame, const std::function<void(const TrackBlock&)>& give);
+
+  /// The largest wrench of the track while the frame is shown; rest where it has none.
+  Wrench largest(const FramePlace& frame) const;
 
  private:
   size_t block_at(int64_t stream_ns) const;

@@ -4,9 +4,11 @@
 """Checks that programs report what is wrong with the name of a film, and exit: check_films.py PROGRAM..."""
 import os
 import re
+import struct
 import subprocess
 import sys
 import tempfile
+import wave
 
 from check_players import make_sound
 
@@ -28,6 +30,22 @@ def check_output(play, folder):
         assert "playing" not in done.stdout, done.stdout
 
 
+def check_track(play, folder):
+    """Frames whose force is that of a track are played."""
+    track = os.path.join(folder, "ball.wav")
+    with wave.open(track, "wb") as file:
+        file.setnchannels(6)
+        file.setsampwidth(2)
+        file.setframerate(1000)
+        file.writeframes(struct.pack("<6h", 4000, 0, 0, 0, 0, 0) * 10000)  # 1.2 N for 10 s
+    done = subprocess.run([play, "--headless", "--ball", "--seconds", "2", "--output", folder, "--", "device=sim",
+                           f"track={track}"], text=True, capture_output=True, timeout=60)
+    assert done.returncode == 0 and not done.stderr, done
+    assert "frames, whose force is that of a haptic track." in done.stdout, done.stdout
+    assert "Nothing was felt" not in done.stdout, done.stdout
+    assert os.path.getsize(os.path.join(folder, "spidar-play.png")) > 0
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         empty, text = (os.path.join(folder, name) for name in ("empty.avi", "text.avi"))
@@ -43,6 +61,7 @@ def main():
                 check(command, name, reason)
             if os.path.basename(program) == "play":
                 check_output(program, folder)
+                check_track(program, folder)
 
 
 if __name__ == "__main__":

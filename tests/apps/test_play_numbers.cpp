@@ -180,6 +180,15 @@ TEST(Summary, IsFiveLinesOfWhatAPersonWants) {
             "Device: sim, no problems found.\n");
 }
 
+TEST(Summary, SaysThatATrackWasPlayed) {
+  ElementFacts facts;
+  facts.track_frames = 300;
+  const std::string text = summary_text(numbers_of_ten_seconds(), facts);
+  EXPECT_NE(text.find("Analysis: none of 300 frames, whose force is that of a haptic track.\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(Summary, NamesTheProblemsOfTheDevice) {
   ElementFacts facts;
   facts.device = "usb";

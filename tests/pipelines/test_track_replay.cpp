@@ -35,6 +35,13 @@ class TrackReplay : public testing::Test {
     write_track(path, samples);
     return path;
   }
+  std::string limit() const {
+    GstStructure* stats = nullptr;
+    g_object_get(pipeline->element(), "stats", &stats, nullptr);
+    const std::string limit = gst_structure_get_string(stats, "limit");
+    gst_structure_free(stats);
+    return limit;
+  }
   double number(const char* name) const {
     GstStructure* stats = nullptr;
     double value = 0;
@@ -104,6 +111,60 @@ TEST_F(TrackReplay, AtAnotherRateTheAmplitudeStays) {
   }
 }
 
+TEST_F(TrackReplay, TheForceOfATrackHasNoLimitAtAnyRate) {
+  for (const double rate : {0.5, 1.0, 2.0, -1.0}) {
+    SCOPED_TRACE(rate);
+    open(track_of(kFrames * kFrame_ms));
+    pipeline->set_state(GST_STATE_PAUSED);
+    pipeline->seek(rate, GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE, 0,
+                   rate < 0 ? 2 * GST_SECOND : GST_CLOCK_TIME_NONE);
+    pipeline->set_state(GST_STATE_PLAYING);
+    for (int i = 0; i < 20; ++i) {
+      pipeline->step();
+      pipeline->idle(static_cast<GstClockTime>((kFrame_ms - 1) / std::fabs(rate)) * GST_MSECOND);
+    }
+    EXPECT_EQ(limit(), "none");
+  }
+}
+
+TEST_F(TrackReplay, WhereATrackIsSilentTheReasonSaysSo) {
+  const std::string path = (folder.path / "film.wav").string();
+  write_track(path, kFrames * kFrame_ms,
+              [](double ms) { return ms < 400 ? sample_at(ms) : TrackSample{}; });
+  open(path + " trace=" + (folder.path / "trace.csv").string());
+  pipeline->set_state(GST_STATE_PLAYING);
+  const auto play = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      pipeline->step();
+      pipeline->idle((kFrame_ms - 1) * GST_MSECOND);
+    }
+  };
+  const auto play_again = [&](int frames) {
+    pipeline->set_state(GST_STATE_PAUSED);
+    pipeline->idle(GST_MSECOND);
+    pipeline->seek(0);
+    pipeline->set_state(GST_STATE_PLAYING);
+    play(frames);
+  };
+  play(20);
+  EXPECT_EQ(limit(), "none") << "felt 0.4 s ago";
+  play(20);
+  EXPECT_EQ(limit(), "silent-track");
+  play_again(20);
+  EXPECT_EQ(limit(), "none") << "after a seek";
+  g_object_set(pipeline->element(), "max-force", 0.0, nullptr);
+  play_again(8);
+  EXPECT_EQ(limit(), "too-weak");
+  pipeline->set_state(GST_STATE_NULL);
+  std::ifstream trace(folder.path / "trace.csv");
+  std::string header, row;
+  std::getline(trace, header);
+  std::getline(trace, row);
+  std::getline(trace, row);
+  EXPECT_EQ(row.rfind("40000000,40000000,0,0,0,0,", 0), 0u) << row;
+  EXPECT_EQ(row.find(",0,0,0,0,0,0,"), std::string::npos) << "the wrench of the track: " << row;
+}
+
 TEST_F(TrackReplay, PausedNothingIsFelt) {
   open(track_of(kFrames * kFrame_ms));
   pipeline->set_state(GST_STATE_PLAYING);
@@ -167,10 +228,7 @@ TEST_F(TrackReplay, ATrackThatShakesIsLoweredAndSaysSo) {
   play(30);
   const double left = number("vibration-left"), share = number("vibration-share");
   EXPECT_LT(share, 0.1);
-  GstStructure* stats = nullptr;
-  g_object_get(pipeline->element(), "stats", &stats, nullptr);
-  EXPECT_STREQ(gst_structure_get_string(stats, "limit"), "vibration");
-  gst_structure_free(stats);
+  EXPECT_EQ(limit(), "vibration");
   pipeline->await_message(GST_MESSAGE_WARNING);
   // Neither a seek nor a pause gives anything back, except what comes back with time.
   pipeline->set_state(GST_STATE_PAUSED);
