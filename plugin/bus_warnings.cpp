@@ -84,7 +84,8 @@ void BusWarnings::check_frame(const FrameReport& report) {
   }
 }
 
-void BusWarnings::check_touch(const FrameReport& report, const TouchProperties& wanted) {
+void BusWarnings::check_touch(const MotionEngine& engine, const FrameReport& report,
+                              const TouchProperties& wanted) {
   const guint bit = 1u << static_cast<guint>(report.touch_problem);
   if (touch_problems_ & bit) return;
   touch_problems_ |= bit;
@@ -93,6 +94,15 @@ void BusWarnings::check_touch(const FrameReport& report, const TouchProperties& 
       GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                           ("There is no device to touch the picture with."),
                           ("device=none; the simulated one is device=sim."));
+      break;
+    case TouchProblem::kNoDepthAxis:
+      GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                          ("The device %s cannot touch the picture: it %s.",
+                           engine.output().session()->grip().name().c_str(),
+                           engine.output().session()->grip().abilities().force[2]
+                               ? "does not measure how far the grip is from it"
+                               : "gives no force towards the viewer"),
+                          ("With touch=off the motion of the video is felt."));
       break;
     case TouchProblem::kTrack:
       GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
@@ -126,6 +136,18 @@ void BusWarnings::check_touch(const FrameReport& report, const TouchProperties& 
     case TouchProblem::kNone:
       break;
   }
+}
+
+void BusWarnings::check_pointer(const MotionEngine& engine) {
+  const HapticSession* const session = engine.output().session();
+  if (pointer_ || !session || session->grip().abilities().can_point()) return;
+  pointer_ = true;
+  GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                      ("The grip of the device %s cannot point at the picture, because its "
+                       "position is not measured; it points at the middle.",
+                       session->grip().name().c_str()),
+                      ("With pointer=fixed, pointer-x and pointer-y choose the place, with "
+                       "pointer=mouse the mouse does."));
 }
 
 void BusWarnings::check_overlay(const GstVideoInfo& info) {

@@ -23,12 +23,16 @@ class BusWarnings {
     frame_problems_ = 0;
     overlay_ = false;
     touch_problems_ = 0;
+    pointer_ = false;
   }
 
   /// Looks at the bins around the element, which may have a running time of their own.
   void check_bins();
   void check_frame(const FrameReport& report);
-  void check_touch(const FrameReport& report, const TouchProperties& wanted);
+  void check_touch(const MotionEngine& engine, const FrameReport& report,
+                   const TouchProperties& wanted);
+  /// The grip is to point: does the device know where it is?
+  void check_pointer(const MotionEngine& engine);
   /// The overlay is on: can it be drawn into such frames?
   void check_overlay(const GstVideoInfo& info);
   /// See DeviceWarnings.
@@ -47,6 +51,7 @@ class BusWarnings {
   guint frame_problems_ = 0;  // bit i: FrameProblem i was said
   bool overlay_ = false;      // said
   guint touch_problems_ = 0;  // bit i: TouchProblem i was said
+  bool pointer_ = false;      // said
   DeviceWarnings device_;
 };
 

@@ -104,6 +104,7 @@ static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self, const GstVid
   if (has_new_rules) self->choice->read(feel, GST_BASE_TRANSFORM_SINK_PAD(self));
   if (pointer == PointerKind::kGrip) {
     settings.pointer = self->engine->grip_place().value_or(settings.pointer);
+    self->warnings->check_pointer(*self->engine);
   }
   const spidar::PictureTurn& turn = self->engine->turn();
   settings.pointer = turn.place_coded(settings.pointer);
@@ -157,7 +158,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
                      GST_TIME_ARGS(GST_BUFFER_PTS(frame->buffer)), to_string(report.problem));
   }
   self->warnings->check_frame(report);
-  self->warnings->check_touch(report, touch);
+  self->warnings->check_touch(*self->engine, report, touch);
   if (report.analyzed) {
     self->choice->check(report.analysis.choice, settings.kept, report.stream_time);
   }

@@ -87,6 +87,11 @@ Wording wording(NoForceReason limit) noexcept {
     case NoForceReason::kSilentTrack:
       return {"silent-track",
               "The haptic track has no force here, or less than a hand feels (0.04 N)."};
+    case NoForceReason::kCannotTouch:
+      return {"cannot-touch",
+              "This device cannot touch the picture: it gives no force towards the viewer, or does "
+              "not measure how far the grip is from the picture. With touch=off the motion of the "
+              "video is felt."};
     case NoForceReason::kNoRelief:
       return {"no-relief",
               "There is no surface to touch: no frame with a relief is on the screen, or the video "

@@ -41,7 +41,8 @@ enum class NoForceReason {
   kNothingMoves,
   kTooWeak,
   kSilentTrack,  ///< a haptic track is played in place of the video's motion
-  kNoRelief,     ///< these three while touching: there is no surface,
+  kCannotTouch,  ///< these four while touching: the device has no third axis,
+  kNoRelief,     ///< there is no surface,
   kNotTouching,  ///< the grip is in front of it,
   kLightTouch,   ///< or touches it too lightly
   kLate,

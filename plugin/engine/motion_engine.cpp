@@ -15,6 +15,7 @@ std::string MotionEngine::open(const MotionProperties& properties) {
       output_.open(properties.device, properties.used_profile(), properties.haptic_trace);
   grip_pointer_ = GripPointer(output_.profile().geometry);
   schedule_.connect(&output_.session()->loop());
+  limit_watch_.set_can_touch(output_.session()->grip().abilities().can_touch());
   player_.connect(&output_.session()->loop());
   reliefs_.connect(&output_.session()->loop(), output_.profile(), grip_pointer_.half_size_m());
   return trace_problem;
@@ -170,13 +171,18 @@ void MotionEngine::set_motion(std::shared_ptr<const MotionFile> file, int64_t la
 void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
                                const TouchProperties& touch, int64_t running_ns,
                                FrameReport& report) {
+  const HapticSession* const session = output_.session();
+  if (touch.kind != TouchKind::kOff && session && !session->grip().abilities().can_touch()) {
+    report.touch_problem = TouchProblem::kNoDepthAxis;
+    return;
+  }
   const Eigen::Vector2d middle(0.5, 0.5);
   const Eigen::Vector2d finger = turn_.place_coded(grip_place().value_or(middle));
   reliefs_.set_turn(turn_);
   const bool found =
       reliefs_.add(buffer, luma, report.analysis, schedule_.at_sink_ns(running_ns), touch, finger);
   if (touch.kind == TouchKind::kOff) return;
-  if (output_.session() == nullptr) {
+  if (session == nullptr) {
     report.touch_problem = TouchProblem::kNoDevice;
     return;
   }

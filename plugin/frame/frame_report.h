@@ -32,11 +32,12 @@ const char* to_string(FrameProblem problem);
 /// Why a frame cannot be touched as the properties say.
 enum class TouchProblem {
   kNone,
-  kNoDevice,    ///< device=none
-  kTrack,       ///< a haptic track is played, and no frame is looked at
-  kTooStiff,    ///< for the drives of this device: it is touched with less
-  kLagUnknown,  ///< of the drives: it is touched with less
-  kNoDepth,     ///< touch=depth, and the frame has none: the last relief stays
+  kNoDevice,     ///< device=none
+  kNoDepthAxis,  ///< the device has none, see GripAbilities::can_touch()
+  kTrack,        ///< a haptic track is played, and no frame is looked at
+  kTooStiff,     ///< for the drives of this device: it is touched with less
+  kLagUnknown,   ///< of the drives: it is touched with less
+  kNoDepth,      ///< touch=depth, and the frame has none: the last relief stays
 };
 
 /// How the analysis of a frame kept to the budget of processor time.

@@ -37,8 +37,9 @@ NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted) {
   return loop.vibration.lowered() ? NoForceReason::kVibration : NoForceReason::kNone;
 }
 
-NoForceReason limit_of_contact(const LoopSnapshot& loop) {
+NoForceReason limit_of_contact(const LoopSnapshot& loop, bool can_touch) {
   if (loop.unfelt_ns < NoForceHistory::kWindow_ns) return NoForceReason::kNone;
+  if (!can_touch) return NoForceReason::kCannotTouch;
   const Contact& contact = loop.last.contact;
   if (!contact.has_surface) return NoForceReason::kNoRelief;
   return contact.touching ? NoForceReason::kLightTouch : NoForceReason::kNotTouching;
@@ -66,6 +67,11 @@ void LimitWatch::set_touching(bool touching) {
   touching_ = touching;
 }
 
+void LimitWatch::set_can_touch(bool can_touch) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  can_touch_ = can_touch;
+}
+
 NoForceReason LimitWatch::limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!loop) {
@@ -75,7 +81,7 @@ NoForceReason LimitWatch::limit(const std::optional<LoopSnapshot>& loop, bool up
   }
   const NoForceReason of_device = limit_of_device(*loop, muted_);
   if (of_device != NoForceReason::kNone) return of_device;
-  if (touching_) return limit_of_contact(*loop);
+  if (touching_) return limit_of_contact(*loop, can_touch_);
   const int64_t screen_ns = loop->last.running_ns;
   const int64_t now_ns = up_to_screen ? screen_ns : newest_ns_;
   const NoForceReason of_video = frames_.limit(now_ns);

@@ -20,8 +20,8 @@ namespace spidar {
 NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted);
 
 /// The reason in the contact of the last tick, while `touch` is on and nothing has been felt for a
-/// second; kNone before.
-NoForceReason limit_of_contact(const LoopSnapshot& loop);
+/// second; kNone before. `can_touch`: see GripAbilities.
+NoForceReason limit_of_contact(const LoopSnapshot& loop, bool can_touch);
 
 /// Thread-safe.
 class LimitWatch {
@@ -34,6 +34,8 @@ class LimitWatch {
   void set_muted(bool muted);
   /// The picture is touched: from now on the reasons are those of the contact, not of the video.
   void set_touching(bool touching);
+  /// Of the device that is open.
+  void set_can_touch(bool can_touch);
 
   /// Of the last second up to the frame added last, or to the picture on the screen when that is
   /// `up_to_screen`. `loop` is nothing while no device is open: then the reasons of the video come
@@ -46,6 +48,7 @@ class LimitWatch {
   int64_t newest_ns_ = 0;
   bool muted_ = false;
   bool touching_ = false;
+  bool can_touch_ = true;
 };
 
 /// Adds limit (string, see nick()) and, unless that is "none", limit-reason (string: a sentence).

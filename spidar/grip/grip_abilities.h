@@ -19,6 +19,11 @@ struct GripAbilities {
   int buttons = 0;                                 ///< at most 32
   /// How far the grip is to move from its middle to each side; 0: as far as in the profile.
   std::array<double, 3> half_room_m{};
+
+  /// Whether the grip can touch a picture, of which the depth is felt.
+  bool can_touch() const noexcept { return force[2] && position[2]; }
+  /// Whether the grip can point at a place of a picture.
+  bool can_point() const noexcept { return position[0] || position[1]; }
 };
 
 }  // namespace spidar

@@ -70,6 +70,33 @@ TEST_F(ForceLimitTest, TouchingTheReasonsAreThoseOfTheContact) {
   EXPECT_EQ(stats_field("limit"), "no-relief") << "the video has ended";
 }
 
+TEST_F(ForceLimitTest, ADeviceThatCannotTouchIsNamed) {
+  for (const std::string device : {"sim:mouse", "sim:ff"}) {
+    SCOPED_TRACE(device);
+    frames = 0;
+    open("touch=luma device=" + device);
+    play();
+    show(kFrames, [&](int) { return level_frame(h->info(), 235); });
+    expect_everywhere("cannot-touch");
+    ASSERT_EQ(h->warnings().size(), 1u);
+    EXPECT_NE(h->warnings()[0].find(device + " cannot touch the picture"), std::string::npos)
+        << h->warnings()[0];
+  }
+}
+
+TEST_F(ForceLimitTest, AGripWithoutAPositionCannotPoint) {
+  open("device=sim:mouse motion=objects pointer=grip");
+  play();
+  show_moved(3, 2);
+  ASSERT_EQ(h->warnings().size(), 1u);
+  EXPECT_NE(h->warnings()[0].find("sim:mouse cannot point"), std::string::npos) << h->warnings()[0];
+  frames = 0;
+  open("device=sim motion=objects pointer=grip");
+  play();
+  show_moved(3, 2);
+  EXPECT_TRUE(h->warnings().empty());
+}
+
 TEST_F(ForceLimitTest, TouchingNeedsADeviceAndARelief) {
   open("device=none touch=luma motion=object");
   show_moved(kFrames, 2);
