@@ -15,6 +15,7 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/motion_sidecar.h"
 #include "plugin/track/part_file.h"
+#include "plugin/track/sidecar.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
 
@@ -114,6 +115,8 @@ int join_pieces_command(int argc, char** argv) {
     render_analysis(motion.path(), part.path(), {});
   }
   part.publish();
+  const std::string why = format.empty() ? std::string() : why_not_played(film, target);
+  if (!why.empty()) std::cerr << "spidartrack: " << why << '\n';
   std::cout << target << '\n';
   return kDone;
 }

@@ -152,11 +152,11 @@ class FilmBatch {
     const Clock::time_point begin = Clock::now();
     const RecordProperties properties = with_rules(options_.properties, film);
     const auto tell = [&](int percent) { report_.progress(index, percent); };
-    const std::string remark =
-        options_.makes_tracks()
-            ? record_film(film, part->path(), properties, tell)
-            : analyze_film(film, part->path(), properties, options_.piece, tell);
+    std::string remark = options_.makes_tracks()
+                             ? record_film(film, part->path(), properties, tell)
+                             : analyze_film(film, part->path(), properties, options_.piece, tell);
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
+    remark = with_warning(remark, film, track);
     const std::chrono::duration<double> taken = Clock::now() - begin;
     manifest_.add({film, track, "recorded", remark, taken.count()});
     report_.recorded(index, track.string() + (remark.empty() ? "" : "; " + remark));
@@ -168,6 +168,13 @@ class FilmBatch {
     const fs::path& subfolder = options_.films[index].subfolder;
     if (options_.folder.empty() || subfolder.empty() || !fs::is_directory(options_.folder)) return;
     fs::create_directories(fs::path(options_.folder) / subfolder);
+  }
+
+  std::string with_warning(const std::string& text, const std::string& film,
+                           const fs::path& track) const {
+    const std::string why =
+        options_.makes_tracks() ? why_not_played(film, track.string()) : std::string();
+    return text + (text.empty() || why.empty() ? "" : "; ") + why;
   }
 
   void fail(size_t index, std::string cause) {
@@ -185,7 +192,7 @@ class FilmBatch {
     const std::string& film = options_.films[index].path;
     check_file(film, track, options_);
     manifest_.add({film, track, "there", ""});
-    report_.there(index, track.string() + " is there");
+    report_.there(index, with_warning(track.string() + " is there", film, track));
     return true;
   }
 

@@ -13,6 +13,7 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/motion_sidecar.h"
 #include "plugin/track/part_file.h"
+#include "plugin/track/sidecar.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
 
@@ -29,11 +30,9 @@ spidarmotion that change the force: controller=adaptive motion=objects max-force
 trace=FILM.jsonl writes what was measured, and is felt, as lines of JSON.
 )";
 
-std::string track_of(const std::string& motion) {
+std::string film_of(const std::string& motion) {
   const std::string end = kMotionEnd;
-  const std::string film =
-      ends_with(motion, end) ? motion.substr(0, motion.size() - end.size()) : motion;
-  return film + ".haptic.flac";
+  return ends_with(motion, end) ? motion.substr(0, motion.size() - end.size()) : motion;
 }
 
 }  // namespace
@@ -55,7 +54,7 @@ int render_track_command(int argc, char** argv) {
     throw UsageError(operands[2] + ": only FILM.motion and TRACK; properties follow --");
   }
   const std::string& motion = operands[0];
-  const std::string track = operands.size() == 2 ? operands[1] : track_of(motion);
+  const std::string track = operands.size() == 2 ? operands[1] : film_of(motion) + ".haptic.flac";
   if (encoder_of(track).empty()) throw UsageError(track + ": ends in none of .flac, .mka, .wav");
   const RecordProperties properties = parse_record_properties(words, 1, Purpose::kRender);
   std::error_code none;
@@ -71,6 +70,8 @@ int render_track_command(int argc, char** argv) {
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(motion + ": " + error.what());
   }
+  const std::string why = why_not_played(film_of(motion), track);
+  if (!why.empty()) std::cerr << "spidartrack: " << why << '\n';
   std::cout << track << '\n';
   return kDone;
 }

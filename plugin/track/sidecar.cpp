@@ -3,6 +3,7 @@
 #include "plugin/track/sidecar.h"
 
 #include <cstdlib>
+#include <initializer_list>
 #include <optional>
 
 #include "plugin/track/beside_film.h"
@@ -12,6 +13,9 @@ namespace {
 
 /// So much may be missing at the end of a film that is known by its pictures.
 constexpr int64_t kMostMissing_ns = 500'000'000;
+
+constexpr std::initializer_list<const char*> kTrackEnds = {".haptic.flac", ".haptic.mka",
+                                                           ".haptic.wav"};
 
 std::string seconds(int64_t ns) {
   gchar* const text = g_strdup_printf("%.3f s", 1e-9 * static_cast<double>(ns));
@@ -41,7 +45,14 @@ std::string film_of(GstPad* pad) {
 }
 
 std::string find_sidecar(const std::string& film) {
-  return find_beside(film, {".haptic.flac", ".haptic.mka", ".haptic.wav"});
+  return find_beside(film, kTrackEnds);
+}
+
+std::string why_not_played(const std::string& film, const std::string& track) {
+  const std::string other = find_before(film, kTrackEnds, track);
+  if (other.empty()) return {};
+  return "warning: track=auto and spidartrack still play " + other + "; remove it, or name " +
+         track + " to them";
 }
 
 FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {

@@ -18,6 +18,10 @@ std::string film_of(GstPad* pad);
 /// `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside().
 std::string find_sidecar(const std::string& film);
 
+/// Empty, or a sentence about the track beside the film that find_sidecar() finds in place of
+/// `track`.
+std::string why_not_played(const std::string& film, const std::string& track);
+
 /// Why a file is not that of a film with other pictures.
 extern const char* const kOtherPictures;
 
