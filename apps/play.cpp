@@ -39,7 +39,8 @@ constexpr const char* kUsage =
     "  --verbose        end with a table and all fields of the element's stats, too\n"
     "  --headless       no window for the video, even with a display\n"
     "  --window         the debug window: tracks, forces, grip, settings\n"
-    "  --window-png FILE  the same, saved as a picture after five seconds of the video\n"
+    "  --window-png FILE  the same, saved as a picture after five seconds of the video, or at\n"
+    "                   its end\n"
     "  name=value       properties of spidarmotion: gst-inspect-1.0 spidarmotion\n"
     "  --ball           no video, but the ball of videotestsrc for ten seconds\n";
 
@@ -147,7 +148,12 @@ class WindowPicture {
 
   void take_if_due(int64_t running_ns) {
     constexpr int64_t kDue_ns = 5'000'000'000;
-    if (path_.empty() || running_ns < kDue_ns) return;
+    if (running_ns >= kDue_ns) take();
+  }
+
+  /// At the end of a shorter video, too.
+  void take() {
+    if (path_.empty()) return;
     gboolean saved = FALSE;
     g_signal_emit_by_name(filter_, "save-window", path_.c_str(), &saved);
     std::printf("\n%s: %s\n", path_.c_str(), saved ? "saved" : "could not be saved");
@@ -220,6 +226,7 @@ int play(const Options& options) {
     window_picture.take_if_due(now.running_ns);
     return progress_line(now);
   });
+  window_picture.take();
   GstStructure* stats = nullptr;
   double max_force_N = 0;
   g_object_get(filter, "stats", &stats, "max-force", &max_force_N, nullptr);

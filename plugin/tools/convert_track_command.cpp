@@ -33,10 +33,25 @@ size_t parse_axis(const std::string& text) {
   throw UsageError("--axis: \"" + text + "\" is none of fx, fy, fz, tx, ty, tz");
 }
 
+/// Throws UsageError when an option changes nothing.
+void check_use(const std::string& from, const std::string& to, const SaveOptions& options,
+               bool has_axis) {
+  if (options.rate_Hz > 0 && encoder_of(to).empty()) {
+    throw UsageError("--rate: is of sound, .flac, .mka or .wav, and not of " + to);
+  }
+  if (options.tolerance && !ends_with(to, ".hjif") && !ends_with(to, ".ahap")) {
+    throw UsageError("--tolerance: is of .hjif and .ahap, and not of " + to);
+  }
+  if (has_axis && options.rate_Hz == 0 && !ends_with(to, ".funscript") &&
+      !ends_with(from, ".funscript")) {
+    throw UsageError("--axis: is of .funscript, and with --rate of sound, and not of " + to);
+  }
+}
+
 }  // namespace
 
 int convert_track_command(int argc, char** argv) {
-  bool help = false;
+  bool help = false, has_axis = false;
   SaveOptions options;
   const std::vector<std::string> operands = parse_options(
       argc, argv,
@@ -44,7 +59,11 @@ int convert_track_command(int argc, char** argv) {
         [&](const std::string& text) {
           options.tolerance = parse_number("--tolerance", text, 0, 1, "");
         }},
-       {"axis", true, [&](const std::string& text) { options.axis = parse_axis(text); }},
+       {"axis", true,
+        [&](const std::string& text) {
+          options.axis = parse_axis(text);
+          has_axis = true;
+        }},
        {"rate", true,
         [&](const std::string& text) {
           options.rate_Hz = static_cast<int>(parse_number("--rate", text, 1000, 192000, "Hz"));
@@ -59,9 +78,7 @@ int convert_track_command(int argc, char** argv) {
   if (std::filesystem::equivalent(operands[0], operands[1], none)) {
     throw UsageError(operands[1] + ": is to be another file than " + operands[0]);
   }
-  if (options.rate_Hz > 0 && encoder_of(operands[1]).empty()) {
-    throw UsageError("--rate: is of sound, .flac, .mka or .wav, and not of " + operands[1]);
-  }
+  check_use(operands[0], operands[1], options, has_axis);
   TrackCondition condition;
   const std::vector<TrackSample> samples = load_track(operands[0], &condition, options.axis);
   options.notes = condition.notes;

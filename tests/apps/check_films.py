@@ -40,10 +40,19 @@ def check_track(play, folder):
         file.writeframes(struct.pack("<6h", 4000, 0, 0, 0, 0, 0) * 10000)  # 1.2 N for 10 s
     done = subprocess.run([play, "--headless", "--ball", "--seconds", "2", "--output", folder, "--", "device=sim",
                            f"track={track}"], text=True, capture_output=True, timeout=60)
-    assert done.returncode == 0 and not done.stderr, done
+    assert done.returncode == 0 and "warning: " not in done.stderr, done
     assert "frames, whose force is that of a haptic track." in done.stdout, done.stdout
     assert "Nothing was felt" not in done.stdout, done.stdout
     assert os.path.getsize(os.path.join(folder, "spidar-play.png")) > 0
+
+
+def check_window_png(play, folder):
+    """A film that is shorter than the plots of the window ends with a word about the picture."""
+    picture = os.path.join(folder, "window.png")
+    screenless = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    done = subprocess.run([play, "--headless", "--ball", "--seconds", "1", "--output", folder, "--window-png", picture,
+                           "--", "device=none"], text=True, capture_output=True, timeout=60, env=screenless)
+    assert f"{picture}: could not be saved" in done.stdout, done
 
 
 def main():
@@ -62,6 +71,7 @@ def main():
             if os.path.basename(program) == "play":
                 check_output(program, folder)
                 check_track(program, folder)
+                check_window_png(program, folder)
 
 
 if __name__ == "__main__":

@@ -254,6 +254,29 @@ TEST_F(Analysis, IsPlayedInPlaceOfThePictures) {
   }
 }
 
+TEST_F(Analysis, WhatItWasNotMeasuredWithIsNamed) {
+  const std::string film = make_film("ball.avi", source("pattern=ball"));
+  analyze(film);
+  const auto warnings = [&](const std::string& settings) {
+    return launch("filesrc location=" + quoted(film) +
+                  " ! avidemux ! jpegdec ! videoconvert ! spidarmotion " + settings + " ! fakesink")
+        .warnings;
+  };
+  EXPECT_TRUE(warnings("analysis=auto motion=objects").empty());
+  const std::vector<std::string> quality = warnings("analysis=auto quality=fine");
+  ASSERT_EQ(quality.size(), 1u);
+  expect_contains(quality[0], "quality=fine has no effect while the analysis ");
+  const CommandResult fine = spidartrack("analyze --force " + quoted(film) + " -- quality=fine");
+  EXPECT_EQ(fine.status, 0) << fine.text;
+  EXPECT_TRUE(warnings("analysis=auto quality=fine").empty());
+  const CommandResult record = spidartrack("record " + quoted(film));
+  EXPECT_EQ(record.status, 0) << record.text;
+  EXPECT_TRUE(warnings("track=auto").empty());
+  const std::vector<std::string> feel = warnings("track=auto feel=\"0:00-0:01 camera\"");
+  ASSERT_EQ(feel.size(), 1u);
+  expect_contains(feel[0], "feel=0:00-0:01 camera has no effect while the haptic track ");
+}
+
 TEST_F(Analysis, ThatCannotBeUsedIsNamedAndTheFilmIsAnalysed) {
   const std::string film = make_film("ball.avi", source("pattern=ball"));
   const std::string other = analyze(make_film("other.avi", source("pattern=ball motion=sweep")));

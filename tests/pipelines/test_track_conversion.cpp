@@ -34,6 +34,20 @@ double size_of(const std::vector<float>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
+TEST_F(TrackConversion, AnOptionThatChangesNothingIsAnError) {
+  save_track(path("a.wav"), std::vector<TrackSample>(100));
+  const auto refuse = [this](const std::string& options, const std::string& why) {
+    const CommandResult result = spidartrack("convert " + path("a.wav") + " " + options);
+    EXPECT_EQ(result.status, 2) << options;
+    expect_contains(result.text, why);
+  };
+  refuse(path("b.wav") + " --axis fy", "--axis: is of .funscript, and with --rate of sound");
+  refuse(path("b.hjif") + " --axis fy", "--axis: is of .funscript, and with --rate of sound");
+  refuse(path("b.flac") + " --tolerance 0.1", "--tolerance: is of .hjif and .ahap, and not of ");
+  EXPECT_EQ(
+      spidartrack("convert " + path("a.wav") + " " + path("b.hjif") + " --tolerance 0.1").text, "");
+}
+
 // For a bass shaker: a channel alone, at the rate of sound cards, with nothing that was not there.
 TEST_F(TrackConversion, AChannelBecomesSoundWithoutImages) {
   std::vector<TrackSample> track(4000);
