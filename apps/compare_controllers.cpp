@@ -18,6 +18,7 @@
 #include "apps/feel/analyzed_film.h"
 #include "apps/feel/figures.h"
 #include "apps/feel/video_film.h"
+#include "apps/help.h"
 #include "tests/support/ball_scene.h"
 
 namespace {
@@ -64,6 +65,8 @@ void print(const Film& film, const spidar::FilterSettings& filter) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (asks_for_help(argc, argv, "usage: compare_controllers [VIDEO|ANALYSIS.motion ...]\n"))
+    return 0;
   gst_init(&argc, &argv);
   const spidar::AnalyzerSettings settings;
   std::printf(

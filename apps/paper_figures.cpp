@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "apps/gnuplot.h"
+#include "apps/help.h"
 #include "core/analysis/motion_analyzer.h"
 #include "core/force/gain_controller.h"
 #include "tests/support/ball_scene.h"
@@ -149,8 +150,10 @@ StepError draw(const fs::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: paper_figures FOLDER\n");
+  constexpr const char* kUsage = "usage: paper_figures FOLDER    fig6.png to fig10.png into it\n";
+  if (asks_for_help(argc, argv, kUsage)) return 0;
+  if (argc != 2 || argv[1][0] == '-') {
+    std::fputs(kUsage, stderr);
     return 2;
   }
   try {

@@ -19,6 +19,7 @@
 
 #include "apps/film/failure.h"
 #include "apps/film/film_uri.h"
+#include "apps/help.h"
 #include "apps/player/raw_terminal.h"
 #include "apps/player/status_lines.h"
 
@@ -145,10 +146,12 @@ int run(const std::string& name, bool headless) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::string usage = std::string("usage: ") + argv[0] + " [--headless] FILE-OR-URI\n\n" +
+                            kKeys[0] + "\n" + kKeys[1] + "\n";
+  if (asks_for_help(argc, argv, usage)) return 0;
   const bool headless = argc > 2 && std::strcmp(argv[1], "--headless") == 0;
   if (argc != (headless ? 3 : 2) || argv[argc - 1][0] == '-') {
-    std::fprintf(stderr, "usage: %s [--headless] FILE-OR-URI\n\n%s\n%s\n", argv[0],
-                 kKeys[0].c_str(), kKeys[1].c_str());
+    std::fputs(usage.c_str(), stderr);
     return 2;
   }
   gst_init(nullptr, nullptr);

@@ -13,6 +13,7 @@
 #include <gst/gst.h>
 
 #include "apps/film/film_uri.h"
+#include "apps/help.h"
 #include "apps/play/pipeline.h"
 #include "apps/play/playback.h"
 #include "apps/play/properties.h"
@@ -236,6 +237,7 @@ int report_file(const std::string& path) {
 
 int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  if (asks_for_help(argc, argv, kUsage)) return 0;
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     if (arguments.size() == 2 && arguments[0] == "report") return report_file(arguments[1]);

@@ -17,6 +17,7 @@
 
 #include <gst/gst.h>
 
+#include "apps/help.h"
 #include "apps/track/luma_reader.h"
 #include "core/analysis/analysis_json.h"
 #include "core/analysis/motion_analyzer.h"
@@ -83,6 +84,7 @@ void run(const Command& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (asks_for_help(argc, argv, kUsage)) return 0;
   const std::optional<Command> command = parse(argc, argv);
   if (!command) {
     std::fputs(kUsage, stderr);

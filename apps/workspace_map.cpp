@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/help.h"
 #include "apps/workspace/continuity.h"
 #include "apps/workspace/pose_map.h"
 #include "apps/workspace/survey.h"
@@ -53,6 +54,7 @@ void run(const std::string& what, const std::vector<spidar::Profile>& profiles) 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (asks_for_help(argc, argv, kUsage)) return 0;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const bool option = !arguments.empty() && arguments[0].rfind("-", 0) == 0;
   if (arguments.empty() || (option && arguments[0] != "--table" && arguments[0] != "--continuity" &&

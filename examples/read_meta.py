@@ -5,6 +5,7 @@
 
 Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in docs/start.md.
 """
+import argparse
 import sys
 
 import gi
@@ -24,8 +25,11 @@ def read(_pad, info):
     return Gst.PadProbeReturn.OK
 
 
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("FILE", nargs="?")
+file = parser.parse_args().FILE
 Gst.init(None)
-source = f'filesrc location="{sys.argv[1]}" ! decodebin' if sys.argv[1:] else \
+source = f'filesrc location="{file}" ! decodebin' if file else \
     "videotestsrc pattern=ball num-buffers=30"
 pipeline = Gst.parse_launch(f"{source} ! videoconvert ! spidarmotion device=none attach-meta=true "
                             "! videoconvert ! fakesink name=sink")

@@ -51,9 +51,11 @@ int run(const char* profile, bool track) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  constexpr const char* kUsage = "usage: solve_pose PROFILE [--track] < lengths\n";
+  if (argc == 2 && std::strcmp(argv[1], "--help") == 0) return std::fputs(kUsage, stdout) < 0;
   const bool track = argc == 3 && std::strcmp(argv[2], "--track") == 0;
-  if (argc != 2 && !track) {
-    std::fprintf(stderr, "usage: solve_pose PROFILE [--track] < lengths\n");
+  if ((argc != 2 && !track) || argv[1][0] == '-') {
+    std::fputs(kUsage, stderr);
     return 2;
   }
   try {

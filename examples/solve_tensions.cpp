@@ -6,6 +6,7 @@
 //   8 tensions, status (solved or iteration-limit), relative KKT residual, iterations
 // A bad line is reported with its number on standard error and skipped; the exit status is then 1.
 #include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -45,6 +46,11 @@ std::string solve(const std::vector<double>& numbers) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc > 1) {
+    const bool help = argc == 2 && std::strcmp(argv[1], "--help") == 0;
+    std::fputs("usage: solve_tensions < problems\n", help ? stdout : stderr);
+    return help ? 0 : 2;
+  }
   return for_each_line(std::cin, 80, solve) > 0;
 }
