@@ -17,7 +17,8 @@
  *
  * Buffers are 40 ms long, and marked as gaps where there is no force. A sample is known when the
  * frame after the next one is: `wrench` reports that latency. Either source pad may be left
- * unlinked. Where both lead to sinks that wait for their first buffer, the video needs a queue.
+ * unlinked. Where both lead to sinks that wait for their first buffer, the video needs a queue;
+ * otherwise the pipeline waits for ever.
  *
  * Played backwards, `wrench` has gap events in place of samples.
  *
