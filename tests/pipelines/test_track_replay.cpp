@@ -111,6 +111,27 @@ TEST_F(TrackReplay, AtAnotherRateTheAmplitudeStays) {
   }
 }
 
+/// As videorate does with frames that it shows again: two of three have no picture.
+GstPadProbeReturn flag_gap(GstPad*, GstPadProbeInfo* info, void* count) {
+  if ((*static_cast<int*>(count))++ % 3 == 0) return GST_PAD_PROBE_OK;
+  GstBuffer* const buffer = gst_buffer_make_writable(GST_PAD_PROBE_INFO_BUFFER(info));
+  GST_BUFFER_FLAG_SET(buffer, GST_BUFFER_FLAG_GAP);
+  info->data = buffer;
+  return GST_PAD_PROBE_OK;
+}
+
+TEST_F(TrackReplay, FramesWithoutAPicturePlayTheTrackToo) {
+  open(track_of(kFrames * kFrame_ms));
+  int count = 0;
+  GstPad* const pad = gst_element_get_static_pad(pipeline->element(), "sink");
+  gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, flag_gap, &count, nullptr);
+  gst_object_unref(pad);
+  pipeline->set_state(GST_STATE_PLAYING);
+  expect_track(20);
+  EXPECT_EQ(limit(), "none");
+  pipeline.reset();  // before `count`
+}
+
 TEST_F(TrackReplay, TheForceOfATrackHasNoLimitAtAnyRate) {
   for (const double rate : {0.5, 1.0, 2.0, -1.0}) {
     SCOPED_TRACE(rate);
