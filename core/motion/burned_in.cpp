@@ -110,9 +110,7 @@ void BurnedIn::end(const BlockGrid& grid) {
   holds_.assign(signs_.size(), 0);
   covers_.assign(signs_.size(), 0);
   for (size_t i = 0; i < signs_.size(); ++i) {
-    const int column = static_cast<int>(i) % grid.columns;
-    const int row = static_cast<int>(i) / grid.columns;
-    holds_[i] = covers_[i] = margins_.hold(grid, column, row);
+    holds_[i] = covers_[i] = margins_.hold(grid, i);
     if (!camera_moves_ || holds_[i] != 0) continue;
     const bool beside = is_beside_staying(grid, i);
     holds_[i] = signs_[i] == Sign::kStays || signs_[i] == Sign::kInPlace ||

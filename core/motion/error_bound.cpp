@@ -66,7 +66,7 @@ double ErrorBound::background_variance_px2(const Region& region, const ObjectEvi
   for (size_t i = 0; i < evidence.owners.size(); ++i) {
     const MotionBlock& block = evidence.field.blocks()[i];
     const RelativeBlock& relative = evidence.relative[i];
-    if (evidence.owners[i] != 0 || relative.is_new ||
+    if (evidence.owners[i] != 0 || relative.was_outside ||
         !is_around(region, {block.x_px, block.y_px}) ||
         block.weakest_texture() < MotionBlock::kRegularization) {
       continue;

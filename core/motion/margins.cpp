@@ -88,13 +88,17 @@ void Margins::look(Bars& bars, const BlockField& field, bool are_columns, int ac
 }
 
 void Margins::update(const BlockField& field) {
+  const int rows_before = rows();
+  const int columns_before = columns();
   look(rows_, field, false, columns());
   look(columns_, field, true, rows());
+  have_changed_ = rows() != rows_before || columns() != columns_before;
 }
 
 void Margins::reset() {
   rows_.begin(0);
   columns_.begin(0);
+  have_changed_ = false;
 }
 
 }  // namespace spidar

@@ -33,8 +33,14 @@ class Margins {
   int columns() const { return columns_.is_known() ? columns_.blocks : 0; }
   int rows() const { return rows_.is_known() ? rows_.blocks : 0; }
 
+  /// Whether update() has found or lost bars: the film has another border than in the picture
+  /// before.
+  bool have_changed() const { return have_changed_; }
+
   /// Whether a block is outside of the film.
-  bool hold(const BlockGrid& grid, int column, int row) const {
+  bool hold(const BlockGrid& grid, size_t block) const {
+    const int column = static_cast<int>(block) % grid.columns;
+    const int row = static_cast<int>(block) / grid.columns;
     return std::min(column, grid.columns - 1 - column) < columns() ||
            std::min(row, grid.rows - 1 - row) < rows();
   }
@@ -57,6 +63,7 @@ class Margins {
 
   Bars columns_;
   Bars rows_;
+  bool have_changed_ = false;
 };
 
 }  // namespace spidar

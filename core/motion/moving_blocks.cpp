@@ -99,7 +99,7 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     relative.y_px = block.moved_y_px - moved_px.y();
     relative.has_texture = block.has_texture();
     // If less of it was in the picture before, the camera has just brought it into view.
-    relative.is_new = static_cast<double>(seen_before(field, i, relative)) < kMost;
+    relative.was_outside = static_cast<double>(seen_before(field, i, relative)) < kMost;
     residuals_.push_back(block.residual);
   }
   const auto third = residuals_.begin() + static_cast<ptrdiff_t>(residuals_.size() / 3);
@@ -122,7 +122,7 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
   if (evidence < least_evidence * (1 + kEvidencePerResidual * block.residual)) {
     return Judgement::kStill;
   }
-  if (relative.is_new) return Judgement::kStill;
+  if (relative.was_outside) return Judgement::kStill;
   const int with_background = field.difference_if_moved(
       static_cast<int>(index), relative.background_x_px, relative.background_y_px);
   if (with_background < 0) return Judgement::kUnknown;
@@ -146,6 +146,7 @@ void MovingBlocks::leave_out_burned_in(const BlockField& field,
   for (size_t i = 0; i < judgements_.size(); ++i) {
     if (burned_in_.holds(i)) judgements_[i] = Judgement::kBurnedIn;
     relative_[i].is_covered = burned_in_.covers(i);
+    relative_[i].was_outside |= burned_in_.margins().hold(field.grid(), i);
   }
 }
 

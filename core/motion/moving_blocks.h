@@ -23,7 +23,7 @@ struct RelativeBlock {
   float background_x_px = 0;  ///< motion of the background at this place
   float background_y_px = 0;
   bool has_texture = false;  ///< enough to tell how it moves
-  bool is_new = false;       ///< most of it was outside the previous picture
+  bool was_outside = false;  ///< most of it was outside of the film in the previous picture
   bool is_covered = false;   ///< something burned in hides the film here, see BurnedIn::covers()
   bool moves = false;        ///< moves by itself, taking its neighbours into account
 };

@@ -184,7 +184,7 @@ double ObjectTracker::noise_around(uint32_t key) {
   squares_px2_.clear();
   for (size_t i = 0; i < owners_.size(); ++i) {
     const RelativeBlock& block = (*relative_)[i];
-    if (owners_[i] == key || !block.has_texture || block.is_new || is_burned_in(i)) continue;
+    if (owners_[i] == key || !block.has_texture || block.was_outside || is_burned_in(i)) continue;
     squares_px2_.push_back(block.x_px * block.x_px + block.y_px * block.y_px);
   }
   if (squares_px2_.empty()) return 0;
@@ -304,6 +304,9 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   camera_ = {background.model.kind != ModelKind::kStill, 0,
              background.coverage * static_cast<double>(n)};
 
+  if (margins().have_changed()) {  // and with them what touches the border
+    for (Life& life : lives_) life.proven = 0;
+  }
   claim(frame);
   for (size_t i = 0; i < n; ++i) {
     const int16_t label = finder_.labels()[i];

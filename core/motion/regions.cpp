@@ -23,14 +23,14 @@ bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
   return x * x + y * y < most_px * most_px;
 }
 
-/// Whether a block is at the border of the picture, of the part of it that was in the previous
-/// picture, or of a caption: how far a layer of the scene extends beyond is unknown.
+/// Whether a block is at the border of the film, or of the part of it that was in the previous
+/// picture: how far a layer of the scene extends beyond is unknown.
 bool is_at_border(const BlockGrid& grid, const std::vector<RelativeBlock>& relative, int column,
                   int row) {
   if (column == 0 || row == 0 || column + 1 == grid.columns || row + 1 == grid.rows) return true;
   const auto columns = static_cast<size_t>(grid.columns);
   const size_t i = static_cast<size_t>(row) * columns + static_cast<size_t>(column);
-  const auto is_unknown = [&](size_t k) { return relative[k].is_new || relative[k].is_covered; };
+  const auto is_unknown = [&](size_t k) { return relative[k].was_outside; };
   return is_unknown(i - 1) || is_unknown(i + 1) || is_unknown(i - columns) ||
          is_unknown(i + columns);
 }

@@ -89,6 +89,23 @@ TEST(Margins, LeaveAnObjectInFrontOfAPanAsItIs) {
   }
 }
 
+TEST(Margins, MakeAnewWhatWasAnObjectAndIsAtTheirBorder) {
+  // A bush in front of a pan grows out of the lower bar. Until the sky shows something, the bars
+  // are unknown, so that the bush does not touch the border of the picture and is taken for an
+  // object.
+  constexpr double kBar_px = kHeight / 8.0;
+  constexpr int kClear = 10;
+  const auto felt_px = feel([](int n, const Vector2d& at) {
+    if (!in_box(at, 0, kBar_px, kWidth, kHeight - 2 * kBar_px)) return 16.0;
+    if (n < kClear && at.y() < 120) return 128.0;
+    const double x = at.x() - 12.0 * n;
+    return in_box({x, at.y()}, 120, 235, 200, kHeight) ? kForeground.at(x, at.y())
+                                                       : kBackground.at(at.x() - 4.0 * n, at.y());
+  });
+  EXPECT_GT(felt_px[kClear - 1].x(), 1);
+  for (size_t n = kClear + kKnown; n < kFrames; ++n) EXPECT_EQ(felt_px[n], Vector2d(0, 0)) << n;
+}
+
 TEST(Margins, AreNotWhatIsAroundALargeObject) {
   // A box of two thirds of width and height moves to and fro, five frames each, in front of a still
   // scene without noise.
