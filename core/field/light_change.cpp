@@ -13,6 +13,10 @@
 namespace spidar {
 namespace {
 
+/// If more than this share of the difference is left, the gain may be chance. Where the camera
+/// pans, most of the difference is motion, whatever the light does.
+constexpr double kAlike = 0.9;
+
 /// Mean brightness of two pictures of the same size, grey levels, and the ratio of their contrasts.
 struct LightChange {
   double mean_before = 0;
@@ -65,8 +69,7 @@ bool makes_alike(const PaddedImage& before, const PaddedImage& now,
       replaced += std::abs(q[x] - table[p[x]]);
     }
   }
-  // If nearly all of the difference is left, the gain may be chance.
-  return static_cast<double>(replaced) < kNearlyAll * static_cast<double>(as_it_was);
+  return static_cast<double>(replaced) < kAlike * static_cast<double>(as_it_was);
 }
 
 void replace_values(const std::array<uint8_t, 256>& table, PaddedImage& picture) {

@@ -47,8 +47,8 @@ class LayerEvidence {
   Eigen::Vector2d relative_px_s_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d background_px_s_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d newest_px_s_ = Eigen::Vector2d::Zero();  ///< relative to the background
-  double screen_px2_s2_ = 0;   ///< mean square of the velocity on the screen
-  double changes_px2_s2_ = 0;  ///< and of the change of the relative one from frame to frame
+  double screen_px_s_ = 0;                                 ///< mean speed on the screen
+  double changes_px_s_ = 0;  ///< and of the change of the relative velocity from frame to frame
   double seen_s_ = 0;
   double least_ratio_ = std::numeric_limits<double>::infinity();
 };

@@ -198,6 +198,20 @@ TEST(FieldSteps, LightThatChangesIsNoMotion) {
   expect_field(field, 3, 1, kRounded + 1);
 }
 
+TEST(FieldSteps, LightThatChangesInAPanIsNoMotion) {
+  for (const double pan_px : {5.0, 6.0, 7.0, 8.0}) {
+    BlockField field;
+    field.update(moved_texture(0, 0));
+    field.update(moved_texture(pan_px, 0));
+    EXPECT_EQ(field.update(moved_texture(2 * pan_px, 0, 0.9)), BlockField::Result::kMoved);
+    int right = 0;
+    for (const MotionBlock& block : field.blocks()) {
+      right += std::hypot(block.moved_x_px - pan_px, block.moved_y_px) < 0.5;
+    }
+    EXPECT_GT(right, 0.9 * field.grid().size()) << pan_px;
+  }
+}
+
 TEST(FieldSteps, AnotherPictureIsACut) {
   BlockField field;
   field.update(noise(427, 240, 1));

@@ -81,6 +81,18 @@ TEST(LayerEvidence, OnlyGraphicsRestOnTheScreenWhileTheCameraShakes) {
   EXPECT_GT(salience(region(25, 0, 4), object, moving, false), 0);
 }
 
+TEST(LayerEvidence, AJumpOfTheFilmIsNoShakeOfTheCamera) {
+  // The camera follows an object that drifts on the screen; every eleventh picture was left out of
+  // the film, so that all moves twice as far.
+  constexpr double kFrame_s = 0.04;
+  LayerEvidence object;
+  for (int n = 0; n < 50; ++n) {
+    const int steps = n % 11 == 10 ? 2 : 1;
+    object.add(steps * Eigen::Vector2d(-100, 0), steps * Eigen::Vector2d(80, 0), kFrame_s);
+    EXPECT_FALSE(object.is_on_screen()) << n;
+  }
+}
+
 TEST(Salience, IsSpeedTimesTheRootOfTheArea) {
   const CameraMotion still{false};
   EXPECT_DOUBLE_EQ(salience(region(16, 0, 3), kNoEvidence, still, false),
