@@ -25,12 +25,9 @@ constexpr float kWorseShare = 0.15f;
 
 /// A block that stands out moves if this many around it do: errors seldom lie side by side.
 constexpr int kLeastNeighbours = 3;
-/// A block without texture moves if this many blocks around it do and they are most of those with
-/// texture.
-constexpr int kNeighboursOfUnknown = 4;
-/// A block that stands still among this many moving neighbours moves, too: its own motion is an
-/// error.
-constexpr int kNeighboursOfStill = 7;
+/// Any other block moves among this many moving neighbours: without texture it shows no motion, and
+/// one that seems to stand still is an error.
+constexpr int kNearlyAllNeighbours = 7;
 
 /// A block that stood out in two of the last frames needs only one moving neighbour.
 constexpr float kLeastLasting = 0.5f;
@@ -154,13 +151,11 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       int moving = 0;
-      int known = 0;
       for (int j = std::max(row - 1, 0); j <= std::min(row + 1, grid.rows - 1); ++j) {
         for (int i = std::max(column - 1, 0); i <= std::min(column + 1, grid.columns - 1); ++i) {
           if (i == column && j == row) continue;
-          const Judgement judgement = judgements_[static_cast<size_t>(j * grid.columns + i)];
-          moving += judgement == Judgement::kMoves;
-          known += judgement == Judgement::kMoves || judgement == Judgement::kStill;
+          const auto neighbour = static_cast<size_t>(j * grid.columns + i);
+          moving += judgements_[neighbour] == Judgement::kMoves;
         }
       }
       const auto index = static_cast<size_t>(row * grid.columns + column);
@@ -170,10 +165,8 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
           moves = moving >= kLeastNeighbours || (moving > 0 && stood_out_[index] > kLeastLasting);
           break;
         case Judgement::kUnknown:
-          moves = moving >= kNeighboursOfUnknown && 3 * moving >= 2 * known;
-          break;
         case Judgement::kStill:
-          moves = moving >= kNeighboursOfStill;
+          moves = moving >= kNearlyAllNeighbours;
           break;
         case Judgement::kBurnedIn:
           break;
