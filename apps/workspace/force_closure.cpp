@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <Eigen/SVD>
+#include "core/grip/singular_values.h"
 
 namespace {
 
@@ -24,11 +24,11 @@ constexpr double kLeastTension_N = 1e-9;
 /// Null space of `A` by columns; the second column is zero if it has dimension one. No columns when
 /// A does not have rank 6 or has no null space.
 bool null_space(const Columns& A, Directions& N) {
-  const Eigen::JacobiSVD<Columns> svd(A, Eigen::ComputeFullV);
+  const auto [values, V] = spidar::singular_values(A);
   const auto rest = A.cols() - 6;
-  if (rest < 1 || svd.singularValues()[5] <= kRankTolerance * svd.singularValues()[0]) return false;
+  if (rest < 1 || values[5] <= kRankTolerance * values[0]) return false;
   N = Directions::Zero(A.cols(), 2);
-  N.leftCols(rest) = svd.matrixV().rightCols(rest);
+  N.leftCols(rest) = V.rightCols(rest);
   return true;
 }
 

@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/calibration/model.h"
 
-#include <Eigen/QR>
+#include "core/grip/singular_values.h"
 
 namespace spidar {
 namespace {
@@ -11,15 +11,14 @@ namespace {
 /// whole frame.
 Eigen::MatrixXd shape_changes(const StringGeometry& geometry) {
   const int rows = 3 * geometry.count;
-  Eigen::MatrixXd rigid(rows, 6);
+  Eigen::MatrixXd rigid(6, rows);
   for (int i = 0; i < geometry.count; ++i) {
     const Eigen::Vector3d& e = geometry.exit_m[static_cast<size_t>(i)];
-    rigid.block<3, 3>(3 * i, 0).setIdentity();
+    rigid.block<3, 3>(0, 3 * i).setIdentity();
     for (int axis = 0; axis < 3; ++axis)
-      rigid.block<3, 1>(3 * i, 3 + axis) = Eigen::Vector3d::Unit(axis).cross(e);
+      rigid.block<1, 3>(3 + axis, 3 * i) = Eigen::Vector3d::Unit(axis).cross(e).transpose();
   }
-  const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(rigid).householderQ();
-  return Q.rightCols(rows - 6);
+  return singular_values(rigid).directions.rightCols(rows - 6);
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/calibration/observability.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include "core/grip/singular_values.h"
 
 namespace spidar {
 namespace {
@@ -19,30 +19,22 @@ constexpr double kTakesPart = 1e-6;
 
 }  // namespace
 
-Observability::Observability(int parameters)
-    : root_(Eigen::MatrixXd::Zero(parameters, parameters)) {}
+Observability::Observability(int parameters) : parameters_(parameters) {}
 
 void Observability::add(const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, 6>>& by_pose,
                         const Eigen::Ref<const Eigen::MatrixXd>& by_parameter, double weight) {
-  const Eigen::Index redundant = by_pose.rows() - by_pose.cols();
-  if (redundant <= 0) return;
-  using Poses = Eigen::Matrix<double, Eigen::Dynamic, 6>;
-  const Eigen::HouseholderQR<Poses> elimination(by_pose);
-  const Eigen::MatrixXd rotated = elimination.householderQ().adjoint() * by_parameter;
-
-  const Eigen::Index size = root_.cols();
-  Eigen::MatrixXd stacked(size + redundant, size);
-  stacked << root_, std::sqrt(weight) * rotated.bottomRows(redundant);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> update(stacked);
-  root_ = update.matrixQR().topRows(size).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd unexplained = singular_values(by_pose.transpose()).directions;
+  for (Eigen::Index i = by_pose.cols(); i < by_pose.rows(); ++i)
+    rows_.push_back(std::sqrt(weight) * by_parameter.transpose() * unexplained.col(i));
 }
 
 Observability::Directions Observability::directions() const {
-  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(root_,
-                                                                         Eigen::ComputeFullV);
-  const Eigen::VectorXd& singular = svd.singularValues();
+  Eigen::MatrixXd root =
+      Eigen::MatrixXd::Zero(std::max(parameters_, static_cast<int>(rows_.size())), parameters_);
+  for (size_t i = 0; i < rows_.size(); ++i) root.row(static_cast<Eigen::Index>(i)) = rows_[i];
+  const auto [singular, V] = singular_values(root);
   Directions found;
-  found.directions = svd.matrixV().rowwise().reverse();
+  found.directions = V.rowwise().reverse();
   found.sd.resize(singular.size());
   for (Eigen::Index i = 0; i < singular.size(); ++i) {
     const double information = singular[singular.size() - 1 - i];

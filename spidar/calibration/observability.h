@@ -3,6 +3,8 @@
 /// Determines which shared parameters the samples determine, and which they do not.
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace spidar {
@@ -29,7 +31,8 @@ class Observability {
   Directions directions() const;
 
  private:
-  Eigen::MatrixXd root_;  ///< upper triangle R: RᵀR is the information
+  const int parameters_;
+  std::vector<Eigen::VectorXd> rows_;  ///< R by rows: RᵀR is the information
 };
 
 /// Standard deviations of the rows of `quantities`, linear in the parameters. Infinite if a

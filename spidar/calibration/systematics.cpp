@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
+#include "core/grip/singular_values.h"
 
 namespace spidar {
 namespace {
@@ -75,27 +74,30 @@ StringVector offset_uncertainty_m(const CalibrationModel& model,
         fixed.derivatives(model, bundle.parameters, paid_out_m[k], bundle.poses[k]), error_m;
     rows.leftCols(size) *= prior_sd.asDiagonal();
     // The part that no change of the pose explains.
-    const Eigen::HouseholderQR<Eigen::MatrixXd> poses(d.by_twist);
-    const Eigen::MatrixXd left = (poses.householderQ().adjoint() * rows).bottomRows(redundant);
+    const Eigen::MatrixXd left =
+        singular_values(d.by_twist.transpose()).directions.rightCols(redundant).transpose() * rows;
     normal.noalias() += weights[static_cast<Eigen::Index>(k)] * left.transpose() * left;
   }
 
+  // Without the prior, the information is V diag(values) Vᵀ / noise², and the prior adds the
+  // identity.
+  const SingularValues known = singular_values(normal.topLeftCorner(size, size));
+  const Eigen::MatrixXd& V = known.directions;
   const Eigen::VectorXd toward = normal.col(size).head(size);
   const double degrees = redundant * weights.sum() - size;
   Eigen::VectorXd change(size), variance(size);
   for (int round = 0; round < kNoiseRounds; ++round) {
-    Eigen::MatrixXd information = normal.topLeftCorner(size, size) / (noise_m * noise_m);
-    information.diagonal().array() += 1;
-    const Eigen::LDLT<Eigen::MatrixXd> solver(information);
-    change = -solver.solve(toward / (noise_m * noise_m));
-    variance = solver.solve(Eigen::MatrixXd::Identity(size, size)).diagonal();
+    const double variance_m2 = noise_m * noise_m;
+    const Eigen::VectorXd spread = (known.values.array() / variance_m2 + 1).inverse();
+    change = -V * spread.cwiseProduct(V.transpose() * (toward / variance_m2));
+    variance = V.cwiseAbs2() * spread;
     const double squares_m2 = normal(size, size) + 2 * toward.dot(change) +
                               change.dot(normal.topLeftCorner(size, size) * change);
     if (degrees > 0) noise_m = std::max(floor_m, std::sqrt(std::max(squares_m2, 0.0) / degrees));
   }
   StringVector uncertainty_m = StringVector::Zero();
   for (int i = 0; i < model.strings(); ++i)
-    uncertainty_m[i] = prior_sd[i] * std::sqrt(change[i] * change[i] + std::max(variance[i], 0.0));
+    uncertainty_m[i] = prior_sd[i] * std::sqrt(change[i] * change[i] + variance[i]);
   return uncertainty_m;
 }
 

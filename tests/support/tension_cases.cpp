@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include <Eigen/SVD>
+#include "core/grip/singular_values.h"
 
 namespace spidar::test {
 namespace {
@@ -36,11 +36,11 @@ TensionProblem rank_deficient(Random& random) {
   TensionProblem p = any_of_the_first(random, 4);
   switch (pick(random, 3)) {
     case 0: {
-      const Eigen::JacobiSVD<StructureMatrix> svd(p.W, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      StructureMatrix values = StructureMatrix::Zero();
-      values.diagonal() = svd.singularValues();
-      for (int i = 5 - pick(random, 3); i < 6; ++i) values(i, i) *= power_of_ten(random, -15, -4);
-      p.W = svd.matrixU() * values * svd.matrixV().transpose();
+      // W V = U diag(values)
+      const Eigen::MatrixXd V = singular_values(p.W).directions;
+      StructureMatrix scaled = p.W * V;
+      for (int i = 5 - pick(random, 3); i < 6; ++i) scaled.col(i) *= power_of_ten(random, -15, -4);
+      p.W = scaled * V.transpose();
       break;
     }
     case 1:

@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "core/grip/singular_values.h"
+#include "core/grip/small_ldlt.h"
 
 namespace spidar::test {
 namespace {
 
 using StringMatrix = Eigen::Matrix<double, kMaxStrings, kMaxStrings>;
-using SomeStrings = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStrings, 1>;
-using SomeMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStrings, kMaxStrings>;
 
 /// ½tᵀQt − cᵀt as in core/grip/tension_solver.h; strings that are not in use have zero rows.
 struct Quadratic {
@@ -33,17 +30,12 @@ struct Quadratic {
   }
 };
 
-SomeMatrix restricted(const StringMatrix& Q, const int* index, int count) {
-  SomeMatrix M(count, count);
-  for (int a = 0; a < count; ++a)
-    for (int b = 0; b < count; ++b) M(a, b) = Q(index[a], index[b]);
-  return M;
-}
-
-SomeStrings restricted(const StringVector& g, const int* index, int count) {
-  SomeStrings v(count);
-  for (int a = 0; a < count; ++a) v[a] = g[index[a]];
-  return v;
+/// y[0 … count-1] with Q_FF y = g_F, F = index[0 … count-1].
+bool solve(const StringMatrix& Q, const StringVector& g, const int* index, int count, double* y) {
+  alignas(16) Row Q_rows[kMaxStrings];
+  for (int row = 0; row < kMaxStrings; ++row)
+    for (int column = 0; column < kMaxStrings; ++column) Q_rows[row][column] = Q(row, column);
+  return solve_ldlt(count, Q_rows, 0, index, g.data(), y);
 }
 
 }  // namespace
@@ -65,14 +57,18 @@ TensionStep tension_step(const TensionProblem& before, const StringVector& t1,
     int free[kMaxStrings], size = 0;
     for (int a = 0; a < count; ++a)
       if (set >> a & 1u) free[size++] = moved[a];
-    const SomeStrings slope =
-        restricted(first.Q, free, size).llt().solve(restricted(g, free, size));
-    step.piecewise_N = std::max(step.piecewise_N, slope.lpNorm<Eigen::Infinity>());
+    double slope[kMaxStrings];
+    if (solve(first.Q, g, free, size, slope))
+      for (int a = 0; a < size; ++a)
+        step.piecewise_N = std::max(step.piecewise_N, std::abs(slope[a]));
   }
-  const SomeMatrix Q = restricted(first.Q, moved, count);
-  const SomeStrings v = restricted(g, moved, count);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Q, Eigen::EigenvaluesOnly);
-  step.lipschitz_N = std::sqrt(v.dot(Q.llt().solve(v)) / eigen.eigenvalues()[0]);
+  double slope[kMaxStrings], product = 0;
+  if (solve(first.Q, g, moved, count, slope))
+    for (int a = 0; a < count; ++a) product += g[moved[a]] * slope[a];
+  Eigen::MatrixXd Q(count, count);
+  for (int a = 0; a < count; ++a)
+    for (int b = 0; b < count; ++b) Q(a, b) = first.Q(moved[a], moved[b]);
+  step.lipschitz_N = std::sqrt(product / singular_values(Q).values[count - 1]);
   return step;
 }
 
