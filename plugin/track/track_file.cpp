@@ -3,7 +3,10 @@
 #include "plugin/track/track_file.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstdint>
+#include <fstream>
 #include <stdexcept>
 #include <utility>
 
@@ -112,6 +115,34 @@ void read_tags(GstPad* pad, TrackNotes& notes) {
   }
 }
 
+/// How many times as many samples as it has a file should have by its own head: above 1 for a WAV
+/// file that is cut off, of which wavparse plays what is there. 1 for files that do not tell.
+double promised_length(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const auto id = [&file] {
+    std::string four(4, ' ');
+    file.read(four.data(), 4);
+    return four;
+  };
+  const auto number = [&file] {
+    std::array<uint8_t, 4> bytes{};
+    for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(file.get());
+    return bytes[0] | bytes[1] << 8U | bytes[2] << 16U | static_cast<uint32_t>(bytes[3]) << 24U;
+  };
+  if (id() != "RIFF") return 1;
+  file.seekg(12);
+  while (id() != "data") {
+    const uint32_t bytes = number();
+    if (!file.seekg(bytes + bytes % 2, std::ios::cur)) return 1;
+  }
+  const uint32_t promised = number();
+  const auto begin = file.tellg();
+  const auto there = static_cast<double>(file.seekg(0, std::ios::end).tellg() - begin);
+  // A writer that could not seek back has left 0 or the largest number.
+  if (!file || there <= 0 || promised == UINT32_MAX) return 1;
+  return std::max(1.0, promised / there);
+}
+
 /// Sorts what was read. Throws std::runtime_error when there is nothing.
 void finish(Reading& reading) {
   std::vector<TrackBlock>& blocks = reading.track.blocks;
@@ -157,7 +188,12 @@ TrackFile read(const std::string& path, bool only_notes, const std::atomic<bool>
     }
     return read(path, only_notes, stopped, Wanted::kFirstSound);  // which tells why it is none
   }
-  if (!only_notes) finish(reading);
+  if (only_notes) return std::move(reading.track);
+  finish(reading);
+  if (const double times = promised_length(path); times > 1) {
+    reading.track.promised_ns =
+        static_cast<gint64>(times * static_cast<double>(reading.track.duration_ns));
+  }
   return std::move(reading.track);
 }
 

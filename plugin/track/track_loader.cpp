@@ -40,6 +40,12 @@ bool has_track(const std::string& film, const std::atomic<bool>* stopped) {
   }
 }
 
+/// A sentence without its full stop, for the end of another one.
+std::string clause(std::string sentence) {
+  if (!sentence.empty() && sentence.back() == '.') sentence.pop_back();
+  return sentence;
+}
+
 LoadedTrack load_track(const std::string& wanted, const std::string& film,
                        const std::atomic<bool>* stopped) {
   LoadedTrack loaded;
@@ -62,7 +68,7 @@ LoadedTrack load_track(const std::string& wanted, const std::string& film,
       move(*loaded.track, match->later_ns);
     }
   } catch (const std::runtime_error& error) {
-    loaded.problem = error.what();
+    loaded.problem = clause(error.what());
   }
   return loaded;
 }
@@ -83,7 +89,7 @@ LoadedTrack load_analysis(const std::string& wanted, const std::string& film,
     }
     loaded.analysis = file;
   } catch (const std::runtime_error& error) {
-    loaded.problem = error.what();
+    loaded.problem = clause(error.what());
   }
   return loaded;
 }
@@ -114,7 +120,7 @@ void TrackLoader::begin(Sidecar kind, const std::string& wanted, const std::stri
                                        : load_analysis(wanted, film, &reading->stopped);
     } catch (const std::exception& error) {
       loaded.path = wanted;
-      loaded.problem = error.what();
+      loaded.problem = clause(error.what());
     }
     loaded.kind = kind;
     const std::lock_guard<std::mutex> lock(reading->mutex);

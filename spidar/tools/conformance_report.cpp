@@ -45,8 +45,13 @@ std::string hexadecimal(uint32_t bits) {
 
 std::string quantiles(const LatencyHistogram& histogram) {
   const auto us = [](int64_t ns) { return std::to_string(ns / 1000) + " us "; };
-  return us(histogram.quantile_ns(0.5)) + "median, " + us(histogram.quantile_ns(0.99)) + "99 %, " +
-         us(histogram.max_ns()) + "at most";
+  // Above that, a quantile is not known.
+  constexpr int64_t kLongest_ns = LatencyHistogram::kBins * LatencyHistogram::kBinWidth_ns;
+  const auto at = [&](double q) {
+    const int64_t ns = histogram.quantile_ns(q);
+    return ns > kLongest_ns ? "more than " + us(kLongest_ns) : us(ns);
+  };
+  return at(0.5) + "median, " + at(0.99) + "99 %, " + us(histogram.max_ns()) + "at most";
 }
 
 std::string faults(const LinkHealth& health) {

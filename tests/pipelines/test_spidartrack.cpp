@@ -288,6 +288,12 @@ TEST_F(Spidartrack, WhatIsDamagedOrNoTrackIsNamed) {
   const CommandResult cut = spidartrack("check " + path("a.flac"));
   EXPECT_EQ(cut.status, 1);
   expect_contains(cut.text, "s of 2.000 s are there");
+  save_track(path("b.flac"), samples());
+  EXPECT_EQ(spidartrack("convert " + path("b.flac") + " " + path("b.wav")).status, 0);
+  fs::resize_file(path("b.wav"), fs::file_size(path("b.wav")) / 2);
+  const CommandResult half = spidartrack("check " + path("b.wav"));
+  EXPECT_EQ(half.status, 1);
+  expect_contains(half.text, "s of 2.000 s are there");
 }
 
 TEST_F(Spidartrack, APipelineThatNeverBeginsIsNotAwaitedForEver) {
