@@ -11,7 +11,8 @@ of those that are given, and each film goes through all tools. --only takes the 
 --keep keeps what was written for them. CORPUS is a folder for the films, which are made once.
 
 It fails when a check fails that known_failures.py does not know, or, with the release of GStreamer that this list is
-for, when an entry of it is needed no more. The exit status is 77 if what it needs is not installed."""
+for, when an entry of it is needed no more. Up to five films that fail beside others are tried again alone. The exit
+status is 77 if what it needs is not installed."""
 import argparse
 import collections
 import concurrent.futures
@@ -32,6 +33,7 @@ from known_failures import KNOWN, RARE, RELEASE
 from trial import Player, Trial
 
 SKIPPED = 77
+MOST_AGAIN = 5  # more is no matter of a busy machine
 
 
 def missing():
@@ -91,6 +93,10 @@ def processor_s():
 
 def printable(text):
     return text.encode(errors="backslashreplace").decode()
+
+
+def fails(film, results):
+    return any(result and not known_reason(check, film.kind, result) for check, result in results.items())
 
 
 class Table:
@@ -170,7 +176,7 @@ def run(options, programs):
         for _ in range(options.jobs):
             players.put(Player())
 
-        def work(i):
+        def work(i, alone=False):
             film, other = films[i], films[other_of(i, kinds)]
             if not film or not other:
                 return
@@ -178,9 +184,16 @@ def run(options, programs):
             results = try_film(film, other, programs, player, options.whole is not None, options.keep)
             players.put(player)
             with lock:
-                table.add(film, results)
+                if not alone and len(again) < MOST_AGAIN and fails(film, results):
+                    again.append(i)
+                else:
+                    table.add(film, results)
 
+        again = []
         list(pool.map(work, chosen))
+        for i in again:
+            print(printable(f"fails beside other films, and is tried again alone: {films[i]}"), flush=True)
+            work(i, alone=True)
     hangs = collections.Counter()
     for _ in range(options.jobs):
         player = players.get()
