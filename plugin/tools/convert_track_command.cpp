@@ -37,14 +37,14 @@ size_t parse_axis(const std::string& text) {
 void check_use(const std::string& from, const std::string& to, const SaveOptions& options,
                bool has_axis) {
   if (options.rate_Hz > 0 && encoder_of(to).empty()) {
-    throw UsageError("--rate: is of sound, .flac, .mka or .wav, and not of " + to);
+    throw UsageError("--rate is for sound (.flac, .mka, .wav), not for " + to);
   }
   if (options.tolerance && !ends_with(to, ".hjif") && !ends_with(to, ".ahap")) {
-    throw UsageError("--tolerance: is of .hjif and .ahap, and not of " + to);
+    throw UsageError("--tolerance is for .hjif and .ahap, not for " + to);
   }
   if (has_axis && options.rate_Hz == 0 && !ends_with(to, ".funscript") &&
       !ends_with(from, ".funscript")) {
-    throw UsageError("--axis: is of .funscript, and with --rate of sound, and not of " + to);
+    throw UsageError("--axis is for .funscript, and for sound with --rate, not for " + to);
   }
 }
 

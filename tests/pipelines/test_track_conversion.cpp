@@ -41,9 +41,9 @@ TEST_F(TrackConversion, AnOptionThatChangesNothingIsAnError) {
     EXPECT_EQ(result.status, 2) << options;
     expect_contains(result.text, why);
   };
-  refuse(path("b.wav") + " --axis fy", "--axis: is of .funscript, and with --rate of sound");
-  refuse(path("b.hjif") + " --axis fy", "--axis: is of .funscript, and with --rate of sound");
-  refuse(path("b.flac") + " --tolerance 0.1", "--tolerance: is of .hjif and .ahap, and not of ");
+  refuse(path("b.wav") + " --axis fy", "--axis is for .funscript, and for sound with --rate");
+  refuse(path("b.hjif") + " --axis fy", "--axis is for .funscript, and for sound with --rate");
+  refuse(path("b.flac") + " --tolerance 0.1", "--tolerance is for .hjif and .ahap, not for ");
   EXPECT_EQ(
       spidartrack("convert " + path("a.wav") + " " + path("b.hjif") + " --tolerance 0.1").text, "");
 }

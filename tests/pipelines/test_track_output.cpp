@@ -262,7 +262,7 @@ TEST_F(TrackOutput, MistakesAreNamed) {
   expect_contains(ahap.text, "written, but not read");
   const CommandResult rate = spidartrack("convert " + a + " " + path("a.hjif") + " --rate 48000");
   EXPECT_EQ(rate.status, 2);
-  expect_contains(rate.text, "--rate: is of sound, .flac, .mka or .wav, and not of");
+  expect_contains(rate.text, "--rate is for sound (.flac, .mka, .wav), not for");
 
   std::ofstream(path("empty.csv"))
       << "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
