@@ -19,8 +19,9 @@ constexpr int kLeastPixels = kBlock_px;
 /// Saturated white and black parts of an object have no noise either, so a block that has moved
 /// needs a share halfway to all of them.
 constexpr double kExactShareElsewhere = (1 + kMost) / 2;
-/// A block with static graphics, which the film in it draws along, moves by less than kMostOff_px.
-/// One that moved by less than half of it, px of the field's picture, counts as not moved.
+/// The search can find a block with static graphics to move by up to kMostOff_px, because part of
+/// its pixels are of the film. Blocks that moved by less than half of it, px of the field's
+/// picture, count as not moved.
 constexpr float kInPlace_px = kMostOff_px / 2;
 /// Score of a block: a pair in which it stays constant adds kGain, every other pair subtracts 1.
 /// From kLasting on, which needs two such pairs, the block counts as burned in without a new sign,

@@ -42,8 +42,9 @@ bool fit_linear(const std::vector<Displacement>& points, const std::vector<doubl
     scatter += weights[i] * q * q.transpose();
     cross += weights[i] * d * q.transpose();
   }
-  // All are in one place.
-  if (!(scatter.trace() > 0)) return false;
+  // All are in one place, but for the rounding of their mean (1e-10 px at 1e4 px from the centre).
+  constexpr double kOnePlace_px = 1e-6;
+  if (!(scatter.trace() > means.weight * kOnePlace_px * kOnePlace_px)) return false;
   if (model.kind == ModelKind::kSimilarity) {
     const double grow = cross.trace() / scatter.trace();
     const double turn = (cross(1, 0) - cross(0, 1)) / scatter.trace();

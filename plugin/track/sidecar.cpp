@@ -51,8 +51,8 @@ std::string find_sidecar(const std::string& film) {
 std::string why_not_played(const std::string& film, const std::string& track) {
   const std::string other = find_before(film, kTrackEnds, track);
   if (other.empty()) return {};
-  return "warning: track=auto and spidartrack still play " + other + "; remove it, or name " +
-         track + " to them";
+  return "warning: track=auto and spidartrack play " + other + " in place of " + track +
+         "; remove it, or use track=" + track;
 }
 
 FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {

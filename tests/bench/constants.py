@@ -30,8 +30,8 @@ KINDS = {
         regions.kMostRegions corner.kMostCornerBox_px""",
     "arithmetic: fixed point, lanes, guards of a division": """
         block_field.kMost_px block_kernels.kFractionOne combing.kLines corner.kTwice field_picture.kNinth
-        layer_evidence.kLeast_px_s luma_row.kLanes luma_words.kBytes motion_estimator.kFirstBlockId motion_models.kSteps
-        motion_models.kSmall motion_models.kUnit_px motion_models.kModelKinds padded_image.kCacheLine
+        layer_evidence.kLeast_px_s luma_row.kLanes luma_words.kBytes motion_estimator.kFirstBlockId motion_models.kOnePlace_px
+        motion_models.kSteps         motion_models.kSmall motion_models.kUnit_px motion_models.kModelKinds padded_image.kCacheLine
         padded_image.kRowsAhead regions.kNoRegion window_kernels.kPixelOne window_kernels.kDerivativeOne
         window_kernels.kDifferenceOne window_kernels.kGainOne window_match.kMostGain""",
     "derived: computed from others, or a number of mathematics": """

@@ -203,9 +203,18 @@ TEST(MotionModels, PointsOnALineDoNotDetermineAnAffineModel) {
 }
 
 TEST(MotionModels, PointsInOnePlaceDetermineAShiftOnly) {
-  const std::vector<Displacement> points(5, {0, {10, 10}, {1, 2}});
-  EXPECT_EQ(fit_model(ModelKind::kTranslation, points, ones(5))->shift_px, Eigen::Vector2d(1, 2));
-  EXPECT_FALSE(fit_model(ModelKind::kSimilarity, points, ones(5)));
+  // 0.1 and 0.2 have no exact mean.
+  for (const Eigen::Vector2d& at_px : {Eigen::Vector2d(10, 10), Eigen::Vector2d(0.1, 0.2)}) {
+    std::vector<Displacement> points(5, {0, at_px, {1, 2}});
+    points.push_back({0, at_px, {1.5, 2}});
+    const std::vector<double> weights = {1, 0.7, 0.1, 0.3, 0.9, 0.2};
+    const double mean_x_px = 1 + 0.5 * 0.2 / 3.2;
+    const MotionModel shift = fit_model(ModelKind::kTranslation, points, weights).value();
+    EXPECT_NEAR(shift.shift_px.x(), mean_x_px, 1e-12);
+    EXPECT_NEAR(shift.shift_px.y(), 2, 1e-12);
+    EXPECT_FALSE(fit_model(ModelKind::kSimilarity, points, weights)) << at_px.transpose();
+    EXPECT_FALSE(fit_model(ModelKind::kAffine, points, weights)) << at_px.transpose();
+  }
 }
 
 TEST(MotionModels, GrowthAndRollAreThoseOfTheSimilarity) {

@@ -75,18 +75,18 @@ TEST_F(TrackBatch, ATrackThatIsNotPlayedIsNamed) {
   const auto command = [this](const std::string& arguments) {
     return run("cd " + path("") + " && " SPIDARTRACK " " + arguments).text;
   };
-  const std::string played = "still play a.avi.haptic.flac; remove it, or name a.avi.haptic.";
-  EXPECT_EQ(record("a.avi").text.find("still"), std::string::npos);
-  expect_contains(record("a.avi --format wav -- motion=camera").text, played + "wav to them");
-  expect_contains(record("a.avi --format wav -- motion=camera").text, played + "wav to them");
-  EXPECT_EQ(record("a.avi --force").text.find("still"), std::string::npos);
+  const std::string played = "play a.avi.haptic.flac in place of a.avi.haptic.";
+  EXPECT_EQ(record("a.avi").text.find("warning"), std::string::npos);
+  expect_contains(record("a.avi --format wav -- motion=camera").text, played + "wav; remove it");
+  expect_contains(record("a.avi --format wav -- motion=camera").text, played + "wav; remove it");
+  EXPECT_EQ(record("a.avi --force").text.find("warning"), std::string::npos);
   command("analyze a.avi");
   EXPECT_EQ(command("render a.avi.motion"), "a.avi.haptic.flac\n");
   EXPECT_EQ(command("render a.avi.motion other.wav"), "other.wav\n");
-  expect_contains(command("render a.avi.motion a.avi.haptic.mka"), played + "mka to them");
+  expect_contains(command("render a.avi.motion a.avi.haptic.mka"), played + "mka; remove it");
   command("record --format mka --shard 1/2 a.avi");
   command("record --format mka --shard 2/2 a.avi");
-  expect_contains(command("join a.avi.1of2.motion a.avi.2of2.motion"), played + "mka to them");
+  expect_contains(command("join a.avi.1of2.motion a.avi.2of2.motion"), played + "mka; remove it");
 }
 
 TEST_F(TrackBatch, FilmsOfOneNameHaveTracksOfTheirOwn) {
