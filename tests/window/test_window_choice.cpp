@@ -88,6 +88,8 @@ class WindowChoice : public testing::Test {
   }
 
   std::string film() const { return folder.path / "film.avi"; }
+  /// The trace of the player with the window.
+  std::string played() const { return folder.path / "played.csv"; }
   std::string rules_file() const { return film() + ".feel"; }
   std::vector<FeelRule> rules() const {
     std::ifstream file(rules_file());
@@ -97,6 +99,26 @@ class WindowChoice : public testing::Test {
   /// Of the first rule; −1 when there is none.
   int chosen_disc() const { return rules().empty() ? -1 : rules()[0].place.x() < 0.5 ? 0 : 1; }
 
+  using TraceRow = std::map<std::string, double>;
+  /// Time and velocity of each frame in a trace; a line that is still being written is left out.
+  static std::vector<TraceRow> traced(const std::string& path) {
+    std::ifstream file(path);
+    std::string line;
+    std::getline(file, line);
+    const std::vector<std::string> names = fields(line);
+    std::vector<TraceRow> rows;
+    while (std::getline(file, line) && !file.eof()) {
+      const std::vector<std::string> values = fields(line);
+      TraceRow row;
+      for (const char* name : {"stream_time_ns", "velocity_x_px_s", "velocity_y_px_s"}) {
+        const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+        row[name] = std::stod(values.at(static_cast<size_t>(at)));
+      }
+      rows.push_back(std::move(row));
+    }
+    return rows;
+  }
+
   /// The share of the frames from one time to another in which this disc is felt.
   double felt_share(int disc, int64_t from_ns, int64_t to_ns) const {
     const std::string trace = folder.path / "trace.csv";
@@ -105,18 +127,8 @@ class WindowChoice : public testing::Test {
             " ! decodebin ! identity eos-after=" + std::to_string(kAgain_frames) +
             " ! spidarmotion device=none feel=auto trace=" + trace + " ! fakesink sync=false");
     EXPECT_EQ(played.status, 0) << played.text;
-    std::ifstream file(trace);
-    std::string line;
-    std::getline(file, line);
-    const std::vector<std::string> names = fields(line);
     int right = 0, all = 0;
-    while (std::getline(file, line)) {
-      const std::vector<std::string> values = fields(line);
-      std::map<std::string, double> row;
-      for (const char* name : {"stream_time_ns", "velocity_x_px_s", "velocity_y_px_s"}) {
-        const auto at = std::find(names.begin(), names.end(), name) - names.begin();
-        row[name] = std::stod(values.at(static_cast<size_t>(at)));
-      }
+    for (TraceRow& row : traced(trace)) {
       const double time_ns = row["stream_time_ns"];
       if (time_ns < static_cast<double>(from_ns) || time_ns >= static_cast<double>(to_ns)) continue;
       // Measured between two frames.
@@ -171,8 +183,8 @@ class WindowChoice : public testing::Test {
 
 TEST_F(WindowChoice, OfAnObjectIsObeyedWhenTheFilmIsPlayedAgain) {
   ChildProcess player({"gst-launch-1.0", "-q", "filesrc", "location=" + film(), "!", "decodebin",
-                       "!", "spidarmotion", "device=none", "debug-window=true", "!", "fakesink",
-                       "sync=true"});
+                       "!", "spidarmotion", "device=none", "debug-window=true", "trace=" + played(),
+                       "!", "fakesink", "sync=true"});
   ASSERT_TRUE(comes([this] { return find_window(); })) << "no window";
   // A row that is not there yet cannot be clicked, and a second click would let go.
   for (const size_t i : {1, 0}) {
@@ -186,6 +198,10 @@ TEST_F(WindowChoice, OfAnObjectIsObeyedWhenTheFilmIsPlayedAgain) {
     ASSERT_EQ(rules().size(), 1u) << "the last one of a scene counts";
   }
   const int64_t saved_to_ns = rules()[0].to_ns;
+  ASSERT_TRUE(comes([&] {
+    const std::vector<TraceRow> rows = traced(played());
+    return !rows.empty() && rows.back().at("stream_time_ns") > static_cast<double>(saved_to_ns);
+  })) << "it does not play on";
   player.end(SIGINT);  // as Control-C does: the pipeline is stopped
   ASSERT_EQ(rules().size(), 1u);
   const FeelRule rule = rules()[0];
