@@ -62,9 +62,10 @@ MotionEstimator::MotionEstimator() {
 
 /// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
 /// block has in both directions and the better its motion fits; it counts twice at the border of
-/// the picture, and half for a block that moved by itself until now. How an edge moves along itself
-/// is not known; edges therefore vote only where little else does, as in a picture out of focus.
-/// Returns whether the voters together have edges in more than one direction.
+/// the picture, and half for a block that moved by itself until now. Rest at the border counts
+/// once: graphics are mostly there, whereas a camera at rest shows it all over the picture. How an
+/// edge moves along itself is not known; edges therefore vote only where little else does, as in a
+/// picture out of focus. Returns whether the voters together have edges in more than one direction.
 bool MotionEstimator::collect_votes(Voters voters) {
   votes_.clear();
   votes_.with_edges = voters == Voters::kEdgesToo;
@@ -88,7 +89,9 @@ bool MotionEstimator::collect_votes(Voters voters) {
       if (objects_.is_burned_in(i)) continue;
       double weight = texture / (texture + kFullTexture) /
                       (1 + static_cast<double>(block.residual) / kBadResidual);
-      if (at_border) weight *= kBorderVotes;
+      // Right to half a pixel, as all motion is before it is refined.
+      const bool rests = std::hypot(block.moved_x_px, block.moved_y_px) < kMostOff_px / 2;
+      if (at_border && !rests) weight *= kBorderVotes;
       if (!persistence.empty()) {
         weight *= 1 - static_cast<double>(persistence[origin_of(field_, i)]) / 2;
       }

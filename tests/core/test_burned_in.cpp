@@ -209,6 +209,30 @@ TEST(BurnedInLines, DoNotSayHowTheCameraMoves) {
   }
 }
 
+TEST(BurnedInFrames, AreNoSceneInWhichTheCameraRests) {
+  // A camera travels past a scene with depth, of which no model explains more than a part. A frame
+  // of bold letters lies at the border, where votes for the camera's motion count twice.
+  const std::vector<Picture> film = take([](int n, const Vector2d& at) {
+    const double nearness = 1 + std::floor(at.y() / 60) / 5;
+    const Vector2d from = at + n * nearness * Vector2d(3, 1.5);
+    return background().at(from.x(), from.y());
+  });
+  const Caption frame = [](int, const Vector2d& at, double grey) {
+    grey = write(at, {16, 10}, 608, 4, 1, grey);
+    grey = write(at, {16, 322}, 608, 4, 2, grey);
+    for (uint32_t line = 0; line < 6; ++line) {
+      grey = write(at, {16, 60.0 + 40 * line}, 24, 4, 10 + line, grey);
+      grey = write(at, {600, 60.0 + 40 * line}, 24, 4, 20 + line, grey);
+    }
+    return grey;
+  };
+  const std::vector<FrameAnalysis> found = analyze(film, frame, MotionKind::kCamera);
+  for (size_t n = 1; n < kFrames; ++n) {
+    // Nothing of the scene moves by less than the furthest part, hypot(3, 1.5) px.
+    EXPECT_GT(found[n].motion.velocity_px_s.norm() * kFrame_s, 1) << "frame " << n;
+  }
+}
+
 const Caption& subtitles() {
   return captions()[2].caption;
 }
