@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "core/tracking/shares.h"
+
 namespace spidar {
 namespace {
 
@@ -30,6 +32,11 @@ void LayerEvidence::add(const Eigen::Vector2d& relative_px_s,
   if (seen_s_ >= kMean_s) least_ratio_ = std::min(least_ratio_, mean_ratio());
 }
 
+void LayerEvidence::add_contrast(bool stands_out) {
+  ++contrasts_;
+  stood_out_ += stands_out;
+}
+
 void LayerEvidence::change_pixels(double ratio) {
   for (Eigen::Vector2d* velocity : {&relative_px_s_, &background_px_s_, &newest_px_s_}) {
     *velocity *= ratio;
@@ -47,6 +54,10 @@ double LayerEvidence::mean_ratio() const {
 
 bool LayerEvidence::is_on_screen() const {
   return screen_px_s_ < kOnScreen * changes_px_s_;
+}
+
+bool LayerEvidence::mostly_stood_out() const {
+  return stood_out_ >= kMost * contrasts_;
 }
 
 double LayerEvidence::ratio() const {

@@ -23,6 +23,9 @@ class LayerEvidence {
   void add(const Eigen::Vector2d& relative_px_s, const Eigen::Vector2d& background_px_s,
            double interval_s);
 
+  /// Adds whether the region stood out from the noise around it in this frame.
+  void add_contrast(bool stands_out);
+
   /// Pixels are smaller from now on: `ratio` of them make one of the old.
   void change_pixels(double ratio);
 
@@ -39,6 +42,11 @@ class LayerEvidence {
   /// do: what is in the scene shakes with it, and what a camera follows drifts on the screen.
   bool is_on_screen() const;
 
+  /// Whether it stood out from the noise in most frames so far, as an object does. In a scene with
+  /// depth, parts of it that are further away than the background move against it like something
+  /// that the camera follows, and stand out now and then.
+  bool mostly_stood_out() const;
+
   /// Longer than a swing of a hand-held camera, which shakes at 2 … 10 Hz; from 0.2 to 0.8 s the
   /// results on real films are the same.
   static constexpr double kMean_s = 0.3;
@@ -50,6 +58,8 @@ class LayerEvidence {
   double screen_px_s_ = 0;                                 ///< mean speed on the screen
   double changes_px_s_ = 0;  ///< and of the change of the relative velocity from frame to frame
   double seen_s_ = 0;
+  int contrasts_ = 0;  ///< frames in which it is known whether it stood out
+  int stood_out_ = 0;  ///< and those of them in which it did
   double least_ratio_ = std::numeric_limits<double>::infinity();
 };
 

@@ -212,6 +212,7 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const bool too_large = share > kMost && kMost * share > background_->coverage;
   CameraMotion camera = camera_;
   if (camera.moves) camera.noise_px = noise_around(life.key);
+  life.evidence.add_contrast(stands_out(life.region, camera));
   life.proven += salience(life.region, life.evidence, camera, false) > 0;
   // What was clearly no layer of the scene for so long may become more like one.
   const bool was_followed = life.proven >= kLastingPictures;

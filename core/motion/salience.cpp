@@ -28,6 +28,10 @@ constexpr double kLeastLikelihood = 0.25;
 
 }  // namespace
 
+bool stands_out(const Region& region, const CameraMotion& camera) {
+  return region.relative_px.norm() >= kNoiseSigmas * camera.noise_px;
+}
+
 double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
                 bool was_followed) {
   if (region.roundness < static_cast<double>(kLeastRoundness)) return 0;
@@ -48,7 +52,9 @@ double salience(const Region& region, const LayerEvidence& evidence, const Camer
   // The edge of graphics, mixed with the film behind it.
   if (region.graphics_blocks >= kMost * trust * region.blocks) return 0;
   const double doubt = std::max(1.0, evidence.ratio() / trust);
-  if (speed_px * trust < kNoiseSigmas * doubt * doubt * doubt * camera.noise_px) return 0;
+  // What stands out now and then only is a layer that does so by chance.
+  const double in_noise = evidence.mostly_stood_out() ? trust : 1;
+  if (speed_px * in_noise < kNoiseSigmas * doubt * doubt * doubt * camera.noise_px) return 0;
   const double inside = 1 / (1 + std::pow(touching / (kBorder * trust), 4));
   const double likelihood = inside / (doubt * doubt);
   return likelihood < kLeastLikelihood ? 0 : likelihood * score;

@@ -15,12 +15,17 @@ struct CameraMotion {
   double blocks = 0;    ///< number of blocks that follow the background
 };
 
+/// Whether a region moves against the background by clearly more than the noise around it, which is
+/// none while the camera rests.
+bool stands_out(const Region& region, const CameraMotion& camera);
+
 /// √area × speed, px² of the field's picture. The score is lower when the camera moves and the
 /// region looks like an effect of the camera's translation in a scene with depth: a layer nearer
 /// than the background extends over the border of the picture, moves on the screen more than it
 /// moves relative to the background, is as large as the background, or hardly differs from the
 /// noise around the background's model. 0 for a region that is no object but one of these, or
-/// graphics. `was_followed`: it was an object before and may look a little more like a layer.
+/// graphics. `was_followed`: it was an object before and may look a little more like a layer, but
+/// stand out less from the noise only if it mostly stood out.
 double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
                 bool was_followed);
 

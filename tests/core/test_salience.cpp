@@ -101,6 +101,24 @@ TEST(Salience, IsSpeedTimesTheRootOfTheArea) {
                    3 * salience(region(8, 0, 1), kNoEvidence, still, false));
 }
 
+TEST(Salience, WhatStandsOutNowAndThenOnlyIsNotTrusted) {
+  const CameraMotion moving{true, 1, 100};
+  // Just below the limit of what was no object before.
+  const Region weak = region(25, 0, 4.5);
+  const Region clear = region(25, 0, 5.5);
+  ASSERT_EQ(salience(weak, kNoEvidence, moving, false), 0);
+  EXPECT_FALSE(stands_out(weak, moving));
+  EXPECT_TRUE(stands_out(clear, moving));
+  EXPECT_TRUE(stands_out(weak, {false, 0, 100})) << "the camera rests";
+  LayerEvidence evidence;
+  for (int n = 0; n < 5; ++n) evidence.add_contrast(true);
+  for (int n = 0; n < 5; ++n) evidence.add_contrast(false);
+  EXPECT_GT(salience(weak, evidence, moving, true), 0) << "it slows down";
+  evidence.add_contrast(false);
+  EXPECT_EQ(salience(weak, evidence, moving, true), 0);
+  EXPECT_GT(salience(clear, evidence, moving, true), 0);
+}
+
 TEST(Salience, AnotherLayerAsLargeAsTheBackgroundHasNoneWhileTheCameraMoves) {
   const CameraMotion still{false, 0, 40};
   const CameraMotion moving{true, 0, 40};
