@@ -12,9 +12,8 @@ namespace spidar {
 namespace {
 
 constexpr size_t kMostPoints = 512;
-/// Where blocks want kSome points, every third column of every second row gets one.
-constexpr int kColumnsForOne = 3;
-constexpr int kRowsForOne = 2;
+/// Where blocks want kSome points, one of so many in each row and column gets one.
+constexpr int kBlocksForOne = 3;
 constexpr MatchSettings kMatch{4, 0.02f, 2};
 
 /// Block of the grid at a place of the base; outside the grid, the nearest block.
@@ -109,7 +108,7 @@ void FieldPoints::add(PointWish wish, const ReducedFrame& reduced, const BlockFi
     if (wishes[i] != wish || taken_[i] != 0) continue;
     const int column = static_cast<int>(i) % grid.columns;
     const int row = static_cast<int>(i) / grid.columns;
-    if (wish == PointWish::kSome && (column % kColumnsForOne != 1 || row % kRowsForOne != 0)) {
+    if (wish == PointWish::kSome && (column % kBlocksForOne != 1 || row % kBlocksForOne != 1)) {
       continue;
     }
     const auto base_px = [scale](int px) {

@@ -5,30 +5,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
+#include "core/tracking/shares.h"
+
 namespace spidar {
 namespace {
 
 /// Shares of the picture's votes: an object in front of a plain background hardly covers more than
 /// kMostObject, and a model that fewer votes than kLeastCoverage agree with does not count.
-constexpr double kMostObject = 0.2;
+constexpr double kMostObject = 1 - kNearlyAll;
 constexpr double kLeastCoverage = 0.06;
 /// If this share of all votes is cast, two objects cannot have them all.
 constexpr double kTexturedShare = 2 * kMostObject;
 
 /// Noise of a displacement, px of the picture in which motion is measured. A vote that deviates by
 /// more than kOutlierSigmas · noise, and by at least kLeastReach_px, is an outlier.
-constexpr double kNoiseQuantile = 0.3;
 constexpr double kOutlierSigmas = 2.5;
 constexpr double kLeastReach_px = 0.45;
 
 /// A model explains the votes when most of them are inliers and their mean ρ is below kExplained;
 /// the ρ of an outlier is 4.
 constexpr double kExplained = 0.3;
-constexpr double kMargin = 3;  // parameters
+/// A higher rung must be better by the price of so many parameters.
+constexpr double kMargin = 3;
 /// After an attempt at a higher rung that did not help, the next one is made after this many
 /// frames, or when the mean ρ has risen. A lower rung is taken after as many.
 constexpr int kPatience = 5;
-constexpr double kRisen = 0.1;
 /// Above this mean ρ half of the votes are outliers and the camera's motion is not known: every
 /// frame is searched from scratch.
 constexpr double kLost = kMostCost / 2;
@@ -223,8 +225,8 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
   current = best;
 }
 
-/// Uses a low quantile, because some things that move by themselves may not have been recognised
-/// yet. Where little agrees with the model, the picture is plain, or so blurred that the model is
+/// Uses the median, because some things that move by themselves may not have been recognised yet.
+/// Where little agrees with the model, the picture is plain, or so blurred that the model is
 /// wrong; the noise is then assumed to be that of good pictures. Rest that few blocks agree with is
 /// noise, if most of the picture has texture. Where the camera's motion is unknown, so is the
 /// noise.
@@ -234,11 +236,7 @@ void BackgroundEstimator::learn_noise() {
   const bool is_textured_rest = is_textured_ && background_.model.kind == ModelKind::kStill;
   if (residuals_px_.size() >= kLeastVotes &&
       (is_textured_rest || background_.coverage >= kMostObject)) {
-    const auto n = static_cast<double>(residuals_px_.size());
-    const auto place = residuals_px_.begin() + static_cast<ptrdiff_t>(kNoiseQuantile * n);
-    std::nth_element(residuals_px_.begin(), place, residuals_px_.end());
-    // Quantiles of a Rayleigh distribution.
-    found_px = *place / std::sqrt(-2 * std::log(1 - kNoiseQuantile));
+    found_px = median(residuals_px_.begin(), residuals_px_.end()) / kRayleighMedian;
   }
   noise_px_ += kNewestWeight * (std::max(found_px, kSharedError_px) - noise_px_);
 }

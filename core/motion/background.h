@@ -16,6 +16,9 @@ constexpr double kBorderVotes = 2;
 constexpr double kNewestWeight = 0.4;
 /// Fewer votes say nothing about the background.
 constexpr size_t kLeastVotes = 12;
+/// By so much a mean ρ has risen noticeably. The ρ of an outlier is 4, so this is as if one vote in
+/// a hundred became an outlier.
+constexpr double kRisen = 0.04;
 
 /// Displacements from which the camera's motion is estimated.
 struct BackgroundVotes {

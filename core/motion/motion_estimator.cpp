@@ -19,12 +19,6 @@ constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
 
-/// Points that agree with the background of the blocks to within kPointReach_px, px of the field's
-/// picture, refine its model.
-constexpr double kPointReach_px = 0.5;
-/// By how much the refinement may raise the mean ρ of the blocks' votes. The ρ of an outlier is 4,
-/// so this is as if one vote in a hundred became an outlier.
-constexpr double kMostDearer = 0.04;
 /// Blocks in the list of tracks have ids from this one on.
 constexpr uint32_t kFirstBlockId = 1u << 31;
 
@@ -136,7 +130,7 @@ void MotionEstimator::refine_background(Background& background) {
   const ModelKind kind = background.model.kind;
   if (kind == ModelKind::kStill) return;
   evidence_.points.clear();
-  const double reach_px = std::max(kPointReach_px, 2 * background.sigma_px);
+  const double reach_px = 2 * background.sigma_px;
   for (const PlacedPoint& point : placed_) {
     const Eigen::Vector2d expected_px = background.model.displacement_px(point.moved.at_px);
     if ((point.moved.moved_px - expected_px).norm() < reach_px) {
@@ -161,7 +155,7 @@ void MotionEstimator::refine_background(Background& background) {
   // depth.
   const double dearer =
       mean_cost(*refined, votes_, reach_px / 2) - mean_cost(background.model, votes_, reach_px / 2);
-  if (dearer > kMostDearer) return;
+  if (dearer > kRisen) return;
   background.model = *refined;
 }
 

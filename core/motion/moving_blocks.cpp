@@ -30,7 +30,7 @@ constexpr int kLeastNeighbours = 3;
 constexpr int kNearlyAllNeighbours = 7;
 
 /// A block that stood out in two of the last frames needs only one moving neighbour.
-constexpr float kLeastLasting = 0.5f;
+constexpr float kLeastLasting = kMost;
 
 /// Share of a block that was in the previous picture if it moved with the background.
 float seen_before(const BlockField& field, size_t index, const RelativeBlock& block) {

@@ -20,13 +20,8 @@ constexpr int kBornAfterBlocks = 8;
 /// How far from its expected place an object may reappear, as a share of the sum of both boxes'
 /// sides.
 constexpr double kReach = 0.75;
-/// Time constant with which the usual number of blocks of an object falls; it rises at once.
-constexpr double kUsual_s = 0.8;
 /// A lost object continues for this long, because its blocks may fail for a frame or two.
 constexpr double kCoast_s = 0.05;
-/// Weight of the newest value in the velocity of an object that is not rigid. This delays it by a
-/// frame.
-constexpr double kNewest = 0.5;
 
 }  // namespace
 
@@ -196,7 +191,8 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const ObjectMotion found = measure(life, frame);
   const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
   const bool goes_on = life.frames_seen > 0 && velocity_px_s.dot(life.velocity_px_s) > 0;
-  const double newest = life.is_rigid || !goes_on ? 1 : kNewest;
+  // Of an object that is not rigid, the velocity is smoothed, which delays it by a frame.
+  const double newest = life.is_rigid || !goes_on ? 1 : kNewestWeight;
   life.velocity_px_s += newest * (velocity_px_s - life.velocity_px_s);
   const double late_px_s = (velocity_px_s - life.velocity_px_s).norm();
   expect(life, frame);
@@ -269,10 +265,11 @@ void ObjectTracker::go_on_unseen(Life& life, const FieldInFrame& frame) const {
   life.expected_px += life.expected_px_s * frame.interval_s + life.region.background_px;
 }
 
-/// Remembers what is needed if the object goes out of sight.
+/// Remembers what is needed if the object goes out of sight. Its usual number of blocks rises at
+/// once and falls slowly.
 void ObjectTracker::expect(Life& life, const FieldInFrame& frame) const {
   const double blocks = life.region.blocks;
-  const double forgotten = std::min(1.0, frame.interval_s / kUsual_s);
+  const double forgotten = std::min(1.0, frame.interval_s / kForgotten_s);
   life.usual_blocks =
       std::max(blocks, life.usual_blocks + forgotten * (blocks - life.usual_blocks));
   // Only a rim is visible: the rest of the object is hidden.

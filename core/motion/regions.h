@@ -10,6 +10,7 @@
 
 #include "core/field/block_field.h"
 #include "core/motion/moving_blocks.h"
+#include "core/tracking/shares.h"
 
 namespace spidar {
 
@@ -34,7 +35,7 @@ struct Region {
 };
 
 /// Of the motion of a body, by how much that of its limbs may differ from it.
-constexpr double kAlikeShare = 0.5;
+constexpr double kAlikeShare = kMost;
 
 /// Two motions of the same thing differ by less than this, px of the field's picture: kAlikeShare
 /// of `fastest_px`, the length of the longer one, and the noise of a block.

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/image_view.h"
+#include "core/tracking/shares.h"
 
 namespace spidar {
 
@@ -44,7 +45,7 @@ class RepeatedPicture {
   static constexpr int kDips = 2;
   /// The limit for the noise if the changes one and two periods ago were as small relative to their
   /// neighbours. A period has at least two frames.
-  static constexpr float kShareWhenDue = 0.5f;
+  static constexpr float kShareWhenDue = kMost;
 
  private:
   /// Dips: runs of small changes between two large ones.

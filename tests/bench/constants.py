@@ -34,7 +34,9 @@ KINDS = {
         motion_models.kSteps         motion_models.kSmall motion_models.kUnit_px motion_models.kModelKinds padded_image.kCacheLine
         padded_image.kRowsAhead regions.kNoRegion window_kernels.kPixelOne window_kernels.kDerivativeOne
         window_kernels.kDifferenceOne window_kernels.kGainOne window_match.kMostGain""",
-    "derived: computed from others, or a number of mathematics": """
+    "derived: computed from others, or a number of mathematics or of a cited paper": """
+        background.kMostObject cadence.kSameInterval moving_blocks.kLeastLasting regions.kAlikeShare
+        repeated_picture.kShareWhenDue robust_fit.kMostCost robust_fit.kMostTries
         background.kLost background.kTexturedShare block_kernels.kBlockArea_px block_kernels.kHalf
         block_search.kBlockReach_px block_search.kMostDeviation_px block_search.kFarthest_px block_search.kNearest_px
         block_search.kMostSteps burned_in.kLeastPixels burned_in.kExactShareElsewhere burned_in.kInPlace_px
