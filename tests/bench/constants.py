@@ -80,6 +80,10 @@ class Constant:
         self.variable = f"SPIDAR_K_{file.stem}_{self.name}"
         self.kind = next((kind for kind, keys in KINDS.items() if self.key in keys.split()), None)
 
+    def needs(self):
+        """Names of the constants that this one is computed from."""
+        return set(re.findall(r"k[A-Z]\w*", self.text))
+
     def value(self, everything):
         """Of the few expressions that there are: numbers, + - * / and other constants."""
         text = re.sub(r"\b(\d[\d.]*(?:e-?\d+)?)[fu]\b", r"\1", self.text.replace("'", ""))
@@ -112,7 +116,9 @@ def read(source):
 
 def make_tunable(copy, constants):
     """Rewrites the chosen ones, and makes of what is computed from them no constants for the compiler."""
-    chosen = {c.name for c in constants if c.kind is None}
+    tuned = {c.name for c in constants if c.kind is None}
+    for _ in constants:  # what is computed from what is computed from them
+        tuned |= {c.name for c in constants if c.needs() & tuned}
     for file in {c.file for c in constants}:
         keys = {c.name: c for c in constants if c.file == file}
 
@@ -120,7 +126,7 @@ def make_tunable(copy, constants):
             name, kind = found["name"], found["type"]
             storage = found["static"] and "inline static" or (file.suffix == ".h" and "inline") or "static"
             if keys[name].kind is not None:
-                if set(re.findall(r"k[A-Z]\w*", found["value"])) & chosen:
+                if keys[name].needs() & tuned:
                     return found[0].replace("static constexpr", "inline static const").replace("constexpr", "const")
                 return found[0]
             value = f'static_cast<{kind}>(tuned("{keys[name].variable}", {found["value"]}))'
