@@ -10,9 +10,10 @@
 namespace spidar::test::dominant_object_test {
 namespace {
 
-/// A fifth of kReason_s.
-constexpr double kFrame_s = 0.04;
+constexpr double kFrame_s = DominantObject::kReason_s / 5;
 constexpr int kLong = 100;  // frames
+/// What the followed object, of prominence 10, is compared with.
+constexpr double kClaim = 10 * DominantObject::kClearly;
 
 MovingObject object(uint32_t id, double prominence) {
   MovingObject made;
@@ -48,7 +49,7 @@ TEST(DominantObject, StaysWhenAnotherIsALittleMoreProminent) {
     DominantObject dominant;
     choice(dominant, {object(1, 10), object(2, 9)});
     for (int n = 0; n < kLong; ++n) {
-      ASSERT_EQ(choice(dominant, {object(1, 10), object(2, 29)}, 1, interval_s), 1u) << n;
+      ASSERT_EQ(choice(dominant, {object(1, 10), object(2, kClaim - 1)}, 1, interval_s), 1u) << n;
     }
   }
 }
@@ -56,11 +57,11 @@ TEST(DominantObject, StaysWhenAnotherIsALittleMoreProminent) {
 TEST(DominantObject, StaysWhenAnotherStandsOutInAFewFramesOnly) {
   DominantObject dominant;
   choice(dominant, {object(1, 10), object(2, 9)});
-  // The reason rises by 0.04 s · (50 − 30) / 80 in a frame, and falls by 0.04 s · (30 − 9) / 39:
-  // after 17 and nine frames by 0.17 s and 0.19 s.
+  // The reason rises by a quarter of a frame in each frame, and falls by half of one: by 17/4 and
+  // 18/4 frames. Five are kReason_s.
   for (int n = 0; n < kLong; ++n) {
-    ASSERT_EQ(choice(dominant, {object(1, 10), object(2, 50)}, 17), 1u) << n;
-    ASSERT_EQ(choice(dominant, {object(1, 10), object(2, 9)}, 9), 1u) << n;
+    ASSERT_EQ(choice(dominant, {object(1, 10), object(2, kClaim * 5 / 3)}, 17), 1u) << n;
+    ASSERT_EQ(choice(dominant, {object(1, 10), object(2, kClaim / 3)}, 9), 1u) << n;
   }
 }
 
@@ -73,17 +74,19 @@ double time_to_leave(DominantObject& dominant, const std::vector<MovingObject>& 
 }
 
 TEST(DominantObject, GoesToAnotherTheSoonerTheMoreItStandsOut) {
-  // At any frame rate after kReason_s (p + 30) / (p − 30): 0.6 s, 0.4 s, 0.3 s. Half a frame of
-  // reason are up to 1.5 frames of time.
-  for (const double prominence : {60.0, 90.0, 150.0}) {
-    const double after_s = DominantObject::kReason_s * (prominence + 30) / (prominence - 30);
+  // At any frame rate after 3, 2 and 1.5 kReason_s. Half a frame of reason are up to 1.5 frames of
+  // time.
+  for (const double ratio : {2.0, 3.0, 5.0}) {
+    const double prominence = ratio * kClaim;
+    const double after_s = DominantObject::kReason_s * (ratio + 1) / (ratio - 1);
     for (const double interval_s : {0.01, 0.02, 0.04}) {
       DominantObject dominant;
       choice(dominant, {object(1, 10), object(2, 5)}, 1, interval_s);
       const std::vector<MovingObject> outshone = {object(1, 10), object(2, prominence)};
       EXPECT_NEAR(time_to_leave(dominant, outshone, interval_s), after_s, 1.6 * interval_s);
-      // And does not come back for less than three times as much.
-      const std::vector<MovingObject> again = {object(1, 2.9 * prominence), object(2, prominence)};
+      // And does not come back for less than kClearly times as much.
+      const double less = (DominantObject::kClearly - 0.1) * prominence;
+      const std::vector<MovingObject> again = {object(1, less), object(2, prominence)};
       EXPECT_EQ(choice(dominant, again, kLong, interval_s), 2u);
     }
   }
@@ -113,7 +116,7 @@ TEST(DominantObject, StaysWithOneThatIsMissingInAFewFrames) {
 TEST(DominantObject, LeavesOneThatIsGone) {
   DominantObject dominant;
   choice(dominant, {object(1, 10), object(2, 9)}, kLong);
-  // 5 · 0.04 s = kReason_s.
+  // Five frames are kReason_s.
   EXPECT_EQ(choice(dominant, {object(2, 9)}, 4), 0u);
   EXPECT_EQ(choice(dominant, {object(2, 9)}), 2u);
   EXPECT_EQ(choice(dominant, {}, kLong), 0u);
