@@ -11,10 +11,8 @@
 namespace spidar {
 namespace {
 
-/// Shares of the picture's votes: an object in front of a plain background hardly covers more than
-/// kMostObject, and a model that fewer votes than kLeastCoverage agree with does not count.
+/// An object in front of a plain background hardly has more than this share of the picture's votes.
 constexpr double kMostObject = 1 - kNearlyAll;
-constexpr double kLeastCoverage = 0.06;
 /// If this share of all votes is cast, two objects cannot have them all.
 constexpr double kTexturedShare = 2 * kMostObject;
 
@@ -28,9 +26,6 @@ constexpr double kLeastReach_px = 0.45;
 constexpr double kExplained = 0.3;
 /// A higher rung must be better by the price of so many parameters.
 constexpr double kMargin = 3;
-/// After an attempt at a higher rung that did not help, the next one is made after this many
-/// frames, or when the mean ρ has risen. A lower rung is taken after as many.
-constexpr int kPatience = 5;
 /// Above this mean ρ half of the votes are outliers and the camera's motion is not known: every
 /// frame is searched from scratch.
 constexpr double kLost = kMostCost / 2;
@@ -81,7 +76,7 @@ void BackgroundEstimator::reset() {
   background_ = Background();
   noise_px_ = kUsualNoise_px;
   patience_ = 0;
-  frames_since_climb_ = kPatience;
+  frames_since_climb_ = kLastingPictures;
   refused_cost_ = 0;
 }
 
@@ -151,7 +146,7 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
   }
   scored.coverage = votes.all > 0 ? sum / votes.all : 0;
   if (scored.model.kind == ModelKind::kStill || is_textured_) return true;
-  return scored.coverage >= kLeastCoverage && is_background(scored.model.kind, votes.size_px);
+  return is_background(scored.model.kind, votes.size_px);
 }
 
 /// Whether the chosen model is the camera's: more of the votes agree than an object has, or all
@@ -168,8 +163,6 @@ bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes&
 /// picture.
 bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
                                 const BackgroundVotes& votes, Scored& scored) {
-  const bool may_cover = is_textured_ || voting_ >= kLeastCoverage * votes.all;
-  if (kind != ModelKind::kStill && !may_cover) return false;
   const auto model = fitter_.refine(kind, start, evidence_);
   if (!model) return false;
   if (kind != ModelKind::kStill) ++fitted_;
@@ -220,7 +213,7 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
     if (kind == ModelKind::kStill) break;
   }
   patience_ = best.model.kind < current.model.kind ? patience_ + 1 : 0;
-  if (patience_ < kPatience) return;
+  if (patience_ < kLastingPictures) return;
   patience_ = 0;
   current = best;
 }
@@ -263,10 +256,10 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   ++frames_since_climb_;
   bool climbed = false;
   const bool is_due =
-      frames_since_climb_ >= kPatience || cost > refused_cost_ + kRisen || cost > kLost;
+      frames_since_climb_ >= kLastingPictures || cost > refused_cost_ || cost > kLost;
   if (!explained && is_due) {
     climbed = climb(start, votes, current);
-    frames_since_climb_ = climbed ? kPatience : 0;
+    frames_since_climb_ = climbed ? kLastingPictures : 0;
     refused_cost_ = cost;
   }
   if (climbed) {

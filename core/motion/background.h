@@ -16,9 +16,6 @@ constexpr double kBorderVotes = 2;
 constexpr double kNewestWeight = 0.4;
 /// Fewer votes say nothing about the background.
 constexpr size_t kLeastVotes = 12;
-/// By so much a mean ρ has risen noticeably. The ρ of an outlier is 4, so this is as if one vote in
-/// a hundred became an outlier.
-constexpr double kRisen = 0.04;
 
 /// Displacements from which the camera's motion is estimated.
 struct BackgroundVotes {
@@ -55,8 +52,9 @@ Background in_pixels_of(const Background& background, double scale);
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
 /// coordinates of a track, d = 2 for all rungs, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2. The
 /// smallest wins, with hysteresis: a higher rung must be better by kMargin parameters' worth, a
-/// lower one must be better in kPatience frames in succession. Higher rungs are only fitted when
-/// the one in use stops explaining the votes, and not in every frame when that does not help.
+/// lower one must be better in kLastingPictures frames in succession. Higher rungs are only fitted
+/// when the one in use stops explaining the votes. Where that does not help, they are fitted again
+/// after as many frames, or when the mean ρ has risen.
 class BackgroundEstimator {
  public:
   BackgroundEstimator();

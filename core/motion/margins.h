@@ -9,12 +9,9 @@
 #include <vector>
 
 #include "core/field/block_field.h"
+#include "core/tracking/shares.h"
 
 namespace spidar {
-
-/// What shows in so many pictures, or pairs of them, is no error: in one or two, an object may look
-/// like a bar, and a layer like an object.
-constexpr int kLastingPictures = 3;
 
 /// How many rows and columns of blocks at each side of the picture do not show the film: letterbox
 /// bars, a still frame around it, or both, with the blocks through which their edge goes. The

@@ -155,7 +155,7 @@ void MotionEstimator::refine_background(Background& background) {
   // depth.
   const double dearer =
       mean_cost(*refined, votes_, reach_px / 2) - mean_cost(background.model, votes_, reach_px / 2);
-  if (dearer > kRisen) return;
+  if (dearer > 0) return;
   background.model = *refined;
 }
 

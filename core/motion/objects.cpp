@@ -13,9 +13,8 @@
 namespace spidar {
 namespace {
 
-/// An object exists once it has been seen in kBornAfter frames with a total of kBornAfterBlocks
+/// An object exists once it has been seen in kConfirmed frames with a total of kBornAfterBlocks
 /// blocks, so that a small one must be seen more often.
-constexpr int kBornAfter = 2;
 constexpr int kBornAfterBlocks = 8;
 /// How far from its expected place an object may reappear, as a share of the sum of both boxes'
 /// sides.
@@ -26,7 +25,7 @@ constexpr double kCoast_s = 0.05;
 }  // namespace
 
 bool ObjectTracker::Life::is_born() const {
-  return frames_seen >= kBornAfter && blocks_seen >= kBornAfterBlocks;
+  return frames_seen >= kConfirmed && blocks_seen >= kBornAfterBlocks;
 }
 
 ObjectTracker::ObjectTracker() {
@@ -319,7 +318,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   }
   const auto is_over = [](const Life& life) {
     return (!life.is_born() && !life.claimed) || life.unseen_s > kForgotten_s ||
-           life.resting_s > kAtRest_s;
+           life.resting_s > kForgotten_s;
   };
   lives_.erase(std::remove_if(lives_.begin(), lives_.end(), is_over), lives_.end());
 

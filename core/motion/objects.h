@@ -35,8 +35,8 @@ struct FieldInFrame {
 /// second frame in which its motion is similar. A region belongs to the object to which most of its
 /// blocks belonged before, or else to an object out of sight that is expected there, so that an
 /// object that passes behind another one keeps its id. While the motion of the background is
-/// unknown, all objects are out of sight. An object is dropped when it has been out of
-/// sight for kForgotten_s or at rest for kAtRest_s; until then it may stand still.
+/// unknown, all objects are out of sight. An object is dropped when it has been out of sight or at
+/// rest for kForgotten_s.
 class ObjectTracker {
  public:
   ObjectTracker();
@@ -68,9 +68,8 @@ class ObjectTracker {
   /// The field has another grid from the next frame on. Objects stay what they are.
   void change_grid(const GridChange& change);
 
-  /// Times, s: longer than what usually hides an object, and than a pause in its motion.
+  /// Longer than what usually hides an object, and than most pauses in its motion.
   static constexpr double kForgotten_s = 0.5;
-  static constexpr double kAtRest_s = 1.0;
   static constexpr size_t kMostObjects = 16;
 
  private:

@@ -144,7 +144,7 @@ const std::vector<Region>& RegionFinder::find(const BlockField& field,
   for (size_t i = 0; i < n; ++i) {
     if (!relative[i].moves) continue;
     const auto root = static_cast<size_t>(root_of(static_cast<int>(i)));
-    if (size_[root] < kLeastBlocks) continue;
+    if (size_[root] < kConfirmed) continue;
     if (region_of_root_[root] == kNoRegion) {
       region_of_root_[root] = static_cast<int16_t>(regions_.size());
       regions_.emplace_back();

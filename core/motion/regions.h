@@ -49,15 +49,14 @@ class RegionFinder {
  public:
   RegionFinder() { regions_.reserve(kMostRegions); }
 
-  /// Finds regions among the blocks that move and drops those of less than kLeastBlocks.
+  /// Finds regions among the blocks that move and drops those of fewer than kConfirmed
+  /// blocks.
   const std::vector<Region>& find(const BlockField& field,
                                   const std::vector<RelativeBlock>& relative);
 
   /// The region of each block, or kNoRegion.
   const std::vector<int16_t>& labels() const { return labels_; }
 
-  /// A single block is more often an error of its motion than an object.
-  static constexpr int kLeastBlocks = 2;
   static constexpr size_t kMostRegions = 128;  ///< for which memory is reserved
 
  private:

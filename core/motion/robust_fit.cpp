@@ -10,12 +10,10 @@ namespace spidar {
 namespace {
 
 /// The start may deviate by this, px of the field's picture, and each step tolerates half as much
-/// as the one before, down to σ: a start is only as accurate as two points, and a similarity where
-/// the scene needs more. With σ alone, the blocks of one object that move alike often agree with a
-/// similarity that is more exact than any of the background's.
+/// as the one before, until the last one tolerates σ: a start is only as accurate as two points,
+/// and a similarity where the scene needs more. With σ alone, the blocks of one object that move
+/// alike often agree with a similarity that is more exact than any of the background's.
 constexpr double kFar_px = 4.8;
-constexpr int kSteps = 6;
-constexpr int kFarSteps = 2;
 
 /// The similarity that moves both points as they moved.
 MotionModel through(const Displacement& a, const Displacement& b) {
@@ -79,18 +77,17 @@ std::optional<MotionModel> RobustFitter::refine(ModelKind kind, const MotionMode
   std::optional<MotionModel> model = start;
   if (kind == ModelKind::kStill) return MotionModel();
   weights_.resize(evidence.points.size());
-  for (int step = 0; step < kSteps && model; ++step) {
-    const double reach_px = 2 * std::max(evidence.sigma_px, std::ldexp(kFar_px, -step));
+  double tolerance_px = 2 * std::max(kFar_px, evidence.sigma_px);
+  while (tolerance_px > evidence.sigma_px && model) {
+    tolerance_px = std::max(evidence.sigma_px, tolerance_px / 2);
+    const double reach_px = 2 * tolerance_px;
     for (size_t i = 0; i < weights_.size(); ++i) {
       const Displacement& point = evidence.points[i];
       const double e2 = (point.moved_px - model->displacement_px(point.at_px)).squaredNorm();
       const double w = 1 / (1 + e2 / (reach_px * reach_px));
       weights_[i] = evidence.weights[i] * w * w;
     }
-    // The homography is expensive, and points that are far from it are equally far from its affine
-    // part.
-    const bool far = step < kFarSteps;
-    model = fit_model(far ? std::min(kind, ModelKind::kAffine) : kind, evidence.points, weights_);
+    model = fit_model(kind, evidence.points, weights_);
   }
   return model;
 }

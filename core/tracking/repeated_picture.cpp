@@ -108,7 +108,7 @@ bool RepeatedPicture::is_due(const Rhythm& rhythm) const {
 
 bool RepeatedPicture::is_small(float change) const {
   const Rhythm any = rhythm(kShare);
-  if (any.dips >= kDips && change < kShare * any.large) return true;
+  if (any.dips >= kConfirmed && change < kShare * any.large) return true;
   const Rhythm periodic = rhythm(kShareWhenDue);
   return change < kShareWhenDue * periodic.large && is_due(periodic);
 }

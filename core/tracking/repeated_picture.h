@@ -38,11 +38,10 @@ class RepeatedPicture {
 
   /// Largest coding noise, as a share of the change before and after it.
   static constexpr float kShare = 0.3f;
-  /// At least kDips such dips must have occurred within kFrames frames, in whatever rhythm, because
-  /// an object that slows down and reverses also causes one. 24 pictures per second in 30 frames
-  /// have two in ten.
+  /// At least kConfirmed such dips must have occurred within kFrames frames, in whatever rhythm,
+  /// because an object that slows down and reverses also causes one. 24 pictures per second in 30
+  /// frames have two in ten.
   static constexpr size_t kFrames = 12;
-  static constexpr int kDips = 2;
   /// The limit for the noise if the changes one and two periods ago were as small relative to their
   /// neighbours. A period has at least two frames.
   static constexpr float kShareWhenDue = kMost;

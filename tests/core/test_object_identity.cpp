@@ -279,7 +279,7 @@ TEST(ObjectIdentity, IsForgottenWhenItHasBeenOutOfSightForLong) {
 }
 
 TEST(ObjectIdentity, OneThatStandsStillForAMomentIsTheSame) {
-  const int rest = static_cast<int>(0.5 * ObjectTracker::kAtRest_s / kSceneFrame_s);
+  const int rest = static_cast<int>(0.5 * ObjectTracker::kForgotten_s / kSceneFrame_s);
   Film film;
   film.discs = {{3, 50, [=](int n) {
                    const int moving = n < 10 ? n : n < 10 + rest ? 10 : n - rest;

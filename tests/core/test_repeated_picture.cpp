@@ -168,7 +168,7 @@ TEST(RepeatedPicture, LittleNoiseIsTheSamePictureOutOfRhythmToo) {
       large = change;
     }
     const Kind kind = repeated.look(before.view(), now.view());
-    if (stood > RepeatedPicture::kDips) {
+    if (stood > kConfirmed) {
       EXPECT_EQ(kind, stands ? Kind::kAlike : Kind::kDifferent) << n;
     }
     if (kind == Kind::kDifferent) before = now;

@@ -26,18 +26,6 @@ TEST(SparseVotes, OfAnObjectOnAPlainBackgroundAreNotTheBackgrounds) {
   }
 }
 
-TEST(SparseVotes, OfAnObjectThatHasTooFewCauseNoFit) {
-  // 50 of 900: less than a model needs, wherever its votes are.
-  TrackSource source(6);
-  BackgroundEstimator estimator;
-  for (int n = 0; n < 10; ++n) {
-    std::vector<Displacement> points;
-    add_object(source, points, 50, {60.0 - 10 * n, 20}, {-10, 2}, kSigma_px);
-    EXPECT_EQ(estimator.estimate(votes(points, 900)).model.kind, ModelKind::kStill);
-    EXPECT_EQ(estimator.fitted(), 0) << "frame " << n;
-  }
-}
-
 TEST(SparseVotes, OfOneOrTwoObjectsAreNotTheBackgrounds) {
   // Up to 100 of 900 each, far apart: some similarity explains any two of them.
   const std::vector<Eigen::Vector2d> places_px{{-250, 100}, {250, 100}};
