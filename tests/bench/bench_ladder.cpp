@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The ladder of models of the camera's motion: each rung where it is needed, where a lower one
-// would do, and where it is too low, beside the rung that BackgroundEstimator chooses. Prints the
-// first table of `Models of the camera` in docs/tables-tracking.md.
+// would do, and where it is too low, beside the rung that BackgroundEstimator chooses. The
+// error of a model is in px, rms over the picture and 800 frames of 300 votes.
 #include <array>
 #include <cmath>
 #include <cstdio>

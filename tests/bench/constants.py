@@ -3,9 +3,9 @@
 # Copyright 2026 the gst-spidar authors
 """Measures what each constant of the analysis does on real films. constants.py [--only NAME,...] FOLDER... builds a copy
 of the source in which a constant can be changed when the plugin is loaded, analyses the films of the FOLDERs, which are
-those of real_films.py, with half and with double each constant, and writes the tables of docs/tables-constants.md: how
-many constants there are of each kind, and what each chosen one does. With --only these constants are printed and
-nothing is written. Run it in the top folder of the source. An hour for forty films on two processors.
+those of real_films.py, with half and with double each constant, and prints two tables: how many constants there are of
+each kind, and what each chosen one does. --only leaves all other constants out. Run it in the top folder of the source.
+An hour for forty films on two processors.
 
 A whole number is rounded up when it is halved. A value of which the films show exactly the same has the sign =."""
 
@@ -21,7 +21,6 @@ from pathlib import Path
 from real_films import Tally, play, read_truth
 
 LAYERS = ("core/field", "core/motion", "core/tracking")
-PAGE = Path("docs/tables-constants.md")
 AT_ONCE = 2
 # Constants that nobody chose for the sake of the films, or that cannot be halved, by kind. All others are chosen.
 KINDS = {
@@ -189,11 +188,6 @@ def number(value):
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
-def write(mark, lines):
-    before, rest = PAGE.read_text().split(f"<!-- {mark} -->\n", 1)
-    PAGE.write_text("\n".join([f"{before}<!-- {mark} -->", "", *lines, "", rest[rest.index("<!-- end -->"):]]))
-
-
 def row(c, value, found, above):
     comment = "as above" if c.comment and c.comment == above else c.comment
     return f"| `{c.key}` | {number(value)} | {found[0]} | {found[1]} | {comment} |"
@@ -209,7 +203,7 @@ def compare(films, constants, chosen):
             other = c.scaled(value, factor)
             figures, apart = films.measure(c.variable, other) if other != value else ("", "")
             found.append(figures)
-            print(f"{c.key} {number(value)} -> {number(other)}: {figures}  {apart}", flush=True)
+            print(f"{c.key} {number(value)} -> {number(other)}: {figures}  {apart}", file=sys.stderr, flush=True)
         yield row(c, value, found, above)
         above = c.comment
 
@@ -237,12 +231,12 @@ def main():
         raw.mkdir()
         films = Films(build(copy, constants), raw, folders)
         default, apart = films.measure()
-        print(f"default {default}  {apart}", flush=True)
-        rows = list(compare(films, constants, chosen))
-    if only is None:
-        write("constants: kinds", kinds(constants))
-        write("constants: films", [f"With nothing changed: {default}.", "",
-                                   "| constant | value | half | double | what it is |", "|---|---|---|---|---|", *rows])
+        print(f"default {default}  {apart}", file=sys.stderr, flush=True)
+        if only is None:
+            print("\n".join(kinds(constants)) + "\n")
+        print(f"With nothing changed: {default}.\n\n| constant | value | half | double | what it is |\n|---|---|---|---|---|")
+        for line in compare(films, constants, chosen):
+            print(line, flush=True)
 
 
 if __name__ == "__main__":

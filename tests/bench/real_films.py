@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Measures whether the right motion is felt in real films. real_films.py BUILD FOLDER [OLDER_BUILD] runs the
-spidarmotion of a meson build folder on the films of FOLDER and writes five tables into docs/tables-tracking.md: how
+spidarmotion of a meson build folder on the films of FOLDER and prints five tables: how
 often each model of the camera's motion is chosen; a row for each of its settings, and one for OLDER_BUILD, the
 build folder of an older version; films of which a corner is cut off; methods with the processor time that each
-takes, see bench_real_film.cpp; budgets of that time. The fourth is also written to BUILD/real_films.csv, for
-real_films.gp. real_films.py BUILD --budgets FOLDER writes the last table only.
+takes, see bench_real_film.cpp; budgets of that time. real_films.py BUILD --budgets FOLDER prints the last table only.
 real_films.py BUILD --calm FILM... prints how calm the force is in films of which no truth is known.
 
 FOLDER holds films that GStreamer can decode. Beside a film, NAME.csv gives the true motion of its
@@ -53,7 +52,6 @@ SETTINGS = [
 NAMES = {"motion=mean filter-min-cutoff=0": "closest to the paper"}
 RUNGS = 5  # of WorkLadder
 BUDGETS_US = (100, 200, 300, 500, 1000, 2000)
-PAGE = Path("docs/tables-tracking.md")
 # Of bench_real_film, and their names in the table.
 METHODS = {
     "default": "`motion=object`",
@@ -66,26 +64,15 @@ METHODS = {
 
 
 class Table:
-    """Rows that are printed as they come and then take the place of those of docs/tables-tracking.md between
-    `<!-- real films: NAME -->` and `<!-- end -->`."""
+    """A heading, and rows that are printed as they come."""
 
     def __init__(self, name, *columns):
-        self.mark = f"<!-- real films: {name} -->"
-        self.lines = []
-        if self.mark not in PAGE.read_text():
-            sys.exit(f"real_films.py: {PAGE} has no line '{self.mark}'")
+        print(f"\n## {name}\n")
         self.add("| " + " | ".join(columns) + " |")
         self.add("|---" * len(columns) + "|")
 
     def add(self, line):
         print(line, flush=True)
-        self.lines.append(line)
-
-    def write(self):
-        print(flush=True)
-        before, rest = PAGE.read_text().split(self.mark + "\n", 1)
-        after = rest[rest.index("<!-- end -->"):]
-        PAGE.write_text("\n".join([before + self.mark, "", *self.lines, "", after]))
 
 
 def read_truth(file):
@@ -137,7 +124,7 @@ def size_px(film):
 
 
 def compare_corners(build, films):
-    table = Table("corners", "cut off", "right %", "wrong %", "any force %", "false %", "jitter (true)")
+    table = Table("A corner cut off", "cut off", "right %", "wrong %", "any force %", "false %", "jitter (true)")
     together = Tally()
     for name, x, y in corners():
         tally = Tally()
@@ -150,7 +137,6 @@ def compare_corners(build, films):
                 each.add(*found, read_truth(truth) if truth.exists() else None)
         table.add(tally.row(name))
     table.add(together.row("all four"))
-    table.write()
 
 
 def jitter(motion, frames):
@@ -276,8 +262,7 @@ def measure(program, method, film):
 
 def compare_methods(build, films):
     program = build / "tests" / "bench" / "bench_real_film"
-    table = Table("methods", "method", "ms a frame", "right %", "wrong %", "any force %", "false %", "jitter (true)")
-    rows = []
+    table = Table("Methods", "method", "ms a frame", "right %", "wrong %", "any force %", "false %", "jitter (true)")
     for method, name in METHODS.items():
         tally, times_ms = Tally(), []
         for film in films:
@@ -287,12 +272,6 @@ def compare_methods(build, films):
             tally.add(*found, read_truth(truth) if truth.exists() else None)
         time_ms = statistics.median(times_ms)
         table.add(tally.row(f"{name} | {time_ms:.2f}"))
-        rows.append([name.strip("`").split(",")[0], time_ms, 100 * tally.right / tally.counted,
-                     100 * tally.wrong / tally.counted,
-                     100 * tally.false / max(tally.without_object, 1)])
-    table.write()
-    with open(build / "real_films.csv", "w", newline="") as lines:
-        csv.writer(lines).writerows(rows)
 
 
 class Burners:
@@ -313,7 +292,7 @@ class Burners:
 def compare_budgets(build, films):
     """What each rung costs, and what is felt within each budget."""
     program = build / "tests" / "bench" / "bench_real_film"
-    table = Table("budgets", "work", "right %", "wrong %", "any force %", "false %", "jitter (true)",
+    table = Table("Budgets", "work", "right %", "wrong %", "any force %", "false %", "jitter (true)",
                   "us a frame: 1 %, 50 %, 99 %", "the same, processors busy", "in budget %", "busy")
     for method in [f"rung={n}" for n in range(RUNGS)] + [f"budget={us}" for us in BUDGETS_US]:
         tally, times, shares = Tally(), [], []
@@ -333,11 +312,10 @@ def compare_budgets(build, films):
             shares.append(f"{within:.1f}" if name == "budget" else "")
         table.add(f"{tally.row('`' + method + '`' if name == 'budget' else 'rung ' + value)} {times[0]} | {times[1]} "
                   f"| {shares[0]} | {shares[1]} |")
-    table.write()
 
 
 def compare_settings(build, older, films):
-    table = Table("settings", "settings", "right %", "wrong %", "any force %", "false %", "jitter (true), px")
+    table = Table("Settings", "settings", "right %", "wrong %", "any force %", "false %", "jitter (true), px")
     runs = [(build, properties, " ".join(properties) or "default") for properties in SETTINGS]
     if older:
         runs.append((older, [], "an older version"))
@@ -347,13 +325,12 @@ def compare_settings(build, older, films):
             truth = film.with_suffix(".csv")
             tally.add(*play(which, film, properties), read_truth(truth) if truth.exists() else None)
         table.add(tally.row(NAMES.get(name) or (f"`{name}`" if properties else name)))
-    table.write()
 
 
 def count_models(build, films):
     """How often each model of the camera's motion is chosen."""
     rungs = ["still", "translation", "similarity", "affine", "homography"]
-    table = Table("models", "films", *(f"{rung} %" for rung in rungs), "unknown or plain %")
+    table = Table("Models of the camera's motion", "films", *(f"{rung} %" for rung in rungs), "unknown or plain %")
     for name, chosen in (("with an object", [f for f in films if f.with_suffix(".csv").exists()]),
                          ("camera only", [f for f in films if not f.with_suffix(".csv").exists()])):
         found = Counter(row["background"]["model"] if row["background"]["coverage"] > 0 else "unknown"
@@ -361,7 +338,6 @@ def count_models(build, films):
         if found:
             shares = [f"{100 * found[rung] / found.total():.0f}" for rung in [*rungs, "unknown"]]
             table.add(f"| {name} | " + " | ".join(shares) + " |")
-    table.write()
 
 
 def check_plugin(build):

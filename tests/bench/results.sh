@@ -1,18 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Measures what docs/results.md and the tables of docs/ claim: runs each command, one after the other, and writes what it
-# prints into FOLDER/NAME.txt. Takes hours on all of them; the machine should do nothing else.
-#   tests/bench/results.sh BUILD FOLDER [NAME...]     NAME: some of them only
-#   FILMS=FOLDER tests/bench/results.sh ...           also real_films, with the films that truth.py has made
-# tracking, films and real_films also update their tables and pictures in docs/.
+# Measures what the pages of docs/ claim: runs each command, one after the other, and writes the tables that it prints
+# into BUILD/results/NAME.txt, which a release attaches. All of them take hours; the machine should do nothing else.
+#   tests/bench/results.sh BUILD [NAME...]     NAME: some of them only
+#   FILMS=FOLDER tests/bench/results.sh ...    also real_films and constants, with the films that truth.py has made
 set -eu
 cd "$(dirname "$0")/../.."
-usage='usage: tests/bench/results.sh BUILD FOLDER [NAME...]'
-build=$(realpath "${1:?$usage}")
-mkdir -p "${2:?$usage}"
-folder=$(realpath "$2")
-shift 2
+build=$(realpath "${1:?usage: tests/bench/results.sh BUILD [NAME...]}")
+folder=$build/results
+mkdir -p "$folder"
+shift
 
 benchmark() { meson test -C "$build" --benchmark --verbose "$1"; }
 program() { # TARGET COMMAND...
@@ -20,8 +18,9 @@ program() { # TARGET COMMAND...
 }
 run() { # NAME
     case $1 in
-    tracking) tests/bench/tracking.sh "$build" --sizes 640x360,1280x720,1920x1080,3840x2160 ;;
+    tracking) program bench_tracking "$build/tests/bench/bench_tracking" --sizes 640x360,1280x720,1920x1080,3840x2160 ;;
     real_films) tests/bench/real_films.sh "$build" "$FILMS" ;;
+    constants) tests/bench/constants.py "$FILMS" ;;
     films) tests/bench/pathologies.sh "$build" ;;
     tension_hard) program bench_tension_hard "$build/tests/bench/bench_tension_hard" ;;
     calibration) program bench_calibration "$build/tests/bench/bench_calibration" 6 ;;
@@ -32,7 +31,7 @@ run() { # NAME
     esac
 }
 
-[ $# -gt 0 ] || set -- analysis tracking films ${FILMS:+real_films} skew loop link cost record smoothness filter \
+[ $# -gt 0 ] || set -- analysis tracking films ${FILMS:+real_films constants} skew loop link cost record smoothness filter \
     tension tension_hard pose workspace calibration safety hazards touch touch_strings touch_loop paper
 failed=
 for name in "$@"; do
