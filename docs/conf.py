@@ -47,10 +47,7 @@ def contents(page):
 
 
 def read(app, name, source):
-    if name == "docs/report":
-        if app.config.root_doc == name:  # its PDF
-            source[0] += "\n" + contents("## " + source[0].split("\n## ")[-1]) + "\n"
-    elif name == root_doc:
+    if name == root_doc:
         source[0] += REFERENCE + "\n" + contents(source[0]) + "\n"
     elif name == "docs/api":
         source[0] += REFERENCE
