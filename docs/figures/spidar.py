@@ -11,8 +11,8 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "examples"))
-from draw_strings import points, project  # noqa: E402
+sys.path.insert(0, str(ROOT / "docs/figures"))
+from strings import points, project  # noqa: E402
 
 WIDTH, HEIGHT, SCALE = 760, 520, 1850  # the last in pixels a metre
 CENTRE = 340, 255

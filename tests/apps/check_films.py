@@ -10,7 +10,7 @@ import sys
 import tempfile
 import wave
 
-from check_players import make_sound
+from check_player import make_sound
 
 
 def check(program, name, reason):

@@ -16,10 +16,9 @@ def main():
                                   cwd=folder, timeout=60)
             assert done.returncode == 0, (program, done)
             assert done.stdout.startswith("usage: ") and not done.stderr, (program, done)
-            if not program.endswith("compare_controllers"):  # whose operands are films
-                wrong = subprocess.run([*command, "--bogus"], stdin=subprocess.DEVNULL, text=True,
-                                       capture_output=True, cwd=folder, timeout=60)
-                assert wrong.returncode == 2 and "usage: " in wrong.stderr, (program, wrong)
+            wrong = subprocess.run([*command, "--bogus"], stdin=subprocess.DEVNULL, text=True, capture_output=True,
+                                   cwd=folder, timeout=60)
+            assert wrong.returncode == 2 and "usage: " in wrong.stderr, (program, wrong)
             assert not os.listdir(folder), (program, os.listdir(folder))
 
 

@@ -24,15 +24,14 @@ run() { # NAME
     films) tests/bench/pathologies.sh "$build" ;;
     tension_hard) program bench_tension_hard "$build/tests/bench/bench_tension_hard" ;;
     calibration) program bench_calibration "$build/tests/bench/bench_calibration" 6 ;;
-    workspace) program workspace_map meson devenv -C "$build" apps/workspace_map --table ;;
     hazards) meson test -C "$build" --suite hazards --verbose ;;
-    paper) mkdir -p "$folder/paper" && program paper_figures "$build/apps/paper_figures" "$folder/paper" ;;
+    paper) meson devenv -C "$build" "$PWD/docs/figures/paper_figures.py" "$folder" ;;
     *) benchmark "$1" ;;
     esac
 }
 
 [ $# -gt 0 ] || set -- analysis tracking films ${FILMS:+real_films constants} skew loop link cost record smoothness filter \
-    tension tension_hard pose workspace calibration safety hazards touch touch_strings touch_loop paper
+    tension tension_hard pose calibration safety hazards touch touch_strings touch_loop paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"

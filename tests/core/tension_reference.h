@@ -112,7 +112,7 @@ inline StringVector solve_by_enumeration(const TensionProblem& p) {
   return best_t.cast<double>();
 }
 
-/// The line that examples/solve_tensions reads: W by rows, f, t_min, t_max, t_ref, ε, ℓ.
+/// A problem as one line, for messages: W by rows, f, t_min, t_max, t_ref, ε, ℓ.
 inline std::string to_line(const TensionProblem& p) {
   std::ostringstream line;
   line << std::setprecision(17);

@@ -3,7 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 """Draws the strings of a profile with their numbers, as the person who holds the grip sees them.
 
-    apps/draw_strings.py spidar/profiles/shipped/spidar-gcc.toml > docs/figures/strings-spidar-gcc.svg
+    docs/figures/strings.py spidar/profiles/shipped/spidar-gcc.toml > docs/figures/strings-spidar-gcc.svg
 """
 
 import math
