@@ -26,7 +26,7 @@ except ImportError:
 gi.require_version("Gst", "1.0")
 from gi.repository import GObject, Gst  # noqa: E402
 
-ELEMENTS = ("spidarmotion", "spidarextract", "spidarsink", "spidardepth")
+ELEMENTS = ("spidarmotion", "spidarextract", "spidarsink")
 DOCS = Path(__file__).resolve().parent
 WRITTEN = "Written by `docs/elements.py` from the plugin; a test compares the two.\n"
 

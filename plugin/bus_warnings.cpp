@@ -75,8 +75,8 @@ void BusWarnings::check_frame(const FrameReport& report) {
           ("With this depth-layout, the picture is smaller than %d x %d pixels; it is neither felt "
            "nor touched.",
            FrameLuma::kSmallestSide, FrameLuma::kSmallestSide),
-          ("Half of the frame is picture and half is depth. Larger frames are felt; depth-layout="
-           "meta takes the whole frame as picture."));
+          ("Half of the frame is picture and half is depth. Larger frames are felt; with "
+           "touch=off or luma, the whole frame is picture."));
       break;
     case FrameProblem::kNone:
     case FrameProblem::kNotShown:
@@ -125,13 +125,6 @@ void BusWarnings::check_touch(const MotionEngine& engine, const FrameReport& rep
            wanted.stiffness_N_m, report.stiffness_N_m),
           ("Measure it with spidarctl conformance, and write drive_lag_s into the profile "
            "(docs/touch.md)."));
-      break;
-    case TouchProblem::kNoDepth:
-      GST_ELEMENT_WARNING(
-          element_, STREAM, FORMAT,
-          ("touch=depth, but a frame has no depth; the last relief stays."),
-          ("spidardepth in front of the element attaches a second stream of depth; a film that has "
-           "its depth in the frame needs depth-layout=right or below."));
       break;
     case TouchProblem::kNone:
       break;

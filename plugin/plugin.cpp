@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include <gst/gst.h>
 
-#include "plugin/depth/spidar_depth.h"
 #include "plugin/provider/device_provider.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/track/spidar_extract.h"
@@ -11,7 +10,6 @@
 static gboolean plugin_init(GstPlugin* plugin) {
   return GST_ELEMENT_REGISTER(spidarmotion, plugin) &&
          GST_ELEMENT_REGISTER(spidarextract, plugin) && GST_ELEMENT_REGISTER(spidarsink, plugin) &&
-         GST_ELEMENT_REGISTER(spidardepth, plugin) &&
          GST_DEVICE_PROVIDER_REGISTER(spidardeviceprovider, plugin);
 }
 

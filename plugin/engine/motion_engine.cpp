@@ -168,9 +168,8 @@ void MotionEngine::set_motion(std::shared_ptr<const MotionFile> file, int64_t la
   replayed_ = 0;
 }
 
-void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
-                               const TouchProperties& touch, int64_t running_ns,
-                               FrameReport& report) {
+void MotionEngine::touch_frame(const ImageView& luma, const TouchProperties& touch,
+                               int64_t running_ns, FrameReport& report) {
   const HapticSession* const session = output_.session();
   if (touch.kind != TouchKind::kOff && session && !session->grip().abilities().can_touch()) {
     report.touch_problem = TouchProblem::kNoDepthAxis;
@@ -179,8 +178,7 @@ void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
   const Eigen::Vector2d middle(0.5, 0.5);
   const Eigen::Vector2d finger = turn_.place_coded(grip_place().value_or(middle));
   reliefs_.set_turn(turn_);
-  const bool found =
-      reliefs_.add(buffer, luma, report.analysis, schedule_.at_sink_ns(running_ns), touch, finger);
+  reliefs_.add(luma, report.analysis, schedule_.at_sink_ns(running_ns), touch, finger);
   if (touch.kind == TouchKind::kOff) return;
   if (session == nullptr) {
     report.touch_problem = TouchProblem::kNoDevice;
@@ -199,7 +197,6 @@ void MotionEngine::touch_frame(GstBuffer* buffer, const ImageView& luma,
     report.touch_problem =
         output_.profile().drive_lag_known ? TouchProblem::kTooStiff : TouchProblem::kLagUnknown;
   }
-  if (!found) report.touch_problem = TouchProblem::kNoDepth;
 }
 
 }  // namespace spidar

@@ -131,8 +131,8 @@ class MotionEngine {
   bool trace_moment(std::optional<MotionMoment> moment, bool is_measured);
   void end_gap(int64_t running_ns);
   void run_out(GstClockTime running_time);
-  void touch_frame(GstBuffer* buffer, const ImageView& luma, const TouchProperties& touch,
-                   int64_t running_ns, FrameReport& report);
+  void touch_frame(const ImageView& luma, const TouchProperties& touch, int64_t running_ns,
+                   FrameReport& report);
 
   // These outlive the output's thread, which hands on what waits.
   WrenchSchedule schedule_;

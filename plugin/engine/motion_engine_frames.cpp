@@ -255,7 +255,7 @@ FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSeg
   report.analysis.wrench = wrench_turn().to_shown(scaled(report.analysis.wrench, motion_share_));
   report.turn = turn_;
   if (!time.in_place) {
-    if (luma.data) touch_frame(frame.buffer, luma, touch, running_ns, report);
+    if (luma.data) touch_frame(luma, touch, running_ns, report);
     schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
                    report.analysis.wrench, report.analysis.repeated});
   }

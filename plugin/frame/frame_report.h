@@ -37,7 +37,6 @@ enum class TouchProblem {
   kTrack,        ///< a haptic track is played, and no frame is looked at
   kTooStiff,     ///< for the drives of this device: it is touched with less
   kLagUnknown,   ///< of the drives: it is touched with less
-  kNoDepth,      ///< touch=depth, and the frame has none: the last relief stays
 };
 
 /// How the analysis of a frame kept to the budget of processor time.

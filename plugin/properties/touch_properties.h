@@ -12,19 +12,9 @@ namespace spidar {
 /// Where the relief comes from.
 enum class TouchKind { kOff, kLuma, kDepth };
 
-/// Where the depth of a frame is.
-enum class DepthSource {
-  kMeta,   ///< on the frame, as spidardepth attaches it
-  kRight,  ///< the right half of the frame
-  kBelow,  ///< the lower half of the frame
-};
-
-/// The layout of a frame that contains its own depth; nothing for kMeta.
-std::optional<DepthLayout> packed_layout(DepthSource source);
-
 struct TouchProperties {
   TouchKind kind = TouchKind::kOff;
-  DepthSource depth = DepthSource::kMeta;
+  DepthLayout depth = DepthLayout::kRight;
   double relief_mm = 8;  ///< from black to white, or from far to near
   double stiffness_N_m = 500;
   double friction = 0.3;    ///< μs; μd is 0.8 of it
@@ -33,7 +23,7 @@ struct TouchProperties {
 
   /// Where in its frames the film has depth that is touched; nothing where they are all picture.
   std::optional<DepthLayout> packed() const {
-    return kind == TouchKind::kDepth ? packed_layout(depth) : std::nullopt;
+    return kind == TouchKind::kDepth ? std::optional(depth) : std::nullopt;
   }
 };
 

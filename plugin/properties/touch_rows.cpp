@@ -19,15 +19,15 @@ std::vector<MotionRow> touch_rows() {
           "GstSpidarMotionTouch",
           {{TouchKind::kOff, "No surface: the motion of the film is felt", "off"},
            {TouchKind::kLuma, "A relief of the frame's brightness: bright is near", "luma"},
-           {TouchKind::kDepth, "A relief of the frame's depth, see depth-layout", "depth"}},
+           {TouchKind::kDepth, "A relief of the depth that is half of the frame, see depth-layout",
+            "depth"}},
           kControllable, KEPT_IN(touch.kind)),
-      MotionRow::choice<DepthSource>(
+      MotionRow::choice<DepthLayout>(
           {"depth-layout", "Depth layout", "Where touch=depth finds the depth"},
           "GstSpidarMotionDepthLayout",
-          {{DepthSource::kMeta, "A depth image that spidardepth has attached", "meta"},
-           {DepthSource::kRight,
+          {{DepthLayout::kRight,
             "The right half of the frame is the depth of the left half; bright is near", "right"},
-           {DepthSource::kBelow,
+           {DepthLayout::kBelow,
             "The lower half of the frame is the depth of the upper half; bright is near", "below"}},
           kControllable, KEPT_IN(touch.depth)),
       MotionRow::number(

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "plugin/depth/frame_depth.h"
 #include "plugin/touch/touched_motion.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/realtime/monotonic.h"
@@ -121,23 +120,22 @@ const float* ReliefStream::turned(const float* levels) {
   return turned_levels_.data();
 }
 
-/// Fills in the surface of a frame. Returns false when the frame has no depth.
-bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown_ns,
-                         const TouchProperties& properties, TouchFrame& frame) {
+/// Fills in the surface of a frame. Returns false when the frame has no pixels.
+bool ReliefStream::build(const ImageView& luma, int64_t shown_ns, const TouchProperties& properties,
+                         TouchFrame& frame) {
   ReliefSettings settings;
   settings.relief_m = 1e-3 * properties.relief_mm;
   settings.floor_z_m = -0.5 * settings.relief_m;
   validate(settings);
-  if (properties.kind == TouchKind::kDepth) {
+  if (const std::optional<DepthLayout> layout = properties.packed()) {
     // At the beginning and after a seek, the depth range is estimated from this frame alone.
     const bool follows = depth_ns_ != INT64_MIN && shown_ns > depth_ns_;
     if (!follows) depth_.reset();
     const double dt_s = follows ? 1e-9 * static_cast<double>(shown_ns - depth_ns_) : 0;
-    const std::optional<DepthLayout> layout = properties.packed();
-    const bool has_depth = layout ? depth_.read(depth_half(luma, *layout), {true}, dt_s)
-                                  : read_frame_depth(buffer, dt_s, depth_);
-    if (!has_depth || !builder_.from_levels(turned(depth_.levels()), settings, frame.relief))
+    if (!depth_.read(depth_half(luma, *layout), {true}, dt_s) ||
+        !builder_.from_levels(turned(depth_.levels()), settings, frame.relief)) {
       return false;
+    }
     depth_ns_ = shown_ns;
   } else if (!builder_.from_brightness(thinned(luma), settings, frame.relief)) {
     return false;
@@ -147,29 +145,28 @@ bool ReliefStream::build(GstBuffer* buffer, const ImageView& luma, int64_t shown
   return true;
 }
 
-bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
-                       int64_t shown_ns, const TouchProperties& properties,
-                       const Eigen::Vector2d& finger) {
+void ReliefStream::add(const ImageView& luma, const FrameAnalysis& analysis, int64_t shown_ns,
+                       const TouchProperties& properties, const Eigen::Vector2d& finger) {
   copy_.reset();
-  if (!loop_) return true;
+  if (!loop_) return;
   if (properties.kind == TouchKind::kOff) {
     end(shown_ns);
-    return true;
+    return;
   }
   if (!mailbox_) start();
   // The order matters: a mute or flush after this line drops this frame.
   const uint32_t generation = mailbox_->generation();
-  if (muted_) return true;
+  if (muted_) return;
   const int64_t begin_ns = monotonic_now_ns();
   TouchFrame* const frame = mailbox_->begin(generation);
   if (!frame) {
     ++reliefs_left_out_;
     left_out_ = true;
-    return true;
+    return;
   }
-  if (!build(buffer, luma, shown_ns, properties, *frame)) {
+  if (!build(luma, shown_ns, properties, *frame)) {
     left_out_ = true;  // the surface between the neighbouring frames is unknown
-    return properties.kind != TouchKind::kDepth;
+    return;
   }
   frame->time_ns = shown_ns;
   frame->has_surface = true;
@@ -188,7 +185,6 @@ bool ReliefStream::add(GstBuffer* buffer, const ImageView& luma, const FrameAnal
   generation_ = generation;
   ++reliefs_;
   took_.add(monotonic_now_ns() - begin_ns);
-  return true;
 }
 
 void ReliefStream::end(int64_t shown_ns) {

@@ -58,10 +58,9 @@ class ReliefStream {
 
   /// Adds a frame that is shown at `shown_ns`. `luma` covers the whole frame, `analysis` the part
   /// that is picture. For `finger` see touched_displacement_px(). Throws std::invalid_argument when
-  /// the device has no workspace for a picture. Returns false when touch=depth finds no depth in
-  /// the frame; the last relief then remains. Allocates only when the frame size changes.
-  bool add(GstBuffer* buffer, const ImageView& luma, const FrameAnalysis& analysis,
-           int64_t shown_ns, const TouchProperties& properties, const Eigen::Vector2d& finger);
+  /// the device has no workspace for a picture. Allocates only when the frame size changes.
+  void add(const ImageView& luma, const FrameAnalysis& analysis, int64_t shown_ns,
+           const TouchProperties& properties, const Eigen::Vector2d& finger);
   /// How the frames that follow are turned before they are shown; the relief is turned like them.
   void set_turn(const PictureTurn& turn) { turn_ = turn; }
   /// Sets whether add() copies the relief, which allocates.
@@ -73,8 +72,8 @@ class ReliefStream {
 
  private:
   void start();
-  bool build(GstBuffer* buffer, const ImageView& luma, int64_t shown_ns,
-             const TouchProperties& properties, TouchFrame& frame);
+  bool build(const ImageView& luma, int64_t shown_ns, const TouchProperties& properties,
+             TouchFrame& frame);
   ImageView thinned(const ImageView& luma);
   const float* turned(const float* levels);
 
@@ -87,7 +86,7 @@ class ReliefStream {
   // Streaming thread.
   ReliefBuilder builder_;
   DepthPicture depth_;
-  int64_t depth_ns_ = INT64_MIN;  ///< time of the last frame that had depth
+  int64_t depth_ns_ = INT64_MIN;  ///< time of the last frame whose depth was read
   PictureTurn turn_;
   std::vector<uint8_t> thinned_;
   std::vector<float> turned_levels_;

@@ -51,7 +51,7 @@ struct Bench {
       touch.kind = TouchKind::kLuma;
       touch.texture = 1;
       const int64_t running_ns = now_ns - 1'000'000'000'000 + 2 * kFrame_ns;
-      stream.add(nullptr, {picture.data(), 426, 240, 426}, analysis_of(426, 240), running_ns, touch,
+      stream.add({picture.data(), 426, 240, 426}, analysis_of(426, 240), running_ns, touch,
                  {0.5, 0.5});
     }
     Pose hand;
@@ -113,8 +113,8 @@ void time_frames() {
       bench.stream.forget();
       bench.tick(n, false);  // frees slots in the mailbox
       const double begin = bench::now_ns();
-      bench.stream.add(nullptr, {picture.data(), width, height, width}, analysis_of(width, height),
-                       n, touch, {0.5, 0.5});
+      bench.stream.add({picture.data(), width, height, width}, analysis_of(width, height), n, touch,
+                       {0.5, 0.5});
       times_ns.push_back(bench::now_ns() - begin);
     }
     std::printf("  %d×%d: median %.2f, 99 %% %.2f ms\n", width, height,

@@ -86,8 +86,7 @@ TEST(PackedFilm, MotionIsThatOfThePictureAndPlacesAreThoseOfTheFrame) {
 }
 
 TEST(PackedFilm, WithoutTouchingDepthTheWholeFrameIsThePicture) {
-  for (const char* properties : {"touch=off depth-layout=right", "touch=luma depth-layout=right",
-                                 "touch=depth depth-layout=meta"}) {
+  for (const char* properties : {"touch=off depth-layout=right", "touch=luma depth-layout=right"}) {
     const Played played = play(properties, true);
     int in_depth = 0;
     for (const GstSpidarMotionTrack& track : played.tracks) in_depth += track.to_x > kWidth / 2;

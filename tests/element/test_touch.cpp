@@ -108,12 +108,11 @@ TEST(ReliefStream, WhatTheLoopHasNoRoomForIsLeftOutAndCounted) {
   const std::vector<uint8_t> grey(320 * 240, 128);
   const ImageView luma{grey.data(), 320, 240, 320};
   TouchProperties touch;
-  reliefs.stream.add(nullptr, luma, some_analysis(), 0, touch, {0.5, 0.5});
+  reliefs.stream.add(luma, some_analysis(), 0, touch, {0.5, 0.5});
   EXPECT_EQ(number_of(reliefs.stream, "reliefs"), 0u) << "off";
   touch.kind = TouchKind::kLuma;
   for (size_t n = 0; n < ReliefStream::kSlots + 5; ++n) {
-    reliefs.stream.add(nullptr, luma, some_analysis(), static_cast<int64_t>(n * kFrame), touch,
-                       {0.5, 0.5});
+    reliefs.stream.add(luma, some_analysis(), static_cast<int64_t>(n * kFrame), touch, {0.5, 0.5});
   }
   EXPECT_EQ(number_of(reliefs.stream, "reliefs"), ReliefStream::kSlots);
   EXPECT_EQ(number_of(reliefs.stream, "reliefs-left-out"), 5u);
@@ -132,8 +131,7 @@ TEST(ReliefStream, TakesNothingFromTheHeapAfterTheFirstFrame) {
   long before = 0;
   for (int n = 0; n < 100; ++n) {
     if (n == 1) before = allocations;
-    reliefs.stream.add(nullptr, {grey.data(), 1920, 1080, 1920}, some_analysis(), n, touch,
-                       {0.5, 0.5});
+    reliefs.stream.add({grey.data(), 1920, 1080, 1920}, some_analysis(), n, touch, {0.5, 0.5});
     reliefs.stream.forget();
     now_ns += kTick_ns;
     reliefs.loop->tick(now_ns, now_ns);  // which makes room
@@ -173,7 +171,7 @@ TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
       }
     }
     const auto shown_ns = static_cast<int64_t>(kFrame) * (n + 10);
-    reliefs.stream.add(nullptr, {luma.data(), kWidth, kHeight, kWidth}, analysis, shown_ns, touch,
+    reliefs.stream.add({luma.data(), kWidth, kHeight, kWidth}, analysis, shown_ns, touch,
                        {0.5, 0.5});
   }
   // Half-way from frame 8 to 9 its top is in the middle, where the grip is held.
@@ -202,9 +200,9 @@ TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
 
 /// Force to the right for each newton to the viewer, on a grip that is pressed against the middle
 /// of a 2D+Z frame. From left to right each half is dark to bright, or grey.
-double tilt(DepthSource layout, bool picture_rises, bool depth_rises) {
+double tilt(DepthLayout layout, bool picture_rises, bool depth_rises) {
   constexpr int kWidth = 512, kHeight = 256;
-  const bool is_right = layout == DepthSource::kRight;
+  const bool is_right = layout == DepthLayout::kRight;
   const int half_width = is_right ? kWidth / 2 : kWidth;
   std::vector<uint8_t> luma(kWidth * kHeight);
   for (int y = 0; y < kHeight; ++y) {
@@ -221,8 +219,7 @@ double tilt(DepthSource layout, bool picture_rises, bool depth_rises) {
   touch.kind = TouchKind::kDepth;
   touch.depth = layout;
   touch.friction = 0;
-  EXPECT_TRUE(reliefs.stream.add(nullptr, {luma.data(), kWidth, kHeight, kWidth}, some_analysis(),
-                                 0, touch, {0.5, 0.5}));
+  reliefs.stream.add({luma.data(), kWidth, kHeight, kWidth}, some_analysis(), 0, touch, {0.5, 0.5});
   Pose hand;
   hand.position_m.z() = -0.02;  // behind any relief of 8 mm
   reliefs.device.set_hand(hand);
@@ -237,27 +234,13 @@ double tilt(DepthSource layout, bool picture_rises, bool depth_rises) {
 
 TEST(ReliefStream, DepthInHalfOfTheFrameIsTheRelief) {
   init_gstreamer();
-  for (const DepthSource layout : {DepthSource::kRight, DepthSource::kBelow}) {
+  for (const DepthLayout layout : {DepthLayout::kRight, DepthLayout::kBelow}) {
     // 8 mm of relief, for the depths between the percentiles 2 and 98, over 60 mm. Each end is
     // known to one of 256 grey levels or columns; and a step of an encoder is 22.5 µm of some 3 mm.
     const double slope = 0.008 / (0.96 * 0.06);
     EXPECT_NEAR(tilt(layout, false, true), -slope, slope * (2.0 / 256 + 0.0225 / 3));
     EXPECT_NEAR(tilt(layout, true, false), 0, slope * 0.0225 / 3);
   }
-}
-
-TEST(ReliefStream, AFrameWithoutDepthLeavesTheReliefAndSaysSo) {
-  init_gstreamer();
-  Reliefs reliefs;
-  const std::vector<uint8_t> grey(320 * 240, 128);
-  const ImageView luma{grey.data(), 320, 240, 320};
-  TouchProperties touch;
-  touch.kind = TouchKind::kDepth;
-  GstBuffer* const plain = gst_buffer_new();
-  EXPECT_FALSE(reliefs.stream.add(plain, luma, some_analysis(), 0, touch, {0.5, 0.5}));
-  gst_buffer_unref(plain);
-  EXPECT_EQ(number_of(reliefs.stream, "reliefs"), 0u);
-  EXPECT_EQ(number_of(reliefs.stream, "reliefs-left-out"), 0u);
 }
 
 TEST(ReliefStream, ADeviceWithoutAWorkspaceIsAnErrorThatSaysSo) {
@@ -267,9 +250,9 @@ TEST(ReliefStream, ADeviceWithoutAWorkspaceIsAnErrorThatSaysSo) {
   const std::vector<uint8_t> grey(320 * 240, 128);
   TouchProperties touch;
   touch.kind = TouchKind::kLuma;
-  EXPECT_THROW(reliefs.stream.add(nullptr, {grey.data(), 320, 240, 320}, some_analysis(), 0, touch,
-                                  {0.5, 0.5}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      reliefs.stream.add({grey.data(), 320, 240, 320}, some_analysis(), 0, touch, {0.5, 0.5}),
+      std::invalid_argument);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TouchProperties read_back(const std::string& launch) {
                "touch-stiffness", &read.stiffness_N_m, "touch-friction", &read.friction,
                "touch-texture", &read.texture, "motion-share", &read.motion_share, nullptr);
   read.kind = static_cast<TouchKind>(kind);
-  read.depth = static_cast<DepthSource>(depth);
+  read.depth = static_cast<DepthLayout>(depth);
   return read;
 }
 
@@ -49,23 +49,16 @@ void expect(const TouchProperties& read, const TouchProperties& wanted) {
 }
 
 TEST(TouchProperties, DefaultsAreTheDocumentedOnes) {
-  expect(read_back("device=none"), {TouchKind::kOff, DepthSource::kMeta, 8, 500, 0.3, 0, 0});
+  expect(read_back("device=none"), {TouchKind::kOff, DepthLayout::kRight, 8, 500, 0.3, 0, 0});
 }
 
 TEST(TouchProperties, ReadBackWhatWasWritten) {
   const std::string rest =
       " touch-relief=12 touch-stiffness=300 touch-friction=0.1 touch-texture=2 motion-share=0.4";
   expect(read_back("device=none touch=luma depth-layout=right" + rest),
-         {TouchKind::kLuma, DepthSource::kRight, 12, 300, 0.1, 2, 0.4});
+         {TouchKind::kLuma, DepthLayout::kRight, 12, 300, 0.1, 2, 0.4});
   expect(read_back("device=none touch=depth depth-layout=below" + rest),
-         {TouchKind::kDepth, DepthSource::kBelow, 12, 300, 0.1, 2, 0.4});
-}
-
-TEST(TouchProperties, FramesWithoutDepthAreAWarningOnce) {
-  const std::vector<std::string> warnings = warnings_of("device=sim touch=depth");
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("no depth"), std::string::npos) << warnings[0];
-  EXPECT_TRUE(warnings_of("device=sim touch=depth depth-layout=right").empty());
+         {TouchKind::kDepth, DepthLayout::kBelow, 12, 300, 0.1, 2, 0.4});
 }
 
 TEST(TouchProperties, WithoutADeviceThereIsAWarningOnce) {
@@ -74,6 +67,7 @@ TEST(TouchProperties, WithoutADeviceThereIsAWarningOnce) {
   EXPECT_NE(warnings[0].find("no device"), std::string::npos) << warnings[0];
   EXPECT_TRUE(warnings_of("device=none touch=off").empty());
   EXPECT_TRUE(warnings_of("device=sim touch=luma touch-stiffness=800").empty());
+  EXPECT_TRUE(warnings_of("device=sim touch=depth").empty());
 }
 
 TEST(TouchProperties, ASlowDriveGetsLessStiffnessAndAWarning) {

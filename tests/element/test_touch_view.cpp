@@ -37,8 +37,7 @@ TEST(TouchView, AReliefIsCopiedOnlyWhenAWindowAsks) {
   TouchProperties touch;
   touch.kind = TouchKind::kLuma;
   const auto add = [&](int64_t shown_ns) {
-    EXPECT_TRUE(
-        stream.add(nullptr, {white.data(), 320, 240, 320}, analysis, shown_ns, touch, {0.5, 0.5}));
+    stream.add({white.data(), 320, 240, 320}, analysis, shown_ns, touch, {0.5, 0.5});
   };
   add(0);
   EXPECT_EQ(stream.take_copy(), nullptr);

@@ -10,7 +10,6 @@
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
-#include "plugin/depth/spidar_depth.h"
 #include "plugin/frame/grip_pointer.h"
 #include "plugin/spidar_motion.h"
 #include "tests/pipelines/touched_pipeline.h"
@@ -29,19 +28,16 @@ double height_m(double luma) {
   return kRelief_m * (luma / 255 - 0.5);
 }
 
-/// A second stream of depth, a plane half-way between near and far, lies in the middle of the
-/// workspace.
-TEST(Touch, ThePlaneThatSpidardepthAttachesIsTouched) {
-  gst_init(nullptr, nullptr);
-  GST_ELEMENT_REGISTER(spidardepth, nullptr);
+/// A stream of depth that `compositor` puts beside the picture: a plane has no near and far, and
+/// lies in the middle of the workspace.
+TEST(Touch, DepthOfASecondStreamIsTouched) {
   Touched touched(
-      "spidardepth name=depth samples=distance near=22768 far=42768 ! spidarmotion name=motion "
-      "touch=depth ! fakesink name=sink sync=true enable-last-sample=true "
+      "compositor name=both sink_1::xpos=320 ! video/x-raw,format=GRAY8 ! spidarmotion name=motion "
+      "touch=depth depth-layout=right ! fakesink name=sink sync=true enable-last-sample=true "
       "videotestsrc name=source pattern=snow ! "
-      "video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! queue ! depth.sink "
-      "videotestsrc pattern=solid-color foreground-color=0xff808080 ! "
-      "video/x-raw,format=GRAY16_LE,width=160,height=120,framerate=25/1 ! queue ! "
-      "depth.depth_sink");
+      "video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! queue ! both.sink_0 "
+      "videotestsrc pattern=solid-color foreground-color=0xff404040 ! "
+      "video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! queue ! both.sink_1");
   touched.hold(0, 0, -0.009);
   touched.play(50);
   double force_N = 0, depth_m = 0, surface_m = 0;
@@ -55,8 +51,8 @@ TEST(Touch, ThePlaneThatSpidardepthAttachesIsTouched) {
     surface_m += (tick.pose.position_m.z() + tick.contact.depth_m) / kTicks;
   }
   EXPECT_NEAR(force_N / (500 * depth_m), 1, 0.005);
-  // Medium grey is 32768 in 16 bits, within two steps of 8 bits (257 each) of the conversion.
-  EXPECT_NEAR(surface_m, 0, 2 * 257.0 / 20000 * kRelief_m);
+  // The step of an encoder is 22.5 µm, of which the pose has some.
+  EXPECT_NEAR(surface_m, 0, 5e-5);
 }
 
 TEST(Touch, APlaneAtMidPictureIsStiffnessTimesDepth) {
