@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""What is asked on the terminal: before a participant may hold the grip, and after each clip."""
+
+from trials import STEPS, append_row, utc_now
+
+GENTLE_N = 1.0  # the limit of the force unless the experimenter confirms more; docs/safety.md
+# Questions to the experimenter whose answer must be no.
+EXCLUSIONS = [
+    "Is the participant younger than 18?",
+    "Does the participant have an electronic implant, such as a pacemaker, a defibrillator or an insulin pump?",
+    "Has the participant ever had an epileptic seizure?",
+    "Does the participant have an injury, a wound, an inflammation or numbness of the hand, the arm or the shoulder, "
+    "or white fingers in the cold?",
+    "Is the participant pregnant?",
+    "Is the participant tired, ill, or under the influence of alcohol or drugs?",
+]
+
+
+class Stopped(Exception):
+    """The participant stops here, or the input ends; the same command goes on."""
+
+
+class TakesNoPart(Exception):
+    """The participant may not hold the grip."""
+
+
+def read_line(prompt):
+    try:
+        return input(prompt)
+    except (EOFError, KeyboardInterrupt):
+        raise Stopped from None
+
+
+def ask(text):
+    """Asks the participant until the answer is a step, 1 to 5."""
+    print(text + "\n  " + "  ".join(f"{number} {name}" for number, name in enumerate(STEPS, 1)))
+    while True:
+        line = read_line("> ")
+        if line == "q":
+            raise Stopped
+        if line in ("1", "2", "3", "4", "5"):
+            return int(line)
+        print("a number from 1 to 5, or q to stop here and go on another time")
+
+
+def is_yes(text):
+    while True:
+        line = read_line(f"{text} yes or no > ")
+        if line in ("yes", "no"):
+            return line == "yes"
+
+
+def brief(record, participant, force_N, while_taut):
+    """Asks the experimenter what must be right before a participant holds the grip. Raises TakesNoPart.
+
+    Every answer is on the disk, in `record`, before the next question. `while_taut` makes a context in which the strings
+    are tight; it is None if nothing pulls, as with a simulated device.
+    """
+
+    def note(check, answer):
+        append_row(record, ["participant", "check", "answer", "time_utc"], [participant, check, answer, utc_now()])
+
+    def require(check, is_right):
+        note(check, "yes" if is_right else "no")
+        if not is_right:
+            raise TakesNoPart(f"{participant} does not take part")
+
+    require("consent", is_yes("Has the participant read and signed the consent form?"))
+    # Whether there is a reason is recorded, but not which one, because it concerns the person's health.
+    require("eligible", not any([is_yes(reason) for reason in EXCLUSIONS]))
+    require("loose-things", is_yes("Are rings, watches and bracelets taken off, sleeves rolled up, and hair and scarf "
+                                   "tied back?"))
+    if not force_N <= GENTLE_N:
+        sentence = f"I am responsible for {force_N:g} N "
+        line = read_line(f"More than {GENTLE_N:g} N is asked for. Type, with your name: {sentence}NAME > ")
+        if not line.startswith(sentence) or not line[len(sentence):].strip():
+            raise TakesNoPart(f"not confirmed; without max-force the limit is {GENTLE_N:g} N")
+        note("force", line)
+    if while_taut:
+        with while_taut():
+            works = is_yes("The strings are taut, and nobody holds the grip. Press the emergency stop. Did all strings "
+                           "become slack at once?")
+        require("emergency-stop", works)
+        require("stop-in-reach", is_yes("Switch the motors on again. Can the participant reach the stop with the hand "
+                                        "that does not hold the grip, and have they pressed it once?"))
