@@ -19,6 +19,7 @@
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
+#include "spidar/session/profile_choice.h"
 
 namespace gst_spidar {
 inline namespace v0 {
@@ -31,8 +32,7 @@ static_assert(kHold_ns <= spidar::WrenchTimeline::kLongestHold_ns, "longer than 
 
 spidar::Profile profile_for(const std::string& device, const std::string& profile) {
   if (device == "none") throw std::runtime_error("\"none\" is no device that can be opened");
-  spidar::Profile found =
-      spidar::load_profile(profile.empty() ? spidar::default_profile(device) : profile);
+  spidar::Profile found = spidar::profile_for(device, profile);
   // That of its own drives.
   if (spidar::is_simulated(device)) found.drive_lag_known = true;
   return found;

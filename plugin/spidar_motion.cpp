@@ -136,7 +136,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
                                         [&] { trace_problem = engine.open(properties); });
     if (!opened) return GST_STATE_CHANGE_FAILURE;
     GST_INFO_OBJECT(self, "opened device '%s' with profile '%s'", properties.device.c_str(),
-                    properties.used_profile().c_str());
+                    engine.output().profile().name.c_str());
     if (!trace_problem.empty()) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The video and the force continue without it."));

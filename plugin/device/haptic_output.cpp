@@ -11,6 +11,7 @@
 #include "spidar/grip/string_grip.h"
 #include "spidar/profiles/force_range.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/session/profile_choice.h"
 #include "spidar/simulation/simulated_device.h"
 
 #undef GST_CAT_DEFAULT
@@ -50,7 +51,14 @@ void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
 
 std::string HapticOutput::open(const std::string& device, const std::string& profile_name,
                                const std::string& haptic_trace) {
-  Profile profile = load_profile(profile_name);
+  Profile profile;
+  try {
+    profile = profile_for(device, profile_name);
+  } catch (const NoProfile& refusal) {
+    GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS, ("%s", refusal.what()),
+                        ("The video continues without force."));
+    return {};
+  }
   if (is_simulated(device)) profile.drive_lag_known = true;
   SessionSettings settings;
   settings.trace_path = haptic_trace;

@@ -12,7 +12,8 @@ std::string MotionEngine::open(const MotionProperties& properties) {
   analyzer_.configure(properties.analyzer);
   if (properties.device == "none") return {};
   const std::string trace_problem =
-      output_.open(properties.device, properties.used_profile(), properties.haptic_trace);
+      output_.open(properties.device, properties.profile, properties.haptic_trace);
+  if (!output_.session()) return trace_problem;
   grip_pointer_ = GripPointer(output_.profile().geometry);
   schedule_.connect(&output_.session()->loop());
   limit_watch_.set_can_touch(output_.session()->grip().abilities().can_touch());

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/session/profile_choice.h"
 
 namespace spidar {
 namespace {
@@ -29,8 +29,10 @@ void check_device(GObject* element) {
   const std::string device = string_property(element, "device");
   const std::string profile = string_property(element, "profile");
   try {
-    const Profile loaded = load_profile(profile.empty() ? default_profile(device) : profile);
-    if (device != "none") make_grip(device, loaded);
+    if (device != "none")
+      make_grip(device, profile_for(device, profile));
+    else if (!profile.empty())
+      load_profile(profile);
   } catch (const std::exception& error) {
     throw PropertyError(error.what());
   }

@@ -34,7 +34,7 @@ Runs PROGRAM, a player that uses GStreamer, so that the video it plays is felt o
 force-feedback joystick. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
 
   spidar-feel totem film.mp4
-  spidar-feel device=usb controller=adaptive max-force=2 -- gst-play-1.0 film.mp4
+  spidar-feel device=usb profile=spidar-g6c controller=adaptive max-force=2 -- gst-play-1.0 film.mp4
 )";
 
 struct Wish {

@@ -8,14 +8,15 @@
 
 namespace spidar {
 
-/// `Settings` has the members profile and used_profile().
+/// `Settings` has the member profile.
 template <typename Settings>
 Property<Settings> profile_row() {
   return Property<Settings>::text(
       {"profile", "Profile",
        "Geometry and motors of the device: the name of a shipped profile or the path of a .toml "
-       "file. If unset, a profile that fits the board. Read in the change from NULL to READY"},
-      kReady, KEPT_IN(profile), [](const Settings& s) { return s.used_profile(); });
+       "file. A board with motors gets no force without one. Read in the change from NULL to "
+       "READY"},
+      kReady, KEPT_IN(profile));
 }
 
 /// `Settings` has the member on_device_error.

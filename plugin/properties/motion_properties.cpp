@@ -4,7 +4,6 @@
 
 #include "plugin/properties/device_rows.h"
 #include "plugin/properties/motion_rows.h"
-#include "spidar/session/board_list.h"
 
 namespace spidar {
 namespace {
@@ -100,10 +99,6 @@ std::vector<MotionRow> element_rows() {
 }
 
 }  // namespace
-
-std::string MotionProperties::used_profile() const {
-  return profile.empty() ? default_profile(device) : profile;
-}
 
 const PropertyTable<MotionProperties>& motion_properties() {
   // Never destroyed: a thread may still set a property while the process ends.

@@ -37,9 +37,6 @@ struct MotionProperties {
   bool mute = false;
   DisplayProperties display;
   TouchProperties touch;
-
-  /// A name or a path for load_profile().
-  std::string used_profile() const;
 };
 
 /// All of spidarmotion, `stats` included.

@@ -138,21 +138,15 @@ struct Property {
   /// NULL where it is empty.
   template <typename Field>
   static Property text(PropertyNames n, GParamFlags flags, Field field) {
-    return text(n, flags, field, [=](const Settings& s) -> std::string { return field(s); });
-  }
-
-  /// What is read may be more than was set: `used` makes it of the settings.
-  template <typename Field, typename Used>
-  static Property text(PropertyNames n, GParamFlags flags, Field field, Used used) {
     const auto or_null = [](const std::string& s) { return s.empty() ? nullptr : s.c_str(); };
     return {[=](const Settings& defaults) {
-              return g_param_spec_string(n.name, n.nick, n.blurb, or_null(used(defaults)), flags);
+              return g_param_spec_string(n.name, n.nick, n.blurb, or_null(field(defaults)), flags);
             },
             [=](Settings& s, const GValue* v) {
               const char* const value = g_value_get_string(v);
               field(s) = value ? value : "";
             },
-            [=](const Settings& s, GValue* v) { g_value_set_string(v, or_null(used(s))); }};
+            [=](const Settings& s, GValue* v) { g_value_set_string(v, or_null(field(s))); }};
   }
 
   /// A structure that the element makes when it is asked.

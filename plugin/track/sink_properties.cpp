@@ -3,13 +3,8 @@
 #include "plugin/track/sink_properties.h"
 
 #include "plugin/properties/device_rows.h"
-#include "spidar/session/board_list.h"
 
 namespace spidar {
-
-std::string SinkProperties::used_profile() const {
-  return profile.empty() ? default_profile(device) : profile;
-}
 
 const PropertyTable<SinkProperties>& sink_properties() {
   using SinkRow = Property<SinkProperties>;

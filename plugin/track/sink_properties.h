@@ -20,9 +20,6 @@ struct SinkProperties {
   bool mute = false;
   OnDeviceError on_device_error = OnDeviceError::kWarn;
   std::string haptic_trace;
-
-  /// A name or a path for load_profile().
-  std::string used_profile() const;
 };
 
 /// All of spidarsink, `stats` included; `ts-offset` is that of every sink.

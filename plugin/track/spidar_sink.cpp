@@ -220,11 +220,12 @@ static bool open_device(GstSpidarSink* self) {
   GST_OBJECT_UNLOCK(self);
   return spidar::guarded(GST_ELEMENT(self), "opening the device", [self, &properties] {
     const std::string trace_problem =
-        self->output->open(properties.device, properties.used_profile(), properties.haptic_trace);
+        self->output->open(properties.device, properties.profile, properties.haptic_trace);
     if (!trace_problem.empty()) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The force continues without it."));
     }
+    if (!self->output->session()) return;
     self->warnings->check_opened(*self->output->session());
     self->schedule->connect(&self->output->session()->loop());
   });

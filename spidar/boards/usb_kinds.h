@@ -26,7 +26,8 @@ struct UsbBoardKind {
   UsbFamily family;
   uint16_t vendor;
   uint16_t product;
-  const char* name;  ///< "CyVerse USB 2.0 SH4"
+  const char* name;           ///< "CyVerse USB 2.0 SH4"
+  const char* profile_board;  ///< Profile::board of profiles for it; empty for one without strings
   Trial trial;
   const char* note;  ///< what is inferred
   UsbPipes pipes;

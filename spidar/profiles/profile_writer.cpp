@@ -2,20 +2,15 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/profiles/profile_writer.h"
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
-#include <unistd.h>
 
 #include <toml++/toml.h>
 
+#include "spidar/profiles/replace_file.h"
+
 namespace spidar {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The shortest text that is read back as the same number.
 std::string number(double value) {
@@ -114,20 +109,7 @@ std::string profile_text(const Profile& profile) {
 }
 
 void save_profile(const Profile& profile, const std::string& path) {
-  const std::string part = path + ".part" + std::to_string(getpid());
-  const auto fail = [&](const std::string& why) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw ProfileError(path + ": cannot be written: " + why);
-  };
-  errno = 0;
-  std::ofstream out(part, std::ios::binary);
-  out << profile_text(profile) << std::flush;
-  out.close();
-  if (!out) fail(errno ? std::strerror(errno) : "unknown error");
-  std::error_code error;
-  fs::rename(part, path, error);
-  if (error) fail(error.message());
+  replace_file(path, profile_text(profile));
 }
 
 }  // namespace spidar

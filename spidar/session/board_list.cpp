@@ -10,6 +10,7 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/protocols/inverse3.h"
 #include "spidar/session/force_devices.h"
+#include "spidar/session/profile_choice.h"
 #include "spidar/transports/evdev_list.h"
 #include "spidar/transports/listening_port.h"
 #include "spidar/transports/tty_list.h"
@@ -18,9 +19,11 @@
 namespace spidar {
 namespace {
 
-/// The CyVerse boards output positive volts only, which the default profile is not made for.
+/// Of simulations: the CyVerse boards output positive volts only, which the default profile is not
+/// made for. Real boards have no default (see profile_choice.h).
 constexpr const char* kPositiveProfile = "spidar-g6x3-v2-r";
 constexpr const char* kUartProfile = "spidar-g6x4";
+constexpr const char* kUartBoard = "uart";
 
 /// Properties of a kind of device, selected by the part of its name before the colon. Those of
 /// devices without strings are in force_devices().
@@ -33,8 +36,8 @@ struct DeviceKind {
 };
 
 constexpr DeviceKind kKinds[] = {
-    {"usb", "CyVerse USB 2.0", kPositiveProfile, Trial::kEmulated},
-    {"uart", "UART motor boards", kUartProfile, Trial::kEmulated},
+    {"usb", "CyVerse USB 2.0", "", Trial::kEmulated},
+    {"uart", "UART motor boards", "", Trial::kEmulated},
 };
 
 /// Simulated devices with strings, whose names have no variable part.
@@ -76,6 +79,7 @@ BoardInfo of_name(const std::string& device) {
     board.name = kind->name;
     board.trial = kind->trial;
     board.has_strings = kind->has_strings;
+    if (kind->kind == std::string("uart")) board.profile_board = kUartBoard;
   }
   return board;
 }
@@ -114,6 +118,8 @@ BoardInfo usb_board(const UsbBoardKind& kind, const UsbDeviceInfo& device) {
   board.path = device.path;
   board.serial = device.serial;
   board.usb_id = kind.id();
+  board.profile_board = kind.profile_board;
+  if (board.has_strings) board.profile = remembered_profile(board.usb_id, board.serial);
   board.trial = kind.trial;
   board.note = device.accessible ? kind.note : "no permission: udev rule 70-spidar.rules";
   board.accessible = device.accessible;

@@ -20,8 +20,13 @@ struct BoardInfo {
   Trial trial = Trial::kEmulated;
   std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
   bool accessible = true;  ///< this process may open it
-  /// The default profile, which this board can drive.
+  /// The profile with which it is driven if none is named: that of a simulation, that of a device
+  /// without strings, or the one that was confirmed for this board. Empty: none, so its motors get
+  /// no force until one is named (see profile_choice.h).
   std::string profile;
+  /// Profile::board of profiles that are for it: "usb-sh4"; empty when that is not known, or it has
+  /// no strings.
+  std::string profile_board;
   bool has_strings = true;  ///< otherwise it takes a force, and has no encoders
 };
 
@@ -31,8 +36,9 @@ struct BoardInfo {
 /// if they have force feedback. A machine without USB has no USB devices.
 std::vector<BoardInfo> list_boards();
 
-/// Returns the default profile for a device name, which the board can drive, or the general default
-/// profile for an unknown name. Does not access a bus.
+/// Returns the profile that the name of a device alone determines, which the device can drive, and
+/// the general default profile for an unknown name. Empty for a real board with strings. Does not
+/// access a bus.
 std::string default_profile(const std::string& device);
 
 /// Returns what is known about a device from its name. The device need not be plugged in, and

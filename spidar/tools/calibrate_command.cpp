@@ -14,6 +14,7 @@
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/session/profile_choice.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/calibrate_options.h"
 #include "spidar/tools/calibrate_report.h"
@@ -146,7 +147,7 @@ int calibrate_command(int argc, char** argv) {
   }
   const BoardInfo board = board_info(options.device);
   require_strings(board, "calibrate");
-  const Profile profile = load_profile(options.profile.empty() ? board.profile : options.profile);
+  const Profile profile = profile_for(options.device, options.profile);
   if (!options.output.empty()) check_folder_of(options.output);
   catch_signals();
   Bench bench(options, profile);

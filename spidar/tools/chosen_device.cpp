@@ -3,25 +3,31 @@
 #include "spidar/tools/chosen_device.h"
 
 #include "spidar/session/device_factory.h"
+#include "spidar/session/profile_choice.h"
 
 namespace spidar {
 namespace {
 
-bool can_drive(const std::string& device, const Profile& profile) {
-  try {
-    make_device(device, profile);
-    return true;
-  } catch (const DeviceError&) {
-    return false;
-  }
+/// One with which the board can be read, and no motor can be pulled.
+Profile to_read_only(const BoardInfo& board) {
+  const std::vector<std::string> fitting = fitting_profiles(board);
+  if (fitting.empty()) throw NoProfile(board);
+  Profile profile = load_profile(fitting.front());
+  profile.name.clear();
+  for (StringDrive& drive : profile.drives) drive.min_tension_N = drive.max_tension_N = 0;
+  return profile;
 }
 
 }  // namespace
 
-ChosenDevice choose_device(const DeviceOptions& options, CountZero count_zero) {
+ChosenDevice choose_device(const DeviceOptions& options, Motors motors, CountZero count_zero) {
   ChosenDevice chosen;
   chosen.board = board_info(options.device);
-  chosen.profile = load_profile(options.profile.empty() ? chosen.board.profile : options.profile);
+  const bool named = !options.profile.empty() || !chosen.board.profile.empty();
+  if (named || motors == Motors::kPulled)
+    chosen.profile = profile_for(options.device, options.profile);
+  else
+    chosen.profile = to_read_only(chosen.board);
   BoardSettings settings;
   settings.count_zero = count_zero;
   // No tool is in such a hurry that it could not wait for an exchange.

@@ -15,8 +15,16 @@
 
 namespace spidar {
 
+/// What a command does with the motors.
+enum class Motors {
+  kOff,     ///< they stay at zero, so no profile is needed
+  kPulled,  ///< a real board needs a profile that somebody named
+};
+
 struct ChosenDevice {
   BoardInfo board;
+  /// Without a name if nobody has named one: then it only says how many strings can be read, and
+  /// allows no tension.
   Profile profile;
   // One of these, not open yet.
   std::unique_ptr<Device> device;  ///< that has strings
@@ -25,8 +33,8 @@ struct ChosenDevice {
   const std::string& name() const noexcept { return device ? device->name() : grip->name(); }
 };
 
-/// Throws ProfileError, DeviceError.
-ChosenDevice choose_device(const DeviceOptions& options,
+/// Throws ProfileError, DeviceError, and NoProfile, which is one.
+ChosenDevice choose_device(const DeviceOptions& options, Motors motors,
                            CountZero count_zero = CountZero::kByProfile);
 
 /// Throws DeviceError when the board has no strings; its message says that `command` needs them.

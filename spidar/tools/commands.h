@@ -9,6 +9,7 @@
 namespace spidar {
 
 int calibrate_command(int argc, char** argv);
+int choose_command(int argc, char** argv);
 int conformance_command(int argc, char** argv);
 int info_command(int argc, char** argv);
 int list_command(int argc, char** argv);

@@ -224,7 +224,8 @@ int conformance_command(int argc, char** argv) {
     std::cout << kConformanceHelp;
     return kDone;
   }
-  ChosenDevice chosen = choose_device(options.common);
+  ChosenDevice chosen =
+      choose_device(options.common, options.pull ? Motors::kPulled : Motors::kOff);
   if (!options.report.empty()) check_folder_of(options.report);
   return chosen.grip ? test_force(options, chosen) : test_strings(options, chosen);
 }

@@ -77,7 +77,8 @@ void print_identity(std::ostream& out, const Conformance& found, const std::stri
   line(out, "serial", board.serial);
   line(out, "evidence",
        to_string(board.trial) + (board.note.empty() ? std::string() : "; " + board.note));
-  line(out, "profile", found.profile.name + ": " + found.profile.description);
+  line(out, "profile",
+       found.profile.name.empty() ? "none" : found.profile.name + ": " + found.profile.description);
 }
 
 void print_counters(std::ostream& out, const Conformance& found) {

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <limits>
 
+#include "spidar/session/profile_choice.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/json_text.h"
@@ -61,6 +62,16 @@ FoundBoard read(ChosenDevice& chosen) {
   return found;
 }
 
+/// Of a board for which nobody has named a profile.
+void print_counts(const ChosenDevice& chosen, const FoundBoard& found) {
+  std::cout << "profile   none, so its motors get no force; those that fit it:";
+  for (const std::string& name : fitting_profiles(chosen.board)) std::cout << ' ' << name;
+  std::cout << "\n\n  string     count\n";
+  for (int i = 0; i < chosen.profile.geometry.count; ++i)
+    std::cout << "  " << std::setw(6) << i << std::setw(10)
+              << found.reading.count[static_cast<size_t>(i)] << '\n';
+}
+
 void print_strings(const Profile& profile, const FoundBoard& found) {
   std::cout << "profile   " << profile.name << ": " << profile.description << "\ncounts    "
             << (profile.calibration ? "calibrated"
@@ -115,6 +126,8 @@ void print(const ChosenDevice& chosen, const FoundBoard& found) {
   std::cout << '\n';
   if (chosen.grip)
     print_axes(chosen.grip->abilities(), found);
+  else if (chosen.profile.name.empty())
+    print_counts(chosen, found);
   else
     print_strings(chosen.profile, found);
 }
@@ -172,7 +185,7 @@ int info_command(int argc, char** argv) {
     return kDone;
   }
   // Shows the counts as the board gives them, without a new zero.
-  ChosenDevice chosen = choose_device(options, CountZero::kNever);
+  ChosenDevice chosen = choose_device(options, Motors::kOff, CountZero::kNever);
   catch_signals();
   const FoundBoard found = read(chosen);
   if (interrupted()) return kInterrupted;

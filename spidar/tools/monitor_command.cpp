@@ -19,7 +19,8 @@ namespace {
 constexpr const char* kMonitorHelp = R"(usage: spidarctl monitor DEVICE [OPTION]...
 
 Prints the pose of the grip ten times a second: position (millimetres), rotation vector (degrees),
-inputs, string lengths (millimetres). The motors stay at zero, so strings may be slack.
+inputs, string lengths (millimetres). The motors stay at zero, so strings may be slack. Of a board for
+which nobody has named a profile, prints the counts of the encoders instead.
 
   --taut          keep the strings at their minimum tension
   --seconds S     end after S seconds; by default, run until interrupted
@@ -48,6 +49,10 @@ class Monitor {
   Monitor(const Profile& profile, bool json) : profile_(profile), readout_(profile), json_(json) {}
 
   void show(const DeviceReading& reading) {
+    if (profile_.name.empty()) {
+      show_counts(reading);
+      return;
+    }
     const StringVector lengths_m = readout_.lengths_m(reading);
     const PoseResult result = readout_.pose(lengths_m);
     if (readings_++ % kReadingsPerLine != 0) return;
@@ -57,6 +62,27 @@ class Monitor {
   }
 
  private:
+  void show_counts(const DeviceReading& reading) {
+    if (readings_++ % kReadingsPerLine != 0) return;
+    const double time_s = 1e-9 * static_cast<double>(kTick_ns * (readings_ - 1));
+    if (json_) {
+      toml::array counts;
+      for (int i = 0; i < profile_.geometry.count; ++i)
+        counts.push_back(reading.count[static_cast<size_t>(i)]);
+      std::fputs(
+          json_line(toml::table{{"time_s", time_s}, {"inputs", reading.inputs}, {"counts", counts}})
+              .c_str(),
+          stdout);
+    } else {
+      if (readings_ == 1) std::printf("     s  inputs  counts\n");
+      std::printf("%6.1f  0x%04x ", time_s, reading.inputs);
+      for (int i = 0; i < profile_.geometry.count; ++i)
+        std::printf(" %8d", reading.count[static_cast<size_t>(i)]);
+      std::printf("\n");
+    }
+    std::fflush(stdout);
+  }
+
   void text(double time_s, const DeviceReading& reading, const StringVector& lengths_m,
             const PoseResult& result) const {
     if (readings_ == 1)
@@ -109,8 +135,8 @@ int monitor_command(int argc, char** argv) {
     std::cout << kMonitorHelp;
     return kDone;
   }
-  ChosenDevice chosen = choose_device(options);
-  require_strings(chosen.board, "monitor");
+  require_strings(board_info(options.device), "monitor");
+  ChosenDevice chosen = choose_device(options, taut ? Motors::kPulled : Motors::kOff);
   catch_signals();
   Monitor monitor(chosen.profile, json);
   StringHold hold(*chosen.device, chosen.profile, every_millisecond());

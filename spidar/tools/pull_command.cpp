@@ -11,6 +11,7 @@
 #include "spidar/tools/json_text.h"
 #include "spidar/tools/readout.h"
 #include "spidar/tools/terminal.h"
+#include "spidar/wiring/wiring_answers.h"
 
 namespace spidar {
 namespace {
@@ -27,8 +28,8 @@ smallest tension, SECONDS at most 10), so that no motor gets hot.
   --profile NAME  profile of the device, a name or a file
   --json          print the changes of the lengths as JSON
 
-Exit status: 0 the string was pulled, 1 no device, no answer, or not confirmed, 2 wrong usage,
-130 interrupted.
+Exit status: 0 the string was pulled and has answered, 1 no device, no answer of the device or of the
+strings, or not confirmed, 2 wrong usage, 130 interrupted.
 )";
 
 /// 5 N is the weight of half a kilogram hanging on a finger. The heat of a motor also grows with
@@ -114,6 +115,22 @@ void print_json(const Pull& pull, const Profile& profile, const Lengths& lengths
                                      {"length_change_m", to_array(change_m.head(count))}});
 }
 
+/// Why this was no pull; empty if the strings have answered. At its smallest tension, a string is
+/// not pulled more than before.
+std::string silence_of(const Pull& pull, const Profile& profile, const Lengths& lengths) {
+  if (pull.tension_N <= profile.drives[static_cast<size_t>(pull.string)].min_tension_N) return {};
+  const StringVector change_m = lengths.pulled_m - lengths.before_m;
+  const double least_m = smallest_answer_m(profile);
+  const std::string string = std::to_string(pull.string);
+  if (change_m.cwiseAbs().maxCoeff() < least_m)
+    return "no string has answered: switch on the supply of the motors, and check that string " +
+           string + " is taut and that its motor and encoder are connected";
+  if (change_m[pull.string] > -least_m)
+    return "other strings have answered, but string " + string +
+           " did not get shorter: spidarctl selftest finds what is exchanged or reversed";
+  return {};
+}
+
 std::string question(const Pull& pull, const Device& device) {
   char text[160];
   std::snprintf(text, sizeof text, "Pull string %d of %s with %.2f N for %g s? The grip will move.",
@@ -132,8 +149,8 @@ int pull_command(int argc, char** argv) {
     std::cout << kPullHelp;
     return kDone;
   }
-  ChosenDevice chosen = choose_device(options);
-  require_strings(chosen.board, "pull");
+  require_strings(board_info(options.device), "pull");
+  ChosenDevice chosen = choose_device(options, Motors::kPulled);
   const Pull pull = parse(options, chosen.profile);
   if (!yes && !confirm(question(pull, *chosen.device))) {
     std::cerr << "nothing was pulled\n";
@@ -150,7 +167,9 @@ int pull_command(int argc, char** argv) {
   } else {
     print(pull, chosen.profile, lengths);
   }
-  return kDone;
+  const std::string silence = silence_of(pull, chosen.profile, lengths);
+  if (!silence.empty()) std::cerr << silence << '\n';
+  return silence.empty() ? kDone : kFailed;
 }
 
 }  // namespace spidar

@@ -29,8 +29,8 @@ int rest_command(int argc, char** argv) {
     std::cout << kRestHelp;
     return kDone;
   }
-  ChosenDevice chosen = choose_device(options);
-  require_strings(chosen.board, "rest");
+  require_strings(board_info(options.device), "rest");
+  ChosenDevice chosen = choose_device(options, Motors::kPulled);
   catch_signals();
   StringHold hold(*chosen.device, chosen.profile, every_millisecond());
   if (hold.go(chosen.profile.min_tension_N(), HapticLoop::kEnergise_s)) {

@@ -150,7 +150,7 @@ int selftest_command(int argc, char** argv) {
     std::cout << kSelftestHelp;
     return kDone;
   }
-  ChosenDevice chosen = choose_device(options.common);
+  ChosenDevice chosen = choose_device(options.common, Motors::kPulled);
   if (answers_pushes(chosen)) return test_push_command(options, chosen);
   require_strings(chosen.board, "selftest");
   miswire(options.sim_wiring, options.common.device, chosen.profile, chosen.device);

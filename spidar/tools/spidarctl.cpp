@@ -12,10 +12,15 @@ namespace {
 using namespace spidar;
 
 const std::vector<Command> kCommands = {
-    {"list", list_command},           {"info", info_command},
-    {"monitor", monitor_command},     {"rest", rest_command},
-    {"zero", zero_command},           {"pull", pull_command},
-    {"selftest", selftest_command},   {"conformance", conformance_command},
+    {"list", list_command},
+    {"info", info_command},
+    {"monitor", monitor_command},
+    {"rest", rest_command},
+    {"zero", zero_command},
+    {"pull", pull_command},
+    {"choose", choose_command},
+    {"selftest", selftest_command},
+    {"conformance", conformance_command},
     {"calibrate", calibrate_command},
 };
 
@@ -27,6 +32,7 @@ constexpr const char* kSpidarctlHelp = R"(usage: spidarctl COMMAND
   rest         hold the strings at their minimum tension
   zero         set the motors to zero
   pull         pull one string
+  choose       confirm the profile of a board by moving the grip, and remember it
   selftest     find motors and encoders that are swapped or reversed
   conformance  test a board and write a report to send in
   calibrate    determine the string lengths at which the encoders are zero

@@ -24,7 +24,7 @@ int zero_command(int argc, char** argv) {
     std::cout << kZeroHelp;
     return kDone;
   }
-  ChosenDevice chosen = choose_device(options);
+  ChosenDevice chosen = choose_device(options, Motors::kOff);
   bool answered = false;
   if (chosen.grip) {
     ForceHold hold(*chosen.grip, every_millisecond());

@@ -61,7 +61,12 @@ class Feel : public testing::Test {
   /// Sets up the SH4 board and a new trace, before the player starts.
   std::vector<std::string> felt() const {
     std::filesystem::remove(trace());
-    return {SPIDAR_FEEL, "device=usb", "motion=mean", "haptic-trace=" + trace(), "--"};
+    return {SPIDAR_FEEL,
+            "device=usb",
+            "profile=spidar-g6x3-v2-r",
+            "motion=mean",
+            "haptic-trace=" + trace(),
+            "--"};
   }
   static std::vector<std::string> player(const std::vector<std::string>& steps,
                                          const std::string& playbin = "playbin",

@@ -167,11 +167,12 @@ TEST_F(Feel, ADeviceThatCannotExistOrBeDrivenIsNamedBeforeThePlayerStarts) {
       {"device=zzz", "unknown device \"zzz\"; known are: sim, "},
       {"device=", "unknown device \"\""},
       {"device=sim:zzz", "unknown simulated board \"zzz\"; known are: sim:sh4, "},
-      {"device=uart:,/dev/ttyUSB0", "a path is empty"},
+      {"device=uart:,/dev/ttyUSB0 profile=spidar-g6x4", "a path is empty"},
       {"profile=nope", "unknown profile \"nope\"; known are spidar-g, "},
       {"profile=nope.toml", "nope.toml: cannot be read: No such file or directory"},
       {"device=none profile=nope", "unknown profile \"nope\""},
       // The board puts out positive volts only.
+      {"device=usb", "usb: the motors get no force: no board is plugged in whose profile is"},
       {"device=usb profile=spidar-gcc", "usb: profile \"spidar-gcc\" wants negative volts"},
   };
   for (const auto& [properties, text] : wrong) {
@@ -184,9 +185,10 @@ TEST_F(Feel, ADeviceThatCannotExistOrBeDrivenIsNamedBeforeThePlayerStarts) {
   }
   // Whether these are plugged in is seen when the video plays.
   for (const std::string properties :
-       {"device=usb", "device=usb:7", "device=mouse:7", "device=uart:/dev/no-such-line",
-        "device=ff:/dev/no-such-joystick", "device=none", "device=usb profile=spidar-g6x3-v2-l",
-        "device=zzz device=sim", "'device=\"sim\"'"})
+       {"device=usb:7 profile=spidar-g6c", "device=mouse:7",
+        "device=uart:/dev/no-such-line profile=spidar-g6x4", "device=ff:/dev/no-such-joystick",
+        "device=none", "device=usb profile=spidar-g6x3-v2-l", "device=zzz device=sim",
+        "'device=\"sim\"'"})
     EXPECT_EQ(
         run_shell(std::string(SPIDAR_FEEL) + " " + properties + " -- echo plays 2>/dev/null").text,
         "plays\n")
@@ -195,7 +197,7 @@ TEST_F(Feel, ADeviceThatCannotExistOrBeDrivenIsNamedBeforeThePlayerStarts) {
 
 TEST_F(Feel, APlayerThatShowsNoVideoByGStreamerIsNamed) {
   plug(0, UsbKind::kSh4);
-  const std::string feel = std::string(SPIDAR_FEEL) + " device=usb -- ";
+  const std::string feel = std::string(SPIDAR_FEEL) + " device=usb profile=spidar-g6x3-v2-r -- ";
   // When it has ended.
   EXPECT_EQ(run(feel + "echo plays").text.find("plays\nspidar-feel: echo has shown no video"), 0u);
   // While it plays: the shell waits for the line, as long as the test may last.

@@ -89,6 +89,31 @@ TEST_P(UsbPipeline, PlaysOnWhenTheBoardIsPulledOutAndTakesItBack) {
   gst_object_unref(pipeline);
 }
 
+/// A wrong profile pulls with other forces than wanted, and where it should let go.
+TEST(UsbPipelines, ABoardForWhichNobodyNamedAProfileGetsNoForceAndTheVideoGoesOn) {
+  const UsbPort& port = plug(0, UsbKind::kSimple);
+  for (const std::string element : {"spidarmotion device=usb ! fakesink",
+                                    "fakesink audiotestsrc num-buffers=3 ! audio/x-raw,rate=1000,"
+                                    "channels=6,channel-mask=(bitmask)0 ! spidarsink device=usb"}) {
+    GstElement* pipeline = gst_parse_launch(
+        ("videotestsrc num-buffers=3 ! video/x-raw,width=160,height=120 ! " + element).c_str(),
+        nullptr);
+    GstBus* bus = gst_element_get_bus(pipeline);
+    EXPECT_NE(gst_element_set_state(pipeline, GST_STATE_PLAYING), GST_STATE_CHANGE_FAILURE);
+    const std::string warning = next_warning(bus);
+    EXPECT_NE(warning.find("usb:1-1: the motors get no force: no profile is named"),
+              std::string::npos)
+        << warning;
+    EXPECT_NE(warning.find(" spidar-g6c, "), std::string::npos) << warning;
+    EXPECT_EQ(next_warning(bus), "eos");
+    gst_element_set_state(pipeline, GST_STATE_NULL);
+    gst_object_unref(bus);
+    gst_object_unref(pipeline);
+  }
+  EXPECT_EQ(port.updates, 0u);
+  clear_bus();
+}
+
 /// A real device begins gently; a simulated one has exactly the lag of its profile.
 TEST(UsbPipelines, ABoardWhoseLagNobodyMeasuredIsTouchedGently) {
   plug(0, UsbKind::kSh4);

@@ -148,7 +148,12 @@ class PlayerTest : public testing::TestWithParam<Player> {
     return words;
   }
   static Words felt_command() {
-    Words words{SPIDAR_FEEL, "device=usb", "motion=mean", "haptic-trace=" + trace(), "--"};
+    Words words{SPIDAR_FEEL,
+                "device=usb",
+                "profile=spidar-g6x3-v2-r",
+                "motion=mean",
+                "haptic-trace=" + trace(),
+                "--"};
     for (const std::string& word : command()) words.push_back(word);
     return words;
   }

@@ -18,8 +18,10 @@
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
+#include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/pushed_grip.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spidar::test::usb_boards_test {
 namespace {
@@ -107,12 +109,60 @@ TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
   const BoardInfo line = board_info("uart:/no/such/line");
   EXPECT_EQ(line.path, "/no/such/line");
   EXPECT_FALSE(line.accessible);
-  // What a board begins with is a profile that it can drive.
+  // What has a profile without a name can drive it.
   for (const std::string device :
-       {"usb:1-1", "usb:1-2", "usb:5", "uart:/dev/ttyUSB0", "mouse", "sim", "sim:sh4", "sim:simple",
-        "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3", "sim:falcon", "falcon", "falcon:1-4",
-        "ff", "ff:/dev/input/event0", "inverse3"})
-    EXPECT_NO_THROW(make_grip(device, load_profile(board_info(device).profile))) << device;
+       {"mouse", "sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3",
+        "sim:falcon", "falcon", "falcon:1-4", "ff", "ff:/dev/input/event0", "inverse3"})
+    EXPECT_NO_THROW(make_grip(device, profile_for(device, ""))) << device;
+}
+
+/// A wrong profile pulls with other forces than wanted, and where it should let go.
+TEST_F(UsbBoards, HaveNoProfileThatNobodyHasNamed) {
+  plug(0, UsbKind::kSh4, "A1");
+  plug(1, UsbKind::kSimple);
+  for (const std::string device :
+       {"usb:1-1", "usb:1-2", "usb:A1", "usb:5", "usb", "uart:/dev/ttyUSB0"}) {
+    EXPECT_EQ(board_info(device).profile, "") << device;
+    EXPECT_THROW(profile_for(device, ""), NoProfile) << device;
+    EXPECT_EQ(profile_for(device, "spidar-g6x4").name, "spidar-g6x4") << device;
+  }
+  // The pages list these for the SH4 and the Simple board.
+  const std::string of_sh4 = NoProfile(board_info("usb:1-1")).what();
+  const std::string of_simple = NoProfile(board_info("usb:1-2")).what();
+  const auto names = [](const std::string& text, const std::string& name) {
+    return text.find(" " + name + ",") != std::string::npos;
+  };
+  EXPECT_TRUE(names(of_sh4, "spidar-g6x3-v2-r")) << of_sh4;
+  EXPECT_FALSE(names(of_sh4, "spidar-g6c")) << of_sh4;
+  EXPECT_TRUE(names(of_simple, "spidar-g6c")) << of_simple;
+  EXPECT_FALSE(names(of_simple, "spidar-g6x3-v2-r")) << of_simple;
+  for (const std::string& text : {of_sh4, of_simple}) {
+    EXPECT_TRUE(names(text, "spidar-g645")) << text;  // its source names no board
+    EXPECT_FALSE(names(text, "spidar-gcc")) << text;  // needs negative volts
+    EXPECT_FALSE(names(text, "spidar-g6x5-l")) << text;
+  }
+}
+
+TEST_F(UsbBoards, KeepTheProfileThatWasConfirmedForTheirSerialNumber) {
+  const TemporaryFolder folder;
+  setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
+  plug(0, UsbKind::kSh4, "A1");
+  plug(1, UsbKind::kSh4, "A2");
+  plug(2, UsbKind::kSh4);
+  remember_profile(board_info("usb:A1"), "spidar-g6x3-v2-l");
+  remember_profile(board_info("usb:A2"), "mine.toml");
+  remember_profile(board_info("usb:A1"), "spidar-g6c");
+  EXPECT_EQ(profile_for("usb:1-1", "").name, "spidar-g6c");
+  EXPECT_EQ(board_info("usb:A2").profile, (std::filesystem::current_path() / "mine.toml").string());
+  EXPECT_THROW(remember_profile(board_info("usb:1-3"), "spidar-g6c"), DeviceError);
+  EXPECT_THROW(profile_for("usb:1-3", ""), NoProfile);
+  // A board of the other kind is another one, whatever its number is.
+  EXPECT_EQ(remembered_profile("0cec:0203", "A1"), "");
+  // What cannot be read is not overwritten.
+  std::ofstream(remembered_profiles_file()) << "A1 =";
+  EXPECT_THROW(profile_for("usb:1-1", ""), NoProfile);
+  EXPECT_THROW(remember_profile(board_info("usb:A1"), "spidar-g6c"), ProfileError);
+  unsetenv("XDG_CONFIG_HOME");
 }
 
 TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {

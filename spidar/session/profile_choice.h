@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Which profile drives a device, and what is remembered of it.
+///
+/// A profile that is wrong gives other forces than wanted, and may pull where it should let go:
+/// boards do not say which frame, motors and encoders are connected to them. So the motors of a
+/// board get no force before somebody has named a profile for it, now or once with `spidarctl
+/// choose`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "spidar/device_error.h"
+#include "spidar/profiles/profile.h"
+#include "spidar/session/board_list.h"
+
+namespace spidar {
+
+/// Nobody has named a profile for this board. what() lists those that fit it.
+class NoProfile : public DeviceError {
+ public:
+  explicit NoProfile(const BoardInfo& board);
+};
+
+/// The names of the profiles that fit a board: it can drive them, and their source names a board of
+/// its kind or none. Profiles that cannot be read are left out. Opens nothing.
+std::vector<std::string> fitting_profiles(const BoardInfo& board);
+
+/// Whether make_device() accepts the profile for this device. Opens nothing.
+bool can_drive(const std::string& device, const Profile& profile);
+
+/// Loads the profile `named`, which is a name or a path as for load_profile(). If it is empty,
+/// loads that of BoardInfo::profile. Throws NoProfile if that is empty, too, and ProfileError.
+Profile profile_for(const std::string& device, const std::string& named);
+
+/// The file with the profiles that were confirmed for boards:
+/// $XDG_CONFIG_HOME/gst-spidar/boards.toml, or ~/.config/gst-spidar/boards.toml. Empty when neither
+/// variable is set.
+std::filesystem::path remembered_profiles_file();
+
+/// What remember_profile() was last told for the board with this USB ID and serial number; empty if
+/// nothing, or if the file cannot be read.
+std::string remembered_profile(const std::string& usb_id, const std::string& serial);
+
+/// `profile` is a name or a path as for load_profile(); a path is kept as an absolute one. Throws
+/// DeviceError if the board has no serial number, and ProfileError if the file cannot be written.
+void remember_profile(const BoardInfo& board, const std::string& profile);
+
+}  // namespace spidar

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <iostream>
+#include <limits>
+#include <poll.h>
+#include <unistd.h>
+
+#include "spidar/session/device_factory.h"
+#include "spidar/session/profile_choice.h"
+#include "spidar/tools/chosen_device.h"
+#include "spidar/tools/commands.h"
+#include "spidar/tools/terminal.h"
+#include "spidar/wiring/encoder_signs.h"
+#include "spidar/wiring/string_hold.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kChooseHelp = R"(usage: spidarctl choose DEVICE --profile NAME
+
+Confirms that NAME is the profile of a board, and remembers it for the board's serial number: the board
+is then driven with it wherever no profile is named. You move the grip by hand to six sides; the motors
+stay at zero. The encoders must count as the profile says. Measure the frame before: encoders do not
+tell a small frame from a large one.
+
+The profiles are remembered in $XDG_CONFIG_HOME/gst-spidar/boards.toml, by default in ~/.config. Remove a
+line there to forget one.
+
+Exit status: 0 confirmed, 1 the encoders count differently, or the board has no serial number, or there
+is no device, 2 wrong usage, 130 interrupted.
+)";
+
+/// Whether a line, or its end, waits on the standard input.
+bool is_line_there() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return poll(&input, 1, 0) > 0;
+}
+
+/// The counts when the person has pressed Enter. False when interrupted.
+bool read_when_there(StringHold& hold, const std::string& question, EncoderScale::Counts& counts) {
+  std::cerr << question << " and press Enter.\n";
+  const bool whole = hold.stay(std::numeric_limits<double>::infinity(), [&](const auto& reading) {
+    counts = reading.count;
+    return !is_line_there();
+  });
+  std::string line;
+  if (whole && !std::getline(std::cin, line))
+    throw UsageError("the standard input ended before the grip was at every side");
+  return whole;
+}
+
+/// False when interrupted.
+bool move_by_hand(ChosenDevice& chosen, HandMoves& moves) {
+  moves.distance_m = hand_move_m(chosen.profile.geometry);
+  StringHold hold(*chosen.device, chosen.profile, every_millisecond());
+  bool whole =
+      read_when_there(hold, "Pull all strings taut, hold the grip still at the centre, not turned,",
+                      moves.counts[0]);
+  for (size_t side = 0; whole && side < HandMoves::kSides.size(); ++side)
+    whole = read_when_there(hold,
+                            std::to_string(side + 1) + " of 6: from the centre, pull the grip " +
+                                shown(1e3 * moves.distance_m) + " mm " +
+                                HandMoves::kSides[side].name + ", hold it there",
+                            moves.counts[side + 1]);
+  return whole;
+}
+
+const char* text_of(EncoderSign sign) {
+  switch (sign) {
+    case EncoderSign::kAsProfile:
+      return "as in the profile";
+    case EncoderSign::kReversed:
+      return "counts the other way";
+    case EncoderSign::kStill:
+      return "did not count";
+    case EncoderSign::kUnclear:
+      return "unclear";
+  }
+  return "";
+}
+
+void print_others(const ChosenDevice& chosen, const HandMoves& moves) {
+  std::string others;
+  for (const std::string& name : fitting_profiles(chosen.board))
+    if (encoders_agree(load_profile(name), moves)) others += (others.empty() ? "" : ", ") + name;
+  std::cout << (others.empty() ? "no profile of this board has encoders that count so"
+                               : "profiles whose encoders count so: " + others)
+            << '\n';
+}
+
+}  // namespace
+
+int choose_command(int argc, char** argv) {
+  const DeviceOptions options = parse_device_options(argc, argv);
+  if (options.help) {
+    std::cout << kChooseHelp;
+    return kDone;
+  }
+  if (is_simulated(options.device))
+    throw UsageError(options.device + ": a simulated device has its own profile");
+  const BoardInfo board = board_info(options.device);
+  require_strings(board, "choose");
+  if (options.profile.empty()) throw NoProfile(board);
+  ChosenDevice chosen = choose_device(options, Motors::kOff);
+  catch_signals();
+  HandMoves moves;
+  if (!move_by_hand(chosen, moves)) return kInterrupted;
+  const auto signs = encoder_signs(chosen.profile, moves);
+  std::cout << "  string  encoder\n";
+  for (int i = 0; i < chosen.profile.geometry.count; ++i)
+    std::cout << "  " << i << "       " << text_of(signs[static_cast<size_t>(i)]) << '\n';
+  if (!encoders_agree(chosen.profile, moves)) {
+    print_others(chosen, moves);
+    return kFailed;
+  }
+  remember_profile(chosen.board, options.profile);
+  std::cout << chosen.profile.name << " is remembered for the serial number " << chosen.board.serial
+            << '\n';
+  return kDone;
+}
+
+}  // namespace spidar

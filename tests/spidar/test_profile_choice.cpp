@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// spidarctl on real boards, on an emulated bus: no motor pulls before somebody has named a profile.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "spidar/session/profile_choice.h"
+#include "spidar/wiring/encoder_signs.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/emulated_bus/shared_bus.h"
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test {
+namespace {
+
+/// What all tests of this program share with the programs that they start.
+const TemporaryFolder& settings_folder() {
+  static const TemporaryFolder folder;
+  return folder;
+}
+
+class ProfileChoice : public testing::Test {
+ protected:
+  ProfileChoice() {
+    setenv("XDG_CONFIG_HOME", settings_folder().path.c_str(), 1);
+    clear_bus();
+    std::filesystem::remove(remembered_profiles_file());
+  }
+  ~ProfileChoice() override { clear_bus(); }
+
+  static std::string spidarctl(const std::string& arguments) {
+    return "LD_PRELOAD=" EMULATED_BUS_LIBRARY " " SPIDARCTL " " + arguments;
+  }
+
+  /// Answers each question of `choose` when the grip is there. Only paid out, as strings are
+  /// without motors. Returns the exit status; `text` is what it has printed.
+  static int choose(UsbPort& port, const std::string& device, const Profile& real,
+                    const std::string& named, std::string& text) {
+    const std::string log = (settings_folder().path / "log").string();
+    std::filesystem::remove(log);
+    FILE* answers = popen(
+        (spidarctl("choose " + device + " --profile " + named) + " >" + log + " 2>&1").c_str(),
+        "w");
+    const EncoderScale scale(real);
+    StringVector length_m = string_lengths_m(real.geometry, {});
+    const auto read_log = [&] {
+      std::ifstream file(log);
+      return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    for (int stop = 0; stop <= 6; ++stop) {
+      const std::string question = stop == 0 ? "at the centre" : std::to_string(stop) + " of 6";
+      while (read_log().find(question) == std::string::npos)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (stop > 0) {
+        Pose pose;
+        pose.position_m =
+            hand_move_m(real.geometry) * HandMoves::kSides[static_cast<size_t>(stop) - 1].direction;
+        length_m = length_m.cwiseMax(string_lengths_m(real.geometry, pose));
+      }
+      EncoderScale::Counts counts{};
+      scale.to_counts(length_m, counts);
+      for (size_t i = 0; i < counts.size(); ++i) port.count[i] = counts[i];
+      // Until the next readings have these counts: the board is read once a millisecond.
+      for (const uint64_t before = port.updates; port.updates < before + 10;)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::fputs("\n", answers);
+      std::fflush(answers);
+    }
+    const int status = pclose(answers);
+    text = read_log();
+    return WEXITSTATUS(status);
+  }
+};
+
+TEST_F(ProfileChoice, WithoutOneABoardIsReadAndNoMotorPulls) {
+  const UsbPort& port = plug(0, UsbKind::kSimple, "S1");
+  for (const std::string command :
+       {"rest usb --seconds 0.01", "pull usb 0 2 0.1 --yes", "selftest usb --yes",
+        "conformance usb --yes", "calibrate usb --centre", "monitor usb --taut --seconds 0.1",
+        "choose usb"}) {
+    const CommandResult outcome = run(spidarctl(command));
+    EXPECT_EQ(outcome.status, 1) << command;
+    EXPECT_NE(outcome.text.find("the motors get no force: no profile is named"), std::string::npos)
+        << command << ": " << outcome.text;
+    EXPECT_NE(outcome.text.find(" spidar-g6c, "), std::string::npos) << outcome.text;
+  }
+  EXPECT_EQ(port.updates, 0u);
+  for (const std::string command : {"info usb", "info usb --json", "monitor usb --seconds 0.11",
+                                    "zero usb", "conformance usb --no-pull --seconds 0.1"}) {
+    const CommandResult outcome = run(spidarctl(command));
+    // On a busy machine an exchange of the conformance test may be late.
+    const bool may_be_late = command.find("conformance") == 0;
+    EXPECT_TRUE(outcome.status == 0 || may_be_late) << outcome.text;
+    EXPECT_TRUE(port.at_rest()) << command;
+  }
+  EXPECT_GT(port.updates, 0u);
+  EXPECT_NE(run(spidarctl("info usb")).text.find("\n  string     count\n"), std::string::npos);
+  EXPECT_NE(run(spidarctl("monitor usb --seconds 0.11")).text.find("  counts\n"),
+            std::string::npos);
+}
+
+TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
+  UsbPort& port = plug(0, UsbKind::kSh4, "S1");
+  const Profile real = load_profile("spidar-g6c");
+  std::string text;
+  // Its source names the other board; who names it, gets it.
+  EXPECT_EQ(choose(port, "usb", real, "spidar-g6c", text), 0) << text;
+  EXPECT_NE(text.find("spidar-g6c is remembered for the serial number S1\n"), std::string::npos)
+      << text;
+  EXPECT_TRUE(port.at_rest());
+  EXPECT_EQ(board_info("usb").profile, "spidar-g6c");
+  EXPECT_NE(run(spidarctl("info usb")).text.find("profile   spidar-g6c: "), std::string::npos);
+  // Another board is another one.
+  plug(0, UsbKind::kSh4, "S2");
+  EXPECT_EQ(board_info("usb").profile, "");
+}
+
+TEST_F(ProfileChoice, OneWithOtherEncodersIsRefused) {
+  UsbPort& port = plug(0, UsbKind::kSimple, "S1");
+  std::string text;
+  EXPECT_EQ(choose(port, "usb", load_profile("spidar-g6c"), "spidar-g6x3-v2-r", text), 1) << text;
+  // Strings 6 and 7, which count the other way as well, leave this frame elsewhere.
+  for (const int string : {0, 1})
+    EXPECT_NE(text.find("  " + std::to_string(string) + "       counts the other way\n"),
+              std::string::npos)
+        << text;
+  EXPECT_NE(text.find("profiles whose encoders count so: "), std::string::npos) << text;
+  EXPECT_NE(text.find("spidar-g6c"), std::string::npos) << text;
+  EXPECT_EQ(board_info("usb").profile, "");
+}
+
+TEST_F(ProfileChoice, WithoutSupplyAPullFails) {
+  const UsbPort& port = plug(0, UsbKind::kSh4);
+  const CommandResult outcome =
+      run(spidarctl("pull usb 3 2 0.05 --yes --profile spidar-g6x3-v2-r"));
+  EXPECT_EQ(outcome.status, 1) << outcome.text;
+  EXPECT_NE(outcome.text.find("no string has answered"), std::string::npos) << outcome.text;
+  EXPECT_GT(port.updates, 0u);
+  EXPECT_TRUE(port.at_rest());
+}
+
+}  // namespace
+}  // namespace spidar::test
+
+int main(int argc, char** argv) {
+  // Before anything uses the bus.
+  const spidar::test::SharedBus shared;
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
