@@ -34,7 +34,7 @@ WRITTEN = "Written by `docs/elements.py` from the plugin; a test compares the tw
 SINCE = {}
 FIRST_VERSION = "0.1"
 TYPES = {"gchararray": "string", "gdouble": "double", "gboolean": "boolean", "guint64": "uint64", "guint": "uint",
-         "gint": "int", "gint64": "int64"}
+         "gint": "int", "gint64": "int64", "GstValueArray": "array"}
 
 
 def value_text(value):

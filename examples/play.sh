@@ -28,7 +28,7 @@ build() {
         quietly meson setup "$top/build" "$top" -Dunity=on  # several files compiled as one: faster
     fi
     # The guardian is needed by real boards, and docs/start.md goes on with spidar-feel.
-    local targets=(plugin/libgstspidar{,feel}.so plugin/spidar-feel spidar/spidar-guardian apps/play)
+    local targets=(plugin/libgstspidar{,feel}.so plugin/spidar-feel spidar/spidar-guardian examples/play/play)
     if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then
         echo "building; the first time, this takes some minutes"
         quietly ninja -C "$top/build" "${targets[@]}"
@@ -97,8 +97,6 @@ if [[ $needs_clip == yes ]]; then
     if clip=$(street_clip); then
         video=("$clip")
         options=(--seconds 20 "${options[@]}")
-        # The people are small; more points find more of them.
-        ((${#properties[@]})) || properties=(-- max-features=400)
     else
         echo "it cannot be had, perhaps for want of a network: playing a ball of videotestsrc"
         options+=(--ball)
@@ -107,4 +105,4 @@ fi
 
 export GST_PLUGIN_PATH=$top/build/plugin${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
 export GST_REGISTRY=$top/build/gst-registry.bin
-exec "$top/build/apps/play" "${options[@]}" "${video[@]}" "${properties[@]}"
+exec "$top/build/examples/play/play" "${options[@]}" "${video[@]}" "${properties[@]}"

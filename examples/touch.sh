@@ -15,8 +15,8 @@ install_packages build play
 if [[ ! -f $top/build/build.ninja ]]; then
     meson setup "$top/build" "$top" >/dev/null
 fi
-if [[ $(ninja -C "$top/build" -n apps/touch) != *"no work to do"* ]]; then
+if [[ $(ninja -C "$top/build" -n examples/touch/touch) != *"no work to do"* ]]; then
     echo "building; the first time, this takes some minutes"
-    ninja -C "$top/build" apps/touch >/dev/null
+    ninja -C "$top/build" examples/touch/touch >/dev/null
 fi
-exec "$top/build/apps/touch" "$@"
+exec "$top/build/examples/touch/touch" "$@"

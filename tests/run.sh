@@ -72,7 +72,7 @@ run_tests() {
 check_layout() {
     say "layout: $(clang-format --version)"
     local files
-    mapfile -t files < <(find include api core spidar plugin tests apps examples -name "*.cpp" -o -name "*.h")
+    mapfile -t files < <(find include api core spidar plugin tests examples -name "*.cpp" -o -name "*.h")
     if clang-format --dry-run --Werror "${files[@]}"; then
         checks+=(--passed layout)
     else
@@ -147,18 +147,18 @@ case ${1-} in
     compile_executed build-ci-address
     CC=clang CXX=clang++ configure build-ci-address "${sanitized[@]}" \
         "-Dcpp_args=['-gdwarf-4',$flags,'-fsanitize-coverage=func,trace-pc-guard',$rolled]" \
-        "-Dcpp_link_args=$PWD/build-ci-address/executed.o" -Db_sanitize=address,undefined -Dapps=false \
+        "-Dcpp_link_args=$PWD/build-ci-address/executed.o" -Db_sanitize=address,undefined -Dexamples=false \
         -Dtest_suites=api,core,element,pipelines,spidar,window
     configure build-ci-thread "${sanitized[@]}" "-Dcpp_args=[$flags,'-Wno-maybe-uninitialized']" \
-        -Db_sanitize=thread -Dwindow=disabled -Dtest_suites=apps,pipelines,spidar
+        -Db_sanitize=thread -Dwindow=disabled -Dtest_suites=pipelines,spidar
     threaded_targets=(tests/spidar/test_{spidar,usb,guardian} tests/emulated_bus/emulated-guardian
-        tests/apps/test_play_{numbers,traces} tests/pipelines/test_pipelines_random_operations)
+        tests/pipelines/test_pipelines_random_operations)
 
     build_ahead build-ci-address
     run_on_bare_debian build-ci-bare
     say "address sanitizer: GLib's table of quarks is left out, which it never frees; plugins are read" \
         "in the test itself, for GStreamer's own process for that is not built with the sanitizer"
-    echo "left out: apps, programs of their own; numerics, tests that sample thousands of cases of" \
+    echo "left out: examples, programs of their own; numerics, tests that sample thousands of cases of" \
         "arithmetic and are 10 to 70 times slower here, or count what is taken from the heap; short-films, players" \
         "whose film is over or paused before one that is built with the sanitizer gives force; api_installed," \
         "api_python, pipelines_player_mouse and window_choice, whose programs are built without it. All have run above."
@@ -185,7 +185,7 @@ case ${1-} in
         "needs desktop players; suite soak, which takes an hour; suite validate, which needs gst-validate; suite" \
         "valgrind. Each by meson test -C build --suite NAME"
     threaded=(haptic_session shared_memory simulated_faults tick_trace touch_mailbox boards usb_boards force_feedback
-        uart_line wrench_callback guardian play_numbers play_traces pipelines_random_operations)
+        uart_line wrench_callback guardian pipelines_random_operations)
     ! build build-ci-thread "${threaded_targets[@]}" || run_tests build-ci-thread 8 "${threaded[@]}"
     end_check "sources executed"
     end_check "site"

@@ -6,7 +6,7 @@
 #   tests/runtimes.sh debian-13       builds and tests everything with the packages of Debian 13
 #   tests/runtimes.sh debian-13-players  runs the suite `players` with the players of Debian 13
 #   tests/runtimes.sh gstreamer-1.28  tests what is built in build/ with GStreamer 1.28 and GLib, those
-#                                     of Debian 14: element, pipelines, apps
+#                                     of Debian 14: element, pipelines, examples
 # Each keeps a small Debian of its own, of 2 GB and 1 GB, in ${XDG_CACHE_HOME:-~/.cache}/gst-spidar/ for
 # later runs.
 set -euo pipefail
@@ -90,7 +90,7 @@ test_with_other_gstreamer() {
     in_root "${with[@]}" ldd plugin/libgstspidar.so | grep -E 'libgst|libg(lib|object)'
     in_root "${with[@]}" gst-inspect-1.0 plugin/libgstspidar.so
     meson test -C build --no-rebuild --print-errorlogs \
-        --wrapper "chroot '$root' ${with[*]@Q}" --suite element --suite pipelines --suite apps || true
+        --wrapper "chroot '$root' ${with[*]@Q}" --suite element --suite pipelines --suite examples || true
     say "summary: $(in_root gst-inspect-1.0 --version | tail -n +2 | head -n 1)," \
         "built with $(pkg-config --modversion gstreamer-1.0)"
     python3 tests/summary.py --log "$log" build

@@ -34,7 +34,7 @@ done
 DISPLAY=:$(<"$work/display")
 export DISPLAY
 
-"$build/apps/play" --headless --output "$work" --seconds 30 --window-png "$work/window.png" \
+"$build/examples/play/play" --headless --output "$work" --seconds 30 --window-png "$work/window.png" \
     "$work/meadow.avi" >"$work/play.log" 2>&1 &
 player=$!
 sleep "$warm_up"
@@ -42,7 +42,7 @@ ffmpeg -v error -f x11grab -draw_mouse 0 -framerate "$rate" -video_size "$size" 
     -c:v ffv1 "$work/window.mkv"
 wait "$player" || { cat "$work/play.log" >&2; exit 1; }
 
-"$build/apps/play" --headless --output "$work" --seconds 9 --window-png "$work/touch.png" \
+"$build/examples/play/play" --headless --output "$work" --seconds 9 --window-png "$work/touch.png" \
     "$work/meadow.avi" -- touch=luma touch-relief=20 >"$work/play.log" 2>&1 || { cat "$work/play.log" >&2; exit 1; }
 ffmpeg -v error -y -i "$work/touch.png" -filter_complex \
     "split[a][b];[a]palettegen=max_colors=256[p];[b][p]paletteuse=dither=none" "$here/window_touch.png"

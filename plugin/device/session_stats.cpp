@@ -37,6 +37,21 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       us(session.timing().lateness.quantile_ns(0.999)), "skew-ms-median", G_TYPE_DOUBLE,
       ms(loop.skew().quantile_ns(0.5)), "skew-ms-p99", G_TYPE_DOUBLE,
       ms(loop.skew().quantile_ns(0.99)), nullptr);
+  const Wrench& delivered = snapshot.last.delivered;
+  gst_structure_set(structure, "force-x", G_TYPE_DOUBLE, delivered.force_N.x(), "force-y",
+                    G_TYPE_DOUBLE, delivered.force_N.y(), "force-z", G_TYPE_DOUBLE,
+                    delivered.force_N.z(), "torque-x", G_TYPE_DOUBLE, delivered.torque_Nm.x(),
+                    "torque-y", G_TYPE_DOUBLE, delivered.torque_Nm.y(), "torque-z", G_TYPE_DOUBLE,
+                    delivered.torque_Nm.z(), nullptr);
+  GValue tensions = G_VALUE_INIT;
+  g_value_init(&tensions, GST_TYPE_ARRAY);
+  for (const double tension_N : snapshot.last.tension_N) {
+    GValue tension = G_VALUE_INIT;
+    g_value_init(&tension, G_TYPE_DOUBLE);
+    g_value_set_double(&tension, tension_N);
+    gst_value_array_append_and_take_value(&tensions, &tension);
+  }
+  gst_structure_take_value(structure, "tensions", &tensions);
   const Contact& contact = snapshot.last.contact;
   gst_structure_set(structure, "touching", G_TYPE_BOOLEAN, contact.touching ? TRUE : FALSE,
                     "touch-depth-mm", G_TYPE_DOUBLE, 1e3 * contact.depth_m, "touch-force",

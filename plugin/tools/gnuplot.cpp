@@ -5,65 +5,70 @@
 #include <cctype>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
-#include <fcntl.h>
+#include <memory>
 #include <spawn.h>
 #include <stdexcept>
-#include <string>
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace spidar {
+#include "plugin/track/part_file.h"
 
-Gnuplot::Gnuplot(int out) : warnings_(std::tmpfile(), std::fclose) {
-  if (!warnings_) throw std::runtime_error(std::string("gnuplot: ") + std::strerror(errno));
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) {
-    throw std::runtime_error(std::string("gnuplot: ") + std::strerror(errno));
+namespace spidar {
+namespace {
+
+using File = std::unique_ptr<FILE, int (*)(FILE*)>;
+
+[[noreturn]] void fail(int error, const std::string& hint = "") {
+  throw std::runtime_error(std::string("gnuplot: ") + std::strerror(error) + hint);
+}
+
+/// A file without a name that is empty, or contains `text`.
+File nameless_file(const std::string& text = "") {
+  File file(std::tmpfile(), std::fclose);
+  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
+      std::fflush(file.get()) != 0) {
+    fail(errno);
   }
+  std::rewind(file.get());
+  return file;
+}
+
+/// Returns gnuplot's status, as waitpid() reports it. It has no file names, since it runs one that
+/// begins with | or < as a command.
+int run(int in, int out, int errors) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, ends[0], STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&files, in, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&files, fileno(warnings_.get()), STDERR_FILENO);
-  // The signals that this program blocks or ignores are to end gnuplot.
+  posix_spawn_file_actions_adddup2(&files, errors, STDERR_FILENO);
+  // The signals that this program blocks are to end gnuplot.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  sigset_t none, pipe_signal;
+  sigset_t none;
   sigemptyset(&none);
-  sigemptyset(&pipe_signal);
-  sigaddset(&pipe_signal, SIGPIPE);
   posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &pipe_signal);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
   std::string name = "gnuplot";
   char* const arguments[] = {name.data(), nullptr};
-  const int error = posix_spawnp(&process_, name.c_str(), &files, &attributes, arguments, environ);
+  pid_t process = -1;
+  const int error = posix_spawnp(&process, name.c_str(), &files, &attributes, arguments, environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
-  close(ends[0]);
-  if (error != 0) {
-    close(ends[1]);
-    throw std::runtime_error(std::string("gnuplot: ") + std::strerror(error) +
-                             "; it is in the Debian package gnuplot-nox");
+  if (error != 0) fail(error, "; it is in the Debian package gnuplot-nox");
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
-  input_ = fdopen(ends[1], "w");
+  return status;
 }
 
-Gnuplot::~Gnuplot() {
-  end();
-}
-
-void Gnuplot::finish() {
-  if (end() != 0) throw std::runtime_error("gnuplot could not draw the picture" + warning());
-}
-
-/// The last line that it wrote. Its warnings, of fonts for example, do not matter if it succeeds.
-std::string Gnuplot::warning() const {
-  std::rewind(warnings_.get());
+/// With a colon before it; empty if there is none.
+std::string last_line(FILE* file) {
+  std::rewind(file);
   std::string last;
   char line[256];
-  while (std::fgets(line, sizeof line, warnings_.get())) {
+  while (std::fgets(line, sizeof line, file)) {
     std::string text = line;
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
     if (!text.empty()) last = ": " + text;
@@ -71,15 +76,40 @@ std::string Gnuplot::warning() const {
   return last;
 }
 
-/// Its status, as waitpid() reports it; 0 when it has ended before.
-int Gnuplot::end() {
-  if (!input_) return 0;
-  std::fclose(input_);
-  input_ = nullptr;
-  int status = 0;
-  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+/// gnuplot reports no error when the disk is full.
+bool is_whole_png(int descriptor) {
+  constexpr char kEnd[] = "\0\0\0\0IEND\xAE\x42\x60\x82";
+  char end[sizeof kEnd - 1] = {};
+  const off_t size = lseek(descriptor, 0, SEEK_END);
+  return size > static_cast<off_t>(sizeof end) &&
+         pread(descriptor, end, sizeof end, size - static_cast<off_t>(sizeof end)) ==
+             static_cast<ssize_t>(sizeof end) &&
+         std::memcmp(end, kEnd, sizeof end) == 0;
+}
+
+}  // namespace
+
+void draw_with_gnuplot(const std::string& script, const std::string& png) {
+  PartFile picture(png);
+  const File commands = nameless_file(script);
+  // Its warnings, of fonts for example, do not matter if it succeeds.
+  const File warnings = nameless_file();
+  if (run(fileno(commands.get()), picture.descriptor(), fileno(warnings.get())) != 0) {
+    throw std::runtime_error("gnuplot could not draw the picture" + last_line(warnings.get()));
   }
-  return status;
+  if (!is_whole_png(picture.descriptor())) {
+    throw std::runtime_error(png + ": cannot be written as a whole; the disk may be full");
+  }
+  picture.publish();
+}
+
+std::string gnuplot_string(const std::string& text) {
+  // In single quotes there are no escapes: a quote is doubled. A line cannot end within them.
+  std::string result = "'";
+  for (const char c : text) {
+    result += c == '\'' ? std::string("''") : std::string(1, c == '\n' || c == '\0' ? ' ' : c);
+  }
+  return result + "'";
 }
 
 }  // namespace spidar

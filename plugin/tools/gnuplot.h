@@ -1,39 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A picture that gnuplot draws.
+/// Pictures that gnuplot draws.
 #pragma once
 
-#include <cstdio>
-#include <memory>
 #include <string>
-#include <sys/types.h>
 
 namespace spidar {
 
-/// A running gnuplot. It draws into an open file, because it runs a file name that begins with | or
-/// < as a command.
-class Gnuplot {
- public:
-  /// Its standard output is the descriptor `out`. Throws std::runtime_error when it cannot be
-  /// started.
-  explicit Gnuplot(int out);
-  ~Gnuplot();
-  Gnuplot(const Gnuplot&) = delete;
-  Gnuplot& operator=(const Gnuplot&) = delete;
+/// Runs gnuplot once on `script`, which sets its terminal to a kind of PNG, has its data in it and
+/// does not set an output. The picture gets the name `png` when it is whole. Throws
+/// std::runtime_error, which says why there is none: gnuplot is missing or reports an error, or the
+/// file cannot be written.
+void draw_with_gnuplot(const std::string& script, const std::string& png);
 
-  /// For commands and data.
-  FILE* input() const { return input_; }
-
-  /// Returns when everything is drawn. Throws std::runtime_error when gnuplot reports an error.
-  void finish();
-
- private:
-  int end();
-  std::string warning() const;
-
-  FILE* input_ = nullptr;
-  std::unique_ptr<FILE, int (*)(FILE*)> warnings_;  // what it writes to its standard error
-  pid_t process_ = -1;
-};
+/// A text as a string of a script.
+std::string gnuplot_string(const std::string& text);
 
 }  // namespace spidar

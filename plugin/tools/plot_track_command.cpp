@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <array>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 #include <stdexcept>
-#include <unistd.h>
 
 #include "plugin/tools/film_stills.h"
 #include "plugin/tools/gnuplot.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/track/part_file.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
 
@@ -31,7 +31,7 @@ set grid linecolor rgb '#d8d8d8' linetype 1 linewidth 0.5
 set linetype 1 linecolor rgb '#0b5fa5' linewidth 1.5
 set linetype 2 linecolor rgb '#d9541e' linewidth 1.5
 set linetype 3 linecolor rgb '#009e73' linewidth 1.5
-set lmargin at screen 0.06
+set lmargin at screen 0.09
 set rmargin at screen 0.985
 set key horizontal
 set offsets 0, 0, graph 0.1, 0
@@ -42,104 +42,90 @@ constexpr int kWidth = 1400, kCurves = 700, kGap = 14;
 constexpr int kStills = 8;
 constexpr int kStillWidth = 160;  // one of eight over the width of the curves
 
-/// The picture cannot show more points than this.
-constexpr size_t kMostPoints = 20000;
+/// Bins of a curve: more than the picture has columns.
+constexpr size_t kBins = 4000;
 
-void send(FILE* gnuplot, const std::vector<TrackSample>& samples, bool torque) {
-  const size_t step = samples.size() / kMostPoints + 1;
-  for (int curve = 0; curve < 3; ++curve) {  // once for each of the curves
-    for (size_t i = 0; i < samples.size(); i += step) {
-      const Wrench wrench = to_wrench(samples[i]);
-      const Eigen::Vector3d& v = torque ? wrench.torque_Nm : wrench.force_N;
-      std::fprintf(gnuplot, "%g %g %g %g\n", static_cast<double>(i) / kTrackRate_Hz, v.x(), v.y(),
-                   v.z());
+/// The lowest and the highest value of each bin, as two rows: time, force, torque. A short peak is
+/// seen however long the track is.
+void write_samples(std::ostream& script, const std::vector<TrackSample>& samples) {
+  constexpr size_t kAxes = 6;
+  const size_t step = samples.size() / kBins + 1;
+  script << "$samples << END\n";
+  for (size_t begin = 0; begin < samples.size(); begin += step) {
+    std::array<double, kAxes> low, high;
+    for (size_t i = begin; i < std::min(begin + step, samples.size()); ++i) {
+      const Eigen::Matrix<double, 6, 1> value = to_wrench(samples[i]).stacked();
+      for (size_t axis = 0; axis < kAxes; ++axis) {
+        const double now = value[static_cast<Eigen::Index>(axis)];
+        low[axis] = i == begin ? now : std::min(low[axis], now);
+        high[axis] = i == begin ? now : std::max(high[axis], now);
+      }
     }
-    std::fputs("e\n", gnuplot);
+    for (const auto& row : {low, high}) {
+      script << static_cast<double>(begin) / kTrackRate_Hz;
+      for (const double value : row) script << ' ' << value;
+      script << '\n';
+    }
   }
+  script << "END\n";
 }
 
 /// Puts a plot between two heights of a picture, in pixels from its top.
-void place(FILE* gnuplot, int top, int bottom, int height) {
-  std::fprintf(gnuplot, "set tmargin at screen %g\nset bmargin at screen %g\n",
-               1 - static_cast<double>(top) / height, 1 - static_cast<double>(bottom) / height);
+void place(std::ostream& script, int top, int bottom, int height) {
+  script << "set tmargin at screen " << 1 - static_cast<double>(top) / height
+         << "\nset bmargin at screen " << 1 - static_cast<double>(bottom) / height << '\n';
 }
 
 /// The stills side by side, and a dotted line through the middle of each for the curves that
 /// follow.
-void draw_stills(FILE* gnuplot, const FilmStills& stills, double length_s) {
+void draw_stills(std::ostream& script, const FilmStills& stills, double length_s) {
   const double part_s = length_s / kStills;
   const double pixel_s = 0.98 * part_s / stills.width;  // with a gap
-  std::fputs("set yrange [0:1]\nunset border\nunset tics\nplot ", gnuplot);
+  script << "set yrange [0:1]\nunset border\nunset tics\nplot ";
   for (int i = 0; i < kStills; ++i) {
-    std::fprintf(gnuplot,
-                 "%s'-' binary array=(%d,%d) format='%%uchar%%uchar%%uchar' flipy origin=(%g,%g) "
-                 "dx=%g dy=%g with rgbimage notitle",
-                 i == 0 ? "" : ", ", stills.width, stills.height,
-                 i * part_s + 0.01 * part_s + pixel_s / 2, 0.5 / stills.height, pixel_s,
-                 1.0 / stills.height);
+    script << (i == 0 ? "" : ", ") << "'-' binary array=(" << stills.width << ',' << stills.height
+           << ") format='%uchar%uchar%uchar' flipy origin=("
+           << i * part_s + 0.01 * part_s + pixel_s / 2 << ',' << 0.5 / stills.height
+           << ") dx=" << pixel_s << " dy=" << 1.0 / stills.height << " with rgbimage notitle";
   }
-  std::fputc('\n', gnuplot);
-  for (const std::vector<uint8_t>& rgb : stills.rgb) {
-    std::fwrite(rgb.data(), 1, rgb.size(), gnuplot);
-  }
-  std::fputs("\nset yrange [*:*]\nset border\nset tics\n", gnuplot);
+  script << '\n';
+  for (const std::vector<uint8_t>& rgb : stills.rgb)
+    script.write(reinterpret_cast<const char*>(rgb.data()),
+                 static_cast<std::streamsize>(rgb.size()));
+  script << "\nset border\nset tics\n";
   for (int i = 0; i < kStills; ++i) {
     const double t = (i + 0.5) * part_s;
-    std::fprintf(gnuplot,
-                 "set arrow from first %g, graph 0 to first %g, graph 1 nohead back linecolor rgb "
-                 "'#707070' dashtype 3\n",
-                 t, t);
+    script << "set arrow from first " << t << ", graph 0 to first " << t
+           << ", graph 1 nohead back linecolor rgb '#707070' dashtype 3\n";
   }
-}
-
-/// gnuplot reports no error when the disk is full.
-bool is_whole_png(int descriptor) {
-  constexpr char kEnd[] = "\0\0\0\0IEND\xAE\x42\x60\x82";
-  char end[sizeof kEnd - 1] = {};
-  const off_t size = lseek(descriptor, 0, SEEK_END);
-  return size > static_cast<off_t>(sizeof end) &&
-         pread(descriptor, end, sizeof end, size - static_cast<off_t>(sizeof end)) ==
-             static_cast<ssize_t>(sizeof end) &&
-         std::memcmp(end, kEnd, sizeof end) == 0;
 }
 
 void draw(const std::vector<TrackSample>& samples, const FilmStills& stills,
           const std::string& png) {
-  PartFile picture(png);
-  Gnuplot plot(picture.descriptor());
-  FILE* const gnuplot = plot.input();
+  std::ostringstream script;
   const double length_s = static_cast<double>(samples.size()) / kTrackRate_Hz;
   // As high as its width between the margins makes a still.
   const int above = stills.rgb.empty() ? 0 : kStillWidth * stills.height / stills.width + kGap;
   const int height = kCurves + above;
-  std::fprintf(gnuplot,
-               "set terminal pngcairo size %d,%d font 'sans,12'\n%sset xrange [0:%g]\n"
-               "set multiplot\n",
-               kWidth, height, kStyle, length_s);
+  script << "set terminal pngcairo size " << kWidth << ',' << height << " font 'sans,12'\n"
+         << kStyle << "set xrange [0:" << length_s << "]\n";
+  write_samples(script, samples);
+  script << "set multiplot\n";
   if (!stills.rgb.empty()) {
-    place(gnuplot, kGap, above, height);
-    draw_stills(gnuplot, stills, length_s);
+    place(script, kGap, above, height);
+    draw_stills(script, stills, length_s);
   }
   const int middle = above + kCurves / 2;
-  place(gnuplot, above + kGap, middle - 2 * kGap, height);
-  std::fputs(
-      "set ylabel 'force, N'\n"
-      "plot '-' using 1:2 title 'x, right', '' using 1:3 title 'y, up', '' using 1:4 title 'z, to "
-      "the viewer'\n",
-      gnuplot);
-  send(gnuplot, samples, false);
-  place(gnuplot, middle + kGap, height - 4 * kGap, height);
-  std::fputs(
-      "set ylabel 'torque, N m'\nset xlabel 'time, s'\n"
-      "plot '-' using 1:2 title 'about x', '' using 1:3 title 'about y', '' using 1:4 title 'about "
-      "z'\n",
-      gnuplot);
-  send(gnuplot, samples, true);
-  plot.finish();
-  if (!is_whole_png(picture.descriptor())) {
-    throw std::runtime_error(png + ": cannot be written as a whole; the disk may be full");
-  }
-  picture.publish();
+  place(script, above + kGap, middle - 2 * kGap, height);
+  // A range that is not empty if nothing is felt.
+  script << "set yrange [*<-0.1 : 0.1<*]\nset ylabel 'force, N'\n"
+            "plot $samples using 1:2 title 'x, right', '' using 1:3 title 'y, up', "
+            "'' using 1:4 title 'z, to the viewer'\n";
+  place(script, middle + kGap, height - 4 * kGap, height);
+  script << "set yrange [*<-1 : 1<*]\nset ylabel 'torque, mN m'\nset xlabel 'time, s'\n"
+            "plot $samples using 1:(1000*$5) title 'about x', '' using 1:(1000*$6) title "
+            "'about y', '' using 1:(1000*$7) title 'about z'\n";
+  draw_with_gnuplot(script.str(), png);
 }
 
 }  // namespace

@@ -3,10 +3,14 @@
 #include "tests/bench/skew/measure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "apps/play/trace_reader.h"
 #include "core/track/track_format.h"
 #include "spidar/realtime/monotonic.h"
 #include "tests/bench/skew/player.h"
@@ -28,26 +32,25 @@ class FeltFrames {
       : track_(scenario.track),
         step_ns_(std::llround(static_cast<double>(kTrackPeriod_ns) / scenario.rate)) {}
 
-  static std::vector<std::string> columns() {
-    return {"playing", "frame_ns", "monotonic_ns", "running_ns"};
-  }
-
-  void add(const TraceReader::Fields& row) {
-    if (row[0] != "1") {
-      last_frame_ns_ = -1;  // after a seek the same running time is another frame
-      return;
+  /// Reads the trace of a playback that has ended. Throws std::runtime_error without its columns.
+  void read(const std::string& path) {
+    std::ifstream trace(path);
+    std::string line;
+    std::getline(trace, line);
+    const std::vector<std::string> names = split(line);
+    std::array<size_t, 4> columns{};
+    const std::array<std::string, 4> wanted{"playing", "frame_ns", "monotonic_ns", "running_ns"};
+    for (size_t i = 0; i < wanted.size(); ++i) {
+      const auto found = std::find(names.begin(), names.end(), wanted[i]);
+      if (found == names.end()) throw std::runtime_error(path + " has no column " + wanted[i]);
+      columns[i] = static_cast<size_t>(found - names.begin());
     }
-    const int64_t frame_ns = to_integer(row[1]);
-    if (track_) {
-      // Between samples the force is interpolated: it is that of the tick's own running time.
-      const int64_t running_ns = to_integer(row[3]);
-      const bool has_sample = frame_ns >= 0 && running_ns - frame_ns < step_ns_;
-      if (has_sample) frames_.push_back({running_ns, to_integer(row[2])});
-      return;
+    while (std::getline(trace, line)) {
+      const std::vector<std::string> fields = split(line);
+      if (fields.size() < names.size()) continue;
+      add(fields[columns[0]] == "1", std::stoll(fields[columns[1]]), std::stoll(fields[columns[2]]),
+          std::stoll(fields[columns[3]]));
     }
-    if (frame_ns == last_frame_ns_) return;
-    last_frame_ns_ = frame_ns;
-    if (frame_ns >= 0) frames_.push_back({frame_ns, to_integer(row[2])});
   }
 
   const std::vector<FeltFrame>& frames() const { return frames_; }
@@ -65,6 +68,29 @@ class FeltFrames {
   }
 
  private:
+  static std::vector<std::string> split(const std::string& line) {
+    std::vector<std::string> fields;
+    std::istringstream rest(line);
+    for (std::string field; std::getline(rest, field, ',');) fields.push_back(field);
+    return fields;
+  }
+
+  void add(bool playing, int64_t frame_ns, int64_t monotonic_ns, int64_t running_ns) {
+    if (!playing) {
+      last_frame_ns_ = -1;  // after a seek the same running time is another frame
+      return;
+    }
+    if (track_) {
+      // Between samples the force is interpolated: it is that of the tick's own running time.
+      const bool has_sample = frame_ns >= 0 && running_ns - frame_ns < step_ns_;
+      if (has_sample) frames_.push_back({running_ns, monotonic_ns});
+      return;
+    }
+    if (frame_ns == last_frame_ns_) return;
+    last_frame_ns_ = frame_ns;
+    if (frame_ns >= 0) frames_.push_back({frame_ns, monotonic_ns});
+  }
+
   const bool track_;
   const int64_t step_ns_;
   int64_t last_frame_ns_ = -1;
@@ -86,13 +112,10 @@ double drift_ppm(const std::vector<ShownFrame>& shown) {
 Measurement measure(const Scenario& scenario, const std::string& clip, double seconds) {
   constexpr double kLongest_s = 0.3;  // the force of what is shown last has so long to come
   const test::TemporaryFolder folder;
-  const std::string pipe = folder.path / "haptic";
-  FeltFrames felt(scenario);
-  TraceReader reader(pipe, "", FeltFrames::columns(),
-                     [&](const TraceReader::Fields& row) { felt.add(row); });
+  const std::string trace = folder.path / "haptic.csv";
   std::vector<ShownFrame> shown;
   shown.reserve(size_t{1} << 16);
-  Player player(scenario, clip, pipe, [&](const ShownFrame& frame) { shown.push_back(frame); });
+  Player player(scenario, clip, trace, [&](const ShownFrame& frame) { shown.push_back(frame); });
 
   Measurement result;
   const int64_t begin_ns = player.start();
@@ -102,7 +125,8 @@ Measurement measure(const Scenario& scenario, const std::string& clip, double se
   result.dropped = player.dropped();
   result.scheduling = player.scheduling();
   player.stop();
-  reader.finish();
+  FeltFrames felt(scenario);
+  felt.read(trace);
 
   const auto is_outside = [&](const ShownFrame& frame) {
     return frame.monotonic_ns < begin_ns || frame.monotonic_ns > end_ns;

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/play/histogram.h"
-#include "apps/play/skew.h"
+#include "tests/bench/skew/histogram.h"
 #include "tests/bench/skew/scenario.h"
+#include "tests/bench/skew/skew.h"
 
 namespace spidar::bench {
 

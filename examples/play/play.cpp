@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Plays a video whose motion is felt, then prints a report. examples/play.sh builds it and finds a
+/// video.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include <gst/gst.h>
+
+#include "examples/film/film_uri.h"
+#include "examples/play/picture.h"
+#include "examples/play/pipeline.h"
+#include "examples/play/playback.h"
+#include "examples/play/record.h"
+#include "examples/play/report.h"
+#include "plugin/properties/typed_property.h"
+#include "plugin/tools/gnuplot.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Options {
+  std::string video;
+  std::string output = ".";
+  bool ball = false;
+  int seconds = 0;  ///< 0: to the end
+  bool verbose = false;
+  bool headless = false;
+  bool window = false;
+  std::string window_png;
+  std::vector<std::string> properties;
+};
+
+/// What follows "--" are properties, not options. Throws CLI::ParseError.
+Options parse(CLI::App& app, int argc, char** argv) {
+  Options options;
+  app.name("play");
+  app.add_option("VIDEO", options.video, "A file or a URI");
+  CLI::Option* const ball = app.add_flag("--ball", options.ball,
+                                         "No video, but the ball of videotestsrc for ten seconds");
+  app.add_option("--output", options.output, "Folder of spidar-play.png, else the current one");
+  app.add_option("--seconds", options.seconds, "Stop after so many seconds")
+      ->check(CLI::Range(1, 99999));
+  app.add_flag("--verbose", options.verbose, "End with all fields of the element's stats, too");
+  app.add_flag("--headless", options.headless, "No window for the video, even with a display");
+  app.add_flag("--window", options.window, "The debug window: tracks, forces, grip, settings");
+  app.add_option("--window-png", options.window_png,
+                 "The same, saved as a picture after five seconds of the video, or at its end");
+  app.footer("After -- come properties of spidarmotion, NAME=VALUE: gst-inspect-1.0 spidarmotion");
+  char** const end =
+      std::find_if(argv, argv + argc, [](const char* word) { return std::string(word) == "--"; });
+  app.parse(static_cast<int>(end - argv), argv);
+  if (end != argv + argc) options.properties.assign(end + 1, argv + argc);
+  if (options.video.empty() == (ball->count() == 0)) {
+    throw CLI::RequiredError("one of VIDEO and --ball");
+  }
+  if (!options.window_png.empty()) options.window = true;
+  return options;
+}
+
+/// Saves the debug window once, when enough of the video has been played for its plots to be full.
+class WindowPicture {
+ public:
+  WindowPicture(GstElement* filter, const std::string& path) : filter_(filter), path_(path) {}
+
+  void take_if_due(double time_s) {
+    constexpr double kDue_s = 5;
+    if (time_s >= kDue_s) take();
+  }
+
+  /// At the end of a shorter video, too.
+  void take() {
+    if (path_.empty()) return;
+    gboolean saved = FALSE;
+    g_signal_emit_by_name(filter_, "save-window", path_.c_str(), &saved);
+    std::printf("\n%s: %s\n", path_.c_str(), saved ? "saved" : "could not be saved");
+    path_.clear();
+  }
+
+ private:
+  GstElement* const filter_;
+  std::string path_;
+};
+
+/// Of the frame that is on the screen: its motion, and its force or why there is none.
+std::string progress_line(double time_s, const FrameRow* frame) {
+  constexpr int kBar = 20;
+  constexpr double kFullBar_N = 3.0;
+  char line[160];
+  if (!frame) {
+    std::snprintf(line, sizeof line, "%7.1f s", time_s);
+    return line;
+  }
+  const auto& force_N = frame->force_N;
+  const double size_N = std::hypot(force_N[0], force_N[1], force_N[2]);
+  const int filled = std::min(kBar, static_cast<int>(std::lround(kBar * size_N / kFullBar_N)));
+  std::snprintf(line, sizeof line, "%7.1f s  %6.0f px/s  %5.2f N [%-*s] x %+.2f y %+.2f  %s",
+                time_s, std::hypot(frame->velocity_px_s[0], frame->velocity_px_s[1]), size_N, kBar,
+                std::string(static_cast<size_t>(filled), '=').c_str(), force_N[0], force_N[1],
+                frame->reason == kFelt ? "felt" : frame->reason.c_str());
+  return line;
+}
+
+/// Makes the folder, if necessary, before a film is played for it. Throws std::invalid_argument
+/// when it cannot be written to.
+void prepare_output(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && access(folder.c_str(), W_OK | X_OK) == 0) return;
+  const std::string reason = error ? error.message() : std::strerror(errno);
+  throw std::invalid_argument("--output " + folder.string() + ": " + reason +
+                              "; give a folder that can be written to");
+}
+
+gboolean print_field(GQuark name, const GValue* value, void*) {
+  char* const text = gst_value_serialize(value);
+  std::printf("  %-24s %s\n", g_quark_to_string(name), text ? text : "-");
+  g_free(text);
+  return TRUE;
+}
+
+void draw(const Record& record, const Options& options, const std::string& title,
+          double max_force_N) {
+  const std::string png = fs::path(options.output) / "spidar-play.png";
+  spidar::draw_with_gnuplot(picture_script(record, max_force_N, title), png);
+  std::printf("picture: %s\n", png.c_str());
+}
+
+int play(const Options& options) {
+  prepare_output(options.output);
+  GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
+  for (const std::string& text : options.properties) {
+    const spidar::TypedProperty property(G_OBJECT(filter), text);
+    g_object_set_property(G_OBJECT(filter), property.name().c_str(), property.value());
+  }
+  g_object_set(filter, "post-messages", TRUE, nullptr);
+  if (options.window) g_object_set(filter, "debug-window", TRUE, nullptr);
+  const std::string uri = options.ball ? "" : film_uri(options.video);
+  std::string title = options.ball ? "videotestsrc pattern=ball" : options.video;
+  if (fs::path(title).has_filename()) title = fs::path(title).filename();
+  const Screen screen = open_screen(options.headless);
+  GstElement* const pipeline =
+      options.ball ? make_ball(filter, screen) : make_player(uri, filter, screen);
+  std::printf("playing %s%s\n", title.c_str(),
+              screen.why_none.empty()
+                  ? ""
+                  : (", in real time but without a window: " + screen.why_none).c_str());
+
+  Record record;
+  double now_s = 0;
+  WindowPicture window_picture(filter, options.window_png);
+  const auto stats_of_filter = [filter] {
+    GstStructure* stats = nullptr;
+    g_object_get(filter, "stats", &stats, nullptr);
+    return std::unique_ptr<GstStructure, void (*)(GstStructure*)>(stats, gst_structure_free);
+  };
+  PlaybackWatch watch;
+  watch.progress = [&] { return progress_line(now_s, record.shown_at(now_s)); };
+  watch.on_motion = [&](const GstStructure* message) { record.add_frame(message); };
+  watch.on_moment = [&](double time_s) {
+    now_s = time_s;
+    record.add_device(stats_of_filter().get(), time_s);
+    window_picture.take_if_due(time_s);
+  };
+  const Ending ending = run_playback(pipeline, options.seconds, watch);
+  window_picture.take();
+  const auto stats = stats_of_filter();
+  const uint64_t shown = frames_shown(screen);
+  double max_force_N = 0;
+  g_object_get(filter, "max-force", &max_force_N, nullptr);
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(pipeline);
+  gst_object_unref(filter);
+
+  const bool has_rows = !record.frames().empty() || !record.devices().empty();
+  guint64 track_frames = 0;
+  gst_structure_get_uint64(stats.get(), "track-frames", &track_frames);
+  if (record.frames().empty() && track_frames == 0) {
+    throw std::runtime_error(title + ": not one frame was played");
+  }
+  if (ending == Ending::kInterrupted) std::printf("stopped by the user\n");
+  std::printf("\n%s", report_text(record, stats.get(), shown).c_str());
+  if (options.verbose) {
+    std::printf("\nFields of `stats`:\n");
+    gst_structure_foreach(stats.get(), print_field, nullptr);
+  }
+  if (has_rows) draw(record, options, title, max_force_N);
+  return ending == Ending::kFailed ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with errors, also when written to a file
+  constexpr int kMistake = 2;                // in the command line
+  CLI::App app("Plays a video whose motion is felt, and ends with a report and a picture of it.");
+  try {
+    const Options options = parse(app, argc, argv);
+    gst_init(nullptr, nullptr);
+    return play(options);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kMistake;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return kMistake;
+  } catch (const spidar::PropertyError& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return kMistake;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}

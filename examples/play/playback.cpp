@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "examples/play/playback.h"
+
+#include <csignal>
+#include <cstdio>
+#include <map>
+#include <unistd.h>
+#include <vector>
+
+#include <glib-unix.h>
+#include <gst/pbutils/pbutils.h>
+
+#include "examples/film/failure.h"
+
+namespace {
+
+constexpr guint kMoment_ms = 20;
+/// Between two lines of progress: on a terminal, and into a file.
+constexpr guint kProgress_ms = 100, kLoggedProgress_ms = 2000;
+
+struct Playback {
+  GstElement* pipeline;
+  const PlaybackWatch& watch;
+  bool on_terminal;
+  GMainLoop* main_loop;
+  Ending ending = Ending::kFailed;
+  bool buffering = false;
+  std::map<std::string, int> warnings = {};  ///< number of times, by text
+
+  void stop(Ending why) {
+    ending = why;
+    g_main_loop_quit(main_loop);
+  }
+
+  /// Messages begin on a new line.
+  void clear_line() const {
+    if (on_terminal) std::printf("\r\033[K");
+    std::fflush(stdout);
+  }
+};
+
+/// For a playbin; empty for another pipeline.
+std::string film_of(GstElement* pipeline) {
+  if (!g_object_class_find_property(G_OBJECT_GET_CLASS(pipeline), "current-uri")) return {};
+  char* uri = nullptr;
+  g_object_get(pipeline, "current-uri", &uri, nullptr);
+  const std::string result = uri ? uri : "";
+  g_free(uri);
+  return result;
+}
+
+void end_by_error(Playback& playback, GstMessage* message) {
+  GError* error = nullptr;
+  gst_message_parse_error(message, &error, nullptr);
+  playback.clear_line();
+  const bool window_closed =
+      GST_OBJECT_FLAG_IS_SET(message->src, GST_ELEMENT_FLAG_SINK) &&
+      g_error_matches(error, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_NOT_FOUND);
+  g_error_free(error);
+  playback.stop(window_closed ? Ending::kInterrupted : Ending::kFailed);
+  std::fprintf(stderr, "%s: %s: %s\n", window_closed ? "note" : "error",
+               GST_OBJECT_NAME(message->src),
+               failure_text(message, film_of(playback.pipeline)).c_str());
+}
+
+void end_by_end(Playback& playback) {
+  const std::string early = early_end_text(playback.pipeline);
+  if (!early.empty()) {
+    playback.clear_line();
+    std::fprintf(stderr, "warning: %s\n", early.c_str());
+  }
+  playback.stop(Ending::kEndOfVideo);
+}
+
+/// A broken video warns at every frame; each text is printed once.
+void report_warning(Playback& playback, GstMessage* message) {
+  GError* error = nullptr;
+  gst_message_parse_warning(message, &error, nullptr);
+  const std::string text = std::string(GST_OBJECT_NAME(message->src)) + ": " + error->message;
+  g_error_free(error);
+  if (++playback.warnings[text] > 1) return;
+  playback.clear_line();
+  std::fprintf(stderr, "warning: %s\n", text.c_str());
+}
+
+/// For example what a device cannot render.
+void report_information(const Playback& playback, GstMessage* message) {
+  GError* information = nullptr;
+  gst_message_parse_info(message, &information, nullptr);
+  playback.clear_line();
+  std::fprintf(stderr, "note: %s\n", information->message);
+  g_error_free(information);
+}
+
+void report_missing_plugin(const Playback& playback, GstMessage* message) {
+  char* const what = gst_missing_plugin_message_get_description(message);
+  playback.clear_line();
+  std::fprintf(stderr, "warning: not installed: %s\n", what);
+  g_free(what);
+}
+
+/// Network streams: pauses until enough data have arrived.
+void follow_buffering(Playback& playback, GstMessage* message) {
+  int percent = 0;
+  gst_message_parse_buffering(message, &percent);
+  const bool buffering = percent < 100;
+  if (buffering == playback.buffering) return;
+  playback.buffering = buffering;
+  gst_element_set_state(playback.pipeline, buffering ? GST_STATE_PAUSED : GST_STATE_PLAYING);
+}
+
+gboolean on_message(GstBus*, GstMessage* message, void* data) {
+  auto& playback = *static_cast<Playback*>(data);
+  switch (GST_MESSAGE_TYPE(message)) {
+    case GST_MESSAGE_ERROR:
+      end_by_error(playback, message);
+      break;
+    case GST_MESSAGE_WARNING:
+      report_warning(playback, message);
+      break;
+    case GST_MESSAGE_INFO:
+      report_information(playback, message);
+      break;
+    case GST_MESSAGE_EOS:
+      end_by_end(playback);
+      break;
+    case GST_MESSAGE_ASYNC_DONE:
+      if (has_no_video(playback.pipeline)) {
+        std::fprintf(stderr, "error: %s\n", kNoVideo);
+        playback.stop(Ending::kFailed);
+      }
+      break;
+    case GST_MESSAGE_BUFFERING:
+      follow_buffering(playback, message);
+      break;
+    case GST_MESSAGE_CLOCK_LOST:
+      gst_element_set_state(playback.pipeline, GST_STATE_PAUSED);
+      gst_element_set_state(playback.pipeline, GST_STATE_PLAYING);
+      break;
+    case GST_MESSAGE_LATENCY:
+      gst_bin_recalculate_latency(GST_BIN(playback.pipeline));
+      break;
+    case GST_MESSAGE_ELEMENT:
+      if (gst_is_missing_plugin_message(message)) report_missing_plugin(playback, message);
+      if (gst_message_has_name(message, "spidar-motion")) {
+        playback.watch.on_motion(gst_message_get_structure(message));
+      }
+      break;
+    default:
+      break;
+  }
+  return G_SOURCE_CONTINUE;
+}
+
+gboolean on_signal(void* data) {
+  static_cast<Playback*>(data)->stop(Ending::kInterrupted);
+  return G_SOURCE_CONTINUE;
+}
+
+gboolean on_time_over(void* data) {
+  static_cast<Playback*>(data)->stop(Ending::kEndOfVideo);
+  return G_SOURCE_CONTINUE;
+}
+
+gboolean on_moment(void* data) {
+  const auto& playback = *static_cast<Playback*>(data);
+  const GstClockTime running = gst_element_get_current_running_time(playback.pipeline);
+  if (GST_STATE(playback.pipeline) == GST_STATE_PLAYING && running != GST_CLOCK_TIME_NONE) {
+    playback.watch.on_moment(1e-9 * static_cast<double>(running));
+  }
+  return G_SOURCE_CONTINUE;
+}
+
+gboolean on_progress(void* data) {
+  const auto& playback = *static_cast<Playback*>(data);
+  playback.clear_line();
+  std::printf("%s%s", playback.watch.progress().c_str(), playback.on_terminal ? "" : "\n");
+  std::fflush(stdout);
+  return G_SOURCE_CONTINUE;
+}
+
+}  // namespace
+
+Ending run_playback(GstElement* pipeline, int seconds, const PlaybackWatch& watch) {
+  gst_pb_utils_init();
+  const bool on_terminal = isatty(STDOUT_FILENO) != 0;
+  Playback playback{pipeline, watch, on_terminal, g_main_loop_new(nullptr, FALSE)};
+
+  GstBus* const bus = gst_element_get_bus(pipeline);
+  gst_bus_add_watch(bus, on_message, &playback);
+  std::vector<guint> sources = {
+      g_unix_signal_add(SIGINT, on_signal, &playback),
+      g_unix_signal_add(SIGTERM, on_signal, &playback),
+      g_timeout_add(kMoment_ms, on_moment, &playback),
+      g_timeout_add(on_terminal ? kProgress_ms : kLoggedProgress_ms, on_progress, &playback),
+  };
+
+  if (seconds > 0) {
+    sources.push_back(g_timeout_add_seconds(static_cast<guint>(seconds), on_time_over, &playback));
+  }
+
+  // The bus has a message with the reason of a failure.
+  gst_element_set_state(pipeline, GST_STATE_PLAYING);
+  g_main_loop_run(playback.main_loop);
+
+  for (const guint source : sources) g_source_remove(source);
+  gst_bus_remove_watch(bus);
+  gst_object_unref(bus);
+  g_main_loop_unref(playback.main_loop);
+  playback.clear_line();
+  for (const auto& [text, count] : playback.warnings) {
+    if (count > 1) std::fprintf(stderr, "warning: %s (%d times in all)\n", text.c_str(), count);
+  }
+  return playback.ending;
+}

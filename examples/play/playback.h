@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Runs a pipeline and reports its messages.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <gst/gst.h>
+
+enum class Ending {
+  kEndOfVideo,
+  kInterrupted,  ///< Ctrl-C, told to terminate, or its window closed
+  kFailed,
+};
+
+struct PlaybackWatch {
+  /// A line that is shown in place on a terminal, otherwise from time to time.
+  std::function<std::string()> progress;
+  /// Takes each message `spidar-motion`.
+  std::function<void(const GstStructure*)> on_motion;
+  /// Called fifty times a second while the video plays, with its running time.
+  std::function<void(double time_s)> on_moment;
+};
+
+/// Plays until the video ends or fails, the user stops it, or `seconds` have passed (0: never).
+/// Prints errors and warnings of the pipeline on standard error and the progress on standard
+/// output. Afterwards the pipeline is still in PLAYING or PAUSED.
+Ending run_playback(GstElement* pipeline, int seconds, const PlaybackWatch& watch);
