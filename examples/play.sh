@@ -57,6 +57,7 @@ street_clip() {
     [[ -f $clip ]] && printf '%s\n' "$clip"
 }
 
+arguments=("$@")
 options=()
 video=()
 properties=()
@@ -89,6 +90,7 @@ install_packages build play
 if [[ -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]]; then
     install_packages display || echo "continuing without them; there may be no window"
 fi
+continue_as_caller "$top/examples/play.sh" "${arguments[@]}"
 build
 
 if [[ $needs_clip == yes ]]; then

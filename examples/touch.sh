@@ -12,6 +12,7 @@ top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 . "$top/tests/install.sh"
 
 install_packages build play
+continue_as_caller "$top/examples/touch.sh" "$@"
 if [[ ! -f $top/build/build.ninja ]]; then
     meson setup "$top/build" "$top" >/dev/null
 fi

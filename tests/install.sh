@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Sourced by the scripts in tests/ and examples/: installs Debian packages without asking.
+# Sourced by the scripts in tests/ and examples/: installs Debian packages. apt alone gets root's rights.
 # shellcheck shell=bash
 
 # install_packages GROUP...: installs the missing packages of these groups in debian-packages.txt.
@@ -35,12 +35,13 @@ install_packages() {
 
     echo "installing ${#missing[@]} Debian packages: ${missing[*]}"
     if ((EUID != 0)); then
-        if ! sudo -n true 2>/dev/null; then
+        # Asks for the password, if it needs one, on the terminal.
+        if ! sudo -v; then
             echo "error: that needs root. Run this, then start again:" >&2
             echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
             return 1
         fi
-        as_root=(sudo -n)
+        as_root=(sudo)
     fi
     as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0)
     local log
@@ -53,4 +54,13 @@ install_packages() {
         return 1
     fi
     rm -f "$log"
+}
+
+# continue_as_caller SCRIPT [argument...]: under sudo, goes on as the user who called it, with the screen and sound of
+# that user; what is built and written is then that user's. Else it does nothing.
+continue_as_caller() {
+    [[ $EUID == 0 && -n ${SUDO_USER-} && $SUDO_USER != root ]] || return 0
+    local runtime=/run/user/${SUDO_UID-}
+    [[ ! -d $runtime ]] || export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR-$runtime}
+    exec sudo -u "$SUDO_USER" --set-home --preserve-env=DISPLAY,WAYLAND_DISPLAY,XAUTHORITY,XDG_RUNTIME_DIR "$@"
 }

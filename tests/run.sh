@@ -124,6 +124,7 @@ run_on_bare_debian() {
 case ${1-} in
 "")
     install_packages build test
+    continue_as_caller tests/run.sh
     configure build
     # Benchmarks are built while the tests run.
     build build meson-test-prereq && build_ahead build && run_tests build 2

@@ -2,22 +2,58 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 # check_play_script.sh SOURCE: examples/play.sh builds everything that it and the next step of docs/start.md use: the
-# plugins, the guardian, without which no real board is opened, and spidar-feel. The script runs in a copy of the
-# tree in which ninja only notes what it is asked for.
+# plugins, the guardian, without which no real board is opened, and spidar-feel. Nothing but apt gets root's rights: a
+# user's sudo may ask for a password, and under sudo the script goes on as the user who called it. The script runs in a
+# copy of the tree in which ninja, sudo, apt and the player only note what they are asked for.
 set -euo pipefail
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 mkdir -p "$tree"/{bin,build/examples/play,examples,tests}
 cp "$1/examples/play.sh" "$tree/examples/"
 cp "$1/tests/install.sh" "$tree/tests/"
-touch "$tree/tests/debian-packages.txt" "$tree/build/build.ninja"
-printf '#!/bin/sh\necho "$@" >>"%s/asked"; echo no work to do\n' "$tree" >"$tree/bin/ninja"
-printf '#!/bin/sh\nexit 0\n' >"$tree/build/examples/play/play"
-chmod +x "$tree/bin/ninja" "$tree/build/examples/play/play"
-env -u DISPLAY -u WAYLAND_DISPLAY PATH="$tree/bin:$PATH" "$tree/examples/play.sh" --ball
-for target in plugin/libgstspidar{,feel}.so plugin/spidar-feel spidar/spidar-guardian examples/play/play; do
-    grep -qw -- "$target" "$tree/asked" || {
-        echo "play.sh does not build $target, but only: $(<"$tree/asked")"
-        exit 1
-    }
+touch "$tree/build/build.ninja" "$tree/asked"
+chmod -R a+rwX "$tree"
+note='#!/bin/bash\nprintf "%%s\\n" "$(id -u) ${0##*/} $*" >>'"$tree"'/asked\n'
+for program in bin/{ninja,sudo,apt-get,dpkg-query} build/examples/play/play; do
+    # shellcheck disable=SC2059  # the format is ours
+    printf "$note" >"$tree/$program"
+    chmod a+rx "$tree/$program"
 done
+echo 'echo no work to do' >>"$tree/bin/ninja"
+
+fail() {
+    echo "play.sh $1, but asked for: $(<"$tree/asked")"
+    exit 1
+}
+
+# run [NAME=VALUE...]: the script, by root if the test has its rights.
+run() {
+    : >"$tree/asked"
+    env -u DISPLAY -u WAYLAND_DISPLAY -u SUDO_USER PATH="$tree/bin:$PATH" "$@" "$tree/examples/play.sh" --ball >/dev/null
+}
+
+run_as_user() {
+    if ((EUID == 0)); then
+        run setpriv --reuid 65534 --regid 65534 --clear-groups env
+    else
+        run
+    fi
+}
+
+: >"$tree/tests/debian-packages.txt" # none is missing
+run
+for target in plugin/libgstspidar{,feel}.so plugin/spidar-feel spidar/spidar-guardian examples/play/play; do
+    grep -qw -- "$target" "$tree/asked" || fail "does not build $target"
+done
+
+echo "a-package build a reason" >"$tree/tests/debian-packages.txt"
+run_as_user
+grep -q ' sudo -v$' "$tree/asked" || fail "does not let sudo ask for a password"
+grep -q ' sudo env .*apt-get .*install .*a-package$' "$tree/asked" || fail "does not install by sudo"
+grep -q ' play ' "$tree/asked" || fail "does not play"
+if ((EUID == 0)); then
+    run SUDO_USER=somebody SUDO_UID=12345
+    grep -q '^0 apt-get .*install .*a-package$' "$tree/asked" || fail "does not install under sudo"
+    grep -q "^0 sudo -u somebody .*$tree/examples/play.sh --ball\$" "$tree/asked" || fail "does not go on as the caller"
+    ! grep -qE '^0 (ninja|play) ' "$tree/asked" || fail "builds or plays as root under sudo"
+fi
