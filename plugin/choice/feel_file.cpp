@@ -65,10 +65,7 @@ std::string keep_copy(const std::string& path) {
 
 void replace_file(const std::string& path, const std::string& text) {
   PartFile part{path};
-  const ssize_t written = write(part.descriptor(), text.data(), text.size());
-  if (written != static_cast<ssize_t>(text.size())) {
-    throw std::runtime_error(path + ": cannot be written: is the disk full?");
-  }
+  part.write(text);
   struct stat before {};
   if (stat(path.c_str(), &before) == 0) fchmod(part.descriptor(), before.st_mode & 0777);
   part.publish();

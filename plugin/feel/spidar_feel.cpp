@@ -18,6 +18,7 @@
 #include "plugin/feel/video_notice.h"
 #include "plugin/gobject/ref.h"
 #include "spidar/install_folder.h"
+#include "spidar/realtime/standard_descriptors.h"
 
 namespace {
 
@@ -171,6 +172,7 @@ void warn_of_nothing_felt(const Wish& wish) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  spidar::open_standard_descriptors();
   const Wish wish = parse(argc, argv);
   find_plugins();
   check(wish.properties);

@@ -5,14 +5,16 @@
 #include <gst/gst.h>
 
 #include "plugin/tools/film_decoder.h"
+#include "plugin/tools/stored_sound.h"
 #include "plugin/tools/stream_time.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/track_notes.h"
 
 namespace spidar {
 
-void take_samples(GstElement* pipeline, const std::string& track, const TrackNotes& notes) {
-  set_location(pipeline, "track", track);
+namespace {
+
+void tag(GstElement* pipeline, const TrackNotes& notes) {
   GstElement* extract = gst_bin_get_by_name(GST_BIN(pipeline), "extract");
   GstPad* frames = gst_element_get_static_pad(extract, "sink");
   GstPad* wrench = gst_element_get_static_pad(extract, "wrench");
@@ -23,19 +25,33 @@ void take_samples(GstElement* pipeline, const std::string& track, const TrackNot
   gst_object_unref(extract);
 }
 
+}  // namespace
+
+void take_samples(GstElement* pipeline, const std::string& track, const TrackNotes& notes) {
+  set_location(pipeline, "track", track);
+  tag(pipeline, notes);
+}
+
 std::string sampling_elements(const std::string& track) {
   return "spidarextract name=extract extract.wrench ! " + encoder_of(track) +
          " ! filesink name=track";
 }
 
-std::string record_film(const std::string& film, const std::string& track,
+std::string record_film(const std::string& film, const PartFile& track,
                         const RecordProperties& properties,
                         const std::function<void(int percent)>& tell) {
-  return decode_film({film, properties, sampling_elements(track),
-                      [&](GstElement* pipeline, const FilmFingerprint& fingerprint) {
-                        take_samples(pipeline, track, {fingerprint, properties.settings});
-                      },
-                      tell});
+  StoredSound stored;
+  const std::string remark =
+      decode_film({film, properties,
+                   "spidarextract name=extract extract.wrench ! " + encoder_of(track.target()) +
+                       " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
+                   [&](GstElement* pipeline, const FilmFingerprint& fingerprint) {
+                     stored.watch(pipeline, "stored");
+                     tag(pipeline, {fingerprint, properties.settings});
+                   },
+                   tell});
+  stored.check(track);
+  return remark;
 }
 
 }  // namespace spidar

@@ -9,16 +9,16 @@
 #include <gst/gst.h>
 
 #include "plugin/tools/record_properties.h"
+#include "plugin/track/part_file.h"
 #include "plugin/track/track_notes.h"
 
 namespace spidar {
 
-/// Analyses `film` as fast as it can be decoded and writes its haptic track into the file `track`,
-/// whose format follows from the end of its name (`encoder_of()`). `tell` is
-/// called with the percentage that is done, in steps of ten, in another thread. Returns what is to
-/// be known of the track; usually nothing. Throws std::runtime_error; what has been written of
-/// `track` is left there.
-std::string record_film(const std::string& film, const std::string& track,
+/// Analyses `film` as fast as it can be decoded, writes its haptic track into `track`, whose format
+/// follows from the end of the name that it will have (`encoder_of()`), and reads it back. `tell`
+/// is called with the percentage that is done, in steps of ten, in another thread. Returns what is
+/// to be known of the track; usually nothing. Throws std::runtime_error.
+std::string record_film(const std::string& film, const PartFile& track,
                         const RecordProperties& properties,
                         const std::function<void(int percent)>& tell);
 

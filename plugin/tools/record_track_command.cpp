@@ -153,7 +153,7 @@ class FilmBatch {
     const RecordProperties properties = with_rules(options_.properties, film);
     const auto tell = [&](int percent) { report_.progress(index, percent); };
     std::string remark = options_.makes_tracks()
-                             ? record_film(film, part->path(), properties, tell)
+                             ? record_film(film, *part, properties, tell)
                              : analyze_film(film, part->path(), properties, options_.piece, tell);
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
     remark = with_warning(remark, film, track);

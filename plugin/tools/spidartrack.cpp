@@ -8,6 +8,7 @@
 
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/track/part_file.h"
+#include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"
 
 namespace {
@@ -43,6 +44,7 @@ spidartrack COMMAND --help explains a command.
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_descriptors();
   remove_part_files_on_signals();
   gst_init(nullptr, nullptr);
   return run_program("spidartrack", kCommands, kSpidartrackHelp, argc, argv);

@@ -15,6 +15,7 @@
 #include "core/track/funscript.h"
 #include "core/track/hjif.h"
 #include "core/track/track_reader.h"
+#include "plugin/tools/stored_sound.h"
 #include "plugin/tools/trace_track.h"
 #include "plugin/track/part_file.h"
 #include "plugin/track/track_file.h"
@@ -52,28 +53,24 @@ std::vector<TrackSample> samples_of(const TrackFile& track) {
   return samples;
 }
 
-void write_text(const PartFile& part, const std::string& text) {
-  std::ofstream file(part.path(), std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(part.target() + ": cannot be written; the disk may be full");
-}
-
 /// Samples in memory, 1000 a second, as a file that `elements` make of them.
 void write_sound(const PartFile& part, const std::string& bytes, size_t channels,
                  const std::string& elements,
                  const std::function<void(GstElement* pipeline)>& prepare = {}) {
   const PartFile raw(part.target() + ".raw");
-  write_text(raw, bytes);
+  raw.write(bytes);
+  StoredSound stored;
   run_pipeline(
       "filesrc name=raw_file ! "
       "rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=" +
-          std::to_string(channels) + " ! " + elements + " ! filesink name=file",
+          std::to_string(channels) + " ! " + elements +
+          " ! fdsink sync=false fd=" + std::to_string(part.descriptor()),
       [&](GstElement* pipeline) {
         set_location(pipeline, "raw_file", raw.path());
-        set_location(pipeline, "file", part.path());
+        stored.watch(pipeline, "stored");
         if (prepare) prepare(pipeline);
       });
+  stored.check(part);
 }
 
 template <typename Value>
@@ -130,10 +127,10 @@ std::string quoted(const std::string& path) {
 std::string encoder_of(const std::string& path) {
   if (ends_with(path, ".flac")) {
     return "audioconvert dithering=none noise-shaping=none ! audio/x-raw,format=S24_32LE ! "
-           "flacenc blocksize=40 seekpoints=0";
+           "identity name=stored ! flacenc blocksize=40 seekpoints=0";
   }
-  if (ends_with(path, ".mka")) return "matroskamux";
-  if (ends_with(path, ".wav")) return "wavenc";
+  if (ends_with(path, ".mka")) return "identity name=stored ! matroskamux";
+  if (ends_with(path, ".wav")) return "identity name=stored ! wavenc";
   return {};
 }
 
@@ -219,13 +216,11 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
   } else if (!encoder.empty()) {
     write_channels(part, encoder, samples, options.notes);
   } else if (is_hjif) {
-    write_text(part,
-               options.tolerance ? write_hjif(samples, *options.tolerance) : write_hjif(samples));
+    part.write(options.tolerance ? write_hjif(samples, *options.tolerance) : write_hjif(samples));
   } else if (is_ahap) {
-    write_text(part,
-               options.tolerance ? write_ahap(samples, *options.tolerance) : write_ahap(samples));
+    part.write(options.tolerance ? write_ahap(samples, *options.tolerance) : write_ahap(samples));
   } else {
-    write_text(part, write_funscript(samples, options.axis));
+    part.write(write_funscript(samples, options.axis));
   }
   part.publish();
 }

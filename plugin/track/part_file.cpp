@@ -4,12 +4,14 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <mutex>
 #include <pthread.h>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -45,28 +47,58 @@ std::runtime_error failure(const fs::path& target, int error) {
   return std::runtime_error(target.string() + ": cannot be written: " + std::strerror(error));
 }
 
-/// Whether the open file is still the one of this name: its last owner may have renamed or removed
-/// it before the lock was free.
+/// Whether the open file is still the one of this name.
 bool is_at(int descriptor, const std::string& path) {
   struct stat opened {
   }, named{};
-  return fstat(descriptor, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+  return fstat(descriptor, &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// An open and locked file; −1 when another process has locked it. Throws std::runtime_error, which
-/// names `target`.
-int open_locked(const std::string& path, const fs::path& target) {
-  for (;;) {
-    const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor < 0) throw failure(target, errno);
-    // Some network file systems have no locks: only this process is then kept from writing it
-    // twice.
-    const bool taken = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    if (!taken && is_at(descriptor, path)) return descriptor;
-    close(descriptor);
-    if (taken) return -1;
+/// Removes what a killed process has left at `path`. Returns false when its owner lives. Throws
+/// std::runtime_error, which names `target`.
+bool remove_left(const std::string& path, const fs::path& target) {
+  const int left = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (left < 0 && errno == ENOENT) return true;
+  struct stat status {};
+  if (left < 0 || fstat(left, &status) != 0 || !S_ISREG(status.st_mode)) {
+    if (left >= 0) close(left);
+    throw std::runtime_error(target.string() + ": cannot be written while there is " + path +
+                             ", which is no file of this program; remove it");
   }
+  // Some network file systems have no locks: only this process is then kept from writing it twice.
+  const bool is_owned = flock(left, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (!is_owned && is_at(left, path)) unlink(path.c_str());
+  close(left);
+  return !is_owned;
+}
+
+/// A new, open and locked file; −1 when another process has locked it. Throws std::runtime_error,
+/// which names `target`.
+int make_locked(const std::string& path, const fs::path& target) {
+  for (;;) {
+    const int descriptor =
+        open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor < 0 && errno != EEXIST) throw failure(target, errno);
+    if (descriptor < 0) {
+      if (!remove_left(path, target)) return -1;
+      continue;
+    }
+    // Another process may take it for one that was left, before it is locked, and remove it.
+    flock(descriptor, LOCK_EX);
+    if (is_at(descriptor, path)) return descriptor;
+    close(descriptor);
+  }
+}
+
+/// The same in every process and on every machine: FNV-1a of 64 bits.
+std::string part_name(const fs::path& target) {
+  const std::string name = target.filename().string();
+  uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : name) hash = (hash ^ static_cast<uint8_t>(c)) * 0x100000001b3;
+  std::ostringstream text;
+  text << ".part-" << std::hex << hash << target.extension().string();
+  return text.str();
 }
 
 /// Waits for one of the signals, removes the part files, and ends the program as the signal does.
@@ -107,20 +139,40 @@ bool PartFile::take(const fs::path& target) {
     throw std::runtime_error(target.string() + ": is not a regular file, and is not replaced");
   }
   target_ = target.string();
-  path_ = (target.parent_path() / (".part-" + target.filename().string())).string();
+  path_ = (target.parent_path() / part_name(target)).string();
   const std::lock_guard<std::mutex> lock(registry().mutex);
   if (registry().paths.count(path_) > 0) return false;
-  descriptor_ = open_locked(path_, target);
+  descriptor_ = make_locked(path_, target);
   if (descriptor_ < 0) return false;
   registry().paths.insert(path_);
-  if (ftruncate(descriptor_, 0) != 0) throw failure(target_, errno);
   return true;
+}
+
+void PartFile::write(const std::string& content) const {
+  for (size_t at = 0; at < content.size();) {
+    const ssize_t written =
+        pwrite(descriptor_, content.data() + at, content.size() - at, static_cast<off_t>(at));
+    if (written < 0 && errno != EINTR) throw failure(target_, errno);
+    if (written > 0) at += static_cast<size_t>(written);
+  }
+  std::string read(content.size() + 1, '\0');  // one more, to see whether something follows
+  size_t size = 0;
+  for (ssize_t got = 1; got > 0 && size < read.size(); size += static_cast<size_t>(got)) {
+    got = pread(descriptor_, read.data() + size, read.size() - size, static_cast<off_t>(size));
+    if (got < 0) throw failure(target_, errno);
+  }
+  if (size != content.size() || read.compare(0, size, content) != 0) {
+    throw std::runtime_error(target_ + ": what is read back is not what was written");
+  }
 }
 
 void PartFile::publish(Existing existing) {
   // Some file systems notice only now that the disk is full.
   if (fsync(descriptor_) != 0 && errno != EINVAL) throw failure(target_, errno);
   const std::lock_guard<std::mutex> lock(registry().mutex);
+  if (!is_at(descriptor_, path_)) {
+    throw std::runtime_error(target_ + ": another program has removed or replaced " + path_);
+  }
   const unsigned flags = existing == Existing::kKeep ? RENAME_NOREPLACE : 0;
   int status = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), flags);
   if (status != 0 && errno == EINVAL) {  // not every file system knows the flag

@@ -9,9 +9,11 @@
 
 namespace spidar {
 
-/// The file `.part-NAME` beside the file NAME that it becomes. One owner at a time, among all
-/// threads and processes: it is locked for as long as the object exists, so that what a killed
-/// process left can be taken over. It is removed with the object.
+/// A file in the folder of the file that it becomes, called `.part-`, a number that follows from
+/// the name of that, and the same extension: however long the name of a film is, this one fits. One
+/// owner at a time, among all threads and processes: it is locked for as long as the object exists.
+/// What a killed process left is removed, never written into, and a link of that name is not
+/// followed: nobody else has the file open. It is removed with the object.
 class PartFile {
  public:
   /// Makes an empty part file. Throws std::runtime_error when that is not possible, or when another
@@ -29,6 +31,10 @@ class PartFile {
   const std::string& target() const { return target_; }
   /// Open for reading and writing.
   int descriptor() const { return descriptor_; }
+
+  /// Writes all that the file is to contain, and reads it back. Throws std::runtime_error when that
+  /// is not the same.
+  void write(const std::string& content) const;
 
   enum class Existing { kReplace, kKeep };
   /// Gives the file its name; afterwards there is no part file. With kKeep, throws

@@ -25,6 +25,7 @@
 
 #include "spidar/guardian/last_will.h"
 #include "spidar/guardian/sleep_inhibitor.h"
+#include "spidar/realtime/standard_descriptors.h"
 
 namespace {
 
@@ -196,6 +197,7 @@ void ask_for_promptness() {
 }  // namespace
 
 int main() {
+  spidar::open_standard_descriptors();
   prctl(PR_SET_NAME, "spidar-guardian");
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGTSTP})
     signal(number, SIG_IGN);

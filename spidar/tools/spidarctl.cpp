@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/commands.h"
 
@@ -45,5 +46,6 @@ spidarctl COMMAND --help describes the options of a command.
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_descriptors();
   return run_program("spidarctl", kCommands, kSpidarctlHelp, argc, argv);
 }

@@ -44,7 +44,7 @@ class FilmFaults : public testing::Test {
     try {
       PartFile part(path("out/film.flac"));
       bool is_done = false;
-      record_film(path("film.avi"), part.path(), {}, [&](int) {
+      record_film(path("film.avi"), part, {}, [&](int) {
         if (!std::exchange(is_done, true)) fault();
       });
       EXPECT_TRUE(is_done);

@@ -185,8 +185,7 @@ TEST_F(Pieces, APieceThatWasKilledIsMeasuredAgainAndTheOthersAreNot) {
   fs::remove(path("film.mp4.2of2.motion"));
   {
     ChildProcess killed({SPIDARTRACK, "record", "--shard", "2/2", path("film.mp4")});
-    while (!fs::exists(path(".part-film.mp4.2of2.motion")) &&
-           !fs::exists(path("film.mp4.2of2.motion"))) {
+    while (!has_part_file(folder.path) && !fs::exists(path("film.mp4.2of2.motion"))) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     killed.end(SIGKILL);

@@ -193,15 +193,6 @@ TEST_F(TrackBatch, AFilmThatAnotherProcessRecordsIsWaitedFor) {
   expect_no_part_files();
 }
 
-TEST_F(TrackBatch, WhatAKilledProcessLeftIsTakenOver) {
-  make_film("x.avi");
-  std::ofstream(path(".part-x.avi.haptic.flac")) << std::string(1'000'000, 'x');
-  const CommandResult result = record("x.avi");
-  EXPECT_EQ(result.status, 0) << result.text;
-  EXPECT_EQ(samples("x.avi.haptic.flac"), 1000u);
-  expect_no_part_files();
-}
-
 // A FIFO that nobody writes to is a film that is never read to its end.
 TEST_F(TrackBatch, ASignalRemovesWhatIsIncomplete) {
   ASSERT_EQ(mkfifo(path("x.avi").c_str(), 0600), 0);
@@ -209,7 +200,7 @@ TEST_F(TrackBatch, ASignalRemovesWhatIsIncomplete) {
     SCOPED_TRACE(signal);
     std::signal(signal, SIG_DFL);  // the tests may have been started with nohup
     ChildProcess batch({SPIDARTRACK, "record", path("x.avi")});
-    await([&] { return fs::exists(path(".part-x.avi.haptic.flac")) || !batch.lives(); });
+    await([&] { return has_part_file(folder.path) || !batch.lives(); });
     ASSERT_TRUE(batch.lives());
     batch.send(signal);
     EXPECT_EQ(batch.wait(), -1) << "ended by the signal, as its caller expects";

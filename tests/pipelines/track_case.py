@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""For tests of spidartrack as on the command line: a folder, films and tracks in it, and the command.
+The environment names the program (SPIDARTRACK)."""
+import array
+import math
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = os.environ["SPIDARTRACK"]
+CHANNELS = ("fx", "fy", "fz", "tx", "ty", "tz")
+FULL_SCALE = (10, 10, 10, 1, 1, 1)  # N, N m
+
+
+def wave(ms):
+    """A sample of six different channels, as shares of the full scale."""
+    share = .15 * math.sin(.01 * ms)
+    return (share, -share / 2, share / 3, share / 100, 0, -share / 50)
+
+
+def write_wav(path, samples, rate=1000):
+    """Samples of any number of channels as a WAV file of floats."""
+    channels = len(samples[0])
+    data = array.array("f", [value for sample in samples for value in sample]).tobytes()
+    pathlib.Path(path).write_bytes(
+        b"RIFF" + struct.pack("<I", 36 + len(data)) + b"WAVEfmt " +
+        struct.pack("<IHHIIHH", 16, 3, channels, rate, 4 * channels * rate, 4 * channels, 32) +
+        b"data" + struct.pack("<I", len(data)) + data)
+
+
+def read_wav(path):
+    """The samples of a WAV file of floats, one tuple each, and their rate in Hz."""
+    content = pathlib.Path(path).read_bytes()
+    at, channels, rate = 12, 0, 0
+    while at < len(content):
+        name, length = content[at:at + 4], struct.unpack("<I", content[at + 4:at + 8])[0]
+        if name == b"fmt ":
+            kind, channels, rate = struct.unpack("<HHI", content[at + 8:at + 16])
+            assert kind in (3, 0xfffe), f"{path}: not of floats"
+        if name == b"data":
+            values = array.array("f", content[at + 8:at + 8 + length])
+            return list(zip(*[iter(values)] * channels)), rate
+        at += 8 + length + length % 2
+    raise AssertionError(f"{path}: no samples")
+
+
+class TrackCase(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="spidartrack-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, name):
+        return self.folder / name
+
+    def run_in_folder(self, command, status=0, **options):
+        """Runs a command line, a list or a text for the shell, in the folder, and returns what it has
+        printed, both outputs."""
+        run = subprocess.run(command, shell=isinstance(command, (str, bytes)), cwd=self.folder,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                             executable="/bin/bash" if isinstance(command, (str, bytes)) else None,
+                             check=False, **options)
+        text = run.stdout.decode(errors="replace")
+        self.assertEqual(run.returncode, status, f"{command}\n{text}")
+        return text
+
+    def spidartrack(self, *arguments, status=0, **options):
+        return self.run_in_folder([PROGRAM, *arguments], status, **options)
+
+    def assert_said(self, part, *arguments, status=1, **options):
+        """Of a command that fails, and says why."""
+        self.assertIn(part, self.spidartrack(*arguments, status=status, **options))
+
+    def gst(self, *elements):
+        self.run_in_folder(["gst-launch-1.0", "-q", *" ".join(elements).split()])
+
+    def make_film(self, name="film.avi", frames=25, pattern="ball"):
+        """25 frames a second."""
+        self.path(name).parent.mkdir(parents=True, exist_ok=True)
+        self.gst(f"videotestsrc num-buffers={frames} pattern={pattern} horizontal-speed=3",
+                 "! video/x-raw,width=160,height=120,framerate=25/1 ! jpegenc ! avimux",
+                 "! filesink location=made.film")
+        self.path("made.film").rename(self.path(name))
+
+    def make_track(self, name="a.wav", count=1000, sample=wave):
+        write_wav(self.path(name), [sample(ms) for ms in range(count)])
+
+    def samples(self, name):
+        """Of a track of any format."""
+        if not str(name).endswith(".wav"):
+            self.spidartrack("convert", name, "read back.wav")
+            name = "read back.wav"
+        return read_wav(self.path(name))[0]
+
+    def files(self):
+        return {str(path.relative_to(self.folder)) for path in self.folder.rglob("*") if not path.is_dir()}
+
+
+def needs(*programs):
+    missing = [name for name in programs if not shutil.which(name)]
+    return unittest.skipIf(missing, f"needs {', '.join(missing)}")
+
+
+def main():
+    unittest.main(argv=sys.argv, verbosity=2)
