@@ -39,6 +39,7 @@ GstPadProbeReturn StoredSound::flows(GstPad*, GstPadProbeInfo* info, gpointer us
 }
 
 void StoredSound::check(const PartFile& part) const {
+  part.check_in_place();
   StoredSound read;
   std::string why;
   try {

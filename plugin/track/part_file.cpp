@@ -148,6 +148,13 @@ bool PartFile::take(const fs::path& target) {
   return true;
 }
 
+void PartFile::check_in_place() const {
+  struct stat named {};
+  if (lstat(path_.c_str(), &named) != 0) throw failure(target_, errno);
+  if (is_at(descriptor_, path_)) return;
+  throw std::runtime_error(target_ + ": another program has replaced " + path_);
+}
+
 void PartFile::write(const std::string& content) const {
   for (size_t at = 0; at < content.size();) {
     const ssize_t written =
@@ -170,9 +177,7 @@ void PartFile::publish(Existing existing) {
   // Some file systems notice only now that the disk is full.
   if (fsync(descriptor_) != 0 && errno != EINVAL) throw failure(target_, errno);
   const std::lock_guard<std::mutex> lock(registry().mutex);
-  if (!is_at(descriptor_, path_)) {
-    throw std::runtime_error(target_ + ": another program has removed or replaced " + path_);
-  }
+  check_in_place();
   const unsigned flags = existing == Existing::kKeep ? RENAME_NOREPLACE : 0;
   int status = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), flags);
   if (status != 0 && errno == EINVAL) {  // not every file system knows the flag

@@ -36,6 +36,9 @@ class PartFile {
   /// is not the same.
   void write(const std::string& content) const;
 
+  /// Throws std::runtime_error when path() is another file by now, or its folder has gone.
+  void check_in_place() const;
+
   enum class Existing { kReplace, kKeep };
   /// Gives the file its name; afterwards there is no part file. With kKeep, throws
   /// std::runtime_error if a file of this name has appeared in the meantime.

@@ -66,9 +66,10 @@ struct _GstSpidarSink {
 static GstStaticPadTemplate haptic_sink_template = GST_STATIC_PAD_TEMPLATE(
     "sink", GST_PAD_SINK, GST_PAD_ALWAYS,
     GST_STATIC_CAPS(
-        "audio/x-raw, format = (string) { F32LE, S16LE, S24LE, S24_32LE, S32LE }, layout = "
-        "(string) interleaved, rate = (int) [ 200, 8000 ], channels = (int) 6, "
-        "channel-mask = (bitmask) { 0x0, 0x3f }"));
+        "audio/x-raw, format = (string) { F32LE, F32BE, F64LE, F64BE, S16LE, S16BE, S24LE, S24BE, "
+        "S24_32LE, S24_32BE, S32LE, S32BE }, layout = (string) { interleaved, non-interleaved }, "
+        "rate = (int) [ 200, 8000 ], "
+        "channels = (int) 6, channel-mask = (bitmask) { 0x0, 0x3f }"));
 
 G_DEFINE_TYPE_WITH_CODE(GstSpidarSink, gst_spidar_sink, GST_TYPE_BASE_SINK,
                         GST_DEBUG_CATEGORY_INIT(gst_spidar_sink_debug, "spidarsink", 0,

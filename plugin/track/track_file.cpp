@@ -12,6 +12,7 @@
 
 #include <gst/gst.h>
 
+#include "plugin/gobject/ref.h"
 #include "plugin/track/file_pipeline.h"
 #include "plugin/track/film_streams.h"
 
@@ -28,7 +29,7 @@ struct Reading {
   TrackInput input;
   TrackFile track;
   std::string problem;
-  bool has_caps = false;
+  Ref<GstCaps> caps;
   std::atomic<bool> is_chosen{false};
   std::atomic<bool> has_sound{false};
   std::atomic<int> ended{0};  // streams
@@ -83,11 +84,10 @@ void add_stream(GstElement*, GstPad* pad, gpointer user) {
 void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
   auto& reading = *static_cast<Reading*>(user);
   reading.file.advance();
-  if (!reading.has_caps) {
-    GstCaps* caps = gst_pad_get_current_caps(pad);
-    reading.problem = reading.input.set_caps(caps);
-    gst_caps_unref(caps);
-    reading.has_caps = true;
+  const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
+  if (caps.get() != reading.caps.get()) {  // also in the middle of a stream
+    reading.problem = reading.input.set_caps(caps.get());
+    reading.caps.reset(gst_caps_ref(caps.get()));
     if (reading.only_notes || !reading.problem.empty()) give_up(GST_PAD_PARENT(pad));
   }
   if (reading.only_notes || !reading.problem.empty()) return;
@@ -161,7 +161,7 @@ TrackFile read(const std::string& path, bool only_notes, const std::atomic<bool>
       "filesrc name=source ! parsebin name=parse decodebin name=decode ! audio/x-raw ! "
       "fakesink name=out signal-handoffs=true sync=false",
       path, stopped);
-  Reading reading{file, only_notes, wanted, {}, {}, {}};
+  Reading reading{file, only_notes, wanted, {}, {}, {}, {}};
   GstElement* const out = file.find("out");
   GstElement* const parser = file.find("parse");
   g_signal_connect(out, "handoff", G_CALLBACK(take_buffer), &reading);

@@ -60,26 +60,51 @@ void TrackInput::restart() {
   next_pts_ = end_ = GST_CLOCK_TIME_NONE;
 }
 
-void TrackInput::unpack(const guint8* data, size_t count) {
-  const GstAudioFormatInfo* format = info_.finfo;
-  const size_t values = count * kTrackChannels;
-  const bool floats = GST_AUDIO_FORMAT_INFO_IS_FLOAT(format);
-  void* into;
-  if (floats) {
-    doubles_.resize(values);
-    into = doubles_.data();
+bool TrackInput::unpack(GstBuffer* buffer) {
+  const bool planar = GST_AUDIO_INFO_LAYOUT(&info_) == GST_AUDIO_LAYOUT_NON_INTERLEAVED;
+  const auto sample_bytes = static_cast<size_t>(GST_AUDIO_INFO_BPF(&info_)) / kTrackChannels;
+  const GstAudioMeta* meta = planar ? gst_buffer_get_audio_meta(buffer) : nullptr;
+  const size_t count = samples_in(buffer);
+  GstMapInfo map;
+  if (!gst_buffer_map(buffer, &map, GST_MAP_READ)) return false;
+  doubles_.resize(count * kTrackChannels);
+  bool fits = true;
+  if (!planar) {
+    unpack(map.data, count * kTrackChannels, doubles_.data());
   } else {
-    integers_.resize(values);
-    into = integers_.data();
+    plane_.resize(count);
+    for (size_t channel = 0; channel < kTrackChannels; ++channel) {
+      // Without this meta the planes follow each other.
+      const size_t offset = meta ? meta->offsets[channel] : channel * count * sample_bytes;
+      fits = fits && offset <= map.size && count * sample_bytes <= map.size - offset;
+      if (!fits) break;
+      unpack(map.data + offset, count, plane_.data());
+      for (size_t i = 0; i < count; ++i) doubles_[i * kTrackChannels + channel] = plane_[i];
+    }
   }
+  gst_buffer_unmap(buffer, &map);
+  return fits;
+}
+
+size_t TrackInput::samples_in(GstBuffer* buffer) const {
+  const bool planar = GST_AUDIO_INFO_LAYOUT(&info_) == GST_AUDIO_LAYOUT_NON_INTERLEAVED;
+  const GstAudioMeta* meta = planar ? gst_buffer_get_audio_meta(buffer) : nullptr;
+  return meta ? meta->samples
+              : gst_buffer_get_size(buffer) / static_cast<size_t>(GST_AUDIO_INFO_BPF(&info_));
+}
+
+void TrackInput::unpack(const guint8* from, size_t values, double* to) {
+  const GstAudioFormatInfo* format = info_.finfo;
+  const bool floats = GST_AUDIO_FORMAT_INFO_IS_FLOAT(format);
+  if (!floats) integers_.resize(values);
   // With this flag the missing bits of a smaller format become zeros; by default other bits are
   // repeated into them.
-  format->unpack_func(format, GST_AUDIO_PACK_FLAG_TRUNCATE_RANGE, into, data,
+  format->unpack_func(format, GST_AUDIO_PACK_FLAG_TRUNCATE_RANGE,
+                      floats ? static_cast<void*>(to) : integers_.data(), from,
                       static_cast<gint>(values));
   if (floats) return;
   constexpr double kFullScale = 2147483648.0;
-  doubles_.resize(values);
-  std::transform(integers_.begin(), integers_.end(), doubles_.begin(),
+  std::transform(integers_.begin(), integers_.end(), to,
                  [](gint32 value) { return value / kFullScale; });
 }
 
@@ -102,8 +127,7 @@ TrackSample TrackInput::sample(size_t i, double gain) {
 GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, double gain,
                                const Give& give) {
   const int rate_Hz = GST_AUDIO_INFO_RATE(&info_);
-  const auto frame_bytes = static_cast<size_t>(GST_AUDIO_INFO_BPF(&info_));
-  const size_t count = gst_buffer_get_size(buffer) / frame_bytes;
+  const size_t count = samples_in(buffer);
   const auto length = [rate_Hz](size_t samples) {
     return gst_util_uint64_scale_int(samples, GST_SECOND, rate_Hz);
   };
@@ -127,10 +151,7 @@ GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, dou
   };
   const size_t first = index(from), last = index(to);
 
-  GstMapInfo map;
-  if (!gst_buffer_map(buffer, &map, GST_MAP_READ)) return GST_FLOW_ERROR;
-  unpack(map.data, count);
-  gst_buffer_unmap(buffer, &map);
+  if (!unpack(buffer)) return GST_FLOW_ERROR;
 
   const double period_ns = 1e9 / rate_Hz / std::fabs(segment.rate);
   const double group = static_cast<double>(thinner_.group());

@@ -22,6 +22,8 @@ struct TrackFaults {
   uint64_t beyond_full = 0;  ///< samples of which a channel is more than the full scale
 };
 
+/// All that reads samples reads them here, and by all that their caps say: format with its byte
+/// order, rate, channels and their mask, and the layout, sample by sample or channel by channel.
 /// Streaming thread only.
 class TrackInput {
  public:
@@ -45,15 +47,18 @@ class TrackInput {
   uint64_t samples() const { return samples_; }
 
  private:
-  void unpack(const guint8* data, size_t count);
+  size_t samples_in(GstBuffer* buffer) const;
+  bool unpack(GstBuffer* buffer);
+  void unpack(const guint8* from, size_t values, double* to);
   TrackSample sample(size_t i, double gain);
 
   GstAudioInfo info_{};
   TrackThinner thinner_;
   GstClockTime next_pts_ = GST_CLOCK_TIME_NONE;
   GstClockTime end_ = GST_CLOCK_TIME_NONE;
-  std::vector<gdouble> doubles_;  // of a buffer, as the format unpacks
-  std::vector<gint32> integers_;
+  std::vector<gdouble> doubles_;  // of a buffer, sample by sample
+  std::vector<gdouble> plane_;    // of a channel
+  std::vector<gint32> integers_;  // as the format unpacks
   TrackFaults faults_;
   uint64_t samples_ = 0;
 };

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 // spidarsink with good and bad tracks. On a test clock; every tick is checked.
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -49,32 +48,49 @@ TEST(TrackPlayback, FeelsTheSampleWhoseRunningTimeItIs) {
   EXPECT_TRUE(track.warnings().empty());
 }
 
-TEST(TrackPlayback, TakesEveryFormatAndMask) {
-  for (const char* format : {"F32LE", "S16LE", "S24LE", "S24_32LE", "S32LE"}) {
-    for (const char* mask : {"0x0", "0x3f"}) {
-      SCOPED_TRACE(std::string(format) + " " + mask);
-      SteppedTrack track("", std::string("audio/x-raw,layout=interleaved,rate=1000,channels=6,") +
-                                 "format=" + format + ",channel-mask=(bitmask)" + mask);
-      const int bits = std::strcmp(format, "F32LE") == 0 ? 0 : std::stoi(format + 1);
-      std::vector<guint8> bytes;
-      for (const TrackSample& sample : curve()) {
-        for (const float value : sample) {
-          guint8 encoded[4];
-          if (bits == 0) {
-            GST_WRITE_FLOAT_LE(encoded, value);
-          } else {
-            GST_WRITE_UINT32_LE(encoded, static_cast<guint32>(static_cast<gint32>(
-                                             std::lround(std::ldexp(value, bits - 1)))));
-          }
-          const bool is_padded = bits == 0 || std::strcmp(format, "S24_32LE") == 0;
-          bytes.insert(bytes.end(), encoded, encoded + (is_padded ? 4 : bits / 8));
-        }
-      }
+/// A float as the format stores it, in the byte order of little-endian formats.
+std::vector<guint8> encoded(float value, int bits, bool padded) {
+  guint8 bytes[4];
+  if (bits == 0) {
+    GST_WRITE_FLOAT_LE(bytes, value);
+  } else {
+    GST_WRITE_UINT32_LE(
+        bytes, static_cast<guint32>(static_cast<gint32>(std::lround(std::ldexp(value, bits - 1)))));
+  }
+  return {bytes, bytes + (padded ? 4 : bits / 8)};
+}
+
+/// Sample by sample, or channel by channel.
+std::vector<guint8> stored(const std::vector<TrackSample>& samples, const std::string& format,
+                           bool planar) {
+  const int bits = format == "F32LE" ? 0 : std::stoi(format.substr(1));
+  const bool padded = bits == 0 || format == "S24_32LE";
+  std::vector<guint8> bytes;
+  const size_t values = samples.size() * kTrackChannels;
+  for (size_t i = 0; i < values; ++i) {
+    const float value = planar ? samples[i % samples.size()][i / samples.size()]
+                               : samples[i / kTrackChannels][i % kTrackChannels];
+    for (const guint8 byte : encoded(value, bits, padded)) bytes.push_back(byte);
+  }
+  return bytes;
+}
+
+TEST(TrackPlayback, TakesEveryFormatMaskAndLayout) {
+  for (const std::string format : {"F32LE", "S16LE", "S24LE", "S24_32LE", "S32LE"}) {
+    for (const std::string rest :
+         {"interleaved,channel-mask=(bitmask)0x0", "interleaved,channel-mask=(bitmask)0x3f",
+          "non-interleaved,channel-mask=(bitmask)0x3f"}) {
+      SCOPED_TRACE(format + " " + rest);
+      SteppedTrack track("",
+                         "audio/x-raw,rate=1000,channels=6,format=" + format + ",layout=" + rest);
+      const std::vector<guint8> bytes = stored(curve(), format, rest[0] == 'n');
       track.push_bytes(bytes.data(), bytes.size(), 0, GST_SECOND);
       track.end();
       track.set_state(GST_STATE_PLAYING);
       // Half a step on each of six axes, of 10 N at most.
-      const double half_step = bits == 0 ? 0 : 10 * std::ldexp(0.5, 1 - bits) * std::sqrt(6);
+      const double half_step =
+          format[0] == 'F' ? 0
+                           : 10 * std::ldexp(0.5, 1 - std::stoi(format.substr(1))) * std::sqrt(6);
       for (int ms = 1; ms < 300; ++ms) expect_wanted(track.tick(), ms, half_step + 1e-6);
     }
   }
