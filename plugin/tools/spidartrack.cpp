@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Records, renders, inspects, checks, converts, plots and merges haptic tracks.
+// Records, renders, inspects, checks, converts and plots haptic tracks.
 
 #include <vector>
 
@@ -20,7 +20,6 @@ const std::vector<Command> kCommands = {
     {"join", join_pieces_command},      {"render", render_track_command},
     {"info", track_info_command},       {"check", check_track_command},
     {"convert", convert_track_command}, {"plot", plot_track_command},
-    {"merge", merge_track_command},     {"extract", extract_track_command},
 };
 
 constexpr const char* kSpidartrackHelp = R"(usage: spidartrack COMMAND
@@ -33,8 +32,6 @@ constexpr const char* kSpidartrackHelp = R"(usage: spidartrack COMMAND
   check    report what in a track cannot be felt as it is
   convert  convert between FLAC, Matroska, WAV, HJIF, traces and funscript
   plot     draw a picture of a track
-  merge    put a track into a film that has sound
-  extract  take the track out of such a film
   --help
   --version
 

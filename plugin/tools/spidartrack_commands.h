@@ -9,9 +9,7 @@ namespace spidar {
 int analyze_film_command(int argc, char** argv);
 int check_track_command(int argc, char** argv);
 int convert_track_command(int argc, char** argv);
-int extract_track_command(int argc, char** argv);
 int join_pieces_command(int argc, char** argv);
-int merge_track_command(int argc, char** argv);
 int plot_track_command(int argc, char** argv);
 int record_track_command(int argc, char** argv);
 int render_track_command(int argc, char** argv);

@@ -37,7 +37,7 @@ TRACKS = {  # of these films, and what writes them
     "film.haptic.mka": "matroskamux",
     "film.haptic.wav": "wavenc",
 }
-OPTIONAL = {"ffmpeg": "ffmpeg"}  # programs that lines need, and who has them
+OPTIONAL = {"ffmpeg": "ffmpeg", "mkvmerge": "mkvtoolnix"}  # programs that lines need, and who has them
 ELEMENTS = ("sdpdemux", "srtsink", "srtsrc")  # of gstreamer1.0-plugins-bad, as optional
 WORKERS = 2
 LONGEST_S = 50  # of a line that ends; the test has a limit of its own

@@ -141,36 +141,6 @@ def plot(trial):
     expect(outcome and png.exists() and png.stat().st_size > 5000, outcome.text[-250:])
 
 
-def merge(trial):
-    """The track goes into its film if that has sound; nothing is lost without a word, and no player takes it for
-    sound."""
-    merged = trial.folder / "merged" / "film.mkv"
-    merged.parent.mkdir(exist_ok=True)
-    outcome = trial.spidartrack("merge", trial.path, trial.track, merged)
-    if not trial.film.has_sound:
-        expect(outcome.status == 1 and not merged.exists(), f"a film without sound: status {outcome.status}")
-        return expect_sentence(outcome.text, "a film without sound")
-    expect(outcome, outcome.text[-250:])
-    entries = "stream=codec_type,channels,codec_name:stream_disposition=default:stream_tags=language"
-    streams = probed(merged, entries)["streams"]
-    haptic = [s for s in streams if s.get("channels") == 6]
-    expect(len(haptic) == 1, f"{len(haptic)} haptic tracks in the film")
-    expect(not haptic[0]["disposition"]["default"], "the track is marked as default")
-    expect(haptic[0].get("tags", {}).get("language") == "zxx", f"the language of the track: {haptic[0].get('tags')}")
-    has_cover = trial.film.kind["extra"] == "poster"  # which GStreamer cannot write
-    expect(("cover art is lost" in outcome.text) == has_cover, f"merge says of cover art: {outcome.text[-250:]!r}")
-    for kind in ("video", "audio", "subtitle"):
-        before = trial.film.streams.count(kind) - (has_cover and kind == "video")
-        after = sum(s["codec_type"] == kind for s in streams) - (kind == "audio")
-        expect(after == before, f"{before} streams of {kind} in the film, {after} in the merged one")
-    wav = trial.folder / "extracted.wav"
-    outcome = trial.spidartrack("extract", merged, wav)
-    expect(outcome, outcome.text[-200:])
-    played = trial.play_quickly("playbin", merged, {"track": "auto"})
-    expect(played["of track"] and not played["analysed"],
-           f"track=auto does not play the track inside the film: {played['error'] or played['warnings'][:1]}")
-
-
 def own_track(trial):
     """track=auto plays the track beside its film without a warning."""
     played = trial.play_quickly("playbin", trial.path, {"track": "auto"})
@@ -185,14 +155,12 @@ def other_film(trial):
     played = trial.play_quickly("playbin", path, {"track": "auto"})
     expect(played["analysed"] and not played["of track"], f"track=auto plays the track of another film: {trial.other}")
     expect(played["warnings"], "track=auto refuses the track of another film without a word")
-    if trial.film.kind["tool"] not in ("merge", "plot"):
+    if trial.film.kind["tool"] != "plot":
         return
-    for command in (("merge", path, trial.track, path.with_name("out.mkv")),
-                    ("plot", trial.track, path.with_name("out.png"), "--film", path)):
-        outcome = trial.spidartrack(*command)
-        expect(outcome.status == 1, f"{command[0]} takes the track of another film, {trial.other}")
-        expect_sentence(outcome.text, command[0])
-        expect(not any(path.parent.glob("out.*")), f"{command[0]} leaves a file")
+    outcome = trial.spidartrack("plot", trial.track, path.with_name("out.png"), "--film", path)
+    expect(outcome.status == 1, f"plot takes the track of another film, {trial.other}")
+    expect_sentence(outcome.text, "plot")
+    expect(not any(path.parent.glob("out.*")), "plot leaves a file")
 
 
 # --- felt
@@ -297,14 +265,14 @@ def damaged(trial):
 
 def nothing_left(trial):
     """No temporary file is left beside the film."""
-    known = {trial.path.name, trial.track.name, "track.wav", "track.hjif", "back.wav", "plot.png", "extracted.wav"}
+    known = {trial.path.name, trial.track.name, "track.wav", "track.hjif", "back.wav", "plot.png"}
     written = (p.name for p in trial.folder.iterdir() if p.is_file() and not p.name.startswith("ticks-"))
     left = [name for name in written if name not in known]
     expect(not left, f"left: {left}")
 
 
-CHECKS = (pictures, analysed, record, track_in_time, info, convert, plot, merge, own_track, other_film, felt, damaged,
+CHECKS = (pictures, analysed, record, track_in_time, info, convert, plot, own_track, other_film, felt, damaged,
           nothing_left)
 # Without these, the others say nothing.
-NEEDED = {track_in_time: (record,), info: (record,), convert: (track_in_time,), plot: (record,), merge: (record,),
+NEEDED = {track_in_time: (record,), info: (record,), convert: (track_in_time,), plot: (record,),
           own_track: (record,), other_film: (record,), felt: (track_in_time,)}

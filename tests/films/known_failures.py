@@ -12,7 +12,6 @@ def of(**values):
 
 
 RELEASE = "1.22"  # of GStreamer, in Debian 12
-ANY = of()
 B_FRAMES = of(container="avi", pictures="MPEG-4")
 NO_TIMES = "AVI has no times for B-frames: avidemux makes them up, two pictures have the same"
 CRITICAL = "mpeg4videoparse prints a critical message about some packets"
@@ -31,6 +30,4 @@ RARE = (
       for check, words in (("pictures", "pictures of"), ("felt", "off the track"))),
     ("track_in_time", B_FRAMES, "", NO_TIMES),
     *((check, of(pictures="MPEG-4"), "reader->size", CRITICAL) for check in ("record", "own_track", "felt")),
-    # Of spidartrack.
-    ("merge", ANY, "Could not multiplex", "matroskamux fails, and merge does not say why"),
 )

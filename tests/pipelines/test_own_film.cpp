@@ -106,44 +106,6 @@ TEST_F(OwnFilm, ATrackMovesWithThePicturesIntoAnotherContainer) {
   }
 }
 
-/// `merge` and `plot` accept what track=auto accepts.
-TEST_F(OwnFilm, ATrackIsMergedIntoAnotherContainerInTime) {
-  ASSERT_TRUE(make("film.mp4"));
-  ASSERT_TRUE(copy("film.mp4", "copy.ts"));
-  for (const auto& [own, film] : {std::pair{"film.mp4", "copy.ts"}, {"copy.ts", "film.mp4"}}) {
-    SCOPED_TRACE(film);
-    const std::string track = path(own) + ".haptic.flac", merged = path("felt.mkv");
-    ASSERT_EQ(spidartrack("record " + path(own)).status, 0);
-    const CommandResult result = spidartrack("merge " + path(film) + " " + track + " " + merged);
-    ASSERT_EQ(result.status, 0) << result.text;
-    const Film felt = read_film(merged);
-    ASSERT_TRUE(felt.has_track);
-    // The pictures of the merged film are where those of `film` are: Matroska counts milliseconds.
-    const double moved_ms = 1e-6 * static_cast<double>(match(film, "felt.mkv").later_ns);
-    EXPECT_NEAR(moved_ms, 0, 1);
-    // Samples are moved by whole milliseconds: half of one is rounded.
-    const double later_ms = 1e-6 * static_cast<double>(match(own, film).later_ns);
-    const auto later = static_cast<int64_t>(std::llround(later_ms));
-    const std::vector<TrackSample> before = load_track(track);
-    TrackCondition condition;
-    const std::vector<TrackSample> after = load_track(merged, &condition);
-    ASSERT_EQ(static_cast<int64_t>(after.size()), static_cast<int64_t>(before.size()) + later);
-    for (size_t i = 0; i < after.size(); ++i) {
-      const auto from = static_cast<int64_t>(i) - later;
-      ASSERT_EQ(after[i], from < 0 ? TrackSample{} : before[static_cast<size_t>(from)]) << i;
-    }
-    // The merged film knows its track by the pictures, at the times that they have in it.
-    EXPECT_NEAR(
-        1e-6 * static_cast<double>(
-                   find_pictures(condition.notes.film, felt.packets).value_or(1'000'000'000)),
-        0, 1.5);
-    if (std::system("gnuplot --version > /dev/null 2>&1") != 0) continue;
-    const CommandResult plotted =
-        spidartrack("plot " + track + " " + path("plot.png") + " --film " + path(film));
-    EXPECT_EQ(plotted.status, 0) << plotted.text;
-  }
-}
-
 TEST_F(OwnFilm, AnyOtherIsNot) {
   ASSERT_TRUE(make("film.mp4"));
   ASSERT_TRUE(make("mandelbrot.mp4", 2, "mandelbrot"));

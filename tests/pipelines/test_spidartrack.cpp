@@ -52,8 +52,7 @@ class Spidartrack : public testing::Test {
 
 TEST_F(Spidartrack, HelpSucceedsAndWrongUsageSaysWhatWouldBeRight) {
   EXPECT_EQ(spidartrack("--help").status, 0);
-  for (const char* command :
-       {"record", "analyze", "render", "info", "check", "convert", "plot", "merge", "extract"}) {
+  for (const char* command : {"record", "analyze", "render", "info", "check", "convert", "plot"}) {
     const CommandResult help = spidartrack(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     expect_contains(help.text, std::string("usage: spidartrack ") + command);

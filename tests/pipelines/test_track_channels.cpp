@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Six constants, different on each channel, on the ways of docs/haptic-track.md from a file to the
-// hand and from one file to another. Those of the containers are in test_tracks.cpp, those over a
-// network in test_track_network.cpp, and into a film and out of it in test_track_merge.cpp.
+// hand and from one file to another. Those of the containers are in test_tracks.cpp, and those over
+// a network in test_track_network.cpp.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -101,10 +101,10 @@ TEST_F(TrackChannels, OfEveryContainerInPlaceOfAnalysis) {
 }
 
 TEST_F(TrackChannels, OfTheTrackBesideTheFilmAndOfTheOneInIt) {
-  ASSERT_EQ(
-      spidartrack("merge " + path("sound.avi") + " " + path("track.flac") + " " + path("felt.mkv"))
-          .status,
-      0);
+  ASSERT_EQ(run("ffmpeg -nostdin -v error -i " + path("sound.avi") + " -i " + path("alac.mov") +
+                " -map 0 -map 1 -c copy " + path("felt.mov"))
+                .text,
+            "");
   for (const char* end : {".flac", ".mka", ".wav"}) {
     save_track(path("sound.haptic") + end, constant());
     expect_felt("filesrc location=" + quoted(path("sound.avi")) +
@@ -112,10 +112,10 @@ TEST_F(TrackChannels, OfTheTrackBesideTheFilmAndOfTheOneInIt) {
                 " ! fakesink sync=true");
     std::filesystem::remove(path("sound.haptic") + end);
   }
-  expect_felt(kVideo + "spidarmotion track=" + quoted(path("felt.mkv")) + trace() +
+  expect_felt(kVideo + "spidarmotion track=" + quoted(path("felt.mov")) + trace() +
               " ! fakesink sync=true");
-  expect_felt("filesrc location=" + quoted(path("felt.mkv")) +
-              " ! matroskademux ! jpegdec ! videoconvert ! spidarmotion track=auto" + trace() +
+  expect_felt("filesrc location=" + quoted(path("felt.mov")) +
+              " ! qtdemux ! jpegdec ! videoconvert ! spidarmotion track=auto" + trace() +
               " ! fakesink sync=true");
 }
 

@@ -228,21 +228,6 @@ TEST_F(TrackOutput, MessagesNameTheOutputThatWasGiven) {
   expect_contains(uri.text, "file:///tmp/b.flac: there is no folder file:///tmp; a file name is");
 }
 
-/// Players would play the track through the loudspeakers.
-TEST_F(TrackOutput, ATrackThatIsTheOnlySoundOfAFilmIsNotMergedAgain) {
-  save("a.wav", 1000);
-  run_pipeline(
-      "matroskamux name=mux ! filesink location=" + quoted(path("film.mkv")) +
-      " videotestsrc num-buffers=25 ! video/x-raw,width=64,height=48,framerate=25/1 ! jpegenc ! "
-      "mux. filesrc location=" +
-      quoted(path("a.wav")) + " ! wavparse ! mux.");
-  const CommandResult merged =
-      spidartrack("merge " + path("film.mkv") + " " + path("a.wav") + " " + path("felt.mkv"));
-  EXPECT_EQ(merged.status, 1);
-  expect_contains(merged.text, "has a haptic track already");
-  EXPECT_EQ(files(), (std::set<std::string>{"a.wav", "film.mkv"}));
-}
-
 TEST_F(TrackOutput, MistakesAreNamed) {
   save("a.flac");
   const std::string a = path("a.flac");
