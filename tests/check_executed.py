@@ -10,7 +10,7 @@ from array import array
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
-LAYERS = ("api", "core", "plugin", "spidar")
+LAYERS = ("core", "plugin", "spidar")
 
 # Sources of which no test executes a function in the build of CI with the address sanitizer, and why.
 ONE_OF_TWO = "the other one of two is in this build"

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
-BELOW = {"core": [], "spidar": ["core"], "api": ["core", "spidar"], "plugin": ["core", "spidar"]}
+BELOW = {"core": [], "spidar": ["core"], "plugin": ["core", "spidar"]}
 
 
 def includes():

@@ -72,7 +72,7 @@ run_tests() {
 check_layout() {
     say "layout: $(clang-format --version)"
     local files
-    mapfile -t files < <(find include api core spidar plugin tests examples -name "*.cpp" -o -name "*.h")
+    mapfile -t files < <(find core spidar plugin tests examples -name "*.cpp" -o -name "*.h")
     if clang-format --dry-run --Werror "${files[@]}"; then
         checks+=(--passed layout)
     else

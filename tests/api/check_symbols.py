@@ -15,17 +15,17 @@ from pathlib import Path
 
 SKIPPED = 77
 HEAD = """# Symbols that libgst-spidar.so exports on 64-bit Linux, with their versions. Written by
-#   tests/api/check_symbols.py build/api/libgst-spidar.so api/symbols.txt --write
+#   tests/api/check_symbols.py build/spidar/api/libgst-spidar.so spidar/api/symbols.txt --write
 """
 REMOVED = """removed, or its parameters were changed:
 {names}
   A program that was built with this interface no longer runs. Put the symbol back (the old one may
-  call the new one), or begin a new interface: raise api_soversion in api/meson.build, rename the
-  namespace v0 and the version GST_SPIDAR_0 in api/export.map, rename debian/libgst-spidar0*, and say
+  call the new one), or begin a new interface: raise api_soversion in spidar/api/meson.build, rename the
+  namespace v0 and the version GST_SPIDAR_0 in spidar/api/export.map, rename debian/libgst-spidar0*, and say
   so in CHANGELOG.md. Then write the list."""
 ADDED = """added:
 {names}
-  If it is meant for other programs, document it in include/gst-spidar/ and write the list:
+  If it is meant for other programs, document it in spidar/api/include/ and write the list:
     tests/api/check_symbols.py {library} {list} --write
   and, once a version has been released, state the version that added it in
   debian/libgst-spidar0.symbols. If it is not meant for them, move it out of the namespace

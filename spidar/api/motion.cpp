@@ -4,8 +4,8 @@
 
 #include <gst-spidar/motion.h>
 
-#include "api/vectors.h"
 #include "core/analysis/motion_analyzer.h"
+#include "spidar/api/vectors.h"
 
 namespace gst_spidar {
 inline namespace v0 {

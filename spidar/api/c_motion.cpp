@@ -4,7 +4,7 @@
 
 #include <gst-spidar/motion.h>
 
-#include "api/c_calls.h"
+#include "spidar/api/c_calls.h"
 
 struct GstSpidarMotion {
   gst_spidar::MotionToWrench motion;

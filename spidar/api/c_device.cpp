@@ -12,7 +12,7 @@
 
 #include <gst-spidar/device.h>
 
-#include "api/c_calls.h"
+#include "spidar/api/c_calls.h"
 
 struct GstSpidarDevice {
   gst_spidar::Device device;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "api/surface.h"
+#include "spidar/api/surface.h"
 
 #include <chrono>
 #include <iomanip>
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "api/vectors.h"
 #include "core/tracking/tracker.h"
+#include "spidar/api/vectors.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/realtime/monotonic.h"
 

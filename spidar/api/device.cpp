@@ -11,9 +11,9 @@
 
 #include <gst-spidar/device.h>
 
-#include "api/surface.h"
-#include "api/vectors.h"
 #include "core/grip/picture_size.h"
+#include "spidar/api/surface.h"
+#include "spidar/api/vectors.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/profiles/force_range.h"
 #include "spidar/session/board_list.h"
