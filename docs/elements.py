@@ -29,10 +29,8 @@ from gi.repository import GObject, Gst  # noqa: E402
 ELEMENTS = ("spidarmotion", "spidarextract", "spidarsink")
 DOCS = Path(__file__).resolve().parent
 WRITTEN = "Written by `docs/elements.py` from the plugin; a test compares the two.\n"
-
-# Of properties that came later than their element: (element, property): version.
-SINCE = {}
-FIRST_VERSION = "0.1"
+CHANGES = ("A property can be changed while playing unless it says *in READY*: then in the states NULL and READY only. "
+           "*Controllable* means that a `GstControlSource` can drive it.\n")
 TYPES = {"gchararray": "string", "gdouble": "double", "gboolean": "boolean", "guint64": "uint64", "guint": "uint",
          "gint": "int", "gint64": "int64", "GstValueArray": "array"}
 
@@ -62,10 +60,6 @@ def default_text(spec):
 
 def range_text(spec):
     """The values that a property takes."""
-    if spec.value_type.is_a(GObject.TYPE_ENUM):
-        return ", ".join(value.value_nick for value in enum_values(spec).values())
-    if spec.value_type == GObject.TYPE_BOOLEAN:
-        return "true, false"
     if hasattr(spec, "minimum"):
         powers = {-(2**63): "-2⁶³", 2**63 - 1: "2⁶³ − 1", 2**64 - 1: "2⁶⁴ − 1", 2**31 - 1: "2³¹ − 1",
                   -(2**31): "-2³¹", 2**32 - 1: "2³² − 1"}
@@ -79,17 +73,25 @@ def range_text(spec):
     return ""
 
 
-def flags_text(spec):
-    flags = []
+def access_text(spec):
     if not spec.flags & GObject.ParamFlags.WRITABLE:
-        flags.append("read-only")
+        return "read-only"
     if spec.flags & Gst.PARAM_CONTROLLABLE:
-        flags.append("controllable")
+        return "controllable"
     if spec.flags & Gst.PARAM_MUTABLE_PLAYING:
-        flags.append("changeable in PLAYING")
-    elif spec.flags & Gst.PARAM_MUTABLE_READY:
-        flags.append("changeable in READY")
-    return ", ".join(flags)
+        return ""
+    return "in READY"
+
+
+def property_lines(spec):
+    """An item of a list, with the values of an enumeration below it."""
+    default = default_text(spec)
+    facts = ["default " + default if default else "", range_text(spec), access_text(spec)]
+    blurb = " ".join(spec.blurb.split())
+    lines = [f"- `{spec.name}` ({', '.join(fact for fact in facts if fact)}): {blurb}"]
+    if spec.value_type.is_a(GObject.TYPE_ENUM):
+        lines += [f"  - `{value.value_nick}`: {value.value_name}" for value in enum_values(spec).values()]
+    return lines
 
 
 class Fields:
@@ -160,34 +162,38 @@ def table(columns, rows):
     return ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"] + ["| " + " | ".join(row) + " |" for row in rows]
 
 
-def field_table(fields, where, names, types=None):
-    rows = []
+def field_list(fields, where, names, types=None):
+    lines = []
     for name in names:
         unit, meaning = fields.row(where, name)
-        rows.append([f"`{name}`", *([types[name]] if types else []), unit, meaning])
-    return table(["field", *(["type"] if types else []), "unit", "meaning"], rows)
+        facts = ", ".join(filter(None, [types[name] if types else "", unit]))
+        lines.append(f"- `{name}`{f' ({facts})' if facts else ''}: {meaning}")
+    return lines
 
 
-def stats_tables(fields, stats, parts):
-    """A table for each part of fields.toml; a field that none of them has belongs to the first."""
+def stats_lists(fields, stats, parts):
+    """A list for each part of fields.toml; a field that none of them has belongs to the first."""
     lines = []
     for part, words in parts.items():
         others = {name for other in parts if other != part for name in fields.tables[other]}
         names = [name for name in stats if name in fields.tables[part] or (part == next(iter(parts)) and name not in others)]
-        lines += ["", words, "", *field_table(fields, part, names, stats)]
+        lines += ["", words, "", *field_list(fields, part, names, stats)]
     return lines
 
 
 def shorter(columns):
-    """Columns of a trace that differ only in an axis or a number, as one with a star."""
+    """Fields that differ only in an axis or a number, as one with a star."""
     names = []
     for column in columns:
-        name = re.sub(r"^(\w+?_(?:force|torque|position))_[xyz]_", r"\1_*_", column)
-        name = re.sub(r"^(position)_[xyz]_m$", r"\1_*_m", name)
+        name = re.sub(r"^(.*(?:force|torque|position|velocity))([_-])[xyz](?=[_-]|$)", r"\1\2*", column)
         name = re.sub(r"^orientation_[wxyz]$", "orientation_*", re.sub(r"^tension_\d+_N$", "tension_*_N", name))
         if name not in names:
             names.append(name)
     return names
+
+
+def shorter_types(types):
+    return {shorter([name])[0]: kind for name, kind in types.items()}
 
 
 def observed(fields):
@@ -207,27 +213,27 @@ def observed(fields):
         tick_header = Path(ticks).read_text(encoding="utf-8").split("\n")[0].split(",")
         objects = [json.loads(line) for line in Path(lines).read_text(encoding="utf-8").splitlines()]
     fullest = max((json_fields(line) for line in objects), key=len)
-    haptic = ["", "### Columns of `haptic-trace`", "",
+    messages = shorter_types(messages)
+    haptic = ["", "## Columns of `haptic-trace`", "",
               "One line for each millisecond. A star stands for an axis, or for the number of a string.", "",
-              *field_table(fields, "haptic-trace", shorter(tick_header))]
-    motion = ["", "### Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame:", "",
-              *field_table(fields, "message", messages, messages), "", "### Fields of `stats`",
-              *stats_tables(fields, stats, {"stats.video": "Of the video:", "stats.device": "Of the device, while there is one:"}),
-              "", "### Columns of `trace`", "", "CSV, one line for each frame:", "", *field_table(fields, "trace", header),
+              *field_list(fields, "haptic-trace", shorter(tick_header))]
+    motion = ["", "## Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame. A star stands for "
+              "an axis:", "", *field_list(fields, "message", messages, messages), "", "## Fields of `stats`",
+              *stats_lists(fields, stats, {"stats.video": "Of the video:", "stats.device": "Of the device, while there is one:"}),
+              "", "## Columns of `trace`", "", "CSV, one line for each frame:", "", *field_list(fields, "trace", shorter(header)),
               "", "JSON, one line for each frame, if the name ends in `.jsonl`; lists of two or three numbers are vectors:", "",
-              *field_table(fields, "json", fullest), *haptic]
-    sink = ["", "### Fields of `stats`",
-            *stats_tables(fields, track_stats, {"stats.track": "Of the track:", "stats.device": "Of the device:"}), "",
-            "### Columns of `haptic-trace`", "", "Those of [spidarmotion](spidarmotion.md#columns-of-haptic-trace)."]
+              *field_list(fields, "json", fullest), *haptic]
+    of_track = {name: kind for name, kind in track_stats.items() if name not in fields.tables["stats.device"]}
+    sink = ["", "## Fields of `stats`", *stats_lists(fields, of_track, {"stats.track": "Of the track:"}), "",
+            "Of the device: those of [spidarmotion](spidarmotion.md#fields-of-stats).", "",
+            "## Columns of `haptic-trace`", "", "Those of [spidarmotion](spidarmotion.md#columns-of-haptic-trace)."]
     return {"spidarmotion": motion, "spidarsink": sink}
 
 
 def describe(name):
     factory = Gst.ElementFactory.find(name)
     element = factory.create(None)
-    lines = [f"# {name}", "", WRITTEN, f"{factory.get_metadata('description')}.", "",
-             f"Class: `{factory.get_metadata('klass')}`. Parent: `{GObject.type_name(GObject.type_parent(element.__gtype__))}`.",
-             "", "## Pads", "", "| pad | direction | presence | caps |", "|---|---|---|---|"]
+    lines = [f"# {name}", "", WRITTEN, f"{factory.get_metadata('description')}.", "", "## Pads", "", "| pad | direction | presence | caps |", "|---|---|---|---|"]
     # The factory lists them in another order when the registry has just been written.
     templates = sorted(factory.get_static_pad_templates(),
                        key=lambda template: (template.direction != Gst.PadDirection.SINK, template.name_template))
@@ -240,19 +246,11 @@ def describe(name):
                      f"{template.presence.value_nick} | {', '.join(f'`{kind}`' for kind in kinds)} |")
     own = [spec for spec in element.list_properties() if spec.owner_type == element.__gtype__]
     if own:
-        lines += ["", "## Properties", "", "| property | default | values | access | since | meaning |",
-                  "|---|---|---|---|---|---|"]
+        lines += ["", "## Properties", "", CHANGES]
     for spec in sorted(own, key=lambda spec: spec.name):
         if spec.value_type.is_a(GObject.TYPE_ENUM):
             element.get_property(spec.name)
-        blurb = " ".join(spec.blurb.split()).replace("|", "\\|")
-        lines.append(f"| `{spec.name}` | {default_text(spec)} | {range_text(spec)} | {flags_text(spec)} | "
-                     f"{SINCE.get((name, spec.name), FIRST_VERSION)} | {blurb} |")
-    for spec in sorted(own, key=lambda spec: spec.name):
-        if spec.value_type.is_a(GObject.TYPE_ENUM):
-            lines += ["", f"Values of `{spec.name}`:", ""]
-            lines += [f"- `{value.value_nick}`: {value.value_name}"
-                      for value in enum_values(spec).values()]
+        lines += property_lines(spec)
     signals = [GObject.signal_query(signal, element.__gtype__) for signal in GObject.signal_list_names(element.__gtype__)]
     if signals:
         lines += ["", "## Signals", "", *table(
@@ -272,12 +270,11 @@ def pages(fields):
     sections = observed(fields)
     for name in ELEMENTS:
         lines = describe(name)
-        lines += [line.replace("### ", "## ", 1) if line.startswith("### ") else line for line in sections.get(name, [])]
+        lines += sections.get(name, [])
         written[f"elements/{name}.md"] = "\n".join(lines).rstrip("\n") + "\n"
         rows.append([f"[{name}](elements/{name}.md)", Gst.ElementFactory.find(name).get_metadata("description") + "."])
     written["elements.md"] = "\n".join([
-        "# Elements", "", WRITTEN, *table(["element", "what it does"], rows), "",
-        '"Since" in the tables of properties is the version of gst-spidar that had the property first.', ""])
+        "# Elements", "", WRITTEN, *table(["element", "what it does"], rows), ""])
     return written
 
 
