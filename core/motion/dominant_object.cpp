@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <utility>
-
 namespace spidar {
 namespace {
 
@@ -16,6 +15,18 @@ double growth(double prominence, double of_followed) {
   if (prominence == 0) return -1;
   const double claim = DominantObject::kClearly * of_followed;
   return (prominence - claim) / (prominence + claim);
+}
+
+/// Of the smaller of two boxes, the share that the other one covers if they are of the same thing.
+constexpr double kSamePlace = 0.5;
+
+/// Whether an object is where one that is out of sight would be: it is a part of the same thing.
+bool takes_place(const MovingObject& object, const MovingObject& hidden) {
+  const Eigen::Vector2d apart_px = (object.position_px - hidden.position_px).cwiseAbs();
+  const Eigen::Vector2d common_px = ((object.size_px + hidden.size_px) / 2 - apart_px)
+                                        .cwiseMin(object.size_px.cwiseMin(hidden.size_px))
+                                        .cwiseMax(0.0);
+  return common_px.prod() > kSamePlace * std::min(object.size_px.prod(), hidden.size_px.prod());
 }
 
 }  // namespace
@@ -42,7 +53,9 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
   const auto found = std::find_if(objects.begin(), objects.end(),
                                   [this](const MovingObject& one) { return one.id == id_; });
   const MovingObject* const followed = found == objects.end() ? nullptr : &*found;
-  const bool in_sight = followed && followed->tracks > 0;
+  // What has left the picture is not waited for.
+  const bool is_free = id_ == 0 || (followed && followed->has_left);
+  const bool in_sight = followed && followed->tracks > 0 && !is_free;
   if (in_sight) lost_s_ = 0;
   // In the frame that is nearest to that time.
   const double enough_s = std::max(0.0, kReason_s - interval_s / 2);
@@ -55,7 +68,9 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
         interval_s * growth(object.prominence, in_sight ? followed->prominence : 0);
     const double reason_s = std::max(least_s, std::max(least_s, reason_before(object.id)) + more_s);
     next_.push_back({object.id, reason_s});
-    if (object.prominence == 0 || (id_ != 0 && reason_s <= enough_s)) continue;
+    const bool continues = followed && followed->tracks == 0 && takes_place(object, *followed);
+    const bool may_take_over = is_free || continues || reason_s > enough_s;
+    if (object.prominence == 0 || !may_take_over) continue;
     if (!best || object.prominence > best->prominence) best = &object;
   }
   std::swap(rivals_, next_);

@@ -10,10 +10,18 @@
 namespace spidar {
 namespace {
 
-/// By how many squared grey levels the background's motion must fit worse on average, according to
-/// the structure tensor, and by how many more for each unit of residual of the block's own motion.
-constexpr float kLeastEvidence = 3;
-constexpr float kEvidencePerResidual = 0.1f;
+/// Squared Mahalanobis distance from which on a block moves by itself. The distance of two Gaussian
+/// coordinates exceeds it in e^(−13/2) = 0.15 % of the blocks.
+constexpr float kLeastDistance2 = 13;
+/// Pixels of a block whose errors are independent, of 256: coding and interpolation change
+/// neighbours alike. Chosen on the first row of real films.
+constexpr float kIndependentPixels = 16;
+/// Variance of a block's mean difference that remains where its own motion explains every pixel,
+/// grey²: that of rounding and of light that changes a little from place to place.
+constexpr float kLeastVariance_grey2 = 0.5f;
+/// Motions that are further apart than this differ in whole pixels, px of the field's picture: each
+/// is right to kMostOff_px. Nearer, the differences of pixels do not tell them apart.
+constexpr float kDifferentPixels_px = 2 * kMostOff_px;
 /// A known object may become slower by this factor before it counts as resting. Otherwise it would
 /// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster
 /// limbs.
@@ -29,8 +37,27 @@ constexpr int kLeastNeighbours = 3;
 /// one that seems to stand still is an error.
 constexpr int kNearlyAllNeighbours = 7;
 
-/// A block that stood out in two of the last frames needs only one moving neighbour.
-constexpr float kLeastLasting = kMost;
+/// How much a block must have stood out in the last frames, 0 … 1, see remember_judgements(): in
+/// two of them to need only one moving neighbour, in four of them to need none.
+constexpr float kLastingBesideOne = 0.5f;
+constexpr float kLastingAlone = 0.8f;
+
+/// Squared Mahalanobis distance eᵀ C⁻¹ e of a block's motion e from the background's. Its
+/// covariance is C = v S⁻¹ + σ² 1: the error of the block's own motion, whose structure tensor is
+/// S, and the noise σ = `noise_px` of what follows the background. S C = v 1 + σ² S has an inverse
+/// for edges, too, whose S has none.
+float distance2(const RelativeBlock& relative, const MotionBlock& block, float noise_px) {
+  const float v = block.residual / kIndependentPixels + kLeastVariance_grey2;
+  const float noise_px2 = noise_px * noise_px;
+  const float xx = v + noise_px2 * block.xx;
+  const float xy = noise_px2 * block.xy;
+  const float yy = v + noise_px2 * block.yy;
+  const float x = relative.x_px;
+  const float y = relative.y_px;
+  const float structure_x = block.xx * x + block.xy * y;
+  const float structure_y = block.xy * x + block.yy * y;
+  return ((yy * x - xy * y) * structure_x + (xx * y - xy * x) * structure_y) / (xx * yy - xy * xy);
+}
 
 /// Share of a block that was in the previous picture if it moved with the background.
 float seen_before(const BlockField& field, size_t index, const RelativeBlock& block) {
@@ -48,6 +75,16 @@ float seen_before(const BlockField& field, size_t index, const RelativeBlock& bl
 }
 
 }  // namespace
+
+double alike_px(double fastest_px) {
+  return kAlikeShare * fastest_px + 3 * kUsualNoise_px;
+}
+
+bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px) {
+  const float fastest_px2 = std::max(a_px.squaredNorm(), b_px.squaredNorm());
+  const auto most_px = static_cast<float>(alike_px(static_cast<double>(std::sqrt(fastest_px2))));
+  return (a_px - b_px).squaredNorm() < most_px * most_px;
+}
 
 size_t origin_of(const BlockField& field, size_t index) {
   const BlockGrid& grid = field.grid();
@@ -109,17 +146,13 @@ MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t inde
   const MotionBlock& block = field.blocks()[index];
   const RelativeBlock& relative = relative_[index];
   if (!relative.has_texture) return Judgement::kUnknown;
-  const float x = relative.x_px;
-  const float y = relative.y_px;
-  const float slower = expected ? kSlower : 1;
-  const float least_px = slower * static_cast<float>(kMotionSigmas * noise_px);
-  if (x * x + y * y < least_px * least_px) return Judgement::kStill;
-  const float evidence = x * x * block.xx + 2 * x * y * block.xy + y * y * block.yy;
-  const float least_evidence = slower * slower * kLeastEvidence;
-  if (evidence < least_evidence * (1 + kEvidencePerResidual * block.residual)) {
-    return Judgement::kStill;
-  }
+  const float least2 = expected ? kSlower * kSlower * kLeastDistance2 : kLeastDistance2;
+  if (distance2(relative, block, static_cast<float>(noise_px)) < least2) return Judgement::kStill;
   if (relative.was_outside) return Judgement::kStill;
+  // Of a slow block the pixels say nothing. Where nothing else speaks for it, that is not enough:
+  // a moving camera moves many blocks of a scene with depth a little.
+  const bool is_slow = std::hypot(relative.x_px, relative.y_px) <= kDifferentPixels_px;
+  if (is_slow && (expected || camera_is_still_)) return Judgement::kMoves;
   const int with_background = field.difference_if_moved(
       static_cast<int>(index), relative.background_x_px, relative.background_y_px);
   if (with_background < 0) return Judgement::kUnknown;
@@ -160,9 +193,12 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
       }
       const auto index = static_cast<size_t>(row * grid.columns + column);
       bool moves = false;
+      relative_[index].lasts = false;
       switch (judgements_[index]) {
         case Judgement::kMoves:
-          moves = moving >= kLeastNeighbours || (moving > 0 && stood_out_[index] > kLeastLasting);
+          relative_[index].lasts = stood_out_[index].share > kLastingAlone;
+          moves = moving >= kLeastNeighbours || relative_[index].lasts ||
+                  (moving > 0 && stood_out_[index].share > kLastingBesideOne);
           break;
         case Judgement::kUnknown:
         case Judgement::kStill:
@@ -176,22 +212,29 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
   }
 }
 
-/// How much each block has stood out recently. A small object may have moved on to the next block.
+/// How much each block has stood out recently in the same way: what glitters stands out in another
+/// one each time. A small object may have moved on to the next block.
 void MovingBlocks::remember_judgements(const BlockField& field) {
   const size_t n = judgements_.size();
   stood_out_before_.swap(stood_out_);
-  if (stood_out_before_.size() != n) stood_out_before_.assign(n, 0);
+  if (stood_out_before_.size() != n) stood_out_before_.assign(n, {});
   stood_out_.resize(n);
   const auto columns = static_cast<size_t>(field.grid().columns);
   for (size_t i = 0; i < n; ++i) {
     const size_t origin = origin_of(field, i);
-    float before = stood_out_before_[origin];
-    if (origin % columns > 0) before = std::max(before, stood_out_before_[origin - 1]);
-    if (origin % columns + 1 < columns) before = std::max(before, stood_out_before_[origin + 1]);
-    if (origin >= columns) before = std::max(before, stood_out_before_[origin - columns]);
-    if (origin + columns < n) before = std::max(before, stood_out_before_[origin + columns]);
-    const float now = judgements_[i] == Judgement::kMoves ? 1.0f : 0.0f;
-    stood_out_[i] = before + static_cast<float>(kNewestWeight) * (now - before);
+    StoodOut before = stood_out_before_[origin];
+    const auto look = [&](size_t beside) {
+      if (stood_out_before_[beside].share > before.share) before = stood_out_before_[beside];
+    };
+    if (origin % columns > 0) look(origin - 1);
+    if (origin % columns + 1 < columns) look(origin + 1);
+    if (origin >= columns) look(origin - columns);
+    if (origin + columns < n) look(origin + columns);
+    const Eigen::Vector2f moved_px(relative_[i].x_px, relative_[i].y_px);
+    const bool goes_on = before.share == 0 || are_alike(moved_px, before.moved_px);
+    const float now = judgements_[i] == Judgement::kMoves && goes_on ? 1.0f : 0.0f;
+    stood_out_[i] = {before.share + static_cast<float>(kNewestWeight) * (now - before.share),
+                     moved_px};
   }
 }
 

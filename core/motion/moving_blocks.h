@@ -12,9 +12,15 @@
 
 namespace spidar {
 
-/// Least motion relative to another, standard deviations of what follows that: the noise of one
-/// coordinate exceeds it in 0.3 % of the blocks.
-constexpr double kMotionSigmas = 3;
+/// Of the motion of a body, by how much that of its limbs may differ from it.
+constexpr double kAlikeShare = 0.5;
+
+/// Two motions of the same thing differ by less than this, px of the field's picture: kAlikeShare
+/// of `fastest_px`, the length of the longer one, and three standard deviations of a block.
+double alike_px(double fastest_px);
+
+/// Whether two motions may be of the same thing.
+bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px);
 
 /// Properties of a block in addition to its motion. Lengths are in pixels of the field's picture.
 struct RelativeBlock {
@@ -25,13 +31,17 @@ struct RelativeBlock {
   bool has_texture = false;  ///< enough to tell how it moves
   bool was_outside = false;  ///< most of it was outside of the film in the previous picture
   bool is_covered = false;   ///< something burned in hides the film here, see BurnedIn::covers()
+  bool lasts = false;        ///< has stood out for so long that it moves without any neighbour
   bool moves = false;        ///< moves by itself, taking its neighbours into account
 };
 
-/// Compares each block with the background. A block moves by itself when its motion differs from
-/// the background's by more than noise and the background's motion would explain its pixels clearly
-/// worse. While the motion of the background is unknown, no block is known to. A single block that
-/// stands out is an error unless it lasts. Textureless blocks move as most of their neighbours do.
+/// Compares each block with the background. A block moves by itself when its motion is further from
+/// the background's than its own error and the background's noise explain, and the background's
+/// motion would explain its pixels clearly worse. Pixels are not asked about a slow block where the
+/// camera rests or an object is known: they do not tell motions of less than a pixel apart. While
+/// the motion of the background is unknown, no block is known to move by itself. A single block
+/// that stands out is an error unless it lasts. Textureless blocks move as most of their neighbours
+/// do.
 class MovingBlocks {
  public:
   /// `expected` is 1 for each block on which an object was in the previous frame, or is expected in
@@ -53,6 +63,12 @@ class MovingBlocks {
   void change_grid(const GridChange& change);
 
  private:
+  /// Of a block: in what share of the last frames it stood out in the same way, and how it moved in
+  /// the last one.
+  struct StoodOut {
+    float share = 0;
+    Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();
+  };
   enum class Judgement : uint8_t { kStill, kMoves, kUnknown, kBurnedIn };
 
   void compare(const BlockField& field, const Background& background);
@@ -66,8 +82,8 @@ class MovingBlocks {
   std::vector<Judgement> judgements_;
   std::vector<float> persistence_;
   std::vector<float> persistence_before_;
-  std::vector<float> stood_out_;
-  std::vector<float> stood_out_before_;
+  std::vector<StoodOut> stood_out_;
+  std::vector<StoodOut> stood_out_before_;
   std::vector<float> residuals_;
   BurnedIn burned_in_;
   bool camera_is_still_ = true;

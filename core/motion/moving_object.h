@@ -29,6 +29,8 @@ struct MovingObject {
   /// The true velocity against the background is less than this away from relative_px_s in 95 % of
   /// the frames in which the object is in sight; 0: not known.
   double error_px_s = 0;
+  /// It moved outwards at the border of the picture when it was last seen: it does not come back.
+  bool has_left = false;
   double area_px2 = 0;    ///< of its blocks together
   double prominence = 0;  ///< how likely a viewer watches it, see salience()
 };

@@ -21,6 +21,11 @@ constexpr int kBornAfterBlocks = 8;
 constexpr double kReach = 0.75;
 /// A lost object continues for this long, because its blocks may fail for a frame or two.
 constexpr double kCoast_s = 0.05;
+/// Fewer blocks are no region of an object yet, see is_enough().
+constexpr int kLeastBlocks = 2;
+/// Share of its last motion from which on an object whose blocks are doubtful still moves: it is
+/// nearer to that than to rest.
+constexpr double kStillMoves = 0.5;
 
 }  // namespace
 
@@ -113,6 +118,13 @@ uint32_t ObjectTracker::create(const Region& region) {
   return life.key;
 }
 
+/// Whether a region is enough to show an object, `life` if that is not null. A single block is only
+/// enough for what is left of a known object, and for a new one if it lasts.
+bool ObjectTracker::is_enough(const Region& region, const Life* life) {
+  if (region.blocks >= kLeastBlocks) return true;
+  return life && life->is_born() ? !life->is_layer : region.lasts;
+}
+
 /// Assigns each region to an object. Of several regions of an object, the largest one counts.
 void ObjectTracker::claim(const FieldInFrame& frame) {
   const std::vector<Region>& regions = finder_.find(frame.field, *relative_);
@@ -133,10 +145,11 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       life = nullptr;
     }
     if (!life || !life->is_born()) {
-      Life* back = expected_at(region, frame);
+      Life* back = region.blocks < kLeastBlocks ? nullptr : expected_at(region, frame);
       // Noise does not move twice in the same way.
       if (back || (life && !is_same_motion(*life, region, frame))) life = back;
     }
+    if (!is_enough(region, life)) continue;
     if (!life) {
       region_keys_[k] = create(region);
       continue;
@@ -200,6 +213,7 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   life.blocks_seen += life.region.blocks;
   life.unseen_s = 0;
   life.resting_s = 0;
+  life.object.has_left = false;
   place(life, frame);
   MovingObject& object = life.object;
   // What covers most of the picture, and twice what agrees with the background, is its error.
@@ -218,17 +232,44 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   object.error_px_s = frame.scale * (error_px / frame.interval_s + late_px_s);
 }
 
-/// Blocks of the object that now move with the background. `textured`: those of them that have
-/// texture.
-int ObjectTracker::count_resting(const Life& life, int& textured) const {
-  int all = 0;
-  textured = 0;
+ObjectTracker::Remains ObjectTracker::remains_of(const Life& life) const {
+  Remains remains;
   for (size_t i = 0; i < owners_before_.size(); ++i) {
     if (owners_before_[i] != life.key || finder_.labels()[i] != kNoRegion) continue;
-    ++all;
-    textured += (*relative_)[i].has_texture;
+    ++remains.blocks;
+    const RelativeBlock& block = (*relative_)[i];
+    if (!block.has_texture) continue;
+    ++remains.textured;
+    remains.moved_px += Eigen::Vector2f(block.x_px, block.y_px).cast<double>();
   }
-  return all;
+  if (remains.textured > 0) remains.moved_px /= remains.textured;
+  return remains;
+}
+
+/// Whether an object that was in sight until now has moved out of the picture.
+bool ObjectTracker::has_left(const Life& life, const FieldInFrame& frame) const {
+  const Eigen::Vector2d on_screen_px =
+      life.expected_px_s * frame.interval_s + life.region.background_px;
+  return life.region.border_blocks > 0 && life.region.position_px.dot(on_screen_px) > 0;
+}
+
+/// The object rests where it is, unless its blocks together still move nearer to its motion than to
+/// rest, although none of them does so clearly.
+void ObjectTracker::stay(Life& life, const Remains& remains, const FieldInFrame& frame) {
+  for (size_t i = 0; i < owners_before_.size(); ++i) {
+    const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;
+    if (is_its) owners_[i] = life.key;
+  }
+  const Eigen::Vector2d expected_px = life.expected_px_s * frame.interval_s;
+  if (remains.moved_px.dot(expected_px) > kStillMoves * expected_px.squaredNorm()) {
+    life.expected_px_s +=
+        kNewestWeight * (remains.moved_px / frame.interval_s - life.expected_px_s);
+  } else {
+    life.expected_px_s.setZero();
+  }
+  life.resting_s += frame.interval_s;
+  life.unseen_s = 0;
+  life.object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
 }
 
 /// Nothing is known to move by itself at the object's place. If most of its usual blocks were there
@@ -236,17 +277,11 @@ int ObjectTracker::count_resting(const Life& life, int& textured) const {
 /// with its last motion.
 void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
-  const int resting = count_resting(life, object.tracks);
-  if (!background_->is_known) object.tracks = 0;
-  if (object.tracks > 0 && resting >= kMost * life.usual_blocks) {
-    for (size_t i = 0; i < owners_before_.size(); ++i) {
-      const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;
-      if (is_its) owners_[i] = life.key;
-    }
-    life.expected_px_s.setZero();
-    life.resting_s += frame.interval_s;
-    life.unseen_s = 0;
-    object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
+  if (life.unseen_s == 0 && life.resting_s == 0) object.has_left = has_left(life, frame);
+  const Remains remains = remains_of(life);
+  object.tracks = background_->is_known ? remains.textured : 0;
+  if (object.tracks > 0 && remains.blocks >= kMost * life.usual_blocks) {
+    stay(life, remains, frame);
   } else {
     object.tracks = 0;
     life.unseen_s += frame.interval_s;

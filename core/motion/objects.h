@@ -98,13 +98,23 @@ class ObjectTracker {
     void change_pixels(double ratio);
   };
 
+  /// Blocks on which an object was before, and which now do not clearly move by themselves.
+  struct Remains {
+    int blocks = 0;
+    int textured = 0;                                    ///< those of them that show how they move
+    Eigen::Vector2d moved_px = Eigen::Vector2d::Zero();  ///< mean of these, against the background
+  };
+
   void claim(const FieldInFrame& frame);
   Life* owner_of(int16_t region);
   Life* expected_at(const Region& region, const FieldInFrame& frame);
   bool is_same_motion(const Life& life, const Region& region, const FieldInFrame& frame) const;
+  static bool is_enough(const Region& region, const Life* life);
   uint32_t create(const Region& region);
   void observe(Life& life, const FieldInFrame& frame);
-  int count_resting(const Life& life, int& textured) const;
+  Remains remains_of(const Life& life) const;
+  bool has_left(const Life& life, const FieldInFrame& frame) const;
+  void stay(Life& life, const Remains& remains, const FieldInFrame& frame);
   void miss(Life& life, const FieldInFrame& frame);
   void expect(Life& life, const FieldInFrame& frame) const;
   void go_on_unseen(Life& life, const FieldInFrame& frame) const;

@@ -15,12 +15,7 @@ namespace {
 /// Blocks without texture are taken to move as their neighbours do.
 bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
   if (!a.has_texture || !b.has_texture) return true;
-  const float fastest_px2 =
-      std::max(a.x_px * a.x_px + a.y_px * a.y_px, b.x_px * b.x_px + b.y_px * b.y_px);
-  const float x = a.x_px - b.x_px;
-  const float y = a.y_px - b.y_px;
-  const auto most_px = static_cast<float>(alike_px(static_cast<double>(std::sqrt(fastest_px2))));
-  return x * x + y * y < most_px * most_px;
+  return are_alike({a.x_px, a.y_px}, {b.x_px, b.y_px});
 }
 
 /// Whether a block is at the border of the film, or of the part of it that was in the previous
@@ -47,10 +42,6 @@ bool is_beside_graphics(const BlockGrid& grid, const std::vector<RelativeBlock>&
 }
 
 }  // namespace
-
-double alike_px(double fastest_px) {
-  return kAlikeShare * fastest_px + kMotionSigmas * kUsualNoise_px;
-}
 
 int RegionFinder::root_of(int block) {
   auto i = static_cast<size_t>(block);
@@ -81,6 +72,7 @@ void RegionFinder::describe(const BlockField& field, const std::vector<RelativeB
     const int column = static_cast<int>(i) % grid.columns;
     const int row = static_cast<int>(i) / grid.columns;
     ++region.blocks;
+    region.lasts |= relative[i].lasts;
     region.border_blocks += is_at_border(grid, relative, column, row);
     region.graphics_blocks += is_beside_graphics(grid, relative, column, row);
     const Eigen::Vector2d at_px(block.x_px, block.y_px);
@@ -134,17 +126,12 @@ const std::vector<Region>& RegionFinder::find(const BlockField& field,
     }
   }
 
-  size_.assign(n, 0);
-  for (size_t i = 0; i < n; ++i) {
-    if (relative[i].moves) ++size_[static_cast<size_t>(root_of(static_cast<int>(i)))];
-  }
   regions_.clear();
   region_of_root_.assign(n, kNoRegion);
   labels_.assign(n, kNoRegion);
   for (size_t i = 0; i < n; ++i) {
     if (!relative[i].moves) continue;
     const auto root = static_cast<size_t>(root_of(static_cast<int>(i)));
-    if (size_[root] < kConfirmed) continue;
     if (region_of_root_[root] == kNoRegion) {
       region_of_root_[root] = static_cast<int16_t>(regions_.size());
       regions_.emplace_back();

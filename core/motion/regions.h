@@ -23,6 +23,7 @@ struct Region {
   int border_blocks = 0;
   /// Number of them that something burned in covers, or that have such a neighbour.
   int graphics_blocks = 0;
+  bool lasts = false;  ///< one of its blocks does, see RelativeBlock
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero();       ///< upper left corner of its box
   Eigen::Vector2d high_px = Eigen::Vector2d::Zero();      ///< lower right
@@ -34,13 +35,6 @@ struct Region {
   double roundness = 0;
 };
 
-/// Of the motion of a body, by how much that of its limbs may differ from it.
-constexpr double kAlikeShare = kMost;
-
-/// Two motions of the same thing differ by less than this, px of the field's picture: kAlikeShare
-/// of `fastest_px`, the length of the longer one, and the noise of a block.
-double alike_px(double fastest_px);
-
 /// Label of blocks that belong to no region.
 constexpr int16_t kNoRegion = -1;
 
@@ -49,8 +43,7 @@ class RegionFinder {
  public:
   RegionFinder() { regions_.reserve(kMostRegions); }
 
-  /// Finds regions among the blocks that move and drops those of fewer than kConfirmed
-  /// blocks.
+  /// Finds the regions of the blocks that move, down to single blocks.
   const std::vector<Region>& find(const BlockField& field,
                                   const std::vector<RelativeBlock>& relative);
 
@@ -66,7 +59,6 @@ class RegionFinder {
                 int16_t label);
 
   std::vector<int> parent_;
-  std::vector<int> size_;
   std::vector<int16_t> region_of_root_;
   std::vector<int16_t> labels_;
   std::vector<float> x_px_;

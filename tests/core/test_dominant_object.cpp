@@ -122,6 +122,28 @@ TEST(DominantObject, LeavesOneThatIsGone) {
   EXPECT_EQ(choice(dominant, {}, kLong), 0u);
 }
 
+TEST(DominantObject, DoesNotWaitForOneThatHasLeftThePicture) {
+  DominantObject dominant;
+  choice(dominant, {object(1, 10), object(2, 9)}, kLong);
+  MovingObject gone = out_of_sight(1);
+  gone.has_left = true;
+  EXPECT_EQ(choice(dominant, {gone, object(2, 9)}), 2u);
+}
+
+TEST(DominantObject, GoesOnAtOnceWithWhatIsAtThePlaceOfALostOne) {
+  MovingObject lost = out_of_sight(1);
+  lost.size_px << 40, 40;
+  MovingObject there = object(2, 9);
+  there.size_px << 20, 20;
+  // All of it is inside the lost one, then less than half of it.
+  for (const auto& [x_px, expected] : {std::pair(10.0, 2u), std::pair(21.0, 1u)}) {
+    DominantObject dominant;
+    choice(dominant, {object(1, 10)}, kLong);
+    there.position_px.x() = x_px;
+    EXPECT_EQ(choice(dominant, {lost, there}), expected) << x_px;
+  }
+}
+
 TEST(DominantObject, DoesNotGoToOneThatRests) {
   DominantObject dominant;
   choice(dominant, {object(1, 10), object(2, 9)});

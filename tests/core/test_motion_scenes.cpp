@@ -84,24 +84,25 @@ constexpr double kRests_px = 3 * 0.1;
 
 /// What is left of a velocity, and what is beside it, over many frames.
 struct Comparison {
-  double along = 0;     ///< Σ found · true
-  double square = 0;    ///< Σ true²
-  double errors = 0;    ///< Σ error²
-  double worst_px = 0;  ///< largest error of a displacement
-  int missed = 0;       ///< frames without anything felt although the object moves
-  int frames = 0;
+  double along = 0;               ///< Σ found · true
+  double square = 0;              ///< Σ true²
+  std::vector<double> errors_px;  ///< of each displacement
+  int missed = 0;                 ///< frames without anything felt although the object moves
 
   void add(const FrameAnalysis& frame, const Eigen::Vector2d& moved_px) {
     const Eigen::Vector2d found_px = frame.motion.velocity_px_s * kFrame_s;
     along += found_px.dot(moved_px);
     square += moved_px.squaredNorm();
-    worst_px = std::max(worst_px, (found_px - moved_px).norm());
-    errors += (found_px - moved_px).squaredNorm();
+    errors_px.push_back((found_px - moved_px).norm());
     missed += frame.motion.tracked == 0 && moved_px.norm() > kRests_px;
-    ++frames;
   }
   double left() const { return along / square; }
-  double rms_px() const { return std::sqrt(errors / frames); }
+  double worst_px() const { return *std::max_element(errors_px.begin(), errors_px.end()); }
+  double median_px() {
+    const auto middle = errors_px.begin() + static_cast<ptrdiff_t>(errors_px.size() / 2);
+    std::nth_element(errors_px.begin(), middle, errors_px.end());
+    return *middle;
+  }
 };
 
 /// A disc that goes back and forth in a curve, before a camera that pans by `pan_px` a frame.
@@ -137,12 +138,13 @@ TEST(ObjectMotion, IsTheDiscsInFrontOfATextureWhereTheMeanLosesIt) {
   EXPECT_LT(mean.left(), 0.2);
   for (const uint32_t seed : {1u, 2u, 3u}) {
     for (const MotionKind kind : {MotionKind::kObject, MotionKind::kObjects}) {
-      const Comparison object = follow_disc(kind, 56, {0, 0}, 1, false, seed);
-      std::printf("speed left: mean %.3f, object %.3f; rms %.3f px\n", mean.left(), object.left(),
-                  object.rms_px());
+      Comparison object = follow_disc(kind, 56, {0, 0}, 1, false, seed);
+      std::printf("speed left: mean %.3f, object %.3f; median error %.3f px\n", mean.left(),
+                  object.left(), object.median_px());
       EXPECT_NEAR(object.left(), 1, 0.03) << "seed " << seed;
-      // In single frames points that slide along the rim outnumber those on the disc.
-      EXPECT_LT(object.rms_px(), tolerance_px(7)) << "seed " << seed;
+      // In single frames points that slide along the rim outnumber those on the disc: in the middle
+      // it is as exact as a window that sees nothing but the disc.
+      EXPECT_LT(object.median_px(), 0.1) << "seed " << seed;
       EXPECT_EQ(object.missed, 0) << "seed " << seed;
     }
   }
@@ -155,7 +157,7 @@ TEST(ObjectMotion, IsRelativeToTheBackgroundOfAPan) {
   for (const double speed : {1.0, 2.0}) {
     const Comparison object = follow_disc(MotionKind::kObject, 56, pan_px, speed);
     EXPECT_NEAR(object.left(), 1, 0.03);
-    EXPECT_LT(object.worst_px, tolerance_px(20)) << "speed " << speed;
+    EXPECT_LT(object.worst_px(), tolerance_px(20)) << "speed " << speed;
     EXPECT_EQ(object.missed, 0);
   }
 }
@@ -167,7 +169,7 @@ TEST(ObjectMotion, KeepsTheSpeedOfADiscOnAPlainBackground) {
   for (const double radius_px : {14.0, 56.0}) {
     const Comparison object = follow_disc(MotionKind::kObject, radius_px, {0, 0}, 1, true);
     EXPECT_NEAR(object.left(), 1, 0.01) << radius_px;
-    EXPECT_LT(object.worst_px, worst_px) << radius_px;
+    EXPECT_LT(object.worst_px(), worst_px) << radius_px;
   }
 }
 

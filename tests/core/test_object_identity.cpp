@@ -13,7 +13,7 @@
 
 #include "core/analysis/motion_analyzer.h"
 #include "core/motion/objects.h"
-#include "core/tracking/padded_image.h"
+#include "tests/core/field_film.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene_film.h"
 #include "tests/support/texture.h"
@@ -25,7 +25,6 @@ using Eigen::Vector2d;
 using test::in_disc;
 using test::kSceneFrame_ns;
 using test::kSceneFrame_s;
-using test::Picture;
 using test::Scene;
 using test::Texture;
 
@@ -294,36 +293,20 @@ TEST(ObjectIdentity, OneThatStandsStillForAMomentIsTheSame) {
 /// move with the background and the rest by `depth_px` more: up left of the disc's middle, down
 /// right of it. 60 % of the picture is such a layer.
 int times_found(double depth_px) {
-  constexpr int kWidth = 427;
-  constexpr int kHeight = 240;
-  constexpr int kFrames = 6;
   const Vector2d camera_px(0.5, 0);
   const Vector2d disc_px(3, 0);
   const Texture wall(1, 8);
   const Texture cover(2, 8);
-  Background background{{}, 0.1, 0.4};
-  background.model.kind = ModelKind::kTranslation;
-  background.model.shift_px = camera_px;
-  BlockField field;
-  ObjectTracker tracker;
-  const std::vector<PlacedPoint> no_points;
+  const auto scene = [&](int n, const Vector2d& at) {
+    const Vector2d centre = Vector2d(200, 120) + n * (camera_px + disc_px);
+    if (in_disc(at, centre, 36)) return cover.at(at.x() - centre.x(), at.y() - centre.y());
+    const bool is_layer = at.x() > 0.2 * test::kFieldWidth && at.x() < 0.8 * test::kFieldWidth;
+    const double up_px = !is_layer ? 0 : at.x() < 0.5 * test::kFieldWidth ? -depth_px : depth_px;
+    return wall.at(at.x() - n * camera_px.x(), at.y() - n * up_px);
+  };
   int found = 0;
-  for (int n = 0; n < kFrames; ++n) {
-    Picture picture(kWidth, kHeight);
-    picture.fill([&](double x, double y) {
-      const Vector2d at(x, y);
-      const Vector2d centre = Vector2d(200, 120) + n * (camera_px + disc_px);
-      if (in_disc(at, centre, 36)) return cover.at(x - centre.x(), y - centre.y());
-      const bool is_layer = x > 0.2 * kWidth && x < 0.8 * kWidth;
-      const double up_px = !is_layer ? 0 : x < 0.5 * kWidth ? -depth_px : depth_px;
-      return wall.at(x - n * camera_px.x(), y - n * up_px);
-    });
-    PaddedImage padded;
-    reduce_blocks(picture.view(), 1, padded);
-    padded.repeat_border();
-    if (field.update(padded) != BlockField::Result::kMoved) continue;
-    for (const MovingObject& object :
-         tracker.update({field, 1, {0, 0}, kSceneFrame_s, no_points}, background)) {
+  for (const auto& objects : test::objects_in(scene, 6, test::background_moved_by(camera_px))) {
+    for (const MovingObject& object : objects) {
       found +=
           (object.relative_px_s * kSceneFrame_s - disc_px).norm() < 0.5 && object.prominence > 0;
     }

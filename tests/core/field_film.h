@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What an ObjectTracker finds in pictures of the size in which motion is measured.
+#pragma once
+
+#include <vector>
+
+#include "core/field/block_field.h"
+#include "core/motion/objects.h"
+#include "core/tracking/padded_image.h"
+#include "tests/support/picture.h"
+#include "tests/support/scene_film.h"
+
+namespace spidar::test {
+
+constexpr int kFieldWidth = 427;
+constexpr int kFieldHeight = 240;
+
+/// A background that moves by so much in each frame, with noise of a standard deviation `noise_px`.
+inline Background background_moved_by(const Eigen::Vector2d& shift_px,
+                                      double noise_px = kUsualNoise_px) {
+  Background background{{}, noise_px, 0.4};
+  if (!shift_px.isZero()) background.model.kind = ModelKind::kTranslation;
+  background.model.shift_px = shift_px;
+  return background;
+}
+
+/// The objects of frames 1 … `frames` − 1 of a scene, in px of the frame, kSceneFrame_s apart.
+inline std::vector<std::vector<MovingObject>> objects_in(const Scene& scene, int frames,
+                                                         const Background& background) {
+  BlockField field;
+  ObjectTracker tracker;
+  const std::vector<PlacedPoint> no_points;
+  std::vector<std::vector<MovingObject>> found;
+  for (int n = 0; n < frames; ++n) {
+    Picture picture(kFieldWidth, kFieldHeight);
+    picture.fill([&](double x, double y) { return scene(n, {x, y}); });
+    PaddedImage padded;
+    reduce_blocks(picture.view(), 1, padded);
+    padded.repeat_border();
+    if (field.update(padded) != BlockField::Result::kMoved) continue;
+    found.push_back(tracker.update({field, 1, {0, 0}, kSceneFrame_s, no_points}, background));
+  }
+  return found;
+}
+
+}  // namespace spidar::test
