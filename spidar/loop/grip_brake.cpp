@@ -20,8 +20,24 @@ constexpr double kRelease_s = 0.01;
 /// The grip must move within 37° of the way that the strings would move it, …
 constexpr double kAligned = 0.8;
 /// … and at no less than this share and no more than this multiple of the speed.
-constexpr double kLeastShare = 0.9;
+constexpr double kLeastShare = 0.85;
 constexpr double kMostShare = 3;
+/// Force and displacement are smoothed over this time, in which a grip in a loose hand follows.
+constexpr double kYieldTime_s = 0.05;
+/// A softer hold is a loose hand or none: a firm hand has 300 N/m, a light one 100.
+constexpr double kLooseHand_N_m = 100;
+/// A smaller displacement is no yielding: a hand moves by as much without any force.
+constexpr double kLeastYield_m = 0.01;
+/// A weaker force tells nothing.
+constexpr double kTellingForce_N = 0.1;
+/// A hand that is stiffer than kFirmHand_N_m for this long, at that force at least, has shown that
+/// it is there. A bare grip in a loose hand needs 70 ms to follow a force.
+constexpr double kFirmHand_N_m = 200;
+constexpr double kFirmForce_N = 0.3;
+constexpr double kWithstands_s = 0.3;
+/// Before that, a grip that is this far and this fast along the force (kAligned) is thrown.
+constexpr double kThrown_m = 0.03;
+constexpr double kThrown_m_s = 0.4;
 /// From a pose to the force that depends on it: a tick until the next exchange, and half a tick in
 /// which it is held.
 constexpr double kLoop_s = 1.5e-3;
@@ -56,6 +72,7 @@ void GripBrake::reset() noexcept {
   given_m_s_.setZero();
   seen_m_s_.setZero();
   last_m_s_.setZero();
+  located_ = false;
 }
 
 void GripBrake::pull(const Wrench& strings, double dt_s) noexcept {
@@ -67,11 +84,42 @@ void GripBrake::pull(const Wrench& strings, double dt_s) noexcept {
   strings_N_ = strings.force_N;
 }
 
-void GripBrake::see(const GripMotion& motion, double dt_s) noexcept {
+void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion,
+                    double dt_s) noexcept {
+  compare_with_force(position_m, dt_s);
   const Eigen::Vector3d& now_m_s = motion.velocity().linear_m_s;
   seen_m_s_ += now_m_s - last_m_s_;
   seen_m_s_ *= 1 - share_passed(dt_s, kMemory_s);
   last_m_s_ = now_m_s;
+}
+
+void GripBrake::compare_with_force(const Eigen::Vector3d& position_m, double dt_s) noexcept {
+  if (resting_s_ > 0 || !located_) {
+    from_m_ = position_m;
+    gone_m_.setZero();
+    pulled_N_.setZero();
+    withstood_s_ = 0;
+    located_ = true;
+  }
+  const double share = share_passed(dt_s, kYieldTime_s);
+  gone_m_ += share * (position_m - from_m_ - gone_m_);
+  pulled_N_ += share * (strings_N_ - pulled_N_);
+  const double force_N = pulled_N_.norm();
+  if (force_N < kFirmForce_N) return;
+  const bool firm = kFirmHand_N_m * pulled_N_.dot(gone_m_) < force_N * force_N;
+  withstood_s_ = firm ? withstood_s_ + dt_s : 0;
+}
+
+bool GripBrake::yields(const GripMotion& motion) const noexcept {
+  const double force_N = pulled_N_.norm();
+  if (!(force_N > kTellingForce_N)) return false;
+  const double along_m = pulled_N_.dot(gone_m_) / force_N;
+  if (along_m < kLeastYield_m || kLooseHand_N_m * along_m < force_N) return false;
+  if (share_ < 1) return true;
+  const Eigen::Vector3d& velocity_m_s = motion.velocity().linear_m_s;
+  const double speed_m_s = velocity_m_s.norm();
+  return withstood_s_ < kWithstands_s && gone_m_.norm() > kThrown_m && speed_m_s > kThrown_m_s &&
+         velocity_m_s.dot(pulled_N_) > kAligned * speed_m_s * force_N;
 }
 
 bool GripBrake::is_released(const GripMotion& motion) const noexcept {
@@ -85,7 +133,7 @@ bool GripBrake::is_released(const GripMotion& motion) const noexcept {
 }
 
 Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept {
-  if (is_released(motion)) resting_s_ = kRest_s;
+  if (is_released(motion) || (resting_s_ <= 0 && yields(motion))) resting_s_ = kRest_s;
   if (resting_s_ > 0) {
     resting_s_ -= dt_s;
     share_ = std::max(0.0, share_ - dt_s / kRelease_s);

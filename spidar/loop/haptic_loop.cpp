@@ -233,7 +233,7 @@ void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
 void HapticLoop::follow(double dt_s) noexcept {
   const GripReading& grip = grip_->reading();
   if (!grip.knows_pose() || !grip_->traits().can_fly) return brake_.reset();
-  brake_.see(grip.motion, dt_s);
+  brake_.see(grip.pose.position_m, grip.motion, dt_s);
   brake_.pull(grip.delivered, dt_s);
 }
 
