@@ -217,8 +217,10 @@ def observed(fields):
     haptic = ["", "## Columns of `haptic-trace`", "",
               "One line for each millisecond. A star stands for an axis, or for the number of a string.", "",
               *field_list(fields, "haptic-trace", shorter(tick_header))]
-    motion = ["", "## Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame. A star stands for "
-              "an axis:", "", *field_list(fields, "message", messages, messages), "", "## Fields of `stats`",
+    motion = ["", "## Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame. It comes when the "
+              "frame is analysed, and behind a queue the frame is shown up to a second later: use the message at its "
+              "`running-time`, as [motion_messages.py](../../examples/motion_messages.py) and "
+              "[gtk_arrow.py](../../examples/gtk_arrow.py) do. A star stands for an axis:", "", *field_list(fields, "message", messages, messages), "", "## Fields of `stats`",
               *stats_lists(fields, stats, {"stats.video": "Of the video:", "stats.device": "Of the device, while there is one:"}),
               "", "## Columns of `trace`", "", "CSV, one line for each frame:", "", *field_list(fields, "trace", shorter(header)),
               "", "JSON, one line for each frame, if the name ends in `.jsonl`; lists of two or three numbers are vectors:", "",
