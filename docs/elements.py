@@ -182,11 +182,12 @@ def stats_lists(fields, stats, parts):
 
 
 def shorter(columns):
-    """Fields that differ only in an axis or a number, as one with a star."""
+    """Fields that differ only in an axis, a number or a quantile, as one with a star."""
     names = []
     for column in columns:
         name = re.sub(r"^(.*(?:force|torque|position|velocity))([_-])[xyz](?=[_-]|$)", r"\1\2*", column)
         name = re.sub(r"^orientation_[wxyz]$", "orientation_*", re.sub(r"^tension_\d+_N$", "tension_*_N", name))
+        name = re.sub(r"^(.*-[mu]s)-(?:median|p\d+|max)$", r"\1-*", name)
         if name not in names:
             names.append(name)
     return names
@@ -213,14 +214,15 @@ def observed(fields):
         tick_header = Path(ticks).read_text(encoding="utf-8").split("\n")[0].split(",")
         objects = [json.loads(line) for line in Path(lines).read_text(encoding="utf-8").splitlines()]
     fullest = max((json_fields(line) for line in objects), key=len)
-    messages = shorter_types(messages)
+    messages, stats, track_stats = (shorter_types(types) for types in (messages, stats, track_stats))
     haptic = ["", "## Columns of `haptic-trace`", "",
               "One line for each millisecond. A star stands for an axis, or for the number of a string.", "",
               *field_list(fields, "haptic-trace", shorter(tick_header))]
     motion = ["", "## Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame. It comes when the "
-              "frame is analysed, and behind a queue the frame is shown up to a second later: use the message at its "
+              "frame is analysed, which behind a queue is up to a second before the frame is shown. Use it at its "
               "`running-time`, as [motion_messages.py](../../examples/motion_messages.py) and "
-              "[gtk_arrow.py](../../examples/gtk_arrow.py) do. A star stands for an axis:", "", *field_list(fields, "message", messages, messages), "", "## Fields of `stats`",
+              "[gtk_arrow.py](../../examples/gtk_arrow.py) do. A star stands for x, y and z:", "",
+              *field_list(fields, "message", messages, messages), "", "## Fields of `stats`",
               *stats_lists(fields, stats, {"stats.video": "Of the video:", "stats.device": "Of the device, while there is one:"}),
               "", "## Columns of `trace`", "", "CSV, one line for each frame:", "", *field_list(fields, "trace", shorter(header)),
               "", "JSON, one line for each frame, if the name ends in `.jsonl`; lists of two or three numbers are vectors:", "",
