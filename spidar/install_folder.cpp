@@ -13,19 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file from which this code was loaded; empty when the system does not tell.
-fs::path own_file() {
-  Dl_info info{};
-  void* extra = nullptr;
-  // Any address within this code will do.
-  void* here = reinterpret_cast<void*>(&prefix_of);
-  if (!dladdr1(here, &info, &extra, RTLD_DL_LINKMAP) || !extra) return {};
-  std::error_code error;
-  // The main program has no name in the list of loaded files.
-  const char* name = static_cast<link_map*>(extra)->l_name;
-  return fs::canonical(name && *name ? fs::path(name) : "/proc/self/exe", error);
-}
-
 /// `folder` without the suffix `end`; empty when it does not end with it.
 fs::path without_end(const fs::path& folder, const fs::path& end) {
   fs::path rest = folder;
@@ -37,6 +24,18 @@ fs::path without_end(const fs::path& folder, const fs::path& end) {
 }
 
 }  // namespace
+
+fs::path own_file() {
+  Dl_info info{};
+  void* extra = nullptr;
+  // Any address within this code will do.
+  void* here = reinterpret_cast<void*>(&prefix_of);
+  if (!dladdr1(here, &info, &extra, RTLD_DL_LINKMAP) || !extra) return {};
+  std::error_code error;
+  // The main program has no name in the list of loaded files.
+  const char* name = static_cast<link_map*>(extra)->l_name;
+  return fs::canonical(name && *name ? fs::path(name) : "/proc/self/exe", error);
+}
 
 fs::path prefix_of(const fs::path& file) {
   const fs::path libraries = SPIDAR_LIBDIR;

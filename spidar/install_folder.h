@@ -8,6 +8,10 @@
 
 namespace spidar {
 
+/// The file from which this code was loaded, a program or a library; empty when the system does not
+/// tell.
+std::filesystem::path own_file();
+
 /// The folder that `file` is installed below, when it lies in that folder's folder for libraries,
 /// plugins of GStreamer, or programs; empty when it lies anywhere else, as in a build folder.
 std::filesystem::path prefix_of(const std::filesystem::path& file);

@@ -110,9 +110,9 @@ largest='NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "commanded_force_x_N") co
 
 try_packages() {
     new_root
-    local name names=(gstreamer1.0-spidar libgst-spidar0 libgst-spidar-dev spidar-tools python3-gst-spidar) packages=()
+    local name names=(gstreamer1.0-spidar libgst-spidar0 libgst-spidar-dev spidar-tools spidar-window python3-gst-spidar) packages=()
     for name in "${names[@]}"; do packages+=("/$name.deb") && cp "$folder/${name}"_*.deb "$root/$name.deb"; done
-    say "the five packages in a fresh $release"
+    say "the six packages in a fresh $release"
     apt update
     apt install -y --no-install-recommends "${packages[@]}"
     in_root test -f /usr/lib/udev/rules.d/70-spidar.rules -a -x /usr/libexec/gst-spidar/spidar-guardian
@@ -137,4 +137,4 @@ try_packages() {
 make_debian "$suite" "$base"
 build_packages
 try_packages
-echo "$release: five packages built and installed, lintian reports nothing, and a clip was felt"
+echo "$release: six packages built and installed, lintian reports nothing, and a clip was felt"

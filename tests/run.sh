@@ -162,7 +162,7 @@ case ${1-} in
     echo "left out: examples, programs of their own; numerics, tests that sample thousands of cases of" \
         "arithmetic and are 10 to 70 times slower here, or count what is taken from the heap; short-films, players" \
         "whose film is over or paused before one that is built with the sanitizer gives force; api_installed," \
-        "api_python, pipelines_player_mouse and window_choice, whose programs are built without it. All have run above."
+        "api_python, pipelines_player_mouse, whose programs are built without it. All have run above."
     export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
     # By the fast way, stacks end in GLib; twelve calls instead of thirty are enough for leaks.supp.
     export ASAN_OPTIONS=fast_unwind_on_malloc=0:malloc_context_size=12

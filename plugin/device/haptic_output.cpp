@@ -186,15 +186,15 @@ bool HapticOutput::look_at_device(DeviceView& view) {
   view.name = session_->grip().name();
   view.has_hand = simulated_ != nullptr;
   view.has_strings = session_->grip().traits().has_strings;
-  view.loop = session_->loop().snapshot();
-  view.wanted = view.delivered = {};
+  const LoopSnapshot loop = session_->loop().snapshot();
+  view.last = loop.last;
+  view.overruns = loop.counters.overruns;
+  view.ticks.clear();
   // Where nobody looked for long, the oldest ticks are there and the newest are not.
-  const int64_t oldest_ns = view.loop.last.monotonic_ns - kLongestLook_ns;
+  const int64_t oldest_ns = view.last.monotonic_ns - kLongestLook_ns;
   ForceTick tick;
   while (session_->loop().pop_force(tick)) {
-    if (tick.monotonic_ns < oldest_ns) continue;
-    view.wanted.add(tick.wanted_N);
-    view.delivered.add(tick.delivered_N);
+    if (tick.monotonic_ns >= oldest_ns) view.ticks.push_back(tick);
   }
   view.geometry = profile_.geometry;
   view.min_tension_N = profile_.min_tension_N();

@@ -90,23 +90,20 @@ class ElementSource final : public WindowSource {
   }
   ~ElementSource() override { g_weak_ref_clear(&element_); }
 
-  bool read(ElementState& state) override {
+  void read(ElementState& state) override {
     const Ref<GstElement> held = hold(element_);
-    if (!held) return false;
+    if (!held) return;
+    state = {};
     state.name = GST_OBJECT_NAME(held.get());
-    if (state.settings.empty()) list_settings(held.get(), state.settings);
+    if (settings_.empty()) list_settings(held.get(), settings_);
+    state.settings = settings_;
     for (Setting& setting : state.settings) {
       setting.value = get_value(G_OBJECT(held.get()), setting);
     }
-    DeviceView device;
     state.rules = choice_.rules();
-    state.limit = engine_.no_force_reason();
-    if (engine_.output().look_at_device(device)) {
-      state.device = std::move(device);
-    } else {
-      state.device.reset();
-    }
-    return true;
+    state.no_force = sentence(engine_.no_force_reason());
+    DeviceView device;
+    if (engine_.output().look_at_device(device)) state.device = std::move(device);
   }
 
   void set(const std::string& name, double wanted) override {
@@ -143,9 +140,9 @@ class ElementSource final : public WindowSource {
     if (held) choice_.mouse().keep(place);
   }
 
-  Saved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
+  ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
     const Ref<GstElement> held = hold(element_);
-    if (!held) return {};
+    if (!held) return {false, "Not saved: the element is gone."};
     gchar* property = nullptr;
     g_object_get(held.get(), "feel", &property, nullptr);
     const std::string feel = property ? property : "";
@@ -195,6 +192,7 @@ class ElementSource final : public WindowSource {
   // Only while the element is held.
   MotionEngine& engine_;
   MotionChoice& choice_;
+  std::vector<Setting> settings_;  ///< without their values
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "plugin/choice/motion_choice.h"
 #include "plugin/engine/motion_engine.h"
-#include "plugin/window/model/window_source.h"
+#include "plugin/window/window_source.h"
 
 namespace spidar {
 

@@ -18,17 +18,17 @@ namespace spidar {
 void MotionDisplay::show(const FrameReport& report, const DisplayProperties& properties,
                          const AnalyzerSettings& settings, GstVideoFrame& frame) {
   hand_.see(report, GST_VIDEO_FRAME_WIDTH(&frame), GST_VIDEO_FRAME_HEIGHT(&frame));
-  const std::shared_ptr<FrameFeed> window_feed = feed();
-  const bool shown = properties.overlay || properties.attach_meta || window_feed;
+  const std::shared_ptr<Window> shown_in = window();
+  const bool shown = properties.overlay || properties.attach_meta || shown_in;
   if (!report.analyzed || !shown) {
     viewer_.reset();
     return;
   }
-  if (window_feed) follow_film(report);
+  if (shown_in) follow_film(report);
   const VisiblePart& visible = report.part;
   const SceneView& scene = viewer_.see(report.analysis, visible, report.turn);
   // Before the overlay draws into the frame, because the window draws arrows of its own.
-  if (window_feed && window_waits_) {
+  if (shown_in && window_waits_) {
     FrameFacts facts;
     facts.running_ns = static_cast<int64_t>(report.running_time);
     facts.film = film_;
@@ -36,9 +36,12 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
     facts.interval_s = 1e-9 * static_cast<double>(report.analysis.interval_ns);
     facts.visible = visible;
     facts.scene = scene;
-    facts.settings = settings;
+    facts.motion = settings.motion;
+    facts.controller = settings.controller;
+    facts.speed_px_s = controller_speed_px_s(scene.motion, settings.axes, visible.height);
+    facts.click = settings.kept.click;
     facts.touch = report.touch;
-    window_feed->give(frame, facts);
+    shown_in->give(frame, std::move(facts));
   }
   // Both properties may have been turned on after the buffer was prepared for them.
   if (properties.attach_meta && gst_buffer_is_writable(frame.buffer)) {
@@ -80,14 +83,9 @@ void MotionDisplay::follow_film(const FrameReport& report) {
 }
 
 bool MotionDisplay::window_waits() {
-  const std::shared_ptr<FrameFeed> window_feed = feed();
-  window_waits_ = window_feed && window_feed->wanted();
+  const std::shared_ptr<Window> shown_in = window();
+  window_waits_ = shown_in && shown_in->wants_frame();
   return window_waits_;
-}
-
-std::shared_ptr<FrameFeed> MotionDisplay::feed() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return feed_;
 }
 
 std::shared_ptr<Window> MotionDisplay::window() const {
@@ -101,28 +99,26 @@ std::shared_ptr<WindowSource> MotionDisplay::source() const {
 
 void MotionDisplay::open_window() {
   if (window()) return;
-  auto new_feed = std::make_shared<FrameFeed>();
-  auto new_window = std::make_shared<Window>(source(), new_feed);
-  // If another thread has opened a window meanwhile, this one closes at the end of the function.
+  auto new_window = std::make_shared<Window>(source());
+  // If another thread has opened a window meanwhile, this one closes at the end.
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (window_) return;
-  window_ = std::move(new_window);
-  feed_ = std::move(new_feed);
+  if (!window_) window_.swap(new_window);
 }
 
 void MotionDisplay::close_window() {
   std::shared_ptr<Window> closing;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  closing.swap(window_);
-  feed_.reset();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    closing.swap(window_);
+  }
+  // Here, and not where the last reference goes, which may be the streaming thread's.
+  if (closing) closing->close();
 }
 
 std::string MotionDisplay::save_window(const std::string& path) {
   constexpr std::chrono::seconds kTimeout{5};
   const std::shared_ptr<Window> shown = window();
-  if (!shown) return "there is no debug window";
-  const std::optional<Screenshot> shot = shown->screenshot(kTimeout);
-  return shot ? write_png(*shot, path) : "the debug window does not answer";
+  return shown ? shown->take_picture(path, kTimeout) : "there is no debug window";
 }
 
 }  // namespace spidar

@@ -58,7 +58,6 @@ class MotionDisplay {
   std::string save_window(const std::string& path);
 
  private:
-  std::shared_ptr<FrameFeed> feed() const;
   void follow_film(const FrameReport& report);
 
   GstElement* const element_;
@@ -72,7 +71,6 @@ class MotionDisplay {
 
   mutable std::mutex mutex_;  // never held while a window opens or closes
   std::shared_ptr<Window> window_;
-  std::shared_ptr<FrameFeed> feed_;  // null while there is no window
 };
 
 }  // namespace spidar

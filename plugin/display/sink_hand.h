@@ -8,7 +8,7 @@
 #include "plugin/choice/sink_mouse.h"
 #include "plugin/device/haptic_output.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/window/model/mouse_hand.h"
+#include "plugin/window/view/mouse_hand.h"
 
 namespace spidar {
 

@@ -19,6 +19,8 @@ class GripPointer {
   /// Nothing is known of a device: everything is the middle.
   GripPointer() = default;
   explicit GripPointer(const StringGeometry& geometry);
+  /// See half_size_m().
+  explicit GripPointer(const Eigen::Vector2d& half_size_m) : half_size_m_(half_size_m) {}
 
   /// (0, 0) is the top left corner of the picture, (1, 1) its bottom right one; a grip further out
   /// points at the edge.

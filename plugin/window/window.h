@@ -1,61 +1,55 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A debug window from outside: opened, looked at, closed.
+/// A debug window from the player's side: started, fed, obeyed, closed.
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
+#include <thread>
 
-#include "plugin/window/model/frame_feed.h"
-#include "plugin/window/model/mouse_hand.h"
-#include "plugin/window/model/window_source.h"
+#include <gst/video/video.h>
+
+#include "plugin/window/view/messages.h"
+#include "plugin/window/window_source.h"
 
 namespace spidar {
 
-/// RGB, rows from the top, without padding.
-struct Screenshot {
-  int width = 0, height = 0;
-  std::vector<uint8_t> rgb;
-};
-
-/// Empty, or why the file cannot be written.
-std::string write_png(const Screenshot& picture, const std::string& path);
-
-/// Whether this build has windows.
-bool windows_are_built_in();
-
-/// One window, drawn by the thread that all windows of the process share. Opening returns at once;
-/// what goes wrong then is said by source->warn(). Any thread.
+/// One window, which is a process of its own (spidar-window). Opening returns at once; what goes
+/// wrong then is said by source->warn(). Neither a window that is slow nor one that crashes holds
+/// up the player, whose own use of GL, GLFW or X it does not touch.
 class Window {
  public:
-  Window(std::shared_ptr<WindowSource> source, std::shared_ptr<FrameFeed> feed);
-  /// Closes it. Waits for that, but no longer than kPatience: a window system that hangs holds up
-  /// nobody else.
-  ~Window();
+  explicit Window(std::shared_ptr<WindowSource> source);
+  ~Window() { close(); }
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   static constexpr std::chrono::milliseconds kPatience{1000};
 
-  /// What the window shows once it has drawn all that it was given before this call. Nothing when
-  /// there is no window or it does not answer in time.
-  std::optional<Screenshot> screenshot(std::chrono::milliseconds timeout);
+  // --- streaming thread, which waits for nothing here
 
-  /// In pixels of the screen; for tests.
-  void resize(int width, int height);
-  /// As if the user had pressed a key of GLFW; for tests.
-  void press(int key);
-  /// As if the mouse was so, until the next call; for tests.
-  void set_mouse(const Mouse& mouse);
+  /// Whether give() will find room for a picture.
+  bool wants_frame() const;
+  /// Copies the frame. False when it is left out, because the window is slow or there is no memory:
+  /// the next will do.
+  bool give(const GstVideoFrame& frame, FrameFacts facts);
 
-  struct Entry;
+  // --- any thread
+
+  /// Waits until it is gone, but no longer than kPatience; then it is killed. Called by the
+  /// window's own thread, it does not wait.
+  void close();
+  /// Writes what the window shows, with all that it was given before, to a PNG file. Returns empty,
+  /// or why that cannot be done.
+  std::string take_picture(const std::string& path, std::chrono::milliseconds timeout);
+  /// As if a person had done it; for tests.
+  void input(const UserInput& input);
 
  private:
-  std::shared_ptr<Entry> entry_;
+  class Session;
+  std::shared_ptr<Session> session_;
+  std::thread thread_;
 };
 
 }  // namespace spidar

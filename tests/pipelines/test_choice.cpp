@@ -210,7 +210,7 @@ TEST(Feel, WhatCannotBeSavedIsToldAndChangesNothing) {
   Film film("feel=largest");
   film.play_to(kKnown);
   const FeelEdit edit{0, GST_SECOND, Vector2d(0.5, 0.5)};
-  const WindowSource::Saved none = film.window().save("", {edit});
+  const ChoicesSaved none = film.window().save("", {edit});
   EXPECT_FALSE(none.is_done);
   EXPECT_EQ(none.what,
             "Not saved: what is played comes from no file, beside which rules could be kept.");

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/window/model/object_click.h"
+#include "plugin/window/program/model/object_click.h"
 
 namespace spidar::test::object_click_test {
 namespace {
@@ -55,7 +55,7 @@ TEST(ObjectClick, ChoosesTheObjectThatItIsPressedOnOnce) {
 
 TEST(ObjectClick, OnTheChosenOneLetsGo) {
   FrameFacts chosen = facts();
-  chosen.settings.kept = {1, {0.75, 0.5}};
+  chosen.click = 1;
   chosen.scene.felt_object = 3;
   ObjectClick click;
   const std::optional<ObjectWish> wish = click.update(mouse_at({150, 50}, true), kPicture, chosen);
@@ -66,7 +66,7 @@ TEST(ObjectClick, OnTheChosenOneLetsGo) {
   const std::optional<ObjectWish> other = click.update(mouse_at({50, 50}, true), kPicture, chosen);
   EXPECT_TRUE(other && other->place) << "another one";
   // Felt, but not by a click.
-  chosen.settings.kept = {};
+  chosen.click = 0;
   const std::optional<ObjectWish> kept =
       ObjectClick().update(mouse_at({150, 50}, true), kPicture, chosen);
   EXPECT_TRUE(kept && kept->place);
@@ -86,7 +86,7 @@ TEST(ObjectClick, OfBoxesInEachOtherTheSmallestIsMeant) {
 TEST(ObjectClick, BesideObjectsAndWhereNoneAreKnownIsNone) {
   FrameFacts touched = facts(), mean = facts();
   touched.touch.on = true;
-  mean.settings.motion = MotionKind::kMean;
+  mean.motion = MotionKind::kMean;
   Mouse taken = mouse_at({150, 50}, true), outside = taken, nowhere = taken;
   taken.taken = true;
   outside.at_px << 700, 60;

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/window/model/object_click.h"
-#include "plugin/window/model/object_list.h"
+#include "plugin/window/program/model/object_click.h"
+#include "plugin/window/program/model/object_list.h"
 
 namespace spidar::test::object_list_test {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/window/model/film_strip.h"
-#include "plugin/window/model/scene_choices.h"
+#include "plugin/window/program/model/film_strip.h"
+#include "plugin/window/program/model/scene_choices.h"
 
 namespace spidar::test::scene_choices_test {
 namespace {
@@ -35,7 +35,7 @@ class Film {
         object.tracks = 10;
         facts.scene.objects.push_back(object);
       }
-      facts.settings.kept.click = click;
+      facts.click = click;
       choices_.see(facts);
     }
   }

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/window/model/timeline.h"
+#include "plugin/window/program/model/timeline.h"
 
 namespace spidar::test::timeline_test {
 namespace {
@@ -128,6 +128,46 @@ TEST(Timeline, AnotherStreamDoesNotTakeAwayAPausedView) {
   EXPECT_NE(timeline.still(), nullptr);
   timeline.resume();
   EXPECT_TRUE(timeline.moments().empty());
+}
+
+/// A force of 2 N to the right, which drops to nothing for 40 ms at 0.5 s.
+void add_ticks(Timeline& timeline) {
+  for (int ms = 0; ms < 1000; ++ms) {
+    ForceTick tick;
+    tick.monotonic_ns = int64_t{1'000'000} * ms;
+    tick.wanted_N.x() = 2;
+    tick.delivered_N.x() = ms >= 500 && ms < 540 ? 0 : 2;
+    timeline.add(tick);
+  }
+}
+
+TEST(Timeline, AForceHasTheLowestAndHighestOfTheMillisecondsOfEachColumn) {
+  Timeline timeline;
+  add_ticks(timeline);
+  // 10 ms each: the edges of the drop are in the columns 50 and 54.
+  const std::vector<ForceColumn> columns = timeline.columns(0, 1, 100);
+  for (size_t i = 0; i < columns.size(); ++i) {
+    ASSERT_FALSE(columns[i].is_empty) << i;
+    EXPECT_EQ(columns[i].wanted_low_N.x(), 2) << i;
+    EXPECT_EQ(columns[i].delivered_low_N.x(), i >= 50 && i <= 54 ? 0 : 2) << i;
+    EXPECT_EQ(columns[i].delivered_high_N.x(), i > 50 && i < 54 ? 0 : 2) << i;
+  }
+  EXPECT_EQ(columns[52].most_N, 0);
+}
+
+TEST(Timeline, AColumnWithoutATickContinuesTheOneBeforeExceptInAGap) {
+  Timeline timeline;
+  for (const int64_t ms : {0, 100, 200, 900}) {
+    ForceTick tick;
+    tick.monotonic_ns = 1'000'000 * ms;
+    tick.delivered_N.x() = static_cast<double>(ms);
+    timeline.add(tick);
+  }
+  const std::vector<ForceColumn> columns = timeline.columns(0, 1, 20);  // of 50 ms
+  EXPECT_EQ(columns[1].delivered_high_N.x(), 0);
+  EXPECT_EQ(columns[3].delivered_high_N.x(), 100);
+  EXPECT_TRUE(columns[10].is_empty) << "nothing is known of 0.7 s";
+  EXPECT_EQ(columns[18].delivered_low_N.x(), 900);
 }
 
 TEST(Still, AveragesSquares) {

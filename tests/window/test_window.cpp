@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Debug windows on an X server of the test; the frame buffer is read back.
+// Debug windows on an X server of the test: opened, used, closed, and everything that can go wrong.
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <GLFW/glfw3.h>
@@ -13,13 +17,6 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
-
-/// Mesa's drivers are unloaded before the sanitizer looks for leaks, so theirs cannot be told from
-/// ours by their names; Mesa and LLVM keep some for good.
-extern "C" int __lsan_is_turned_off();
-extern "C" int __lsan_is_turned_off() {
-  return 1;
-}
 
 namespace spidar::test::window_test {
 namespace {
@@ -33,11 +30,11 @@ TEST_F(WindowTest, KeysChangeSettingsAndQClosesTheWindow) {
                     {"max-features", "", Setting::Kind::kWhole, 200, 1, 10000, {}},
                     {"ts-offset", "", Setting::Kind::kWhole, 0, -1e10, 1e10, {}}};
   auto source = std::make_shared<FakeSource>(state);
-  Window window(source, std::make_shared<FrameFeed>());
+  Window window(source);
   look(window);  // the keys act on what it has read
   for (const int key : {GLFW_KEY_SPACE, GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_RIGHT, GLFW_KEY_LEFT,
                         GLFW_KEY_H, GLFW_KEY_F12}) {
-    window.press(key);
+    press(window, key);
   }
   const FakeSource::Sets sets = source->wait_for_sets(5);
   const FakeSource::Sets expected{{"mute", 1},
@@ -51,9 +48,10 @@ TEST_F(WindowTest, KeysChangeSettingsAndQClosesTheWindow) {
     EXPECT_NEAR(sets[i].second, expected[i].second, 1e-9);
   }
   look(window);  // with help
-  window.press(GLFW_KEY_Q);
+  press(window, GLFW_KEY_Q);
   source->wait_until_closed();
-  EXPECT_FALSE(window.screenshot(kLong).has_value());
+  EXPECT_NE(window.take_picture("/dev/null", kLong), "");
+  EXPECT_TRUE(source->warnings().empty());
 }
 
 TEST_F(WindowTest, SSavesAPicture) {
@@ -61,8 +59,8 @@ TEST_F(WindowTest, SSavesAPicture) {
   const TemporaryFolder folder;
   std::filesystem::current_path(folder.path);
   {
-    Window window(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
-    window.press(GLFW_KEY_S);
+    Window window(std::make_shared<FakeSource>());
+    press(window, GLFW_KEY_S);
     look(window);
     look(window);
   }
@@ -77,88 +75,141 @@ TEST_F(WindowTest, SSavesAPicture) {
 }
 
 TEST_F(WindowTest, APictureThatCannotBeWrittenSaysWhy) {
-  EXPECT_NE(write_png({1, 1, {1, 2, 3}}, "/nowhere/picture.png").find("No such file"),
+  Window window(std::make_shared<FakeSource>());
+  EXPECT_NE(window.take_picture("/nowhere/picture.png", kLong).find("No such file"),
             std::string::npos);
-  EXPECT_NE(write_png({}, "/tmp/picture.png"), "");
 }
 
 TEST_F(WindowTest, CanBeMadeSmallAndLarge) {
-  auto feed = std::make_shared<FrameFeed>();
-  Window window(std::make_shared<FakeSource>(), feed);
-  give(*feed, {});
-  for (const auto& [width, height] : {std::pair{640, 480}, {200, 700}, {1, 1}, {1270, 790}}) {
-    window.resize(width, height);
+  Window window(std::make_shared<FakeSource>());
+  give(window, {});
+  for (const auto& [width, height] : {std::pair{640, 480}, {200, 700}, {1270, 790}}) {
+    UserInput input;
+    input.size_px = Eigen::Vector2d(width, height);
+    window.input(input);
     Screenshot shot;
     do {  // the X server tells of the new size when it likes
       shot = look(window);
     } while ((shot.width != width || shot.height != height) && !HasFailure());
-    if (width < 100) continue;
-    const PictureMap map = map_of(shot);
-    const Eigen::Vector2d middle = map({100, 100});
+    const Eigen::Vector2d middle = map_of(shot)({100, 100});
     EXPECT_TRUE(is_grey(at(shot, middle.x(), middle.y())));
   }
 }
 
-TEST_F(WindowTest, SeveralShareTheThread) {
-  auto dark = std::make_shared<FrameFeed>(), light = std::make_shared<FrameFeed>();
-  auto first = std::make_unique<Window>(std::make_shared<FakeSource>(), dark);
-  Window second(std::make_shared<FakeSource>(), light);
-  give(*dark, {}, 60);
-  give(*light, {}, 160);
-  const auto level = [&](Window& window) {
-    const Screenshot shot = look(window);
-    const Eigen::Vector2d middle = map_of(shot)({100, 100});
-    return at(shot, middle.x(), middle.y()).g;
-  };
-  EXPECT_NEAR(level(*first), 60, 1);
-  EXPECT_NEAR(level(second), 160, 1);
-  first.reset();
-  give(*light, {}, 100);
-  EXPECT_NEAR(level(second), 100, 1) << "goes on when the other one is closed";
+TEST_F(WindowTest, FramesOfAnotherSizeFollow) {
+  Window window(std::make_shared<FakeSource>());
+  give(window, {}, 60);
+  EXPECT_NEAR(level_in(window), 60, 1);
+  GstVideoInfo info;
+  gst_video_info_set_format(&info, GST_VIDEO_FORMAT_GRAY8, 64, 48);
+  GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
+  gst_buffer_memset(buffer, 0, 160, GST_VIDEO_INFO_SIZE(&info));
+  GstVideoFrame frame;
+  ASSERT_TRUE(gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ));
+  FrameFacts facts;
+  facts.visible = visible_part(frame);
+  while (!window.give(frame, facts)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  gst_video_frame_unmap(&frame);
+  gst_buffer_unref(buffer);
+  EXPECT_NEAR(level_in(window), 160, 1);
 }
 
-TEST_F(WindowTest, MayBeOpenedAndClosedAtOnce) {
-  for (int n = 0; n < 5; ++n) {
-    const Window window(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
+/// The processes that this one has started and not waited for.
+int children() {
+  int count = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream file(task.path() / "children");
+    for (pid_t process; file >> process;) ++count;
   }
+  return count;
 }
 
-/// In a process of its own, where no window was before: GLFW keeps its display.
-void open_without_a_display() {
-  const std::string name = getenv("DISPLAY");
-  unsetenv("DISPLAY");
+TEST_F(WindowTest, MayBeOpenedAndClosedAtOnceAndLeavesNothing) {
+  const int before = children();
+  for (int n = 0; n < 5; ++n) const Window window(std::make_shared<FakeSource>());
+  EXPECT_EQ(children(), before) << "a child nobody waited for";
+}
+
+/// A program in place of the window.
+class OtherProgram {
+ public:
+  explicit OtherProgram(const std::string& script) {
+    const std::string path = folder_.path / "window";
+    std::ofstream(path) << "#!/bin/sh\n" << script << "\n";
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    name(path);
+  }
+  ~OtherProgram() { name(before_); }
+  OtherProgram(const OtherProgram&) = delete;
+  OtherProgram& operator=(const OtherProgram&) = delete;
+
+ private:
+  static void name(const std::string& path) { setenv("SPIDAR_WINDOW", path.c_str(), 1); }
+
+  const TemporaryFolder folder_;
+  const std::string before_ = getenv("SPIDAR_WINDOW");
+};
+
+TEST_F(WindowTest, OneThatCannotBeStartedOrCrashesIsOneWarning) {
+  for (const auto& [script, said] : {std::pair{"kill -SEGV $$", "signal 11"},
+                                     {"exit 3", "status 3"},
+                                     {"printf 'I am no window at all' >&0", "another version"}}) {
+    SCOPED_TRACE(script);
+    const OtherProgram other(script);
+    auto source = std::make_shared<FakeSource>();
+    const Window window(source);
+    source->wait_until_closed();
+    ASSERT_EQ(source->warnings().size(), 1u);
+    EXPECT_NE(source->warnings()[0].find(said), std::string::npos) << source->warnings()[0];
+  }
+  const OtherProgram none("");
+  setenv("SPIDAR_WINDOW", "/nowhere/spidar-window", 1);
   auto source = std::make_shared<FakeSource>();
+  const Window window(source);
+  source->wait_until_closed();
+  ASSERT_EQ(source->warnings().size(), 1u);
+  EXPECT_NE(source->warnings()[0].find("No such file"), std::string::npos);
+}
+
+TEST_F(WindowTest, OneThatDoesNotAnswerIsKilledWhenItIsToClose) {
+  const int before = children();
   {
-    Window window(source, std::make_shared<FrameFeed>());
-    std::fprintf(stderr, "%s", source->wait_for_warning()[0].c_str());
-    if (window.screenshot(kLong)) _exit(1);
+    const OtherProgram deaf("exec sleep 1000");
+    const Window window(std::make_shared<FakeSource>());
+    EXPECT_FALSE(window.wants_frame());
   }
-  setenv("DISPLAY", name.c_str(), 1);
-  Window next(std::make_shared<FakeSource>(), std::make_shared<FrameFeed>());
-  _exit(next.screenshot(kLong) ? 0 : 2);
+  EXPECT_EQ(children(), before);
 }
 
-TEST_F(WindowTest, WithoutADisplayIsAWarningAndTheNextOneIsNotConcerned) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(open_without_a_display(), testing::ExitedWithCode(0), "DISPLAY");
-}
-
-/// In a process of its own, for Mesa asks once.
-void open_without_opengl_33() {
+TEST_F(WindowTest, WithoutOpenGl33IsAWarning) {
   setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
   auto source = std::make_shared<FakeSource>();
-  {
-    const Window window(source, std::make_shared<FrameFeed>());
-    std::fprintf(stderr, "%s", source->wait_for_warning()[0].c_str());
-  }
-  std::_Exit(0);
+  const Window window(source);
+  source->wait_until_closed();
+  unsetenv("MESA_GL_VERSION_OVERRIDE");
+  ASSERT_EQ(source->warnings().size(), 1u);
+  EXPECT_NE(source->warnings()[0].find("cannot be opened with OpenGL 3.3: "), std::string::npos);
 }
 
-using WindowDeathTest = WindowTest;
-TEST_F(WindowDeathTest, WithoutOpenGl33IsAWarning) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(open_without_opengl_33(), testing::ExitedWithCode(0),
-              "cannot be opened with OpenGL 3.3: ");
+/// The group of the players' terminal and the end of the player.
+TEST_F(WindowTest, EndsWithItsPlayer) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const pid_t player = fork();
+  if (player == 0) {
+    // The window inherits the end of the pipe, and so it is closed when the window has ended.
+    ::close(ends[0]);
+    auto* const window = new Window(std::make_shared<FakeSource>());
+    const bool is_open = window->take_picture("/dev/null", kLong).empty();
+    _exit(is_open ? 0 : 1);
+  }
+  ::close(ends[1]);
+  int status = 0;
+  ASSERT_EQ(waitpid(player, &status, 0), player);
+  EXPECT_EQ(status, 0) << "it was open";
+  char byte = 0;
+  EXPECT_EQ(read(ends[0], &byte, 1), 0) << "the window has ended";
+  ::close(ends[0]);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class WindowObjects : public WindowTest {
   /// The list has objects that were seen for 0.2 s.
   void play(const char* path = "/film.avi") {
     for (const int64_t ms : {0, 100, 300}) {
-      give(*feed, frame(ms, path), kLevel);
+      give(window, frame(ms, path), kLevel);
       look(window);
     }
   }
@@ -53,16 +53,15 @@ class WindowObjects : public WindowTest {
     Mouse mouse;
     mouse.at_px = {place.right() - 5, place.y + place.height / 2};
     mouse.down = true;
-    window.set_mouse(mouse);
+    set_mouse(window, mouse);
     look(window);
     mouse.down = false;
-    window.set_mouse(mouse);
+    set_mouse(window, mouse);
     look(window);
   }
 
   std::shared_ptr<FakeSource> source = std::make_shared<FakeSource>();
-  std::shared_ptr<FrameFeed> feed = std::make_shared<FrameFeed>();
-  Window window{source, feed};
+  Window window{source};
 };
 
 TEST_F(WindowObjects, AreShownWithAPartOfTheFrame) {
@@ -83,7 +82,7 @@ TEST_F(WindowObjects, AClickOnARowChoosesUntilTheSceneEndsAndIsSaved) {
   const FakeSource::Places places = source->wait_for_choices(1);
   ASSERT_TRUE(places[0]);
   EXPECT_NEAR((*places[0] - Vector2d(0.75, 0.5)).norm(), 0, 1e-9);
-  window.press(GLFW_KEY_C);
+  press(window, GLFW_KEY_C);
   const FakeSource::Saves first = source->wait_for_saves(1);
   EXPECT_EQ(first[0].first, "/film.avi");
   ASSERT_EQ(first[0].second.size(), 1u);
@@ -92,7 +91,7 @@ TEST_F(WindowObjects, AClickOnARowChoosesUntilTheSceneEndsAndIsSaved) {
   EXPECT_EQ(first[0].second[0].place, Vector2d(0.75, 0.5));
   FrameFacts cut = frame(400);
   cut.film.scene_ns = cut.film.stream_ns;
-  give(*feed, cut);
+  give(window, cut);
   EXPECT_EQ(source->wait_for_saves(2)[1].second[0].to_ns, 400 * kMillisecond);
   EXPECT_FALSE(source->wait_for_choices(2)[1]) << "it is let go";
 }
@@ -100,10 +99,10 @@ TEST_F(WindowObjects, AClickOnARowChoosesUntilTheSceneEndsAndIsSaved) {
 TEST_F(WindowObjects, AClickOnTheChosenRowLetsGo) {
   play();
   FrameFacts chosen = frame(340);
-  chosen.settings.kept = {1, {0.25, 0.5}};
+  chosen.click = 1;
   chosen.scene.felt_object = 1;
   chosen.scene.is_free = false;
-  give(*feed, chosen);
+  give(window, chosen);
   click(row(0));
   EXPECT_FALSE(source->wait_for_choices(1)[0]);
 }
@@ -112,7 +111,7 @@ TEST_F(WindowObjects, ChoicesOfALiveSourceAreNotSaved) {
   play("");
   click(row(0));
   EXPECT_TRUE(source->wait_for_choices(1)[0]);
-  window.press(GLFW_KEY_C);
+  press(window, GLFW_KEY_C);
   look(window);
   EXPECT_TRUE(source->wait_for_saves(0).empty());
 }
@@ -122,7 +121,7 @@ TEST_F(WindowObjects, OfAFilmThatIsOverCanStillBeSaved) {
   click(row(0));
   source->wait_for_choices(1);
   play("/second.avi");
-  window.press(GLFW_KEY_C);
+  press(window, GLFW_KEY_C);
   EXPECT_EQ(source->wait_for_saves(1)[0].first, "/first.avi");
 }
 

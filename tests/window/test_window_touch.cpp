@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "plugin/frame/touch_view.h"
-#include "plugin/window/model/mouse_hand.h"
-#include "plugin/window/model/relief_view.h"
-#include "plugin/window/model/window_model.h"
+#include "plugin/window/program/model/relief_view.h"
+#include "plugin/window/program/model/window_model.h"
+#include "plugin/window/view/mouse_hand.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar::test::window_touch_test {
@@ -199,9 +199,8 @@ TEST(FeltLine, SaysThatASlowDeviceIsTouchedWithLess) {
             "felt, at 400 N/m instead of 700: the device's drives are slow");
   touch.stiffness_N_m = 700;
   EXPECT_EQ(felt_line(state, touch), "felt");
-  state.limit = NoForceReason::kNotTouching;
-  EXPECT_EQ(felt_line(state, touch),
-            std::string("not felt: ") + sentence(NoForceReason::kNotTouching));
+  state.no_force = "the grip is in front of the surface";
+  EXPECT_EQ(felt_line(state, touch), "not felt: " + state.no_force);
 }
 
 }  // namespace

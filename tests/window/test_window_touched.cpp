@@ -26,7 +26,7 @@ ElementState touching_state() {
   device.name = "sim";
   device.has_hand = true;
   device.geometry = load_profile("spidar-gcc").geometry;
-  TickRecord& last = device.loop.last;
+  TickRecord& last = device.last;
   last.device = DeviceState::kRunning;
   last.pose.position_m = {-0.0295 / 2, 0.032 / 2, -0.002};
   last.contact.touching = last.contact.has_surface = true;
@@ -51,11 +51,10 @@ FrameFacts touched_facts(const StringGeometry& geometry) {
 }
 
 TEST_F(WindowTest, FingerProxyAndReliefAreInThePicture) {
-  auto feed = std::make_shared<FrameFeed>();
   const ElementState state = touching_state();
-  Window window(std::make_shared<FakeSource>(state), feed);
+  Window window(std::make_shared<FakeSource>(state));
   FrameFacts facts = touched_facts(state.device->geometry);
-  give(*feed, facts, 40);
+  give(window, facts, 40);
   Screenshot shot = look(window);
   const PictureMap map = map_of(shot);
   const auto color = [&](double x_px, double y_px) {
@@ -70,7 +69,7 @@ TEST_F(WindowTest, FingerProxyAndReliefAreInThePicture) {
   EXPECT_TRUE(is_white(color(239.5, 59.5 + 24)));
   const Color relief = color(160, 180);
   EXPECT_GT(relief.r, 60) << "over the dark picture";
-  window.press(GLFW_KEY_R);
+  press(window, GLFW_KEY_R);
   shot = look(window);
   EXPECT_NEAR(color(160, 180).r, 40, 1) << "the picture alone";
   EXPECT_TRUE(is_orange(color(239.5, 59.5)));
@@ -80,9 +79,8 @@ TEST_F(WindowTest, TheSectionStandsInPlaceOfTheCurveOfTheController) {
   ElementState state = touching_state();
   const FrameFacts touched = touched_facts(state.device->geometry);
   const auto orange = [&](const FrameFacts& facts) {
-    auto feed = std::make_shared<FrameFeed>();
-    Window window(std::make_shared<FakeSource>(state), feed);
-    give(*feed, facts);
+    Window window(std::make_shared<FakeSource>(state));
+    give(window, facts);
     const Screenshot shot = look(window);
     const Rect panel = lay_out(shot.width, shot.height, 1).gain;
     int count = 0;
@@ -93,31 +91,30 @@ TEST_F(WindowTest, TheSectionStandsInPlaceOfTheCurveOfTheController) {
   };
   // The proxy is a disc of a radius of 4 px: 50 px², a ring of 25 px of which is soft.
   EXPECT_GT(orange(touched), 25);
-  state.device->loop.last.contact = {};
+  state.device->last.contact = {};
   EXPECT_EQ(orange(touched), 0) << "no proxy while it does not touch";
   EXPECT_GT(orange({}), 0) << "the dot of the curve";
 }
 
 TEST_F(WindowTest, TheMouseLeadsTheHandOfASimulatedDevice) {
-  auto feed = std::make_shared<FrameFeed>();
   auto source = std::make_shared<FakeSource>(touching_state());
   Mouse mouse;
   {
-    Window window(source, feed);
-    give(*feed, {});
+    Window window(source);
+    give(window, {});
     const Rect picture = map_of(look(window)).shown;
     mouse.at_px = {picture.x + 0.75 * picture.width, picture.y + 0.25 * picture.height};
     mouse.down = true;
-    window.set_mouse(mouse);
+    set_mouse(window, mouse);
     FakeSource::Led led = source->wait_for_led(1);
     ASSERT_TRUE(led[0].has_value());
     EXPECT_LT((*led[0] - Eigen::Vector3d(0.0295 / 2, 0.032 / 2, 0)).norm(), 1e-12);
     mouse.down = false;
-    window.set_mouse(mouse);
+    set_mouse(window, mouse);
     led = source->wait_for_led(2);
     EXPECT_FALSE(led[1].has_value());
     mouse.down = true;
-    window.set_mouse(mouse);
+    set_mouse(window, mouse);
     EXPECT_TRUE(source->wait_for_led(3)[2].has_value());
   }
   const FakeSource::Led led = source->wait_for_led(4);
@@ -126,18 +123,17 @@ TEST_F(WindowTest, TheMouseLeadsTheHandOfASimulatedDevice) {
 
 TEST_F(WindowTest, TheMouseLeadsNoOtherHandAndNoneInAPause) {
   for (const bool paused : {false, true}) {
-    auto feed = std::make_shared<FrameFeed>();
     ElementState state = touching_state();
     state.device->has_hand = paused;
     auto source = std::make_shared<FakeSource>(state);
-    Window window(source, feed);
-    give(*feed, {});
+    Window window(source);
+    give(window, {});
     const Rect picture = map_of(look(window)).shown;
-    if (paused) window.press(GLFW_KEY_P);
+    if (paused) press(window, GLFW_KEY_P);
     Mouse mouse;
     mouse.at_px = {picture.x + picture.width / 2, picture.y + picture.height / 2};
     mouse.down = true;
-    window.set_mouse(mouse);
+    set_mouse(window, mouse);
     look(window);
     look(window);
     EXPECT_TRUE(source->wait_for_led(0).empty());

@@ -6,16 +6,18 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
-#include <optional>
+#include <stb/stb_image.h>
 #include <string>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "plugin/window/model/layout.h"
+#include "plugin/window/program/model/layout.h"
 #include "plugin/window/window.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/video_frames.h"
 #include "tests/support/virtual_display.h"
 
@@ -26,6 +28,12 @@ constexpr std::chrono::minutes kLong{2};
 
 struct Color {
   int r = 0, g = 0, b = 0;
+};
+
+/// What a window shows: RGB, rows from the top.
+struct Screenshot {
+  int width = 1, height = 1;
+  std::vector<uint8_t> rgb{0, 0, 0};
 };
 
 inline Color at(const Screenshot& shot, double x, double y) {
@@ -49,6 +57,21 @@ inline bool is_white(const Color& c) {
   return c.r > 240 && c.g > 240 && c.b > 240;
 }
 
+/// One that has been asked for everything before is answered; what came before is in it.
+inline Screenshot look(Window& window) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path / "window.png";
+  const std::string problem = window.take_picture(path, kLong);
+  EXPECT_EQ(problem, "");
+  Screenshot shot;
+  int channels = 0;
+  if (uint8_t* const pixels = stbi_load(path.c_str(), &shot.width, &shot.height, &channels, 3)) {
+    shot.rgb.assign(pixels, pixels + size_t{3} * static_cast<size_t>(shot.width * shot.height));
+    stbi_image_free(pixels);
+  }
+  return shot;
+}
+
 class WindowTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -59,8 +82,8 @@ class WindowTest : public testing::Test {
     if (!display->runs()) GTEST_SKIP() << VirtualDisplay::kWhyNot;
   }
 
-  /// A grey frame of 320 × 240 with `facts`.
-  static void give(FrameFeed& feed, FrameFacts facts, int level = 128) {
+  /// A grey frame of 320 × 240 with `facts`, once the window wants one.
+  static void give(Window& window, FrameFacts facts, int level = 128) {
     GstVideoInfo info;
     gst_video_info_set_format(&info, GST_VIDEO_FORMAT_RGB, 320, 240);
     GstBuffer* buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
@@ -68,16 +91,22 @@ class WindowTest : public testing::Test {
     GstVideoFrame frame;
     gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ);
     facts.visible = visible_part(frame);
-    while (!feed.give(frame, facts)) {
+    while (!window.wants_frame() || !window.give(frame, facts)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     gst_video_frame_unmap(&frame);
     gst_buffer_unref(buffer);
   }
 
-  static Screenshot look(Window& window) {
-    std::optional<Screenshot> shot = window.screenshot(kLong);
-    EXPECT_TRUE(shot.has_value());
-    return shot ? std::move(*shot) : Screenshot{1, 1, {0, 0, 0}};
+  static void press(Window& window, int key) {
+    UserInput input;
+    input.key = key;
+    window.input(input);
+  }
+  static void set_mouse(Window& window, const Mouse& mouse) {
+    UserInput input;
+    input.mouse = mouse;
+    window.input(input);
   }
 
   static PictureMap map_of(const Screenshot& shot) {

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/picture_slots.h"
+
+#include <algorithm>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace spidar {
+namespace {
+
+/// Of the same pictures, without padding of its own.
+GstVideoInfo plain_info(const GstVideoInfo& given) {
+  GstVideoInfo plain;
+  gst_video_info_init(&plain);
+  gst_video_info_set_format(&plain, GST_VIDEO_INFO_FORMAT(&given),
+                            static_cast<guint>(GST_VIDEO_INFO_WIDTH(&given)),
+                            static_cast<guint>(GST_VIDEO_INFO_HEIGHT(&given)));
+  plain.colorimetry = given.colorimetry;
+  plain.chroma_site = given.chroma_site;
+  plain.par_n = given.par_n;
+  plain.par_d = given.par_d;
+  return plain;
+}
+
+std::string caps_text(const GstVideoInfo& info) {
+  GstCaps* const caps = gst_video_info_to_caps(&info);
+  gchar* const text = gst_caps_to_string(caps);
+  std::string result = text;
+  g_free(text);
+  gst_caps_unref(caps);
+  return result;
+}
+
+}  // namespace
+
+PictureSlots::PictureSlots(uint32_t id, const GstVideoFrame& frame)
+    : info_(plain_info(frame.info)), taken_(kSlots, false) {
+  description_ = {id, caps_text(info_), kSlots, GST_VIDEO_INFO_SIZE(&info_)};
+  const size_t bytes = size_t{kSlots} * GST_VIDEO_INFO_SIZE(&info_);
+  file_ = memfd_create("spidar-window", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  // Sealed, so that reading beyond its end cannot kill the window.
+  if (file_ < 0 || ftruncate(file_, static_cast<off_t>(bytes)) != 0 ||
+      fcntl(file_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) {
+    return;
+  }
+  void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+  if (memory != MAP_FAILED) memory_ = static_cast<uint8_t*>(memory);
+}
+
+PictureSlots::~PictureSlots() {
+  if (memory_) munmap(memory_, kSlots * description_.slot_bytes);
+  if (file_ >= 0) ::close(file_);
+}
+
+bool PictureSlots::fits(const GstVideoFrame& frame) const {
+  const GstVideoInfo plain = plain_info(frame.info);
+  return gst_video_info_is_equal(&plain, &info_);
+}
+
+std::optional<uint32_t> PictureSlots::take() {
+  const auto free = std::find(taken_.begin(), taken_.end(), false);
+  if (free == taken_.end()) return std::nullopt;
+  *free = true;
+  return static_cast<uint32_t>(free - taken_.begin());
+}
+
+void PictureSlots::give_back(uint32_t slot) {
+  if (slot < kSlots) taken_[slot] = false;
+}
+
+bool PictureSlots::copy(const GstVideoFrame& frame, uint32_t slot) const {
+  const gsize bytes = description_.slot_bytes;
+  GstBuffer* const buffer = gst_buffer_new_wrapped_full(
+      GST_MEMORY_FLAG_NO_SHARE, memory_ + slot * bytes, bytes, 0, bytes, nullptr, nullptr);
+  GstVideoFrame target;
+  bool is_copied = false;
+  if (gst_video_frame_map(&target, &info_, buffer, GST_MAP_WRITE)) {
+    is_copied = gst_video_frame_copy(&target, &frame) != FALSE;
+    gst_video_frame_unmap(&target);
+  }
+  gst_buffer_unref(buffer);
+  return is_copied;
+}
+
+}  // namespace spidar

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The window of GLFW and what is drawn in it.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugin/window/program/model/object_click.h"
+#include "plugin/window/program/model/object_list.h"
+#include "plugin/window/program/model/scene_choices.h"
+#include "plugin/window/program/panels.h"
+#include "plugin/window/program/picture_texture.h"
+#include "plugin/window/program/player_link.h"
+
+struct GLFWwindow;
+
+namespace spidar {
+
+class DebugWindow {
+ public:
+  /// The link has answered once. Throws std::runtime_error when there is no OpenGL 3.3 or no window
+  /// to be had.
+  explicit DebugWindow(PlayerLink& link);
+  ~DebugWindow();
+  DebugWindow(const DebugWindow&) = delete;
+  DebugWindow& operator=(const DebugWindow&) = delete;
+
+  /// One frame of the window, which present() brings to the screen.
+  void draw();
+  void present();
+  /// Closed by the user.
+  bool is_done() const;
+  /// Writes what was drawn and not yet presented to a PNG file. Empty, or why it cannot be written.
+  std::string save(const std::string& path) const;
+
+  void on_key(int key);
+  /// In place of the user.
+  void take(const UserInput& input);
+
+ private:
+  void read();
+  void record(bool is_new);
+  void keep_still(double time_s);
+  void show_past();
+  ShownPicture shown_picture(const FrameFacts& facts) const;
+  void show_relief(const TouchScene& touch);
+  bool offers_hand() const;
+  std::string hint(const FrameFacts& facts) const;
+  void use_mouse(const Mouse& mouse, const Rect& picture, const FrameFacts& facts);
+  void use_plots(const Mouse& mouse, const WindowLayout& layout);
+  void list_objects();
+  SceneChoices& choices();
+  void follow_choices(const std::string& film_before);
+  bool is_chosen(const ListedObject& object) const;
+  std::vector<ObjectRow> object_list() const;
+  void use_objects(const Mouse& mouse, const Rect& panel);
+  void choose(const ObjectWish& wish);
+  bool has_unsaved_choices() const;
+  void save_choices();
+  void save_late_ends();
+  void save_choices(const std::string& film, SceneChoices& choices);
+  void remove_choice(const FeelRule& rule);
+  void end_choices();
+  void draw_choices(const Brush& brush, const WindowLayout& layout, const Mouse& mouse);
+  void draw_panels(int width, int height);
+  void save_here();
+  void change(const std::string& setting, double value) { link_.change(setting, value); }
+  void say(const std::string& note);
+
+  PlayerLink& link_;
+  GLFWwindow* window_ = nullptr;
+  double scale_ = 1;
+  Fonts fonts_;
+  std::optional<PictureTexture> texture_, past_texture_, relief_texture_;
+  int width_ = 0, height_ = 0;  // of the frame buffer drawn last
+
+  ElementState state_;
+  SharedPicture picture_;
+  FrameFacts facts_;
+  double frame_s_ = 0;  ///< when the last frame came
+  Timeline timeline_;
+  std::shared_ptr<const Still> past_;          // what past_texture_ shows
+  int shown_width_ = 0, loaded_width_ = 0;     // of the picture in the window, and its texture
+  std::shared_ptr<const HeightField> relief_;  // what relief_texture_ shows
+  MouseHand hand_;
+  ObjectClick click_;
+  ObjectList objects_;
+  std::optional<std::array<PictureTexture, ObjectList::kMost>> object_textures_;
+  std::map<std::string, SceneChoices> choices_;  ///< of each film by its path
+  bool has_clicked_ = false;                     ///< the user knows what a click does
+  bool objects_down_ = false;
+  bool plots_down_ = false;
+  std::optional<double> drag_px_;  ///< where a plot was dragged to
+  std::optional<Mouse> given_mouse_;
+  bool help_ = false;
+  bool detail_ = false;
+  bool show_relief_ = true;
+  bool save_wanted_ = false;
+  std::string note_;
+  double note_until_s_ = 0;
+};
+
+}  // namespace spidar

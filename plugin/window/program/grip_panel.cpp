@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/analysis/no_force_reason.h"
+#include "plugin/window/program/hand.h"
+#include "plugin/window/program/model/plot_axis.h"
+#include "plugin/window/program/panels.h"
+
+namespace spidar {
+namespace {
+
+constexpr ImU32 kSkinColor = IM_COL32(226, 178, 146, 255);
+constexpr ImU32 kSkinEdgeColor = IM_COL32(122, 84, 66, 255);
+constexpr ImU32 kGripColor = IM_COL32(88, 97, 116, 255);
+/// Of the view: the largest force as a share of the panel's smaller side.
+constexpr double kForceShare = 0.3;
+
+/// Blue at the smallest tension, red at the largest.
+ImU32 tension_color(double share) {
+  const auto warm = static_cast<int>(255 * std::clamp(share, 0.0, 1.0));
+  return IM_COL32(warm, 120, 255 - warm, 255);
+}
+
+double share_of_range(const DeviceView& device, int string) {
+  const double low_N = device.min_tension_N[string], high_N = device.max_tension_N[string];
+  return high_N > low_N ? (device.last.tension_N[string] - low_N) / (high_N - low_N) : 0;
+}
+
+/// The grip's own lengths on the screen.
+struct GripView {
+  const Brush& brush;
+  const GripProjection& project;
+  Pose pose;
+  double radius_m;
+
+  ImVec2 at(const Eigen::Vector3d& in_grip_m) const {
+    return im(project(pose.position_m + pose.orientation * in_grip_m));
+  }
+  float px(double length_m) const {
+    const Eigen::Vector3d tip_m = pose.position_m + Eigen::Vector3d(0, length_m, 0);
+    return static_cast<float>((project(tip_m) - project(pose.position_m)).norm());
+  }
+};
+
+void draw_stroke(const GripView& view, const HandStroke& stroke, ImU32 color, double wider_px) {
+  const float width = view.px(stroke.width * view.radius_m) + static_cast<float>(wider_px);
+  std::vector<ImVec2> points;
+  for (const Eigen::Vector3d& point : stroke.points) {
+    points.push_back(view.at(view.radius_m * point));
+  }
+  view.brush.list.AddPolyline(points.data(), static_cast<int>(points.size()), color, 0, width);
+  // Round joints and ends.
+  for (const ImVec2& point : points) view.brush.list.AddCircleFilled(point, width / 2, color);
+}
+
+void draw_hand(const GripView& view, bool in_front) {
+  for (const HandStroke& stroke : hand_strokes()) {
+    if (stroke.in_front != in_front) continue;
+    draw_stroke(view, stroke, kSkinEdgeColor, 2 * view.brush.scale);
+    draw_stroke(view, stroke, kSkinColor, 0);
+  }
+}
+
+/// The ball that the hand holds, and the rods that the strings are tied to.
+void draw_grip_body(const GripView& view, const DeviceView& device) {
+  const ImVec2 centre = view.at(Eigen::Vector3d::Zero());
+  for (int i = 0; device.has_strings && i < device.geometry.count; ++i) {
+    const ImVec2 end = view.at(device.geometry.grip_m[static_cast<size_t>(i)]);
+    view.brush.list.AddLine(centre, end, kTextColor, view.brush.px(2.5));
+    view.brush.list.AddCircleFilled(end, view.brush.px(3), kTextColor);
+  }
+  const float radius = view.px(0.55 * view.radius_m);
+  view.brush.list.AddCircleFilled(centre, radius, kGripColor, 32);
+  view.brush.list.AddCircle(centre, radius, kTextColor, 32, view.brush.px(1));
+}
+
+/// Where the number of a string is, beside its exit.
+Rect number_rect(const Brush& brush, const GripProjection& project, const DeviceView& device,
+                 int i) {
+  const Eigen::Vector2d exit = project(device.geometry.exit_m[static_cast<size_t>(i)]);
+  const ImVec2 size = text_size(brush.fonts.small, std::to_string(i));
+  const double side = exit.x() < project(Eigen::Vector3d::Zero()).x() ? -1 : 1;
+  return {exit.x() + side * 12 * brush.scale - size.x / 2, exit.y() - size.y / 2, size.x, size.y};
+}
+
+void draw_strings(const Brush& brush, const GripProjection& project, const DeviceView& device) {
+  const TickRecord& last = device.last;
+  const Eigen::Matrix3d R = last.pose.orientation.toRotationMatrix();
+  for (int i = 0; i < device.geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    const double share = share_of_range(device, i);
+    const ImU32 color = i == last.faulty_string ? kWarnColor : tension_color(share);
+    const Eigen::Vector2d exit = project(device.geometry.exit_m[k]);
+    brush.list.AddLine(im(exit), im(project(last.pose.position_m + R * device.geometry.grip_m[k])),
+                       color, brush.px(1.2 + 2.5 * std::clamp(share, 0.0, 1.0)));
+    brush.list.AddCircleFilled(im(exit), brush.px(3.5), kTextColor);
+    draw_text(brush, brush.fonts.small, upper_left(number_rect(brush, project, device, i)),
+              kMutedColor, std::to_string(i));
+  }
+}
+
+/// A force at the hand, as a line in space, with its newtons and `which` force it is, beside what
+/// is `taken`. Without a name it is a faint line.
+void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, double most_N,
+                const char* which, const std::vector<Rect>& taken) {
+  const double force_N = wrench.force_N.norm();
+  if (force_N < kFeltForce_N || most_N <= 0) return;
+  const Eigen::Vector2d from = view.project(view.pose.position_m);
+  const Eigen::Vector2d direction =
+      (view.project(view.pose.position_m + wrench.force_N / force_N * view.radius_m) - from) /
+      view.px(view.radius_m);
+  const double length =
+      kForceShare * std::min(panel.width, panel.height) * std::min(force_N / most_N, 1.0);
+  const Eigen::Vector2d to = from + length * direction;
+  const Brush& brush = view.brush;
+  const Eigen::Vector2d along = (to - from).normalized(), side(-along.y(), along.x());
+  const double head = (which ? 9 : 14) * brush.scale;
+  const ImU32 color = which ? kFeltColor : faded(kTextColor, 95);
+  brush.list.AddLine(im(from), im(to), color, brush.px(which ? 3.5 : 7));
+  brush.list.AddTriangleFilled(im(to + head * along), im(to + 0.6 * head * side),
+                               im(to - 0.6 * head * side), color);
+  if (!which) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f N", force_N);
+  const Eigen::Vector2d at = to + 2.2 * head * along;
+  // Without its name where there is no room for that.
+  for (const std::string& label : {text + (" " + std::string(which)), std::string(text)}) {
+    const ImVec2 size = text_size(brush.fonts.bold, label);
+    const Rect wanted{at.x() - (along.x() < 0 ? size.x + 6 : 0), at.y() - size.y / 2,
+                      size.x + brush.px(10), size.y + brush.px(4)};
+    const std::optional<Rect> place = place_label(panel, wanted, taken);
+    if (place) return draw_label(brush, brush.fonts.bold, upper_left(*place), kFeltColor, label);
+  }
+}
+
+/// The directions x, y and z of the device in a corner.
+void draw_compass(const Brush& brush, const Rect& panel, const GripProjection& project) {
+  constexpr const char* kNames[] = {"x", "y", "z"};
+  const double length = std::min(20 * brush.scale, 0.14 * panel.height);
+  const Eigen::Vector2d corner(panel.x + length, panel.bottom() - 0.7 * length);
+  const Eigen::Vector2d origin = project(Eigen::Vector3d::Zero());
+  const double unit = (project(Eigen::Vector3d::UnitY()) - origin).norm();
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector2d along = (project(Eigen::Vector3d::Unit(axis)) - origin) / unit;
+    const Eigen::Vector2d tip = corner + length * along;
+    brush.list.AddLine(im(corner), im(tip), kAxisColors[axis], brush.px(2));
+    draw_text(brush, brush.fonts.small, im(tip.x() + 2 * brush.scale, tip.y() - 12 * brush.scale),
+              kAxisColors[axis], kNames[axis]);
+  }
+}
+
+}  // namespace
+
+void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state) {
+  if (!state.device) {
+    draw_panel(brush, panel, "Grip", "no device is open");
+    return;
+  }
+  const DeviceView& device = *state.device;
+  const TickRecord& last = device.last;
+  std::string note = device.name + ", " + to_string(last.device);
+  if (last.faulty_string >= 0)
+    note += ", string " + std::to_string(last.faulty_string) + " at fault";
+  const Rect content = draw_panel(brush, panel, "Grip", note);
+  brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
+  const GripProjection project(content, device.geometry);
+  const GripView view{brush, project, last.pose, device.geometry.grip_radius_m()};
+  draw_compass(brush, content, project);
+  if (device.has_strings) draw_strings(brush, project, device);
+  draw_hand(view, false);
+  draw_grip_body(view, device);
+  draw_hand(view, true);
+  std::vector<Rect> numbers;
+  for (int i = 0; device.has_strings && i < device.geometry.count; ++i) {
+    numbers.push_back(number_rect(brush, project, device, i));
+  }
+  draw_force(view, content, last.wanted, last.max_force_N, nullptr, numbers);
+  draw_force(view, content, last.delivered, last.max_force_N, "delivered", numbers);
+  brush.list.PopClipRect();
+}
+
+void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& state) {
+  const bool strings = !state.device || state.device->has_strings;
+  const Rect content =
+      draw_panel(brush, panel, "String tensions", strings ? "N" : "this device has no strings");
+  if (!strings || !state.device || state.device->geometry.count == 0) return;
+  const DeviceView& device = *state.device;
+  const Rect area = tension_area(panel, brush.scale);
+  brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
+  const ImFont* font = brush.fonts.small;
+  const float half = font->FontSize / 2;
+  const std::vector<TensionBar> bars = tension_bars(area, device);
+  // The axis is that of all bars where their motors are alike.
+  const double most_N = device.max_tension_N.head(device.geometry.count).maxCoeff();
+  const bool alike = device.max_tension_N.head(device.geometry.count).minCoeff() == most_N;
+  const PlotAxis axis =
+      make_axis(0, most_N, std::max(3, static_cast<int>(area.height / (18 * brush.scale))));
+  if (alike) {
+    for (const double tick : axis.ticks()) {
+      const double y = area.bottom() - axis.share(tick) * area.height;
+      brush.list.AddLine(im(area.x, y), im(area.right(), y), kGridColor);
+      draw_text_before(brush, font, im(area.x - 4 * brush.scale, y - half), kMutedColor,
+                       axis.label(tick));
+    }
+  }
+  for (size_t i = 0; i < bars.size(); ++i) {
+    const TensionBar& bar = bars[i];
+    const auto string = static_cast<Eigen::Index>(i);
+    const bool at_fault = device.last.faulty_string == static_cast<int>(i);
+    brush.list.AddRectFilled(upper_left(bar.range), lower_right(bar.range),
+                             IM_COL32(38, 43, 53, 255));
+    brush.list.AddRectFilled(upper_left(bar.filled), lower_right(bar.filled),
+                             at_fault ? kWarnColor : kAccentColor);
+    brush.list.AddLine(im(bar.range.x - 3 * brush.scale, bar.least_y),
+                       im(bar.range.right() + 3 * brush.scale, bar.least_y), kTextColor);
+    char value[16];
+    std::snprintf(value, sizeof value, "%.1f", device.last.tension_N[string]);
+    const double middle = bar.range.x + bar.range.width / 2;
+    const auto centred = [&](double y, ImU32 color, const std::string& text) {
+      draw_text(brush, font, im(middle - text_size(font, text).x / 2, y), color, text);
+    };
+    const double above = bar.range.y - font->FontSize - 3 * brush.scale;
+    if (above >= content.y - 2 * brush.scale) centred(above, kTextColor, value);
+    centred(bar.range.bottom() + 4 * brush.scale, kMutedColor, std::to_string(i));
+  }
+  const std::string below = "string";
+  const double caption_y = area.bottom() + 5 * brush.scale + font->FontSize;
+  if (caption_y + font->FontSize <= panel.bottom()) {
+    const double middle = area.x + (area.width - text_size(font, below).x) / 2;
+    draw_text(brush, font, im(middle, caption_y), kMutedColor, below);
+  }
+  brush.list.PopClipRect();
+}
+
+}  // namespace spidar

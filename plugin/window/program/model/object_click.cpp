@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/program/model/object_click.h"
+
+namespace spidar {
+
+const MovingObject* object_at(const FrameFacts& facts, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d at_px((place.x() - 0.5) * facts.visible.width,
+                              (place.y() - 0.5) * facts.visible.height);
+  const MovingObject* found = nullptr;
+  for (const MovingObject& object : facts.scene.objects) {
+    const Eigen::Vector2d off_px = (at_px - object.position_px).cwiseAbs();
+    if (object.tracks == 0 || (off_px.array() > object.size_px.array() / 2).any()) continue;
+    if (!found || object.size_px.prod() < found->size_px.prod()) found = &object;
+  }
+  return found;
+}
+
+bool offers_choice(const FrameFacts& facts) {
+  return facts.motion != MotionKind::kMean && !facts.touch.on;
+}
+
+std::optional<ObjectWish> ObjectClick::update(const Mouse& mouse, const Rect& picture,
+                                              const FrameFacts& facts) {
+  const bool pressed = mouse.down && !was_down_;
+  was_down_ = mouse.down;
+  holds_ = holds_ && mouse.down;
+  if (!pressed || mouse.taken || !offers_choice(facts) || picture.width <= 0) return std::nullopt;
+  const Eigen::Vector2d place((mouse.at_px.x() - picture.x) / picture.width,
+                              (mouse.at_px.y() - picture.y) / picture.height);
+  // Not a number where there is no mouse.
+  const bool is_over = place.x() >= 0 && place.x() <= 1 && place.y() >= 0 && place.y() <= 1;
+  const MovingObject* const object = is_over ? object_at(facts, place) : nullptr;
+  if (!object) return std::nullopt;
+  holds_ = true;
+  const bool is_chosen = facts.click != 0 && facts.scene.felt_object == object->id;
+  ObjectWish wish;
+  wish.object = object->id;
+  if (!is_chosen) wish.place = place;
+  return wish;
+}
+
+}  // namespace spidar

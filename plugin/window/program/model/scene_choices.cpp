@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/program/model/scene_choices.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+constexpr int64_t kMillisecond = 1'000'000;
+/// More than two frames of any film are apart.
+constexpr int64_t kLongestFrame_ns = 1'000'000'000;
+
+/// The begin of the millisecond: what holds from there on holds for the frame.
+int64_t whole(int64_t ns) {
+  return ns / kMillisecond * kMillisecond;
+}
+
+/// A place as a person reads it: a thousandth is less than a pixel of most films.
+Eigen::Vector2d whole(const Eigen::Vector2d& place) {
+  return (place * 1000).array().round() / 1000;
+}
+
+}  // namespace
+
+bool SceneChoices::see(const FrameFacts& facts) {
+  const FilmMoment before = film_;
+  film_ = facts.film;
+  if (film_.stream_ns < 0) return false;
+  bool has_ended = false;
+  if (!film_.is_same_scene(before) || film_.stream_ns < before.stream_ns) {
+    const bool is_cut =
+        film_.scene_ns > before.stream_ns && film_.scene_ns - before.stream_ns < kLongestFrame_ns;
+    if (is_cut) end_ns_ = film_.scene_ns;
+    has_ended = end_scene();
+  }
+  const int64_t frame_ns = std::llround(1e9 * facts.interval_s);
+  end_ns_ = film_.stream_ns + std::clamp<int64_t>(frame_ns, 0, kLongestFrame_ns);
+  click_ = facts.click;
+  for (Choice& choice : choices_) follow(choice, facts);
+  return has_ended;
+}
+
+void SceneChoices::follow(Choice& choice, const FrameFacts& facts) {
+  if (!choice.grows) return;
+  const bool is_kept = click_ != 0 && click_ != choice.click_before;
+  const std::vector<MovingObject>& objects = facts.scene.objects;
+  const bool is_seen = (is_kept && facts.scene.felt_object != 0) ||
+                       std::any_of(objects.begin(), objects.end(), [&](const MovingObject& object) {
+                         return object.id == choice.object && object.tracks > 0;
+                       });
+  if (is_seen) choice.seen_ns = end_ns_;
+  const bool is_lost = choice.is_kept && !is_kept;
+  choice.is_kept = is_kept;
+  choice.edit.to_ns = whole(is_lost ? choice.seen_ns : end_ns_);
+  if (is_lost) choice.grows = choice.is_saved = false;
+}
+
+bool SceneChoices::end_scene() {
+  bool has_ended = false;
+  for (Choice& choice : choices_) {
+    if (!choice.grows) continue;
+    choice.grows = choice.is_saved = false;
+    choice.edit.to_ns = whole(end_ns_);
+    has_ended = true;
+  }
+  return has_ended;
+}
+
+/// What is in the file has to be taken out of it again.
+void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
+  for (Choice& choice : choices_) {
+    if (!choice.grows || !which(choice)) continue;
+    choice.grows = choice.is_saved = false;
+    choice.edit.place.reset();
+  }
+  const auto is_nothing = [](const Choice& choice) {
+    return !choice.edit.place && !choice.is_removal && !choice.was_saved;
+  };
+  choices_.erase(std::remove_if(choices_.begin(), choices_.end(), is_nothing), choices_.end());
+}
+
+void SceneChoices::choose(const ListedObject& object) {
+  if (film_.stream_ns < 0 || object.first_ns < 0) return;
+  const int64_t from_ns = whole(object.first_ns);
+  take_back([&](const Choice& other) { return other.seen_ns > object.first_ns; });
+  for (Choice& other : choices_) {
+    if (!other.grows) continue;  // else the object came after this one had gone
+    other.grows = other.is_saved = false;
+    other.edit.to_ns = from_ns;
+  }
+  Choice choice;
+  choice.edit = {from_ns, whole(end_ns_), whole(object.first_place)};
+  choice.object = object.id;
+  choice.click_before = click_;
+  choice.seen_ns = end_ns_;
+  choice.grows = true;
+  choices_.push_back(choice);
+}
+
+void SceneChoices::let_go() {
+  take_back([](const Choice&) { return true; });
+}
+
+void SceneChoices::remove(int64_t from_ns, int64_t to_ns) {
+  take_back([&](const Choice& choice) {
+    return choice.edit.from_ns < to_ns && choice.edit.to_ns > from_ns;
+  });
+  Choice choice;
+  choice.edit = {from_ns, to_ns, std::nullopt};
+  choice.is_removal = true;
+  choices_.push_back(choice);
+}
+
+bool SceneChoices::has_unsaved() const {
+  return std::any_of(choices_.begin(), choices_.end(),
+                     [](const Choice& choice) { return !choice.is_saved; });
+}
+
+bool SceneChoices::has_late_end() const {
+  return std::any_of(choices_.begin(), choices_.end(), [](const Choice& choice) {
+    return choice.was_saved && !choice.is_saved && choice.edit.place;
+  });
+}
+
+std::vector<FeelEdit> SceneChoices::edits() const {
+  std::vector<FeelEdit> edits;
+  for (const Choice& choice : choices_) edits.push_back(choice.edit);
+  return edits;
+}
+
+void SceneChoices::saved() {
+  const auto is_complete = [](const Choice& choice) { return !choice.grows; };
+  choices_.erase(std::remove_if(choices_.begin(), choices_.end(), is_complete), choices_.end());
+  for (Choice& choice : choices_) choice.is_saved = choice.was_saved = true;
+}
+
+void SceneChoices::not_saved() {
+  for (Choice& choice : choices_) choice.is_saved = choice.was_saved = false;
+}
+
+}  // namespace spidar

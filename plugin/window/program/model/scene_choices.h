@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What a person chose in the scenes of one film, as changes to the rules of what is felt.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/choice/feel_edit.h"
+#include "plugin/window/program/model/object_list.h"
+#include "plugin/window/program/model/window_model.h"
+
+namespace spidar {
+
+/// A choice is a rule from the moment at which its object was seen first up to the end of the
+/// scene, which is known once a cut has come. Until then, and where a seek leaves the scene
+/// before, it ends with what was seen of the scene; where the object is lost, when that was seen
+/// last. Times are whole milliseconds.
+class SceneChoices {
+ public:
+  /// The next frame that is on the screen. True when a choice ends because its scene has ended.
+  bool see(const FrameFacts& facts);
+
+  /// In place of what was chosen in this scene while the object was in sight. Changes nothing where
+  /// the time in the film is not known.
+  void choose(const ListedObject& object);
+  /// Of the choices in this scene the last one goes.
+  void let_go();
+  /// No rule holds any more from one time to another.
+  void remove(int64_t from_ns, int64_t to_ns);
+  /// There is nothing more of the scene. True when a choice ends with it.
+  bool end_scene();
+
+  bool has_unsaved() const;
+  /// A choice was saved before its end was known, and now it is.
+  bool has_late_end() const;
+  /// In the order in which they were made.
+  std::vector<FeelEdit> edits() const;
+  /// These are saved, and those that are complete are forgotten.
+  void saved();
+  /// They cannot be: the user has to ask again.
+  void not_saved();
+
+ private:
+  struct Choice {
+    FeelEdit edit;
+    uint32_t object = 0;
+    int64_t seen_ns = 0;        ///< the object
+    uint32_t click_before = 0;  ///< what the element knew of when it was made
+    bool is_kept = false;       ///< by the element, which knows of the click
+    bool grows = false;         ///< with the scene
+    bool is_removal = false;
+    bool is_saved = false;
+    bool was_saved = false;  ///< with an earlier end
+  };
+  void follow(Choice& choice, const FrameFacts& facts);
+  void take_back(const std::function<bool(const Choice&)>& which);
+
+  std::vector<Choice> choices_;
+  FilmMoment film_;
+  int64_t end_ns_ = 0;  ///< of the frame that was seen last
+  uint32_t click_ = 0;  ///< the same
+};
+
+}  // namespace spidar

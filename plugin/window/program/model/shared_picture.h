@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Pictures in the memory that the player shares with its window.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include <gst/video/video.h>
+
+#include "plugin/window/view/messages.h"
+
+namespace spidar {
+
+/// The memory, which is read only.
+class MappedPictures {
+ public:
+  /// Takes over the file. When it does not hold what the description says, is_there() is false.
+  MappedPictures(const PictureMemory& description, int file);
+  ~MappedPictures();
+  MappedPictures(const MappedPictures&) = delete;
+  MappedPictures& operator=(const MappedPictures&) = delete;
+
+  bool is_there() const { return memory_ != nullptr; }
+  const PictureMemory& description() const { return description_; }
+  const GstVideoInfo& info() const { return info_; }
+  const uint8_t* slot(uint32_t number) const { return memory_ + number * description_.slot_bytes; }
+
+ private:
+  PictureMemory description_;
+  GstVideoInfo info_;
+  size_t bytes_ = 0;
+  const uint8_t* memory_ = nullptr;
+};
+
+/// One picture in it, or none. Says that its slot is free when it goes.
+class SharedPicture {
+ public:
+  SharedPicture() = default;
+  SharedPicture(std::shared_ptr<const MappedPictures> memory, uint32_t slot,
+                std::function<void()> set_free)
+      : memory_(std::move(memory)), slot_(slot), set_free_(std::move(set_free)) {}
+  ~SharedPicture() { reset(); }
+  SharedPicture(SharedPicture&& other) noexcept { swap(other); }
+  SharedPicture& operator=(SharedPicture&& other) noexcept {
+    SharedPicture(std::move(other)).swap(*this);
+    return *this;
+  }
+
+  bool is_there() const { return memory_ != nullptr; }
+  const GstVideoInfo& info() const { return memory_->info(); }
+  const uint8_t* pixels() const { return memory_->slot(slot_); }
+
+ private:
+  void swap(SharedPicture& other) noexcept {
+    memory_.swap(other.memory_);
+    std::swap(slot_, other.slot_);
+    set_free_.swap(other.set_free_);
+  }
+  void reset() {
+    if (set_free_) set_free_();
+    set_free_ = nullptr;
+    memory_.reset();
+  }
+
+  std::shared_ptr<const MappedPictures> memory_;
+  uint32_t slot_ = 0;
+  std::function<void()> set_free_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The parts of a debug window, each drawn into its rectangle with Dear ImGui.
+#pragma once
+
+#include <functional>
+#include <imgui.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugin/window/program/model/film_strip.h"
+#include "plugin/window/program/model/object_list.h"
+#include "plugin/window/program/model/timeline.h"
+#include "plugin/window/program/model/window_model.h"
+#include "plugin/window/program/style.h"
+#include "plugin/window/view/mouse_hand.h"
+
+namespace spidar {
+
+/// The picture (texture of the whole frame; 0: none yet) and what is drawn over it.
+struct ShownPicture {
+  ImTextureID texture{};
+  int frame_width = 0, frame_height = 0;
+  double pixel_aspect = 1;
+  double arrow_scale = 1;
+  double max_force_N = 0;
+  ImTextureID relief{};  ///< of the touched surface, over the picture; 0: not shown
+  std::optional<TouchMark> touch;
+  bool detail = false;  ///< every track, new and lost points, all boxes; else they are faint
+};
+/// The part of the window that shows the visible part of the frame.
+Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameFacts& facts);
+void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
+                  const FrameFacts& facts);
+
+/// Frame, strings, the hand on the grip and its force; with no device a line that says so.
+void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state);
+/// The tension of each string as a bar.
+void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& state);
+
+void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
+                double max_force_N);
+void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline);
+void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
+               const ControllerSettings& controller);
+
+/// Instead of the curve of the controller, while the picture is touched: the surface from the left
+/// to the right through the finger, seen from below, with finger and proxy.
+void draw_section(const Brush& brush, const Rect& panel, const TouchScene& scene,
+                  const TickRecord& tick);
+/// At the lower edge of the picture: what the mouse does.
+void draw_hint(const Brush& brush, const Rect& picture, const std::string& line);
+
+/// The last minute, with a button that pauses it; dragging looks back. Below it the film with its
+/// choices; returns the one that the user clicked, to be removed.
+std::optional<FeelRule> draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline,
+                                      double max_force_N, const FilmStrip& strip);
+
+/// An object in the list.
+struct ObjectRow {
+  const ListedObject* object = nullptr;
+  ImTextureID picture{};  ///< 0: there is none yet
+  double aspect = 1;      ///< of the picture, width / height
+  bool is_chosen = false;
+};
+void draw_objects(const Brush& brush, const Rect& panel, const std::vector<ObjectRow>& rows,
+                  const FrameFacts& facts, const Eigen::Vector2d& mouse_px);
+/// In the title of that panel. True when it was pressed.
+bool draw_save_button(const Brush& brush, const Rect& panel);
+
+/// `note`: what the window has to say at the moment; may be empty.
+void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
+                 const FrameFacts& facts, const std::string& note);
+
+/// Switches in the upper right corner of the picture; null: there is none for the relief.
+void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool* relief);
+/// Widgets for the settings of the element, the button for rest first.
+void draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
+                   const std::function<void(const std::string&, double)>& set);
+void draw_help(double scale);
+
+/// The mouse in the frame of the window that is drawn, from Dear ImGui.
+Mouse read_mouse();
+/// Writes pixels of three bytes, the lowest row first. Empty, or why the file cannot be written.
+std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
+                      const std::string& path);
+
+}  // namespace spidar

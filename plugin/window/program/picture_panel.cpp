@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <cstdio>
+
+#include "core/analysis/no_force_reason.h"
+#include "plugin/overlay/arrow.h"
+#include "plugin/window/program/panels.h"
+
+namespace spidar {
+namespace {
+
+constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of tracks without detail
+constexpr int kReliefOpacity = 110;
+constexpr ImU32 kNewColor = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
+
+/// What is drawn over the picture, in the coordinates of the window.
+struct Overlay {
+  const Brush& brush;
+  const PictureMap& map;
+  const FrameFacts& facts;
+  const ShownPicture& picture;
+  std::vector<uint32_t> felt;  ///< objects
+
+  bool is_felt(uint32_t object) const {
+    return std::find(felt.begin(), felt.end(), object) != felt.end();
+  }
+  /// Upper left and lower right corner of an object's box.
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> box(const MovingObject& object) const {
+    const ObjectCorners corners = corners_of(object, facts.visible);
+    return {map(corners.low_px), map(corners.high_px)};
+  }
+};
+
+ImU32 color_of(Rgb color, unsigned opacity) {
+  return IM_COL32(color.r, color.g, color.b, opacity);
+}
+
+void draw_arrow(const Brush& brush, const Arrow& arrow, unsigned opacity = 255) {
+  const ArrowShape shape = shape_of(arrow);
+  const ImU32 color = color_of(arrow.color, opacity);
+  std::array<ImVec2, 4> shaft;
+  std::transform(shape.shaft_px.begin(), shape.shaft_px.end(), shaft.begin(),
+                 [](const Eigen::Vector2d& p) { return im(p); });
+  brush.list.AddConvexPolyFilled(shaft.data(), static_cast<int>(shaft.size()), color);
+  if (!shape.has_head) return;
+  brush.list.AddTriangleFilled(im(shape.head_px[0]), im(shape.head_px[1]), im(shape.head_px[2]),
+                               color);
+}
+
+/// A dark line around an arrow, which is drawn over it.
+void draw_border(const Brush& brush, const Arrow& arrow) {
+  const ArrowShape shape = shape_of(arrow);
+  const auto around = [&](const auto& corners_px) {
+    std::vector<ImVec2> corners;
+    for (const Eigen::Vector2d& corner_px : corners_px) corners.push_back(im(corner_px));
+    brush.list.AddPolyline(corners.data(), static_cast<int>(corners.size()), IM_COL32(0, 0, 0, 200),
+                           ImDrawFlags_Closed, brush.px(3.5));
+  };
+  around(shape.shaft_px);
+  if (shape.has_head) around(shape.head_px);
+}
+
+void draw_tracks(const Overlay& over, const ArrowStyle& style) {
+  const std::vector<SceneTrack>& tracks = over.facts.scene.tracks;
+  const std::vector<Arrow> arrows = track_arrows(over.facts.scene, style);  // one for each track
+  for (size_t i = 0; i < arrows.size(); ++i) {
+    Arrow arrow = arrows[i];
+    arrow.tail_px = over.map(arrow.tail_px);
+    arrow.tip_px = over.map(arrow.tip_px);
+    const bool is_felt = tracks[i].owner == TrackOwner::kObject && over.is_felt(tracks[i].object);
+    draw_arrow(over.brush, arrow, over.picture.detail ? 255 : is_felt ? kFelt : kFaint);
+  }
+}
+
+void draw_points(const Overlay& over) {
+  const Brush& brush = over.brush;
+  const float radius = brush.px(3), width = brush.px(1);
+  for (const SceneTrack& track : over.facts.scene.tracks) {
+    if (!track.is_new) continue;
+    brush.list.AddCircle(im(over.map({track.to.x_px, track.to.y_px})), radius, kNewColor, 0, width);
+  }
+  for (const ImagePoint& lost : over.facts.scene.lost) {
+    const ImVec2 at = im(over.map({lost.x_px, lost.y_px}));
+    brush.list.AddLine({at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}, kWarnColor,
+                       width);
+    brush.list.AddLine({at.x - radius, at.y + radius}, {at.x + radius, at.y - radius}, kWarnColor,
+                       width);
+  }
+}
+
+void draw_objects(const Overlay& over) {
+  const Brush& brush = over.brush;
+  for (const MovingObject& object : over.facts.scene.objects) {
+    if (object.tracks == 0) continue;
+    const auto [low, high] = over.box(object);
+    const bool is_felt = over.is_felt(object.id);
+    const float rounding = brush.px(4);
+    if (is_felt) {
+      brush.list.AddRect(im(low), im(high), IM_COL32(0, 0, 0, 130), rounding, 0, brush.px(5));
+    }
+    brush.list.AddRect(im(low), im(high), is_felt ? kFeltColor : kOtherColor, rounding, 0,
+                       brush.px(is_felt ? 2.5 : 1));
+    if (!is_felt && !over.picture.detail) continue;
+    const std::string name = "#" + std::to_string(object.id);
+    const ImFont* font = brush.fonts.small;
+    // Above the box, or within it at the upper edge of the picture.
+    const double height = font->FontSize + brush.px(7);
+    const double y = low.y() - height >= over.map.shown.y ? low.y() - height : low.y() + 2;
+    draw_label(brush, font, im(low.x(), y), is_felt ? kFeltColor : kMutedColor, name);
+  }
+}
+
+/// In newtons and `which` force it is, `along` from `beyond`, or where the picture has room.
+void draw_size(const Overlay& over, double force_N, const char* which,
+               const Eigen::Vector2d& beyond, const Eigen::Vector2d& along) {
+  if (force_N < kFeltForce_N) return;
+  char text[48];
+  std::snprintf(text, sizeof text, "%.1f N%s", force_N, which);
+  const ImFont* font = over.brush.fonts.bold;
+  const Eigen::Vector2d size(text_size(font, text).x + over.brush.px(10),
+                             font->FontSize + over.brush.px(4));
+  const Eigen::Vector2d middle =
+      beyond + along.cwiseProduct(size / 2 + Eigen::Vector2d(6, 6) * over.brush.scale);
+  const Rect& shown = over.map.shown;
+  const Eigen::Vector2d low(shown.x, shown.y);
+  const Eigen::Vector2d most =
+      (low + Eigen::Vector2d(shown.width, shown.height) - size).cwiseMax(low);
+  draw_label(over.brush, font, im((middle - size / 2).cwiseMax(low).cwiseMin(most)), kTextColor,
+             text);
+}
+
+/// False when it is too short for an arrow.
+bool draw_force(const Overlay& over, const Wrench& wrench, const char* which,
+                const Eigen::Vector2d& from_px, ArrowStyle style) {
+  style.centre_px = from_px;
+  const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
+  if (!felt) return false;
+  draw_border(over.brush, felt->arrow);
+  draw_arrow(over.brush, felt->arrow);
+  // Beyond the tip.
+  draw_size(over, wrench.force_N.norm(), which, felt->arrow.tip_px,
+            (felt->arrow.tip_px - felt->arrow.tail_px).normalized());
+  return true;
+}
+
+void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& style) {
+  const Brush& brush = over.brush;
+  const Rect& shown = over.map.shown;
+  const auto at = [&](const Eigen::Vector2d& place) {
+    return Eigen::Vector2d(shown.x + place.x() * shown.width, shown.y + place.y() * shown.height);
+  };
+  const auto ring_px = static_cast<float>(finger_radius_px(shown.height));
+  const ImVec2 finger = im(at(touch.finger));
+  brush.list.AddCircle(finger, ring_px, IM_COL32(0, 0, 0, 200), 0, ring_px / 2);
+  brush.list.AddCircle(finger, ring_px, IM_COL32(255, 255, 255, 255), 0, ring_px / 4);
+  if (!touch.touching) return;
+  const Eigen::Vector2d proxy_px = at(touch.proxy);
+  if (!draw_force(over, {touch.force_N, {}}, "", proxy_px, style)) {
+    const Eigen::Vector2d down(0, 1);
+    draw_size(over, touch.force_N.norm(), "", proxy_px + 2 * ring_px * down, down);
+  }
+  const auto radius_px =
+      static_cast<float>(proxy_radius_px(touch, style.max_force_N, shown.height));
+  brush.list.AddCircleFilled(im(proxy_px), radius_px + ring_px / 8, IM_COL32(0, 0, 0, 255));
+  brush.list.AddCircleFilled(im(proxy_px), radius_px, kFeltColor);
+}
+
+PictureMap map_of(const Rect& panel, const ShownPicture& picture, const FrameFacts& facts) {
+  const VisiblePart& visible = facts.visible;
+  return map_picture(panel, visible.x, visible.y, visible.width, visible.height,
+                     picture.pixel_aspect);
+}
+
+bool has_picture(const ShownPicture& picture, const FrameFacts& facts) {
+  return picture.texture && facts.visible.width > 0 && facts.visible.height > 0;
+}
+
+}  // namespace
+
+Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameFacts& facts) {
+  return has_picture(picture, facts) ? map_of(panel, picture, facts).shown : Rect();
+}
+
+void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
+                  const FrameFacts& facts) {
+  brush.list.AddRectFilled(upper_left(panel), lower_right(panel), IM_COL32(10, 11, 14, 255),
+                           brush.px(6));
+  const VisiblePart& visible = facts.visible;
+  if (!has_picture(picture, facts)) {
+    draw_text(brush, brush.fonts.body, im(panel.x + 12 * brush.scale, panel.y + 10 * brush.scale),
+              kMutedColor, "No frame yet");
+    return;
+  }
+  const PictureMap map = map_of(panel, picture, facts);
+  const double w = picture.frame_width, h = picture.frame_height;
+  brush.list.AddImage(picture.texture, upper_left(map.shown), lower_right(map.shown),
+                      im(visible.x / w, visible.y / h),
+                      im((visible.x + visible.width) / w, (visible.y + visible.height) / h));
+  if (picture.relief) {
+    // The relief is turned like the picture when it is shown; here it is turned back.
+    const auto in_relief = [&facts](double x, double y) {
+      return im(facts.scene.turn.place_shown({x, y}));
+    };
+    const Rect& on = map.shown;
+    brush.list.AddImageQuad(picture.relief, im(on.x, on.y), im(on.right(), on.y),
+                            im(on.right(), on.y + on.height), im(on.x, on.y + on.height),
+                            in_relief(0, 0), in_relief(1, 0), in_relief(1, 1), in_relief(0, 1),
+                            IM_COL32(255, 255, 255, kReliefOpacity));
+  }
+  brush.list.PushClipRect(upper_left(map.shown), lower_right(map.shown), true);
+  ArrowStyle style;
+  style.scale = picture.arrow_scale;
+  style.height_px = map.shown.height;
+  style.max_force_N = picture.max_force_N;
+  style.turn = facts.scene.turn;
+  const Overlay over{brush, map, facts, picture, felt_objects(facts)};
+  draw_tracks(over, style);
+  if (picture.detail) draw_points(over);
+  draw_objects(over);
+  const Eigen::Vector2d from_px = map(force_origin_px(facts.scene, over.felt, visible));
+  draw_force(over, facts.scene.wrench, " wanted", from_px, style);
+  if (picture.touch) draw_touch(over, *picture.touch, style);
+  brush.list.PopClipRect();
+}
+
+}  // namespace spidar

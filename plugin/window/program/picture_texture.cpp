@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/program/picture_texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <GLFW/glfw3.h>
+
+namespace spidar {
+
+PictureTexture::PictureTexture() {
+  glGenTextures(1, &id_);
+  glBindTexture(GL_TEXTURE_2D, id_);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+PictureTexture::~PictureTexture() {
+  glDeleteTextures(1, &id_);
+  if (converter_) gst_video_converter_free(converter_);
+  gst_clear_buffer(&converted_);
+}
+
+bool PictureTexture::prepare(const GstVideoInfo& source, int width, int height) {
+  if (converter_ && gst_video_info_is_equal(&source, &source_) &&
+      GST_VIDEO_INFO_WIDTH(&target_) == width && GST_VIDEO_INFO_HEIGHT(&target_) == height) {
+    return true;
+  }
+  if (converter_) gst_video_converter_free(converter_);
+  gst_clear_buffer(&converted_);
+  source_ = source;
+  gst_video_info_set_format(&target_, GST_VIDEO_FORMAT_RGBA, static_cast<guint>(width),
+                            static_cast<guint>(height));
+  converter_ =
+      gst_video_converter_new(&source_, &target_,
+                              gst_structure_new("options", GST_VIDEO_CONVERTER_OPT_RESAMPLER_METHOD,
+                                                GST_TYPE_VIDEO_RESAMPLER_METHOD,
+                                                GST_VIDEO_RESAMPLER_METHOD_LINEAR, nullptr));
+  converted_ = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&target_), nullptr);
+  return converter_ && converted_;
+}
+
+bool PictureTexture::load(const SharedPicture& picture, int most_width) {
+  const GstVideoInfo& info = picture.info();
+  const int frame_width = GST_VIDEO_INFO_WIDTH(&info), frame_height = GST_VIDEO_INFO_HEIGHT(&info);
+  const int width = std::clamp(most_width, 1, frame_width);
+  const int height =
+      std::max(1, static_cast<int>(static_cast<int64_t>(frame_height) * width / frame_width));
+  GstVideoFrame source, target;
+  if (!prepare(info, width, height)) return false;
+  const gsize bytes = GST_VIDEO_INFO_SIZE(&info);
+  // Read only: its pixels stay as they are.
+  GstBuffer* const buffer =
+      gst_buffer_new_wrapped_full(GST_MEMORY_FLAG_READONLY, const_cast<uint8_t*>(picture.pixels()),
+                                  bytes, 0, bytes, nullptr, nullptr);
+  const bool is_mapped = gst_video_frame_map(&source, &source_, buffer, GST_MAP_READ) != FALSE;
+  gst_buffer_unref(buffer);
+  if (!is_mapped) return false;
+  if (!gst_video_frame_map(&target, &target_, converted_, GST_MAP_READWRITE)) {
+    gst_video_frame_unmap(&source);
+    return false;
+  }
+  gst_video_converter_frame(converter_, &source, &target);
+  upload(GST_VIDEO_FRAME_PLANE_DATA(&target, 0), width, height);
+  frame_width_ = frame_width;
+  frame_height_ = frame_height;
+  pixel_aspect_ = static_cast<double>(GST_VIDEO_INFO_PAR_N(&info)) / GST_VIDEO_INFO_PAR_D(&info);
+  gst_video_frame_unmap(&target);
+  gst_video_frame_unmap(&source);
+  return true;
+}
+
+void PictureTexture::load(const Still& still) {
+  upload(still.rgba.data(), still.width, still.height);
+  frame_width_ = still.frame_width;
+  frame_height_ = still.frame_height;
+  pixel_aspect_ = still.pixel_aspect;
+}
+
+void PictureTexture::upload(const void* rgba, int width, int height) {
+  glBindTexture(GL_TEXTURE_2D, id_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  if (width == width_ && height == height_) {
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  } else {
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  }
+  width_ = width;
+  height_ = height;
+}
+
+bool PictureTexture::copy_to(Still& still, int widest) const {
+  return cut_to(still, {0, 0, 1, 1}, widest);
+}
+
+bool PictureTexture::cut_to(Still& still, const Rect& part, int widest) const {
+  const int x0 = std::clamp(static_cast<int>(std::floor(part.x * width_)), 0, width_);
+  const int y0 = std::clamp(static_cast<int>(std::floor(part.y * height_)), 0, height_);
+  const int width = std::min(static_cast<int>(std::ceil(part.right() * width_)), width_) - x0;
+  const int height = std::min(static_cast<int>(std::ceil(part.bottom() * height_)), height_) - y0;
+  GstMapInfo map;
+  if (width <= 0 || height <= 0 || !converted_) return false;
+  if (!gst_buffer_map(converted_, &map, GST_MAP_READ)) return false;
+  const int stride = GST_VIDEO_INFO_PLANE_STRIDE(&target_, 0);
+  const uint8_t* const first = map.data + static_cast<ptrdiff_t>(y0) * stride + ptrdiff_t{4} * x0;
+  shrink_into(still, first, width, height, stride, widest);
+  gst_buffer_unmap(converted_, &map);
+  still.frame_width = frame_width_;
+  still.frame_height = frame_height_;
+  still.pixel_aspect = pixel_aspect_;
+  return true;
+}
+
+}  // namespace spidar

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The player as its window sees it, through the socket between them.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugin/window/program/model/frame_queue.h"
+#include "plugin/window/view/channel.h"
+#include "plugin/window/view/messages.h"
+
+namespace spidar {
+
+/// One thread.
+class PlayerLink {
+ public:
+  /// Takes over the socket.
+  explicit PlayerLink(int socket) : channel_(std::make_shared<Channel>(socket)) {}
+
+  /// Asks for what is to be drawn next, and waits for the answer, no longer than `patience`.
+  void ask(std::chrono::milliseconds patience);
+  /// Waits as long, but not if the window is to close.
+  void rest(std::chrono::milliseconds duration);
+
+  /// The player has closed the window, or is gone.
+  bool is_over() const { return is_closed_ || is_not_understood_ || channel_->is_gone(); }
+  /// Because it says what is no message, as one of another version does.
+  bool is_not_understood() const { return is_not_understood_ || channel_->is_not_understood(); }
+
+  /// Of the last answer.
+  const ElementState& state() const { return state_; }
+  /// Of every answer since the last call.
+  std::vector<ForceTick> take_ticks() { return std::exchange(ticks_, {}); }
+  FrameQueue& frames() { return frames_; }
+  std::vector<UserInput> take_inputs() { return std::exchange(inputs_, {}); }
+  /// The file into which the next drawing is to be written.
+  std::optional<std::string> wanted_picture() const { return wanted_picture_; }
+  /// What became of it, see PictureTaken.
+  void picture_taken(const std::string& problem);
+
+  void change(const std::string& setting, double value) { send(ChangeSetting{setting, value}); }
+  void lead_hand(const std::optional<Eigen::Vector3d>& to_m);
+  void choose(const std::optional<Eigen::Vector2d>& place) { send(ChooseObject{place}); }
+  /// Waits for the answer, but not for long.
+  ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits);
+  void cannot_open(const std::string& what, const std::string& advice);
+
+ private:
+  void send(const FromWindow& message) { channel_->send(to_bytes(message)); }
+  bool wait(std::chrono::steady_clock::time_point until);
+  void receive();
+  void take(ToWindow&& message);
+  void take_memory(const PictureMemory& memory);
+  void take_frame(FrameShown&& frame);
+
+  std::shared_ptr<Channel> channel_;  ///< shared with the pictures, which free their slots
+  std::shared_ptr<const MappedPictures> memory_;
+  FrameQueue frames_;
+  ElementState state_;
+  std::vector<ForceTick> ticks_;
+  std::vector<UserInput> inputs_;
+  std::optional<std::string> wanted_picture_;
+  std::optional<ChoicesSaved> saved_;
+  std::optional<Eigen::Vector3d> led_to_m_;
+  bool is_answered_ = false;
+  bool is_closed_ = false;
+  bool is_not_understood_ = false;
+};
+
+}  // namespace spidar

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/program/plot.h"
+
+#include <algorithm>
+
+namespace spidar {
+namespace {
+
+constexpr double kStepAcross_px = 56, kStepUp_px = 17;
+constexpr double kGap_px = 5;
+
+/// Fills meet without the seams that soft edges would leave between them.
+class PlainEdges {
+ public:
+  explicit PlainEdges(ImDrawList& list) : list_(list), before_(list.Flags) {
+    list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
+  }
+  ~PlainEdges() { list_.Flags = before_; }
+  PlainEdges(const PlainEdges&) = delete;
+  PlainEdges& operator=(const PlainEdges&) = delete;
+
+ private:
+  ImDrawList& list_;
+  ImDrawListFlags before_;
+};
+
+}  // namespace
+
+Plot::Plot(const Brush& brush, const Rect& panel, const PlotAxis& x, const PlotAxis& y,
+           const std::string& x_unit, const std::string& y_unit)
+    : brush_(brush), area_(panel), x_(x), y_(y) {
+  double widest = 0;
+  for (const double tick : y_.ticks()) {
+    widest = std::max<double>(widest, text_size(brush.fonts.small, y_.label(tick)).x);
+  }
+  const double gap = kGap_px * brush.scale, text = brush.fonts.small->FontSize;
+  const double left = std::min(widest + gap, area_.width);
+  const double below = std::min(text + gap, area_.height);
+  // Above: the unit of y; on the right: half of the last label.
+  const double above = std::min(text + gap, area_.height - below);
+  area_ = {area_.x + left, area_.y + above, std::max(area_.width - left - 2 * gap, 1.0),
+           std::max(area_.height - above - below, 1.0)};
+  unit_width_ = text_size(brush.fonts.small, y_unit).x;
+  draw_axes(x_unit, y_unit);
+}
+
+void Plot::draw_axes(const std::string& x_unit, const std::string& y_unit) const {
+  const ImFont* font = brush_.fonts.small;
+  const float gap = brush_.px(kGap_px), half = font->FontSize / 2;
+  for (const double tick : y_.ticks()) {
+    const ImVec2 left = at(x_.low, tick);
+    brush_.list.AddLine(left, at(x_.high, tick), tick == 0 ? kLineColor : kGridColor);
+    draw_text_before(brush_, font, {left.x - gap, left.y - half}, kMutedColor, y_.label(tick));
+  }
+  draw_text(brush_, font, im(area_.x, area_.y - font->FontSize - gap), kMutedColor, y_unit);
+  const float unit_x = static_cast<float>(area_.right()) - text_size(font, x_unit).x;
+  for (const double tick : x_.ticks()) {
+    const ImVec2 low = at(tick, y_.low);
+    brush_.list.AddLine(low, at(tick, y_.high), kGridColor);
+    const std::string label = x_.label(tick);
+    const float width = text_size(font, label).x;
+    // The unit takes the place of the last label where both would stand.
+    if (low.x + width / 2 + gap > unit_x) continue;
+    draw_text(brush_, font, {low.x - width / 2, low.y + gap / 2}, kMutedColor, label);
+  }
+  draw_text(brush_, font, im(unit_x, area_.bottom() + gap / 2), kMutedColor, x_unit);
+}
+
+ImVec2 Plot::at(double x, double y) const {
+  return im(area_.x + x_.share(x) * area_.width, area_.bottom() - y_.share(y) * area_.height);
+}
+
+void Plot::line(const std::vector<PlotPoint>& points, ImU32 color, double width_px) const {
+  std::vector<ImVec2> corners;
+  corners.reserve(points.size());
+  const float mark = brush_.px(4);
+  brush_.list.PushClipRect(upper_left(area_), lower_right(area_), true);
+  for (const PlotPoint& point : points) {
+    // Far beyond the range coordinates would lose their precision.
+    const double share = std::clamp(y_.share(point.y), -1.0, 2.0);
+    corners.push_back(at(point.x, y_.low + share * (y_.high - y_.low)));
+    if (point.y <= y_.high) continue;
+    const ImVec2 top = at(point.x, y_.high);
+    brush_.list.AddTriangleFilled(top, {top.x + mark, top.y + 1.5F * mark},
+                                  {top.x - mark, top.y + 1.5F * mark}, color);
+  }
+  brush_.list.AddPolyline(corners.data(), static_cast<int>(corners.size()), color, 0,
+                          brush_.px(width_px));
+  brush_.list.PopClipRect();
+}
+
+void Plot::band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px) const {
+  const double part = (x_.high - x_.low) / static_cast<double>(std::max<size_t>(spans.size(), 1));
+  const float least = brush_.px(width_px);
+  std::vector<PlotPoint> middles;
+  const auto end_line = [&] {
+    line(middles, color, width_px);
+    middles.clear();
+  };
+  for (size_t i = 0; i < spans.size(); ++i) {
+    const PlotSpan& span = spans[i];
+    if (span.is_empty) {
+      end_line();
+      continue;
+    }
+    const double x = x_.low + part * static_cast<double>(i);
+    const ImVec2 high = at(x, std::clamp(span.high, y_.low, y_.high));
+    const ImVec2 low = at(x + part, std::clamp(span.low, y_.low, y_.high));
+    if (low.y - high.y > least) brush_.list.AddRectFilled(high, low, color);
+    middles.push_back({x + part / 2, (span.low + span.high) / 2});
+  }
+  end_line();
+}
+
+void Plot::area(const std::vector<PlotPoint>& points, ImU32 color) const {
+  const PlainEdges plain(brush_.list);
+  brush_.list.PushClipRect(upper_left(area_), lower_right(area_), true);
+  for (size_t i = 1; i < points.size(); ++i) {
+    const PlotPoint& a = points[i - 1];
+    const PlotPoint& b = points[i];
+    const ImVec2 corners[4] = {at(a.x, 0), at(a.x, std::min(a.y, y_.high)),
+                               at(b.x, std::min(b.y, y_.high)), at(b.x, 0)};
+    brush_.list.AddQuadFilled(corners[0], corners[1], corners[2], corners[3], color);
+  }
+  brush_.list.PopClipRect();
+}
+
+void Plot::level(double y, ImU32 color) const {
+  brush_.list.AddLine(at(x_.low, y), at(x_.high, y), color, brush_.px(1));
+}
+
+void Plot::upright(double x, ImU32 color) const {
+  brush_.list.AddLine(at(x, y_.low), at(x, y_.high), color, brush_.px(1.5));
+}
+
+void Plot::dot(double x, double y, ImU32 color) const {
+  const ImVec2 centre = at(std::clamp(x, x_.low, x_.high), std::clamp(y, y_.low, y_.high));
+  brush_.list.AddCircleFilled(centre, brush_.px(6), kPanelColor);
+  brush_.list.AddCircleFilled(centre, brush_.px(4.5), color);
+}
+
+void Plot::legend(const std::vector<Key>& keys) const {
+  const ImFont* font = brush_.fonts.small;
+  const float gap = brush_.px(kGap_px), stroke = brush_.px(12);
+  // To the right of the unit; names for which there is no room are left out, the last ones first.
+  const float room = static_cast<float>(area_.width) - unit_width_ - 2 * gap;
+  float width = 0;
+  size_t count = 0;
+  for (; count < keys.size(); ++count) {
+    const float next = stroke + 3 * gap + text_size(font, keys[count].name).x;
+    if (width + next - 2 * gap > room) break;
+    width += next;
+  }
+  ImVec2 at = im(area_.right() - width + 2 * gap, area_.y - font->FontSize - gap);
+  for (size_t i = 0; i < count; ++i) {
+    const Key& key = keys[i];
+    const float middle = at.y + font->FontSize / 2;
+    brush_.list.AddLine({at.x, middle}, {at.x + stroke, middle}, key.color, brush_.px(2));
+    at.x += stroke + gap;
+    draw_text(brush_, font, at, kMutedColor, key.name);
+    at.x += text_size(font, key.name).x + 2 * gap;
+  }
+}
+
+int Plot::steps_across(const Brush& brush, double width_px) {
+  return std::max(1, static_cast<int>(width_px / (kStepAcross_px * brush.scale)));
+}
+
+int Plot::steps_up(const Brush& brush, double height_px) {
+  return std::max(1, static_cast<int>(height_px / (kStepUp_px * brush.scale)));
+}
+
+}  // namespace spidar

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A plot with axes, grid and legend, drawn into a rectangle.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plugin/window/program/model/plot_axis.h"
+#include "plugin/window/program/style.h"
+
+namespace spidar {
+
+struct PlotPoint {
+  double x = 0, y = 0;
+};
+
+/// All that was there in one of several equal parts of the axis of x.
+struct PlotSpan {
+  bool is_empty = true;
+  double low = 0, high = 0;
+};
+
+class Plot {
+ public:
+  /// Axes with their labels along the left and lower edge of `panel`; units stand at their ends.
+  Plot(const Brush& brush, const Rect& panel, const PlotAxis& x, const PlotAxis& y,
+       const std::string& x_unit, const std::string& y_unit);
+
+  /// Line through points in order; what lies beyond the range is cut off, and a small triangle at
+  /// the edge says where a value is above it.
+  void line(const std::vector<PlotPoint>& points, ImU32 color, double width_px = 1.6) const;
+  /// From the lowest to the highest value in each part of the width, never lower than a line of
+  /// `width_px`.
+  void band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px = 1.6) const;
+  /// The area between a line and y = 0.
+  void area(const std::vector<PlotPoint>& points, ImU32 color) const;
+  void level(double y, ImU32 color) const;
+  void upright(double x, ImU32 color) const;
+  void dot(double x, double y, ImU32 color) const;
+  /// Names beside each other at the upper right, in their colours, as many as there is room for.
+  struct Key {
+    const char* name;
+    ImU32 color;
+  };
+  void legend(const std::vector<Key>& keys) const;
+
+  const Rect& area() const { return area_; }
+  ImVec2 at(double x, double y) const;
+
+  /// How many steps fit on an axis of this length.
+  static int steps_across(const Brush& brush, double width_px);
+  static int steps_up(const Brush& brush, double height_px);
+
+ private:
+  void draw_axes(const std::string& x_unit, const std::string& y_unit) const;
+
+  const Brush& brush_;
+  Rect area_;
+  PlotAxis x_, y_;
+  float unit_width_ = 0;  // of y
+};
+
+}  // namespace spidar

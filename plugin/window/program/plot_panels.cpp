@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <cstdio>
+
+#include "core/analysis/no_force_reason.h"
+#include "plugin/window/program/panels.h"
+#include "plugin/window/program/plot.h"
+
+namespace spidar {
+namespace {
+
+constexpr double kLeastForce_N = 0.1, kLeastSpeed_px_s = 100, kHeadroom = 1.1;
+constexpr int kCurvePoints = 64;
+constexpr const char* kAxisNames[] = {"right", "up", "near"};
+
+std::string number(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// The last seconds before the cursor, as seconds before it.
+PlotAxis time_axis(const Brush& brush, const Rect& panel, const Timeline& timeline) {
+  return make_axis(-timeline.plotted_s(), 0, Plot::steps_across(brush, panel.width));
+}
+
+template <typename Value>
+std::vector<PlotPoint> series(const Timeline& timeline, const Value& value) {
+  std::vector<PlotPoint> points;
+  for (const Moment& moment : timeline.plotted()) {
+    points.push_back({moment.time_s - timeline.cursor_s(), value(moment)});
+  }
+  return points;
+}
+
+/// Along one axis, in each pixel of the width.
+std::vector<PlotSpan> spans(const std::vector<ForceColumn>& columns, Eigen::Index axis,
+                            Eigen::Vector3d ForceColumn::*low_N,
+                            Eigen::Vector3d ForceColumn::*high_N) {
+  std::vector<PlotSpan> all;
+  for (const ForceColumn& column : columns) {
+    all.push_back({column.is_empty, (column.*low_N)[axis], (column.*high_N)[axis]});
+  }
+  return all;
+}
+
+/// Upper end of an axis of speed: fits what is plotted, whatever one frame says.
+double highest_speed_px_s(const Timeline& timeline) {
+  std::vector<double> speeds_px_s;
+  for (const Moment& moment : timeline.plotted()) speeds_px_s.push_back(moment.speed_px_s);
+  return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kLeastSpeed_px_s);
+}
+
+}  // namespace
+
+void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
+                double max_force_N) {
+  const Timeline::Part moments = timeline.plotted();
+  const Rect content = draw_panel(
+      brush, panel, "Force",
+      moments.empty() ? "" : number("%.2f N delivered", moments.back().felt.force_N.norm()));
+  const double most_N = std::max(max_force_N, kLeastForce_N);
+  const PlotAxis y = make_axis(-most_N, most_N, Plot::steps_up(brush, content.height));
+  const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "N");
+  const double end_s = timeline.cursor_s(), begin_s = end_s - timeline.plotted_s();
+  const auto pixels = static_cast<size_t>(std::max(plot.area().width, 1.0));
+  const std::vector<ForceColumn> columns = timeline.columns(begin_s, end_s, pixels);
+  for (Eigen::Index axis = 2; axis >= 0; --axis) {
+    const ImU32 color = kAxisColors[axis];
+    plot.band(spans(columns, axis, &ForceColumn::wanted_low_N, &ForceColumn::wanted_high_N),
+              faded(color, 95), 3.5);
+    plot.band(spans(columns, axis, &ForceColumn::delivered_low_N, &ForceColumn::delivered_high_N),
+              color);
+  }
+  plot.legend({{kAxisNames[0], kAxisColors[0]},
+               {kAxisNames[1], kAxisColors[1]},
+               {kAxisNames[2], kAxisColors[2]},
+               {"wanted", faded(kTextColor, 95)},
+               {"delivered", kTextColor}});
+}
+
+void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline) {
+  const Timeline::Part moments = timeline.plotted();
+  const Rect content = draw_panel(
+      brush, panel, "Speed", moments.empty() ? "" : number("%.0f px/s", moments.back().speed_px_s));
+  const PlotAxis y =
+      make_axis(0, highest_speed_px_s(timeline), Plot::steps_up(brush, content.height));
+  const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "px/s at 480 lines");
+  const std::vector<PlotPoint> speed =
+      series(timeline, [](const Moment& m) { return m.speed_px_s; });
+  plot.area(speed, faded(kSpeedColor, 40));
+  plot.line(speed, kSpeedColor);
+}
+
+void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
+               const ControllerSettings& controller) {
+  const Rect content = draw_panel(brush, panel, "Speed to force");
+  const double highest_px_s = highest_speed_px_s(timeline);
+  const double most_N = std::max(controller.max_force_N, kLeastForce_N);
+  const PlotAxis x = make_axis(0, highest_px_s, Plot::steps_across(brush, content.width));
+  const PlotAxis y = make_axis(0, most_N, Plot::steps_up(brush, content.height));
+  const Plot plot(brush, content, x, y, "px/s", "N");
+  const std::vector<double> curve_N = gain_curve(controller, timeline, highest_px_s, kCurvePoints);
+  std::vector<PlotPoint> curve;
+  for (size_t i = 0; i < curve_N.size(); ++i) {
+    curve.push_back({highest_px_s * static_cast<double>(i) / (kCurvePoints - 1), curve_N[i]});
+  }
+  plot.line(curve, kSpeedColor);
+  const Timeline::Part moments = timeline.plotted();
+  if (moments.empty()) return;
+  // The controller's force, a part of which may have become torque.
+  plot.dot(moments.back().speed_px_s, size_N(moments.back().wanted), kFeltColor);
+}
+
+}  // namespace spidar

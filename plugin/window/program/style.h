@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Typeface and colours of a debug window.
+#pragma once
+
+#include <imgui.h>
+#include <string>
+
+#include "plugin/window/program/model/layout.h"
+
+namespace spidar {
+
+constexpr ImU32 kBackColor = IM_COL32(17, 19, 24, 255);
+constexpr ImU32 kPanelColor = IM_COL32(26, 29, 36, 255);
+constexpr ImU32 kBorderColor = IM_COL32(44, 49, 60, 255);
+constexpr ImU32 kGridColor = IM_COL32(48, 53, 64, 255);
+constexpr ImU32 kLineColor = IM_COL32(96, 104, 120, 255);
+constexpr ImU32 kTextColor = IM_COL32(226, 230, 237, 255);
+constexpr ImU32 kMutedColor = IM_COL32(154, 163, 178, 255);  ///< text of less weight
+constexpr ImU32 kAccentColor = IM_COL32(64, 160, 255, 255);
+constexpr ImU32 kFeltColor = IM_COL32(255, 190, 60, 255);
+constexpr ImU32 kSpeedColor = IM_COL32(110, 210, 130, 255);
+constexpr ImU32 kGoodColor = IM_COL32(92, 200, 120, 255);
+constexpr ImU32 kWarnColor = IM_COL32(255, 96, 88, 255);
+/// x, y, z of the device frame: right, up, towards the viewer.
+constexpr ImU32 kAxisColors[3] = {IM_COL32(255, 112, 102, 255), IM_COL32(126, 211, 112, 255),
+                                  IM_COL32(98, 160, 255, 255)};
+
+/// The same colour, `alpha` (0 … 255) opaque.
+constexpr ImU32 faded(ImU32 color, unsigned alpha) {
+  return (color & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT);
+}
+
+struct Fonts {
+  ImFont* body = nullptr;
+  ImFont* bold = nullptr;
+  ImFont* small = nullptr;  ///< of axes and labels
+};
+
+/// Loads DejaVu Sans where it is installed, else the font that Dear ImGui brings along.
+Fonts load_fonts(double scale);
+/// Colours, rounded corners and spaces of Dear ImGui's own widgets.
+void set_style(double scale);
+
+/// What a panel draws with.
+struct Brush {
+  ImDrawList& list;
+  double scale;  ///< of text and lines
+  const Fonts& fonts;
+
+  float px(double at_scale_1) const { return static_cast<float>(at_scale_1 * scale); }
+};
+
+inline ImVec2 im(const Eigen::Vector2d& at_px) {
+  return {static_cast<float>(at_px.x()), static_cast<float>(at_px.y())};
+}
+inline ImVec2 im(double x, double y) {
+  return {static_cast<float>(x), static_cast<float>(y)};
+}
+inline ImVec2 upper_left(const Rect& rect) {
+  return im(rect.x, rect.y);
+}
+inline ImVec2 lower_right(const Rect& rect) {
+  return im(rect.right(), rect.bottom());
+}
+
+ImVec2 text_size(const ImFont* font, const std::string& text);
+void draw_text(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
+               const std::string& text);
+/// Ends at `at` instead of beginning there.
+void draw_text_before(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
+                      const std::string& text);
+/// Text on a dark rounded ground, readable on any picture. `at` is its upper left corner.
+void draw_label(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
+                const std::string& text);
+
+/// Ground, border and title of a panel, `note` at the right of the title. Returns what is left
+/// for its content.
+Rect draw_panel(const Brush& brush, const Rect& panel, const std::string& title,
+                const std::string& note = {});
+
+}  // namespace spidar

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// One end of the socket between a player and its window.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace spidar {
+
+/// A packet is a header, which has the protocol's version and the length, and as many bytes; a file
+/// may come with it. No function waits. One thread.
+class Channel {
+ public:
+  /// More than any picture's facts take. The other end is broken if it says more.
+  static constexpr uint32_t kMostBytes = 64 << 20;
+
+  /// Takes over the socket (AF_UNIX, SOCK_STREAM).
+  explicit Channel(int socket) : socket_(socket) {}
+  ~Channel();
+  Channel(const Channel&) = delete;
+  Channel& operator=(const Channel&) = delete;
+
+  /// Sends what there is room for; flush() sends the rest. `file` is copied; below 0: none.
+  void send(const std::vector<uint8_t>& bytes, int file = -1);
+  void flush();
+  bool has_unsent() const { return !unsent_.empty(); }
+
+  /// Reads what has come; then there may be packets.
+  void fill();
+  /// The oldest packet that is complete. Nothing when there is none.
+  std::optional<std::vector<uint8_t>> next();
+  /// The oldest file that has come, now the caller's; below 0: there is none.
+  int take_file();
+
+  /// The other end is closed or broken. What came before can still be taken.
+  bool is_gone() const { return is_gone_; }
+  /// It sends what is no packet of this version of the protocol.
+  bool is_not_understood() const { return is_not_understood_; }
+  int socket() const { return socket_; }
+
+ private:
+  struct Unsent {
+    std::vector<uint8_t> bytes;
+    size_t sent = 0;
+    int file = -1;
+  };
+  bool send_some(Unsent& packet);
+
+  int socket_;
+  std::deque<Unsent> unsent_;
+  std::vector<uint8_t> received_;
+  size_t taken_ = 0;  ///< of what was received
+  std::deque<int> files_;
+  bool is_gone_ = false;
+  bool is_not_understood_ = false;
+};
+
+}  // namespace spidar

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/view/messages.h"
+
+#include <cmath>
+#include <utility>
+
+#include "plugin/window/view/wire.h"
+
+namespace spidar {
+
+// Every structure that goes through the socket, member by member; see wire.h.
+
+template <typename Wire>
+void pass(Wire& wire, ImagePoint& point) {
+  wire(point.x_px, point.y_px);
+}
+
+template <typename Wire>
+void pass(Wire& wire, VisiblePart& part) {
+  wire(part.x, part.y, part.width, part.height);
+}
+
+template <typename Wire>
+void pass(Wire& wire, Wrench& wrench) {
+  wire(wrench.force_N, wrench.torque_Nm);
+}
+
+/// As one of the eight ways in which a picture can be turned.
+template <typename Wire>
+void pass(Wire& wire, PictureTurn& turn) {
+  constexpr int kQuarters = 4;
+  const auto way = [](int number) { return PictureTurn(number % kQuarters, number >= kQuarters); };
+  const auto is_same = [&](const PictureTurn& other) {
+    return other.to_shown(Eigen::Vector2d(1, 2)) == turn.to_shown(Eigen::Vector2d(1, 2));
+  };
+  int32_t number = 0;
+  while (!Wire::kReads && number < 2 * kQuarters - 1 && !is_same(way(number))) ++number;
+  wire(number);
+  if (number < 0 || number >= 2 * kQuarters) return wire.fail();
+  if constexpr (Wire::kReads) turn = way(number);
+}
+
+// --- the frame
+
+template <typename Wire>
+void pass(Wire& wire, FilmMoment& film) {
+  std::string path = film.name();
+  wire(path, film.stream_ns, film.scene_ns, film.length_ns);
+  if constexpr (Wire::kReads) film.path = std::make_shared<const std::string>(std::move(path));
+}
+
+template <typename Wire>
+void pass(Wire& wire, SceneTrack& track) {
+  wire(track.id, track.from, track.to, track.object, track.is_new);
+  wire.choice(track.owner, TrackOwner::kObject);
+}
+
+template <typename Wire>
+void pass(Wire& wire, MovingObject& object) {
+  wire(object.id, object.position_px, object.size_px, object.relative_px_s, object.on_screen_px_s,
+       object.growth_1_s, object.roll_rad_s, object.tracks, object.error_px_s, object.area_px2,
+       object.prominence);
+}
+
+/// The motion is left out: of it, the window shows FrameFacts::speed_px_s.
+template <typename Wire>
+void pass(Wire& wire, SceneView& scene) {
+  wire(scene.tracks, scene.lost, scene.objects, scene.wrench, scene.felt_object, scene.is_free,
+       scene.turn);
+}
+
+template <typename Wire>
+void pass(Wire& wire, ControllerSettings& controller) {
+  wire.choice(controller.kind, ControllerKind::kAdaptive);
+  wire(controller.max_force_N, controller.alpha_s_px);
+}
+
+template <typename Wire>
+void pass(Wire& wire, std::shared_ptr<const HeightField>& relief) {
+  bool is_there = relief != nullptr;
+  wire(is_there);
+  if (!is_there) return;
+  constexpr size_t kBytes = sizeof(float) * HeightField::kCells;
+  double width_m = relief ? relief->width_m() : 0, height_m = relief ? relief->height_m() : 0;
+  wire(width_m, height_m);
+  if constexpr (Wire::kReads) {
+    constexpr double kLeast_m = 1e-6;
+    const bool is_size = std::isfinite(width_m) && std::isfinite(height_m);
+    if (!is_size || width_m < kLeast_m || height_m < kLeast_m) return wire.fail();
+    auto read = std::make_shared<HeightField>(width_m, height_m);
+    wire.raw(read->row(0), kBytes);
+    relief = std::move(read);
+  } else {
+    wire.raw(relief->row(0), kBytes);
+  }
+}
+
+template <typename Wire>
+void pass(Wire& wire, TouchScene& touch) {
+  Eigen::Vector2d half_size_m = touch.map.pointer.half_size_m();
+  wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_share,
+       touch.relief);
+  if constexpr (Wire::kReads) touch.map.pointer = GripPointer(half_size_m);
+}
+
+template <typename Wire>
+void pass(Wire& wire, FrameFacts& facts) {
+  wire(facts.running_ns, facts.film, facts.interval_s, facts.analysis_ms, facts.visible,
+       facts.scene);
+  wire.choice(facts.motion, MotionKind::kCamera);
+  wire(facts.controller, facts.speed_px_s, facts.click, facts.touch);
+}
+
+// --- the element
+
+template <typename Wire>
+void pass(Wire& wire, Pose& pose) {
+  wire(pose.position_m, pose.orientation.coeffs());
+}
+
+template <typename Wire>
+void pass(Wire& wire, Contact& contact) {
+  wire(contact.has_surface, contact.touching, contact.depth_m, contact.proxy_m, contact.force_N);
+}
+
+/// Of a tick, what is drawn.
+template <typename Wire>
+void pass(Wire& wire, TickRecord& tick) {
+  wire(tick.monotonic_ns, tick.lateness_ns, tick.running_ns, tick.wanted, tick.delivered,
+       tick.tension_N, tick.pose, tick.faulty_string, tick.playing, tick.max_force_N, tick.contact);
+  wire.choice(tick.device, DeviceState::kLost);
+}
+
+template <typename Wire>
+void pass(Wire& wire, ForceTick& tick) {
+  wire(tick.monotonic_ns, tick.wanted_N, tick.delivered_N);
+}
+
+template <typename Wire>
+void pass(Wire& wire, StringGeometry& geometry) {
+  wire(geometry.count);
+  if (geometry.count < 0 || geometry.count > kMaxStrings) return wire.fail();
+  for (Eigen::Vector3d& exit_m : geometry.exit_m) wire(exit_m);
+  for (Eigen::Vector3d& grip_m : geometry.grip_m) wire(grip_m);
+}
+
+template <typename Wire>
+void pass(Wire& wire, DeviceView& device) {
+  wire(device.name, device.has_hand, device.has_strings, device.last, device.overruns, device.ticks,
+       device.geometry, device.min_tension_N, device.max_tension_N);
+}
+
+template <typename Wire>
+void pass(Wire& wire, Setting::Choice& choice) {
+  wire(choice.value, choice.name);
+}
+
+template <typename Wire>
+void pass(Wire& wire, Setting& setting) {
+  wire(setting.name, setting.help, setting.value, setting.low, setting.high, setting.choices,
+       setting.initial);
+  wire.choice(setting.kind, Setting::Kind::kNumber);
+}
+
+template <typename Wire>
+void pass(Wire& wire, std::shared_ptr<const FeelRules>& rules) {
+  std::string text = rules ? rules->text() : "";
+  wire(text);
+  if constexpr (Wire::kReads) {
+    rules.reset();
+    if (!wire.ok() || text.empty()) return;
+    try {
+      rules = std::make_shared<const FeelRules>(text);
+    } catch (const FeelRulesError&) {
+      wire.fail();
+    }
+  }
+}
+
+// --- the messages
+
+template <typename Wire>
+void pass(Wire& wire, PictureMemory& memory) {
+  wire(memory.id, memory.caps, memory.slots, memory.slot_bytes);
+  if (memory.slots > PictureMemory::kMostSlots) wire.fail();
+}
+
+template <typename Wire>
+void pass(Wire& wire, FrameShown& frame) {
+  wire(frame.memory, frame.slot, frame.facts);
+}
+
+template <typename Wire>
+void pass(Wire& wire, ElementState& state) {
+  wire(state.name, state.device, state.settings, state.no_force, state.rules);
+}
+
+template <typename Wire>
+void pass(Wire& wire, ChoicesSaved& saved) {
+  wire(saved.is_done, saved.what);
+}
+
+template <typename Wire>
+void pass(Wire& wire, TakePicture& take) {
+  wire(take.path);
+}
+
+template <typename Wire>
+void pass(Wire& wire, Mouse& mouse) {
+  wire(mouse.at_px, mouse.down, mouse.shift, mouse.wheel, mouse.taken);
+}
+
+template <typename Wire>
+void pass(Wire& wire, UserInput& input) {
+  wire(input.key, input.mouse, input.size_px);
+}
+
+template <typename Wire>
+void pass(Wire&, CloseWindow&) {}
+
+template <typename Wire>
+void pass(Wire&, Ask&) {}
+
+template <typename Wire>
+void pass(Wire& wire, SlotFree& free) {
+  wire(free.memory, free.slot);
+}
+
+template <typename Wire>
+void pass(Wire& wire, ChangeSetting& change) {
+  wire(change.name, change.value);
+}
+
+template <typename Wire>
+void pass(Wire& wire, LeadHand& lead) {
+  wire(lead.to_m);
+}
+
+template <typename Wire>
+void pass(Wire& wire, ChooseObject& choose) {
+  wire(choose.place);
+}
+
+template <typename Wire>
+void pass(Wire& wire, FeelEdit& edit) {
+  wire(edit.from_ns, edit.to_ns, edit.place);
+}
+
+template <typename Wire>
+void pass(Wire& wire, SaveChoices& save) {
+  wire(save.film, save.edits);
+}
+
+template <typename Wire>
+void pass(Wire& wire, PictureTaken& taken) {
+  wire(taken.problem);
+}
+
+template <typename Wire>
+void pass(Wire& wire, CannotOpen& failed) {
+  wire(failed.what, failed.advice);
+}
+
+namespace {
+
+template <typename Message>
+std::vector<uint8_t> write(const Message& message) {
+  WireWriter wire;
+  auto kind = static_cast<uint8_t>(message.index());
+  // A writer changes nothing of what it is given; only a reader does.
+  auto& written = const_cast<Message&>(message);
+  std::visit([&](auto& content) { wire(kind, content); }, written);
+  return std::move(wire.bytes());
+}
+
+/// The kind whose number is `kKind`, or one after it.
+template <typename Message, size_t kKind = 0>
+bool read_kind(WireReader& wire, size_t kind, Message& message) {
+  if constexpr (kKind == std::variant_size_v<Message>) {
+    return false;
+  } else {
+    if (kind != kKind) return read_kind<Message, kKind + 1>(wire, kind, message);
+    wire(message.template emplace<kKind>());
+    return true;
+  }
+}
+
+template <typename Message>
+std::optional<Message> read(const std::vector<uint8_t>& bytes) {
+  WireReader wire(bytes.data(), bytes.size());
+  uint8_t kind = 0;
+  Message message;
+  wire(kind);
+  if (!wire.ok() || !read_kind(wire, kind, message)) return std::nullopt;
+  if (!wire.ok() || !wire.is_at_end()) return std::nullopt;
+  return message;
+}
+
+}  // namespace
+
+std::vector<uint8_t> to_bytes(const ToWindow& message) {
+  return write(message);
+}
+
+std::vector<uint8_t> to_bytes(const FromWindow& message) {
+  return write(message);
+}
+
+std::optional<ToWindow> to_window(const std::vector<uint8_t>& bytes) {
+  return read<ToWindow>(bytes);
+}
+
+std::optional<FromWindow> from_window(const std::vector<uint8_t>& bytes) {
+  return read<FromWindow>(bytes);
+}
+
+}  // namespace spidar

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What a player and its window say to each other.
+///
+/// The window asks for what it draws next (Ask). The player answers with the frames that have
+/// passed since, and then with the state of the element (ElementState). A window that is slow
+/// therefore gets less, and nothing waits for it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/choice/feel_edit.h"
+#include "plugin/window/view/mouse_hand.h"
+#include "plugin/window/view/window_view.h"
+
+namespace spidar {
+
+/// To be raised when a message changes: a player and a window of different versions say so instead
+/// of misunderstanding each other.
+constexpr uint16_t kWindowProtocol = 1;
+
+// --- to the window
+
+/// Memory for pictures, in place of what there was. Its file comes with the message.
+struct PictureMemory {
+  static constexpr uint32_t kMostSlots = 64;
+
+  uint32_t id = 0;
+  std::string caps;  ///< format and size of each picture, as GStreamer writes it
+  uint32_t slots = 0;
+  uint64_t slot_bytes = 0;
+};
+/// A frame whose picture is in a slot, which is the window's until it sends SlotFree.
+struct FrameShown {
+  uint32_t memory = 0, slot = 0;
+  FrameFacts facts;
+};
+/// Answers SaveChoices.
+struct ChoicesSaved {
+  bool is_done = false;
+  std::string what;  ///< was done, or why not, as a sentence
+};
+/// Draw, and write that to a PNG file. PictureTaken answers.
+struct TakePicture {
+  std::string path;
+};
+/// In place of a person, for tests: a key of GLFW, the mouse from now on, another size.
+struct UserInput {
+  std::optional<int32_t> key;
+  std::optional<Mouse> mouse;
+  std::optional<Eigen::Vector2d> size_px;
+};
+/// The window is to close, and has kPatience for it.
+struct CloseWindow {};
+
+using ToWindow = std::variant<PictureMemory, FrameShown, ElementState, ChoicesSaved, TakePicture,
+                              UserInput, CloseWindow>;
+
+// --- from the window
+
+struct Ask {};
+struct SlotFree {
+  uint32_t memory = 0, slot = 0;
+};
+/// Sets a property; a value that is out of range is brought into it.
+struct ChangeSetting {
+  std::string name;
+  double value = 0;
+};
+/// Where the hand of the simulated device goes, device frame; nothing: it lets go.
+struct LeadHand {
+  std::optional<Eigen::Vector3d> to_m;
+};
+/// The object at this place of the frame, a share of its visible part, is felt alone; nothing: what
+/// the properties say is.
+struct ChooseObject {
+  std::optional<Eigen::Vector2d> place;
+};
+/// Changes the rules in the file of `feel`, or else in the one beside the file `film`.
+struct SaveChoices {
+  std::string film;
+  std::vector<FeelEdit> edits;
+};
+struct PictureTaken {
+  std::string problem;  ///< empty when it was written
+};
+/// The window cannot be opened: `what` happened, `advice` to do.
+struct CannotOpen {
+  std::string what, advice;
+};
+
+using FromWindow = std::variant<Ask, SlotFree, ChangeSetting, LeadHand, ChooseObject, SaveChoices,
+                                PictureTaken, CannotOpen>;
+
+/// The bytes of a message, from its kind on.
+std::vector<uint8_t> to_bytes(const ToWindow& message);
+std::vector<uint8_t> to_bytes(const FromWindow& message);
+/// Nothing when the bytes are not those of exactly one message, with every value in its range.
+std::optional<ToWindow> to_window(const std::vector<uint8_t>& bytes);
+std::optional<FromWindow> from_window(const std::vector<uint8_t>& bytes);
+
+}  // namespace spidar

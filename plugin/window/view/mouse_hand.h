@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Converts mouse input over the picture to the hand of a simulated device.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "plugin/frame/touch_view.h"
+#include "plugin/window/view/rect.h"
+
+namespace spidar {
+
+/// Mouse state in one frame of the window.
+struct Mouse {
+  Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  ///< in the window
+  bool down = false;                                ///< left button
+  bool shift = false;                               ///< Shift key
+  double wheel = 0;    ///< notches since the last frame, > 0 away from the user
+  bool taken = false;  ///< a widget uses the mouse
+};
+
+/// Pressing the left button in the picture moves the grip there and holds it. The wheel, or
+/// dragging up and down with Shift, moves the hand deeper into the picture (away from the viewer, z
+/// < 0) or nearer. The depth is kept when the button is released.
+class MouseHand {
+ public:
+  MouseHand() = default;
+
+  static constexpr double kNotch_m = 0.5e-3;    ///< depth per notch of the wheel
+  static constexpr double kFurthest_m = 25e-3;  ///< largest depth in either direction
+
+  /// Returns the target of the hand in the device frame, or nothing while the hand is released.
+  /// `picture` is the part of the window that shows the visible part of the frame.
+  std::optional<Eigen::Vector3d> update(const Mouse& mouse, const Rect& picture,
+                                        const TouchMap& map);
+  void let_go() { *this = MouseHand(z_m_); }
+
+  bool holds() const { return holds_; }
+  /// Whether the mouse is over the picture.
+  bool is_over() const { return over_; }
+  double z_m() const { return z_m_; }
+
+ private:
+  explicit MouseHand(double z_m) : z_m_(z_m) {}
+
+  bool was_down_ = false;
+  bool holds_ = false;
+  bool over_ = false;
+  double z_m_ = 0;
+  Eigen::Vector2d last_px_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d place_ = Eigen::Vector2d::Zero();
+};
+
+/// The status line: instructions, preceded by the depth of the hand while it is held.
+std::string hand_line(const MouseHand& hand);
+
+}  // namespace spidar

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A rectangle in pixels, or in shares of a picture.
+#pragma once
+
+#include <algorithm>
+
+#include <Eigen/Core>
+
+namespace spidar {
+
+struct Rect {
+  double x = 0, y = 0, width = 0, height = 0;
+  double right() const { return x + width; }
+  double bottom() const { return y + height; }
+  /// Touching is none.
+  bool overlaps(const Rect& other) const {
+    return x < other.right() && other.x < right() && y < other.bottom() && other.y < bottom();
+  }
+  /// False for a place that is not finite.
+  bool has(const Eigen::Vector2d& at) const {
+    return at.x() >= x && at.x() < right() && at.y() >= y && at.y() < bottom();
+  }
+  /// This far inside on all sides; never less than nothing.
+  Rect inset(double margin) const {
+    const double dx = std::min(margin, width / 2), dy = std::min(margin, height / 2);
+    return {x + dx, y + dy, width - 2 * dx, height - 2 * dy};
+  }
+};
+
+}  // namespace spidar

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/window.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <condition_variable>
+#include <cstring>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include "plugin/window/picture_slots.h"
+#include "plugin/window/view/channel.h"
+#include "plugin/window/window_process.h"
+#include "spidar/realtime/thread_setup.h"
+
+namespace spidar {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kNotOpen = "the debug window is not open";
+
+}  // namespace
+
+/// What the thread and the owner of a Window share; the thread may outlive the owner.
+class Window::Session {
+ public:
+  explicit Session(std::shared_ptr<WindowSource> source) : source_(std::move(source)) {}
+  ~Session() {
+    if (wake_ >= 0) ::close(wake_);
+  }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// The thread, until the window is gone.
+  void run();
+  void fail(const std::string& problem);
+
+  void close();
+  bool wants_frame() const { return is_asking_ && !is_full_; }
+  bool give(const GstVideoFrame& frame, FrameFacts facts);
+  std::string take_picture(const std::string& path, std::chrono::milliseconds timeout);
+  void say(ToWindow message);
+
+ private:
+  struct Waiting {
+    std::shared_ptr<PictureSlots> slots;
+    FrameShown frame;
+  };
+
+  bool serve(Channel& channel);
+  void pass_on(Channel& channel);
+  void obey(Channel& channel, FromWindow&& message);
+  void answer(Channel& channel);
+  void free_slot(const SlotFree& free);
+  void finish(const WindowEnd& end);
+  void end_waiting(const std::string& problem);
+  std::shared_ptr<PictureSlots> slots_for(const GstVideoFrame& frame);
+  void wake() const { eventfd_write(wake_, 1); }
+
+  const std::shared_ptr<WindowSource> source_;
+  const int wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);  ///< −1: the system refuses it
+  std::atomic<bool> is_asking_{false};                       ///< the window is there
+  std::atomic<bool> is_full_{false};                         ///< there is no free slot
+  // The thread.
+  bool has_failed_ = false;        ///< the window has said why it cannot be opened
+  uint32_t memory_at_window_ = 0;  ///< that was sent last
+  // The streaming thread.
+  uint32_t memories_ = 0;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::shared_ptr<PictureSlots> slots_;
+  std::deque<Waiting> frames_;   ///< that the window has not asked for yet
+  std::deque<ToWindow> to_say_;  ///< at once
+  bool is_closing_ = false;
+  bool is_gone_ = false;
+  uint64_t pictures_asked_ = 0, pictures_taken_ = 0;
+  std::string picture_problem_;
+};
+
+// --- streaming thread --------------------------------------------------------------------------
+
+/// With the mutex held. Null when there is no memory.
+std::shared_ptr<PictureSlots> Window::Session::slots_for(const GstVideoFrame& frame) {
+  if (!slots_ || !slots_->fits(frame)) {
+    slots_ = std::make_shared<PictureSlots>(++memories_, frame);
+    frames_.clear();
+  }
+  return slots_->is_there() ? slots_ : nullptr;
+}
+
+bool Window::Session::give(const GstVideoFrame& frame, FrameFacts facts) {
+  std::shared_ptr<PictureSlots> slots;
+  std::optional<uint32_t> slot;
+  {
+    const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (!lock.owns_lock()) return false;
+    slots = slots_for(frame);
+    if (!slots) return false;
+    slot = slots->take();
+    if (!slot) {
+      is_full_ = true;
+      return false;
+    }
+  }
+  const bool is_copied = slots->copy(frame, *slot);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_copied) {
+    frames_.push_back({slots, {slots->description().id, *slot, std::move(facts)}});
+  } else {
+    slots->give_back(*slot);
+  }
+  return is_copied;
+}
+
+// --- any thread --------------------------------------------------------------------------------
+
+void Window::Session::close() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_closing_ = true;
+  to_say_.emplace_back(CloseWindow());
+  wake();
+}
+
+void Window::Session::say(ToWindow message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  to_say_.push_back(std::move(message));
+  wake();
+}
+
+std::string Window::Session::take_picture(const std::string& path,
+                                          std::chrono::milliseconds timeout) {
+  std::error_code error;
+  // The window has the folder that was current when it was opened.
+  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (is_gone_) return kNotOpen;
+  const uint64_t number = ++pictures_asked_;
+  to_say_.emplace_back(TakePicture{error ? path : whole.string()});
+  wake();
+  const auto is_taken = [&] { return pictures_taken_ >= number || is_gone_; };
+  if (!changed_.wait_for(lock, timeout, is_taken)) return "the debug window does not answer";
+  return pictures_taken_ >= number ? picture_problem_ : kNotOpen;
+}
+
+// --- the thread --------------------------------------------------------------------------------
+
+void Window::Session::run() {
+  WindowProcess process;
+  const std::string problem =
+      wake_ < 0 ? std::string("no eventfd: ") + std::strerror(errno) : process.start();
+  if (!problem.empty()) return fail(problem);
+  bool is_understood = false, has_left = false;
+  {
+    Channel channel(process.socket());
+    is_understood = serve(channel);
+    has_left = channel.is_gone();
+  }
+  is_asking_ = false;
+  // One that is to close and has not left has had its time.
+  WindowEnd end = process.finish(has_left ? static_cast<int>(kPatience.count()) : 0);
+  if (!is_understood) end = {false, "is of another version than the plugin"};
+  finish(end);
+}
+
+/// The window was not even started.
+void Window::Session::fail(const std::string& problem) {
+  has_failed_ = true;
+  source_->warn("The debug window cannot be started: " + problem + ".",
+                "Is spidar-window installed, or named in SPIDAR_WINDOW?");
+  finish({false, ""});
+}
+
+/// Until the window has closed its end, or has had its time for that. False when it says what is no
+/// message.
+bool Window::Session::serve(Channel& channel) {
+  std::optional<Clock::time_point> latest;
+  while (!channel.is_gone()) {
+    const auto events = static_cast<short>(POLLIN | (channel.has_unsent() ? POLLOUT : 0));
+    std::array<pollfd, 2> files{{{channel.socket(), events, 0}, {wake_, POLLIN, 0}}};
+    const int wait_ms = latest ? 50 : -1;
+    poll(files.data(), files.size(), wait_ms);
+    eventfd_t ignored = 0;
+    eventfd_read(wake_, &ignored);
+    pass_on(channel);
+    channel.flush();
+    channel.fill();
+    while (const std::optional<std::vector<uint8_t>> packet = channel.next()) {
+      std::optional<FromWindow> message = from_window(*packet);
+      if (!message) return false;
+      obey(channel, std::move(*message));
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_closing_ && !latest) latest = Clock::now() + kPatience;
+    if (latest && Clock::now() > *latest) break;
+  }
+  return !channel.is_not_understood();
+}
+
+/// What is to be said at once.
+void Window::Session::pass_on(Channel& channel) {
+  std::deque<ToWindow> messages;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    messages.swap(to_say_);
+  }
+  for (const ToWindow& message : messages) {
+    // A picture shows all that came before.
+    if (std::holds_alternative<TakePicture>(message)) answer(channel);
+    channel.send(to_bytes(message));
+  }
+}
+
+/// The frames that have passed, and the state of the element.
+void Window::Session::answer(Channel& channel) {
+  std::deque<Waiting> frames;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    frames.swap(frames_);
+  }
+  for (Waiting& waiting : frames) {
+    const PictureMemory& memory = waiting.slots->description();
+    if (memory.id != memory_at_window_) channel.send(to_bytes(memory), waiting.slots->file());
+    memory_at_window_ = memory.id;
+    channel.send(to_bytes(std::move(waiting.frame)));
+  }
+  ElementState state;
+  source_->read(state);
+  channel.send(to_bytes(std::move(state)));
+}
+
+void Window::Session::free_slot(const SlotFree& free) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!slots_ || slots_->description().id != free.memory) return;
+  slots_->give_back(free.slot);
+  is_full_ = false;
+}
+
+void Window::Session::obey(Channel& channel, FromWindow&& message) {
+  if (std::holds_alternative<Ask>(message)) {
+    is_asking_ = true;
+    answer(channel);
+  } else if (const auto* free = std::get_if<SlotFree>(&message)) {
+    free_slot(*free);
+  } else if (const auto* change = std::get_if<ChangeSetting>(&message)) {
+    source_->set(change->name, change->value);
+  } else if (const auto* lead = std::get_if<LeadHand>(&message)) {
+    source_->lead_hand(lead->to_m);
+  } else if (const auto* choose = std::get_if<ChooseObject>(&message)) {
+    source_->choose(choose->place);
+  } else if (const auto* save = std::get_if<SaveChoices>(&message)) {
+    channel.send(to_bytes(source_->save(save->film, save->edits)));
+  } else if (const auto* taken = std::get_if<PictureTaken>(&message)) {
+    end_waiting(taken->problem);
+  } else if (const auto* failed = std::get_if<CannotOpen>(&message)) {
+    has_failed_ = true;
+    source_->warn(failed->what, failed->advice);
+  }
+}
+
+void Window::Session::end_waiting(const std::string& problem) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++pictures_taken_;
+  picture_problem_ = problem;
+  changed_.notify_all();
+}
+
+void Window::Session::finish(const WindowEnd& end) {
+  source_->lead_hand(std::nullopt);
+  bool was_wanted = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_gone_ = true;
+    was_wanted = !is_closing_;
+    slots_.reset();
+    frames_.clear();
+    changed_.notify_all();
+  }
+  if (!was_wanted) return;
+  if (!end.is_orderly && !has_failed_) {
+    source_->warn("The debug window " + end.how + ".",
+                  "debug-window=true opens it again; a driver of OpenGL may be at fault.");
+  }
+  source_->closed();
+}
+
+// --- Window ------------------------------------------------------------------------------------
+
+Window::Window(std::shared_ptr<WindowSource> source)
+    : session_(std::make_shared<Session>(std::move(source))) {
+  try {
+    thread_ = start_thread("spidar-window", [session = session_] { session->run(); });
+  } catch (const std::system_error& error) {
+    session_->fail(error.what());
+  }
+}
+
+void Window::close() {
+  session_->close();
+  if (!thread_.joinable()) return;
+  // Closed by its own person, the thread comes here itself.
+  if (thread_.get_id() == std::this_thread::get_id()) {
+    thread_.detach();
+  } else {
+    thread_.join();
+  }
+}
+
+bool Window::wants_frame() const {
+  return session_->wants_frame();
+}
+
+bool Window::give(const GstVideoFrame& frame, FrameFacts facts) {
+  return session_->give(frame, std::move(facts));
+}
+
+std::string Window::take_picture(const std::string& path, std::chrono::milliseconds timeout) {
+  return session_->take_picture(path, timeout);
+}
+
+void Window::input(const UserInput& input) {
+  session_->say(input);
+}
+
+}  // namespace spidar

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/window/window_process.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <time.h>
+#include <unistd.h>
+
+#include "spidar/install_folder.h"
+
+extern char** environ;
+
+namespace spidar {
+namespace {
+
+/// $SPIDAR_WINDOW, or the program that was built or installed with this plugin.
+std::string program() {
+  const char* const named = std::getenv("SPIDAR_WINDOW");
+  if (named && *named) return named;
+  const std::filesystem::path beside = own_file().replace_filename("spidar-window");
+  std::error_code error;
+  const bool is_built_here =
+      prefix_of(own_file()).empty() && std::filesystem::exists(beside, error);
+  return is_built_here ? beside.string() : installed(SPIDAR_WINDOW_PATH).string();
+}
+
+/// Starts the program with `its_end` as its standard input. This process has threads, therefore
+/// nothing but posix_spawn() happens between fork and exec; all else that is open here closes on
+/// exec. Returns errno.
+int spawn(const std::string& path, int its_end, pid_t& process) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, its_end, STDIN_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  // Threads of this library have all signals blocked, and a program inherits that, and what its
+  // parent ignores. In a session of its own, Ctrl-C in a terminal reaches only the player.
+  sigset_t none, all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  std::string name = path;
+  std::array<char*, 2> arguments{name.data(), nullptr};
+  const int error =
+      posix_spawn(&process, path.c_str(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) process = -1;
+  return error;
+}
+
+}  // namespace
+
+std::string WindowProcess::start() {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    return std::string("no socket: ") + std::strerror(errno);
+  }
+  const std::string path = program();
+  const int error = spawn(path, ends[1], process_);
+  ::close(ends[1]);
+  if (error == 0) {
+    socket_ = ends[0];
+    return "";
+  }
+  ::close(ends[0]);
+  return path + ": " + std::strerror(error);
+}
+
+WindowEnd WindowProcess::finish(int patience_ms) {
+  if (process_ < 0) return {true, ""};
+  constexpr int kStep_ms = 5;
+  int status = 0;
+  pid_t ended = 0;
+  for (int waited_ms = 0; ended == 0; waited_ms += kStep_ms) {
+    ended = waitpid(process_, &status, WNOHANG);
+    if (ended < 0 && errno == EINTR) ended = 0;
+    if (ended != 0) break;
+    if (waited_ms == patience_ms / kStep_ms * kStep_ms) kill(process_, SIGKILL);
+    const timespec step{0, kStep_ms * 1'000'000};
+    nanosleep(&step, nullptr);
+  }
+  process_ = -1;
+  // Where the application ignores SIGCHLD, the system keeps no status.
+  if (ended < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0)) return {true, ""};
+  if (WIFEXITED(status)) {
+    return {false, "ended with status " + std::to_string(WEXITSTATUS(status))};
+  }
+  const int number = WTERMSIG(status);
+  return {false,
+          "was ended by the signal " + std::to_string(number) + " (" + strsignal(number) + ")"};
+}
+
+WindowProcess::~WindowProcess() {
+  if (process_ >= 0) finish(0);
+}
+
+}  // namespace spidar

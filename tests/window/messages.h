@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Messages between a player and its window with a value in every member.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plugin/window/view/messages.h"
+
+namespace spidar::test {
+
+inline FrameShown some_frame() {
+  FrameShown frame{3, 7, {}};
+  FrameFacts& facts = frame.facts;
+  facts.running_ns = 1'234'567'890'123;
+  facts.film = {std::make_shared<const std::string>("/film.avi"), 5, 4, 9};
+  facts.interval_s = 0.04;
+  facts.analysis_ms = 0.6;
+  facts.visible = {1, 2, 320, 240};
+  facts.scene.tracks.push_back({1, {60, 80}, {68, 81}, TrackOwner::kObject, 4, true});
+  facts.scene.lost.push_back({3.5, 4.5});
+  MovingObject object;
+  object.id = 4;
+  object.position_px = {40, -20};
+  object.size_px = {60, 61};
+  object.tracks = 12;
+  facts.scene.objects.push_back(object);
+  facts.scene.wrench.force_N = {1, 2, 3};
+  facts.scene.felt_object = 4;
+  facts.scene.is_free = false;
+  facts.scene.turn = PictureTurn(3, true);
+  facts.motion = MotionKind::kObjects;
+  facts.controller = {ControllerKind::kAdaptive, 2.5, 0.02};
+  facts.speed_px_s = 321;
+  facts.click = 2;
+  facts.touch.on = true;
+  facts.touch.map = {GripPointer(Eigen::Vector2d(0.03, 0.02)), PictureTurn(1)};
+  facts.touch.stiffness_N_m = 300;
+  return frame;
+}
+
+inline ElementState some_state() {
+  ElementState state;
+  state.name = "motion";
+  DeviceView& device = state.device.emplace();
+  device.name = "sim";
+  device.has_hand = true;
+  device.last.running_ns = 77;
+  device.last.delivered.force_N = {0.1, 0.2, 0.3};
+  device.last.tension_N[3] = 2.5;
+  device.last.device = DeviceState::kRunning;
+  device.overruns = 6;
+  device.ticks = {{1'000'000, {1, 2, 3}, {4, 5, 6}}, {2'000'000, {7, 8, 9}, {0, 1, 2}}};
+  device.geometry.count = 2;
+  device.geometry.exit_m[1] = {0.1, 0.2, 0.3};
+  device.max_tension_N[0] = 5;
+  state.settings = {
+      {"controller", "help", Setting::Kind::kChoice, 1, 0, 0, {{0, "a"}, {1, "b"}}, 0},
+      {"max-force", "newtons", Setting::Kind::kNumber, 2, 0, 20, {}, 3}};
+  state.no_force = "nothing moves";
+  state.rules = std::make_shared<const FeelRules>("0:01-0:02.5 object at 0.25,0.5; 0:03- camera");
+  return state;
+}
+
+inline SaveChoices some_choices() {
+  return {"/film.avi", {{1, 2, Eigen::Vector2d(0.25, 0.5)}, {3, 4, std::nullopt}}};
+}
+
+}  // namespace spidar::test

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// What a player and its window say to each other: as it was said, or refused.
+#include <array>
+#include <cstdint>
+#include <fcntl.h>
+#include <random>
+#include <string>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "plugin/window/view/channel.h"
+#include "tests/window/messages.h"
+
+namespace spidar::test::messages_test {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+std::vector<ToWindow> to_window_messages() {
+  FrameShown touched = some_frame();
+  auto relief = std::make_shared<HeightField>(0.256, 0.144);
+  for (int i = 0; i < HeightField::kCells; ++i) relief->row(0)[i] = static_cast<float>(i % 97);
+  touched.facts.touch.relief = std::move(relief);
+  UserInput input;
+  input.key = 32;
+  input.mouse = Mouse{{1, 2}, true, false, 0.5, false};
+  return {PictureMemory{1, "video/x-raw,format=RGB", 10, 230400},
+          some_frame(),
+          touched,
+          some_state(),
+          ElementState(),
+          ChoicesSaved{true, "saved"},
+          TakePicture{"/tmp/a.png"},
+          input,
+          CloseWindow()};
+}
+
+std::vector<FromWindow> from_window_messages() {
+  return {Ask(),
+          SlotFree{1, 2},
+          ChangeSetting{"max-force", 2.5},
+          LeadHand{Eigen::Vector3d(1, 2, 3)},
+          LeadHand{},
+          ChooseObject{Eigen::Vector2d(0.25, 0.5)},
+          some_choices(),
+          PictureTaken{"no room"},
+          CannotOpen{"no display", "start one"}};
+}
+
+TEST(Messages, AreReadAsTheyWereWritten) {
+  for (const ToWindow& message : to_window_messages()) {
+    const Bytes bytes = to_bytes(message);
+    const std::optional<ToWindow> read = to_window(bytes);
+    ASSERT_TRUE(read) << message.index();
+    EXPECT_EQ(read->index(), message.index());
+    EXPECT_EQ(to_bytes(*read), bytes) << message.index();
+  }
+  for (const FromWindow& message : from_window_messages()) {
+    const Bytes bytes = to_bytes(message);
+    const std::optional<FromWindow> read = from_window(bytes);
+    ASSERT_TRUE(read) << message.index();
+    EXPECT_EQ(read->index(), message.index());
+    EXPECT_EQ(to_bytes(*read), bytes) << message.index();
+  }
+}
+
+/// What to_bytes() forgets is the same in both of its results above, so some members by name.
+TEST(Messages, HaveWhatIsDrawn) {
+  const auto frame = std::get<FrameShown>(*to_window(to_bytes(ToWindow(some_frame()))));
+  EXPECT_EQ(frame.slot, 7u);
+  EXPECT_EQ(frame.facts.film.name(), "/film.avi");
+  EXPECT_EQ(frame.facts.scene.tracks.at(0).to.x_px, 68);
+  EXPECT_EQ(frame.facts.scene.objects.at(0).tracks, 12);
+  EXPECT_EQ(frame.facts.scene.turn.to_shown(Eigen::Vector2d(1, 0)),
+            PictureTurn(3, true).to_shown(Eigen::Vector2d(1, 0)));
+  EXPECT_EQ(frame.facts.touch.map.pointer.half_size_m(), Eigen::Vector2d(0.03, 0.02));
+  EXPECT_EQ(frame.facts.speed_px_s, 321);
+  const auto state = std::get<ElementState>(*to_window(to_bytes(ToWindow(some_state()))));
+  EXPECT_EQ(state.device->last.tension_N[3], 2.5);
+  EXPECT_EQ(state.device->ticks.at(1).wanted_N, Eigen::Vector3d(7, 8, 9));
+  EXPECT_EQ(state.setting("controller")->choices.at(1).name, "b");
+  EXPECT_EQ(state.rules->text(), some_state().rules->text());
+  const auto save = std::get<SaveChoices>(*from_window(to_bytes(FromWindow(some_choices()))));
+  EXPECT_EQ(save.edits.at(0).place, Eigen::Vector2d(0.25, 0.5));
+  EXPECT_FALSE(save.edits.at(1).place);
+}
+
+TEST(Messages, ThatEndTooEarlyOrTooLateAreRefused) {
+  for (const ToWindow& message : {ToWindow(some_frame()), ToWindow(some_state())}) {
+    Bytes bytes = to_bytes(message);
+    for (size_t size = 0; size < bytes.size(); ++size) {
+      EXPECT_FALSE(to_window(Bytes(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size))));
+    }
+    bytes.push_back(0);
+    EXPECT_FALSE(to_window(bytes));
+  }
+}
+
+/// Bytes of messages, changed, cut and put together: they are refused, or are a message that can be
+/// written and read again. The sanitizers say whether memory is read that is none of theirs.
+TEST(Messages, ThatAreDamagedDoNoHarm) {
+  const unsigned seed = std::random_device()();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::vector<Bytes> sources;
+  for (const ToWindow& message : to_window_messages()) sources.push_back(to_bytes(message));
+  for (const FromWindow& message : from_window_messages()) sources.push_back(to_bytes(message));
+  constexpr size_t kMost = 4096;  // the relief beyond it is but numbers
+  for (int n = 0; n < 20000; ++n) {
+    Bytes bytes = sources[random() % sources.size()];
+    if (bytes.size() > kMost) bytes.resize(kMost);
+    for (unsigned changes = 1 + random() % 4; changes > 0 && !bytes.empty(); --changes) {
+      const size_t at = random() % bytes.size();
+      constexpr std::array<uint8_t, 5> kEnds{0, 1, 127, 128, 255};
+      switch (random() % 4) {
+        case 0:
+          bytes[at] = static_cast<uint8_t>(random());
+          break;
+        case 1:
+          bytes[at] = kEnds[random() % kEnds.size()];
+          break;
+        case 2:
+          bytes.resize(at);
+          break;
+        default: {
+          const Bytes& other = sources[random() % sources.size()];
+          const size_t from = random() % other.size();
+          const size_t count = std::min(random() % 64, other.size() - from);
+          bytes.insert(bytes.begin() + static_cast<ptrdiff_t>(at), other.begin() + from,
+                       other.begin() + from + count);
+        }
+      }
+    }
+    if (const auto message = to_window(bytes)) {
+      ASSERT_TRUE(to_window(to_bytes(*message)));
+    }
+    if (const auto message = from_window(bytes)) {
+      ASSERT_EQ(to_bytes(*message), bytes);
+    }
+  }
+}
+
+class ChannelTest : public testing::Test {
+ protected:
+  ChannelTest() {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
+    here = std::make_unique<Channel>(ends[0]);
+    there = std::make_unique<Channel>(ends[1]);
+  }
+
+  std::unique_ptr<Channel> here, there;
+};
+
+TEST_F(ChannelTest, SendsPacketsWholeAndInOrderHoweverLittleRoomThereIs) {
+  constexpr size_t kLarge = 3'000'000;  // more than a socket takes at once
+  here->send(Bytes(kLarge, 7));
+  here->send({});
+  here->send({1, 2, 3});
+  EXPECT_TRUE(here->has_unsent()) << "and has not waited";
+  std::vector<Bytes> got;
+  while (got.size() < 3) {
+    there->fill();
+    while (const auto packet = there->next()) got.push_back(*packet);
+    here->flush();
+  }
+  EXPECT_EQ(got[0], Bytes(kLarge, 7));
+  EXPECT_TRUE(got[1].empty());
+  EXPECT_EQ(got[2], (Bytes{1, 2, 3}));
+  EXPECT_FALSE(here->has_unsent());
+}
+
+TEST_F(ChannelTest, GivesAwayACopyOfAFile) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
+  here->send({1}, ends[1]);
+  ::close(ends[1]);
+  there->fill();
+  EXPECT_TRUE(there->next());
+  const int file = there->take_file();
+  ASSERT_GE(file, 0);
+  EXPECT_NE(fcntl(file, F_GETFD) & FD_CLOEXEC, 0) << "no other program inherits it";
+  EXPECT_EQ(there->take_file(), -1);
+  EXPECT_EQ(write(file, "x", 1), 1);
+  ::close(file);
+  char byte = 0;
+  EXPECT_EQ(read(ends[0], &byte, 1), 1);
+  ::close(ends[0]);
+}
+
+TEST_F(ChannelTest, KnowsWhenTheOtherEndIsGone) {
+  there->send({5});
+  there.reset();
+  here->fill();
+  EXPECT_TRUE(here->is_gone());
+  EXPECT_EQ(here->next(), Bytes{5}) << "what came before is not lost";
+  here->send({1});  // and no signal ends this process
+}
+
+TEST_F(ChannelTest, DoesNotUnderstandAnotherVersionNorNonsense) {
+  const std::string nonsense = "GET / HTTP/1.1\r\n\r\n";
+  here->send({1});
+  std::array<uint8_t, 64> packet{};
+  const ssize_t size = read(there->socket(), packet.data(), packet.size());
+  ASSERT_GT(size, 6);
+  ++packet[4];  // behind the magic number: the version
+  for (const auto& [bytes, count] :
+       {std::pair{packet.data(), static_cast<size_t>(size)},
+        {reinterpret_cast<uint8_t*>(const_cast<char*>(nonsense.data())), nonsense.size()}}) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+    Channel channel(ends[1]);
+    ASSERT_EQ(write(ends[0], bytes, count), static_cast<ssize_t>(count));
+    channel.fill();
+    EXPECT_FALSE(channel.next());
+    EXPECT_TRUE(channel.is_not_understood());
+    EXPECT_TRUE(channel.is_gone());
+    ::close(ends[0]);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test::messages_test
