@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/track/keyframes.h"
+
 namespace spidar {
 namespace {
 
@@ -41,11 +43,14 @@ std::vector<Action> read_actions(const Json& root, size_t most_samples) {
     throw FunscriptError("funscript: it has no actions");
   }
   const bool inverted = root.value("inverted", Json(false)) == Json(true);
+  constexpr double kPercent = 100;
+  const double used =
+      root.contains("range") ? number(root, "range", kPercent, "the script") / kPercent : 1;
   std::vector<Action> found;
   for (size_t i = 0; i < actions->size(); ++i) {
     const std::string where = "actions[" + std::to_string(i) + "]";
     const double at_ms = number((*actions)[i], "at", static_cast<double>(most_samples) - 1, where);
-    const double share = number((*actions)[i], "pos", 2 * kMiddle, where) / kMiddle - 1;
+    const double share = used * (number((*actions)[i], "pos", 2 * kMiddle, where) / kMiddle - 1);
     found.push_back({static_cast<size_t>(std::lround(at_ms)), inverted ? -share : share});
     if (i > 0 && found[i].at_ms <= found[i - 1].at_ms) {
       throw FunscriptError("funscript: " + where + " is not after the one before");
@@ -56,23 +61,22 @@ std::vector<Action> read_actions(const Json& root, size_t most_samples) {
 
 }  // namespace
 
-std::string write_funscript(const std::vector<TrackSample>& samples, size_t channel) {
-  std::ostringstream out;
-  out << R"({"version":"1.0","inverted":false,"range":100,"actions":[)";
-  const auto position = [&](size_t i) {
-    const double share = std::isfinite(samples[i][channel]) ? samples[i][channel] : 0;
-    return std::lround(kMiddle + kMiddle * std::clamp(share, -1.0, 1.0));
-  };
-  bool first = true;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const bool corner = i == 0 || i + 1 == samples.size() || position(i) != position(i - 1) ||
-                        position(i) != position(i + 1);
-    if (!corner) continue;
-    out << (first ? "" : ",") << R"({"at":)" << i << R"(,"pos":)" << position(i) << '}';
-    first = false;
+std::string write_funscript(const std::vector<TrackSample>& samples, size_t channel,
+                            double tolerance) {
+  std::vector<double> shares;
+  shares.reserve(samples.size());
+  for (const TrackSample& sample : samples) {
+    const double share = sample[channel];
+    shares.push_back(std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0);
   }
-  out << "]}\n";
-  return out.str();
+  nlohmann::ordered_json actions = nlohmann::ordered_json::array();
+  for (const size_t i : choose_keyframes(shares, tolerance)) {
+    actions.push_back({{"at", i}, {"pos", std::lround(kMiddle + kMiddle * shares[i])}});
+  }
+  return nlohmann::ordered_json{
+             {"version", "1.0"}, {"inverted", false}, {"range", 100}, {"actions", actions}}
+             .dump() +
+         "\n";
 }
 
 std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,

@@ -4,18 +4,10 @@
 
 #include <cmath>
 
-#include "plugin/tools/track_summary.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
 namespace {
-
-/// Two digits: this is to be read, not to be computed with.
-std::string rounded(double value) {
-  if (value == 0) return "0";
-  const double step = std::pow(10, std::floor(std::log10(value)) - 1);
-  return shown(std::round(value / step) * step);
-}
 
 bool is_force(size_t channel) {
   return channel < kTrackChannels / 2;
@@ -45,21 +37,23 @@ std::string line_of(const std::vector<std::string>& lost) {
 
 constexpr const char* kClipped = "what is beyond the full scale";
 
-std::string lost_in_ahap(const TrackSummary& summary) {
+std::string lost_in_ahap(const TrackSummary& summary, double gain) {
   std::vector<std::string> lost = {"the direction of the force"};
   if (summary.largest_torque_Nm > 0) {
     lost.push_back("torque up to " + rounded(summary.largest_torque_Nm) + " N m");
   }
-  if (summary.largest_force_N > kTrackForceScale_N) lost.emplace_back(kClipped);
+  if (gain * summary.largest_force_N > kTrackForceScale_N) lost.emplace_back(kClipped);
   return line_of(lost);
 }
 
-std::string lost_in_funscript(const TrackSummary& summary, size_t axis) {
+std::string lost_in_funscript(const TrackSummary& summary, const SaveOptions& options) {
+  const size_t axis = options.axis;
   constexpr int kSteps = 50;  // on each side of the middle
   std::vector<std::string> lost = other_channels(summary, axis);
   lost.push_back("steps of " + std::string(channel_name(axis)) + " below " +
-                 shown(full_scale(axis) / kSteps) + (is_force(axis) ? " N" : " N m"));
-  if (summary.channels[axis].peak > 1) lost.emplace_back(kClipped);
+                 rounded(full_scale(axis) / kSteps / options.gain) +
+                 (is_force(axis) ? " N" : " N m"));
+  if (options.gain * summary.channels[axis].peak > 1) lost.emplace_back(kClipped);
   return line_of(lost);
 }
 
@@ -71,11 +65,16 @@ std::string lost_on_a_shaker(const TrackSummary& summary, size_t axis) {
 
 }  // namespace
 
-std::string lost_in(const std::string& path, const std::vector<TrackSample>& samples,
+std::string rounded(double value) {
+  if (value == 0) return "0";
+  const double step = std::pow(10, std::floor(std::log10(value)) - 1);
+  return shown(std::round(value / step) * step);
+}
+
+std::string lost_in(const std::string& path, const TrackSummary& summary,
                     const SaveOptions& options) {
-  const TrackSummary summary = summarise(samples);
-  if (ends_with(path, ".ahap")) return lost_in_ahap(summary);
-  if (ends_with(path, ".funscript")) return lost_in_funscript(summary, options.axis);
+  if (ends_with(path, ".ahap")) return lost_in_ahap(summary, options.gain);
+  if (ends_with(path, ".funscript")) return lost_in_funscript(summary, options);
   return options.rate_Hz > 0 ? lost_on_a_shaker(summary, options.axis) : "";
 }
 

@@ -220,7 +220,8 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
   } else if (is_ahap) {
     part.write(options.tolerance ? write_ahap(samples, *options.tolerance) : write_ahap(samples));
   } else {
-    part.write(write_funscript(samples, options.axis));
+    part.write(
+        write_funscript(samples, options.axis, options.tolerance.value_or(kFunscriptTolerance)));
   }
   part.publish();
 }

@@ -36,9 +36,10 @@ std::vector<TrackSample> load_track(const std::string& path, TrackCondition* con
 
 struct SaveOptions {
   std::optional<double>
-      tolerance;             ///< of HJIF and AHAP, of the full scale; of each its own default
+      tolerance;  ///< of HJIF, AHAP and funscript, of the full scale; of each its own default
   size_t axis = kUsualAxis;  ///< the channel of a funscript, and of sound with a rate
   int rate_Hz = 0;           ///< of sound with one channel; 0: all six, 1000 samples a second
+  double gain = 1;           ///< that the samples have been multiplied by
   TrackNotes notes;          ///< for sound
 };
 

@@ -47,6 +47,17 @@ bool is_wanted(const Reading& reading, StreamKind kind) {
          (reading.wanted == Wanted::kFirstSound && kind == StreamKind::kSound);
 }
 
+/// The type of a file that nothing has taken apart, so that the stream is the file as it is: that
+/// of Wave64, whose only decoder gives other values. Empty for all others.
+std::string unparsed_type(GstPad* pad) {
+  const Ref<GstPad> inner(gst_ghost_pad_get_target(GST_GHOST_PAD(pad)));
+  const Ref<GstElement> source(inner ? gst_pad_get_parent_element(inner.get()) : nullptr);
+  GstElementFactory* const factory = source ? gst_element_get_factory(source.get()) : nullptr;
+  if (!factory || g_strcmp0(GST_OBJECT_NAME(factory), "typefind") != 0) return {};
+  const Ref<GstCaps> caps(caps_of(pad));
+  return gst_structure_get_name(gst_caps_get_structure(caps.get(), 0));
+}
+
 /// Links a stream when it begins to flow: it may be found while others flow already. The first
 /// that is wanted is decoded, and all others are ignored.
 GstPadProbeReturn link_stream(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
@@ -66,7 +77,14 @@ GstPadProbeReturn link_stream(GstPad* pad, GstPadProbeInfo* info, gpointer user)
   if (kind == StreamKind::kSound) reading.has_sound = true;
   const bool chosen = is_wanted(reading, kind);
   if (chosen) reading.is_chosen = true;
-  GstElement* taker = chosen ? reading.file.find("decode") : reading.file.add_fakesink();
+  const std::string unparsed = chosen ? unparsed_type(pad) : "";
+  if (!unparsed.empty()) {
+    reading.problem = "GStreamer cannot take " + unparsed +
+                      " apart; make WAV, FLAC or Matroska of it, with ffmpeg for example.";
+    give_up(GST_PAD_PARENT(pad));
+  }
+  GstElement* taker =
+      chosen && unparsed.empty() ? reading.file.find("decode") : reading.file.add_fakesink();
   GstPad* sink = gst_element_get_static_pad(taker, "sink");
   gst_pad_link(pad, sink);
   gst_object_unref(sink);

@@ -20,6 +20,12 @@ std::string hexadecimal(guint64 mask) {
   return result;
 }
 
+bool has_no_mask(const GstCaps* caps) {
+  const GstStructure* structure = gst_caps_get_structure(caps, 0);
+  return gst_structure_has_name(structure, "audio/x-raw") &&
+         !gst_structure_has_field(structure, "channel-mask");
+}
+
 /// Whether the channel mask is neither "none" nor the one into which containers convert it.
 std::string strange_mask(const GstCaps* caps) {
   guint64 mask = 0;
@@ -32,7 +38,14 @@ std::string strange_mask(const GstCaps* caps) {
 
 std::string TrackInput::set_caps(const GstCaps* caps) {
   GstAudioInfo info;
-  if (!gst_audio_info_from_caps(&info, caps)) return "These caps are not raw sound.";
+  if (!gst_audio_info_from_caps(&info, caps)) {
+    // sfdec, which names none, also scales floats wrongly and adds samples at the end.
+    return has_no_mask(caps)
+               ? "What has decoded this names no channel-mask, so that it is not known which "
+                 "channel "
+                 "is which: a haptic track has 0 or 0x3f. Make WAV, FLAC or Matroska of it."
+               : "These caps are not raw sound.";
+  }
   const int channels = GST_AUDIO_INFO_CHANNELS(&info);
   const int rate_Hz = GST_AUDIO_INFO_RATE(&info);
   if (channels != static_cast<int>(kTrackChannels)) {

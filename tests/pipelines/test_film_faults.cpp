@@ -106,6 +106,16 @@ TEST_F(FilmFaults, AClockThatJumpsChangesNothing) {
   }
 }
 
+TEST_F(FilmFaults, APipelineThatNeverBeginsIsNotAwaitedForEver) {
+  GstElement* pipeline =
+      gst_parse_launch("fakesrc ! identity drop-probability=1 ! fakesink", nullptr);
+  gst_element_set_state(pipeline, GST_STATE_PLAYING);
+  EXPECT_THROW(await_message(pipeline, GST_MESSAGE_EOS, GST_CLOCK_TIME_NONE, 200 * GST_MSECOND),
+               SilentFailure);
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  gst_object_unref(pipeline);
+}
+
 // A limit of the size of a file stands for a full disk.
 TEST_F(FilmFaults, AnAnalysisThatCannotBeWrittenIsAnError) {
   make_film("film.avi", "zone-plate kx2=20 ky2=20");

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Six constants, different on each channel, on the ways of docs/haptic-track.md from a file to the
-// hand and from one file to another. Those of the containers are in test_tracks.cpp, and those over
-// a network in test_track_network.cpp.
+// hand; test_track_conversion.py has those from one file to another. Those of the containers are in
+// test_tracks.cpp, and those over a network in test_track_network.cpp.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -117,88 +114,6 @@ TEST_F(TrackChannels, OfTheTrackBesideTheFilmAndOfTheOneInIt) {
   expect_felt("filesrc location=" + quoted(path("felt.mov")) +
               " ! qtdemux ! jpegdec ! videoconvert ! spidarmotion track=auto" + trace() +
               " ! fakesink sync=true");
-}
-
-TEST_F(TrackChannels, OfEveryConversion) {
-  // Half a step of 24 bits and of HJIF's 1e-5, and what a float below 1 is rounded by.
-  const double error = 0.5e-5 + std::ldexp(1.0, -24) + std::ldexp(1.0, -25);
-  std::vector<std::string> files = kTracks;
-  files.emplace_back("to.hjif");
-  for (const std::string& from : files) {
-    for (const char* to : {"to.hjif", "to.wav", "to.flac", "to.mka"}) {
-      if (from == to) continue;
-      ASSERT_EQ(spidartrack("convert " + path(from) + " " + path(to)).status, 0);
-      EXPECT_LE(largest_difference(load_track(path(to)), constant()), error) << from << " " << to;
-    }
-  }
-}
-
-TEST_F(TrackChannels, OfEveryAxisOfAFunscript) {
-  const char* axes[] = {"fx", "fy", "fz", "tx", "ty", "tz"};
-  // The positions of the constants are too near to each other.
-  const std::vector<TrackSample> wide(kSamples, {0.1F, -0.2F, 0.3F, -0.4F, 0.5F, -0.6F});
-  save_track(path("wide.wav"), wide);
-  for (size_t axis = 0; axis < kTrackChannels; ++axis) {
-    ASSERT_EQ(spidartrack("convert " + path("wide.wav") + " " + path("to.funscript") + " --axis " +
-                          axes[axis])
-                  .status,
-              0);
-    std::ifstream file(path("to.funscript"));
-    const nlohmann::json script = nlohmann::json::parse(file);
-    EXPECT_EQ(script["actions"][0]["pos"], std::lround(50 + 50 * wide[0][axis])) << axes[axis];
-  }
-}
-
-TEST_F(TrackChannels, OfTheTraceOfSpidarmotion) {
-  // A real trace, in which the numbers of each wrench are replaced.
-  run_pipeline(kVideo + "spidarmotion device=none trace=" + quoted(path("film.csv")) +
-               " ! fakesink");
-  run_pipeline(kVideo + "spidarmotion device=none trace=" + quoted(path("film.jsonl")) +
-               " ! fakesink");
-  const Wrench wrench = to_wrench(kConstant);
-  const std::vector<std::string> columns = {"force_x_N",   "force_y_N",   "force_z_N",
-                                            "torque_x_Nm", "torque_y_Nm", "torque_z_Nm"};
-  std::ifstream rows(path("film.csv"));
-  std::ofstream csv(path("six.csv"));
-  std::string line, name, cell;
-  std::getline(rows, line);
-  csv << line << '\n';
-  std::vector<std::string> names;
-  for (std::istringstream header(line); std::getline(header, name, ',');) names.push_back(name);
-  while (std::getline(rows, line)) {
-    std::istringstream cells(line);
-    for (size_t i = 0; std::getline(cells, cell, ','); ++i) {
-      const auto column = std::find(columns.begin(), columns.end(), names.at(i));
-      if (i > 0) csv << ',';
-      if (column == columns.end()) {
-        csv << cell;
-      } else {
-        csv << wrench.stacked()[column - columns.begin()];
-      }
-    }
-    csv << '\n';
-  }
-  csv.close();
-  std::ifstream frames(path("film.jsonl"));
-  std::ofstream json(path("six.jsonl"));
-  while (std::getline(frames, line)) {
-    nlohmann::json frame = nlohmann::json::parse(line);
-    for (int axis = 0; axis < 3; ++axis) {
-      ASSERT_EQ(frame["wrench"]["force_N"].size(), 3u);
-      frame["wrench"]["force_N"][static_cast<size_t>(axis)] = wrench.force_N[axis];
-      frame["wrench"]["torque_Nm"][static_cast<size_t>(axis)] = wrench.torque_Nm[axis];
-    }
-    frame["repeated"] = frame["restarted"] = false;
-    json << frame.dump() << '\n';
-  }
-  json.close();
-  for (const char* trace : {"six.csv", "six.jsonl"}) {
-    ASSERT_EQ(spidartrack("convert " + path(trace) + " " + path("to.wav")).status, 0) << trace;
-    std::vector<TrackSample> read = load_track(path("to.wav"));
-    ASSERT_EQ(read.size(), static_cast<size_t>(kSamples)) << trace;
-    read.resize(kSamples - 40);  // the last frame is the way to rest
-    EXPECT_LE(largest_difference(read, constant()), 1e-6) << trace;
-  }
 }
 
 }  // namespace

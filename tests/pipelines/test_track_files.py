@@ -2,6 +2,11 @@
 # Copyright 2026 the gst-spidar authors
 """The files that spidartrack writes, whatever their names are and whatever a shell has closed."""
 import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
 
 import track_case
 from track_case import PROGRAM
@@ -29,22 +34,10 @@ class Files(track_case.TrackCase):
         self.path(name).rename(self.path("x" + name))
         self.assert_said("name too long", "record", "x" + name)
 
-    def part_file(self):
-        """The name of the file that a track is written into first."""
-        self.path("out").mkdir()
-        os.mkfifo(self.path("film.avi"))  # a film that never ends
-        waiting = self.run_in_folder(
-            f"{PROGRAM} record film.avi --folder out & "
-            "until [ -n \"$(ls -A out)\" ]; do sleep .02; done; ls -A out; kill $!; wait $!; true")
-        self.path("film.avi").unlink()
-        names = {line for line in waiting.split() if line.startswith(".part-")}
-        self.assertEqual(len(names), 1, waiting)
-        return self.path("out") / names.pop()
-
     def test_nothing_that_lies_at_the_name_of_a_part_file_is_written_into(self):
-        part = self.part_file()
-        self.assertFalse(part.exists(), "it is removed by the signal")
         self.make_film()
+        self.path("out").mkdir()
+        part = self.path("out") / track_case.part_name("film.avi.haptic.flac")
         mine = self.path("mine")
         mine.write_text("mine")
         part.symlink_to(mine)
@@ -60,5 +53,76 @@ class Files(track_case.TrackCase):
         self.assertEqual(len(self.samples("out/film.avi.haptic.flac")), 1000)
         self.assertEqual(os.listdir(part.parent), ["film.avi.haptic.flac"])
 
+    def test_what_cannot_be_written_is_an_error_and_leaves_nothing(self):
+        """A limit of the size of a file stands for a full disk: the write fails in the same way."""
+        self.make_track(count=2000)  # more than 8 KiB in every format
+        self.make_film()
+        before = self.files()
+        commands = [f"convert a.wav b.{end}" for end in ("flac", "mka", "wav", "hjif", "wav --rate 48000")]
+        commands += [f"record film.avi --format {name}" for name in ("flac", "mka", "wav")]
+        if shutil.which("gnuplot"):
+            commands.append("plot a.wav b.png")
+        for command in commands:
+            with self.subTest(command):
+                said = self.run_in_folder(f"trap '' XFSZ; ulimit -f 2; {PROGRAM} {command}", status=1)
+                self.assertNotEqual(said, "")
+                if command.startswith("record"):
+                    self.assertIn("film.avi: failed: Could not write to resource.", said)
+                self.assertEqual(self.files(), before)
 
-track_case.main()
+    def test_messages_name_the_output_that_was_given(self):
+        self.make_track()
+        for name in ("b.flac", "b.hjif"):
+            self.assert_said(f"spidartrack: none/{name}: there is no folder none\n", "convert", "a.wav", f"none/{name}")
+        self.assert_said("file:///tmp/b.flac: there is no folder file:///tmp; a file name is needed",
+                         "convert", "a.wav", "file:///tmp/b.flac")
+
+    @track_case.needs("gnuplot")
+    def test_a_plot_runs_no_command_that_a_name_contains(self):
+        self.make_track()
+        for name in ("|touch ran", "< touch ran", "it's.png", "'; system 'touch ran'; a='", "`touch ran`",
+                     "$(touch ran)", "two\nlines.png", "100%s.png", b"\xff\xfe.png"):
+            self.spidartrack("plot", "a.wav", name)
+            name = name.decode(errors="surrogateescape") if isinstance(name, bytes) else name
+            self.assertEqual(self.path(name).read_bytes()[:4], b"\x89PNG")
+            self.assertFalse(self.path("ran").exists())
+
+    def stand_in_for_gnuplot(self, script):
+        """Runs plot with a program of this text in the place of gnuplot, which is in the Debian package."""
+        self.path("bin").mkdir(exist_ok=True)
+        self.path("bin/gnuplot").write_text("#!/bin/sh\n" + script)
+        self.path("bin/gnuplot").chmod(0o755)
+        return dict(os.environ, PATH=f"{self.path('bin')}:{os.environ['PATH']}")
+
+    def test_what_gnuplot_says_is_part_of_the_message(self):
+        self.make_track()
+        before = self.files()
+        self.assert_said("Debian package gnuplot-nox", "plot", "a.wav", "a.png", env=dict(os.environ, PATH="/nowhere"))
+        self.assertEqual(self.files(), before)
+        env = self.stand_in_for_gnuplot("echo some warning >&2\ncat > /dev/null\necho no terminal >&2\nexit 1\n")
+        self.assertEqual(self.spidartrack("plot", "a.wav", "a.png", env=env, status=1),
+                         "spidartrack: gnuplot could not draw the picture: no terminal\n")
+
+    def test_a_signal_removes_what_is_incomplete(self):
+        """While a stand-in for gnuplot draws, and while a film is read that never ends."""
+        self.make_track()
+        os.mkfifo(self.path("film.avi"))
+        env = self.stand_in_for_gnuplot("cat > /dev/null\nwhile kill -0 $PPID; do sleep .02; done 2> /dev/null\n")
+        before = self.files()
+        for command in (["plot", "a.wav", "a.png"], ["record", "film.avi"]):
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                with self.subTest(command=command, number=number):
+                    # The tests may have been started with nohup.
+                    running = subprocess.Popen(
+                        [PROGRAM, *command], cwd=self.folder, env=env, stdout=subprocess.DEVNULL,
+                        preexec_fn=lambda number=number: signal.signal(number, signal.SIG_DFL))
+                    while running.poll() is None and self.files() == before:
+                        time.sleep(.005)
+                    self.assertIsNone(running.poll())
+                    running.send_signal(number)
+                    self.assertEqual(running.wait(), -number, "as its caller expects")
+                    self.assertEqual(self.files(), before)
+
+
+if __name__ == "__main__":
+    unittest.main()

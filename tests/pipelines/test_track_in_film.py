@@ -30,6 +30,7 @@ def line_of(program):
     return lines[0]
 
 
+@track_case.needs("ffmpeg", "ffprobe")
 class InFilm(track_case.TrackCase):
     def setUp(self):
         super().setUp()
@@ -88,7 +89,7 @@ class InFilm(track_case.TrackCase):
         self.run_in_folder(track_case.PROGRAM + line_of("spidartrack").removeprefix("spidartrack"))
         self.assertEqual(self.samples("film.haptic.flac")[:len(whole)], whole)
 
-    @track_case.needs("ffmpeg", "ffprobe", "mkvmerge")
+    @track_case.needs("mkvmerge")
     def test_mkvmerge(self):
         self.run_in_folder(line_of("mkvmerge"))
         tags = self.expect_kept()["tags"]
@@ -97,7 +98,6 @@ class InFilm(track_case.TrackCase):
         self.assertFalse(tracks[-1]["properties"]["enabled_track"])
         self.expect_found()
 
-    @track_case.needs("ffmpeg", "ffprobe")
     def test_ffmpeg(self):
         self.run_in_folder(line_of("ffmpeg"))
         self.expect_kept()
@@ -105,5 +105,4 @@ class InFilm(track_case.TrackCase):
 
 
 if __name__ == "__main__":
-    track_case.needs("ffmpeg")(InFilm)
-    track_case.main()
+    unittest.main()

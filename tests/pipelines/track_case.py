@@ -9,7 +9,6 @@ import pathlib
 import shutil
 import struct
 import subprocess
-import sys
 import tempfile
 import unittest
 
@@ -48,6 +47,14 @@ def read_wav(path):
             return list(zip(*[iter(values)] * channels)), rate
         at += 8 + length + length % 2
     raise AssertionError(f"{path}: no samples")
+
+
+def part_name(name):
+    """What the file `name` is called while it is being written (plugin/track/part_file.h)."""
+    number = 0xcbf29ce484222325
+    for byte in os.fsencode(name):
+        number = (number ^ byte) * 0x100000001b3 % 2 ** 64
+    return f".part-{number:x}{pathlib.PurePath(name).suffix}"
 
 
 class TrackCase(unittest.TestCase):
@@ -104,7 +111,3 @@ class TrackCase(unittest.TestCase):
 def needs(*programs):
     missing = [name for name in programs if not shutil.which(name)]
     return unittest.skipIf(missing, f"needs {', '.join(missing)}")
-
-
-def main():
-    unittest.main(argv=sys.argv, verbosity=2)

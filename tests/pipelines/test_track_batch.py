@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""spidartrack record with several films, processes and properties."""
+import fcntl
+import json
+import os
+import subprocess
+import time
+import unittest
+
+import track_case
+from track_case import PROGRAM
+
+
+class Batch(track_case.TrackCase):
+    def tearDown(self):
+        self.assertFalse([name for name in self.files() if ".part-" in name])
+
+    def json_lines(self, name):
+        return [json.loads(line) for line in self.path(name).read_text().splitlines()]
+
+    def test_wrong_usage_says_what_would_be_right(self):
+        self.assertIn("record", self.spidartrack("--help"))
+        for command in ("record", "info", "check", "convert", "plot"):
+            self.assertIn(command, self.spidartrack(command, "--help"))
+            self.spidartrack(command, status=2)
+        for arguments, said in ((["frobnicate"], "frobnicate"),
+                                (["record", "x.mp4", "--format", "ogg"], "flac"),
+                                (["record", "x.mp4", "--", "motion"], "is no PROPERTY=VALUE"),
+                                (["record", "x.mp4", "motion=camera"], "spidartrack record FILM -- motion=camera"),
+                                (["record", "-j0", "x.mp4"], "0")):
+            self.assert_said(said, *arguments, status=2)
+
+    def test_films_are_recorded_once(self):
+        self.make_film("a film.avi", 50)
+        self.make_film("b.avi", 25)
+        said = self.spidartrack("record", "-j2", "a film.avi", "b.avi")
+        for part in ("[1/2] ", "[2/2] ", "2 recorded, 0 there, 0 failed"):
+            self.assertIn(part, said)
+        # 40 ms a frame.
+        self.assertEqual(len(self.samples("a film.avi.haptic.flac")), 2000)
+        track = self.samples("b.avi.haptic.flac")
+        self.assertEqual(len(track), 1000)
+        self.assertGreater(max(abs(sample[0]) for sample in track), .1)
+        before = os.stat(self.path("b.avi.haptic.flac")).st_mtime_ns
+        self.assertIn("is there", self.spidartrack("record", "a film.avi", "b.avi"))
+        self.assertEqual(os.stat(self.path("b.avi.haptic.flac")).st_mtime_ns, before)
+        self.assert_said("there is no such file", "record", "none.avi")
+        self.spidartrack("record", "--format", "wav", "b.avi", "--", "max-force=1")
+        for sample in self.samples("b.avi.haptic.wav"):
+            self.assertLessEqual(sum(value * value for value in sample[:3]) ** .5, .1 + 1e-6)
+
+    def test_films_of_one_name_have_tracks_of_their_own(self):
+        self.make_film("x.avi", 50)
+        self.make_film("x.mkv", 25)
+        self.spidartrack("record", "x.avi", "x.mkv")
+        self.assertEqual(len(self.samples("x.avi.haptic.flac")), 2000)
+        self.assertEqual(len(self.samples("x.mkv.haptic.flac")), 1000)
+        self.make_film("A/y.avi", 50)
+        self.make_film("B/y.avi", 25)
+        self.path("out").mkdir()
+        self.assert_said("out/y.avi.haptic.flac is for A/y.avi", "record", "--folder", "out", "A/y.avi", "B/y.avi")
+        self.assertEqual(len(self.samples("out/y.avi.haptic.flac")), 2000)
+        said = self.spidartrack("record", "A/y.avi", "./A/y.avi")
+        self.assertIn("is given twice", said)
+        self.assertIn("there, 1 given twice, 0 failed\n", said)
+
+    def test_a_folder_stands_for_its_films_the_largest_first(self):
+        self.make_film("in/small.avi", 25)
+        self.make_film("in/a b/LARGE.AVI", 75)
+        self.make_film("in/.hidden.avi", 25)
+        self.path("in/notes.txt").write_text("no film")
+        self.path("in/empty.mkv").touch()
+        self.path("out").mkdir()
+        command = ("record", "--jobs", "1", "in", "--folder", "out", "--manifest", "done.jsonl")
+        said = self.spidartrack(*command, status=1)
+        for part in ("[1/3] in/a b/LARGE.AVI: out/a b/LARGE.AVI.haptic.flac",
+                     "[2/3] in/small.avi: out/small.avi.haptic.flac", "2 recorded, 0 there, 1 failed"):
+            self.assertIn(part, said)
+        self.assertEqual(len(self.samples("out/a b/LARGE.AVI.haptic.flac")), 3000)
+        lines = self.json_lines("done.jsonl")
+        self.assertEqual([(line["film"], line["result"]) for line in lines],
+                         [("in/a b/LARGE.AVI", "recorded"), ("in/small.avi", "recorded"), ("in/empty.mkv", "failed")])
+        self.assertEqual(lines[0]["duration_s"], 3)
+        self.assertGreater(lines[0]["largest_force_N"], .1)
+        self.assertTrue(0 < lines[0]["felt"] <= 1)
+        self.assertTrue(lines[2]["error"])
+        self.assertNotIn("track", lines[2])
+        # The other failed, and is tried again.
+        self.spidartrack(*command, status=1)
+        again = self.json_lines("done.jsonl")
+        self.assertEqual(len(again), 6)
+        self.assertEqual((again[3]["result"], again[3]["felt"]), ("there", lines[0]["felt"]))
+        self.path("none").mkdir()
+        self.assert_said("none: this folder has no film", "record", "none")
+        # A share that is not mounted is not written to under its name.
+        self.spidartrack("record", "in", "--folder", "away", status=1)
+        self.assertFalse(self.path("away").exists())
+
+    def test_a_manifest_that_cannot_be_written_is_an_error(self):
+        self.make_film("x.avi")
+        self.assert_said("the manifest none/done.jsonl cannot be written: No such file or directory",
+                         "record", "x.avi", "--manifest", "none/done.jsonl")
+        self.assertFalse(self.path("x.avi.haptic.flac").exists())
+        self.assert_said("the manifest /dev/full cannot be written: No space left on device",
+                         "record", "x.avi", "--manifest", "/dev/full")
+
+    def claim(self, name):
+        """Is the other process that records a film."""
+        part = open(self.path(track_case.part_name(name + ".haptic.flac")), "w", encoding="utf-8")
+        fcntl.flock(part, fcntl.LOCK_EX)
+        return part
+
+    def start(self, *films):
+        with open(self.path("log"), "wb") as log:
+            return subprocess.Popen([PROGRAM, "record", "-j1", *films], cwd=self.folder, stdout=log)
+
+    def await_log(self, process, text):
+        while process.poll() is None and text not in self.path("log").read_text():
+            time.sleep(.01)
+
+    def test_a_film_that_another_process_records_is_waited_for(self):
+        self.make_film("x.avi")
+        self.make_film("y.avi")
+        other = self.claim("x.avi")
+        batch = self.start("x.avi", "y.avi")
+        self.await_log(batch, "y.avi: y.avi.haptic.flac")
+        self.assertIn("x.avi: another process is recording it", self.path("log").read_text())
+        self.assertFalse(self.path("x.avi.haptic.flac").exists())
+        other.close()  # as if it had been killed
+        self.assertEqual(batch.wait(), 0)
+        self.assertIn("2 recorded, 0 there, 0 failed", self.path("log").read_text())
+        self.assertEqual(len(self.samples("x.avi.haptic.flac")), 1000)
+
+        self.make_film("z.avi")
+        other = self.claim("z.avi")
+        batch = self.start("z.avi")
+        self.await_log(batch, "another process")
+        self.path("x.avi.haptic.flac").rename(self.path("z.avi.haptic.flac"))
+        self.path(other.name).unlink()
+        other.close()
+        self.assertEqual(batch.wait(), 0)
+        self.assertIn("z.avi.haptic.flac is there", self.path("log").read_text())
+
+    def test_properties_that_do_not_belong_to_a_track_are_refused(self):
+        self.make_film("x.avi")
+        self.make_film("y.avi")
+        for words, said in (("attach-meta=false", "attach-meta=false: changes nothing in a track; these properties do"),
+                            ("device=sim", "device=sim: changes nothing"),
+                            ("name=extract", "name=extract: changes nothing"),
+                            ("pointer=grip", "pointer=grip: changes nothing"),
+                            ("touch=luma", "touch=luma: what is touched depends on the hand"),
+                            ("track=auto", "track=auto: a film is analysed for its track"),
+                            ("max-force=0", "max-force=0: the whole track would be at rest"),
+                            ("max-force=2N", 'max-force: "2N" is not a number from 0 to'),
+                            ("motion=sideways", '"sideways" is not one of mean, object'),
+                            ("motion=camera ! fakesink", '"camera ! fakesink" is not one of'),
+                            ("frobnicate=1", 'spidarmotion has no property "frobnicate"')):
+            self.assert_said(said, "record", "x.avi", "--", words, status=2)
+        self.assert_said("trace=t.csv: all films would be written to one file", "record", "x.avi", "y.avi", "--",
+                         "trace=t.csv", status=2)
+        self.assertFalse(self.path("x.avi.haptic.flac").exists())
+        self.spidartrack("record", "x.avi", "--", "trace=t.csv")
+        self.assertTrue(self.path("t.csv").exists())
+
+    def test_a_track_knows_its_film_and_its_properties(self):
+        self.make_film("x.avi", 50)
+        self.spidartrack("record", "x.avi", "--", "max-force=2", "motion=camera")
+        # The last one of a name counts, and 0.01 is the default.
+        self.assertIn("is there", self.spidartrack("record", "x.avi", "--", "motion=mean", "motion=camera",
+                                                   "max_force=2.0", "alpha=0.01"))
+        self.assert_said("was recorded with max-force=2 motion=camera, and not with the defaults", "record", "x.avi")
+        self.assert_said("and not with alpha=0.02", "record", "x.avi", "--", "alpha=0.02")
+        self.spidartrack("record", "--force", "x.avi")
+        self.assertIn("is there", self.spidartrack("record", "x.avi"))
+        self.make_film("x.avi", 50, "snow")
+        self.assert_said("is the track of another film", "record", "x.avi")
+        self.path("x.avi.haptic.flac").write_bytes(b"")
+        self.assert_said("--force records it again", "record", "x.avi")
+
+    def test_a_track_that_is_not_played_is_named(self):
+        self.make_film("a.avi")
+        self.assertNotIn("warning", self.spidartrack("record", "a.avi"))
+        for _ in range(2):
+            self.assertIn("play a.avi.haptic.flac in place of a.avi.haptic.wav; remove it",
+                          self.spidartrack("record", "a.avi", "--format", "wav", "--", "motion=camera"))
+        self.assertNotIn("warning", self.spidartrack("record", "a.avi", "--force"))
+
+    def test_films_of_any_name_are_recorded(self):
+        self.make_film("film")
+        for name in (b"with spaces.avi", b"it's \"quoted\".avi", b"100 %s.avi", b"a\\b.avi", b"two\nlines.avi",
+                     b"-dash.avi", b"\xff\xfe.avi", "ünï.avi".encode(), b"! fakesink.avi", b"$(touch ran).avi", b".avi",
+                     b"no extension"):
+            os.link(self.path("film"), os.fsencode(self.folder) + b"/" + name)
+            self.spidartrack("record", b"./" + name)
+            self.spidartrack("convert", b"./" + name + b".haptic.flac", b"\xff \"quoted\".wav")
+            read = self.samples(b"\xff \"quoted\".wav".decode(errors="surrogateescape"))
+            self.assertEqual(len(read), 1000, name)
+        self.assertFalse(self.path("ran").exists())
+
+    def test_a_batch_ends_with_a_summary(self):
+        self.make_film("x.avi", 50)
+        self.make_film("y.avi", 50)
+        self.path("bad\nname.avi").write_text("no film")
+        self.assertNotIn("recorded", self.spidartrack("record", "y.avi"), "one film needs none")
+        said = self.spidartrack("record", "-j1", "x.avi", "y.avi", "none.avi", "bad\nname.avi", status=1)
+        self.assertIn("1 recorded, 1 there, 2 failed:\n  none.avi: there is no such file\n  bad?name.avi: ", said)
+        self.assertNotIn("%", said, "progress is for terminals, and for what takes long")
+        # A line for each film, the summary, and the two that failed once more.
+        self.assertEqual(said.count("\n"), 4 + 1 + 2, said)
+        terminal = self.run_in_folder(f"script -qec '{PROGRAM} record --force x.avi' /dev/null")
+        self.assertIn("0 of 1 done; x.avi 50 %", terminal)
+
+
+if __name__ == "__main__":
+    unittest.main()

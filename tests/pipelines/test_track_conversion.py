@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""spidartrack convert, info, check and plot."""
+import csv
+import json
+import math
+import struct
+import unittest
+
+import track_case
+from track_case import CHANNELS, FULL_SCALE
+
+# Half a step of 24 bits, and what a float below 1 is rounded by.
+HALF_STEP = 2 ** -24 + 2 ** -25
+HJIF = 4e-4 + .5e-5 + HALF_STEP  # its tolerance, and half a step of its numbers
+
+
+def difference(a, b):
+    return max(abs(x - y) for one, other in zip(a, b) for x, y in zip(one, other))
+
+
+def rms(values):
+    return math.sqrt(sum(value * value for value in values) / len(values))
+
+
+class Conversion(track_case.TrackCase):
+    def test_every_format_keeps_every_channel(self):
+        self.make_track()
+        original = self.samples("a.wav")
+        source = "a.wav"
+        for name, error in (("a.mka", 0), ("b.flac", HALF_STEP), ("c.wav", HALF_STEP), ("d.hjif", HJIF),
+                            ("e.mka", HJIF), ("f.flac", HJIF), ("g.hjif", 2 * HJIF)):
+            self.assertEqual(self.spidartrack("convert", source, name), "")
+            read = self.samples(name)
+            self.assertEqual(len(read), len(original))
+            self.assertLessEqual(difference(read, original), error, name)
+            source = name
+
+    def test_an_editor_changes_what_it_touches_and_nothing_else(self):
+        self.make_track()
+        self.gst("filesrc location=a.wav ! wavparse ! volume volume=0.5 ! wavenc ! filesink location=weaker.wav")
+        self.assertEqual(self.samples("weaker.wav"),
+                         [tuple(value / 2 for value in sample) for sample in self.samples("a.wav")])
+
+    def test_a_trace_becomes_the_track_that_extract_gives(self):
+        for trace in ("film.csv", "film.jsonl"):
+            with self.subTest(trace):
+                self.gst("videotestsrc num-buffers=25 pattern=ball ! video/x-raw,width=160,height=120,framerate=25/1",
+                         f"! spidarmotion device=none attach-meta=true trace={trace}",
+                         "! spidarextract name=x x.wrench ! wavenc ! filesink location=film.wav")
+                traced, extracted = self.samples(trace), self.samples("film.wav")
+                self.assertEqual(len(traced), len(extracted))
+                self.assertLessEqual(difference(traced, extracted), 1e-6)
+
+    def test_a_trace_has_its_axes_in_their_places(self):
+        wrench = [.1 * (i + 1) * scale for i, scale in enumerate(FULL_SCALE)]
+        columns = ("running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,force_x_N,"
+                   "force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit").split(",")
+        with open(self.path("six.csv"), "w", encoding="utf-8", newline="") as file:
+            rows = csv.writer(file)
+            rows.writerow(columns)
+            rows.writerows([i * 40000000, i * 40000000, 9, 9, 0, 0, *wrench, "none"] for i in range(10))
+        with open(self.path("six.jsonl"), "w", encoding="utf-8") as file:
+            for i in range(10):
+                file.write(json.dumps({"stream_time_ns": i * 40000000, "repeated": False, "restarted": False,
+                                       "wrench": {"force_N": wrench[:3], "torque_Nm": wrench[3:]}}) + "\n")
+        for trace in ("six.csv", "six.jsonl"):
+            read = self.samples(trace)
+            self.assertEqual(len(read), 400)
+            # The last frame is the way to rest.
+            self.assertLessEqual(difference(read[:360], [[.1 * (i + 1) for i in range(6)]] * 360), 1e-6)
+
+    def test_a_trace_with_a_wild_time_is_refused(self):
+        head = ("running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,force_x_N,force_y_N,"
+                "force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit\n")
+        rest = ",10,10,0,0,1,0,0,0,0,0,none\n"
+        for time, shown in (("1000000000000000", "1e+06 s"), ("1e300", "1e+291 s"), ("-40000000", "-0.04 s"),
+                            ("nan", "nan s")):
+            self.path("wild.csv").write_text(f"{head}0,0{rest}40000000,{time}{rest}")
+            self.assert_said(f"wild.csv:3: the stream time is {shown}, must be from 0 to 86400 s",
+                             "convert", "wild.csv", "b.wav")
+        # -1 is what the element writes for a frame outside the segment.
+        self.path("good.csv").write_text(f"{head}0,-1{rest}0,0{rest}40000000,40000000{rest}")
+        self.assertEqual(len(self.samples("good.csv")), 80, "two frames of 40 ms")
+        self.path("wild.jsonl").write_text(
+            '{"stream_time_ns":1000000000000000,"repeated":false,"restarted":false,'
+            '"wrench":{"force_N":[1,0,0],"torque_Nm":[0,0,0]}}\n')
+        self.assert_said("wild.jsonl:1: the stream time is 1e+06 s", "convert", "wild.jsonl", "b.wav")
+        self.path("bad.jsonl").write_text('{"wrench":3}\n')
+        self.assert_said("bad.jsonl:1: is no line of a trace", "convert", "bad.jsonl", "b.wav")
+        self.path("empty.csv").write_text(head)
+        self.assert_said("empty.csv: is a trace without frames", "convert", "empty.csv", "b.wav")
+
+    def test_funscripts(self):
+        wide = (.1, -.2, .3, -.4, .5, -.6)
+        self.make_track(sample=lambda _: wide, count=100)
+        for axis, share in zip(CHANNELS, wide):
+            self.spidartrack("convert", "a.wav", "a.funscript", "--axis", axis, "--gain", "1")
+            script = json.loads(self.path("a.funscript").read_text())
+            self.assertEqual(script["actions"], [{"at": at, "pos": round(50 + 50 * share)} for at in (0, 99)])
+        self.path("a.funscript").write_text('{"actions":[{"at":0,"pos":50},{"at":100,"pos":100}]}')
+        self.assertEqual(self.spidartrack("convert", "a.funscript", "b.wav", "--axis", "fx"), "")
+        read = self.samples("b.wav")
+        self.assertEqual(len(read), 101)
+        self.assertEqual((read[50], read[100]), ((.5, 0, 0, 0, 0, 0), (1, 0, 0, 0, 0, 0)))
+
+    def test_what_a_format_cannot_hold_is_said(self):
+        self.make_track(sample=lambda ms: (ms / 100, 0, 0, 0, 0, 0), count=101)
+        self.assertEqual(self.spidartrack("convert", "a.wav", "c.funscript", "--gain", "1"),
+                         "gain 1\nlost: fx up to 10 N, steps of fy below 0.2 N\n")
+        self.assertEqual(self.spidartrack("convert", "a.wav", "c.ahap", "--gain", "1"),
+                         "gain 1\nlost: the direction of the force\n")
+
+    def test_the_range_of_the_target_is_filled(self):
+        self.make_track(sample=lambda ms: (.03, .1 * math.sin(.05 * ms), .04, 0, 0, 0))
+        said = self.spidartrack("convert", "a.wav", "a.funscript")
+        self.assertEqual(said, "gain 10: the largest value fills the range; --gain 1 keeps it as it is\n"
+                         "lost: fx up to 0.3 N, fz up to 0.4 N, steps of fy below 0.02 N\n")
+        positions = [action["pos"] for action in json.loads(self.path("a.funscript").read_text())["actions"]]
+        self.assertEqual((min(positions), max(positions)), (0, 100))
+        self.assertIn("gain 8.9:", self.spidartrack("convert", "a.wav", "a.ahap"))  # of a force of .1118
+        values = [point["ParameterValue"]
+                  for event in json.loads(self.path("a.ahap").read_text())["Pattern"]
+                  for point in event.get("ParameterCurve", {}).get("ParameterCurveControlPoints", [])]
+        self.assertAlmostEqual(max(values), 1, delta=.02)  # its tolerance
+        self.assertIn("gain 9:", self.spidartrack("convert", "a.wav", "b.wav", "--rate", "8000"))
+        # Between peaks of .9, and what the ends of the filter add.
+        sound = [value for value, in self.samples("b.wav")]
+        self.assertAlmostEqual(max(sound[800:-800]), .9, delta=.02)
+        self.make_track(sample=lambda _: (0,) * 6)
+        self.assertIn("gain 1:", self.spidartrack("convert", "a.wav", "a.funscript"))
+        self.assert_said("--gain is for .funscript, .ahap and sound with --rate", "convert", "a.wav", "b.flac", "--gain",
+                         "2", status=2)
+
+    @track_case.needs("ffmpeg")
+    def test_a_channel_becomes_sound_without_images(self):
+        """For a bass shaker: a channel alone, at the rate of sound cards, with nothing that was not there."""
+        self.make_track(sample=lambda ms: (.1, .5, .4 * math.sin(2 * math.pi * .04 * ms), 0, 0, 0), count=4000)
+        self.assertIn("lost: fx up to 1 N, fy up to 5 N\n", self.spidartrack(
+            "convert", "a.wav", "b.wav", "--axis", "fz", "--rate", "48000", "--gain", "1"))
+        everything = [value for value, in self.samples("b.wav")]
+        # audioresample may leave out a part of its filter's length at the end.
+        self.assertAlmostEqual(len(everything), 4 * 48000, delta=.05 * 48000)
+        # 2.5 %: what begins and ends within a period.
+        self.assertAlmostEqual(rms(everything), .4 / math.sqrt(2), delta=.007)
+        # Images of 40 Hz would lie at 960 and 1040 Hz, as large as the tone for a hold of each sample.
+        self.run_in_folder("ffmpeg -nostdin -v error -i b.wav -af highpass=f=700,highpass=f=700 -c:a pcm_f32le h.wav")
+        high = [value for value, in self.samples("h.wav")]
+        self.assertLess(rms(high[24000:-24000]), .001)
+
+    def test_an_option_that_changes_nothing_is_an_error(self):
+        self.make_track()
+        for options, why in ((("b.wav", "--axis", "fy"), "--axis is for .funscript, and for sound with --rate"),
+                             (("b.hjif", "--axis", "fy"), "--axis is for .funscript, and for sound with --rate"),
+                             (("b.flac", "--tolerance", "0.1"), "--tolerance is for .hjif, .ahap and .funscript, not"),
+                             (("b.hjif", "--rate", "48000"), "--rate is for sound (.flac, .mka, .wav), not for"),
+                             (("./a.wav",), "./a.wav: is to be another file than a.wav")):
+            self.assert_said(why, "convert", "a.wav", *options, status=2)
+        self.assert_said("ends in none of .flac .mka", "convert", "a.wav", "a.txt")
+
+    def test_check_finds_what_would_not_be_felt_as_it_is(self):
+        self.make_track()
+        self.spidartrack("check", "a.wav")
+        info = json.loads(self.spidartrack("info", "--json", "a.wav"))
+        self.assertEqual(info["samples"], 1000)
+        self.assertAlmostEqual(info["channels"]["fx"]["peak"], .15, delta=1e-4)
+        bad = [list(track_case.wave(ms)) for ms in range(2000)]
+        bad[100][0] = math.nan
+        for ms, sample in enumerate(bad):
+            sample[1] = 1.5 if 500 <= ms < 600 else sample[1]
+            sample[3] = .2 if ms % 4 < 2 else -.2
+        self.make_track(sample=lambda ms: bad[ms], count=2000)
+        said = self.spidartrack("check", "a.wav", status=1)
+        for problem in ("1 samples are not numbers", "100 samples are beyond full scale", "largest force",
+                        "largest torque", "changes by", "energy of tx"):
+            self.assertIn(problem, said)
+
+    def test_what_is_damaged_or_no_track_is_named(self):
+        self.make_track(count=2000)
+        self.path("text.flac").write_text("no music")
+        self.spidartrack("info", "text.flac", status=1)
+        self.gst("audiotestsrc num-buffers=10 ! audio/x-raw,rate=8000,channels=2 ! wavenc",
+                 "! filesink location=stereo.wav")
+        self.assert_said("2 channels", "info", "stereo.wav")
+        # Cut in the middle: what is left is a track.
+        self.spidartrack("convert", "a.wav", "a.flac")
+        for name in ("a.wav", "a.flac"):
+            content = self.path(name).read_bytes()
+            self.path(name).write_bytes(content[:len(content) // 2])
+            self.assertIn("it is cut off: ", self.spidartrack("info", name))
+            self.assert_said("s of 2.000 s are there", "check", name)
+        self.spidartrack("convert", "a.wav", "a.ahap")
+        self.assert_said("written, but not read", "info", "a.ahap")
+
+    @track_case.needs("ffmpeg")
+    def test_a_file_that_gstreamer_cannot_take_apart_is_refused(self):
+        """The decoder of Wave64 would give other values, and samples that are not in the file."""
+        self.make_track()
+        self.run_in_folder("ffmpeg -nostdin -v error -i a.wav -af aformat=channel_layouts=5.1 -c:a pcm_f32le a.w64")
+        self.assert_said("GStreamer cannot take audio/x-w64 apart", "info", "a.w64")
+
+    @track_case.needs("ffmpeg")
+    def test_a_jump_of_days_is_not_filled_with_silence(self):
+        self.make_track()
+        self.run_in_folder("ffmpeg -nostdin -v error -i a.wav -af "
+                           "'asetnsamples=100,asetpts=PTS+gte(N\\,5)*1000000000' -c:a pcm_f32le jump.mka")
+        self.assert_said("reach to 1000000 s, and a track lasts at most 24 h", "convert", "jump.mka", "b.wav")
+
+    def test_info_of_a_film_is_that_of_its_track(self):
+        for name in ("film.avi", "two\nlines.avi", 'a"b\\.avi', b"\xff\xfe.avi".decode(errors="surrogateescape")):
+            self.make_film(name)
+            self.assert_said("a film without a haptic track, inside it or beside it", "info", name)
+            for count in (1000, 1500):
+                self.make_track(name + ".haptic.wav", count)
+                self.assertEqual("of another film" in self.spidartrack("info", name), count != 1000)
+                info = json.loads(self.spidartrack("info", "--json", name))
+                self.assertEqual(info["belongs"], count == 1000)
+                if "\udcff" not in name:
+                    self.assertEqual(info["film"], name)
+
+    @track_case.needs("gnuplot")
+    def test_a_plot_shows_stills_of_its_film_and_of_no_other(self):
+        self.make_film()
+        self.make_track()
+        self.spidartrack("plot", "a.wav", "plain.png")
+        self.spidartrack("plot", "a.wav", "stills.png", "--film", "film.avi")
+        plain, stills = (struct.unpack(">I", self.path(name).read_bytes()[20:24])[0]
+                         for name in ("plain.png", "stills.png"))
+        # The stills are 160 pixels wide, and a gap of 14 is below them.
+        self.assertEqual(stills, plain + 120 + 14)
+        self.make_track("longer.wav", 2000)
+        self.assert_said("another film: the track lasts 2.000 s, the film 1.000 s",
+                         "plot", "longer.wav", "no.png", "--film", "film.avi")
+        self.assert_said("none.avi", "plot", "a.wav", "no.png", "--film", "none.avi")
+        self.assert_said("a.jpg: the picture is a PNG", "plot", "a.wav", "a.jpg", status=2)
+
+
+if __name__ == "__main__":
+    unittest.main()
