@@ -30,7 +30,7 @@ Value quantile(std::vector<Value>& values, double share) {
   return quantile(values.begin(), values.end(), share);
 }
 
-/// Of an even number of values, the upper one of the two in the middle.
+/// The median; for an even number of values, the upper one of the two in the middle.
 template <typename Iterator>
 typename std::iterator_traits<Iterator>::value_type median(Iterator first, Iterator last) {
   return quantile(first, last, 0.5);

@@ -23,8 +23,8 @@ ChoiceState BoxedObject::state() const {
   return has_box_ ? ChoiceState::kBoxAtRest : ChoiceState::kNoBox;
 }
 
-/// Of objects in sight, the one that has most in common with the box for their size; null when
-/// that is not enough.
+/// The object in sight that has most in common with the box for their size; null when that is not
+/// enough.
 const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceFrame& frame) const {
   const Eigen::Vector2d a_px = frame.px(box.place), b_px = frame.px(box.far_corner);
   const Eigen::Vector2d from_px = a_px.cwiseMin(b_px), to_px = a_px.cwiseMax(b_px);

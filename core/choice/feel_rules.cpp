@@ -77,7 +77,7 @@ std::optional<Eigen::Vector2d> place_of(std::string_view text) {
   return Eigen::Vector2d(*x, *y);
 }
 
-/// Of one line.
+/// Reads one line.
 class RuleParser {
  public:
   RuleParser(std::string_view text, int line) : text_(text) { rule_.line = line; }
@@ -229,7 +229,7 @@ std::string number_text(double value) {
   return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr};
 }
 
-/// As a rule has it.
+/// The name as a rule writes it: in quotes unless it is a word.
 std::string name_text(const std::string& name) {
   const bool is_word = name.find_first_of(" \t") == std::string::npos && name != "gain";
   return is_word ? name : '"' + name + '"';
@@ -242,7 +242,7 @@ FeelRules::FeelRules(std::string_view text) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
     text.remove_prefix(kByteOrderMark.size());
   }
-  // Of rules in one line, as in a property, each counts as a line.
+  // Where all rules are in one line, as in a property, each rule counts as a line.
   const bool counts_rules = text.find('\n') == std::string_view::npos;
   for (int line = 1; !text.empty();) {
     const size_t end = text.find_first_of("\n;");

@@ -62,7 +62,7 @@ class FeelRules {
   const FeelRule* at(int64_t stream_ns) const;
   /// Whether a rule means boxes that come with the frames.
   bool has_boxes() const;
-  /// The same rules in one form for every way to type them, in one line.
+  /// The rules in one line, in the same form however they were typed.
   std::string text() const;
 
  private:

@@ -30,9 +30,9 @@ bool FollowedObject::may_be(const MovingObject& object) const {
   return (object.relative_px_s - velocity_px_s_).norm() < kSameVelocity * faster_px_s;
 }
 
-/// Of those that it may be, the one whose box is nearest to the place, and of several the smallest;
-/// null when none is within reach. While it is looked for, objects are taken back to where they
-/// were at begin().
+/// The object that it may be and whose box is nearest to the place, the smallest one if there are
+/// several; null when none is within reach. While it is looked for, objects are taken back to where
+/// they were at begin().
 const MovingObject* FollowedObject::at_place(const std::vector<MovingObject>& objects,
                                              double reach_px) const {
   const MovingObject* best = nullptr;

@@ -46,7 +46,8 @@ void ObjectChoice::reset() {
   clicked_ = FollowedObject();
 }
 
-/// Of objects in sight. The one that is felt stays until another one is clearly better.
+/// Chooses among the objects in sight. The one that is felt stays until another one is clearly
+/// better.
 const MovingObject* ObjectChoice::best(const FeelRule& rule, const ChoiceFrame& frame) {
   const MovingObject* now = nullptr;
   const MovingObject* other = nullptr;

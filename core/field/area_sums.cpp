@@ -28,7 +28,7 @@ void AreaSums::read(const PaddedImage& picture) {
     for (size_t x = 0; x < width_; ++x) column_[x] = static_cast<uint16_t>(column_[x] + below[x]);
     uint16_t* const sums = sums_.data() + static_cast<size_t>(y - first) * width_;
     std::copy(column_.begin(), column_.end(), sums);
-    // Of two columns, four, eight and sixteen; nothing asks for those that do not fit in.
+    // Sums two columns, then four, eight and sixteen; nothing asks for those that do not fit in.
     for (size_t n = 1; n < kBlock_px; n *= 2) {
       for (size_t x = 0; x + n < width_; ++x)
         sums[x] = static_cast<uint16_t>(sums[x] + sums[x + n]);

@@ -17,10 +17,10 @@ class AreaSums {
  public:
   /// For pictures of this size. Keeps the memory when the size is the same.
   void resize(int width, int height);
-  /// Of all areas that lie at most kBlockReach_px beyond the edge.
+  /// Sums the areas of a block's size that lie at most kBlockReach_px beyond the edge.
   void read(const PaddedImage& picture);
 
-  /// Of the area whose first pixel is `right_px`, `down_px` from the first one of all.
+  /// The sum of the area whose first pixel is `right_px`, `down_px` from the first one of all.
   int at(int right_px, int down_px) const {
     return sums_[static_cast<size_t>(down_px) * width_ + static_cast<size_t>(right_px)];
   }

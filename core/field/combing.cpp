@@ -46,7 +46,7 @@ int combs_plain(const Lines& lines, int x, int width) {
   return combs;
 }
 
-/// The same for the first columns, as many as fill whole vectors; `done` is their number.
+/// Counts the combs of the first columns, as many as fill whole vectors; `done` is their number.
 int combs_vectors(const Lines& lines, int width, int& done) {
   const cv::v_uint8x16 comb = cv::v_setall_u8(kComb_grey);
   const cv::v_uint8x16 same = cv::v_setall_u8(kSame_grey);

@@ -40,12 +40,12 @@ class OneEuroFilter {
     return value_;
   }
 
-  /// Of the newest value in the last result, 0 … 1: result += share · (value − result). So noise of
-  /// variance v in the values, independent of each other, is noise of variance (1 − share)² u +
-  /// share² v in the result, u that of the result before.
+  /// Share of the newest value in the last result, 0 … 1: result += share · (value − result). If
+  /// the values have independent noise of variance v, the noise of the result has the variance
+  /// (1 − share)² u + share² v, where u is that of the result before.
   double share() const { return share_; }
 
-  /// As if `x` had been the first value.
+  /// Starts anew with `x` as the first value.
   void restart_at(const Vector& x) {
     value_ = x;
     rate_.setZero();

@@ -100,7 +100,7 @@ PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& star
     Twist step;
     if (!newton_step(equations, 0, step)) break;
     fit.pose = model_.moved(fit.pose, step);
-    // Of the linear model after the step, which is the true one where the step is short.
+    // The cost of the linear model after the step, which is the true cost where the step is short.
     const double cost_m2 = std::max(0.0, equations.cost_m2 - decrease(equations, step));
     fit.residual_m = model_.rms_m(cost_m2, used);
     fit.converged = step.squaredNorm() <= kLastStep_m * kLastStep_m;

@@ -35,7 +35,7 @@ constexpr double kForgiven = 10;
 constexpr double kStill = 60;
 constexpr double kLongStill = 200;
 constexpr double kElsewhere = 12;
-// Of four Gauss–Newton steps each, for six strings whose pose may be centimetres away.
+// Rounds of four Gauss–Newton steps, for six strings whose pose may be centimetres away.
 constexpr int kRounds = 4;
 // What the residual of seven counts in comparison with the distance: it has one degree of freedom
 // and the distance six, some of them weakly determined.

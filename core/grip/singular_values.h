@@ -8,8 +8,8 @@
 
 namespace spidar {
 
-/// Of A = U diag(values) Vᵀ, m×n, what belongs to its rows. AᵀA has the eigenvectors V and the
-/// eigenvalues values².
+/// What belongs to the rows of the m×n matrix A = U diag(values) Vᵀ. AᵀA has the eigenvectors V and
+/// the eigenvalues values².
 struct SingularValues {
   Eigen::VectorXd values;  ///< n, descending, not negative; zeros fill up when m < n
   /// V, n×n and orthogonal. Columns from the rank of A on are a basis of its null space.

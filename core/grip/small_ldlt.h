@@ -69,7 +69,7 @@ inline bool solve_ldlt(const Row* Q, double damping, const int* index, const dou
   return sound;
 }
 
-/// As above, for a count that is known only at run time, 0 … 8. Writes y[0 … count-1].
+/// Solves the same for a count that is known only at run time, 0 … 8. Writes y[0 … count-1].
 inline bool solve_ldlt(int count, const Row* Q, double damping, const int* index, const double* rhs,
                        double* y) {
   switch (count) {

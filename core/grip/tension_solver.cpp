@@ -21,8 +21,8 @@ constexpr double kTolerance = 2e-14;
 // What still is a solution when rounding keeps it from getting there.
 constexpr double kAccepted = 1e-12;
 constexpr int kMaxIterations = 24;
-// Of the strings that want to leave their bound, those leave whose gradient is this share of the
-// largest: one at a time takes more rounds, all at once sends some of them back.
+// A string leaves its bound when its gradient is this share of the largest one among those that
+// want to leave: one at a time takes more rounds, all at once sends some of them back.
 constexpr double kReleaseShare = 0.4;
 // Added to the diagonal (as a share of it) when ε is lost beside it; rises until the pivots are
 // sound.
@@ -243,7 +243,7 @@ bool is_valid(const TensionProblem& problem, const TensionObjective& objective,
          objective.is_finite() && bounds.are_valid();
 }
 
-// Of a problem that is not valid, or whose numbers overflow on the way.
+// The result for a problem that is not valid, or whose numbers overflow on the way.
 TensionResult no_solution(const TensionProblem& problem) {
   TensionResult result;
   result.tension_N = tension_at_rest(problem);

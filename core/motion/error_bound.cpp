@@ -58,8 +58,8 @@ double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
          static_cast<double>(sum.residual) / (n * kBlockArea_px * texture);
 }
 
-/// The same of the background: the median of what its model leaves over beside the object, or the
-/// noise of a single block where nothing shows it.
+/// The variance of the background: the median of what its model leaves over beside the object, or
+/// the noise of a single block where nothing shows it.
 double ErrorBound::background_variance_px2(const Region& region, const ObjectEvidence& evidence) {
   beside_x_px_.clear();
   beside_y_px_.clear();

@@ -24,7 +24,7 @@ double area_in_box(const MovingObject& object, const Eigen::Vector2d& low_px,
   return all_px2 > 0 ? object.area_px2 * inside_px.prod() / all_px2 : 0;
 }
 
-/// Of the objects in sight, each with its weight.
+/// The mean motion of the objects in sight, each with its weight.
 template <typename Weight>
 ImageMotion weighted_motion(const std::vector<MovingObject>& objects, Weight&& weight_of) {
   ImageMotion sum;

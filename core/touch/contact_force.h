@@ -65,7 +65,7 @@ class ContactForce {
                        const ContactSettings& settings, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept;
 
-  /// Of the grip, after the low-pass.
+  /// Velocity of the grip after the low-pass.
   const Eigen::Vector3d& velocity_m_s() const noexcept { return velocity_m_s_; }
   const TouchProxy& proxy() const noexcept { return proxy_; }
   /// Discards all state, for example after the pose was lost.

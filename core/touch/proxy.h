@@ -15,7 +15,7 @@ struct Friction {
   double dynamic = 0;  ///< μd
 };
 
-/// Of most surfaces: kinetic friction is four fifths of the static one.
+/// The friction of most surfaces: the kinetic one is four fifths of the static one.
 constexpr Friction friction_of(double fixed) {
   return {fixed, 0.8 * fixed};
 }
