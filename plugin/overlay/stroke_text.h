@@ -14,8 +14,8 @@ struct TextStroke {
   Eigen::Vector2d from, to;
 };
 
-/// Of a text with the characters 0 to 9, point, space and N, where 1 is the height of a character
-/// and (0, 0) the upper left corner; others are spaces.
+/// The strokes of a text with the characters 0 to 9, point, space and N, where 1 is the height of a
+/// character and (0, 0) the upper left corner; others are spaces.
 std::vector<TextStroke> strokes_of(const std::string& text);
 /// Its width, in heights of a character.
 double stroke_width_of(const std::string& text);

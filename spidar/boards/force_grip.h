@@ -18,7 +18,7 @@ namespace spidar {
 /// takes the position from it. There is no torque, and no rotation.
 class ForceGrip final : public Grip {
  public:
-  /// Of the settings, those of the guardian and the thread are used.
+  /// Only the settings of the guardian and of the thread are used.
   ForceGrip(std::unique_ptr<ForceBoard> board, const BoardSettings& settings);
 
   void open() override;

@@ -32,7 +32,7 @@ class Inverse3Board final : public ForceBoard {
   const std::string& name() const noexcept override { return name_; }
 
  private:
-  /// Of the square in the circle of kReach_m.
+  /// Half of the side of the square in the circle of kReach_m.
   static constexpr double kRoom_m = 0.7 * inverse3::kReach_m;
   static constexpr GripAbilities kAbilities{{true, true, true},
                                             false,

@@ -182,7 +182,7 @@ Transfer StickEffects::upload(size_t effect, int level) noexcept {
 int StickEffects::wanted_level(size_t effect) const noexcept {
   const double right = force_N_[0] / ff::kFullForce_N, up = force_N_[1] / ff::kFullForce_N;
   if (!std::isfinite(right) || !std::isfinite(up)) return 0;
-  // Of drivers without a gain, the levels are reduced instead.
+  // A driver without a gain gets smaller levels instead.
   const double share_used = description_.gain ? 1 : gain();
   if (!description_.constant)
     return static_cast<int>(
@@ -266,7 +266,7 @@ LinkFault StickEffects::cycle(const Eigen::Vector2d& force_N, bool pulls) noexce
 void StickEffects::close(bool reopening) noexcept {
   reopening_ = reopening;
   if (!thread_.joinable()) {
-    // Of a driver that hangs, the thread ends the effects.
+    // If the driver hangs, the thread ends the effects.
     if (updates_ == Updates::kInCycle) end_effects();
     return;
   }

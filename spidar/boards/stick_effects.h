@@ -72,7 +72,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   uint32_t buttons() const noexcept { return place_.buttons(); }
 
   std::vector<LastWill> last_wills() const;
-  /// Of the device that is open.
+  /// What the open device can do.
   const ff::Description& description() const noexcept { return description_; }
   size_t effects() const noexcept { return effect_count_; }
   double gain() const noexcept {
@@ -105,7 +105,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   LinkFault set_one_level() noexcept;
   LinkFault refresh() noexcept;
   void end_effects() noexcept;
-  /// Of cycles in emulations, which need not take a millisecond.
+  /// The time; in emulations that of the cycles, which need not take a millisecond.
   int64_t now_ns() const noexcept;
   void run() noexcept;
 

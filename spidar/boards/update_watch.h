@@ -21,7 +21,8 @@ namespace spidar {
 /// exchanges.
 class UpdateWatch {
  public:
-  /// The same as for a board on USB, see BoardDevice: one fault may concern only one packet.
+  /// Failures in a row before all exchanges fail, as for a board on USB (see BoardDevice): one
+  /// fault may concern only one packet.
   static constexpr uint32_t kFailures = 3;
   /// Twice the time that the slowest drivers need, about 50 ms, and as long as other exchanges of a
   /// force-feedback device may last.

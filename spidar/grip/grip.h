@@ -81,7 +81,7 @@ class Grip {
   /// the last one that was answered. The pose can become known only while `command.wrench` is zero.
   virtual ExchangeStatus exchange(const GripCommand& command) noexcept = 0;
 
-  /// As of the last call.
+  /// What the last call has read.
   virtual const GripReading& reading() const noexcept = 0;
 
   /// Sets the device to rest, then releases it. Safe to call twice, and after kLost.

@@ -78,7 +78,7 @@ class TensionCommand {
   /// Sets the state to rest, with all strings in use.
   void reset() noexcept;
 
-  /// Of a wrench, with its torque as a force at the grip's radius, N.
+  /// Size of a wrench, N: its torque counts as a force at the grip's radius.
   double size_N(const Wrench& wrench) const noexcept;
 
  private:
@@ -86,8 +86,8 @@ class TensionCommand {
   /// that strings may not use, 0 … 1.
   double pose_problem(const Wrench& wrench, const StringVector& limit_N) noexcept;
 
-  /// Of what the last solve() adds to rest, the share that is within `limits` at a pose with the
-  /// structure matrix `W`, 0 … 1.
+  /// The share, 0 … 1, of what the last solve() adds to rest that is within `limits` at a pose with
+  /// the structure matrix `W`.
   double share_within(const StructureMatrix& W, const SafetyLimits& limits) const noexcept;
   /// Whether the last solve() is within `limits` at all poses that are reached from `pose` when no
   /// point of the grip moves by more than `way_m`. False when a bound cannot tell.

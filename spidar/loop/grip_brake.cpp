@@ -42,7 +42,7 @@ constexpr double kThrown_m_s = 0.4;
 /// which it is held.
 constexpr double kLoop_s = 1.5e-3;
 
-/// Of `vector`, the part along `velocity` is reduced to the share that `speed` leaves.
+/// Reduces the part of `vector` along `velocity` to the share that the speed leaves.
 Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity,
                       double metres) {
   const double size = velocity.norm();

@@ -50,8 +50,8 @@ class HapticLoop {
   /// Schedules a wrench for the running time `entry.time_ns` on the screen. Returns false when the
   /// ring is full because the loop does not run, does not play, or is far behind.
   bool schedule(const TimedWrench& entry) noexcept { return schedule_.push(entry); }
-  /// The same for samples of a track, in the order of their times. Where there are samples, they
-  /// are rendered instead of frames.
+  /// Hands over samples of a track, in the order of their times. Where there are samples, they are
+  /// rendered instead of frames.
   bool schedule(const TrackBlock& block) noexcept { return schedule_.push(block); }
 
   // --- any thread
@@ -84,7 +84,7 @@ class HapticLoop {
 
   /// Returns every tick in order, for one reader. Ticks are dropped if they are not read.
   bool pop_record(TickRecord& record) noexcept { return records_.pop(record); }
-  /// The same of forces alone, for another reader.
+  /// Takes the oldest tick's force alone, for another reader.
   bool pop_force(ForceTick& tick) noexcept { return forces_.pop(tick); }
 
   /// Its description, name and health.

@@ -12,7 +12,7 @@
 namespace spidar {
 
 struct VibrationState {
-  /// Of the wanted wrench, the share that may be exerted, 0 … 1.
+  /// Share of the wanted wrench that may be exerted, 0 … 1.
   double share = 1;
   /// What is left in the store, 0 … 1.
   double left = 1;
@@ -57,7 +57,7 @@ class VibrationBudget {
   void pass(const Wrench& strings, double dt_s, int64_t now_ns) noexcept;
 
   double share() const noexcept { return state_.share; }
-  /// As of the last pass().
+  /// The state after the last pass().
   const VibrationState& state() const noexcept { return state_; }
 
   /// When the store will be full again if there is no more vibration, on the clock of pass().

@@ -43,8 +43,8 @@ inline double largest_force_N(const Profile& profile) {
                                            profile.geometry.count));
 }
 
-/// The same of a torque limit: the torque that they can give at the centre about every axis, and no
-/// less than kAnyTorque_Nm.
+/// Largest torque limit: the torque that the strings can give at the centre about every axis, and
+/// no less than kAnyTorque_Nm.
 inline double largest_torque_Nm(const Profile& profile) {
   return std::max(kAnyTorque_Nm,
                   least_reach(structure_matrix(profile.geometry, {}).bottomRows<3>() *

@@ -77,7 +77,7 @@ Values per_string(const TomlField& field, int count) {
   return values;
 }
 
-/// The same for an optional field: zero when it is missing.
+/// The values of an optional field: zero when it is missing.
 Values optional_per_string(const TomlField& in, const char* key, int count) {
   return in.has(key) ? per_string(in[key], count) : Values{};
 }

@@ -38,12 +38,12 @@ class CountUnwrapper {
     return true;
   }
 
-  /// The same after a break in which the board was not read. Returns false and changes nothing when
-  /// a counter has jumped, or when the counters seem to have been reset by a loss of power: all of
-  /// them are near zero now, were not near zero before, and are far from their previous values. A
-  /// grip that a hand moved while it was near the counters' zero looks the same. Mistaking it for a
-  /// reset costs a new zero; the opposite mistake would lose the right zero. Call begin() to accept
-  /// the new values.
+  /// Takes the counters after a break in which the board was not read. Returns false and changes
+  /// nothing when a counter has jumped, or when the counters seem to have been reset by a loss of
+  /// power: all of them are near zero now, were not near zero before, and are far from their
+  /// previous values. A grip that a hand moved while it was near the counters' zero looks the same.
+  /// Mistaking it for a reset costs a new zero; the opposite mistake would lose the right zero.
+  /// Call begin() to accept the new values.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     const bool anew = within(kNearZero, raw, {}, channels) && !within(kStill, raw_, {}, channels) &&
                       !within(kStill, raw, raw_, channels);

@@ -25,7 +25,7 @@ constexpr uint8_t kRequestType = 0x40;
 /// The chip puts this many bytes in front of each packet, and sends a packet of only these when its
 /// latency timer ends before anything was received.
 constexpr size_t kStatusSize = 2;
-/// Of a full-speed chip.
+/// Largest packet of a full-speed chip, bytes.
 constexpr size_t kPacketSize = 64;
 
 constexpr uint8_t kModemControl = 1, kSetBaud = 3;

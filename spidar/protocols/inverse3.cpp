@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 /// From the foot of the device, in its own axes.
 const Eigen::Vector3d kMiddle_m(0, -0.1, 0.18);
-/// Of an identifier. The published ones are hexadecimal.
+/// Longest identifier. The published ones are hexadecimal.
 constexpr size_t kIdLength = 64;
 
 Eigen::Vector3d to_device(const Eigen::Vector3d& haply) noexcept {
@@ -71,7 +71,7 @@ const Json* device_in(const Json& message, std::string_view id) {
   return nullptr;
 }
 
-/// Of the first handle that has any; a wireless one has three, the other one.
+/// The buttons of the first handle that has any; a wireless one has three, the other has one.
 uint32_t buttons_in(const Json& message) {
   for (const char* kind : {"wireless_verse_grip", "verse_grip", "custom_verse_grip"}) {
     const Json* handles = field(&message, kind);
@@ -181,7 +181,7 @@ size_t encode_force(const State& device, const Eigen::Vector3d& force_N,
                     MutableBytes bytes) noexcept {
   Eigen::Vector3d limited_N = Eigen::Vector3d::Zero();
   if (force_N.allFinite()) limited_N = force_N;
-  // Of each axis first, so that the length is finite.
+  // Each axis is limited first, so that the length is finite.
   limited_N = limited_N.cwiseMax(-1e6).cwiseMin(1e6);
   if (limited_N.norm() > kLargestForce_N) limited_N *= kLargestForce_N / limited_N.norm();
   Writer writer(bytes);

@@ -55,8 +55,8 @@ using Packet = std::array<uint8_t, kPacketSize>;
 
 /// Largest value of a motor, of 12 bits and a sign.
 constexpr int kMostDigit = 4095;
-/// Of a motor, per N m at its arm; positive digits pull the arm towards the base. As libnifalcon
-/// uses it; nobody states how it was measured.
+/// Digits of a motor per N m at its arm; positive digits pull the arm towards the base. libnifalcon
+/// uses this number; nobody states how it was measured.
 constexpr double kDigitsPerNm = -10000;
 
 /// Colour of the logo; the values are those of the packet.

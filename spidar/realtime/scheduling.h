@@ -15,7 +15,7 @@ struct Scheduling {
   std::string detail;  ///< "SCHED_FIFO 80", or the reason and what would help
 };
 
-/// Of all ticks since the thread was started. Readable while it runs.
+/// Timing of all ticks since the thread was started. Readable while it runs.
 struct LoopTiming {
   LatencyHistogram lateness;  ///< from the deadline to the beginning of the tick
   LatencyHistogram cycle;     ///< from the beginning of the tick to its end, device included

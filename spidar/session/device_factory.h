@@ -36,8 +36,8 @@ bool is_simulated(const std::string& spec);
 std::unique_ptr<Grip> make_grip(const std::string& spec, const Profile& profile,
                                 const BoardSettings& settings = {});
 
-/// The same for volts and counts of the strings. Throws DeviceError for a device that
-/// takes a force, too, which has none.
+/// Makes a device that takes volts and gives counts of the strings. Throws DeviceError as above,
+/// and for a device that takes a force, which has no strings.
 std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
                                     const BoardSettings& settings = {});
 

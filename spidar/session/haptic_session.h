@@ -31,8 +31,8 @@ class HapticSession {
   /// Opens the grip and starts the loop. Throws DeviceError, or TraceError when the trace cannot be
   /// written.
   explicit HapticSession(std::unique_ptr<Grip> grip, const SessionSettings& settings = {});
-  /// The same for a grip on the strings of this device. Throws std::invalid_argument when the
-  /// profile has fewer than six strings.
+  /// Makes a session with a grip on the strings of this device. Throws std::invalid_argument when
+  /// the profile has fewer than six strings.
   HapticSession(const Profile& profile, std::unique_ptr<Device> device,
                 const SessionSettings& settings = {});
   /// Ramps to rest, then to zero, and closes the device, within some 60 ms. Without a thread, the

@@ -48,8 +48,8 @@ class ShakeWatch {
     share_ = std::max(kLeastShare, kLeft * share_);
   }
 
-  /// Of the stiffness, 1 until the grip was shaken. It does not rise again: the lag is that of the
-  /// device.
+  /// What is left of the stiffness: 1 until the grip was shaken. It does not rise again, because
+  /// the lag is that of the device.
   double share() const noexcept { return share_; }
 
  private:

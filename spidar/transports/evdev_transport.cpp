@@ -29,7 +29,7 @@ namespace {
 /// zero, the others leave it alone. Linux provides no way to read it.
 constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
 
-/// As many as ff::Position holds.
+/// Buttons that ff::Position has room for.
 constexpr size_t kMostButtons = 32;
 
 LinkFault fault_of_input(int error) noexcept {

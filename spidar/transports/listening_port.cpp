@@ -10,7 +10,7 @@
 namespace spidar {
 namespace {
 
-/// Of proc_pid_net(5): number, local address, remote address, state.
+/// Reads the table that proc_pid_net(5) describes: number, local address, remote address, state.
 bool has_listener(const char* path, uint16_t port) {
   const std::string kListen = "0A";
   std::ifstream list(path);

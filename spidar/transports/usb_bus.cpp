@@ -24,8 +24,8 @@ std::string bus_path(libusb_device* device) {
   return path;
 }
 
-/// As the kernel read it when the device was plugged in; reading it from the device requires
-/// opening it.
+/// The serial number as the kernel read it when the device was plugged in; reading it from the
+/// device requires opening it.
 std::string kernel_serial(const std::string& path) {
   const int file = open(("/sys/bus/usb/devices/" + path + "/serial").c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return {};

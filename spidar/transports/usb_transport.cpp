@@ -30,7 +30,7 @@ LinkFault fault_of_submit(int error) noexcept {
   }
 }
 
-/// Of a control transfer, which libusb submits and waits for.
+/// The fault of a control transfer, which libusb submits and waits for.
 LinkFault fault_of_control(int error) noexcept {
   if (error == LIBUSB_SUCCESS) return LinkFault::kNone;
   return error == LIBUSB_ERROR_TIMEOUT ? LinkFault::kTimeout : fault_of_submit(error);

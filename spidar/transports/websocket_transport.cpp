@@ -20,12 +20,12 @@ constexpr const char* kHost = "localhost";
 constexpr const char* kAddress = "127.0.0.1";
 constexpr int64_t kGreetingWait_ns = 2 * kSecond_ns;
 constexpr int64_t kAnswerWait_ns = 5'000'000;
-/// Of a message to the service.
+/// Longest message to the service, bytes.
 constexpr size_t kLongest = 4096;
 /// Files of a connection and of its loop, with room to spare. Without a limit, libwebsockets fills
 /// tables for as many files as the process may open.
 constexpr unsigned kMostFiles = 16;
-/// Of an answer. What is longer is no answer of a service for devices.
+/// Longest answer, bytes. What is longer is no answer of a service for devices.
 constexpr size_t kMost = 1 << 20;
 
 /// Wakes the loop of libwebsockets, which may look at its timers just before it waits.
