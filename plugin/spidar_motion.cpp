@@ -5,13 +5,14 @@
  * @title: spidarmotion
  * @short_description: feel the motion of a video with a SPIDAR haptic device
  *
- * Looks at the frames that pass, measures how the things in them move (Shi-Tomasi points, pyramidal
- * Lucas-Kanade), turns the motion into force and torque, and gives them to the grip of a SPIDAR-G
- * at the moment the frame is shown. The video itself is passed on untouched.
+ * Looks at the frames that pass, measures how the blocks of the picture and the objects in it move,
+ * turns the motion into force and torque, and gives them to the grip of a SPIDAR-G at the moment
+ * the frame is shown. The video itself is passed on untouched.
  *
  * By default the object that stands out most against the background is felt (#spidarmotion:motion),
  * steadied by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
- * filter-min-cutoff=0 it is the mean velocity of all points, as in the paper.
+ * filter-min-cutoff=0 it is the mean velocity of Shi-Tomasi points that Lucas-Kanade tracks, as in
+ * the paper.
  *
  * A frame is shown at base time + running time + pipeline latency + the sink's ts-offset (pad
  * offsets and a clocksync on the way to the sink count, too); its force is felt then
