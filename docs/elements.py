@@ -237,7 +237,7 @@ def observed(fields):
 def describe(name):
     factory = Gst.ElementFactory.find(name)
     element = factory.create(None)
-    lines = [f"# {name}", "", WRITTEN, f"{factory.get_metadata('description')}.", "", "## Pads", "", "| pad | direction | presence | caps |", "|---|---|---|---|"]
+    lines = [f"# {name}", "", WRITTEN, f"{factory.get_metadata('description')}.", "", "## Pads", ""]
     # The factory lists them in another order when the registry has just been written.
     templates = sorted(factory.get_static_pad_templates(),
                        key=lambda template: (template.direction != Gst.PadDirection.SINK, template.name_template))
@@ -246,8 +246,8 @@ def describe(name):
         kinds = sorted({caps.get_structure(i).get_name() for i in range(caps.get_size())})
         if caps.is_any():
             kinds = ["any"]
-        lines.append(f"| `{template.name_template}` | {template.direction.value_nick} | "
-                     f"{template.presence.value_nick} | {', '.join(f'`{kind}`' for kind in kinds)} |")
+        lines.append(f"- `{template.name_template}`: {template.direction.value_nick}, "
+                     f"{', '.join(f'`{kind}`' for kind in kinds)}")
     own = [spec for spec in element.list_properties() if spec.owner_type == element.__gtype__]
     if own:
         lines += ["", "## Properties", "", CHANGES]
@@ -257,11 +257,11 @@ def describe(name):
         lines += property_lines(spec)
     signals = [GObject.signal_query(signal, element.__gtype__) for signal in GObject.signal_list_names(element.__gtype__)]
     if signals:
-        lines += ["", "## Signals", "", *table(
-            ["signal", "kind", "arguments", "returns"],
-            [[f"`{signal.signal_name}`", "action" if signal.signal_flags & GObject.SignalFlags.ACTION else "notification",
-              ", ".join(TYPES.get(kind.name, kind.name) for kind in signal.param_types),
-              TYPES.get(signal.return_type.name, signal.return_type.name)] for signal in signals])]
+        lines += ["", "## Signals", ""]
+    for signal in signals:
+        kind = "action" if signal.signal_flags & GObject.SignalFlags.ACTION else "notification"
+        arguments = ", ".join(TYPES.get(of.name, of.name) for of in signal.param_types)
+        lines.append(f"- `{signal.signal_name}` ({kind}): {arguments} → {TYPES.get(signal.return_type.name, signal.return_type.name)}")
     return lines
 
 
