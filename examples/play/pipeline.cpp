@@ -86,13 +86,16 @@ GstElement* make_filter() {
       "GST_PLUGIN_PATH to the folder of libgstspidar.so");
 }
 
-GstElement* make_player(const std::string& uri, GstElement* filter, const Screen& screen) {
+GstElement* make_player(const std::string& film, GstElement* filter, const Screen& screen) {
   GstElement* const player = make("playbin");
   guint flags = 0;
   g_object_get(player, "flags", &flags, nullptr);
   // Frames in graphics memory would bypass the filter.
-  g_object_set(player, "uri", uri.c_str(), "video-filter", filter, "video-sink", screen.element,
-               "flags", flags | kForceFilters, nullptr);
+  char* const uri = gst_uri_is_valid(film.c_str()) ? g_strdup(film.c_str())
+                                                   : gst_filename_to_uri(film.c_str(), nullptr);
+  g_object_set(player, "uri", uri, "video-filter", filter, "video-sink", screen.element, "flags",
+               flags | kForceFilters, nullptr);
+  g_free(uri);
   if (!screen.why_none.empty()) {
     GstElement* const silence = make("fakesink");
     g_object_set(silence, "sync", TRUE, nullptr);

@@ -25,8 +25,8 @@ uint64_t frames_shown(const Screen& screen);
 /// found.
 GstElement* make_filter();
 
-/// playbin with the filter between decoder and screen.
-GstElement* make_player(const std::string& uri, GstElement* filter, const Screen& screen);
+/// playbin with the filter between decoder and screen. `film` is a file or a URI.
+GstElement* make_player(const std::string& film, GstElement* filter, const Screen& screen);
 
 /// A ball that bounces for ten seconds, used when there is no video.
 GstElement* make_ball(GstElement* filter, const Screen& screen);

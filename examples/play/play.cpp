@@ -19,7 +19,6 @@
 
 #include <gst/gst.h>
 
-#include "examples/film/film_uri.h"
 #include "examples/play/picture.h"
 #include "examples/play/pipeline.h"
 #include "examples/play/playback.h"
@@ -148,12 +147,11 @@ int play(const Options& options) {
   }
   g_object_set(filter, "post-messages", TRUE, nullptr);
   if (options.window) g_object_set(filter, "debug-window", TRUE, nullptr);
-  const std::string uri = options.ball ? "" : film_uri(options.video);
   std::string title = options.ball ? "videotestsrc pattern=ball" : options.video;
   if (fs::path(title).has_filename()) title = fs::path(title).filename();
   const Screen screen = open_screen(options.headless);
   GstElement* const pipeline =
-      options.ball ? make_ball(filter, screen) : make_player(uri, filter, screen);
+      options.ball ? make_ball(filter, screen) : make_player(options.video, filter, screen);
   std::printf("playing %s%s\n", title.c_str(),
               screen.why_none.empty()
                   ? ""
@@ -175,7 +173,8 @@ int play(const Options& options) {
     record.add_device(stats_of_filter().get(), time_s);
     window_picture.take_if_due(time_s);
   };
-  const Ending ending = run_playback(pipeline, options.seconds, watch);
+  const Ending ending =
+      run_playback(pipeline, options.ball ? title : options.video, options.seconds, watch);
   window_picture.take();
   const auto stats = stats_of_filter();
   const uint64_t shown = frames_shown(screen);

@@ -11,8 +11,6 @@
 #include <glib-unix.h>
 #include <gst/pbutils/pbutils.h>
 
-#include "examples/film/failure.h"
-
 namespace {
 
 constexpr guint kMoment_ms = 20;
@@ -21,6 +19,7 @@ constexpr guint kProgress_ms = 100, kLoggedProgress_ms = 2000;
 
 struct Playback {
   GstElement* pipeline;
+  const std::string film;
   const PlaybackWatch& watch;
   bool on_terminal;
   GMainLoop* main_loop;
@@ -40,35 +39,51 @@ struct Playback {
   }
 };
 
-/// For a playbin; empty for another pipeline.
-std::string film_of(GstElement* pipeline) {
-  if (!g_object_class_find_property(G_OBJECT_GET_CLASS(pipeline), "current-uri")) return {};
-  char* uri = nullptr;
-  g_object_get(pipeline, "current-uri", &uri, nullptr);
-  const std::string result = uri ? uri : "";
-  g_free(uri);
-  return result;
+/// Whether this playbin has found its streams and none of them is video.
+bool has_no_video(GstElement* playbin) {
+  if (!g_object_class_find_property(G_OBJECT_GET_CLASS(playbin), "n-video")) return false;
+  int count = 0;
+  g_object_get(playbin, "n-video", &count, nullptr);
+  return count == 0;
+}
+
+/// Whether the film is shorter than its container says.
+bool ends_early(GstElement* pipeline) {
+  constexpr gint64 kMuch_ns = 1'000'000'000;  // streams of a film end at slightly different times
+  gint64 position = 0, duration = 0;
+  return gst_element_query_position(pipeline, GST_FORMAT_TIME, &position) &&
+         gst_element_query_duration(pipeline, GST_FORMAT_TIME, &duration) &&
+         position + kMuch_ns < duration;
+}
+
+/// The reason is in the last line of GStreamer's debug text; the lines before tell the place.
+std::string last_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
 }
 
 void end_by_error(Playback& playback, GstMessage* message) {
   GError* error = nullptr;
-  gst_message_parse_error(message, &error, nullptr);
+  char* debug = nullptr;
+  gst_message_parse_error(message, &error, &debug);
   playback.clear_line();
   const bool window_closed =
       GST_OBJECT_FLAG_IS_SET(message->src, GST_ELEMENT_FLAG_SINK) &&
       g_error_matches(error, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_NOT_FOUND);
-  g_error_free(error);
   playback.stop(window_closed ? Ending::kInterrupted : Ending::kFailed);
-  std::fprintf(stderr, "%s: %s: %s\n", window_closed ? "note" : "error",
-               GST_OBJECT_NAME(message->src),
-               failure_text(message, film_of(playback.pipeline)).c_str());
+  // GStreamer does not always say that a host does not answer.
+  const bool is_remote = playback.film.find("://") != std::string::npos;
+  std::fprintf(stderr, "%s: %s: %s (%s)%s\n", window_closed ? "note" : "error",
+               playback.film.c_str(), error->message, last_line(debug ? debug : "").c_str(),
+               is_remote && !window_closed ? "; does its host answer?" : "");
+  g_error_free(error);
+  g_free(debug);
 }
 
 void end_by_end(Playback& playback) {
-  const std::string early = early_end_text(playback.pipeline);
-  if (!early.empty()) {
+  if (ends_early(playback.pipeline)) {
     playback.clear_line();
-    std::fprintf(stderr, "warning: %s\n", early.c_str());
+    std::fprintf(stderr, "warning: the film is shorter than it says: it seems to be cut off\n");
   }
   playback.stop(Ending::kEndOfVideo);
 }
@@ -127,7 +142,7 @@ gboolean on_message(GstBus*, GstMessage* message, void* data) {
       break;
     case GST_MESSAGE_ASYNC_DONE:
       if (has_no_video(playback.pipeline)) {
-        std::fprintf(stderr, "error: %s\n", kNoVideo);
+        std::fprintf(stderr, "error: %s: there is no video in it\n", playback.film.c_str());
         playback.stop(Ending::kFailed);
       }
       break;
@@ -182,10 +197,11 @@ gboolean on_progress(void* data) {
 
 }  // namespace
 
-Ending run_playback(GstElement* pipeline, int seconds, const PlaybackWatch& watch) {
+Ending run_playback(GstElement* pipeline, const std::string& film, int seconds,
+                    const PlaybackWatch& watch) {
   gst_pb_utils_init();
   const bool on_terminal = isatty(STDOUT_FILENO) != 0;
-  Playback playback{pipeline, watch, on_terminal, g_main_loop_new(nullptr, FALSE)};
+  Playback playback{pipeline, film, watch, on_terminal, g_main_loop_new(nullptr, FALSE)};
 
   GstBus* const bus = gst_element_get_bus(pipeline);
   gst_bus_add_watch(bus, on_message, &playback);

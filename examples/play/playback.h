@@ -25,5 +25,6 @@ struct PlaybackWatch {
 
 /// Plays until the video ends or fails, the user stops it, or `seconds` have passed (0: never).
 /// Prints errors and warnings of the pipeline on standard error and the progress on standard
-/// output. Afterwards the pipeline is still in PLAYING or PAUSED.
-Ending run_playback(GstElement* pipeline, int seconds, const PlaybackWatch& watch);
+/// output. Afterwards the pipeline is still in PLAYING or PAUSED. `film` is its name for messages.
+Ending run_playback(GstElement* pipeline, const std::string& film, int seconds,
+                    const PlaybackWatch& watch);

@@ -20,6 +20,5 @@ struct GreyPicture {
 };
 
 /// Decodes the first frame of a picture or film with GStreamer, which is initialised. Throws
-/// std::invalid_argument for a name that cannot be a film, and std::runtime_error that says why
-/// there is no picture.
-GreyPicture first_picture(const std::string& file_or_uri);
+/// std::runtime_error that says why there is no picture.
+GreyPicture first_picture(const std::string& file);

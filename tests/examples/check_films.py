@@ -63,10 +63,10 @@ def main():
                 file.write(content)
         for program in sys.argv[1:]:
             command = [program, "--headless"] if os.path.basename(program) == "play" else [program]
-            for name, reason in [(os.path.join(folder, "none.avi"), "no such file"),
-                                 (folder, "a folder"), (empty, "an empty file"), (text, "text file"),
+            for name, reason in [(os.path.join(folder, "none.avi"), "not found.*No such file"),
+                                 (folder, "[Dd]irectory"), (empty, "empty|no data"), (text, "text file"),
                                  (make_sound(folder), "no video"),
-                                 ("http://127.0.0.1:1/film.mp4", "127.0.0.1.*[Rr]efused")]:
+                                 ("http://127.0.0.1:1/film.mp4", "127.0.0.1.*does its host answer")]:
                 check(command, name, reason)
             if os.path.basename(program) == "play":
                 check_output(program, folder)
