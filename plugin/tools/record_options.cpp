@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <iostream>
-#include <thread>
 
+#include "plugin/tools/processors.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/motion_sidecar.h"
 #include "spidar/tools/command_line.h"
@@ -23,7 +23,7 @@ FILM.mp4.haptic.flac. A track that is there is left alone, so that the command g
 interrupted; if it is that of another film, or was recorded with other properties, that is an error.
 Properties are those of spidarmotion that change the force: motion=camera …
 
-  -j, --jobs N   films at a time; as many as there are processors
+  -j, --jobs N   films at a time; as many as processors may be used
   --folder DIR   where tracks are written, those of FOLDER in the same subfolders
   --format TYPE  flac (24 bits), mka or wav (both F32); flac
   --manifest FILE  gets a line of JSON for each film: result, duration, felt share …
@@ -39,7 +39,7 @@ render makes tracks of it without the film, and spidarmotion analysis=auto plays
 that is there is left alone, as spidartrack record does. Properties are those that change what is
 measured: quality, max-features, motion=mean, quality-level, min-distance.
 
-  -j, --jobs N   films at a time; as many as there are processors
+  -j, --jobs N   films at a time; as many as processors may be used
   --folder DIR   where analyses are written
   --shard K/N    only piece K of N, as FILM.mp4.KofN.motion; see spidartrack join --help
   --force        also those that are there
@@ -91,7 +91,7 @@ RecordOptions parse_record_options(int argc, char** argv, Purpose purpose) {
   RecordOptions options;
   options.purpose = purpose;
   const bool analyzes = purpose == Purpose::kAnalyze;
-  options.jobs = std::max(1U, std::thread::hardware_concurrency());
+  options.jobs = usable_processors();
   // getopt must not see the arguments after --.
   int own = 1;
   while (own < argc && std::string(argv[own]) != "--") ++own;

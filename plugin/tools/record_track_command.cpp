@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "plugin/tools/film_analyzer.h"
@@ -75,8 +76,12 @@ class FilmBatch {
   bool run() {
     claim_names();
     std::vector<std::thread> workers;
-    for (unsigned i = 1; i < options_.jobs && i < options_.films.size(); ++i)
-      workers.emplace_back([this] { work(); });
+    try {
+      for (unsigned i = 1; i < options_.jobs && i < options_.films.size(); ++i)
+        workers.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {
+      // The system gives no more threads: those that there are take longer.
+    }
     work();
     for (std::thread& worker : workers) worker.join();
     return report_.finish();

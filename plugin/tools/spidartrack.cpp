@@ -2,6 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // Records, renders, inspects, checks, converts and plots haptic tracks.
 
+#include <iostream>
+#include <pthread.h>
+#include <system_error>
 #include <vector>
 
 #include <gst/gst.h>
@@ -10,6 +13,7 @@
 #include "plugin/track/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"
+#include "spidar/tools/exit_status.h"
 
 namespace {
 
@@ -38,11 +42,32 @@ constexpr const char* kSpidartrackHelp = R"(usage: spidartrack COMMAND
 spidartrack COMMAND --help explains a command.
 )";
 
+/// GStreamer reads and writes files in threads for which the 128 KiB that musl gives by default, or
+/// a low limit of the stack, are not enough.
+void request_stacks() {
+  constexpr size_t kEnough_bytes = size_t{1} << 20;
+  pthread_attr_t attributes;
+  size_t given_bytes = 0;
+  if (pthread_getattr_default_np(&attributes) != 0) return;
+  pthread_attr_getstacksize(&attributes, &given_bytes);
+  if (given_bytes < kEnough_bytes) {
+    pthread_attr_setstacksize(&attributes, kEnough_bytes);
+    pthread_setattr_default_np(&attributes);
+  }
+  pthread_attr_destroy(&attributes);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   open_standard_descriptors();
-  remove_part_files_on_signals();
+  request_stacks();
+  try {
+    remove_part_files_on_signals();
+  } catch (const std::system_error& error) {
+    std::cerr << "spidartrack: the system gives it no thread: " << error.what() << '\n';
+    return kFailed;
+  }
   gst_init(nullptr, nullptr);
   return run_program("spidartrack", kCommands, kSpidartrackHelp, argc, argv);
 }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "plugin/track/film_reader.h"
@@ -113,7 +114,7 @@ void TrackLoader::begin(Sidecar kind, const std::string& wanted, const std::stri
   stop();
   if (wanted.empty()) return;
   const auto reading = std::make_shared<Reading>();
-  thread_ = start_thread("spidar-track", [reading, kind, wanted, film] {
+  auto read = [reading, kind, wanted, film] {
     LoadedTrack loaded;
     try {
       loaded = kind == Sidecar::kTrack ? load_track(wanted, film, &reading->stopped)
@@ -127,7 +128,15 @@ void TrackLoader::begin(Sidecar kind, const std::string& wanted, const std::stri
     reading->loaded = std::move(loaded);
     reading->done = true;
     reading->changed.notify_all();
-  });
+  };
+  try {
+    thread_ = start_thread("spidar-track", std::move(read));
+  } catch (const std::system_error& error) {
+    reading->loaded.kind = kind;
+    reading->loaded.path = wanted == "auto" ? film : wanted;
+    reading->loaded.problem = std::string("the system gives no thread to read it: ") + error.what();
+    reading->done = true;
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   reading_ = reading;
 }
@@ -173,7 +182,7 @@ void TrackLoader::stop() {
   const bool done = reading->changed.wait_for(lock, kLongestStop, [&] { return reading->done; });
   lock.unlock();
   if (done) {
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   } else {
     thread_.detach();
   }

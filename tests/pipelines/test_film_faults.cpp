@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/tools/film_recorder.h"
+#include "plugin/tools/processors.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/track/part_file.h"
 #include "tests/pipelines/track_command.h"
@@ -104,6 +105,30 @@ TEST_F(FilmFaults, AClockThatJumpsChangesNothing) {
     set_time(track, later);
     expect_contains(spidartrack(record).text, "is there");
   }
+}
+
+TEST_F(FilmFaults, TheQuotaOfAControlGroupIsTheLowestOfThoseItIsIn) {
+  const auto put = [this](const std::string& name, const std::string& text) {
+    fs::create_directories(fs::path(path(name)).parent_path());
+    std::ofstream(path(name)) << text << '\n';
+  };
+  const auto quota = [this](const std::string& groups) {
+    return processor_quota(groups, path("cgroup"));
+  };
+  EXPECT_GT(quota("0::/a/b\n"), 1e6) << "none";
+  put("cgroup/a/cpu.max", "150000 100000");
+  put("cgroup/a/b/cpu.max", "max 100000");
+  EXPECT_EQ(quota("0::/a/b\n"), 1.5);
+  EXPECT_EQ(quota("1:name=systemd:/x\n0::/a/b\n"), 1.5);
+  EXPECT_GT(quota("0::/c\n"), 1e6);
+  put("cgroup/cpu.max", "50000 100000");
+  EXPECT_EQ(quota("0::/what/only/the/host/sees\n"), 0.5);
+  put("cgroup/cpu/a/cpu.cfs_quota_us", "300000");
+  put("cgroup/cpu/a/cpu.cfs_period_us", "100000");
+  put("cgroup/cpu/b/cpu.cfs_quota_us", "-1");
+  put("cgroup/cpu/b/cpu.cfs_period_us", "100000");
+  EXPECT_EQ(quota("3:cpu,cpuacct:/a\n"), 3);
+  EXPECT_GT(quota("3:cpuacct,cpu:/b\n2:cpuset:/a\n"), 1e6);
 }
 
 TEST_F(FilmFaults, APipelineThatNeverBeginsIsNotAwaitedForEver) {

@@ -142,6 +142,23 @@ class Batch(track_case.TrackCase):
         self.assertEqual(batch.wait(), 0)
         self.assertIn("z.avi.haptic.flac is there", self.path("log").read_text())
 
+    @track_case.needs("taskset")
+    def test_there_are_as_many_jobs_as_processors_that_may_be_used(self):
+        for name in ("x.avi", "y.avi", "z.avi"):
+            os.mkfifo(self.path(name))  # films that never end
+        allowed = sorted(os.sched_getaffinity(0))
+        for processors in (allowed[:1], allowed[:2]):
+            batch = subprocess.Popen(["taskset", "-c", ",".join(map(str, processors)), PROGRAM, "record", "x.avi",
+                                      "y.avi", "z.avi"], cwd=self.folder, stdout=subprocess.DEVNULL)
+            deadline = time.monotonic() + 2  # in which all begin: a late one makes no test fail
+            most = 0
+            while time.monotonic() < deadline:
+                most = max(most, sum(name.startswith(".part-") for name in os.listdir(self.folder)))
+                time.sleep(.02)
+            batch.terminate()
+            batch.wait()
+            self.assertTrue(1 <= most <= len(processors), f"{most} films at a time")
+
     def test_properties_that_do_not_belong_to_a_track_are_refused(self):
         self.make_film("x.avi")
         self.make_film("y.avi")

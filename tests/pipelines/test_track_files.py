@@ -70,6 +70,12 @@ class Files(track_case.TrackCase):
                     self.assertIn("film.avi: failed: Could not write to resource.", said)
                 self.assertEqual(self.files(), before)
 
+    def test_a_low_limit_of_the_stack_is_enough(self):
+        """It is also that of the threads, as 128 KiB are with musl."""
+        self.make_film()
+        for name in ("flac", "mka", "wav"):
+            self.run_in_folder(f"ulimit -s 128; {PROGRAM} record film.avi --format {name}")
+
     def test_messages_name_the_output_that_was_given(self):
         self.make_track()
         for name in ("b.flac", "b.hjif"):
