@@ -31,35 +31,13 @@ void gst_spidar_motion_restart(GstSpidarMotion* motion) {
   motion->motion.restart();
 }
 
-bool gst_spidar_motion_set_controller(GstSpidarMotion* motion, GstSpidarController controller,
-                                      GstSpidarError* error) {
+void gst_spidar_motion_settings_init(GstSpidarMotionSettings* settings) {
+  *settings = gst_spidar::same<GstSpidarMotionSettings>(gst_spidar::MotionSettings{});
+}
+
+bool gst_spidar_motion_configure(GstSpidarMotion* motion, const GstSpidarMotionSettings* settings,
+                                 GstSpidarError* error) {
   return gst_spidar::done(error, [&] {
-    motion->motion.set_controller(gst_spidar::same<gst_spidar::Controller>(controller));
+    motion->motion.configure(gst_spidar::same<gst_spidar::MotionSettings>(*settings));
   });
-}
-
-bool gst_spidar_motion_set_motion(GstSpidarMotion* motion, GstSpidarFeltMotion felt,
-                                  GstSpidarError* error) {
-  return gst_spidar::done(
-      error, [&] { motion->motion.set_motion(gst_spidar::same<gst_spidar::FeltMotion>(felt)); });
-}
-
-bool gst_spidar_motion_set_max_force(GstSpidarMotion* motion, double max_force_N,
-                                     GstSpidarError* error) {
-  return gst_spidar::done(error, [&] { motion->motion.set_max_force(max_force_N); });
-}
-
-bool gst_spidar_motion_set_pointer(GstSpidarMotion* motion, double x, double y,
-                                   GstSpidarError* error) {
-  return gst_spidar::done(error, [&] { motion->motion.set_pointer(x, y); });
-}
-
-bool gst_spidar_motion_set_gains(GstSpidarMotion* motion, double depth, double roll,
-                                 GstSpidarError* error) {
-  return gst_spidar::done(error, [&] { motion->motion.set_gains(depth, roll); });
-}
-
-bool gst_spidar_motion_set_alpha(GstSpidarMotion* motion, double alpha_s_px,
-                                 GstSpidarError* error) {
-  return gst_spidar::done(error, [&] { motion->motion.set_alpha(alpha_s_px); });
 }

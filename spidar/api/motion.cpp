@@ -37,17 +37,21 @@ spidar::MotionKind kind_of(FeltMotion motion) {
   throw std::invalid_argument("there is no such motion");
 }
 
+spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {
+  spidar::AnalyzerSettings result;
+  result.controller.kind = kind_of(settings.controller);
+  result.motion = kind_of(settings.motion);
+  result.controller.max_force_N = settings.max_force_N;
+  result.controller.alpha_s_px = settings.alpha_s_px;
+  result.pointer = {settings.pointer_x, settings.pointer_y};
+  result.axes = {settings.depth_gain, settings.roll_gain};
+  return result;
+}
+
 }  // namespace
 
 struct __attribute__((visibility("hidden"))) MotionToWrench::Impl {
-  /// Throws, and changes nothing, when a setting is out of range.
-  void configure(const spidar::AnalyzerSettings& wanted) {
-    analyzer.configure(wanted);
-    settings = wanted;
-  }
-
-  spidar::AnalyzerSettings settings;
-  spidar::MotionAnalyzer analyzer;
+  spidar::MotionAnalyzer analyzer{settings_of({})};
 };
 
 MotionToWrench::MotionToWrench() : impl_(std::make_unique<Impl>()) {}
@@ -71,40 +75,8 @@ void MotionToWrench::restart() {
   impl_->analyzer.restart();
 }
 
-void MotionToWrench::set_controller(Controller controller) {
-  spidar::AnalyzerSettings settings = impl_->settings;
-  settings.controller.kind = kind_of(controller);
-  impl_->configure(settings);
-}
-
-void MotionToWrench::set_motion(FeltMotion motion) {
-  spidar::AnalyzerSettings settings = impl_->settings;
-  settings.motion = kind_of(motion);
-  impl_->configure(settings);
-}
-
-void MotionToWrench::set_max_force(double max_force_N) {
-  spidar::AnalyzerSettings settings = impl_->settings;
-  settings.controller.max_force_N = max_force_N;
-  impl_->configure(settings);
-}
-
-void MotionToWrench::set_pointer(double x, double y) {
-  spidar::AnalyzerSettings settings = impl_->settings;
-  settings.pointer = {x, y};
-  impl_->configure(settings);
-}
-
-void MotionToWrench::set_gains(double depth, double roll) {
-  spidar::AnalyzerSettings settings = impl_->settings;
-  settings.axes = {depth, roll};
-  impl_->configure(settings);
-}
-
-void MotionToWrench::set_alpha(double alpha_s_px) {
-  spidar::AnalyzerSettings settings = impl_->settings;
-  settings.controller.alpha_s_px = alpha_s_px;
-  impl_->configure(settings);
+void MotionToWrench::configure(const MotionSettings& settings) {
+  impl_->analyzer.configure(settings_of(settings));
 }
 
 }  // namespace v0

@@ -202,8 +202,8 @@ called.wait(30)
 class Pictures(unittest.TestCase):
     def test_a_moving_picture_pushes(self):
         motion = MotionToWrench()
-        motion.set_motion(FeltMotion.MEAN)
-        motion.set_max_force(1.5)
+        motion.configure(motion=FeltMotion.MEAN)
+        motion.configure(max_force_N=1.5)
         for i in range(10):
             # Turned by 4 i pixels in each row, as bytes and as an array.
             rows = [SPOTS[240 * y : 240 * (y + 1)] for y in range(240)]
@@ -230,15 +230,12 @@ class Pictures(unittest.TestCase):
         ):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 motion.analyze(picture, width, height, 0, stride)
-        for wrong in (
-            lambda: motion.set_motion(9),
-            lambda: motion.set_controller(9),
-            lambda: motion.set_max_force(-1),
-            lambda: motion.set_pointer(math.nan, 0),
-            lambda: motion.set_gains(-1, 0),
-            lambda: motion.set_alpha(-1),
-        ):
-            self.assertRaises(ValueError, wrong)
+        for name, wrong in (("motion", 9), ("controller", 9), ("max_force_N", -1), ("pointer_x", math.nan),
+                            ("roll_gain", -1), ("alpha_s_px", -1)):
+            with self.subTest(name), self.assertRaises(ValueError):
+                motion.configure(**{name: wrong})
+        with self.assertRaisesRegex(TypeError, "no setting force"):
+            motion.configure(force=1)
 
 
 class Examples(unittest.TestCase):

@@ -22,6 +22,7 @@ static _Noreturn void fail(int line, const char* what) {
 _Static_assert(sizeof(GstSpidarError) == 1024, "size");
 _Static_assert(sizeof(GstSpidarWrench) == 6 * sizeof(double), "size");
 _Static_assert(sizeof(GstSpidarPose) == 7 * sizeof(double), "size");
+_Static_assert(sizeof(GstSpidarMotionSettings) == 7 * sizeof(double), "size");
 _Static_assert(sizeof(GstSpidarGripState) == 15 * sizeof(double), "size");
 
 /* Events take milliseconds; the limit is generous for a busy machine. */
@@ -196,9 +197,13 @@ static void pictures_become_a_wrench(void) {
   GstSpidarMotion* const motion = gst_spidar_motion_new(&error);
   GstSpidarPicture picture = {NULL, 240, 240, 240};
   REQUIRE(motion && error.kind == GST_SPIDAR_OK);
-  REQUIRE(gst_spidar_motion_set_motion(motion, GST_SPIDAR_MEAN, &error));
-  REQUIRE(gst_spidar_motion_set_controller(motion, GST_SPIDAR_NONLINEAR, &error));
-  REQUIRE(gst_spidar_motion_set_max_force(motion, 1.5, &error));
+  GstSpidarMotionSettings settings;
+  gst_spidar_motion_settings_init(&settings);
+  REQUIRE(settings.controller == GST_SPIDAR_NONLINEAR && settings.motion == GST_SPIDAR_OBJECT);
+  REQUIRE(settings.max_force_N == 3 && settings.alpha_s_px == 0.01 && settings.pointer_y == 0.5);
+  settings.motion = GST_SPIDAR_MEAN;
+  settings.max_force_N = 1.5;
+  REQUIRE(gst_spidar_motion_configure(motion, &settings, &error));
   for (int i = 0; i < 10; ++i) {
     picture.data = spots(4 * i, 240);
     REQUIRE(gst_spidar_motion_analyze(motion, &picture, 40000000 * (int64_t)i, &found, &error));
@@ -212,16 +217,16 @@ static void pictures_become_a_wrench(void) {
   gst_spidar_motion_restart(motion);
   REQUIRE(gst_spidar_motion_analyze(motion, &picture, 400000000, &found, NULL));
   REQUIRE(!found.has_picture_before);
-  REQUIRE(!gst_spidar_motion_set_motion(motion, (GstSpidarFeltMotion)9, &error));
-  REQUIRE(!gst_spidar_motion_set_controller(motion, (GstSpidarController)9, &error));
-  REQUIRE(!gst_spidar_motion_set_max_force(motion, -1, &error));
-  REQUIRE(gst_spidar_motion_set_motion(motion, GST_SPIDAR_OBJECTS, &error));
-  REQUIRE(gst_spidar_motion_set_pointer(motion, 0.25, 0.75, &error));
-  REQUIRE(!gst_spidar_motion_set_pointer(motion, nan(""), 0, &error));
-  REQUIRE(gst_spidar_motion_set_gains(motion, 0, 2, &error));
-  REQUIRE(!gst_spidar_motion_set_gains(motion, 1, -1, &error) && strstr(error.message, "roll"));
-  REQUIRE(gst_spidar_motion_set_alpha(motion, 0.02, &error));
-  REQUIRE(!gst_spidar_motion_set_alpha(motion, -1, &error) && strstr(error.message, "alpha"));
+  settings.motion = (GstSpidarFeltMotion)9;
+  REQUIRE(!gst_spidar_motion_configure(motion, &settings, &error));
+  settings.motion = GST_SPIDAR_OBJECTS;
+  settings.controller = (GstSpidarController)9;
+  REQUIRE(!gst_spidar_motion_configure(motion, &settings, &error));
+  settings.controller = GST_SPIDAR_LINEAR;
+  settings.roll_gain = -1;
+  REQUIRE(!gst_spidar_motion_configure(motion, &settings, &error) && strstr(error.message, "roll"));
+  settings.roll_gain = 2;
+  REQUIRE(gst_spidar_motion_configure(motion, &settings, &error));
   picture.stride = 239;
   REQUIRE(!gst_spidar_motion_analyze(motion, &picture, 440000000, &found, &error));
   REQUIRE(error.kind == GST_SPIDAR_ERROR_ARGUMENT && strstr(error.message, "stride 239"));

@@ -18,6 +18,7 @@ using namespace std::chrono_literals;
 
 // A change here changes the binary interface, as in test_api.cpp.
 static_assert(sizeof(MotionResult) == sizeof(Wrench) + 5 * sizeof(double));
+static_assert(sizeof(MotionSettings) == 7 * sizeof(double));
 static_assert(sizeof(MotionToWrench) == sizeof(void*));
 static_assert(static_cast<int>(Controller::kAdaptive) == 2);
 static_assert(static_cast<int>(FeltMotion::kCamera) == 2);
@@ -43,6 +44,12 @@ class MovingPicture {
   std::vector<uint8_t> pixels_ = std::vector<uint8_t>(size_t{kSide} * kSide);
 };
 
+MotionSettings mean() {
+  MotionSettings settings;
+  settings.motion = FeltMotion::kMean;
+  return settings;
+}
+
 MotionResult after_ten(MotionToWrench& motion) {
   MovingPicture picture;
   MotionResult found;
@@ -52,7 +59,7 @@ MotionResult after_ten(MotionToWrench& motion) {
 
 TEST(MotionToWrench, ThePictureMovesToTheRightAndSoDoesTheHand) {
   MotionToWrench motion;
-  motion.set_motion(FeltMotion::kMean);
+  motion.configure(mean());
   const MotionResult found = after_ten(motion);
   EXPECT_TRUE(found.has_picture_before);
   // 4 px in 40 ms; a mean displacement is right to 0.03 px (the tracker's test).
@@ -66,37 +73,57 @@ TEST(MotionToWrench, ThePictureMovesToTheRightAndSoDoesTheHand) {
 
 TEST(MotionToWrench, SettingsAreThoseOfTheElement) {
   MotionToWrench motion;
-  motion.set_motion(FeltMotion::kMean);
+  motion.configure(mean());
   const double before_N = after_ten(motion).wrench.force_N.x;
   motion.restart();
-  motion.set_max_force(1.5);  // half the default
+  MotionSettings settings = mean();
+  settings.max_force_N = 1.5;  // half the default
+  motion.configure(settings);
   EXPECT_NEAR(after_ten(motion).wrench.force_N.x, before_N / 2, 1e-9);
   motion.restart();
-  motion.set_controller(Controller::kLinear);  // the largest speed is the largest force
+  settings.controller = Controller::kLinear;  // the largest speed is the largest force
+  motion.configure(settings);
   EXPECT_GT(after_ten(motion).wrench.force_N.x, 1.4);
-}
-
-TEST(MotionToWrench, GainsAndAlphaAreThoseOfTheElement) {
-  MotionToWrench motion;
-  motion.set_motion(FeltMotion::kMean);
-  motion.set_alpha(0);
+  motion.restart();
+  settings = mean();
+  settings.alpha_s_px = 0;
+  motion.configure(settings);
   EXPECT_EQ(after_ten(motion).wrench.force_N.x, 0);
   motion.restart();
-  motion.set_alpha(0.02);
+  settings.alpha_s_px = 0.02;
+  motion.configure(settings);
   const double expected_N = 2 * 3 / M_PI * std::atan(0.02 * 200);
   EXPECT_NEAR(after_ten(motion).wrench.force_N.x, expected_N,
               2 * 3 / M_PI * 0.02 * 2 * 0.03 / 0.04);
-  EXPECT_NO_THROW(motion.set_gains(0, 2));
-  EXPECT_NO_THROW(motion.set_pointer(0.25, 0.75));
-  EXPECT_NO_THROW(motion.set_motion(FeltMotion::kObjects));
-  EXPECT_THROW(motion.set_gains(std::nan(""), 0), std::invalid_argument);
-  EXPECT_THROW(motion.set_pointer(0, std::nan("")), std::invalid_argument);
-  EXPECT_THROW(motion.set_alpha(-1), std::invalid_argument);
+}
+
+TEST(MotionToWrench, ASettingOutOfRangeChangesNothing) {
+  MotionToWrench motion;
+  motion.configure(mean());
+  const double before_N = after_ten(motion).wrench.force_N.x;
+  motion.restart();
+  for (double MotionSettings::*number :
+       {&MotionSettings::max_force_N, &MotionSettings::alpha_s_px, &MotionSettings::pointer_x,
+        &MotionSettings::pointer_y, &MotionSettings::depth_gain, &MotionSettings::roll_gain}) {
+    MotionSettings settings = mean();
+    settings.max_force_N = 1;
+    settings.*number = std::nan("");
+    EXPECT_THROW(motion.configure(settings), std::invalid_argument);
+  }
+  MotionSettings settings = mean();
+  settings.controller = static_cast<Controller>(9);
+  EXPECT_THROW(motion.configure(settings), std::invalid_argument);
+  settings = mean();
+  settings.motion = static_cast<FeltMotion>(9);
+  EXPECT_THROW(motion.configure(settings), std::invalid_argument);
+  EXPECT_EQ(after_ten(motion).wrench.force_N.x, before_N);
+  settings = {Controller::kAdaptive, FeltMotion::kObjects, 2, 0.02, 0.25, 0.75, 0, 2};
+  EXPECT_NO_THROW(motion.configure(settings));
 }
 
 TEST(MotionToWrench, AfterARestartThereIsNothingToCompareWith) {
   MotionToWrench motion;
-  motion.set_motion(FeltMotion::kMean);
+  motion.configure(mean());
   after_ten(motion);
   motion.restart();
   MovingPicture picture;
@@ -114,7 +141,6 @@ TEST(MotionToWrench, WhatIsWrongIsNamed) {
   EXPECT_THROW(motion.analyze({good.data, 8, 8, 8}, 0ms), std::invalid_argument);
   EXPECT_THROW(motion.analyze({good.data, good.width, good.height, good.width - 1}, 0ms),
                std::invalid_argument);
-  EXPECT_THROW(motion.set_max_force(-1), std::invalid_argument);
   EXPECT_NO_THROW(motion.analyze(good, 0ms));
 }
 

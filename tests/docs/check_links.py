@@ -14,7 +14,7 @@ from urllib.parse import unquote
 
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 
-SOURCE_FILE = re.compile(r"`((?:api|apps|core|docs|examples|include|plugin|spidar|tests)/[\w./-]+\.(?:cpp|gp|h|py|sh))`")
+SOURCE_FILE = re.compile(r"`((?:core|docs|examples|plugin|spidar|tests)/[\w./-]+\.(?:cpp|gp|h|py|sh))`")
 
 
 def without_code(text):

@@ -258,6 +258,23 @@ typedef enum {
   GST_SPIDAR_OBJECTS = 3 /*!< of all objects, weighted by area and nearness to the pointer */
 } GstSpidarFeltMotion;
 
+/*! What is felt, and how strongly. The values at first are in brackets. */
+typedef struct {
+  GstSpidarController controller; /*!< [GST_SPIDAR_NONLINEAR] */
+  GstSpidarFeltMotion motion;     /*!< [GST_SPIDAR_OBJECT] */
+  double max_force_N;             /*!< the largest force, finite and not negative [3] */
+  /*! How quickly force rises with speed, except with GST_SPIDAR_LINEAR: half of the largest force
+   * is reached at 1 / `alpha_s_px` px/s in a picture of 480 rows. Finite and not negative [0.01].
+   */
+  double alpha_s_px;
+  /*! Where GST_SPIDAR_OBJECTS is felt most, as a share of the picture's width from the left [0.5]
+   */
+  double pointer_x;
+  double pointer_y;  /*!< the same of its height, from the top [0.5] */
+  double depth_gain; /*!< how strongly growth is felt as force towards the viewer; 0: not [1] */
+  double roll_gain;  /*!< how strongly roll is felt as torque about that axis; 0: not [1] */
+} GstSpidarMotionSettings;
+
 /*! What was found in one picture. */
 typedef struct {
   GstSpidarWrench wrench;  /*!< wanted, before the limits of a device; zero after a cut */
@@ -272,7 +289,10 @@ typedef struct {
  * One thread at a time. */
 typedef struct GstSpidarMotion GstSpidarMotion;
 
-/*! Nonlinear, motion of the dominant object, at most 3 N. NULL when memory is short. */
+/*! The settings that a motion has at first, to change some of them. */
+GST_SPIDAR_API void gst_spidar_motion_settings_init(GstSpidarMotionSettings* settings);
+
+/*! With the settings that gst_spidar_motion_settings_init() gives. NULL when memory is short. */
 GST_SPIDAR_API GstSpidarMotion* gst_spidar_motion_new(GstSpidarError* error);
 
 /*! Frees it. NULL does nothing. */
@@ -288,33 +308,10 @@ GST_SPIDAR_API bool gst_spidar_motion_analyze(GstSpidarMotion* motion,
 /*! The next picture has nothing to do with the one before: after a seek. */
 GST_SPIDAR_API void gst_spidar_motion_restart(GstSpidarMotion* motion);
 
-/*! From the next picture on. False for a number that is none of them. */
-GST_SPIDAR_API bool gst_spidar_motion_set_controller(GstSpidarMotion* motion,
-                                                     GstSpidarController controller,
-                                                     GstSpidarError* error);
-
-/*! From the next picture on. False for a number that is none of them. */
-GST_SPIDAR_API bool gst_spidar_motion_set_motion(GstSpidarMotion* motion, GstSpidarFeltMotion felt,
-                                                 GstSpidarError* error);
-
-/*! The largest force, from the next picture on. False unless it is finite and not negative. */
-GST_SPIDAR_API bool gst_spidar_motion_set_max_force(GstSpidarMotion* motion, double max_force_N,
-                                                    GstSpidarError* error);
-
-/*! Where GST_SPIDAR_OBJECTS is felt most, as shares of the picture's width and height: (0, 0) is
- * its top left corner, (0.5, 0.5) the place at first. False unless both are finite. */
-GST_SPIDAR_API bool gst_spidar_motion_set_pointer(GstSpidarMotion* motion, double x, double y,
-                                                  GstSpidarError* error);
-
-/*! How strongly growth is felt as force towards the viewer, and roll as torque about that axis, 1
- * at first; 0 turns one off. False unless both are finite and not negative. */
-GST_SPIDAR_API bool gst_spidar_motion_set_gains(GstSpidarMotion* motion, double depth, double roll,
-                                                GstSpidarError* error);
-
-/*! How quickly force rises with speed, except with GST_SPIDAR_LINEAR: half of the largest force is
- * reached at 1 / `alpha_s_px` px/s in a picture of 480 rows; 0.01 at first. False unless it is
- * finite and not negative. */
-GST_SPIDAR_API bool gst_spidar_motion_set_alpha(GstSpidarMotion* motion, double alpha_s_px,
+/*! From the next picture on. False, and nothing has changed, when one of the settings is out of
+ * range. */
+GST_SPIDAR_API bool gst_spidar_motion_configure(GstSpidarMotion* motion,
+                                                const GstSpidarMotionSettings* settings,
                                                 GstSpidarError* error);
 
 #ifdef __cplusplus

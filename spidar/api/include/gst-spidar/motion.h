@@ -29,6 +29,23 @@ enum class FeltMotion {
   kObjects,  ///< of all objects, weighted by area and nearness to the pointer
 };
 
+/// What is felt, and how strongly. At first as the GStreamer element has it.
+struct MotionSettings {
+  Controller controller = Controller::kNonlinear;
+  FeltMotion motion = FeltMotion::kObject;
+  double max_force_N = 3;  ///< the largest force, finite and not negative
+  /// How quickly force rises with speed, except with kLinear: half of the largest force is reached
+  /// at 1 / `alpha_s_px` px/s in a picture of 480 rows. Finite and not negative.
+  double alpha_s_px = 0.01;
+  /// Where kObjects is felt most, as shares of the picture's width and height: (0, 0) is its top
+  /// left corner, (1, 1) its bottom right one. Finite.
+  double pointer_x = 0.5, pointer_y = 0.5;
+  /// How strongly growth is felt as force towards the viewer, and roll as torque about that axis.
+  /// With 1, they count as the speed that they cause at half the picture's height from its centre;
+  /// 0 turns one off. Finite and not negative.
+  double depth_gain = 1, roll_gain = 1;
+};
+
 /// What was found in one picture.
 struct MotionResult {
   Wrench wrench;               ///< wanted, before the limits of a device; zero after a cut
@@ -44,7 +61,7 @@ struct MotionResult {
 /// GStreamer element. One thread at a time.
 class GST_SPIDAR_API MotionToWrench {
  public:
-  /// Nonlinear, motion of the dominant object, at most 3 N.
+  /// With the settings that a MotionSettings has at first.
   MotionToWrench();
   ~MotionToWrench();
   /// `other` may only be destroyed or assigned to afterwards.
@@ -60,26 +77,9 @@ class GST_SPIDAR_API MotionToWrench {
   /// The next picture has nothing to do with the one before: after a seek.
   void restart();
 
-  /// From the next picture on.
-  void set_controller(Controller controller);
-  /// From the next picture on.
-  void set_motion(FeltMotion motion);
-  /// The largest force, from the next picture on. Throws std::invalid_argument unless it is finite
-  /// and not negative.
-  void set_max_force(double max_force_N);
-  /// Where kObjects is felt most, as shares of the picture's width and height: (0, 0) is its top
-  /// left corner, (1, 1) its bottom right one, and (0.5, 0.5) the place at first. Throws
-  /// std::invalid_argument unless both are finite.
-  void set_pointer(double x, double y);
-  /// How strongly growth is felt as force towards the viewer, and roll as torque about that axis.
-  /// With 1, as at first, they count as the speed that they cause at half the picture's height from
-  /// its centre; 0 turns one off. Throws std::invalid_argument unless both are finite and not
-  /// negative.
-  void set_gains(double depth, double roll);
-  /// How quickly force rises with speed, except with kLinear: half of the largest force is reached
-  /// at 1 / `alpha_s_px` px/s in a picture of 480 rows; 0.01 at first. Throws std::invalid_argument
-  /// unless it is finite and not negative.
-  void set_alpha(double alpha_s_px);
+  /// From the next picture on. Throws std::invalid_argument, and changes nothing, when one of the
+  /// settings is out of range.
+  void configure(const MotionSettings& settings);
 
  private:
   struct Impl;

@@ -11,9 +11,9 @@ gst-spidar/c-api.h. A wrong argument raises ValueError, all else RuntimeError, w
 import time
 from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int64, c_uint32, c_void_p
 
-from gst_spidar._library import Capabilities, Controller, FeltMotion, GripState, MotionResult, Pose, Quaternion
-from gst_spidar._library import State, Vector3, Wrench
-from gst_spidar._library import _Callback, _checked, _grey, _Handle, _in_thread, _names, _require_no_callback, _Surface
+from gst_spidar._library import Capabilities, Controller, FeltMotion, GripState, MotionResult, MotionSettings, Pose
+from gst_spidar._library import Quaternion, State, Vector3, Wrench
+from gst_spidar._library import _call, _Callback, _checked, _grey, _Handle, _in_thread, _names, _require_no_callback, _Surface
 
 __all__ = """Capabilities Controller Device FeltMotion GripState MotionResult MotionToWrench Pose Quaternion State Vector3
     Wrench list_devices list_profiles""".split()
@@ -151,6 +151,8 @@ class MotionToWrench(_Handle):
 
     def __init__(self):
         super().__init__(_checked("motion_new", c_void_p), "motion_free")
+        self._settings = MotionSettings()
+        _call("motion_settings_init", None, byref(self._settings))
 
     def analyze(self, picture, width, height, time_s, stride=None):
         """The next picture: bytes, or what has them in one piece, such as an array of NumPy. Returns a MotionResult."""
@@ -164,26 +166,13 @@ class MotionToWrench(_Handle):
         """The next picture has nothing to do with the one before."""
         self._call("motion_restart", None)
 
-    def set_controller(self, controller):
-        """How speed becomes force, a Controller."""
-        self._checked("motion_set_controller", c_bool, c_int(controller))
-
-    def set_motion(self, motion):
-        """Which motion is felt, a FeltMotion."""
-        self._checked("motion_set_motion", c_bool, c_int(motion))
-
-    def set_max_force(self, max_force_N):
-        """The largest force."""
-        self._checked("motion_set_max_force", c_bool, c_double(max_force_N))
-
-    def set_pointer(self, x, y):
-        """Where FeltMotion.OBJECTS is felt most: (0, 0) is the top left corner of the picture, (1, 1) the other one."""
-        self._checked("motion_set_pointer", c_bool, c_double(x), c_double(y))
-
-    def set_gains(self, depth, roll):
-        """How strongly growth and roll are felt, 1 at first."""
-        self._checked("motion_set_gains", c_bool, c_double(depth), c_double(roll))
-
-    def set_alpha(self, alpha_s_px):
-        """How quickly force rises with speed, 0.01 at first."""
-        self._checked("motion_set_alpha", c_bool, c_double(alpha_s_px))
+    def configure(self, **settings):
+        """From the next picture on, and the others as before: controller, a Controller; motion, a FeltMotion;
+        max_force_N, alpha_s_px, pointer_x and pointer_y, depth_gain and roll_gain, as in GstSpidarMotionSettings."""
+        wanted = MotionSettings.from_buffer_copy(self._settings)
+        for name, value in settings.items():
+            if name not in dict(MotionSettings._fields_):
+                raise TypeError(f"there is no setting {name}; {', '.join(dict(MotionSettings._fields_))} are")
+            setattr(wanted, name, value)
+        self._checked("motion_configure", c_bool, byref(wanted))
+        self._settings = wanted

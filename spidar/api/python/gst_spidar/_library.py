@@ -48,6 +48,11 @@ class GripState(_Struct):
     _fields_ = [("pose", Pose), *_speeds, ("interval_s", c_double), ("buttons", c_uint32)]
 
 
+class MotionSettings(_Struct):
+    _numbers = ("max_force_N", "alpha_s_px", "pointer_x", "pointer_y", "depth_gain", "roll_gain")
+    _fields_ = [("controller", c_int), ("motion", c_int), *((name, c_double) for name in _numbers)]
+
+
 class MotionResult(_Struct):
     _speeds = [(name, c_double) for name in ("velocity_x_px_s", "velocity_y_px_s", "growth_1_s", "roll_rad_s")]
     _fields_ = [("wrench", Wrench), *_speeds, ("has_picture_before", c_bool)]
