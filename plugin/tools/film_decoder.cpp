@@ -21,7 +21,7 @@ namespace {
 /// A film that could not be read is hardly worth waiting for: decodebin may lose the error.
 constexpr GstClockTime kUnreadStart = 10 * GST_SECOND;
 
-/// Reports `percent` of the film as done, in steps of ten.
+/// Reports `percent` of the film as done.
 class Progress {
  public:
   explicit Progress(std::function<void(int percent)> tell) : tell_(std::move(tell)) {}
@@ -46,8 +46,8 @@ class Progress {
     const GstClockTime at = stream_time_of(frames, GST_PAD_PROBE_INFO_BUFFER(info));
     if (!GST_CLOCK_TIME_IS_VALID(at)) return GST_PAD_PROBE_OK;
     const int percent = static_cast<int>(100 * at / static_cast<GstClockTime>(self.film_ns_));
-    if (percent >= self.told_ + 10 && percent < 100) {
-      self.told_ = percent / 10 * 10;
+    if (percent > self.told_ && percent < 100) {
+      self.told_ = percent;
       self.tell_(self.told_);
     }
     return GST_PAD_PROBE_OK;

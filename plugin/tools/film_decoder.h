@@ -20,7 +20,7 @@ struct FilmRun {
   std::string rest;  ///< of the launch line, behind spidarmotion
   /// Called before the film is decoded; the element is "motion".
   std::function<void(GstElement* pipeline, const FilmFingerprint& film)> prepare;
-  /// Called with the percentage that is done, in steps of ten, in another thread.
+  /// Called in another thread with the percentage that is done, whenever it rises.
   std::function<void(int percent)> tell;
   FilmPiece* piece = nullptr;  ///< what is decoded of the film; null: all
 };

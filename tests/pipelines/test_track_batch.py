@@ -4,6 +4,7 @@
 import fcntl
 import json
 import os
+import signal
 import subprocess
 import time
 import unittest
@@ -214,6 +215,21 @@ class Batch(track_case.TrackCase):
             read = self.samples(b"\xff \"quoted\".wav".decode(errors="surrogateescape"))
             self.assertEqual(len(read), 1000, name)
         self.assertFalse(self.path("ran").exists())
+
+    @track_case.needs("ffmpeg")
+    def test_a_long_recording_tells_how_long_it_takes(self):
+        """It is stopped for ten seconds, after which a line is due."""
+        self.make_film("x.avi", 250)
+        self.run_in_folder("ffmpeg -nostdin -v error -stream_loop 19 -i x.avi -c copy long.avi")
+        batch = self.start("long.avi")
+        while not any(".part-" in name for name in self.files()):
+            time.sleep(.01)
+        batch.send_signal(signal.SIGSTOP)
+        time.sleep(10.1)
+        batch.send_signal(signal.SIGCONT)
+        self.assertEqual(batch.wait(), 0)
+        self.assertRegex(self.path("log").read_text(),
+                         r"^0 of 1 done; long.avi \d+ %; about (\d+ min )?\d+ s left\n")
 
     def test_a_batch_ends_with_a_summary(self):
         self.make_film("x.avi", 50)
