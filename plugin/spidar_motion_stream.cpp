@@ -46,42 +46,20 @@ static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffe
 
 /// How long a stream waits for its track; frames that come before the track are analysed.
 static constexpr std::chrono::seconds kLongestWait{3};
-/// For an analysis that was named, which is smaller and has nothing to be looked for.
-static constexpr std::chrono::seconds kLongestWaitForNamed{30};
-
-static std::chrono::seconds longest_wait(GstSpidarMotion* self) {
-  GST_OBJECT_LOCK(self);
-  const std::string& analysis = self->properties->analysis;
-  const bool is_named = self->properties->track.empty() && !analysis.empty() && analysis != "auto";
-  GST_OBJECT_UNLOCK(self);
-  return is_named ? kLongestWaitForNamed : kLongestWait;
-}
-
 static void begin_to_load_track(GstSpidarMotion* self) {
   GST_OBJECT_LOCK(self);
   const std::string track = self->properties->track;
-  const std::string analysis = self->properties->analysis;
   GST_OBJECT_UNLOCK(self);
   self->engine->set_track(std::nullopt);
-  self->engine->set_motion(nullptr, 0);
   const std::string film = spidar::film_of(GST_BASE_TRANSFORM_SINK_PAD(self));
   self->choice->begin_stream(film);
   self->display->begin_stream(film);
-  if (track.empty()) {
-    self->loader->begin(spidar::Sidecar::kAnalysis, analysis, film);
-  } else {
-    self->loader->begin(spidar::Sidecar::kTrack, track, film);
-  }
+  self->loader->begin(track, film);
 }
 
-static void take_track(GstSpidarMotion* self, const GstVideoInfo& info, spidar::MotionKind motion) {
+static void take_track(GstSpidarMotion* self, const GstVideoInfo& info) {
   std::optional<spidar::LoadedTrack> loaded = self->loader->take();
   if (!loaded) return;
-  if (loaded->kind == spidar::Sidecar::kAnalysis) {
-    self->engine->set_motion(spidar::judge_analysis(GST_ELEMENT(self), *loaded, motion),
-                             loaded->later_ns);
-    return;
-  }
   const GstClockTime frame =
       info.fps_n > 0 ? gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n) : 0;
   std::optional<spidar::TrackFile> track =
@@ -133,7 +111,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   FrameReport report;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
     settings = settings_now(self, *frame, touch);
-    take_track(self, frame->info, settings.motion);
+    take_track(self, frame->info);
     self->engine->want_relief(self->display->window_waits());
     report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch);
     self->display->show(report, display, settings, *frame);
@@ -244,7 +222,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       const GstSegment* segment;
       gst_event_parse_segment(event, &segment);
       GST_DEBUG_OBJECT(self, "segment: %" GST_SEGMENT_FORMAT, segment);
-      self->loader->await(longest_wait(self));
+      self->loader->await(kLongestWait);
       if (!same_playback(trans->segment, *segment)) engine.restart();
       engine.begin_segment();
       break;
@@ -256,7 +234,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
       GST_DEBUG_OBJECT(self, "gap from %" GST_TIME_FORMAT ", force ends there",
                        GST_TIME_ARGS(time));
-      engine.begin_gap(running_time_of(trans->segment, time), stream_time_of(trans->segment, time));
+      engine.begin_gap(running_time_of(trans->segment, time));
       break;
     }
     case GST_EVENT_EOS:
@@ -308,12 +286,11 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
   GST_OBJECT_LOCK(self);
   const std::string trace = self->properties->trace;
-  const spidar::AnalyzerSettings settings = self->properties->analyzer;
   GST_OBJECT_UNLOCK(self);
   GST_DEBUG_OBJECT(self, "start; trace: %s", trace.empty() ? "none" : trace.c_str());
   self->warnings->start();
   self->warnings->check_bins();
-  const std::string reason = self->engine->start(trace, settings);
+  const std::string reason = self->engine->start(trace);
   if (!reason.empty()) {
     GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
                         ("Cannot write the trace '%s': %s.", trace.c_str(), reason.c_str()),

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/analysis/motion_codes.h"
 #include "core/field/reduced_frame.h"
 #include "core/force/motion_bounds.h"
 #include "core/motion/cadence.h"
@@ -156,7 +155,6 @@ const MeasuredFrame& FrameMeter::measure(const ImageView& frame, int64_t running
                                         frame, impl_->reduced, impl_->field_points(), interval_ns));
   if (comparable && has_last && compared) {
     found.shown = shown_by(picture);
-    round_measured(found);
   } else {
     impl_->cadence.cut(running_time_ns);
     impl_->forget_motion();
@@ -177,10 +175,6 @@ const MeasuredFrame* FrameMeter::repeat(int64_t running_time_ns) {
   impl_->found.shown = step.waits ? Shown::kWaiting : Shown::kSame;
   if (!step.waits) impl_->take(step);
   return &impl_->found;
-}
-
-const MeasuredFrame& FrameMeter::measured() const {
-  return impl_->found;
 }
 
 void FrameMeter::restart() {

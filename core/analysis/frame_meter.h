@@ -13,9 +13,7 @@
 namespace spidar {
 
 /// image → features → tracks → motion model → camera and objects. What it finds does not depend on
-/// what is felt of it, and is rounded as a motion file rounds it (round_measured()), so that the
-/// force of a film is the same whether it is measured now or was measured before. One thread at a
-/// time.
+/// what is felt of it. One thread at a time.
 class FrameMeter {
  public:
   /// What the result depends on.
@@ -36,8 +34,6 @@ class FrameMeter {
   const MeasuredFrame& measure(const ImageView& frame, int64_t running_time_ns);
   /// See MotionAnalyzer::repeat(); null in place of nothing.
   const MeasuredFrame* repeat(int64_t running_time_ns);
-  /// What either of them found last.
-  const MeasuredFrame& measured() const;
   /// The next frame has nothing to do with the one before.
   void restart();
 

@@ -116,11 +116,6 @@ Chosen FrameRenderer::choose(const MeasuredFrame& frame, const FilmPlace& film) 
                          frame.shown == Shown::kFirst, film, settings_.boxes.get()});
 }
 
-void FrameRenderer::recall(const MeasuredFrame& frame, const FilmPlace& film) {
-  if (frame.anew) choice_.reset();
-  if (frame.shown != Shown::kWaiting) choose(frame, film);
-}
-
 ImageMotion FrameRenderer::motion_of_choice(const MeasuredFrame& frame, const FilmPlace& film,
                                             const Chosen& choice) const {
   if (choice.is_free()) return free_motion(frame);

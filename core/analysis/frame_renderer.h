@@ -29,10 +29,6 @@ class FrameRenderer {
   /// that of a frame that waits into the last one that did not.
   FrameAnalysis render(const MeasuredFrame& frame, const FilmPlace& film = {});
 
-  /// Takes a frame that was shown before those that render() takes next, for nothing but to know
-  /// which objects are chosen.
-  void recall(const MeasuredFrame& frame, const FilmPlace& film);
-
  private:
   Chosen choose(const MeasuredFrame& frame, const FilmPlace& film);
   ImageMotion motion_of_choice(const MeasuredFrame& frame, const FilmPlace& film,

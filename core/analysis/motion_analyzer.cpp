@@ -47,8 +47,4 @@ void MotionAnalyzer::restart() {
   impl_->meter.restart();
 }
 
-const MeasuredFrame& MotionAnalyzer::measured() const {
-  return impl_->meter.measured();
-}
-
 }  // namespace spidar

@@ -9,7 +9,6 @@
 
 #include "core/analysis/analyzer_settings.h"
 #include "core/analysis/frame_analysis.h"
-#include "core/analysis/measured_frame.h"
 #include "core/image_view.h"
 
 namespace spidar {
@@ -47,9 +46,6 @@ class MotionAnalyzer {
   /// After a flush, a seek or a discontinuity: the next frame has no motion, and the controller
   /// starts again.
   void restart();
-
-  /// What was found in the frame that analyze() or repeat() took last.
-  const MeasuredFrame& measured() const;
 
  private:
   struct Impl;

@@ -104,7 +104,7 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
           ("%s, line %d: playback began after %s, so that the object that is at %s then is not "
            "known.",
            name, rule.line, time_text(rule.from_ns).c_str(), place.c_str()),
-          ("Nothing is felt %s. With an analysis (spidartrack analyze, analysis=auto) it is known.",
+          ("Nothing is felt %s. In a haptic track, which spidartrack record makes, it is known.",
            end.c_str()));
       break;
     case ChoiceState::kLost:

@@ -29,12 +29,12 @@ void MotionEngine::close() {
   reliefs_.disconnect();  // releases what the loop has been reading
 }
 
-std::string MotionEngine::start(const std::string& trace_path, const AnalyzerSettings& settings) {
+std::string MotionEngine::start(const std::string& trace_path) {
   stats_.reset();
   ladder_ = {};
   told_rung_ = 0;
   restart_timing();
-  return trace_path.empty() ? std::string() : trace_.open(trace_path, settings);
+  return trace_path.empty() ? std::string() : trace_.open(trace_path);
 }
 
 bool MotionEngine::stop() {
@@ -83,8 +83,7 @@ GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
   describe_limit(no_force_reason(), structure);
-  gst_structure_set(structure, "track-frames", G_TYPE_UINT64, player_.frames(), "analysis-frames",
-                    G_TYPE_UINT64, replayed_.load(), nullptr);
+  gst_structure_set(structure, "track-frames", G_TYPE_UINT64, player_.frames(), nullptr);
   reliefs_.describe(structure);
   output_.describe(structure);
   if (const std::optional<LoopSnapshot> loop = output_.snapshot()) {
@@ -135,10 +134,7 @@ void MotionEngine::run_out(GstClockTime running_time) {
   schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
 }
 
-void MotionEngine::begin_gap(GstClockTime running_time, GstClockTime stream_time) {
-  if (trace_.is_motion() && is_time(stream_time)) {
-    trace_.write({MomentKind::kNothing, static_cast<int64_t>(stream_time), -1, false, {}}, {});
-  }
+void MotionEngine::begin_gap(GstClockTime running_time) {
   if (!is_time(running_time) || !pacer_.has_frame()) {
     run_out(running_time);
   } else if (!gap_ns_) {  // while no frame comes, the force ends without help
@@ -162,11 +158,6 @@ void MotionEngine::end_of_stream() {
 
 void MotionEngine::set_track(std::optional<TrackFile> track) {
   player_.set_track(std::move(track).value_or(TrackFile{}));
-}
-
-void MotionEngine::set_motion(std::shared_ptr<const MotionFile> file, int64_t later_ns) {
-  replay_.set_file(std::move(file), later_ns);
-  replayed_ = 0;
 }
 
 void MotionEngine::touch_frame(const ImageView& luma, const TouchProperties& touch,

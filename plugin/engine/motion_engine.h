@@ -13,7 +13,6 @@
 #include <gst/video/video.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/analysis/motion_replay.h"
 #include "core/analysis/work_ladder.h"
 #include "plugin/device/haptic_output.h"
 #include "plugin/engine/stream_orientation.h"
@@ -53,7 +52,7 @@ class MotionEngine {
   /// Motors to rest, device closed.
   void close();
   /// Begins a stream. Empty, or why the trace cannot be written.
-  std::string start(const std::string& trace_path, const AnalyzerSettings& settings);
+  std::string start(const std::string& trace_path);
   /// Ends it. False when the last rows of the trace could not be written.
   bool stop();
 
@@ -85,9 +84,6 @@ class MotionEngine {
   const PictureTurn& turn() const { return turn_; }
   /// Frames are not analysed: the samples of this track are felt. Nothing: they are again.
   void set_track(std::optional<TrackFile> track);
-  /// Pictures are not analysed: frames are found in this file by their stream time, which is
-  /// `later_ns` later than there. Null: they are again.
-  void set_motion(std::shared_ptr<const MotionFile> file, int64_t later_ns);
   /// Processor time that the analysis of a frame may take from now on; 0: no limit.
   void set_budget_us(int budget_us) { budget_us_ = budget_us; }
   /// The pointer of `settings` is a place of the frame before it is turned.
@@ -103,7 +99,7 @@ class MotionEngine {
   void begin_segment();
   /// There are no frames from this running time on, but for those that the decoder holds: the gap
   /// event of a demuxer overtakes them, and begins too early when the last one is not the newest.
-  void begin_gap(GstClockTime running_time, GstClockTime stream_time);
+  void begin_gap(GstClockTime running_time);
   /// In place of a frame that has no picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);
   /// Nothing more comes.
@@ -112,23 +108,15 @@ class MotionEngine {
   std::optional<Eigen::Vector2d> grip_place() const;
 
  private:
-  FrameReport process_frame(const GstVideoFrame& frame, const GstSegment& segment,
-                            const AnalyzerSettings& settings, const TouchProperties& touch);
   bool follows(const GstVideoFrame& frame, const GstSegment& segment, FrameReport& report);
   bool analyze(const GstVideoFrame& frame, const GstSegment& segment, const ImageView& luma,
                const AnalyzerSettings& settings, const TouchProperties& touch, int64_t paced_ns,
                FrameReport& report);
-  bool replay(const GstVideoFrame& frame, const GstSegment& segment, AnalyzerSettings settings,
-              FrameReport& report);
   void analyze_within_budget(const ImageView& picture, AnalyzerSettings settings, int64_t paced_ns,
                              const FilmPlace& film, FrameReport& report);
-  const MeasuredFrame& measured() const;
-  /// Of the picture in which the wrench was found.
-  const PictureTurn& wrench_turn() const { return replay_.active() ? replay_.turn() : turn_; }
   Wrench play_track(GstBuffer* frame, GstClockTime default_duration, const GstSegment& segment,
                     int64_t running_ns);
   void write_row(FrameReport& report);
-  bool trace_moment(std::optional<MotionMoment> moment, bool is_measured);
   void end_gap(int64_t running_ns);
   void run_out(GstClockTime running_time);
   void touch_frame(const ImageView& luma, const TouchProperties& touch, int64_t running_ns,
@@ -148,8 +136,6 @@ class MotionEngine {
   WorkLadder ladder_;
   int budget_us_ = 0;
   int told_rung_ = 0;
-  MotionReplay replay_;
-  std::atomic<uint64_t> replayed_{0};  // frames since set_motion()
   FrameLuma luma_;
   FrameTrace trace_;
   FramePacer pacer_;

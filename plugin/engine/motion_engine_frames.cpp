@@ -22,36 +22,20 @@ int64_t thread_time_ns() {
   return int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
 }
 
-/// What a motion file says of the time of a buffer; nothing when it is not shown.
-std::optional<MotionMoment> moment_of(GstBuffer* buffer, const GstSegment& segment,
-                                      const PictureTurn& turn) {
+/// The stream time at which a frame is first seen; 0 when it is not known, or not shown.
+int64_t stream_ns_of(GstBuffer* buffer, const GstSegment& segment) {
   const GstClockTime pts = GST_BUFFER_PTS(buffer), duration = GST_BUFFER_DURATION(buffer);
-  const bool has_end = is_time(duration);
   guint64 from = 0, to = 0;
   if (segment.format != GST_FORMAT_TIME || !is_time(pts) ||
       !gst_segment_clip(&segment, GST_FORMAT_TIME, pts,
-                        has_end ? pts + duration : GST_CLOCK_TIME_NONE, &from, &to)) {
-    return std::nullopt;
+                        is_time(duration) ? pts + duration : GST_CLOCK_TIME_NONE, &from, &to)) {
+    return 0;
   }
   const GstClockTime stream = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, from);
-  if (!is_time(stream)) return std::nullopt;
-  return MotionMoment{MomentKind::kUnknown, static_cast<int64_t>(stream),
-                      has_end ? static_cast<int64_t>(to - from) : -1,
-                      GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP) != FALSE, turn};
+  return is_time(stream) ? static_cast<int64_t>(stream) : 0;
 }
 
 }  // namespace
-
-const MeasuredFrame& MotionEngine::measured() const {
-  return replay_.active() ? replay_.measured() : analyzer_.measured();
-}
-
-bool MotionEngine::trace_moment(std::optional<MotionMoment> moment, bool is_measured) {
-  if (!trace_.is_motion() || !moment) return true;
-  if (is_measured) moment->kind = MomentKind::kFrame;
-  moment->turn = wrench_turn();
-  return trace_.write(*moment, measured());
-}
 
 void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
   const GstClockTime running_time =
@@ -70,18 +54,10 @@ void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
   const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
   // videorate makes such a gap of a frame that is shown again.
   std::optional<FrameAnalysis> analysis;
-  const std::optional<MotionMoment> moment = moment_of(buffer, segment, turn_);
-  if (replay_.active()) {
-    if (moment)
-      analysis = replay_.at(moment->stream_ns, segment.rate * schedule_.rate_multiplier());
-  } else if (time.since_ns > 0) {
-    analysis = analyzer_.repeat(time.paced_ns);
-  }
-  trace_moment(moment, analysis.has_value());
+  if (time.since_ns > 0) analysis = analyzer_.repeat(time.paced_ns);
   if (analysis) {
     schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
-                   wrench_turn().to_shown(scaled(analysis->wrench, motion_share_)),
-                   analysis->repeated});
+                   turn_.to_shown(scaled(analysis->wrench, motion_share_)), analysis->repeated});
     limit_watch_.add(schedule_.at_sink_ns(running_ns), analysis->wrench,
                      NoForceReason::kRepeatedFrames);
   } else {
@@ -89,30 +65,6 @@ void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
     limit_watch_.add(schedule_.at_sink_ns(running_ns), Wrench(), NoForceReason::kRepeatedFrames);
   }
   pacer_.pass(time);
-}
-
-FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& segment,
-                                  const AnalyzerSettings& settings, const TouchProperties& touch) {
-  FrameReport report = process_frame(frame, segment, settings, touch);
-  const std::optional<MotionMoment> moment = moment_of(frame.buffer, segment, turn_);
-  if (!trace_moment(moment, report.analyzed)) report.trace_failed = true;
-  return report;
-}
-
-/// By what was measured of it before. False when it was not.
-bool MotionEngine::replay(const GstVideoFrame& frame, const GstSegment& segment,
-                          AnalyzerSettings settings, FrameReport& report) {
-  const std::optional<MotionMoment> moment = moment_of(frame.buffer, segment, turn_);
-  if (!moment) return false;
-  settings.pointer = turn_.place_shown(settings.pointer);
-  replay_.configure(settings);
-  const std::optional<FrameAnalysis> found =
-      replay_.at(moment->stream_ns, segment.rate * schedule_.rate_multiplier());
-  if (!found) return false;
-  ++replayed_;
-  report.analysis = *found;
-  report.part = visible_part(frame);
-  return true;
 }
 
 /// Whether a frame follows the one before in time, and if not, why it cannot be analysed.
@@ -155,11 +107,8 @@ bool MotionEngine::analyze(const GstVideoFrame& frame, const GstSegment& segment
     return false;
   }
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
-  // As an analysis in a file has it.
-  const std::optional<MotionMoment> moment = moment_of(frame.buffer, segment, turn_);
-  const FilmPlace film{moment ? moment->stream_ns : 0, turn_};
-  // What goes into a file must not depend on the speed of this machine.
-  const bool can_do_less = settings.motion != MotionKind::kMean && !trace_.is_motion();
+  const FilmPlace film{stream_ns_of(frame.buffer, segment), turn_};
+  const bool can_do_less = settings.motion != MotionKind::kMean;
   ladder_.set_budget_ns(can_do_less ? int64_t{1000} * budget_us_ : 0);
   if (ladder_.budget_ns() > 0 || told_rung_ > 0) {
     analyze_within_budget(picture, settings, paced_ns, film, report);
@@ -201,9 +150,8 @@ void MotionEngine::write_row(FrameReport& report) {
                     static_cast<int64_t>(report.stream_time), report.analysis, report.limit);
 }
 
-FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSegment& segment,
-                                        const AnalyzerSettings& settings,
-                                        const TouchProperties& touch) {
+FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& segment,
+                                  const AnalyzerSettings& settings, const TouchProperties& touch) {
   FrameReport report;
   const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
   if (segment.format != GST_FORMAT_TIME || !GST_CLOCK_TIME_IS_VALID(pts)) {
@@ -231,18 +179,15 @@ FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSeg
     write_row(report);
     return report;
   }
-  if (!replay_.active() && !follows(frame, segment, report)) return report;
+  if (!follows(frame, segment, report)) return report;
   if (!holds_picture(frame)) {
     restart();
     report.problem = FrameProblem::kTooSmall;
     return report;
   }
   const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
-  ImageView luma;
-  if (!replay_.active() || touch.kind != TouchKind::kOff) luma = luma_.view(frame);
-  report.analyzed = replay_.active()
-                        ? replay(frame, segment, settings, report)
-                        : analyze(frame, segment, luma, settings, touch, time.paced_ns, report);
+  const ImageView luma = luma_.view(frame);
+  report.analyzed = analyze(frame, segment, luma, settings, touch, time.paced_ns, report);
   if (!report.analyzed) return report;
 
   const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;
@@ -252,7 +197,7 @@ FrameReport MotionEngine::process_frame(const GstVideoFrame& frame, const GstSeg
   limit_watch_.set_touching(touch.kind != TouchKind::kOff);
   // This share of the film's motion is felt, reported and shown in addition to touch.
   motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
-  report.analysis.wrench = wrench_turn().to_shown(scaled(report.analysis.wrench, motion_share_));
+  report.analysis.wrench = turn_.to_shown(scaled(report.analysis.wrench, motion_share_));
   report.turn = turn_;
   if (!time.in_place) {
     if (luma.data) touch_frame(luma, touch, running_ns, report);

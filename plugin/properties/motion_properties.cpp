@@ -35,7 +35,7 @@ std::vector<MotionRow> point_rows() {
            "Processor time that the analysis of a frame may take, in microseconds. While more than "
            "1% of the frames take longer, it gives up points, and then the resolution of the "
            "motion of blocks, as far as that helps; 'stats' and a QoS message tell. 0: no limit. "
-           "No effect with motion=mean, nor while a trace ending in .motion is written"},
+           "No effect with motion=mean"},
           0, 1000000, kPlaying, KEPT_IN(budget_us)),
       MotionRow::count(
           {"max-features", "Maximum features", "Largest number of points that are tracked at once"},
@@ -53,7 +53,7 @@ std::vector<MotionRow> point_rows() {
   };
 }
 
-/// From `ts-offset` to `analysis`: what an application asks of the element as a whole.
+/// From `ts-offset` to `track`: what an application asks of the element as a whole.
 std::vector<MotionRow> element_rows() {
   return {
       MotionRow::offset(
@@ -70,8 +70,8 @@ std::vector<MotionRow> element_rows() {
       MotionRow::text(
           {"trace", "Trace",
            "Write one line for each frame with motion and force to this file: CSV, or JSON "
-           "with background and objects if the name ends in .jsonl, or what was measured if "
-           "it ends in .motion. Opened in the change from READY to PAUSED"},
+           "with background and objects if the name ends in .jsonl. Opened in the change from "
+           "READY to PAUSED"},
           kReady, KEPT_IN(trace)),
       haptic_trace_row<MotionProperties>(),
       MotionRow::statistics(
@@ -88,13 +88,6 @@ std::vector<MotionRow> element_rows() {
            "'auto' for the one beside the film (FILM.mp4.haptic.flac, .mka or .wav). Read "
            "with the first frame of a stream"},
           kReady, KEPT_IN(track)),
-      MotionRow::text(
-          {"analysis", "Analysis",
-           "Feel the film by what spidartrack analyze measured of it, instead of analysing frames: "
-           "a "
-           "file, or 'auto' for the one beside the film (FILM.mp4.motion). All properties that "
-           "change the force act as ever. Read with the first frame of a stream; not with 'track'"},
-          kReady, KEPT_IN(analysis)),
   };
 }
 

@@ -31,9 +31,8 @@ struct MotionProperties {
   bool post_messages = true;
   std::string trace;
   std::string haptic_trace;
-  std::string track;     ///< path, "auto", or empty
-  std::string analysis;  ///< the same
-  std::string feel;      ///< the same, or rules
+  std::string track;  ///< path, "auto", or empty
+  std::string feel;   ///< the same, or rules
   bool mute = false;
   DisplayProperties display;
   TouchProperties touch;

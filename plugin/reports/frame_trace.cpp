@@ -32,19 +32,12 @@ void append(std::string& row, Number value) {
 
 }  // namespace
 
-std::string FrameTrace::open(const std::string& path, const AnalyzerSettings& settings) {
+std::string FrameTrace::open(const std::string& path) {
   close();
   file_ = std::fopen(path.c_str(), "we");
   if (!file_) return std::strerror(errno);
-  kind_ = ends_with(path, ".jsonl")    ? Kind::kJson
-          : ends_with(path, ".motion") ? Kind::kMotion
-                                       : Kind::kCsv;
-  line_.clear();
-  if (kind_ == Kind::kCsv) line_ = kHeader;
-  if (kind_ == Kind::kMotion) {
-    motion_ = {};
-    line_ = write_header({{}, {}, settings.motion == MotionKind::kMean});
-  }
+  is_json_ = ends_with(path, ".jsonl");
+  line_ = is_json_ ? "" : kHeader;
   const SigpipeBlock no_sigpipe;
   if (!put() || std::fflush(file_) != 0) {
     const std::string reason = std::strerror(errno);
@@ -72,23 +65,14 @@ void FrameTrace::append_csv(int64_t running_time_ns, int64_t stream_time_ns,
 
 bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
                        NoForceReason limit) {
-  if (kind_ == Kind::kMotion) return true;
   line_.clear();
-  if (kind_ == Kind::kJson) {
+  if (is_json_) {
     append_json(frame, running_time_ns, stream_time_ns, {}, line_);
   } else {
     append_csv(running_time_ns, stream_time_ns, frame, limit);
   }
   if (put()) return true;
   close();
-  return false;
-}
-
-bool FrameTrace::write(const MotionMoment& moment, const MeasuredFrame& frame) {
-  line_.clear();
-  motion_.add(moment, frame, line_);
-  if (put()) return true;
-  std::fclose(std::exchange(file_, nullptr));
   return false;
 }
 
@@ -99,13 +83,8 @@ bool FrameTrace::put() {
 
 bool FrameTrace::close() {
   if (!file_) return true;
-  line_.clear();
-  if (kind_ == Kind::kMotion) motion_.finish(line_);
-  const bool ended = put();
   const SigpipeBlock no_sigpipe;
-  const bool written = std::fclose(file_) == 0 && ended;
-  file_ = nullptr;
-  return written;
+  return std::fclose(std::exchange(file_, nullptr)) == 0;
 }
 
 }  // namespace spidar

@@ -8,43 +8,35 @@
 #include <string>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/analysis/motion_file.h"
 #include "core/analysis/no_force_reason.h"
 
 namespace spidar {
 
 /// CSV with a header line, or where the name ends in .jsonl what append_json() writes, with objects
 /// and background; numbers are written without regard to the locale, with the digits that reading
-/// them back needs. Where it ends in .motion, what was measured (MotionFile).
+/// them back needs.
 class FrameTrace {
  public:
   ~FrameTrace() { close(); }
 
   /// Empty string, or the reason why the file cannot be written.
-  std::string open(const std::string& path, const AnalyzerSettings& settings);
+  std::string open(const std::string& path);
   bool is_open() const { return file_ != nullptr; }
 
   /// False when the disk is full or gone: the trace is closed then.
   bool write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
              NoForceReason limit);
-  /// Whether the trace has what was measured, and not what is felt.
-  bool is_motion() const { return is_open() && kind_ == Kind::kMotion; }
-  /// For such a trace, of every frame and gap: the same.
-  bool write(const MotionMoment& moment, const MeasuredFrame& frame);
 
   /// False when the last rows could not be written.
   bool close();
 
  private:
-  enum class Kind { kCsv, kJson, kMotion };
-
   bool put();
   void append_csv(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
                   NoForceReason limit);
 
   std::FILE* file_ = nullptr;
-  Kind kind_ = Kind::kCsv;
-  MotionFileWriter motion_;
+  bool is_json_ = false;
   std::string line_;  ///< of the frame before: its memory is used again
 };
 

@@ -64,12 +64,12 @@ bool is_same_file(const struct stat& a, const struct stat& b) {
          a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
 }
 
-}  // namespace
-
 void set_properties(GstElement* motion, const RecordProperties& properties) {
   for (const auto& [name, value] : properties.values)
     gst_util_set_object_arg(G_OBJECT(motion), name.c_str(), value.c_str());
 }
+
+}  // namespace
 
 std::string decode_film(const FilmRun& run) {
   if (!std::filesystem::exists(run.film)) throw std::runtime_error("there is no such file");
@@ -78,18 +78,15 @@ std::string decode_film(const FilmRun& run) {
   stat(run.film.c_str(), &at_first);
   Progress progress(run.tell);
   FilmFingerprint fingerprint;
-  int64_t pictures_end_ns = 0, film_ns = 0;
+  int64_t pictures_end_ns = 0;
   std::string unread;
   try {
     const Film read = read_film(run.film);
     pictures_end_ns = read.end_ns.value_or(0);
-    film_ns = read.end_ns.value_or(read.duration_ns);
     fingerprint = fingerprint_of(read.packets);
   } catch (const std::runtime_error& why) {
     unread = why.what();  // decoding it may tell more
   }
-  if (run.piece && !unread.empty()) throw std::runtime_error(unread);
-  if (run.piece) run.piece->set_film(film_ns);
   FilmWatch watch;
   std::string error;
   try {
@@ -104,7 +101,6 @@ std::string decode_film(const FilmRun& run) {
           gst_object_unref(motion);
           watch.begin(pipeline);
           progress.watch(pipeline);
-          if (run.piece) run.piece->begin(pipeline, run.properties);
           run.prepare(pipeline, fingerprint);
         },
         unread.empty() ? kLongestStart : kUnreadStart);
@@ -123,9 +119,7 @@ std::string decode_film(const FilmRun& run) {
   // Where the file is whole, its duration may be that of sound that goes on after the pictures.
   std::optional<int64_t> end_ns;
   if (end == FilmEnd::kWhole) end_ns = pictures_end_ns;
-  const bool is_whole = !run.piece || run.piece->found().of == 1;
-  if (!is_whole && !run.piece->found().has_end) end_ns = 0;
-  const std::string problem = watch.problem(error, end_ns, is_whole ? 2 : 0);
+  const std::string problem = watch.problem(error, end_ns);
   if (!problem.empty()) throw std::runtime_error(problem);
   if (end == FilmEnd::kCutOff) {
     throw std::runtime_error("its end is missing: it is damaged or cut off");

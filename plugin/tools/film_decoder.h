@@ -8,7 +8,6 @@
 
 #include <gst/gst.h>
 
-#include "plugin/tools/film_piece.h"
 #include "plugin/tools/record_properties.h"
 #include "plugin/track/film_fingerprint.h"
 
@@ -22,13 +21,10 @@ struct FilmRun {
   std::function<void(GstElement* pipeline, const FilmFingerprint& film)> prepare;
   /// Called in another thread with the percentage that is done, whenever it rises.
   std::function<void(int percent)> tell;
-  FilmPiece* piece = nullptr;  ///< what is decoded of the film; null: all
 };
 
 /// Returns what is to be known of the film; usually nothing. Throws std::runtime_error, which says
 /// what is wrong with it.
 std::string decode_film(const FilmRun& run);
-
-void set_properties(GstElement* motion, const RecordProperties& properties);
 
 }  // namespace spidar

@@ -152,8 +152,7 @@ void FilmWatch::choose(GstElement* decoder, gpointer user) {
   gst_object_unref(into);
 }
 
-std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> end_ns,
-                               uint64_t least_frames) const {
+std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> end_ns) const {
   const std::lock_guard<std::mutex> lock(lock_);
   if (!has_video_) {
     return missing_.empty() ? "there is no video in it" + why_no_video_
@@ -165,8 +164,7 @@ std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> 
     return "it cannot be read to its end: it is damaged or cut off";
   }
   if (!error.empty()) return error;
-  if (frames_ == 0 && least_frames > 0)
-    return "no picture of it can be decoded: it is damaged or cut off";
+  if (frames_ == 0) return "no picture of it can be decoded: it is damaged or cut off";
   const int64_t until_ns = tells_duration_ ? end_ns.value_or(duration_ns_) : 0;
   if (until_ns - end_ns_ > kTolerance_ns) {
     gchar* const text =
@@ -176,7 +174,7 @@ std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> 
     g_free(text);
     return result;
   }
-  return frames_ < least_frames ? "it is a single picture, in which nothing moves" : "";
+  return frames_ < 2 ? "it is a single picture, in which nothing moves" : "";
 }
 
 }  // namespace spidar

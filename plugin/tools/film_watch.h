@@ -28,8 +28,7 @@ class FilmWatch {
   /// says what is wrong with the film, or nothing. A film of fewer frames is wrong, too, and
   /// one whose pictures do not come until `end_ns`, stream time, or if that is not known, until the
   /// end of the container's duration.
-  std::string problem(const std::string& error, std::optional<int64_t> end_ns,
-                      uint64_t least_frames = 2) const;
+  std::string problem(const std::string& error, std::optional<int64_t> end_ns) const;
   /// What is to be known of the track of a film that is whole; usually empty.
   const std::string& remark() const { return remark_; }
 

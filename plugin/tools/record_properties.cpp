@@ -24,9 +24,6 @@ constexpr const char* kAnalysis[] = {
     "max-features", "max-force",     "min-distance", "motion", "pointer-x",   "pointer-y",
     "quality",      "quality-level", "roll-gain"};
 
-/// Of these, what changes that which is measured.
-constexpr const char* kMeasured[] = {"max-features", "min-distance", "quality", "quality-level"};
-
 template <size_t kCount>
 bool contains(const char* const (&names)[kCount], const std::string& name) {
   return std::any_of(std::begin(names), std::end(names),
@@ -39,23 +36,8 @@ std::string list_of_analysis() {
   return list;
 }
 
-/// Of a property that changes the force: the same.
-std::string why_not_now(const TypedProperty& property, Purpose purpose) {
-  const std::string name = property.name();
-  const bool is_measured = contains(kMeasured, name);
-  if (purpose == Purpose::kRender && is_measured) {
-    return "changes what is measured: spidartrack analyze FILM -- " + name + "=VALUE";
-  }
-  const bool is_mean = name == "motion" && property.canonical_value() == "mean";
-  if (purpose == Purpose::kAnalyze && !is_measured && !is_mean) {
-    return "changes nothing in an analysis: it is for spidartrack render; only max-features, "
-           "min-distance, quality, quality-level and motion=mean change what is measured";
-  }
-  return {};
-}
-
 /// Why it is refused, as the rest of a sentence; empty if it is not.
-std::string why_refused(const TypedProperty& property, size_t films, Purpose purpose) {
+std::string why_refused(const TypedProperty& property, size_t films) {
   const std::string name = property.name();
   if (name == "touch")
     return "what is touched depends on the hand, and a track is the same for all";
@@ -69,7 +51,7 @@ std::string why_refused(const TypedProperty& property, size_t films, Purpose pur
   if (name == "max-force" && property.canonical_value() == "0") {
     return "the whole track would be at rest";
   }
-  if (contains(kAnalysis, name)) return why_not_now(property, purpose);
+  if (contains(kAnalysis, name)) return {};
   return "changes nothing in a track; these properties do: " + list_of_analysis();
 }
 
@@ -101,16 +83,6 @@ std::string one_line(const std::map<std::string, std::string>& settings) {
 
 }  // namespace
 
-RecordProperties with_settings(const RecordProperties& properties, const std::string& settings) {
-  std::map<std::string, std::string> all = split(settings);
-  RecordProperties result;
-  for (const auto& [name, value] : all) result.values.emplace_back(name, value);
-  for (const auto& [name, value] : split(properties.settings)) all[name] = value;
-  result.values.insert(result.values.end(), properties.values.begin(), properties.values.end());
-  result.settings = one_line(all);
-  return result;
-}
-
 RecordProperties with_rules(const RecordProperties& properties, const std::string& film) {
   RecordProperties result = properties;
   std::map<std::string, std::string> settings = split(properties.settings);
@@ -125,8 +97,7 @@ RecordProperties with_rules(const RecordProperties& properties, const std::strin
   return result;
 }
 
-RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films,
-                                         Purpose purpose) {
+RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films) {
   RecordProperties properties;
   if (words.empty()) return properties;
   const std::unique_ptr<GstElement, void (*)(gpointer)> element(
@@ -139,7 +110,7 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
   for (const std::string& word : words) {
     try {
       const TypedProperty property(G_OBJECT(element.get()), word);
-      const std::string refused = why_refused(property, films, purpose);
+      const std::string refused = why_refused(property, films);
       if (!refused.empty()) throw UsageError(word + ": " + refused);
       properties.values.emplace_back(property.name(), word.substr(word.find('=') + 1));
       settings.erase(property.name());

@@ -17,13 +17,6 @@ struct RecordProperties {
   std::string settings;
 };
 
-/// What the properties are for. What is measured depends on some of them, and the force that is
-/// made of that on all others.
-enum class Purpose { kRecord, kAnalyze, kRender };
-
-/// Adds those with which an analysis was made, of the form of `settings`.
-RecordProperties with_settings(const RecordProperties& properties, const std::string& settings);
-
 /// With the rules of `feel` themselves in place of the file, beside `film` or elsewhere, that has
 /// them, so that a track tells what it was made by. Throws std::runtime_error when they cannot be
 /// read.
@@ -32,7 +25,6 @@ RecordProperties with_rules(const RecordProperties& properties, const std::strin
 /// `words` are of the form PROPERTY=VALUE. Throws UsageError, which says what would be right, for
 /// those that do not change what a track contains, or would make it one of zeros;
 /// std::runtime_error when GStreamer has no spidarmotion.
-RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films,
-                                         Purpose purpose = Purpose::kRecord);
+RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films);
 
 }  // namespace spidar

@@ -9,14 +9,12 @@
 #include <system_error>
 #include <thread>
 
-#include "plugin/tools/film_analyzer.h"
 #include "plugin/tools/film_recorder.h"
 #include "plugin/tools/record_manifest.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/track/film_reader.h"
-#include "plugin/track/motion_sidecar.h"
 #include "plugin/track/part_file.h"
 #include "plugin/track/sidecar.h"
 #include "plugin/track/track_file.h"
@@ -30,29 +28,12 @@ namespace fs = std::filesystem;
 /// How often it is looked whether another process has finished a track.
 constexpr std::chrono::milliseconds kLook{200};
 
-/// What a file says of itself.
-TrackNotes read_notes(const fs::path& file, const RecordOptions& options) {
-  if (options.makes_tracks()) return read_track_notes(file.string());
-  const MotionHeader header = read_motion_header(file.string());
-  if (header.piece.format != options.piece.format) {
-    throw MotionFileError("it was not measured by the same command");
-  }
-  return {parse_fingerprint(header.film), header.settings};
-}
-
 /// Throws std::runtime_error when the file that is there is not what would be made. One that says
 /// nothing of itself was made by hand, or by an older version, and may be.
 void check_file(const std::string& film, const fs::path& file, const RecordOptions& options) {
-  const bool records = options.makes_tracks();
-  const std::string again =
-      records ? "; --force records it again" : "; --force analyses the film again";
+  const std::string again = "; --force records it again";
   if (fs::is_empty(file)) throw std::runtime_error(file.string() + " is empty" + again);
-  TrackNotes notes;
-  try {
-    notes = read_notes(file, options);
-  } catch (const MotionFileError& error) {
-    throw std::runtime_error(file.string() + " is not used: " + error.what() + again);
-  }
+  const TrackNotes notes = read_track_notes(file.string());
   const std::string settings = with_rules(options.properties, film).settings;
   if (notes.settings && *notes.settings != settings) {
     const auto shown = [](const std::string& text) { return text.empty() ? "the defaults" : text; };
@@ -61,8 +42,8 @@ void check_file(const std::string& film, const fs::path& file, const RecordOptio
   }
   if (notes.film.empty()) return;
   if (!find_pictures(notes.film, read_film(film).packets)) {
-    throw std::runtime_error(file.string() + " is the " + (records ? "track" : "analysis") +
-                             " of another film: " + kOtherPictures + again);
+    throw std::runtime_error(file.string() + " is the track of another film: " + kOtherPictures +
+                             again);
   }
 }
 
@@ -157,9 +138,7 @@ class FilmBatch {
     const Clock::time_point begin = Clock::now();
     const RecordProperties properties = with_rules(options_.properties, film);
     const auto tell = [&](int percent) { report_.progress(index, percent); };
-    std::string remark = options_.makes_tracks()
-                             ? record_film(film, *part, properties, tell)
-                             : analyze_film(film, part->path(), properties, options_.piece, tell);
+    std::string remark = record_film(film, *part, properties, tell);
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
     remark = with_warning(remark, film, track);
     const std::chrono::duration<double> taken = Clock::now() - begin;
@@ -177,8 +156,7 @@ class FilmBatch {
 
   std::string with_warning(const std::string& text, const std::string& film,
                            const fs::path& track) const {
-    const std::string why =
-        options_.makes_tracks() ? why_not_played(film, track.string()) : std::string();
+    const std::string why = why_not_played(film, track.string());
     return text + (text.empty() || why.empty() ? "" : "; ") + why;
   }
 
@@ -211,13 +189,7 @@ class FilmBatch {
 }  // namespace
 
 int record_track_command(int argc, char** argv) {
-  const RecordOptions options = parse_record_options(argc, argv, Purpose::kRecord);
-  if (options.help) return kDone;
-  return FilmBatch(options).run() ? kDone : kFailed;
-}
-
-int analyze_film_command(int argc, char** argv) {
-  const RecordOptions options = parse_record_options(argc, argv, Purpose::kAnalyze);
+  const RecordOptions options = parse_record_options(argc, argv);
   if (options.help) return kDone;
   return FilmBatch(options).run() ? kDone : kFailed;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Records, renders, inspects, checks, converts and plots haptic tracks.
+// Records, inspects, checks, converts and plots haptic tracks.
 
 #include <iostream>
 #include <pthread.h>
@@ -20,18 +20,14 @@ namespace {
 using namespace spidar;
 
 const std::vector<Command> kCommands = {
-    {"record", record_track_command},   {"analyze", analyze_film_command},
-    {"join", join_pieces_command},      {"render", render_track_command},
-    {"info", track_info_command},       {"check", check_track_command},
-    {"convert", convert_track_command}, {"plot", plot_track_command},
+    {"record", record_track_command}, {"info", track_info_command},
+    {"check", check_track_command},   {"convert", convert_track_command},
+    {"plot", plot_track_command},
 };
 
 constexpr const char* kSpidartrackHelp = R"(usage: spidartrack COMMAND
 
   record   record the haptic tracks of films, into files beside them
-  analyze  measure films once, into files beside them
-  join     make one of what was recorded, or measured, in pieces
-  render   make a track of what was measured, with other properties
   info     print the length and size of a track
   check    report what in a track cannot be felt as it is
   convert  convert between FLAC, Matroska, WAV, HJIF, traces and funscript

@@ -6,13 +6,10 @@
 
 namespace spidar {
 
-int analyze_film_command(int argc, char** argv);
 int check_track_command(int argc, char** argv);
 int convert_track_command(int argc, char** argv);
-int join_pieces_command(int argc, char** argv);
 int plot_track_command(int argc, char** argv);
 int record_track_command(int argc, char** argv);
-int render_track_command(int argc, char** argv);
 int track_info_command(int argc, char** argv);
 
 }  // namespace spidar

@@ -5,12 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "plugin/tools/analysis_info.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
 #include "plugin/track/film_reader.h"
-#include "plugin/track/motion_sidecar.h"
 #include "plugin/track/sidecar.h"
 #include "plugin/track/track_file.h"
 #include "spidar/tools/command_line.h"
@@ -19,12 +17,11 @@
 namespace spidar {
 namespace {
 
-constexpr const char* kInfoHelp = R"(usage: spidartrack info TRACK|FILM|FILM.motion [--json]
+constexpr const char* kInfoHelp = R"(usage: spidartrack info TRACK|FILM [--json]
 
 Of a film: whether a haptic track is inside it or beside it, and belongs to it; then as of the track.
 How long a track is, and how large: largest force and torque, steepest change, peak and mean square
 of each channel in shares of the full scale (10 N, 1 N m), and how much of its energy is above 30 Hz.
-Of an analysis (.motion): frames, settings and objects.
 )";
 
 constexpr const char* kCheckHelp =
@@ -110,12 +107,7 @@ int track_info_command(int argc, char** argv) {
     std::cout << kInfoHelp;
     return kDone;
   }
-  const std::string operand = only_operand(operands);
-  if (ends_with(operand, kMotionEnd)) {
-    print_analysis_info(operand, json);
-    return kDone;
-  }
-  const FilmOfTrack found = find_track(operand);
+  const FilmOfTrack found = find_track(only_operand(operands));
   const std::string& path = found.track;
   TrackCondition condition;
   const std::vector<TrackSample> samples = load_track(path, &condition);

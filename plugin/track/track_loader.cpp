@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "plugin/track/film_reader.h"
-#include "plugin/track/motion_sidecar.h"
 #include "plugin/track/sidecar.h"
 #include "spidar/realtime/thread_setup.h"
 
@@ -74,27 +73,6 @@ LoadedTrack load_track(const std::string& wanted, const std::string& film,
   return loaded;
 }
 
-LoadedTrack load_analysis(const std::string& wanted, const std::string& film,
-                          const std::atomic<bool>* stopped) {
-  LoadedTrack loaded;
-  loaded.path = wanted == "auto" ? find_analysis(film) : wanted;
-  if (loaded.path.empty()) return loaded;
-  try {
-    const auto file = std::make_shared<MotionFile>(read_motion_file(loaded.path));
-    const FilmFingerprint fingerprint = parse_fingerprint(file->header().film);
-    if (!film.empty() && !fingerprint.empty()) {
-      const std::optional<int64_t> later_ns =
-          find_pictures(fingerprint, read_film(film, stopped).packets);
-      if (!later_ns) loaded.problem = kOtherPictures;
-      loaded.later_ns = later_ns.value_or(0);
-    }
-    loaded.analysis = file;
-  } catch (const std::runtime_error& error) {
-    loaded.problem = clause(error.what());
-  }
-  return loaded;
-}
-
 }  // namespace
 
 struct TrackLoader::Reading {
@@ -110,20 +88,18 @@ std::shared_ptr<TrackLoader::Reading> TrackLoader::reading() const {
   return reading_;
 }
 
-void TrackLoader::begin(Sidecar kind, const std::string& wanted, const std::string& film) {
+void TrackLoader::begin(const std::string& wanted, const std::string& film) {
   stop();
   if (wanted.empty()) return;
   const auto reading = std::make_shared<Reading>();
-  auto read = [reading, kind, wanted, film] {
+  auto read = [reading, wanted, film] {
     LoadedTrack loaded;
     try {
-      loaded = kind == Sidecar::kTrack ? load_track(wanted, film, &reading->stopped)
-                                       : load_analysis(wanted, film, &reading->stopped);
+      loaded = load_track(wanted, film, &reading->stopped);
     } catch (const std::exception& error) {
       loaded.path = wanted;
       loaded.problem = clause(error.what());
     }
-    loaded.kind = kind;
     const std::lock_guard<std::mutex> lock(reading->mutex);
     reading->loaded = std::move(loaded);
     reading->done = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads the track or the analysis for a film in a thread of its own.
+/// Reads the track for a film in a thread of its own.
 #pragma once
 
 #include <chrono>
@@ -10,21 +10,14 @@
 #include <string>
 #include <thread>
 
-#include "core/analysis/motion_file.h"
 #include "plugin/track/track_file.h"
 
 namespace spidar {
 
-/// What the properties `track` and `analysis` of spidarmotion mean.
-enum class Sidecar { kTrack, kAnalysis };
-
 /// What is played in place of analysing frames.
 struct LoadedTrack {
-  Sidecar kind = Sidecar::kTrack;
   std::string path;  ///< empty: there is none
   std::optional<TrackFile> track;
-  std::shared_ptr<const MotionFile> analysis;
-  int64_t later_ns = 0;      ///< the film shows its pictures so much later than `analysis` says
   std::string problem;       ///< why `track` cannot be used; empty when it can
   bool is_compared = false;  ///< with the film
 };
@@ -41,7 +34,7 @@ class TrackLoader {
 
   /// Begins to read `wanted`: a file, or with "auto" the one beside the file `film`, else the track
   /// inside it. Nothing when `wanted` is empty. What was being read is forgotten.
-  void begin(Sidecar kind, const std::string& wanted, const std::string& film);
+  void begin(const std::string& wanted, const std::string& film);
   /// Returns when all has been read, when `limit` has passed, or at interrupt().
   void await(std::chrono::milliseconds limit);
   /// What was read, once; nothing before.

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/track/track_player.h"
 
-#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -34,36 +33,17 @@ void name_faults(GstElement* element, const std::string& path, const TrackFaults
   }
 }
 
-/// Of these properties, those that are not at their defaults, and not as in the line `known`.
-std::string list_set(GstElement* element, std::initializer_list<const char*> names,
-                     const std::string& known) {
-  std::string list;
-  for (const char* const name : names) {
-    GParamSpec* const spec = g_object_class_find_property(G_OBJECT_GET_CLASS(element), name);
-    GValue value = G_VALUE_INIT;
-    g_value_init(&value, spec->value_type);
-    g_object_get_property(G_OBJECT(element), name, &value);
-    gchar* const text =
-        G_VALUE_HOLDS_STRING(&value) ? g_value_dup_string(&value) : gst_value_serialize(&value);
-    const std::string setting = std::string(name) + "=" + (text ? text : "");
-    const bool is_known = (" " + known + " ").find(" " + setting + " ") != std::string::npos;
-    if (!is_known && !g_param_value_defaults(spec, &value)) {
-      list += (list.empty() ? "" : ", ") + setting;
-    }
-    g_free(text);
-    g_value_unset(&value);
+/// Names what is set and changes nothing while a track is played.
+void name_unused(GstElement* element, const std::string& path) {
+  gchar* feel = nullptr;
+  g_object_get(element, "feel", &feel, nullptr);
+  if (feel) {
+    GST_ELEMENT_WARNING(
+        element, RESOURCE, SETTINGS,
+        ("feel=%s has no effect while the haptic track %s is played.", feel, path.c_str()),
+        ("Leave out the one or the other, or make the haptic track anew with it."));
   }
-  return list;
-}
-
-/// What is set and changes nothing.
-void name_unused(GstElement* element, const std::string& settings, const char* kind,
-                 const std::string& path) {
-  if (settings.empty()) return;
-  GST_ELEMENT_WARNING(
-      element, RESOURCE, SETTINGS,
-      ("%s has no effect while the %s %s is played.", settings.c_str(), kind, path.c_str()),
-      ("Leave out the one or the other, or make the %s anew with it.", kind));
+  g_free(feel);
 }
 
 }  // namespace
@@ -100,26 +80,6 @@ std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_durati
   return place;
 }
 
-std::shared_ptr<const MotionFile> judge_analysis(GstElement* element, const LoadedTrack& loaded,
-                                                 MotionKind motion) {
-  if (loaded.path.empty()) return nullptr;
-  std::string problem = loaded.problem;
-  if (problem.empty()) problem = wrong_motion(loaded.analysis->header(), motion);
-  if (problem.empty()) {
-    const bool mean = motion == MotionKind::kMean;
-    const std::string known = loaded.analysis->header().settings;
-    name_unused(element,
-                mean ? list_set(element, {"max-features", "min-distance", "quality-level"}, known)
-                     : list_set(element, {"max-features", "quality"}, known),
-                "analysis", loaded.path);
-    return loaded.analysis;
-  }
-  GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
-                      ("The analysis %s is not used: %s.", loaded.path.c_str(), problem.c_str()),
-                      ("The video is analysed in its place."));
-  return nullptr;
-}
-
 std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns) {
   if (loaded.path.empty()) return std::nullopt;
   if (loaded.problem.empty() && !loaded.is_compared) {
@@ -129,7 +89,7 @@ std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, in
   }
   if (loaded.problem.empty()) {
     name_faults(element, loaded.path, loaded.track->faults);
-    name_unused(element, list_set(element, {"feel"}, ""), "haptic track", loaded.path);
+    name_unused(element, loaded.path);
     return std::move(loaded.track);
   }
   GST_ELEMENT_WARNING(

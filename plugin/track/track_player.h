@@ -58,8 +58,4 @@ std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_durati
 /// none; a warning on the bus when it cannot be used, or is that of another film.
 std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns);
 
-/// The same of an analysis, which `motion=mean` needs one of its own for.
-std::shared_ptr<const MotionFile> judge_analysis(GstElement* element, const LoadedTrack& loaded,
-                                                 MotionKind motion);
-
 }  // namespace spidar
