@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "plugin/choice/frame_boxes.h"
-#include "plugin/reports/budget_message.h"
 #include "plugin/reports/exceptions.h"
 #include "plugin/reports/motion_message.h"
 #include "plugin/reports/motion_meta.h"
@@ -76,7 +75,6 @@ static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self, const GstVid
   GST_OBJECT_LOCK(self);
   spidar::AnalyzerSettings settings = self->properties->analyzer;
   const PointerKind pointer = self->properties->pointer;
-  self->engine->set_budget_us(self->properties->budget_us);
   const std::string feel = has_new_rules ? self->properties->feel : "";
   GST_OBJECT_UNLOCK(self);
   if (has_new_rules) self->choice->read(feel, GST_BASE_TRANSFORM_SINK_PAD(self));
@@ -141,7 +139,6 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     self->choice->check(report.analysis.choice, settings.kept, report.stream_time);
   }
   if (display.overlay) self->warnings->check_overlay(frame->info);
-  post_budget_message(GST_ELEMENT(self), frame->buffer, report, self->engine->frames());
   if (report.analyzed && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, report, &self->unread_messages);
   }

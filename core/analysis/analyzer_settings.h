@@ -19,7 +19,6 @@ namespace spidar {
 
 struct AnalyzerSettings {
   TrackerSettings tracker;
-  int less_work = 0;  ///< rung of the WorkLadder, 0 … WorkLadder::kLowest; 0: all that it takes
   MotionKind motion = MotionKind::kObject;
   /// Place of the picture where kObjects is felt: (0, 0) is its top left corner, (1, 1) its bottom
   /// right one; finite.

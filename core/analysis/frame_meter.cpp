@@ -39,12 +39,9 @@ Shown shown_by(Cadence::Picture picture) {
 }  // namespace
 
 struct FrameMeter::Impl {
-  explicit Impl(const Settings& given) : settings(given), tracker(given.tracker) {
-    motion.set_coarser(std::max(settings.less_work - 1, 0));
-  }
+  explicit Impl(const Settings& given) : settings(given), tracker(given.tracker) {}
 
   FieldPoints::Settings field_points() const {
-    if (settings.less_work > 0) return {0, false};
     const TrackerQuality quality = settings.tracker.quality;
     return {std::min(settings.tracker.max_features,
                      quality == TrackerQuality::kFine ? kManyPoints : kFewPoints),
@@ -112,7 +109,6 @@ void FrameMeter::configure(const Settings& settings) {
     impl_->motion.reset();
   }
   impl_->settings = settings;
-  impl_->motion.set_coarser(std::max(settings.less_work - 1, 0));
 }
 
 const MeasuredFrame& FrameMeter::measure(const ImageView& frame, int64_t running_time_ns) {

@@ -20,7 +20,6 @@ class FrameMeter {
   struct Settings {
     TrackerSettings tracker;
     bool mean_of_points = false;  ///< the paper's motion, without camera and objects
-    int less_work = 0;            ///< see WorkLadder::rung(); no effect with mean_of_points
   };
 
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.

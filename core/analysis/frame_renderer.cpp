@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/analysis/work_ladder.h"
 #include "core/force/motion_bounds.h"
 #include "core/force/motion_rendering.h"
 
@@ -78,10 +77,6 @@ void validate(const AnalyzerSettings& settings) {
   validate(settings.controller);
   validate(settings.filter);
   validate(settings.axes);
-  if (settings.less_work < 0 || settings.less_work > WorkLadder::kLowest) {
-    throw std::invalid_argument("less_work must be 0 to 4, got " +
-                                std::to_string(settings.less_work));
-  }
   if (!settings.pointer.allFinite()) {
     throw std::invalid_argument("the pointer's coordinates must be finite");
   }

@@ -9,7 +9,7 @@ namespace spidar {
 namespace {
 
 FrameMeter::Settings meter_settings(const AnalyzerSettings& settings) {
-  return {settings.tracker, settings.motion == MotionKind::kMean, settings.less_work};
+  return {settings.tracker, settings.motion == MotionKind::kMean};
 }
 
 }  // namespace

@@ -56,34 +56,14 @@ float MotionBlock::weakest_texture() const {
 void BlockField::resize(const PaddedImage& base) {
   base_width_ = base.width();
   base_height_ = base.height();
-  scale_ = field_scale(base_width_, base_height_, coarser_);
+  scale_ = field_scale(base_width_, base_height_);
   has_picture_ = false;
 }
 
 void BlockField::reduce(const PaddedImage& base) {
-  reduce_to_field(base, scale_, half_, now_);
+  reduce_to_field(base, scale_, now_);
   reduce_blocks(now_.view(), kCoarser, coarse_now_);
   coarse_now_.repeat_border();
-}
-
-std::optional<GridChange> BlockField::set_coarser(int steps, const PaddedImage& before) {
-  if (steps == coarser_) return std::nullopt;
-  coarser_ = steps;
-  const double old_scale = scale();
-  const FieldScale wanted = field_scale(base_width_, base_height_, coarser_);
-  if (wanted == scale_) return std::nullopt;
-  scale_ = wanted;
-  if (!has_picture_) return std::nullopt;
-  GridChange change{grid_, {}, old_scale / scale()};
-  std::vector<BlockMatch> matches = std::move(matches_);
-  reduce(before);
-  begin();
-  change.to = grid_;
-  change.apply(matches);
-  const auto longer = [&](int px) { return static_cast<int16_t>(std::lround(px * change.ratio)); };
-  for (BlockMatch& match : matches) match = {longer(match.dx), longer(match.dy), 0};
-  matches_ = std::move(matches);
-  return change;
 }
 
 /// Nothing but the picture is known. Nothing of what was before a cut is left, either, so that an

@@ -58,10 +58,6 @@ class BlockField {
   /// `base` is the frame reduced by a power of 2.
   Result update(const PaddedImage& base);
 
-  /// From the next update() on, the picture is up to so many steps coarser, see field_scale().
-  /// `before` is the base of the last update(). Returns how the grid of blocks changes with it.
-  std::optional<GridChange> set_coarser(int steps, const PaddedImage& before);
-
   /// The picture is shown again: all blocks stand still.
   void stand_still();
 
@@ -95,11 +91,9 @@ class BlockField {
   void refine(size_t index);
 
   FieldScale scale_ = FieldScale::kSame;
-  int coarser_ = 0;
   int base_width_ = 0;
   int base_height_ = 0;
   bool has_picture_ = false;
-  PaddedImage half_;
   PaddedImage before_;
   PaddedImage now_;
   BlockGrid grid_;

@@ -170,17 +170,6 @@ int BlockGrid::y_px(int row) const {
   return top_px + row * kBlock_px;
 }
 
-size_t GridChange::origin_of(size_t block) const {
-  // Both grids are centred on the picture.
-  const auto place = [this](size_t index, int count, int old_count) {
-    const double middle = (static_cast<double>(index) + 0.5 - count / 2.0) / ratio;
-    return static_cast<size_t>(std::clamp(middle + old_count / 2.0, 0.0, old_count - 1.0));
-  };
-  const auto columns = static_cast<size_t>(to.columns);
-  return place(block / columns, to.rows, from.rows) * static_cast<size_t>(from.columns) +
-         place(block % columns, to.columns, from.columns);
-}
-
 void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const BlockGrid& grid,
                        const std::vector<BlockMatch>& hints, std::vector<BlockMatch>& matches) {
   last_ = matches;

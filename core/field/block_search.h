@@ -29,26 +29,6 @@ struct BlockGrid {
   int y_px(int row) const;
 };
 
-/// Another grid over the same picture, whose pixels are of another size from now on.
-struct GridChange {
-  BlockGrid from;
-  BlockGrid to;
-  double ratio = 1;  ///< new pixels to one old pixel
-
-  /// The block that was where `block` is now.
-  size_t origin_of(size_t block) const;
-
-  /// Gives each block what was at its place before. `values` has one entry for each old block, or
-  /// none.
-  template <typename Value>
-  void apply(std::vector<Value>& values) const {
-    if (values.size() != static_cast<size_t>(from.size())) return values.clear();
-    const std::vector<Value> before = values;
-    values.resize(static_cast<size_t>(to.size()));
-    for (size_t i = 0; i < values.size(); ++i) values[i] = before[origin_of(i)];
-  }
-};
-
 /// A block at p was at p + (dx, dy) in the picture before.
 struct BlockMatch {
   int16_t dx = 0;  ///< px

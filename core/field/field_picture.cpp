@@ -16,8 +16,6 @@ namespace {
 
 /// Area to which a frame is reduced, as nearly as the scales allow.
 constexpr double kArea_px2 = 427.0 * 240.0;
-/// Least side of a picture that is made coarser to keep a budget: a block of its coarse picture.
-constexpr double kLeastCoarseSide_px = kCoarser * kBlock_px;
 
 // A pixel of the reduced picture covers one and a half of the base, so three in a row a, b, c
 // become the two (2 a + b) / 3 and (b + 2 c) / 3. In two dimensions the weights are 4, 2, 2 and 1
@@ -107,7 +105,7 @@ int reduce_rows_vectors(const uint8_t* const rows[3], int width, uint8_t* upper,
 
 }  // namespace
 
-FieldScale field_scale(int base_width, int base_height, int coarser) {
+FieldScale field_scale(int base_width, int base_height) {
   FieldScale best = FieldScale::kSame;
   double least = 1e300;
   for (const FieldScale scale : {FieldScale::kSame, FieldScale::kTwoThirds, FieldScale::kHalf}) {
@@ -120,11 +118,6 @@ FieldScale field_scale(int base_width, int base_height, int coarser) {
       best = scale;
     }
   }
-  for (; coarser > 0 && best != FieldScale::kQuarter; --coarser) {
-    const auto next = static_cast<FieldScale>(static_cast<int>(best) + 1);
-    if (std::min(base_width, base_height) / pixels_to_one(next) < kLeastCoarseSide_px) break;
-    best = next;
-  }
   return best;
 }
 
@@ -136,16 +129,11 @@ double pixels_to_one(FieldScale scale) {
       return 1.5;
     case FieldScale::kHalf:
       return 2;
-    case FieldScale::kThird:
-      return 3;
-    case FieldScale::kQuarter:
-      return 4;
   }
   return 1;
 }
 
-void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& half,
-                     PaddedImage& picture) {
+void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& picture) {
   switch (scale) {
     case FieldScale::kSame:
       picture.resize(base.width(), base.height());
@@ -158,13 +146,6 @@ void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& hal
       break;
     case FieldScale::kHalf:
       halve(base, picture);
-      break;
-    case FieldScale::kThird:
-      halve(base, half);
-      reduce_to_two_thirds(half, picture);
-      break;
-    case FieldScale::kQuarter:
-      reduce_blocks(base.view(), 4, picture);
       break;
   }
   picture.repeat_border();

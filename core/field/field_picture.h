@@ -12,21 +12,18 @@ namespace spidar {
 constexpr int kCoarser = 4;
 
 /// How much smaller this picture is than the base of the pyramid.
-enum class FieldScale { kSame, kTwoThirds, kHalf, kThird, kQuarter };
+enum class FieldScale { kSame, kTwoThirds, kHalf };
 
 /// 1, 2/3 or 1/2 of its sides, whichever brings its area nearest to 427 × 240 px without going
-/// below kMinSide_px. For less work, up to `coarser` ≥ 0 steps smaller, as long as a block fits
-/// into the coarse picture of it: without one, nothing that has jumped is found.
-FieldScale field_scale(int base_width, int base_height, int coarser = 0);
+/// below kMinSide_px.
+FieldScale field_scale(int base_width, int base_height);
 
-/// Pixels of the base to one pixel of the picture: 1, 1.5, 2, 3 or 4.
+/// Pixels of the base to one pixel of the picture: 1, 1.5 or 2.
 double pixels_to_one(FieldScale scale);
 
 /// Writes the reduced `base` to `picture`. With kTwoThirds each pixel is the rounded mean of the
-/// area that it covers; columns and rows that do not fill a pixel are left out. With kThird this
-/// is done to the half of the base, which `half` becomes.
-void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& half,
-                     PaddedImage& picture);
+/// area that it covers; columns and rows that do not fill a pixel are left out.
+void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& picture);
 
 void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced);
 

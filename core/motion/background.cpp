@@ -80,11 +80,6 @@ void BackgroundEstimator::reset() {
   refused_cost_ = 0;
 }
 
-void BackgroundEstimator::change_pixels(double ratio) {
-  background_ = in_pixels_of(background_, ratio);
-  noise_px_ = std::max(ratio * noise_px_, kSharedError_px);
-}
-
 /// The weights are scaled so that their sum is the number of equally weighted points that carry the
 /// same information (Kish's effective sample size). The GRIC can then be used unchanged.
 void BackgroundEstimator::weigh(const BackgroundVotes& votes) {

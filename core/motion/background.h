@@ -84,9 +84,6 @@ class BackgroundEstimator {
   /// Forgets everything, after a cut or a seek.
   void reset();
 
-  /// The votes of the next frame are in smaller pixels: `ratio` of them make one of the old.
-  void change_pixels(double ratio);
-
  private:
   struct Scored {
     MotionModel model;

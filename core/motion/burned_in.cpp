@@ -47,13 +47,6 @@ void BurnedIn::reset() {
   covers_.clear();
 }
 
-void BurnedIn::change_grid(const GridChange& change) {
-  margins_.reset();
-  change.apply(lasting_);
-  change.apply(holds_);
-  change.apply(covers_);
-}
-
 void BurnedIn::begin(const BlockField& field, bool camera_moves, float noise_grey2) {
   const size_t blocks = field.blocks().size();
   margins_.update(field);

@@ -59,9 +59,6 @@ class BurnedIn {
 
   void reset();
 
-  /// The field has another grid from the next pair on. The margins are looked for anew.
-  void change_grid(const GridChange& change);
-
  private:
   enum class Sign : uint8_t {
     kNone,

@@ -37,14 +37,6 @@ void LayerEvidence::add_contrast(bool stands_out) {
   stood_out_ += stands_out;
 }
 
-void LayerEvidence::change_pixels(double ratio) {
-  for (Eigen::Vector2d* velocity : {&relative_px_s_, &background_px_s_, &newest_px_s_}) {
-    *velocity *= ratio;
-  }
-  screen_px_s_ *= ratio;
-  changes_px_s_ *= ratio;
-}
-
 double LayerEvidence::mean_ratio() const {
   const double relative_px_s = relative_px_s_.norm();
   // Without any motion of its own nothing shows that a region is more than a layer.

@@ -26,9 +26,6 @@ class LayerEvidence {
   /// Adds whether the region stood out from the noise around it in this frame.
   void add_contrast(bool stands_out);
 
-  /// Pixels are smaller from now on: `ratio` of them make one of the old.
-  void change_pixels(double ratio);
-
   /// Speed on the screen over speed relative to the background: above 1 for a layer, below 1 for
   /// what the camera follows, 1 while the camera rests or shakes in place. A layer keeps its ratio
   /// for as long as the camera travels, an object does not: the lowest mean over a whole kMean_s

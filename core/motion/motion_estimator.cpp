@@ -199,12 +199,6 @@ void MotionEstimator::report_tracks(const ReducedFrame& reduced) {
 SceneMotion MotionEstimator::estimate(const ImageView& frame, const ReducedFrame& reduced,
                                       const FieldPoints::Settings& points, int64_t interval_ns) {
   SceneMotion scene;
-  if (!reduced.is_repeated()) {
-    if (const auto change = field_.set_coarser(coarser_, reduced.before())) {
-      estimator_.change_pixels(change->ratio);
-      objects_.change_grid(*change);
-    }
-  }
   if (reduced.is_repeated() && field_.has_picture()) {
     field_.stand_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {

@@ -28,10 +28,6 @@ class MotionEstimator {
   SceneMotion estimate(const ImageView& frame, const ReducedFrame& reduced,
                        const FieldPoints::Settings& points, int64_t interval_ns);
 
-  /// From the next picture on, blocks are measured in a picture up to so many steps coarser, see
-  /// field_scale(): 0 … 3. Objects keep their identity, and the camera its motion.
-  void set_coarser(int steps) { coarser_ = steps; }
-
   /// After a cut or a seek: the next frame is not compared with the one before.
   void reset();
 
@@ -45,7 +41,6 @@ class MotionEstimator {
                      const FieldPoints::Settings& points);
   void report_tracks(const ReducedFrame& reduced);
 
-  int coarser_ = 0;
   BlockField field_;
   BackgroundVotes votes_;
   BackgroundEstimator estimator_;

@@ -108,12 +108,6 @@ void MovingBlocks::reset() {
   burned_in_.reset();
 }
 
-void MovingBlocks::change_grid(const GridChange& change) {
-  change.apply(persistence_);
-  change.apply(stood_out_);
-  burned_in_.change_grid(change);
-}
-
 /// Motion of each block relative to the background.
 void MovingBlocks::compare(const BlockField& field, const Background& background) {
   const std::vector<MotionBlock>& blocks = field.blocks();

@@ -59,9 +59,6 @@ class MovingBlocks {
 
   void reset();
 
-  /// The field has another grid from the next frame on.
-  void change_grid(const GridChange& change);
-
  private:
   /// Of a block: in what share of the last frames it stood out in the same way, and how it moved in
   /// the last one.

@@ -47,23 +47,6 @@ void ObjectTracker::reset() {
   objects_.clear();
 }
 
-void ObjectTracker::Life::change_pixels(double ratio) {
-  region.blocks = static_cast<int>(std::ceil(ratio * ratio * region.blocks));
-  for (Eigen::Vector2d* length :
-       {&region.position_px, &region.low_px, &region.high_px, &region.relative_px,
-        &region.background_px, &velocity_px_s, &expected_px, &expected_px_s, &expected_sides_px}) {
-    *length *= ratio;
-  }
-  usual_blocks *= ratio * ratio;
-  evidence.change_pixels(ratio);
-}
-
-void ObjectTracker::change_grid(const GridChange& change) {
-  moving_.change_grid(change);
-  change.apply(owners_);
-  for (Life& life : lives_) life.change_pixels(change.ratio);
-}
-
 /// As alike_px(), but with how far off the motion of a block may be.
 bool ObjectTracker::is_same_motion(const Life& life, const Region& region,
                                    const FieldInFrame& frame) const {

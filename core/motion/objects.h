@@ -65,9 +65,6 @@ class ObjectTracker {
   /// Forgets everything, after a cut or a seek.
   void reset();
 
-  /// The field has another grid from the next frame on. Objects stay what they are.
-  void change_grid(const GridChange& change);
-
   /// Longer than what usually hides an object, and than most pauses in its motion.
   static constexpr double kForgotten_s = 0.5;
   static constexpr size_t kMostObjects = 16;
@@ -95,7 +92,6 @@ class ObjectTracker {
     bool is_layer = false;  ///< looks more like a part of the scene than like an object
 
     bool is_born() const;
-    void change_pixels(double ratio);
   };
 
   /// Blocks on which an object was before, and which now do not clearly move by themselves.

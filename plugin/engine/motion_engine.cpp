@@ -31,8 +31,6 @@ void MotionEngine::close() {
 
 std::string MotionEngine::start(const std::string& trace_path) {
   stats_.reset();
-  ladder_ = {};
-  told_rung_ = 0;
   restart_timing();
   return trace_path.empty() ? std::string() : trace_.open(trace_path);
 }

@@ -13,7 +13,6 @@
 #include <gst/video/video.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/analysis/work_ladder.h"
 #include "plugin/device/haptic_output.h"
 #include "plugin/engine/stream_orientation.h"
 #include "plugin/frame/frame_luma.h"
@@ -84,8 +83,6 @@ class MotionEngine {
   const PictureTurn& turn() const { return turn_; }
   /// Frames are not analysed: the samples of this track are felt. Nothing: they are again.
   void set_track(std::optional<TrackFile> track);
-  /// Processor time that the analysis of a frame may take from now on; 0: no limit.
-  void set_budget_us(int budget_us) { budget_us_ = budget_us; }
   /// The pointer of `settings` is a place of the frame before it is turned.
   FrameReport process(const GstVideoFrame& frame, const GstSegment& segment,
                       const AnalyzerSettings& settings, const TouchProperties& touch);
@@ -112,8 +109,6 @@ class MotionEngine {
   bool analyze(const GstVideoFrame& frame, const GstSegment& segment, const ImageView& luma,
                const AnalyzerSettings& settings, const TouchProperties& touch, int64_t paced_ns,
                FrameReport& report);
-  void analyze_within_budget(const ImageView& picture, AnalyzerSettings settings, int64_t paced_ns,
-                             const FilmPlace& film, FrameReport& report);
   Wrench play_track(GstBuffer* frame, GstClockTime default_duration, const GstSegment& segment,
                     int64_t running_ns);
   void write_row(FrameReport& report);
@@ -133,9 +128,6 @@ class MotionEngine {
   StreamOrientation orientation_;
   PictureTurn turn_;
   MotionAnalyzer analyzer_;
-  WorkLadder ladder_;
-  int budget_us_ = 0;
-  int told_rung_ = 0;
   FrameLuma luma_;
   FrameTrace trace_;
   FramePacer pacer_;

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 // What becomes of a frame.
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include "plugin/engine/motion_engine.h"
@@ -13,13 +12,6 @@ namespace {
 /// With a share of 1 the result is the same bit for bit.
 Wrench scaled(const Wrench& wrench, double share) {
   return {share * wrench.force_N, share * wrench.torque_Nm};
-}
-
-/// Processor time of this thread: other threads and programs do not count.
-int64_t thread_time_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
 }
 
 /// The stream time at which a frame is first seen; 0 when it is not known, or not shown.
@@ -82,19 +74,6 @@ bool MotionEngine::follows(const GstVideoFrame& frame, const GstSegment& segment
   return true;
 }
 
-void MotionEngine::analyze_within_budget(const ImageView& picture, AnalyzerSettings settings,
-                                         int64_t paced_ns, const FilmPlace& film,
-                                         FrameReport& report) {
-  settings.less_work = ladder_.rung();
-  analyzer_.configure(settings);
-  const int64_t begin_ns = thread_time_ns();
-  report.analysis = analyzer_.analyze(picture, paced_ns, film);
-  const int64_t cost_ns = thread_time_ns() - begin_ns;
-  report.budget = {ladder_.budget_ns(), cost_ns, settings.less_work,
-                   settings.less_work != std::exchange(told_rung_, settings.less_work)};
-  ladder_.add(cost_ns, !report.analysis.restarted && !report.analysis.same_picture);
-}
-
 /// Finds the picture of a frame and analyses it. False when it has none.
 bool MotionEngine::analyze(const GstVideoFrame& frame, const GstSegment& segment,
                            const ImageView& luma, const AnalyzerSettings& settings,
@@ -108,14 +87,8 @@ bool MotionEngine::analyze(const GstVideoFrame& frame, const GstSegment& segment
   }
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
   const FilmPlace film{stream_ns_of(frame.buffer, segment), turn_};
-  const bool can_do_less = settings.motion != MotionKind::kMean;
-  ladder_.set_budget_ns(can_do_less ? int64_t{1000} * budget_us_ : 0);
-  if (ladder_.budget_ns() > 0 || told_rung_ > 0) {
-    analyze_within_budget(picture, settings, paced_ns, film, report);
-  } else {
-    analyzer_.configure(settings);
-    report.analysis = analyzer_.analyze(picture, paced_ns, film);
-  }
+  analyzer_.configure(settings);
+  report.analysis = analyzer_.analyze(picture, paced_ns, film);
   // The picture is the left or the upper half.
   report.part = visible_part(frame);
   report.part.width = picture.width;
@@ -205,7 +178,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
                    report.analysis.wrench, report.analysis.repeated});
   }
   write_row(report);
-  stats_.add(report.analysis, report.took_ns, report.budget);
+  stats_.add(report.analysis, report.took_ns);
   return report;
 }
 

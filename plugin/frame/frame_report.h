@@ -39,17 +39,6 @@ enum class TouchProblem {
   kLagUnknown,   ///< of the drives: it is touched with less
 };
 
-/// How the analysis of a frame kept to the budget of processor time.
-struct BudgetReport {
-  int64_t budget_ns = 0;
-  int64_t cost_ns = 0;
-  int rung = 0;               ///< of the WorkLadder
-  bool has_new_rung = false;  ///< it was another one in the frame before
-
-  bool is_above() const { return budget_ns > 0 && cost_ns > budget_ns; }
-};
-
-/// What became of one frame.
 struct FrameReport {
   FrameProblem problem = FrameProblem::kNone;
   bool analyzed = false;
@@ -59,7 +48,6 @@ struct FrameReport {
   PictureTurn turn;                            ///< of the frame before it is shown
   VisiblePart part;                            ///< of the frame that was analysed
   int64_t took_ns = 0;                         ///< the analysis
-  std::optional<BudgetReport> budget;          ///< if there is one
   NoForceReason limit = NoForceReason::kNone;  ///< of the last second up to this frame
   TouchProblem touch_problem = TouchProblem::kNone;
   double stiffness_N_m = 0;  ///< that is rendered, with TouchProblem::kTooStiff and kLagUnknown

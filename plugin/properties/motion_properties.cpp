@@ -31,13 +31,6 @@ std::vector<MotionRow> point_rows() {
            {TrackerQuality::kFine, "More points", "fine"}},
           kControllable, KEPT_IN(analyzer.tracker.quality)),
       MotionRow::count(
-          {"budget", "Budget",
-           "Processor time that the analysis of a frame may take, in microseconds. While more than "
-           "1% of the frames take longer, it gives up points, and then the resolution of the "
-           "motion of blocks, as far as that helps; 'stats' and a QoS message tell. 0: no limit. "
-           "No effect with motion=mean"},
-          0, 1000000, kPlaying, KEPT_IN(budget_us)),
-      MotionRow::count(
           {"max-features", "Maximum features", "Largest number of points that are tracked at once"},
           1, 10000, kControllable, KEPT_IN(analyzer.tracker.max_features)),
       MotionRow::number(

@@ -24,7 +24,6 @@ struct MotionProperties {
   std::string device = "sim";
   std::string profile;        ///< empty: that of the device's board
   AnalyzerSettings analyzer;  ///< its pointer is the fixed one
-  int budget_us = 0;
   PointerKind pointer = PointerKind::kFixed;
   GstClockTimeDiff ts_offset_ns = 0;
   OnDeviceError on_device_error = OnDeviceError::kWarn;

@@ -20,12 +20,9 @@ void MotionStats::reset() {
   model_.reset();
   objects_ = 0;
   analysis_.reset();
-  budget_rung_ = 0;
-  above_budget_ = 0;
 }
 
-void MotionStats::add(const FrameAnalysis& frame, int64_t took_ns,
-                      const std::optional<BudgetReport>& budget) {
+void MotionStats::add(const FrameAnalysis& frame, int64_t took_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++frames_;
   if (frame.restarted) ++restarts_;
@@ -34,8 +31,6 @@ void MotionStats::add(const FrameAnalysis& frame, int64_t took_ns,
   model_ = frame.model;
   objects_ = frame.objects;
   analysis_.add(took_ns);
-  budget_rung_ = budget ? budget->rung : 0;
-  if (budget && budget->is_above()) ++above_budget_;
 }
 
 uint64_t MotionStats::frames() const {
@@ -45,15 +40,14 @@ uint64_t MotionStats::frames() const {
 
 void MotionStats::describe(GstStructure* structure) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  gst_structure_set(
-      structure, "frames", G_TYPE_UINT64, frames_, "restarts", G_TYPE_UINT64, restarts_, "features",
-      G_TYPE_UINT, static_cast<guint>(features_), "tracked", G_TYPE_UINT,
-      static_cast<guint>(tracked_), "model", G_TYPE_STRING, model_ ? to_string(*model_) : "none",
-      "objects", G_TYPE_UINT, static_cast<guint>(objects_), "analysis-ms-median", G_TYPE_DOUBLE,
-      ms(analysis_.quantile_ns(0.5)), "analysis-ms-p95", G_TYPE_DOUBLE,
-      ms(analysis_.quantile_ns(0.95)), "analysis-ms-max", G_TYPE_DOUBLE, ms(analysis_.max_ns()),
-      "budget-rung", G_TYPE_UINT, static_cast<guint>(budget_rung_), "above-budget", G_TYPE_UINT64,
-      above_budget_, nullptr);
+  gst_structure_set(structure, "frames", G_TYPE_UINT64, frames_, "restarts", G_TYPE_UINT64,
+                    restarts_, "features", G_TYPE_UINT, static_cast<guint>(features_), "tracked",
+                    G_TYPE_UINT, static_cast<guint>(tracked_), "model", G_TYPE_STRING,
+                    model_ ? to_string(*model_) : "none", "objects", G_TYPE_UINT,
+                    static_cast<guint>(objects_), "analysis-ms-median", G_TYPE_DOUBLE,
+                    ms(analysis_.quantile_ns(0.5)), "analysis-ms-p95", G_TYPE_DOUBLE,
+                    ms(analysis_.quantile_ns(0.95)), "analysis-ms-max", G_TYPE_DOUBLE,
+                    ms(analysis_.max_ns()), nullptr);
 }
 
 }  // namespace spidar

@@ -10,7 +10,6 @@
 #include <gst/gst.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "plugin/frame/frame_report.h"
 #include "spidar/realtime/latency_histogram.h"
 
 namespace spidar {
@@ -19,14 +18,13 @@ namespace spidar {
 class MotionStats {
  public:
   void reset();
-  void add(const FrameAnalysis& frame, int64_t took_ns, const std::optional<BudgetReport>& budget);
+  void add(const FrameAnalysis& frame, int64_t took_ns);
 
   uint64_t frames() const;
 
   /// Adds frames, restarts (uint64), features, tracked (uint, of the last frame), model (string: of
   /// the background in the last frame, 'none' when the motion that is felt needs none), objects
-  /// (uint, in the last frame), analysis-ms-median, analysis-ms-p95, analysis-ms-max (double),
-  /// budget-rung (uint, of the last frame), above-budget (uint64).
+  /// (uint, in the last frame), analysis-ms-median, analysis-ms-p95, analysis-ms-max (double).
   void describe(GstStructure* structure) const;
 
  private:
@@ -41,8 +39,6 @@ class MotionStats {
   std::optional<ModelKind> model_;
   int objects_ = 0;
   AnalysisHistogram analysis_;
-  int budget_rung_ = 0;
-  uint64_t above_budget_ = 0;
 };
 
 }  // namespace spidar

@@ -41,9 +41,6 @@ std::string why_refused(const TypedProperty& property, size_t films) {
   const std::string name = property.name();
   if (name == "touch")
     return "what is touched depends on the hand, and a track is the same for all";
-  if (name == "budget")
-    return "a budget makes the result depend on how fast this machine is, and what is recorded is "
-           "the same on every machine";
   if (name == "track") return "a film is analysed for its track, and a track is not recorded again";
   if (name == "trace") {
     return films == 1 ? "" : "all films would be written to one file; record them one by one";

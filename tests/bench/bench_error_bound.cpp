@@ -51,7 +51,6 @@ struct Kind {
 struct Measured {
   Kind kind;
   int width;
-  int rung;         ///< of WorkLadder
   double error_px;  ///< of the velocity, px a frame at kReferenceWidth_px
   double bound_px;
 };
@@ -129,12 +128,10 @@ const MovingObject* found_object(const FrameAnalysis& found, const Film& film, i
   return largest;
 }
 
-void measure(const RandomFilm& made, const std::vector<test::Picture>& frames, int rung,
+void measure(const RandomFilm& made, const std::vector<test::Picture>& frames,
              std::vector<Measured>& results) {
   const Film& film = made.film;
-  AnalyzerSettings settings;
-  settings.less_work = rung;
-  MotionAnalyzer analyzer(settings);
+  MotionAnalyzer analyzer;
   const double to_reference = kReferenceWidth_px / film.width();
   for (int n = 0; n < kFilmFrames; ++n) {
     const FrameAnalysis found =
@@ -147,7 +144,7 @@ void measure(const RandomFilm& made, const std::vector<test::Picture>& frames, i
         pose(n - 1) * (pose(n).inverse() * object->position_px) + film.middle_px();
     const Vector2d true_px = film.object_displacement_px(n, film.objects[0], place_px);
     const Vector2d found_px = object->relative_px_s * kFrame_s;
-    results.push_back({made.kind, film.width(), rung, to_reference * (found_px - true_px).norm(),
+    results.push_back({made.kind, film.width(), to_reference * (found_px - true_px).norm(),
                        to_reference * object->error_px_s * kFrame_s});
   }
 }
@@ -155,20 +152,19 @@ void measure(const RandomFilm& made, const std::vector<test::Picture>& frames, i
 void measure(RandomFilm made, std::vector<Measured>& results) {
   std::vector<test::Picture> frames = bench::draw_all(made.film, kFilmFrames);
   if (made.kind.coded) frames = bench::coded(frames, bench::Coder::kOpenH264);
-  for (const int rung : {0, 1, 3}) measure(made, frames, rung, results);
+  measure(made, frames, results);
 }
 
 struct Group {
   const char* name;
   std::function<bool(const Measured&)> has;
-  int rung = 0;
 };
 
 void print(const Group& group, const std::vector<Measured>& all) {
   std::vector<double> errors, bounds;
   int covered = 0;
   for (const Measured& m : all) {
-    if (m.rung != group.rung || !group.has(m)) continue;
+    if (!group.has(m)) continue;
     errors.push_back(m.error_px);
     bounds.push_back(m.bound_px);
     covered += m.error_px <= m.bound_px;
@@ -207,8 +203,6 @@ int main(int argc, char** argv) {
       {"noise of 3 to 6 grey levels", [](const Measured& m) { return m.kind.noisy; }},
       {"out of focus or blurred by motion", [](const Measured& m) { return m.kind.blurred; }},
       {"through H.264", [](const Measured& m) { return m.kind.coded; }},
-      {"all, on rung 1 of a budget: no points", [](const Measured&) { return true; }, 1},
-      {"all, on rung 3: also two steps of resolution", [](const Measured&) { return true; }, 3},
       {"1280×720", [](const Measured& m) { return m.width > 1000; }},
   };
   std::printf("| films | frames | covered %% | error median | 95 %% | bound median | 95 %% |\n");

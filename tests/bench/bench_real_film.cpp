@@ -6,7 +6,6 @@
 ///   bench_real_film METHOD FILM
 /// METHOD is one of the element's settings or one of two flows:
 ///   default, fast, fine, mean, paper
-///   rung=N     what a budget leaves of `default`, see WorkLadder; budget=US: that which it leaves
 ///   dis       dense flow (DIS, preset medium) at half size
 ///   vectors   motion vectors of the coded film, which must be H.264 without B frames
 /// For the two flows, a homography is fitted robustly at every 16th pixel, and the object is the
@@ -31,7 +30,6 @@ extern "C" {
 #include <opencv2/video/tracking.hpp>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/analysis/work_ladder.h"
 #include "core/motion/robust_fit.h"
 
 namespace {
@@ -147,26 +145,15 @@ class Method {
 
 class Element final : public Method {
  public:
-  Element(const AnalyzerSettings& settings, int64_t budget_ns)
-      : settings_(settings), analyzer_(settings) {
-    ladder_.set_budget_ns(budget_ns);
-  }
+  explicit Element(const AnalyzerSettings& settings) : analyzer_(settings) {}
   Vector2d find(const AVFrame& frame, int64_t time_ns) override {
     const ImageView luma{frame.data[0], frame.width, frame.height, frame.linesize[0]};
-    if (ladder_.budget_ns() > 0) {
-      settings_.less_work = ladder_.rung();
-      analyzer_.configure(settings_);
-    }
-    const int64_t begin_ns = cpu_ns();
     const auto found = analyzer_.analyze(luma, time_ns);
-    ladder_.add(cpu_ns() - begin_ns, !found.restarted && !found.same_picture);
     return found.motion.velocity_px_s * (static_cast<double>(found.interval_ns) * 1e-9);
   }
 
  private:
-  AnalyzerSettings settings_;
   spidar::MotionAnalyzer analyzer_;
-  spidar::WorkLadder ladder_;
 };
 
 class Dis final : public Method {
@@ -242,18 +229,12 @@ std::unique_ptr<Method> make_method(const std::string& name) {
   if (name == "fine") settings.tracker.quality = spidar::TrackerQuality::kFine;
   if (name == "mean") settings.motion = spidar::MotionKind::kMean;
   if (name == "paper") settings = spidar::paper_settings();
-  if (name.rfind("rung=", 0) == 0) {
-    settings.less_work = std::stoi(name.substr(5));
-    return std::make_unique<Element>(settings, 0);
-  }
-  if (name.rfind("budget=", 0) == 0)
-    return std::make_unique<Element>(settings, int64_t{1000} * std::stoi(name.substr(7)));
   const std::vector<std::string> known{"default", "fast", "fine", "mean", "paper"};
   if (std::find(known.begin(), known.end(), name) == known.end()) {
     throw std::runtime_error("no method '" + name + "'; there are default, fast, fine, " +
-                             "mean, paper, rung=N, budget=US, dis and vectors");
+                             "mean, paper, dis and vectors");
   }
-  return std::make_unique<Element>(settings, 0);
+  return std::make_unique<Element>(settings);
 }
 
 /// Frames of the first video of a file, with motion vectors where the format has them.

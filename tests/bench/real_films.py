@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Measures whether the right motion is felt in real films. real_films.py BUILD FOLDER [OLDER_BUILD] runs the
-spidarmotion of a meson build folder on the films of FOLDER and prints five tables: how
+spidarmotion of a meson build folder on the films of FOLDER and prints four tables: how
 often each model of the camera's motion is chosen; a row for each of its settings, and one for OLDER_BUILD, the
 build folder of an older version; films of which a corner is cut off; methods with the processor time that each
-takes, see bench_real_film.cpp; budgets of that time. real_films.py BUILD --budgets FOLDER prints the last table only.
+takes, see bench_real_film.cpp.
 real_films.py BUILD --calm FILM... prints how calm the force is in films of which no truth is known.
 
 FOLDER holds films that GStreamer can decode. Beside a film, NAME.csv gives the true motion of its
@@ -50,8 +50,6 @@ SETTINGS = [
     ["motion=mean", "filter-min-cutoff=0"],
 ]
 NAMES = {"motion=mean filter-min-cutoff=0": "closest to the paper"}
-RUNGS = 5  # of WorkLadder
-BUDGETS_US = (100, 200, 300, 500, 1000, 2000)
 # Of bench_real_film, and their names in the table.
 METHODS = {
     "default": "`motion=object`",
@@ -274,46 +272,6 @@ def compare_methods(build, films):
         table.add(tally.row(f"{name} | {time_ms:.2f}"))
 
 
-class Burners:
-    """One program for each processor that does nothing but keep it busy."""
-
-    def __init__(self, wanted):
-        self.count = os.cpu_count() if wanted else 0
-
-    def __enter__(self):
-        self.running = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(self.count)]
-
-    def __exit__(self, *_):
-        for program in self.running:
-            program.kill()
-            program.wait()
-
-
-def compare_budgets(build, films):
-    """What each rung costs, and what is felt within each budget."""
-    program = build / "tests" / "bench" / "bench_real_film"
-    table = Table("Budgets", "work", "right %", "wrong %", "any force %", "false %", "jitter (true)",
-                  "us a frame: 1 %, 50 %, 99 %", "the same, processors busy", "in budget %", "busy")
-    for method in [f"rung={n}" for n in range(RUNGS)] + [f"budget={us}" for us in BUDGETS_US]:
-        tally, times, shares = Tally(), [], []
-        for busy in (False, True):
-            us = []
-            with Burners(busy):
-                for film in films:
-                    *found, ms = measure(program, method, film)
-                    us += [1000 * t for t in ms[1:]]
-                    truth = film.with_suffix(".csv")
-                    if busy:  # the same films twice
-                        tally.add(*found, read_truth(truth) if truth.exists() else None)
-            cuts = statistics.quantiles(us, n=100)
-            times.append(f"{cuts[0]:.0f}, {cuts[49]:.0f}, {cuts[98]:.0f}")
-            name, value = method.split("=")
-            within = 100 * sum(t <= int(value) for t in us) / len(us)
-            shares.append(f"{within:.1f}" if name == "budget" else "")
-        table.add(f"{tally.row('`' + method + '`' if name == 'budget' else 'rung ' + value)} {times[0]} | {times[1]} "
-                  f"| {shares[0]} | {shares[1]} |")
-
-
 def compare_settings(build, older, films):
     table = Table("Settings", "settings", "right %", "wrong %", "any force %", "false %", "jitter (true), px")
     runs = [(build, properties, " ".join(properties) or "default") for properties in SETTINGS]
@@ -361,12 +319,8 @@ def main():
             sys.exit(f"real_films.py: no film {', '.join(missing)}")
         check_plugin(build)
         return print_calm(build, [Path(f) for f in sys.argv[3:]])
-    only_budgets = len(sys.argv) == 4 and sys.argv[2] == "--budgets"
-    if only_budgets:
-        del sys.argv[2]
     if len(sys.argv) not in (3, 4) or sys.argv[2].startswith("-"):
-        sys.exit("usage: real_films.py BUILD FOLDER [OLDER_BUILD], or real_films.py BUILD --calm FILM..., or "
-                 "real_films.py BUILD --budgets FOLDER")
+        sys.exit("usage: real_films.py BUILD FOLDER [OLDER_BUILD], or real_films.py BUILD --calm FILM...")
     build, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     older = Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else None
     if not folder.is_dir():
@@ -378,13 +332,10 @@ def main():
     if not any(f.with_suffix(".csv").exists() for f in films):
         sys.exit(f"real_films.py: no film in {folder} has a NAME.csv with the true motion of its object")
     check([build] + ([older] if older else []))
-    if only_budgets:
-        return compare_budgets(build, films)
     count_models(build, films)
     compare_settings(build, older, films)
     compare_corners(build, films)
     compare_methods(build, films)
-    compare_budgets(build, films)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,6 @@ const std::vector<SettingGroup>& setting_groups() {
                                                   {"motion-share", "Share of the motion", "", 1}}},
                                                 {"Tracking",
                                                  {{"quality", "Quality", "", 1},
-                                                  {"budget", "Time for a frame", "us", 1},
                                                   {"max-features", "Most points", "", 1},
                                                   {"quality-level", "Weakest corner", "", 1},
                                                   {"min-distance", "Least distance", "px", 1}}},
