@@ -64,7 +64,7 @@ struct Background {
   double coverage = 1;  ///< share of the picture's votes that agree with the model; 0: hardly any
   /// False where there is texture all over the picture and hardly any of it agrees with the best
   /// model: how the camera moves is unknown, and with it what moves by itself. The model is 'still'
-  /// then, and `coverage` 0, which is all that a file keeps of it.
+  /// then, and `coverage` 0.
   bool is_known = true;
 };
 

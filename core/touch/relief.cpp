@@ -121,12 +121,18 @@ bool ReliefBuilder::from_brightness(const ImageView& picture, const ReliefSettin
                                     HeightField& field) {
   if (picture.data == nullptr || picture.width <= 0 || picture.height <= 0) return false;
   row_.resize(static_cast<size_t>(picture.width));
+  std::array<float, 256> level_of;
+  for (size_t grey = 0; grey < level_of.size(); ++grey) {
+    const double level = (static_cast<double>(grey) - settings.black_grey) /
+                         (settings.white_grey - settings.black_grey);
+    level_of[grey] = static_cast<float>(std::clamp(level, 0.0, 1.0));
+  }
   average_.read(
       picture.width, picture.height,
       [&](int y, float* values) {
         copy_row(picture, 0, y, picture.width, row_.data());
         for (int x = 0; x < picture.width; ++x) {
-          values[x] = static_cast<float>(row_[static_cast<size_t>(x)]) / 255.0F;
+          values[x] = level_of[row_[static_cast<size_t>(x)]];
         }
       },
       level_.data());

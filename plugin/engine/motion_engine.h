@@ -13,6 +13,7 @@
 #include <gst/video/video.h>
 
 #include "core/analysis/motion_analyzer.h"
+#include "core/analysis/square_picture.h"
 #include "plugin/device/haptic_output.h"
 #include "plugin/engine/stream_orientation.h"
 #include "plugin/frame/frame_luma.h"
@@ -129,6 +130,8 @@ class MotionEngine {
   PictureTurn turn_;
   MotionAnalyzer analyzer_;
   FrameLuma luma_;
+  SquarePicture square_;
+  StoredPixels stored_;
   FrameTrace trace_;
   FramePacer pacer_;
   std::optional<int64_t> gap_ns_;  // where a gap begins, unless a frame comes there

@@ -88,7 +88,8 @@ bool MotionEngine::analyze(const GstVideoFrame& frame, const GstSegment& segment
   const int64_t begin_ns = HapticSession::monotonic_now_ns();
   const FilmPlace film{stream_ns_of(frame.buffer, segment), turn_};
   analyzer_.configure(settings);
-  report.analysis = analyzer_.analyze(picture, paced_ns, film);
+  report.analysis =
+      analyzer_.analyze(square_.view(picture, pixel_aspect(frame.info)), paced_ns, film);
   // The picture is the left or the upper half.
   report.part = visible_part(frame);
   report.part.width = picture.width;
@@ -167,12 +168,14 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   pacer_.take(time, moved);
   limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis.wrench,
                    limit_of(report.analysis, settings.motion));
+  stored_.convert(report.analysis, report.part.width);
   limit_watch_.set_touching(touch.kind != TouchKind::kOff);
   // This share of the film's motion is felt, reported and shown in addition to touch.
   motion_share_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_share;
   report.analysis.wrench = turn_.to_shown(scaled(report.analysis.wrench, motion_share_));
   report.turn = turn_;
   if (!time.in_place) {
+    reliefs_.set_levels(luma_levels(frame.info));
     if (luma.data) touch_frame(luma, touch, running_ns, report);
     schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
                    report.analysis.wrench, report.analysis.repeated});

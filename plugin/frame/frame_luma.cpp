@@ -50,6 +50,11 @@ void write_luma(const Sample* pixels, int count, bool is_rgb, uint8_t* to) {
   for (int x = 0; x < count; ++x) to[x] = luma_of(pixels + 4 * x, is_rgb);
 }
 
+bool is_side_by_side(GstVideoMultiviewMode views) {
+  return views == GST_VIDEO_MULTIVIEW_MODE_SIDE_BY_SIDE ||
+         views == GST_VIDEO_MULTIVIEW_MODE_SIDE_BY_SIDE_QUINCUNX;
+}
+
 /// How the luma of a planar or semi-planar format is stored; it is the first component.
 LumaSample sample_of(const GstVideoFormatInfo& format) {
   const int depth = static_cast<int>(GST_VIDEO_FORMAT_INFO_DEPTH(&format, 0));
@@ -71,12 +76,42 @@ bool is_unpacked(const GstVideoFormatInfo& format) {
 VisiblePart visible_part(const GstVideoFrame& frame) {
   const int width = GST_VIDEO_FRAME_WIDTH(&frame);
   const int height = GST_VIDEO_FRAME_HEIGHT(&frame);
-  const GstVideoCropMeta* crop = gst_buffer_get_video_crop_meta(frame.buffer);
-  if (!crop) return {0, 0, width, height};
-  const int x = static_cast<int>(std::min<guint>(crop->x, static_cast<guint>(width)));
-  const int y = static_cast<int>(std::min<guint>(crop->y, static_cast<guint>(height)));
-  return {x, y, static_cast<int>(std::min<guint>(crop->width, static_cast<guint>(width - x))),
-          static_cast<int>(std::min<guint>(crop->height, static_cast<guint>(height - y)))};
+  VisiblePart part{0, 0, width, height};
+  if (const GstVideoCropMeta* crop = gst_buffer_get_video_crop_meta(frame.buffer)) {
+    part.x = static_cast<int>(std::min<guint>(crop->x, static_cast<guint>(width)));
+    part.y = static_cast<int>(std::min<guint>(crop->y, static_cast<guint>(height)));
+    part.width = static_cast<int>(std::min<guint>(crop->width, static_cast<guint>(width - part.x)));
+    part.height =
+        static_cast<int>(std::min<guint>(crop->height, static_cast<guint>(height - part.y)));
+  }
+  const GstVideoMultiviewMode views = GST_VIDEO_INFO_MULTIVIEW_MODE(&frame.info);
+  if (is_side_by_side(views)) part.width /= 2;
+  if (views == GST_VIDEO_MULTIVIEW_MODE_TOP_BOTTOM) part.height /= 2;
+  return part;
+}
+
+double pixel_aspect(const GstVideoInfo& info) {
+  double aspect = 1;
+  if (GST_VIDEO_INFO_PAR_N(&info) > 0 && GST_VIDEO_INFO_PAR_D(&info) > 0) {
+    aspect = static_cast<double>(GST_VIDEO_INFO_PAR_N(&info)) / GST_VIDEO_INFO_PAR_D(&info);
+  }
+  const auto flags = static_cast<int>(GST_VIDEO_INFO_MULTIVIEW_FLAGS(&info));
+  if ((flags & GST_VIDEO_MULTIVIEW_FLAGS_HALF_ASPECT) != 0) {
+    const GstVideoMultiviewMode views = GST_VIDEO_INFO_MULTIVIEW_MODE(&info);
+    if (is_side_by_side(views)) aspect *= 2;
+    if (views == GST_VIDEO_MULTIVIEW_MODE_TOP_BOTTOM) aspect /= 2;
+  }
+  return aspect <= kMostAspect && aspect >= 1 / kMostAspect ? aspect : 1;
+}
+
+LumaLevels luma_levels(const GstVideoInfo& info) {
+  gint offset[GST_VIDEO_MAX_COMPONENTS], scale[GST_VIDEO_MAX_COMPONENTS];
+  gst_video_color_range_offsets(GST_VIDEO_INFO_COLORIMETRY(&info).range, info.finfo, offset, scale);
+  const auto depth = static_cast<int>(GST_VIDEO_FORMAT_INFO_DEPTH(info.finfo, 0));
+  const auto eight_bits = [&](int level) { return depth > 8 ? level >> (depth - 8) : level; };
+  const int white = eight_bits(offset[0] + scale[0]);
+  // Formats of less than 8 bits are widened when they are unpacked.
+  return depth < 8 || white <= 0 ? LumaLevels{} : LumaLevels{eight_bits(offset[0]), white};
 }
 
 bool holds_picture(const GstVideoFrame& frame) {

@@ -31,11 +31,45 @@ namespace spidar {
 /// Whether a format is one of SPIDAR_UNPACKED_FORMATS and not of SPIDAR_VIDEO_FORMATS.
 bool is_unpacked(const GstVideoFormatInfo& format);
 
-/// The part of a frame that is shown, and therefore analysed: its crop meta, else all of it.
+/// What becomes of each field of GstVideoInfo:
+///
+/// | field | |
+/// |---|---|
+/// | finfo, stride, offset | FrameLuma reads every format above as its caps and video meta say |
+/// | interlace_mode, field order | FrameLuma takes the first field |
+/// | width, height | visible_part() |
+/// | par_n, par_d | pixel_aspect(): motion is measured in square pixels (SquarePicture) |
+/// | multiview_mode, HALF_ASPECT of its flags | visible_part() and pixel_aspect(): of two pictures
+/// in one frame the first is analysed, since both show the same motion; of frames in turn, those
+/// that have the time of the one before are left out | | other multiview flags | say which eye a
+/// picture is for, and not where it is | | views | counts pictures in planes or buffers of their
+/// own, of which the first one is mapped | | colorimetry: range | luma_levels(): black and white of
+/// touch=luma. Motion is where pictures fit best, whatever their contrast: limited range has 0.86
+/// of the other's | | colorimetry: matrix, transfer, primaries | FramePainter draws by the matrix;
+/// motion needs neither, as they are the same in all frames | | chroma_site | chroma is not looked
+/// at | | fps_n, fps_d | nominal_duration(), where a frame has none of its own | | size, flags |
+/// holds_picture() looks at the memory itself; the flags speak of rates that vary, which the time
+/// stamps show, and of alpha, which is not looked at |
+
+/// The part of a frame that is shown, and therefore analysed: its crop meta, else all of it; of two
+/// views beside or above each other, the first.
 struct VisiblePart {
   int x = 0, y = 0, width = 0, height = 0;
 };
 VisiblePart visible_part(const GstVideoFrame& frame);
+
+/// Width over height of a pixel as it is shown; 1 where the caps say nothing, or more than
+/// kMostAspect or less than its inverse: no format goes beyond 2.84 (half of a side-by-side picture
+/// of PAL, 64:45), so that the header is taken for damaged.
+constexpr double kMostAspect = 4;
+double pixel_aspect(const GstVideoInfo& info);
+
+/// The brightness of black and white among the eight bits that are read.
+struct LumaLevels {
+  int black = 0;
+  int white = 255;
+};
+LumaLevels luma_levels(const GstVideoInfo& info);
 
 /// Whether the mapped memory holds every line of every plane, one after the other from the top.
 /// GStreamer takes the word of a GstVideoMeta for that.

@@ -25,8 +25,9 @@ double width_px(double at_480, const ArrowStyle& style) {
   return std::max(kNarrowest_px, at_480 * style.height_px / kReferenceHeight_px);
 }
 
-Eigen::Vector2d vector_of(const ImagePoint& point) {
-  return {point.x_px, point.y_px};
+/// In square pixels; the left edge of the first pixel stays in place.
+Eigen::Vector2d shown_px(const ImagePoint& point, const ArrowStyle& style) {
+  return {(point.x_px + 0.5) * style.pixel_aspect - 0.5, point.y_px};
 }
 
 }  // namespace
@@ -95,9 +96,9 @@ std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style)
   std::vector<Arrow> arrows;
   arrows.reserve(scene.tracks.size());
   for (const SceneTrack& track : scene.tracks) {
-    const Eigen::Vector2d moved_px = vector_of(track.to) - vector_of(track.from);
     Arrow arrow;
-    arrow.tail_px = vector_of(track.from);
+    arrow.tail_px = shown_px(track.from, style);
+    const Eigen::Vector2d moved_px = shown_px(track.to, style) - arrow.tail_px;
     arrow.tip_px = arrow.tail_px + style.scale * moved_px;
     arrow.width_px = width_px(track.owner == TrackOwner::kObject ? kBold_px : kThin_px, style);
     arrow.color = direction_color(moved_px, track.owner == TrackOwner::kBackground ? kPale : 1);

@@ -53,6 +53,7 @@ struct ArrowStyle {
   double max_force_N = 3.0;  ///< force whose arrow is a fifth of height_px long
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< tail of the arrow of the felt force
   PictureTurn turn;                                     ///< of what is drawn, before it is shown
+  double pixel_aspect = 1;  ///< of the scene's pixels; what is drawn has square ones
 };
 
 /// Shaft width of the arrow of the felt force.

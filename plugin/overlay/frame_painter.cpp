@@ -87,11 +87,11 @@ void FramePainter::fill(const Eigen::Vector2d* corners_px, size_t count, const C
   const double around = area < 0 ? -1 : 1;
   constexpr double kOnBorder = 1e-9;
   const VisiblePart& on = visible_;
-  const int right = last_pixel(high_px.x(), on.x, on.width);
+  const int right = last_pixel(stored_x(high_px.x()), on.x, on.width);
   const int bottom = last_pixel(high_px.y(), on.y, on.height);
   for (int y = first_pixel(low_px.y(), on.y, on.height); y <= bottom; ++y) {
-    for (int x = first_pixel(low_px.x(), on.x, on.width); x <= right; ++x) {
-      const Eigen::Vector2d at_px(x, y);
+    for (int x = first_pixel(stored_x(low_px.x()), on.x, on.width); x <= right; ++x) {
+      const Eigen::Vector2d at_px(shown_x(x), y);
       bool inside = true;
       for (size_t i = 0; i < count && inside; ++i) {
         const Eigen::Vector2d& from_px = corners_px[i];
@@ -131,11 +131,12 @@ void FramePainter::disc(const Eigen::Vector2d& centre_px, double radius_px, Rgb 
   if (!centre_px.allFinite() || !(radius_px >= 0)) return;
   const Components value = components_of(color);
   const VisiblePart& on = visible_;
-  const int right = last_pixel(centre_px.x() + radius_px, on.x, on.width);
+  const int right = last_pixel(stored_x(centre_px.x() + radius_px), on.x, on.width);
   const int bottom = last_pixel(centre_px.y() + radius_px, on.y, on.height);
   for (int y = first_pixel(centre_px.y() - radius_px, on.y, on.height); y <= bottom; ++y) {
-    for (int x = first_pixel(centre_px.x() - radius_px, on.x, on.width); x <= right; ++x) {
-      const double distance_px = (Eigen::Vector2d(x, y) - centre_px).norm();
+    for (int x = first_pixel(stored_x(centre_px.x() - radius_px), on.x, on.width); x <= right;
+         ++x) {
+      const double distance_px = (Eigen::Vector2d(shown_x(x), y) - centre_px).norm();
       if (distance_px <= radius_px && distance_px > hole_px) set(x, y, value);
     }
   }

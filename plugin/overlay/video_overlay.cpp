@@ -28,11 +28,13 @@ void draw_newtons(double force_N, const Arrow& arrow, const VisiblePart& visible
   const Eigen::Vector2d size_px = height_px * Eigen::Vector2d(stroke_width_of(text), 1);
   const Eigen::Vector2d room_px = turn.to_coded(Eigen::Vector2d(size_px / 2)).cwiseAbs() +
                                   Eigen::Vector2d::Constant(2 * line_px);
-  const Eigen::Vector2d first_px(visible.x, visible.y), all_px(visible.width, visible.height);
+  const Eigen::Vector2d first_px = painter.shown_px(Eigen::Vector2d(visible.x, visible.y));
+  const Eigen::Vector2d end_px =
+      painter.shown_px(Eigen::Vector2d(visible.x + visible.width, visible.y + visible.height));
   const Eigen::Vector2d along = (arrow.tip_px - arrow.tail_px).normalized();
   const Eigen::Vector2d beyond_px = arrow.tip_px + 2 * arrow.width_px * along;
   const Eigen::Vector2d middle_px = (beyond_px + along.cwiseProduct(room_px))
-                                        .cwiseMin(first_px + all_px - room_px)
+                                        .cwiseMin(end_px - room_px)
                                         .cwiseMax(first_px + room_px);
   const auto at_px = [&](const Eigen::Vector2d& in_text) -> Eigen::Vector2d {
     return middle_px + turn.to_coded(Eigen::Vector2d(height_px * in_text - size_px / 2));
@@ -41,8 +43,8 @@ void draw_newtons(double force_N, const Arrow& arrow, const VisiblePart& visible
     for (const TextStroke& stroke : strokes_of(text)) {
       const Eigen::Vector2d from_px = at_px(stroke.from), to_px = at_px(stroke.to);
       // Longer by half of its width, so that corners are closed.
-      const Eigen::Vector2d end_px = width_px / 2 * (to_px - from_px).normalized();
-      painter.stroke(from_px - end_px, to_px + end_px, width_px, color);
+      const Eigen::Vector2d cap_px = width_px / 2 * (to_px - from_px).normalized();
+      painter.stroke(from_px - cap_px, to_px + cap_px, width_px, color);
     }
   }
 }
@@ -61,8 +63,8 @@ void draw_touch(const TouchMark& touch, const VisiblePart& visible, ArrowStyle s
                 FramePainter& painter) {
   // Place 0 is the left edge of the first pixel, half a pixel from its centre.
   const auto at_px = [&](const Eigen::Vector2d& place) {
-    return Eigen::Vector2d(visible.x + place.x() * visible.width - 0.5,
-                           visible.y + place.y() * visible.height - 0.5);
+    return painter.shown_px(Eigen::Vector2d(visible.x + place.x() * visible.width - 0.5,
+                                            visible.y + place.y() * visible.height - 0.5));
   };
   const double ring_px = finger_radius_px(style.height_px), line_px = ring_px / 4;
   const Eigen::Vector2d finger_px = at_px(touch.finger);
@@ -82,7 +84,8 @@ void draw_touch(const TouchMark& touch, const VisiblePart& visible, ArrowStyle s
 void draw_outline(const MovingObject& object, bool is_felt, const VisiblePart& visible,
                   FramePainter& painter) {
   const ObjectCorners box = corners_of(object, visible);
-  const Eigen::Vector2d a = box.low_px, c = box.high_px, b(c.x(), a.y()), d(a.x(), c.y());
+  const Eigen::Vector2d a = painter.shown_px(box.low_px), c = painter.shown_px(box.high_px);
+  const Eigen::Vector2d b(c.x(), a.y()), d(a.x(), c.y());
   const double thin_px = std::max(visible.height / 480.0, 1.5);
   const auto line = [&](double width_px, Rgb color) {
     const Eigen::Vector2d end_px(width_px / 2, 0);  // closes the corners
@@ -106,13 +109,14 @@ void draw_overlay(const SceneView& scene, const std::vector<uint32_t>& felt,
   style.max_force_N = max_force_N;
   style.turn = scene.turn;
   style.height_px = visible.height;
-  style.centre_px = force_origin_px(scene, felt, visible);
+  style.pixel_aspect = pixel_aspect(frame.info);
   FramePainter painter(frame, visible);
+  style.centre_px = painter.shown_px(force_origin_px(scene, felt, visible));
   for (const Arrow& arrow : track_arrows(scene, style)) painter.draw(arrow);
 
   const double cross_px = felt_width_px(style);
   for (const ImagePoint& lost : scene.lost) {
-    painter.cross({lost.x_px, lost.y_px}, cross_px, cross_px / 4, kWhite);
+    painter.cross(painter.shown_px({lost.x_px, lost.y_px}), cross_px, cross_px / 4, kWhite);
   }
   for (const MovingObject& object : scene.objects) {
     const bool is_felt = std::find(felt.begin(), felt.end(), object.id) != felt.end();

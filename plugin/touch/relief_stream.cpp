@@ -126,6 +126,8 @@ bool ReliefStream::build(const ImageView& luma, int64_t shown_ns, const TouchPro
   ReliefSettings settings;
   settings.relief_m = 1e-3 * properties.relief_mm;
   settings.floor_z_m = -0.5 * settings.relief_m;
+  settings.black_grey = levels_.black;
+  settings.white_grey = levels_.white;
   validate(settings);
   if (const std::optional<DepthLayout> layout = properties.packed()) {
     // At the beginning and after a seek, the depth range is estimated from this frame alone.

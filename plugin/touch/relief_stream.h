@@ -18,6 +18,7 @@
 #include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
+#include "plugin/frame/frame_luma.h"
 #include "plugin/properties/touch_properties.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile.h"
@@ -63,6 +64,8 @@ class ReliefStream {
            const TouchProperties& properties, const Eigen::Vector2d& finger);
   /// How the frames that follow are turned before they are shown; the relief is turned like them.
   void set_turn(const PictureTurn& turn) { turn_ = turn; }
+  /// The brightness of black and white in the frames that follow.
+  void set_levels(const LumaLevels& levels) { levels_ = levels; }
   /// Sets whether add() copies the relief, which allocates.
   void want_copy(bool wanted) { copy_wanted_ = wanted; }
   /// Returns the copy of the last added frame; null if there is none.
@@ -88,6 +91,7 @@ class ReliefStream {
   DepthPicture depth_;
   int64_t depth_ns_ = INT64_MIN;  ///< time of the last frame whose depth was read
   PictureTurn turn_;
+  LumaLevels levels_;
   std::vector<uint8_t> thinned_;
   std::vector<float> turned_levels_;
   bool touched_ = false;   ///< the newest frame has a surface

@@ -38,6 +38,11 @@ class Canvas {
   }
   ~Canvas() { gst_buffer_unref(buffer_); }
 
+  void set_pixel_aspect(int width, int height) {
+    GST_VIDEO_INFO_PAR_N(&info_) = width;
+    GST_VIDEO_INFO_PAR_D(&info_) = height;
+  }
+
   template <typename Work>
   void with_frame(Work&& work) {
     GstVideoFrame frame;

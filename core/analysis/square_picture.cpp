@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/analysis/square_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "core/tracking/luma_row.h"
+#include "core/tracking/serial_opencv.h"
+
+namespace spidar {
+
+ImageView SquarePicture::view(const ImageView& picture, double pixel_aspect) {
+  if (pixel_aspect == 1) return picture;
+  const int width = std::max(1, static_cast<int>(std::lround(picture.width * pixel_aspect)));
+  const ImageView from = in_8_bits(picture, eight_bits_);
+  resampled_.resize(static_cast<size_t>(width) * static_cast<size_t>(picture.height));
+  // OpenCV does not write to what it reads.
+  const cv::Mat stored(from.height, from.width, CV_8U, const_cast<uint8_t*>(from.data),
+                       static_cast<size_t>(from.stride_bytes));
+  cv::Mat square(picture.height, width, CV_8U, resampled_.data());
+  run_on_this_thread([&] {
+    cv::resize(stored, square, square.size(), 0, 0,
+               width > from.width ? cv::INTER_LINEAR : cv::INTER_AREA);
+  });
+  return {resampled_.data(), width, picture.height, width};
+}
+
+void StoredPixels::convert(FrameAnalysis& analysis, int width) {
+  if (analysis.width == width || analysis.width == 0) return;
+  const double share = static_cast<double>(width) / analysis.width;
+  analysis.width = width;
+  const auto narrow = [&](Eigen::Vector2d& along) { along.x() *= share; };
+  narrow(analysis.motion.velocity_px_s);
+  if (analysis.tracks) {
+    tracks_ = *analysis.tracks;
+    for (Track& track : tracks_) {
+      for (ImagePoint* point : {&track.from, &track.to}) {
+        // The corner of the picture, at (−½, −½), stays in place.
+        point->x_px = (point->x_px + 0.5f) * static_cast<float>(share) - 0.5f;
+      }
+    }
+    analysis.tracks = &tracks_;
+  }
+  if (analysis.background) {
+    background_ = *analysis.background;
+    MotionModel& model = background_.model;
+    narrow(model.shift_px);
+    model.linear(0, 1) *= share;
+    model.linear(1, 0) /= share;
+    model.perspective_1_px.x() /= share;
+    analysis.background = &background_;
+  }
+  if (analysis.object_list) {
+    objects_ = *analysis.object_list;
+    for (MovingObject& object : objects_) {
+      for (Eigen::Vector2d* along :
+           {&object.position_px, &object.size_px, &object.relative_px_s, &object.on_screen_px_s}) {
+        narrow(*along);
+      }
+      object.area_px2 *= share;
+      object.error_px_s *= std::max(share, 1.0);  // along the direction in which it is larger
+    }
+    analysis.object_list = &objects_;
+  }
+}
+
+}  // namespace spidar

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// The same film, stored with pixels that are not square, feels the same.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/force/gain_controller.h"
+#include "core/force/motion_rendering.h"
+#include "plugin/frame/frame_luma.h"
+#include "plugin/frame/object_metas.h"
+#include "tests/support/canvas.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/texture.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test::pixel_aspect_test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+constexpr double kFrames_s = 25;
+/// As it is shown.
+constexpr int kWidth = 640;
+constexpr int kHeight = 360;
+constexpr double kDisc_px = 80;
+
+/// Grey level of frame n at a place of the shown picture, px from its middle.
+using Film = std::function<double(int n, double x_px, double y_px)>;
+
+double wall(double x_px, double y_px) {
+  static const Texture texture(1, 12);
+  return texture.at(x_px, y_px);
+}
+
+double paper(double x_px, double y_px) {
+  static const Texture texture(3, 12);
+  return texture.at(x_px, y_px);
+}
+
+/// A camera that pans to the lower right.
+double pan(int n, double x_px, double y_px) {
+  return wall(x_px + 5.0 * n, y_px + 3.0 * n);
+}
+
+/// A disc that moves to the upper right.
+double moving_disc(int n, double x_px, double y_px) {
+  const double on_x_px = x_px - 4.0 * n + 30, on_y_px = y_px + 4.0 * n - 30;
+  return std::hypot(on_x_px, on_y_px) < kDisc_px ? paper(on_x_px, on_y_px) : wall(x_px, y_px);
+}
+
+/// A disc that turns, 2 degrees a frame.
+double turning_disc(int n, double x_px, double y_px) {
+  const double angle = n * M_PI / 90, c = std::cos(angle), s = std::sin(angle);
+  if (std::hypot(x_px, y_px) >= kDisc_px) return wall(x_px, y_px);
+  return paper(c * x_px + s * y_px, c * y_px - s * x_px);
+}
+
+/// A disc that comes nearer, by 2 % a frame.
+double growing_disc(int n, double x_px, double y_px) {
+  const double size = std::pow(1.02, n);
+  if (std::hypot(x_px, y_px) >= size * kDisc_px) return wall(x_px, y_px);
+  return paper(x_px / size, y_px / size);
+}
+
+struct Aspect {
+  int n, d;
+  /// Of the frame as it is stored.
+  int width() const { return kWidth * d / n; }
+};
+
+GstBuffer* frame_of(const Film& film, int n, int width, int stored_width) {
+  GstBuffer* frame =
+      gst_buffer_new_allocate(nullptr, static_cast<gsize>(stored_width) * kHeight, nullptr);
+  GstMapInfo map;
+  gst_buffer_map(frame, &map, GST_MAP_WRITE);
+  const double pixel_px = static_cast<double>(width) / stored_width;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < stored_width; ++x) {
+      const double grey = film(n, (x + 0.5) * pixel_px - width / 2.0, y + 0.5 - kHeight / 2.0);
+      map.data[y * stored_width + x] = static_cast<guint8>(std::lround(grey));
+    }
+  }
+  gst_buffer_unmap(frame, &map);
+  return frame;
+}
+
+GstCaps* caps_of(const Aspect& aspect) {
+  GstCaps* caps = make_caps("GRAY8", aspect.width(), kHeight);
+  gst_caps_set_simple(caps, "pixel-aspect-ratio", GST_TYPE_FRACTION, aspect.n, aspect.d, nullptr);
+  return caps;
+}
+
+/// What is said of ten frames, and the objects on the last one.
+struct Felt {
+  std::vector<MotionMessage> frames;
+  std::vector<ObjectBox> boxes;
+};
+
+Felt feel(const Film& film, const std::string& properties, const Aspect& aspect) {
+  ElementHarness h("device=none attach-meta=true filter-min-cutoff=0 " + properties);
+  h.set_caps(caps_of(aspect));
+  Felt felt;
+  for (int n = 0; n < 10; ++n) {
+    h.push(frame_of(film, n, kWidth, aspect.width()), static_cast<GstClockTime>(n) * kFrame);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    felt.boxes = read_object_metas(out);
+    gst_buffer_unref(out);
+  }
+  felt.frames = h.motions();
+  return felt;
+}
+
+// As in test_frames: each of two measurements is right to a tenth of a pixel of the shown picture.
+constexpr double kTolerance_px_s = 2 * 0.1 * kFrames_s;
+
+/// By which forces may differ whose speeds differ by so much: the arctangent is steepest at rest.
+double force_of(double speed_px_s) {
+  const ControllerSettings settings;
+  return settings.max_force_N * M_2_PI * settings.alpha_s_px * speed_px_s * kReferenceHeight_px /
+         kHeight;
+}
+
+constexpr Aspect kSquare{1, 1};
+constexpr Aspect kAspects[] = {{64, 45}, {4, 3}, {8, 9}, {2, 1}, {1, 2}};
+
+TEST(PixelAspect, APanAndAnObjectFeelAsInSquarePixels) {
+  struct Case {
+    const char* properties;
+    Film film;
+  };
+  const Case cases[] = {{"motion=mean", pan},
+                        {"motion=camera", pan},
+                        {"motion=object", moving_disc},
+                        {"motion=objects pointer-x=0.4 pointer-y=0.6", moving_disc},
+                        {"motion=object feel=\"0:00- object at 0.48,0.55\"", moving_disc}};
+  for (const Case& c : cases) {
+    const Felt square = feel(c.film, c.properties, kSquare);
+    for (const Aspect& aspect : kAspects) {
+      SCOPED_TRACE(std::string(c.properties) + " " + std::to_string(aspect.n) + "/" +
+                   std::to_string(aspect.d));
+      const Felt felt = feel(c.film, c.properties, aspect);
+      ASSERT_EQ(felt.frames.size(), square.frames.size());
+      const double pixel_px = static_cast<double>(aspect.n) / aspect.d;
+      // An object is known from the second pair of frames on, and fades in.
+      for (size_t n = 6; n < felt.frames.size(); ++n) {
+        const MotionMessage &a = felt.frames[n], &b = square.frames[n];
+        ASSERT_GT(b.wrench.force_N.norm(), 0.5) << n;
+        EXPECT_LT((a.wrench.force_N - b.wrench.force_N).norm(), force_of(kTolerance_px_s)) << n;
+        EXPECT_NEAR(a.velocity_x * pixel_px, b.velocity_x, kTolerance_px_s) << n;
+        EXPECT_NEAR(a.velocity_y, b.velocity_y, kTolerance_px_s) << n;
+      }
+    }
+  }
+}
+
+TEST(PixelAspect, GrowthAndRollFeelAsInSquarePixels) {
+  // A tenth of a pixel at the rim of the disc, as speed at the reference frame's.
+  const double rim_px_s = kTolerance_px_s / kDisc_px * (kHeight / 2.0);
+  for (const Film& film : {Film(turning_disc), Film(growing_disc)}) {
+    const Felt square = feel(film, "motion=object", kSquare);
+    for (const Aspect& aspect : kAspects) {
+      SCOPED_TRACE(std::to_string(aspect.n) + "/" + std::to_string(aspect.d));
+      const Felt felt = feel(film, "motion=object", aspect);
+      for (size_t n = 7; n < felt.frames.size(); ++n) {
+        const Wrench &a = felt.frames[n].wrench, &b = square.frames[n].wrench;
+        EXPECT_GT(std::max(b.force_N.z(), std::abs(b.torque_Nm.z()) / kTorqueArm_m), 0.5) << n;
+        EXPECT_NEAR(a.force_N.z(), b.force_N.z(), force_of(rim_px_s)) << n;
+        EXPECT_NEAR(a.torque_Nm.z() / kTorqueArm_m, b.torque_Nm.z() / kTorqueArm_m,
+                    force_of(rim_px_s))
+            << n;
+      }
+    }
+  }
+}
+
+TEST(PixelAspect, BoxesAreInPixelsOfTheFrame) {
+  // The box ends with blocks of some 16 shown pixels.
+  constexpr double kBlock_px = 2 * 16;
+  const Felt square = feel(moving_disc, "motion=object", kSquare);
+  ASSERT_EQ(square.boxes.size(), 1u);
+  for (const Aspect& aspect : kAspects) {
+    SCOPED_TRACE(std::to_string(aspect.n) + "/" + std::to_string(aspect.d));
+    const Felt felt = feel(moving_disc, "motion=object", aspect);
+    ASSERT_EQ(felt.boxes.size(), 1u);
+    const double pixel_px = static_cast<double>(aspect.n) / aspect.d;
+    const ObjectBox &a = felt.boxes[0], &b = square.boxes[0];
+    EXPECT_NEAR(a.x * pixel_px, b.x, kBlock_px);
+    EXPECT_NEAR(a.width * pixel_px, b.width, kBlock_px);
+    EXPECT_NEAR(a.y, b.y, kBlock_px);
+    EXPECT_NEAR(a.height, b.height, kBlock_px);
+  }
+}
+
+TEST(PixelAspect, AHeaderThatCannotBeRightIsIgnored) {
+  GstVideoInfo info;
+  gst_video_info_set_format(&info, GST_VIDEO_FORMAT_I420, 720, 576);
+  struct Case {
+    int n, d;
+    double aspect;
+  };
+  for (const Case& c : {Case{64, 45, 64.0 / 45}, {1, 1, 1}, {4, 1, 4}, {5, 1, 1}, {1, 1000, 1}}) {
+    GST_VIDEO_INFO_PAR_N(&info) = c.n;
+    GST_VIDEO_INFO_PAR_D(&info) = c.d;
+    EXPECT_EQ(pixel_aspect(info), c.aspect) << c.n << "/" << c.d;
+  }
+}
+
+/// Two views in one frame, of which only the first moves.
+GstBuffer* two_views(int n, bool beside) {
+  GstBuffer* frame = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
+  GstMapInfo map;
+  gst_buffer_map(frame, &map, GST_MAP_WRITE);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const bool is_first = beside ? x < kWidth / 2 : y < kHeight / 2;
+      // Halved along the side on which they are packed.
+      const double shown_x = beside ? 2 * x : x, shown_y = beside ? y : 2 * y;
+      map.data[y * kWidth + x] = static_cast<guint8>(std::lround(
+          is_first ? wall(shown_x + 6.0 * n, shown_y + 6.0 * n) : wall(shown_x, shown_y)));
+    }
+  }
+  gst_buffer_unmap(frame, &map);
+  return frame;
+}
+
+TEST(PixelAspect, OfTwoViewsInAFrameTheFirstIsFelt) {
+  for (const bool beside : {true, false}) {
+    ElementHarness h("device=none motion=mean");
+    GstCaps* caps = make_caps("GRAY8", kWidth, kHeight);
+    gst_caps_set_simple(caps, "multiview-mode", G_TYPE_STRING,
+                        beside ? "side-by-side" : "top-bottom", "multiview-flags",
+                        GST_TYPE_VIDEO_MULTIVIEW_FLAGSET, GST_VIDEO_MULTIVIEW_FLAGS_HALF_ASPECT,
+                        GST_FLAG_SET_MASK_EXACT, nullptr);
+    h.set_caps(caps);
+    for (int n = 0; n < 3; ++n) {
+      ASSERT_EQ(h.push(two_views(n, beside), static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    }
+    ASSERT_EQ(h.motions().size(), 3u);
+    // Of a picture twice as wide or high, to the upper left by the same in both directions.
+    const Eigen::Vector3d force_N = h.motions()[2].wrench.force_N;
+    EXPECT_LT(force_N.x(), -0.5) << beside;
+    EXPECT_NEAR(force_N.x(), -force_N.y(), force_of(2 * kTolerance_px_s)) << beside;
+  }
+}
+
+TEST(PixelAspect, WhatIsDrawnIsRoundAsItIsShown) {
+  // A ring for the finger of 11 px (see test_overlay_shapes), in pixels twice as wide as high.
+  Canvas canvas("RGB", 320, 480);
+  canvas.set_pixel_aspect(2, 1);
+  TouchMark touch;
+  touch.finger = {0.5, 0.5};
+  canvas.draw({}, 1, 3, touch);
+  const auto drawn = [&](int x, int y) { return canvas.at(x, y) != canvas.untouched(); };
+  int across = 0, down = 0;
+  for (int x = 0; x < 320; ++x) across += drawn(x, 239);
+  for (int y = 0; y < 480; ++y) down += drawn(159, y);
+  EXPECT_GT(down, 8);
+  EXPECT_NEAR(2 * across, down, 4) << "each end may be off by a wide pixel";
+
+  // The force to the upper right points there as it is shown.
+  Canvas arrow("RGB", 320, 480);
+  arrow.set_pixel_aspect(2, 1);
+  SceneView scene;
+  scene.wrench.force_N = {2, 2, 0};
+  arrow.draw(scene);
+  EXPECT_EQ(arrow.at(160 + 15, 240 - 30), (Pixel{255, 255, 255}));
+  EXPECT_EQ(arrow.at(160 + 30, 240 - 30), arrow.untouched());
+}
+
+TEST(PixelAspect, BlackAndWhiteAreThoseOfTheCaps) {
+  const auto levels = [](const char* format, const char* colorimetry) {
+    GstCaps* caps = make_caps(format, 640, 480);
+    if (colorimetry) {
+      gst_caps_set_simple(caps, "colorimetry", G_TYPE_STRING, colorimetry, nullptr);
+    }
+    GstVideoInfo info;
+    EXPECT_TRUE(gst_video_info_from_caps(&info, caps)) << format;
+    gst_caps_unref(caps);
+    const LumaLevels found = luma_levels(info);
+    return std::pair(found.black, found.white);
+  };
+  EXPECT_EQ(levels("I420", nullptr), std::pair(16, 235));
+  EXPECT_EQ(levels("I420_10LE", nullptr), std::pair(16, 235));
+  EXPECT_EQ(levels("I420", "1:4:0:0"), std::pair(0, 255)) << "as in JPEG";
+  EXPECT_EQ(levels("RGB", nullptr), std::pair(0, 255));
+  EXPECT_EQ(levels("YUY2", nullptr), std::pair(16, 235));
+}
+
+}  // namespace
+}  // namespace spidar::test::pixel_aspect_test
