@@ -32,9 +32,10 @@
  * not that of one object), `force-x`, `force-y`, `force-z` (newtons; x right, y up, z towards the
  * viewer), `torque-x`, `torque-y`, `torque-z` (newton metres), `repeated` (boolean: the frame shows
  * the picture before again), `object` (uint: the one object that is felt, by its id, 0 when it is
- * none or not one alone), `limit` (string: what has kept the force of the last second from being
- * felt, "none" when it was) and, unless that is "none", `limit-reason` (string: the same as a
- * sentence). `stats` has the last two for the picture on the screen.
+ * none or not one alone), `limit` (string: why nothing of this frame is to be felt, "none" when
+ * something is), `device-limit` (string: the same of the device and the playback) and, unless these
+ * are "none", `limit-reason` and `device-limit-reason` (strings: the same as a sentence). `stats`
+ * has them for the picture on the screen.
  *
  * ## Example launch lines
  * |[

@@ -15,9 +15,9 @@ namespace spidar {
 struct ReliefSettings {
   double floor_z_m = 0;       ///< z of black or far; finite
   double relief_m = 0.008;    ///< height of white or near above it; finite and ≥ 0
-  double black_grey = 0;      ///< brightness of black and
-  double white_grey = 255;    ///< of white, which is larger: 16 and 235 in most films
   double smoothing_m = 5e-4;  ///< standard deviation of the Gaussian filter; finite and ≥ 0
+  double black_grey = 0;      ///< brightness of black, and …
+  double white_grey = 255;    ///< … of white, which is larger: 16 and 235 in most films
 };
 
 /// Throws std::invalid_argument naming the value that is out of range.

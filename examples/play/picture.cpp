@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "core/analysis/no_force_reason.h"
+#include "core/force/felt_force.h"
 #include "core/force/motion_rendering.h"
 #include "plugin/tools/gnuplot.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/analysis/no_force_reason.h"
+#include "core/force/felt_force.h"
 
 namespace {
 

@@ -80,11 +80,12 @@ void MotionEngine::take_tags(const GstTagList* tags) {
 GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
-  describe_limit(no_force_reason(), structure);
+  const std::optional<LoopSnapshot> loop = output_.snapshot();
+  describe_limits(limit_watch_.of_film(loop), limit_watch_.of_device(loop), structure);
   gst_structure_set(structure, "track-frames", G_TYPE_UINT64, player_.frames(), nullptr);
   reliefs_.describe(structure);
   output_.describe(structure);
-  if (const std::optional<LoopSnapshot> loop = output_.snapshot()) {
+  if (loop) {
     gst_structure_set(structure, "refused-wrenches", G_TYPE_UINT64,
                       schedule_.refused() + loop->counters.refused_wrenches, nullptr);
   }
@@ -92,7 +93,7 @@ GstStructure* MotionEngine::stats() const {
 }
 
 NoForceReason MotionEngine::no_force_reason() const {
-  return limit_watch_.limit(output_.snapshot(), true);
+  return limit_watch_.first(output_.snapshot());
 }
 
 std::optional<Eigen::Vector2d> MotionEngine::grip_place() const {

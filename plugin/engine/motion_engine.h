@@ -71,7 +71,8 @@ class MotionEngine {
   GstStructure* stats() const;
   /// Frames that were analysed since the stream began.
   uint64_t frames() const { return stats_.frames(); }
-  /// What has kept the force from being felt in the last second of what is on the screen.
+  /// What has kept the force from being felt in the last second of what is on the screen: the
+  /// film's reason if it has one, and else the device's.
   NoForceReason no_force_reason() const;
 
   // --- streaming thread
@@ -110,8 +111,8 @@ class MotionEngine {
   bool analyze(const GstVideoFrame& frame, const GstSegment& segment, const ImageView& luma,
                const AnalyzerSettings& settings, const TouchProperties& touch, int64_t paced_ns,
                FrameReport& report);
-  Wrench play_track(GstBuffer* frame, GstClockTime default_duration, const GstSegment& segment,
-                    int64_t running_ns);
+  void play_track(GstBuffer* frame, GstClockTime default_duration, const GstSegment& segment,
+                  int64_t running_ns, FrameReport& report);
   void write_row(FrameReport& report);
   void end_gap(int64_t running_ns);
   void run_out(GstClockTime running_time);

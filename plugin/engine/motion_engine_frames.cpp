@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/force/felt_force.h"
 #include "plugin/engine/motion_engine.h"
 
 namespace spidar {
@@ -40,7 +41,8 @@ void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
   }
   const int64_t running_ns = static_cast<int64_t>(running_time);
   if (player_.active()) {
-    play_track(buffer, 0, segment, running_ns);
+    FrameReport report;
+    play_track(buffer, 0, segment, running_ns, report);
     return;
   }
   const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
@@ -98,30 +100,29 @@ bool MotionEngine::analyze(const GstVideoFrame& frame, const GstSegment& segment
   return true;
 }
 
-/// Gives what is felt while a frame is shown, of which the largest wrench is returned.
-Wrench MotionEngine::play_track(GstBuffer* frame, GstClockTime default_duration,
-                                const GstSegment& segment, int64_t running_ns) {
+/// Gives what is felt while a frame is shown, and reports the largest wrench of it.
+void MotionEngine::play_track(GstBuffer* frame, GstClockTime default_duration,
+                              const GstSegment& segment, int64_t running_ns, FrameReport& report) {
   limit_watch_.set_touching(false);
   const int64_t shown_ns = schedule_.at_sink_ns(running_ns);
   const auto place =
       place_of(frame, default_duration, segment, shown_ns, schedule_.rate_multiplier());
-  if (!place) return {};
+  if (!place) return;
   const Wrench largest = player_.play(*place);
   const bool silent = size_N(largest) < kFeltForce_N;
   const std::optional<LoopSnapshot> loop = output_.snapshot();
   const bool weak = !silent && loop && loop->last.max_force_N < kFeltForce_N;
-  limit_watch_.add(shown_ns, weak ? Wrench() : largest,
-                   silent ? NoForceReason::kSilentTrack : NoForceReason::kTooWeak);
-  return largest;
+  report.limit = silent ? NoForceReason::kSilentTrack
+                 : weak ? NoForceReason::kTooWeak
+                        : NoForceReason::kNone;
+  limit_watch_.add(shown_ns, weak ? Wrench() : largest, report.limit);
+  report.analysis.wrench = largest;
 }
 
 /// Why nothing is felt, and the trace.
 void MotionEngine::write_row(FrameReport& report) {
-  report.limit = limit_watch_.limit(output_.snapshot(), false);
-  if (!trace_.is_open()) return;
-  report.trace_failed =
-      !trace_.write(static_cast<int64_t>(report.running_time),
-                    static_cast<int64_t>(report.stream_time), report.analysis, report.limit);
+  report.device_limit = limit_watch_.of_device(output_.snapshot());
+  if (trace_.is_open()) report.trace_failed = !trace_.write(report);
 }
 
 FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& segment,
@@ -146,8 +147,7 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
   }
   const int64_t running_ns = static_cast<int64_t>(report.running_time);
   if (player_.active()) {
-    report.analysis.wrench =
-        play_track(frame.buffer, nominal_duration(frame.info), segment, running_ns);
+    play_track(frame.buffer, nominal_duration(frame.info), segment, running_ns, report);
     if (touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
     reliefs_.end(schedule_.at_sink_ns(running_ns));
     write_row(report);
@@ -166,8 +166,8 @@ FrameReport MotionEngine::process(const GstVideoFrame& frame, const GstSegment& 
 
   const bool moved = report.analysis.interval_ns > 0 || report.analysis.repeated;
   pacer_.take(time, moved);
-  limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis.wrench,
-                   limit_of(report.analysis, settings.motion));
+  report.limit = limit_of(report.analysis, settings.motion);
+  limit_watch_.add(schedule_.at_sink_ns(running_ns), report.analysis.wrench, report.limit);
   stored_.convert(report.analysis, report.part.width);
   limit_watch_.set_touching(touch.kind != TouchKind::kOff);
   // This share of the film's motion is felt, reported and shown in addition to touch.

@@ -9,9 +9,9 @@
 #include <gst/gst.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/analysis/no_force_reason.h"
 #include "core/picture_turn.h"
 #include "plugin/frame/frame_luma.h"
+#include "plugin/frame/no_force_reason.h"
 #include "plugin/frame/touch_view.h"
 
 namespace spidar {
@@ -44,11 +44,12 @@ struct FrameReport {
   bool analyzed = false;
   GstClockTime running_time = GST_CLOCK_TIME_NONE;
   GstClockTime stream_time = GST_CLOCK_TIME_NONE;
-  FrameAnalysis analysis;                      ///< its wrench is turned
-  PictureTurn turn;                            ///< of the frame before it is shown
-  VisiblePart part;                            ///< of the frame that was analysed
-  int64_t took_ns = 0;                         ///< the analysis
-  NoForceReason limit = NoForceReason::kNone;  ///< of the last second up to this frame
+  FrameAnalysis analysis;                             ///< its wrench is turned
+  PictureTurn turn;                                   ///< of the frame before it is shown
+  VisiblePart part;                                   ///< of the frame that was analysed
+  int64_t took_ns = 0;                                ///< the analysis
+  NoForceReason limit = NoForceReason::kNone;         ///< the frame's own reason, in the film
+  NoForceReason device_limit = NoForceReason::kNone;  ///< of device and playback, at this moment
   TouchProblem touch_problem = TouchProblem::kNone;
   double stiffness_N_m = 0;  ///< that is rendered, with TouchProblem::kTooStiff and kLagUnknown
   TouchScene touch;

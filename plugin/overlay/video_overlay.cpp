@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/analysis/no_force_reason.h"
+#include "core/force/felt_force.h"
 #include "plugin/overlay/arrow.h"
 #include "plugin/overlay/frame_painter.h"
 #include "plugin/overlay/stroke_text.h"

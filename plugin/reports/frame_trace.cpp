@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kHeader =
     "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
-    "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit\n";
+    "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit,device_limit\n";
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -47,10 +47,10 @@ std::string FrameTrace::open(const std::string& path) {
   return {};
 }
 
-void FrameTrace::append_csv(int64_t running_time_ns, int64_t stream_time_ns,
-                            const FrameAnalysis& frame, NoForceReason limit) {
-  append(line_, running_time_ns);
-  append(line_, stream_time_ns);
+void FrameTrace::append_csv(const FrameReport& report) {
+  const FrameAnalysis& frame = report.analysis;
+  append(line_, static_cast<int64_t>(report.running_time));
+  append(line_, static_cast<int64_t>(report.stream_time));
   append(line_, frame.features);
   append(line_, frame.motion.tracked);
   const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
@@ -60,16 +60,17 @@ void FrameTrace::append_csv(int64_t running_time_ns, int64_t stream_time_ns,
                        torque.y(), torque.z()}) {
     append(line_, value);
   }
-  line_.append(nick(limit)).push_back('\n');
+  line_.append(nick(report.limit)).append(",");
+  line_.append(nick(report.device_limit)).append("\n");
 }
 
-bool FrameTrace::write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
-                       NoForceReason limit) {
+bool FrameTrace::write(const FrameReport& report) {
   line_.clear();
   if (is_json_) {
-    append_json(frame, running_time_ns, stream_time_ns, {}, line_);
+    append_json(report.analysis, static_cast<int64_t>(report.running_time),
+                static_cast<int64_t>(report.stream_time), {}, line_);
   } else {
-    append_csv(running_time_ns, stream_time_ns, frame, limit);
+    append_csv(report);
   }
   if (put()) return true;
   close();

@@ -7,8 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/analysis/motion_analyzer.h"
-#include "core/analysis/no_force_reason.h"
+#include "plugin/frame/frame_report.h"
 
 namespace spidar {
 
@@ -24,16 +23,14 @@ class FrameTrace {
   bool is_open() const { return file_ != nullptr; }
 
   /// False when the disk is full or gone: the trace is closed then.
-  bool write(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
-             NoForceReason limit);
+  bool write(const FrameReport& report);
 
   /// False when the last rows could not be written.
   bool close();
 
  private:
   bool put();
-  void append_csv(int64_t running_time_ns, int64_t stream_time_ns, const FrameAnalysis& frame,
-                  NoForceReason limit);
+  void append_csv(const FrameReport& report);
 
   std::FILE* file_ = nullptr;
   bool is_json_ = false;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/force/felt_force.h"
+
 namespace spidar {
 namespace {
 
@@ -45,6 +47,37 @@ NoForceReason limit_of_contact(const LoopSnapshot& loop, bool can_touch) {
   return contact.touching ? NoForceReason::kLightTouch : NoForceReason::kNotTouching;
 }
 
+void NoForceHistory::add(int64_t shown_ns, double force_N, NoForceReason limit) noexcept {
+  if (count_ > 0 && shown_ns <= latest(0).shown_ns) forget();
+  frames_[next_] = {shown_ns, force_N, limit};
+  next_ = (next_ + 1) % kFrames;
+  count_ = std::min(count_ + 1, kFrames);
+}
+
+NoForceReason NoForceHistory::limit(int64_t now_ns) const noexcept {
+  std::array<size_t, kNoForceReasons> pictures{};
+  bool repeats = false;
+  for (size_t i = 0; i < count_; ++i) {
+    const Frame& frame = latest(i);
+    if (frame.shown_ns > now_ns) continue;
+    if (frame.shown_ns <= now_ns - kWindow_ns) break;
+    if (frame.force_N >= kFeltForce_N) return NoForceReason::kNone;
+    if (frame.limit == NoForceReason::kRepeatedFrames) {
+      repeats = true;
+    } else {
+      ++pictures[static_cast<size_t>(frame.limit)];
+    }
+  }
+  // What had nothing to be compared with says nothing where others do.
+  size_t& incomparable = pictures[static_cast<size_t>(NoForceReason::kNothingToCompare)];
+  const bool any_incomparable = incomparable > 0;
+  incomparable = 0;
+  const auto most = std::max_element(pictures.begin(), pictures.end());
+  if (*most > 0) return static_cast<NoForceReason>(most - pictures.begin());
+  if (repeats) return NoForceReason::kRepeatedFrames;
+  return any_incomparable ? NoForceReason::kNothingToCompare : NoForceReason::kNoFrames;
+}
+
 void LimitWatch::add(int64_t shown_ns, const Wrench& wrench, NoForceReason limit) {
   const std::lock_guard<std::mutex> lock(mutex_);
   frames_.add(shown_ns, size_N(wrench), limit);
@@ -72,28 +105,50 @@ void LimitWatch::set_can_touch(bool can_touch) {
   can_touch_ = can_touch;
 }
 
-NoForceReason LimitWatch::limit(const std::optional<LoopSnapshot>& loop, bool up_to_screen) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (!loop) {
-    if (touching_) return NoForceReason::kNoDevice;
-    const NoForceReason of_video = frames_.limit(newest_ns_);
-    return of_video == NoForceReason::kNone ? NoForceReason::kNoDevice : of_video;
-  }
-  const NoForceReason of_device = limit_of_device(*loop, muted_);
-  if (of_device != NoForceReason::kNone) return of_device;
-  if (touching_) return limit_of_contact(*loop, can_touch_);
-  const int64_t screen_ns = loop->last.running_ns;
-  const int64_t now_ns = up_to_screen ? screen_ns : newest_ns_;
-  const NoForceReason of_video = frames_.limit(now_ns);
-  const bool due = now_ns <= screen_ns;
-  return of_video == NoForceReason::kNone && due && is_late(*loop) ? NoForceReason::kLate
-                                                                   : of_video;
+NoForceReason LimitWatch::film(const std::optional<LoopSnapshot>& loop) const {
+  return frames_.limit(loop ? loop->last.running_ns : newest_ns_);
 }
 
-void describe_limit(NoForceReason limit, GstStructure* structure) {
-  gst_structure_set(structure, "limit", G_TYPE_STRING, nick(limit), nullptr);
-  if (limit == NoForceReason::kNone) return;
-  gst_structure_set(structure, "limit-reason", G_TYPE_STRING, sentence(limit), nullptr);
+NoForceReason LimitWatch::device(const std::optional<LoopSnapshot>& loop) const {
+  if (!loop) return NoForceReason::kNoDevice;
+  const NoForceReason reason = limit_of_device(*loop, muted_);
+  if (reason != NoForceReason::kNone) return reason;
+  if (touching_) return limit_of_contact(*loop, can_touch_);
+  // Of frames that come too late, none may be due in the last second.
+  const int64_t due_ns = std::min(newest_ns_, loop->last.running_ns);
+  const bool was_due = frames_.limit(due_ns) == NoForceReason::kNone;
+  return was_due && is_late(*loop) ? NoForceReason::kLate : NoForceReason::kNone;
+}
+
+NoForceReason LimitWatch::of_film(const std::optional<LoopSnapshot>& loop) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return film(loop);
+}
+
+NoForceReason LimitWatch::of_device(const std::optional<LoopSnapshot>& loop) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return device(loop);
+}
+
+NoForceReason LimitWatch::first(const std::optional<LoopSnapshot>& loop) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const NoForceReason of_device = device(loop);
+  if (touching_) return of_device;
+  const NoForceReason of_film = film(loop);
+  // That no frame is there may be because of the device.
+  const bool has_own = of_film != NoForceReason::kNone && of_film != NoForceReason::kNoFrames;
+  return has_own || of_device == NoForceReason::kNone ? of_film : of_device;
+}
+
+void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure) {
+  gst_structure_set(structure, "limit", G_TYPE_STRING, nick(film), "device-limit", G_TYPE_STRING,
+                    nick(device), nullptr);
+  if (film != NoForceReason::kNone) {
+    gst_structure_set(structure, "limit-reason", G_TYPE_STRING, sentence(film), nullptr);
+  }
+  if (device != NoForceReason::kNone) {
+    gst_structure_set(structure, "device-limit-reason", G_TYPE_STRING, sentence(device), nullptr);
+  }
 }
 
 }  // namespace spidar

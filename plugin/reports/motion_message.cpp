@@ -41,7 +41,7 @@ void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameRepo
       "force-y", G_TYPE_DOUBLE, force.y(), "force-z", G_TYPE_DOUBLE, force.z(), "torque-x",
       G_TYPE_DOUBLE, torque.x(), "torque-y", G_TYPE_DOUBLE, torque.y(), "torque-z", G_TYPE_DOUBLE,
       torque.z(), nullptr);
-  describe_limit(report.limit, s);
+  describe_limits(report.limit, report.device_limit, s);
   GstMessage* const message = gst_message_new_element(GST_OBJECT(element), s);
   g_atomic_int_inc(unread);
   // The message holds the element until then.

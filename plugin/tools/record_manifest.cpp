@@ -11,7 +11,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/analysis/no_force_reason.h"
+#include "core/force/felt_force.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
 

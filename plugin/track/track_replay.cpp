@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/analysis/no_force_reason.h"
+#include "core/force/felt_force.h"
 
 namespace spidar {
 namespace {

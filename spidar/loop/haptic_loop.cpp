@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/analysis/no_force_reason.h"
+#include "core/force/felt_force.h"
 
 namespace spidar {
 namespace {

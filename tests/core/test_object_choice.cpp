@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/analysis/no_force_reason.h"
 #include "core/choice/object_choice.h"
 #include "tests/support/moving_scene.h"
 
@@ -196,7 +195,6 @@ TEST(ObjectChoice, AnObjectThatHasLeftIsLostAndItsForceFades) {
   player.play_to(40);
   for (int n = 40; n < 75; ++n) EXPECT_EQ(player.next().wrench.force_N.norm(), 0) << n;
   EXPECT_EQ(player.next().choice.state, ChoiceState::kLost);
-  EXPECT_EQ(limit_of(player.next(), MotionKind::kObject), NoForceReason::kNotChosen);
 }
 
 TEST(ObjectChoice, WhatWasNotSeenAtItsTimeIsNotKnown) {
@@ -308,7 +306,6 @@ TEST(ObjectChoice, OfTheCameraOrOfNothing) {
   player.play_to(29);
   const FrameAnalysis& nothing = player.next();
   EXPECT_EQ(nothing.wrench.force_N.norm(), 0);
-  EXPECT_EQ(limit_of(nothing, MotionKind::kObject), NoForceReason::kNotChosen);
   player.play_to(56);
   EXPECT_GT(player.next().wrench.force_N.norm(), 0.1) << "what motion says, where no rule is";
 }

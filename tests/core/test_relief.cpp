@@ -88,6 +88,24 @@ TEST(Relief, OfBrightnessIsAsHighAsThePictureIsBright) {
   }
 }
 
+TEST(Relief, BlackAndWhiteAreThoseOfTheFilm) {
+  // Of a film with limited range; what is blacker or whiter counts as black or white.
+  ReliefSettings settings{0.001, 0.01, 5e-4};
+  settings.black_grey = 16;
+  settings.white_grey = 235;
+  for (const auto& [grey, level] :
+       {std::pair{16, 0.0}, {235, 1.0}, {16 + 73, 1.0 / 3}, {0, 0.0}, {255, 1.0}}) {
+    Picture picture(64, 36);
+    picture.fill([level_of = grey](double, double) { return level_of; });
+    HeightField field = empty_field();
+    ReliefBuilder builder;
+    ASSERT_TRUE(builder.from_brightness(picture.view(), settings, field));
+    const double height_m = 0.001 + 0.01 * level;
+    EXPECT_NEAR(lowest(field), height_m, 0.011 * 1e4 / (1 << 24)) << grey;
+    EXPECT_NEAR(highest(field), height_m, 0.011 * 1e4 / (1 << 24)) << grey;
+  }
+}
+
 TEST(Relief, HasTheOrientationOfThePicture) {
   // Brighter to the right and to the bottom, at different rates.
   Picture picture(640, 360);

@@ -102,11 +102,20 @@ class ForceLimitTest : public testing::Test {
   }
   std::string message_limit() { return h->motions().back().limit; }
 
+  /// The film's reason, and nothing of the device.
   void expect_everywhere(const std::string& limit) {
     EXPECT_EQ(stats_field("limit"), limit);
     EXPECT_EQ(message_limit(), limit);
     EXPECT_FALSE(stats_field("limit-reason").empty());
     EXPECT_EQ(h->motions().back().limit_reason, stats_field("limit-reason"));
+    EXPECT_EQ(stats_field("device-limit"), "none");
+    EXPECT_EQ(h->motions().back().device_limit, "none");
+  }
+  /// Whatever the film shows.
+  void expect_of_device(const std::string& limit) {
+    EXPECT_EQ(stats_field("device-limit"), limit);
+    EXPECT_EQ(h->motions().back().device_limit, limit);
+    EXPECT_FALSE(stats_field("device-limit-reason").empty());
   }
 
   int64_t time_ns = 1'000'000'000;

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/analysis/no_force_reason.h"
 #include "tests/element/no_force_reason_test.h"
 
 namespace spidar::test::no_force_reason_test {
@@ -114,7 +113,7 @@ TEST_F(ForceLimitTest, Muted) {
   EXPECT_EQ(stats_field("limit"), "none");
   g_object_set(h->element(), "mute", TRUE, nullptr);
   show_moved(1, 2);
-  expect_everywhere("muted");
+  expect_of_device("muted");
   g_object_set(h->element(), "mute", FALSE, nullptr);
   show_moved(4, 2);
   EXPECT_EQ(stats_field("limit"), "none");
@@ -124,14 +123,14 @@ TEST_F(ForceLimitTest, NotPlaying) {
   open("device=sim");
   tick(kOpened_ms);
   show_moved(3, 2);
-  expect_everywhere("not-playing");
+  expect_of_device("not-playing");
 }
 
 TEST_F(ForceLimitTest, TheDeviceIsNotRunningYet) {
   open("device=sim");
   tick(kOpened_ms / 3);
   show_moved(2, 2);
-  expect_everywhere("device-starting");
+  expect_of_device("device-starting");
 }
 
 TEST_F(ForceLimitTest, TheDeviceDoesNotAnswer) {
@@ -140,7 +139,7 @@ TEST_F(ForceLimitTest, TheDeviceDoesNotAnswer) {
   show_moved(kFrames, 2);
   device().set_fault(ExchangeStatus::kLost);
   show_moved(2, 2);
-  expect_everywhere("device-lost");
+  expect_of_device("device-lost");
 }
 
 TEST_F(ForceLimitTest, ThePlaceOfTheGripIsNotKnown) {
@@ -152,7 +151,7 @@ TEST_F(ForceLimitTest, ThePlaceOfTheGripIsNotKnown) {
     device().set_count_error(string, string % 3 == 0 ? 3000 : -1000 * string);
   }
   show_moved(5, 2);  // 200 ms
-  expect_everywhere("grip-unknown");
+  expect_of_device("grip-unknown");
 }
 
 TEST_F(ForceLimitTest, TheVideoHasEnded) {
@@ -180,17 +179,32 @@ TEST_F(ForceLimitTest, FramesThatComeTooLate) {
     h->push_moved(2.0 * n, 0, static_cast<GstClockTime>(1000 + n * kFrame_ms) * GST_MSECOND);
     tick(kFrame_ms);
   }
-  EXPECT_EQ(message_limit(), "late");
+  expect_of_device("late");
 }
 
-TEST_F(ForceLimitTest, WithoutADeviceTheVideosReasonsComeFirst) {
+TEST_F(ForceLimitTest, WithoutADeviceTheFilmHasItsOwnReasons) {
   open("device=none");
   show_moved(kFrames, 2);
-  expect_everywhere("no-device");
+  expect_of_device("no-device");
   open("device=none motion=object");
   frames = 0;
   show_moved(kFrames, 2);
-  expect_everywhere("camera-only");
+  EXPECT_EQ(message_limit(), "camera-only");
+  EXPECT_EQ(stats_field("limit"), "camera-only");
+  EXPECT_EQ(h->motions().back().device_limit, "no-device");
+}
+
+TEST_F(ForceLimitTest, OfAFrameItIsItsOwnAndNotThatOfASecond) {
+  open("device=sim motion=camera filter-min-cutoff=0");
+  play();
+  show_moved(5, 0);
+  EXPECT_EQ(message_limit(), "repeated-frames");
+  show(1, [&](int) { return make_frame(h->info(), 4, 0); });
+  EXPECT_EQ(message_limit(), "none");
+  // A picture that is repeated goes on for a while; a cut does not.
+  show(1, [&](int) { return make_frame(h->info(), 4000, 4000); });
+  EXPECT_EQ(message_limit(), "nothing-to-compare");
+  EXPECT_EQ(stats_field("limit"), "none") << "something was felt in the last second";
 }
 
 }  // namespace

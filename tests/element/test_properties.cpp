@@ -199,14 +199,16 @@ TEST(Trace, HasAHeaderAndARowAFrame) {
   ASSERT_TRUE(std::getline(in, line));
   EXPECT_EQ(line,
             "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
-            "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit");
+            "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit,device_limit");
   for (const MotionMessage& m : motions) {
     ASSERT_TRUE(std::getline(in, line));
     const size_t last_comma = line.rfind(',');
     ASSERT_NE(last_comma, std::string::npos);
-    EXPECT_EQ(line.substr(last_comma + 1), m.limit);
+    EXPECT_EQ(line.substr(last_comma + 1), "no-device");
+    const size_t comma_before = line.rfind(',', last_comma - 1);
+    EXPECT_EQ(line.substr(comma_before + 1, last_comma - comma_before - 1), m.limit);
     std::vector<double> row;
-    std::stringstream cells(line.substr(0, last_comma));
+    std::stringstream cells(line.substr(0, comma_before));
     for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
     ASSERT_EQ(row.size(), 12u);
     // Written with the digits that reading back needs: equal, not near.

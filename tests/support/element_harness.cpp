@@ -37,6 +37,9 @@ MotionMessage parse_motion_message(GstMessage* message) {
     g_error("incomplete spidar-motion message: %s", gst_structure_to_string(s));
   m.repeated = repeated != FALSE;
   m.limit = limit;
+  if (const char* const of_device = gst_structure_get_string(s, "device-limit")) {
+    m.device_limit = of_device;
+  }
   if (const char* const reason = gst_structure_get_string(s, "limit-reason")) {
     m.limit_reason = reason;
   }

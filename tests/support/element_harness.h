@@ -26,6 +26,7 @@ struct MotionMessage {
   Wrench wrench;
   bool repeated = false;
   std::string limit, limit_reason;  ///< the latter may be missing
+  std::string device_limit;
 };
 MotionMessage parse_motion_message(GstMessage* message);
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/analysis/no_force_reason.h"
+#include "core/force/felt_force.h"
 #include "plugin/window/program/hand.h"
 #include "plugin/window/program/model/plot_axis.h"
 #include "plugin/window/program/panels.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/analysis/no_force_reason.h"
+#include "core/force/felt_force.h"
 #include "plugin/overlay/arrow.h"
 #include "plugin/window/program/panels.h"
 

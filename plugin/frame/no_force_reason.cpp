@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/analysis/no_force_reason.h"
-
-#include <algorithm>
-#include <cmath>
+#include "plugin/frame/no_force_reason.h"
 
 #include "core/analysis/motion_analyzer.h"
+#include "core/force/felt_force.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_bounds.h"
 #include "core/force/motion_rendering.h"
@@ -143,10 +141,6 @@ const char* sentence(NoForceReason limit) noexcept {
   return wording(limit).sentence;
 }
 
-double size_N(const Wrench& wrench) noexcept {
-  return std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / kTorqueArm_m);
-}
-
 NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion) {
   if (frame.restarted) return NoForceReason::kNothingToCompare;
   if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
@@ -166,37 +160,6 @@ NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion) {
   const bool camera_moves = frame.model && *frame.model != ModelKind::kStill;
   return leaves_out_camera && camera_moves ? NoForceReason::kCameraOnly
                                            : NoForceReason::kNothingMoves;
-}
-
-void NoForceHistory::add(int64_t shown_ns, double force_N, NoForceReason limit) noexcept {
-  if (count_ > 0 && shown_ns <= latest(0).shown_ns) forget();
-  frames_[next_] = {shown_ns, force_N, limit};
-  next_ = (next_ + 1) % kFrames;
-  count_ = std::min(count_ + 1, kFrames);
-}
-
-NoForceReason NoForceHistory::limit(int64_t now_ns) const noexcept {
-  std::array<size_t, kNoForceReasons> pictures{};
-  bool repeats = false;
-  for (size_t i = 0; i < count_; ++i) {
-    const Frame& frame = latest(i);
-    if (frame.shown_ns > now_ns) continue;
-    if (frame.shown_ns <= now_ns - kWindow_ns) break;
-    if (frame.force_N >= kFeltForce_N) return NoForceReason::kNone;
-    if (frame.limit == NoForceReason::kRepeatedFrames) {
-      repeats = true;
-    } else {
-      ++pictures[static_cast<size_t>(frame.limit)];
-    }
-  }
-  // What had nothing to be compared with says nothing where others do.
-  size_t& incomparable = pictures[static_cast<size_t>(NoForceReason::kNothingToCompare)];
-  const bool any_incomparable = incomparable > 0;
-  incomparable = 0;
-  const auto most = std::max_element(pictures.begin(), pictures.end());
-  if (*most > 0) return static_cast<NoForceReason>(most - pictures.begin());
-  if (repeats) return NoForceReason::kRepeatedFrames;
-  return any_incomparable ? NoForceReason::kNothingToCompare : NoForceReason::kNoFrames;
 }
 
 }  // namespace spidar

@@ -8,8 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/analysis/no_force_reason.h"
-#include "core/force/motion_rendering.h"
+#include "core/force/felt_force.h"
+#include "core/motion/background.h"
+#include "plugin/reports/limit_watch.h"
 
 namespace spidar::test::no_force_reason_test {
 namespace {
@@ -33,6 +34,38 @@ TEST(NoForceReason, TorqueCountsByItsArm) {
   wrench.force_N = {3, 0, 0};
   wrench.torque_Nm = {0, 0, 4 * kTorqueArm_m};
   EXPECT_NEAR(size_N(wrench), 5, 1e-12);
+}
+
+/// A frame in which nothing is felt, with points enough.
+FrameAnalysis unfelt() {
+  FrameAnalysis frame;
+  frame.height = 480;
+  frame.interval_ns = kFrame_ns;
+  frame.features = 100;
+  return frame;
+}
+
+TEST(NoForceReason, OfARuleThatFeelsNothingIsTheRule) {
+  FeelRule rule;
+  rule.kind = FeelKind::kNothing;
+  FrameAnalysis frame = unfelt();
+  frame.choice.rule = rule;
+  EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kNotChosen);
+  frame.choice.rule->kind = FeelKind::kObjectAt;
+  EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kNotChosen) << "it is lost";
+  frame.felt_object = 1;
+  EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kNothingMoves) << "it rests";
+}
+
+TEST(NoForceReason, WhereNothingAgreesHowTheCameraMovesIsThat) {
+  Background background;
+  background.coverage = 0;
+  FrameAnalysis frame = unfelt();
+  frame.background = &background;
+  frame.model = background.model.kind;
+  EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kCameraUnknown);
+  EXPECT_EQ(limit_of(frame, MotionKind::kCamera), NoForceReason::kNothingMoves)
+      << "nothing is left out";
 }
 
 /// Frames of one reason, 40 ms apart.

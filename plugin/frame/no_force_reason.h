@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Explains why no force is felt.
+#pragma once
+
+#include <cstddef>
+
+#include "core/motion/image_motion.h"
+#include "core/motion/scene_motion.h"
+
+namespace spidar {
+
+struct FrameAnalysis;
+
+/// What keeps the force below kFeltForce_N, or lowers it (kGripReleased, kVibration). The reasons
+/// up to kNotPlaying and those from kCannotTouch on are of the device, the playback or, while
+/// touching, the contact, and hold for any film; the others are the film's.
+enum class NoForceReason {
+  kNone,  ///< the force is not limited
+  kDeviceLost,
+  kDeviceStarting,
+  kGripUnknown,
+  kGripReleased,
+  kVibration,
+  kMuted,
+  kNotPlaying,
+  kNoFrames,
+  kNothingToCompare,
+  kRepeatedFrames,
+  kFewPictures,
+  kTooFewPoints,
+  kNotChosen,
+  kCameraUnknown,
+  kCameraOnly,
+  kNothingMoves,
+  kTooWeak,
+  kSilentTrack,  ///< a haptic track is played in place of the video's motion
+  kCannotTouch,  ///< these four while touching: the device has no third axis,
+  kNoRelief,     ///< there is no surface,
+  kNotTouching,  ///< the grip is in front of it,
+  kLightTouch,   ///< or touches it too lightly
+  kLate,
+  kNoDevice,
+};
+constexpr size_t kNoForceReasons = static_cast<size_t>(NoForceReason::kNoDevice) + 1;
+
+/// For programs: "none", "camera-only", …
+const char* nick(NoForceReason limit) noexcept;
+/// For people: a whole sentence. Empty for kNone.
+const char* sentence(NoForceReason limit) noexcept;
+
+/// The reason in the video, for one frame that was analysed for `motion`.
+NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion);
+
+}  // namespace spidar
