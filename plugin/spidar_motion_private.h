@@ -11,6 +11,7 @@
 #include "plugin/engine/motion_engine.h"
 #include "plugin/spidar_motion.h"
 #include "plugin/timing/step_watch.h"
+#include "plugin/track/track_judge.h"
 
 GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
 

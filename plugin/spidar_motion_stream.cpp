@@ -91,6 +91,45 @@ static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self, const GstVid
   return settings;
 }
 
+static const char* words_of(spidar::FrameProblem problem) {
+  using spidar::FrameProblem;
+  switch (problem) {
+    case FrameProblem::kNone:
+      return "a haptic track is played";
+    case FrameProblem::kNoTimestamp:
+      return "it has no timestamp";
+    case FrameProblem::kSameTimestamp:
+      return "its timestamp is equal or nearly equal to that of the previous frame";
+    case FrameProblem::kFallingTimestamp:
+      return "its timestamp is earlier than that of the previous frame";
+    case FrameProblem::kTooSmall:
+      return "it has less memory than its picture needs";
+    case FrameProblem::kNotShown:
+      return "it is outside the segment or cropped to nothing";
+    case FrameProblem::kSmallHalf:
+      return "the half of it that is picture is too small";
+  }
+  return "unknown problem";
+}
+
+static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffer* buffer) {
+  if (!report.analyzed) {
+    GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
+                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), words_of(report.problem));
+    return;
+  }
+  const spidar::Frame& found = report.frame;
+  GST_LOG_OBJECT(
+      self,
+      "frame of %" GST_TIME_FORMAT
+      ": %.1f, %.1f px/s, %zu objects, %.3f, %.3f N in "
+      "%" G_GINT64_FORMAT " us%s%s",
+      GST_TIME_ARGS(static_cast<GstClockTime>(found.running_ns)), found.motion.velocity_px_s.x(),
+      found.motion.velocity_px_s.y(), found.objects.size(), found.wrench.force_N.x(),
+      found.wrench.force_N.y(), static_cast<gint64>(report.took_ns / 1000),
+      found.has_motion_before() ? "" : ", restarted", found.goes_on() ? ", goes on" : "");
+}
+
 static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter,
                                                           GstVideoFrame* frame) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
@@ -106,41 +145,29 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
 
-  FrameReport report;
+  const FrameReport* report = nullptr;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
     settings = settings_now(self, *frame, touch);
     take_track(self, frame->info);
     self->engine->want_relief(self->display->window_waits());
-    report = self->engine->process(*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch);
-    self->display->show(report, display, settings, *frame);
+    report = &self->engine->process({*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch});
+    self->display->show(*report, display, settings, *frame);
   });
   if (!processed) {
     // The application may leave the pipeline in PLAYING.
     self->engine->stop_touching();
     return GST_FLOW_ERROR;
   }
-  if (report.analyzed) {
-    const spidar::FrameAnalysis& found = report.analysis;
-    GST_LOG_OBJECT(self,
-                   "frame of %" GST_TIME_FORMAT
-                   ": %.1f, %.1f px/s, %d objects, %.3f, %.3f N in "
-                   "%" G_GINT64_FORMAT " us%s%s",
-                   GST_TIME_ARGS(report.running_time), found.motion.velocity_px_s.x(),
-                   found.motion.velocity_px_s.y(), found.objects, found.wrench.force_N.x(),
-                   found.wrench.force_N.y(), static_cast<gint64>(report.took_ns / 1000),
-                   found.restarted ? ", restarted" : "", found.repeated ? ", repeated" : "");
-  } else {
-    GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
-                     GST_TIME_ARGS(GST_BUFFER_PTS(frame->buffer)), to_string(report.problem));
-  }
-  self->warnings->check_frame(report);
-  self->warnings->check_touch(*self->engine, report, touch);
-  if (report.analyzed) {
-    self->choice->check(report.analysis.choice, settings.kept, report.stream_time);
+  log_frame(self, *report, frame->buffer);
+  self->warnings->check_frame(*report);
+  self->warnings->check_touch(*self->engine, *report, touch);
+  if (report->analyzed) {
+    const auto stream_time = static_cast<GstClockTime>(report->frame.stream_ns);
+    self->choice->check(report->frame.choice, settings.kept, stream_time);
   }
   if (display.overlay) self->warnings->check_overlay(frame->info);
-  if (report.analyzed && post_messages) {
-    post_motion_message(GST_ELEMENT(self), frame->buffer, report, &self->unread_messages);
+  if (report->analyzed && post_messages) {
+    post_motion_message(GST_ELEMENT(self), frame->buffer, *report, &self->unread_messages);
   }
   return self->warnings->check_device(*self->engine, on_device_error) ? GST_FLOW_OK
                                                                       : GST_FLOW_ERROR;

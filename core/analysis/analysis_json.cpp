@@ -107,37 +107,34 @@ void write(Writer& json, const MovingObject& object) {
       .close('}');
 }
 
-void write_points(Writer& json, const FrameAnalysis& frame) {
+void write_points(Writer& json, const Frame& frame) {
   const auto middle_x_px = static_cast<float>(frame.width - 1) / 2;
   const auto middle_y_px = static_cast<float>(frame.height - 1) / 2;
   json.key("points").open('[');
-  if (frame.tracks) {
-    for (const Track& track : *frame.tracks) {
-      json.open('[')
-          .value(track.id)
-          .value(track.to.x_px - middle_x_px)
-          .value(track.to.y_px - middle_y_px)
-          .value(track.to.x_px - track.from.x_px)
-          .value(track.to.y_px - track.from.y_px)
-          .close(']');
-    }
+  for (const Track& track : frame.tracks) {
+    json.open('[')
+        .value(track.id)
+        .value(track.to.x_px - middle_x_px)
+        .value(track.to.y_px - middle_y_px)
+        .value(track.to.x_px - track.from.x_px)
+        .value(track.to.y_px - track.from.y_px)
+        .close(']');
   }
   json.close(']');
 }
 
 }  // namespace
 
-void append_json(const FrameAnalysis& frame, int64_t running_time_ns, int64_t stream_time_ns,
-                 const JsonOptions& options, std::string& line) {
+void append_json(const Frame& frame, const JsonOptions& options, std::string& line) {
   Writer json(line);
   json.open('{')
-      .field("running_time_ns", running_time_ns)
-      .field("stream_time_ns", stream_time_ns)
+      .field("running_time_ns", frame.running_ns)
+      .field("stream_time_ns", frame.stream_ns)
       .field("interval_ns", frame.interval_ns)
       .field("width_px", frame.width)
       .field("height_px", frame.height)
-      .field("restarted", frame.restarted)
-      .field("repeated", frame.same_picture)
+      .field("restarted", frame.picture == PictureKind::kFirst)
+      .field("repeated", is_again(frame.picture))
       .field("features", frame.features)
       .field("object", frame.felt_object);
   write(json.key("motion"), frame.motion);
@@ -153,9 +150,7 @@ void append_json(const FrameAnalysis& frame, int64_t running_time_ns, int64_t st
     json.literal("null");
   }
   json.key("objects").open('[');
-  if (frame.object_list) {
-    for (const MovingObject& object : *frame.object_list) write(json, object);
-  }
+  for (const MovingObject& object : frame.objects) write(json, object);
   json.close(']');
   if (options.points) write_points(json, frame);
   json.close('}');

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/analysis/motion_analyzer.h"
+#include "core/analysis/frame.h"
 
 namespace spidar {
 
@@ -31,7 +31,6 @@ struct JsonOptions {
 /// picture. Numbers are written in the "C" locale with as few digits as can be read back exactly. A
 /// number that is not finite becomes null, because JSON cannot express it. Does not allocate when
 /// the capacity of `line` is sufficient.
-void append_json(const FrameAnalysis& frame, int64_t running_time_ns, int64_t stream_time_ns,
-                 const JsonOptions& options, std::string& line);
+void append_json(const Frame& frame, const JsonOptions& options, std::string& line);
 
 }  // namespace spidar

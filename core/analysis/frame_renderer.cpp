@@ -13,19 +13,11 @@
 namespace spidar {
 namespace {
 
-/// The object of which motion=object is felt; null when there is none.
-const MovingObject* dominant(const MeasuredFrame& frame) {
-  const auto found =
-      std::find_if(frame.objects.begin(), frame.objects.end(),
-                   [&](const MovingObject& object) { return object.id == frame.dominant; });
-  return found == frame.objects.end() ? nullptr : &*found;
-}
-
 /// The id of the object whose motion is felt; 0 when it is none, or not that of one object. An
 /// object that rests is felt as rest.
-uint32_t felt_object(const MeasuredFrame& frame, MotionKind kind, const Chosen& choice) {
+uint32_t felt_object(const Frame& frame, MotionKind kind, const Chosen& choice) {
   const MovingObject* object = choice.object;
-  if (choice.is_free() && kind == MotionKind::kObject) object = dominant(frame);
+  if (choice.is_free() && kind == MotionKind::kObject) object = frame.dominant_object();
   if (!object) return 0;
   const bool is_lost = object->tracks == 0 && object->relative_px_s.isZero(0);
   return is_lost ? 0 : object->id;
@@ -104,14 +96,14 @@ void FrameRenderer::configure(const AnalyzerSettings& settings) {
   choice_.set_kept(settings.kept);
 }
 
-Chosen FrameRenderer::choose(const MeasuredFrame& frame, const FilmPlace& film) {
+Chosen FrameRenderer::choose(const Frame& frame, const FilmPlace& film) {
   if (settings_.motion == MotionKind::kMean || frame.width == 0) return {};
   return choice_.choose({frame.objects, frame.background ? &*frame.background : nullptr,
                          frame.width, frame.height, static_cast<double>(frame.interval_ns) * 1e-9,
-                         frame.shown == Shown::kFirst, film, settings_.boxes.get()});
+                         frame.picture == PictureKind::kFirst, film, settings_.boxes.get()});
 }
 
-ImageMotion FrameRenderer::motion_of_choice(const MeasuredFrame& frame, const FilmPlace& film,
+ImageMotion FrameRenderer::motion_of_choice(const Frame& frame, const FilmPlace& film,
                                             const Chosen& choice) const {
   if (choice.is_free()) return free_motion(frame);
   if (choice.object) return motion_of(*choice.object);
@@ -129,7 +121,7 @@ ImageMotion FrameRenderer::motion_of_choice(const MeasuredFrame& frame, const Fi
   return {};
 }
 
-ImageMotion FrameRenderer::free_motion(const MeasuredFrame& frame) const {
+ImageMotion FrameRenderer::free_motion(const Frame& frame) const {
   switch (settings_.motion) {
     case MotionKind::kMean:
       return frame.mean;
@@ -145,55 +137,31 @@ ImageMotion FrameRenderer::free_motion(const MeasuredFrame& frame) const {
     case MotionKind::kObject:
       break;
   }
-  const MovingObject* const object = dominant(frame);
+  const MovingObject* const object = frame.dominant_object();
   return object ? motion_of(*object) : ImageMotion();
 }
 
-/// The result that continues while the picture is repeated.
-FrameAnalysis FrameRenderer::wait() const {
-  FrameAnalysis analysis = latest_;
-  analysis.restarted = false;
-  analysis.same_picture = true;
-  // Zero motion has nothing to continue.
-  analysis.repeated = !analysis.wrench.stacked().isZero(0);
-  return analysis;
+void FrameRenderer::restart() {
+  controller_->reset();
+  choice_.reset();
 }
 
-FrameAnalysis FrameRenderer::render(const MeasuredFrame& frame, const FilmPlace& film) {
-  if (frame.anew) {
-    controller_->reset();
-    choice_.reset();
-    latest_ = {};
-  }
-  if (frame.shown == Shown::kWaiting) return wait();
-  FrameAnalysis analysis;
-  analysis.width = frame.width;
-  analysis.height = frame.height;
-  analysis.features = frame.features;
-  analysis.restarted = frame.shown == Shown::kFirst;
+void FrameRenderer::render(Frame& frame, const FilmPlace& film) {
   const Chosen choice = choose(frame, film);
-  analysis.choice = choice;
-  analysis.choice.object = nullptr;
-  if (analysis.restarted) {
+  frame.choice = choice;
+  frame.choice.object = nullptr;
+  if (frame.picture == PictureKind::kFirst) {
     lost_frames_.reset();
     filter_.reset();
     fade_.reset();
-    return latest_ = analysis;
+    frame.felt_object = 0;
+    frame.motion = {};
+    frame.wrench = {};
+    return;
   }
-  analysis.interval_ns = frame.interval_ns;
-  analysis.same_picture = frame.shown != Shown::kOther;
-  analysis.tracks = frame.tracks;
-  if (frame.background) {
-    analysis.model = frame.background->model.kind;
-    analysis.background = &*frame.background;
-    if (settings_.motion != MotionKind::kCamera) {
-      analysis.objects = static_cast<int>(frame.objects.size());
-      analysis.object_list = &frame.objects;
-    }
-  }
-  analysis.felt_object = felt_object(frame, settings_.motion, choice);
+  frame.felt_object = felt_object(frame, settings_.motion, choice);
   ImageMotion felt = motion_of_choice(frame, film, choice);
-  if (frame.shown == Shown::kSame) {
+  if (frame.picture == PictureKind::kSame) {
     filter_.stop();
     fade_.reset();
     const int tracked = felt.tracked;
@@ -203,17 +171,15 @@ FrameAnalysis FrameRenderer::render(const MeasuredFrame& frame, const FilmPlace&
   felt = faster(felt, lost_frames_.correction(frame.interval_ns, frame.shown_for_ns,
                                               felt.velocity_px_s.norm()));
   const double interval_s = static_cast<double>(frame.interval_ns) * 1e-9;
-  analysis.motion = bound_motion(felt, frame.width, interval_s);
+  frame.motion = bound_motion(felt, frame.width, interval_s);
   // The filter does not mix the motions of two objects.
-  if (fade_.turn_to(felt_thing(choice, analysis.felt_object))) filter_.reset();
+  if (fade_.turn_to(felt_thing(choice, frame.felt_object))) filter_.reset();
   const ImageMotion steady =
-      filter_.filter(analysis.motion, frame.height, interval_s, settings_.filter);
+      filter_.filter(frame.motion, frame.height, interval_s, settings_.filter);
   const Wrench wanted =
       render_motion(*controller_, steady, settings_.axes, frame.height, interval_s);
   const double gain = choice.rule && !choice.is_kept ? choice.rule->gain : 1;
-  analysis.wrench =
-      fade_.fade(amplified(wanted, gain, settings_.controller.max_force_N), interval_s);
-  return latest_ = analysis;
+  frame.wrench = fade_.fade(amplified(wanted, gain, settings_.controller.max_force_N), interval_s);
 }
 
 }  // namespace spidar

@@ -6,8 +6,7 @@
 #include <memory>
 
 #include "core/analysis/analyzer_settings.h"
-#include "core/analysis/frame_analysis.h"
-#include "core/analysis/measured_frame.h"
+#include "core/analysis/frame.h"
 #include "core/choice/object_choice.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
@@ -25,16 +24,17 @@ class FrameRenderer {
   /// See MotionAnalyzer::configure(); AnalyzerSettings::tracker does not matter here.
   void configure(const AnalyzerSettings& settings);
 
-  /// Takes the frames in the order in which they are shown. The result points into `frame`, and
-  /// that of a frame that waits into the last one that did not.
-  FrameAnalysis render(const MeasuredFrame& frame, const FilmPlace& film = {});
+  /// Fills in what is felt of `frame`, and its wrench. Takes the frames in the order in which they
+  /// are shown, but for those that wait.
+  void render(Frame& frame, const FilmPlace& film = {});
+  /// The next frame follows a seek or a discontinuity.
+  void restart();
 
  private:
-  Chosen choose(const MeasuredFrame& frame, const FilmPlace& film);
-  ImageMotion motion_of_choice(const MeasuredFrame& frame, const FilmPlace& film,
+  Chosen choose(const Frame& frame, const FilmPlace& film);
+  ImageMotion motion_of_choice(const Frame& frame, const FilmPlace& film,
                                const Chosen& choice) const;
-  ImageMotion free_motion(const MeasuredFrame& frame) const;
-  FrameAnalysis wait() const;
+  ImageMotion free_motion(const Frame& frame) const;
 
   AnalyzerSettings settings_;
   ObjectChoice choice_;
@@ -42,7 +42,6 @@ class FrameRenderer {
   MotionFilter filter_;
   WrenchFade fade_;
   std::unique_ptr<GainController> controller_;
-  FrameAnalysis latest_;  ///< of the last frame that did not wait
 };
 
 }  // namespace spidar

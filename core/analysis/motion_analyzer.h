@@ -5,18 +5,19 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "core/analysis/analyzer_settings.h"
-#include "core/analysis/frame_analysis.h"
+#include "core/analysis/frame.h"
 #include "core/image_view.h"
 
 namespace spidar {
 
-/// A FrameMeter and, behind it, a FrameRenderer. One thread at a time.
+/// Takes each picture through the steps: whether it repeats the one before, how camera and objects
+/// move (MotionEstimator), which of these is felt, and with what wrench (FrameRenderer). One thread
+/// at a time.
 ///
-/// A frame that shows the previous picture again does not tell whether anything moves. It is
-/// reported as `repeated` for up to Cadence::kRest_ns, or for as long as the film has repeated
+/// A frame that shows the previous picture again does not tell whether anything moves. It waits
+/// (PictureKind::kWaiting) for up to Cadence::kRest_ns, or for as long as the film has repeated
 /// pictures before; after that it counts as rest.
 class MotionAnalyzer {
  public:
@@ -34,14 +35,13 @@ class MotionAnalyzer {
   /// size restarts tracks and filter only: the largest speed of eq. 13 and what the adaptive
   /// controller has learnt belong to the whole video.
   /// Throws std::invalid_argument for a frame that require_usable() refuses.
-  /// `film` is for AnalyzerSettings::feel alone.
-  FrameAnalysis analyze(const ImageView& frame, int64_t running_time_ns,
-                        const FilmPlace& film = {});
+  /// `film` is for AnalyzerSettings::feel alone. The result is valid until the next call.
+  const Frame& analyze(const ImageView& image, int64_t running_ns, const FilmPlace& film = {});
 
-  /// Takes a frame that is known to repeat the previous picture, without analysing it. Returns
-  /// nothing when the picture has been repeated for too long, or when there is no previous picture:
-  /// then it is at rest, and the next frame is not compared with the one before.
-  std::optional<FrameAnalysis> repeat(int64_t running_time_ns);
+  /// Takes a frame that is known to repeat the previous picture, without analysing it. Returns null
+  /// when the picture has been repeated for too long, or when there is no previous picture: then it
+  /// is at rest, and the next frame is not compared with the one before.
+  const Frame* repeat(int64_t running_ns);
 
   /// After a flush, a seek or a discontinuity: the next frame has no motion, and the controller
   /// starts again.

@@ -28,42 +28,32 @@ ImageView SquarePicture::view(const ImageView& picture, double pixel_aspect) {
   return {resampled_.data(), width, picture.height, width};
 }
 
-void StoredPixels::convert(FrameAnalysis& analysis, int width) {
-  if (analysis.width == width || analysis.width == 0) return;
-  const double share = static_cast<double>(width) / analysis.width;
-  analysis.width = width;
+void to_stored_pixels(Frame& frame, int width) {
+  if (frame.width == width || frame.width == 0) return;
+  const double share = static_cast<double>(width) / frame.width;
+  frame.width = width;
   const auto narrow = [&](Eigen::Vector2d& along) { along.x() *= share; };
-  narrow(analysis.motion.velocity_px_s);
-  if (analysis.tracks) {
-    tracks_ = *analysis.tracks;
-    for (Track& track : tracks_) {
-      for (ImagePoint* point : {&track.from, &track.to}) {
-        // The corner of the picture, at (−½, −½), stays in place.
-        point->x_px = (point->x_px + 0.5f) * static_cast<float>(share) - 0.5f;
-      }
+  narrow(frame.motion.velocity_px_s);
+  for (Track& track : frame.tracks) {
+    for (ImagePoint* point : {&track.from, &track.to}) {
+      // The corner of the picture, at (−½, −½), stays in place.
+      point->x_px = (point->x_px + 0.5f) * static_cast<float>(share) - 0.5f;
     }
-    analysis.tracks = &tracks_;
   }
-  if (analysis.background) {
-    background_ = *analysis.background;
-    MotionModel& model = background_.model;
+  if (frame.background) {
+    MotionModel& model = frame.background->model;
     narrow(model.shift_px);
     model.linear(0, 1) *= share;
     model.linear(1, 0) /= share;
     model.perspective_1_px.x() /= share;
-    analysis.background = &background_;
   }
-  if (analysis.object_list) {
-    objects_ = *analysis.object_list;
-    for (MovingObject& object : objects_) {
-      for (Eigen::Vector2d* along :
-           {&object.position_px, &object.size_px, &object.relative_px_s, &object.on_screen_px_s}) {
-        narrow(*along);
-      }
-      object.area_px2 *= share;
-      object.error_px_s *= std::max(share, 1.0);  // along the direction in which it is larger
+  for (MovingObject& object : frame.objects) {
+    for (Eigen::Vector2d* along :
+         {&object.position_px, &object.size_px, &object.relative_px_s, &object.on_screen_px_s}) {
+      narrow(*along);
     }
-    analysis.object_list = &objects_;
+    object.area_px2 *= share;
+    object.error_px_s *= std::max(share, 1.0);  // along the direction in which it is larger
   }
 }
 

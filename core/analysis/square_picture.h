@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/analysis/frame_analysis.h"
+#include "core/analysis/frame.h"
 #include "core/image_view.h"
 
 namespace spidar {
@@ -26,17 +26,8 @@ class SquarePicture {
   std::vector<uint8_t> resampled_;
 };
 
-/// The result for a picture of square pixels, in pixels of the picture as it is stored.
-class StoredPixels {
- public:
-  /// Changes `analysis`, of a SquarePicture, to that of the picture itself, which is `width` pixels
-  /// wide. What it points to is valid until the next call.
-  void convert(FrameAnalysis& analysis, int width);
-
- private:
-  std::vector<Track> tracks_;
-  Background background_;
-  std::vector<MovingObject> objects_;
-};
+/// Changes `frame`, of a SquarePicture, to that of the picture as it is stored, `width` pixels
+/// wide.
+void to_stored_pixels(Frame& frame, int width);
 
 }  // namespace spidar

@@ -6,26 +6,23 @@
 
 namespace spidar {
 
-void ReducedFrame::read(const ImageView& frame, Repeats repeats) {
+PictureKind ReducedFrame::read(const ImageView& frame, bool may_wait) {
   require_usable(frame);
-  is_comparable_ = frame.width == width_ && frame.height == height_;
+  const bool is_comparable = frame.width == width_ && frame.height == height_;
   width_ = frame.width;
   height_ = frame.height;
   factor_ = halving_factor(width_, height_);
   std::swap(before_, base_);
   reduce_blocks(frame, factor_, base_);
   base_.repeat_border();
-  is_repeated_ = false;
-  is_alike_ = false;
-  if (!is_comparable_) {
+  if (!is_comparable) {
     repeated_picture_.restart();
-    return;
+    return picture_ = PictureKind::kFirst;
   }
-  using Kind = RepeatedPicture::Kind;
-  const Kind kind = repeated_picture_.look(before_.view(), base_.view());
-  is_repeated_ = kind == Kind::kSame || (kind == Kind::kAlike && repeats == Repeats::kAlike);
-  is_alike_ = kind == Kind::kAlike && !is_repeated_;
-  if (is_repeated_) std::swap(before_, base_);
+  picture_ = repeated_picture_.look(before_.view(), base_.view());
+  if (picture_ == PictureKind::kAlike && may_wait) picture_ = PictureKind::kSame;
+  if (picture_ == PictureKind::kSame) std::swap(before_, base_);
+  return picture_;
 }
 
 }  // namespace spidar

@@ -13,9 +13,10 @@ namespace spidar {
 /// Reduces each frame once, for all parts of the analysis.
 class ReducedFrame {
  public:
-  /// A frame that repeats the picture before is skipped: the next one is compared with that
-  /// picture. Throws as require_usable() does.
-  void read(const ImageView& frame, Repeats repeats = Repeats::kSame);
+  /// Returns picture(). A frame that repeats the picture before is skipped: the next one is
+  /// compared with that picture. With `may_wait`, one that is equal within the noise of coding is,
+  /// too. Throws as require_usable() does.
+  PictureKind read(const ImageView& frame, bool may_wait = false);
 
   /// Mean of each factor() × factor() block of the frame, see halving_factor(). The border is
   /// repeated.
@@ -25,12 +26,8 @@ class ReducedFrame {
   int factor() const { return factor_; }
   int width() const { return width_; }  ///< of the frame, px
   int height() const { return height_; }
-  /// Whether the frame shows the previous picture again.
-  bool is_repeated() const { return is_repeated_; }
-  /// Whether it does not, but would with Repeats::kAlike.
-  bool is_alike() const { return is_alike_; }
-  /// Whether the frame before had the same size.
-  bool is_comparable() const { return is_comparable_; }
+  /// kFirst where the frame before had another size; kSame where it was skipped. Never kWaiting.
+  PictureKind picture() const { return picture_; }
 
   /// The next frame will not be compared with this one.
   void restart() { width_ = 0; }
@@ -41,9 +38,7 @@ class ReducedFrame {
   int factor_ = 1;
   int width_ = 0;
   int height_ = 0;
-  bool is_comparable_ = false;
-  bool is_repeated_ = false;
-  bool is_alike_ = false;
+  PictureKind picture_ = PictureKind::kFirst;
   RepeatedPicture repeated_picture_;
 };
 

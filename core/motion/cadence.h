@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/tracking/picture_kind.h"
+
 namespace spidar {
 
 /// A film can move although its frames repeat pictures: 24 pictures a second in 60 frames, a
@@ -29,14 +31,6 @@ class Cadence {
   /// How many intervals are remembered.
   static constexpr size_t kPictures = 24;
 
-  /// What a frame shows, compared with the picture before.
-  enum class Picture {
-    kSame,  ///< the same picture
-    /// A picture that differs by no more than noise, analysed because it waited for long enough.
-    kAlike,
-    kOther,  ///< a different picture
-  };
-
   /// How a frame is treated.
   struct Step {
     /// The frame repeats the picture, and it is not known yet whether the picture is at rest: the
@@ -51,8 +45,9 @@ class Cadence {
   /// Whether a picture that is repeated at `time_ns` would have to wait.
   bool would_wait(int64_t time_ns) const;
 
-  /// Takes the frame shown at `time_ns`, which must rise.
-  Step see(Picture picture, int64_t time_ns);
+  /// Takes the frame shown at `time_ns`, which must rise. `picture`: kSame; kAlike, of a picture
+  /// that waited for long enough to be analysed; or kOther.
+  Step see(PictureKind picture, int64_t time_ns);
 
   /// When the latest picture was first shown.
   int64_t picture_ns() const { return picture_ns_; }

@@ -51,7 +51,6 @@ MotionEstimator::MotionEstimator() {
   evidence_.points.reserve(kMostDisplacements);
   evidence_.weights.reserve(kMostDisplacements);
   placed_.reserve(kMostDisplacements);
-  tracks_.reserve(2 * kMostDisplacements);
 }
 
 /// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
@@ -174,8 +173,8 @@ void MotionEstimator::choose_points(const ImageView& frame, const ReducedFrame& 
 }
 
 /// Lists the tracks: the points, and the blocks that have no point.
-void MotionEstimator::report_tracks(const ReducedFrame& reduced) {
-  tracks_.assign(points_.tracks().begin(), points_.tracks().end());
+void MotionEstimator::report_tracks(const ReducedFrame& reduced, std::vector<Track>& tracks) {
+  tracks.assign(points_.tracks().begin(), points_.tracks().end());
   const auto scale = static_cast<float>(reduced.factor() * field_.scale());
   const Eigen::Vector2d offset_px =
       field_offset_px(field_.picture(), reduced, static_cast<double>(scale));
@@ -192,48 +191,46 @@ void MotionEstimator::report_tracks(const ReducedFrame& reduced) {
     if (has_point_[i] != 0 || !shows_motion) continue;
     const ImagePoint to{middle_x + scale * block.x_px, middle_y + scale * block.y_px};
     const ImagePoint from{to.x_px - scale * block.moved_x_px, to.y_px - scale * block.moved_y_px};
-    tracks_.push_back({kFirstBlockId + static_cast<uint32_t>(i), from, to});
+    tracks.push_back({kFirstBlockId + static_cast<uint32_t>(i), from, to});
   }
 }
 
-SceneMotion MotionEstimator::estimate(const ImageView& frame, const ReducedFrame& reduced,
-                                      const FieldPoints::Settings& points, int64_t interval_ns) {
-  SceneMotion scene;
-  if (reduced.is_repeated() && field_.has_picture()) {
+bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduced,
+                               const FieldPoints::Settings& points, MeasuredFrame& frame) {
+  if (reduced.picture() == PictureKind::kSame && field_.has_picture()) {
     field_.stand_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {
-    scene.restarted = true;
     estimator_.reset();
     objects_.reset();
     dominant_.reset();
     points_.reset();
-    choose_points(frame, reduced, points);
-    return scene;
+    choose_points(image, reduced, points);
+    frame.features = 0;
+    return false;
   }
-  const double interval_s = static_cast<double>(interval_ns) * 1e-9;
-  points_.follow(frame, reduced, field_);
+  const double interval_s = static_cast<double>(frame.interval_ns) * 1e-9;
+  points_.follow(image, reduced, field_);
   collect_points(reduced, points_.tracks());
   collect_votes(Voters::kTextured);
   if (votes_.are_few() && !collect_votes(Voters::kEdgesToo)) collect_votes(Voters::kTextured);
   Background background = estimator_.estimate(votes_);
   refine_background(background);
   const double scale = reduced.factor() * field_.scale();
-  background_ = in_pixels_of(background, scale);
-  scene.background = &background_;
-  scene.votes = static_cast<int>(votes_.points.size());
+  frame.background = in_pixels_of(background, scale);
+  frame.votes = static_cast<int>(votes_.points.size());
   // The camera's motion needs them, too: blocks that move by themselves or are burned in have less
   // of a vote, or none.
-  const FieldInFrame field{field_, scale, field_offset_px(field_.picture(), reduced, scale),
-                           interval_s, placed_};
-  const std::vector<MovingObject>& objects = objects_.update(field, background);
+  const FieldInFrame in_frame{field_, scale, field_offset_px(field_.picture(), reduced, scale),
+                              interval_s, placed_};
+  const std::vector<MovingObject>& objects = objects_.update(in_frame, background);
   estimator_.learn_noise(votes_, [this](size_t block) { return objects_.moves(block); });
-  scene.object_list = &objects;
-  scene.dominant = dominant_.choose(objects, interval_s);
-  report_tracks(reduced);
-  scene.tracks = &tracks_;
-  choose_points(frame, reduced, points);
-  scene.features = static_cast<int>(tracks_.size());
-  return scene;
+  frame.objects = objects;
+  const MovingObject* const dominant = dominant_.choose(objects, interval_s);
+  frame.dominant = dominant ? dominant->id : 0;
+  report_tracks(reduced, frame.tracks);
+  choose_points(image, reduced, points);
+  frame.features = static_cast<int>(frame.tracks.size());
+  return true;
 }
 
 void MotionEstimator::reset() {

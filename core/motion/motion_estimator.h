@@ -11,8 +11,8 @@
 #include "core/field/reduced_frame.h"
 #include "core/motion/background.h"
 #include "core/motion/dominant_object.h"
+#include "core/motion/measured_frame.h"
 #include "core/motion/objects.h"
-#include "core/motion/scene_motion.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
@@ -23,10 +23,11 @@ class MotionEstimator {
  public:
   MotionEstimator();
 
-  /// Takes the frame that was shown `interval_ns` > 0 after the one before, both as it is and as
-  /// `reduced`. `points` are followed for sub-pixel accuracy.
-  SceneMotion estimate(const ImageView& frame, const ReducedFrame& reduced,
-                       const FieldPoints::Settings& points, int64_t interval_ns);
+  /// Takes a picture, both as it is and as `reduced`, and fills in what moves in `frame`, whose
+  /// `interval_ns` > 0 is since the one before. `points` are followed for sub-pixel accuracy. False
+  /// when there is nothing to compare with: the first picture, another size, or a cut.
+  bool estimate(const ImageView& image, const ReducedFrame& reduced,
+                const FieldPoints::Settings& points, MeasuredFrame& frame);
 
   /// After a cut or a seek: the next frame is not compared with the one before.
   void reset();
@@ -39,7 +40,7 @@ class MotionEstimator {
   void refine_background(Background& background);
   void choose_points(const ImageView& frame, const ReducedFrame& reduced,
                      const FieldPoints::Settings& points);
-  void report_tracks(const ReducedFrame& reduced);
+  void report_tracks(const ReducedFrame& reduced, std::vector<Track>& tracks);
 
   BlockField field_;
   BackgroundVotes votes_;
@@ -52,8 +53,6 @@ class MotionEstimator {
   std::vector<PlacedPoint> placed_;
   std::vector<PointWish> wishes_;
   std::vector<uint8_t> has_point_;  ///< for each block
-  std::vector<Track> tracks_;
-  Background background_;  ///< in px of the frame
 };
 
 }  // namespace spidar

@@ -54,20 +54,4 @@ ImageMotion camera_motion(const Background& background, int votes, double interv
 /// The motion of this object alone.
 ImageMotion motion_of(const MovingObject& object);
 
-/// Result for two successive frames.
-struct SceneMotion {
-  /// There is nothing to compare with: the first frame, another size, or a cut. Nothing moves.
-  bool restarted = false;
-  /// Details, valid until the next estimate(); null after a restart.
-  const Background* background = nullptr;
-  int votes = 0;  ///< displacements that the background was found from
-  /// Known objects, visible or not, ordered by id.
-  const std::vector<MovingObject>* object_list = nullptr;
-  /// Points that were followed, and the motion of blocks that have no point.
-  const std::vector<Track>* tracks = nullptr;
-  int features = 0;  ///< points that will be looked for in the next frame
-  /// The object of the list that kObject follows; null when there is none.
-  const MovingObject* dominant = nullptr;
-};
-
 }  // namespace spidar

@@ -46,26 +46,23 @@ struct OpenCvTracker::Impl {
 
   TrackedFrame result;
 
-  void track(const ImageView& frame, Repeats repeats);
-  bool repeats_picture(Repeats repeats);
+  void track(const ImageView& frame, bool may_wait);
+  PictureKind compare(bool may_wait);
   bool follow(int factor);
   void stand_still(int factor);
   bool selection_is_due() const;
   void select(int factor);
 };
 
-bool OpenCvTracker::Impl::repeats_picture(Repeats repeats) {
-  using Kind = RepeatedPicture::Kind;
+PictureKind OpenCvTracker::Impl::compare(bool may_wait) {
   const auto view = [](const cv::Mat& image) {
     return ImageView{image.data, image.cols, image.rows, static_cast<ptrdiff_t>(image.step[0])};
   };
-  const Kind kind = repeated_picture.look(view(before[0]), view(now[0]));
-  const bool repeated = kind == Kind::kSame || (kind == Kind::kAlike && repeats == Repeats::kAlike);
-  result.alike = kind == Kind::kAlike && !repeated;
-  return repeated;
+  const PictureKind kind = repeated_picture.look(view(before[0]), view(now[0]));
+  return kind == PictureKind::kAlike && may_wait ? PictureKind::kSame : kind;
 }
 
-void OpenCvTracker::Impl::track(const ImageView& frame, Repeats repeats) {
+void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
   const int factor = reduction_factor(frame.width, frame.height);
   const bool comparable = frame.width == width && frame.height == height;
   if (!comparable) features.clear();
@@ -77,19 +74,18 @@ void OpenCvTracker::Impl::track(const ImageView& frame, Repeats repeats) {
   reduce_luma(in_8_bits(frame, in_bytes), factor, reduced);
   build_pyramid(reduced, now);
 
-  result.alike = false;
   if (!comparable) repeated_picture.restart();
-  result.repeated = comparable && repeats_picture(repeats);
-  if (result.repeated) {
+  result.picture = comparable ? compare(may_wait) : PictureKind::kFirst;
+  if (result.picture == PictureKind::kSame) {
     std::swap(before, now);
-    result.restarted = false;
-    if (repeats == Repeats::kSame) stand_still(factor);
+    if (!may_wait) stand_still(factor);
     return;
   }
   result.tracks.clear();
-  result.restarted = !comparable || !follow(factor);
+  if (comparable && !follow(factor)) result.picture = PictureKind::kFirst;
   ++frames_since_selection;
-  if (result.restarted || settings_changed || selection_is_due()) select(factor);
+  const bool begins = result.picture == PictureKind::kFirst;
+  if (begins || settings_changed || selection_is_due()) select(factor);
   result.features = static_cast<int>(features.size());
 }
 
@@ -153,9 +149,9 @@ OpenCvTracker::OpenCvTracker(const TrackerSettings& settings) : impl_(std::make_
 
 OpenCvTracker::~OpenCvTracker() = default;
 
-const TrackedFrame& OpenCvTracker::track(const ImageView& frame, Repeats repeats) {
+const TrackedFrame& OpenCvTracker::track(const ImageView& frame, bool may_wait) {
   require_usable(frame);
-  run_on_this_thread([&] { impl_->track(frame, repeats); });
+  run_on_this_thread([&] { impl_->track(frame, may_wait); });
   return impl_->result;
 }
 

@@ -20,9 +20,11 @@ class OpenCvTracker {
   ~OpenCvTracker();
 
   /// Compares `frame` with the previous one. A frame of another size restarts the tracks, as does a
-  /// cut (a frame in which hardly any point is found again). The result is valid until the next
+  /// cut (a frame in which hardly any point is found again). Of a frame that repeats the picture,
+  /// tracks are at rest. With `may_wait`, one that is equal within the noise of coding counts as
+  /// kSame, too, and tracks stay those of the frame before. The result is valid until the next
   /// call. Throws as require_usable() does.
-  const TrackedFrame& track(const ImageView& frame, Repeats repeats = Repeats::kSame);
+  const TrackedFrame& track(const ImageView& frame, bool may_wait = false);
 
   /// Discards the previous frame, so that the next one starts anew without motion.
   void restart();

@@ -113,14 +113,14 @@ bool RepeatedPicture::is_small(float change) const {
   return change < kShareWhenDue * periodic.large && is_due(periodic);
 }
 
-RepeatedPicture::Kind RepeatedPicture::look(const ImageView& before, const ImageView& now) {
+PictureKind RepeatedPicture::look(const ImageView& before, const ImageView& now) {
   const float change = largest_change(before, now);
   const bool alike = is_small(change);
   changes_[next_] = change;
   next_ = (next_ + 1) % kFrames;
   count_ = std::min(count_ + 1, kFrames);
-  if (change == 0) return Kind::kSame;
-  return alike ? Kind::kAlike : Kind::kDifferent;
+  if (change == 0) return PictureKind::kSame;
+  return alike ? PictureKind::kAlike : PictureKind::kOther;
 }
 
 }  // namespace spidar

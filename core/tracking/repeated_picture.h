@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/image_view.h"
+#include "core/tracking/picture_kind.h"
 #include "core/tracking/shares.h"
 
 namespace spidar {
@@ -24,14 +25,9 @@ namespace spidar {
 /// cadence of the film predicts a repetition.
 class RepeatedPicture {
  public:
-  enum class Kind {
-    kSame,       ///< the same pixels
-    kAlike,      ///< within the noise of coding
-    kDifferent,  ///< another picture
-  };
-
-  /// Classifies `now` relative to `before`; both have 8 bits. Call for every frame, in order.
-  Kind look(const ImageView& before, const ImageView& now);
+  /// Compares `now` with `before`; both have 8 bits. Call for every frame, in order. kSame: the
+  /// same pixels, kAlike or kOther.
+  PictureKind look(const ImageView& before, const ImageView& now);
 
   /// Call when the next pictures are unrelated to the previous ones.
   void restart() { count_ = 0; }

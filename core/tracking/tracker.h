@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image_view.h"
+#include "core/tracking/picture_kind.h"
 
 namespace spidar {
 
@@ -61,21 +62,11 @@ struct Track {
   ImagePoint to;
 };
 
-/// Which pictures count as repetitions of the previous one.
-enum class Repeats {
-  kSame,   ///< identical pixels, reported as rest
-  kAlike,  ///< also pictures equal within coding noise, see RepeatedPicture
-};
-
 struct TrackedFrame {
-  std::vector<Track> tracks;  ///< points found in both frames; empty after a restart
+  std::vector<Track> tracks;  ///< points found in both frames; empty with kFirst
   int features = 0;           ///< points to search in the next frame
-  bool restarted = false;     ///< first frame, new size, or a cut: no comparison was possible
-  /// The frame repeats the previous picture, with which the next frame will be compared. With kSame
-  /// the tracks are at rest; with kAlike they are those of the previous frame.
-  bool repeated = false;
-  /// `repeated` is false but would be true with kAlike.
-  bool alike = false;
+  /// With kSame the next frame will be compared with the same picture as this one. Never kWaiting.
+  PictureKind picture = PictureKind::kFirst;
 };
 
 }  // namespace spidar

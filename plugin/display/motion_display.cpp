@@ -26,14 +26,14 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   }
   if (shown_in) follow_film(report);
   const VisiblePart& visible = report.part;
-  const SceneView& scene = viewer_.see(report.analysis, visible, report.turn);
+  const SceneView& scene = viewer_.see(report.frame, visible, report.turn);
   // Before the overlay draws into the frame, because the window draws arrows of its own.
   if (shown_in && window_waits_) {
     FrameFacts facts;
-    facts.running_ns = static_cast<int64_t>(report.running_time);
+    facts.running_ns = report.frame.running_ns;
     facts.film = film_;
     facts.analysis_ms = 1e-6 * static_cast<double>(report.took_ns);
-    facts.interval_s = 1e-9 * static_cast<double>(report.analysis.interval_ns);
+    facts.interval_s = 1e-9 * static_cast<double>(report.frame.interval_ns);
     facts.visible = visible;
     facts.scene = scene;
     facts.motion = settings.motion;
@@ -63,16 +63,16 @@ void MotionDisplay::begin_stream(const std::string& film) {
   film_.path = std::make_shared<const std::string>(film);
 }
 
-/// Playback by an analysis tells nothing of a seek, which is known by its length.
+/// A seek is known by its length.
 void MotionDisplay::follow_film(const FrameReport& report) {
   constexpr int64_t kSeek_ns = GST_SECOND;
-  if (!GST_CLOCK_TIME_IS_VALID(report.stream_time)) {
+  const int64_t now_ns = report.frame.stream_ns;
+  if (now_ns < 0) {
     film_.stream_ns = -1;
     return;
   }
-  const auto now_ns = static_cast<int64_t>(report.stream_time);
   const bool is_seek = std::llabs(now_ns - film_.stream_ns) > kSeek_ns;
-  if (film_.stream_ns < 0 || report.analysis.restarted || is_seek) {
+  if (film_.stream_ns < 0 || !report.frame.has_motion_before() || is_seek) {
     film_.scene_ns = now_ns;
     gint64 length_ns = 0;
     GstPad* const sink = GST_BASE_TRANSFORM_SINK_PAD(element_);

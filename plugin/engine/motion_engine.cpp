@@ -2,31 +2,31 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/engine/motion_engine.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "spidar/loop/stiffness_limit.h"
+#include "plugin/timing/frame_pacer.h"
 
 namespace spidar {
+
 std::string MotionEngine::open(const MotionProperties& properties) {
-  analyzer_.configure(properties.analyzer);
+  live_.configure(properties.analyzer);
   if (properties.device == "none") return {};
   const std::string trace_problem =
       output_.open(properties.device, properties.profile, properties.haptic_trace);
   if (!output_.session()) return trace_problem;
-  grip_pointer_ = GripPointer(output_.profile().geometry);
-  schedule_.connect(&output_.session()->loop());
+  HapticLoop* const loop = &output_.session()->loop();
+  live_.connect(loop);
+  track_.connect(loop);
+  touch_.connect();
   limit_watch_.set_can_touch(output_.session()->grip().abilities().can_touch());
-  player_.connect(&output_.session()->loop());
-  reliefs_.connect(&output_.session()->loop(), output_.profile(), grip_pointer_.half_size_m());
   return trace_problem;
 }
 
 void MotionEngine::close() {
-  schedule_.connect(nullptr);
-  player_.connect(nullptr);
+  live_.connect(nullptr);
+  track_.connect(nullptr);
   output_.close();
-  reliefs_.disconnect();  // releases what the loop has been reading
+  touch_.disconnect();
 }
 
 std::string MotionEngine::start(const std::string& trace_path) {
@@ -41,16 +41,16 @@ bool MotionEngine::stop() {
 }
 
 void MotionEngine::set_muted(bool muted) {
-  schedule_.set_muted(muted);
+  live_.set_muted(muted);
+  track_.set_muted(muted);
   limit_watch_.set_muted(muted);
-  player_.set_muted(muted);
-  reliefs_.set_muted(muted);
+  touch_.set_muted(muted);
 }
 
 void MotionEngine::flush() {
-  schedule_.forget();
-  player_.forget();
-  reliefs_.forget();
+  live_.forget();
+  track_.forget();
+  touch_.forget();
 }
 
 void MotionEngine::skip(GstClockTime duration) {
@@ -61,8 +61,8 @@ void MotionEngine::skip(GstClockTime duration) {
 
 void MotionEngine::begin_segment() {
   schedule_.begin_segment();
-  player_.restart();
-  pacer_.begin_segment();
+  track_.restart();
+  live_.begin_segment();
 }
 
 void MotionEngine::begin_stream() {
@@ -82,8 +82,8 @@ GstStructure* MotionEngine::stats() const {
   stats_.describe(structure);
   const std::optional<LoopSnapshot> loop = output_.snapshot();
   describe_limits(limit_watch_.of_film(loop), limit_watch_.of_device(loop), structure);
-  gst_structure_set(structure, "track-frames", G_TYPE_UINT64, player_.frames(), nullptr);
-  reliefs_.describe(structure);
+  gst_structure_set(structure, "track-frames", G_TYPE_UINT64, track_.frames(), nullptr);
+  touch_.describe(structure);
   output_.describe(structure);
   if (loop) {
     gst_structure_set(structure, "refused-wrenches", G_TYPE_UINT64,
@@ -96,97 +96,69 @@ NoForceReason MotionEngine::no_force_reason() const {
   return limit_watch_.first(output_.snapshot());
 }
 
-std::optional<Eigen::Vector2d> MotionEngine::grip_place() const {
-  const std::optional<LoopSnapshot> loop = output_.snapshot();
-  if (!loop || loop->last.device != DeviceState::kRunning) return std::nullopt;
-  return grip_pointer_.place(loop->last.pose.position_m);
-}
-
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
   // Drops everything from a track; the next frame adds it again at the new rate. This comes first,
   // because what the schedule hands on after it must stay.
-  player_.forget();
+  track_.forget();
   schedule_.change_rate(multiplier, running_time, upstream);
 }
 
-void MotionEngine::restart() {
-  analyzer_.restart();
-}
-
 void MotionEngine::restart_timing() {
-  restart();
+  live_.restart_timing();
   {
     const std::lock_guard<std::mutex> lock(skip_mutex_);
     schedule_.restart();
-    player_.restart();
+    track_.restart();
     output_.set_skipped(0);
   }
   limit_watch_.forget();
-  pacer_.restart();
-  gap_ns_.reset();
-}
-
-void MotionEngine::run_out(GstClockTime running_time) {
-  restart();
-  if (!is_time(running_time)) return;  // scheduled wrenches expire without help
-  schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
-}
-
-void MotionEngine::begin_gap(GstClockTime running_time) {
-  if (!is_time(running_time) || !pacer_.has_frame()) {
-    run_out(running_time);
-  } else if (!gap_ns_) {  // while no frame comes, the force ends without help
-    gap_ns_ = static_cast<int64_t>(running_time);
-  }
-}
-
-void MotionEngine::end_gap(int64_t running_ns) {
-  constexpr int64_t kLate_ns = 10'000'000;
-  if (!gap_ns_ || running_ns < *gap_ns_) return;
-  // A frame that comes when the next one was due shows that there was no gap.
-  if (running_ns > pacer_.next_ns() + kLate_ns) run_out(static_cast<GstClockTime>(*gap_ns_));
-  gap_ns_.reset();
-}
-
-void MotionEngine::end_of_stream() {
-  if (!pacer_.has_frame()) return;
-  run_out(static_cast<GstClockTime>(pacer_.next_ns()));
-  reliefs_.end(schedule_.at_sink_ns(pacer_.next_ns()));
 }
 
 void MotionEngine::set_track(std::optional<TrackFile> track) {
-  player_.set_track(std::move(track).value_or(TrackFile{}));
+  track_.set_track(std::move(track).value_or(TrackFile{}));
+  source_ = track_.has_track() ? static_cast<WrenchSource*>(&track_) : &live_;
 }
 
-void MotionEngine::touch_frame(const ImageView& luma, const TouchProperties& touch,
-                               int64_t running_ns, FrameReport& report) {
-  const HapticSession* const session = output_.session();
-  if (touch.kind != TouchKind::kOff && session && !session->grip().abilities().can_touch()) {
-    report.touch_problem = TouchProblem::kNoDepthAxis;
-    return;
+/// When the sink shows the frame, and where it is in the film. False when it cannot be felt in
+/// time.
+bool MotionEngine::find_time(const PassingFrame& frame) {
+  const GstClockTime pts = GST_BUFFER_PTS(frame.video.buffer);
+  const bool has_time = frame.segment.format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(pts);
+  const GstClockTime shown = has_time ? shown_at(frame.video, frame.segment) : GST_CLOCK_TIME_NONE;
+  if (has_time && !GST_CLOCK_TIME_IS_VALID(shown)) {
+    report_.problem = FrameProblem::kNotShown;
+    return false;
   }
-  const Eigen::Vector2d middle(0.5, 0.5);
-  const Eigen::Vector2d finger = turn_.place_coded(grip_place().value_or(middle));
-  reliefs_.set_turn(turn_);
-  reliefs_.add(luma, report.analysis, schedule_.at_sink_ns(running_ns), touch, finger);
-  if (touch.kind == TouchKind::kOff) return;
-  if (session == nullptr) {
-    report.touch_problem = TouchProblem::kNoDevice;
-    return;
+  if (!is_time(shown)) {
+    restart();
+    report_.problem = FrameProblem::kNoTimestamp;
+    return false;
   }
-  report.touch.on = true;
-  report.touch.map = {grip_pointer_, turn_};
-  report.touch.stiffness_N_m = contact_settings(touch, output_.profile()).stiffness_N_m;
-  report.touch.motion_share = touch.motion_share;
-  report.touch.relief = reliefs_.take_copy();
-  if (const std::optional<LoopSnapshot> loop = output_.snapshot()) {
-    report.touch_mark = touch_mark(report.touch, loop->last);
-  }
-  report.stiffness_N_m = most_stiffness_N_m(output_.profile());
-  if (touch.stiffness_N_m > report.stiffness_N_m) {
-    report.touch_problem =
-        output_.profile().drive_lag_known ? TouchProblem::kTooStiff : TouchProblem::kLagUnknown;
+  report_.frame.running_ns = static_cast<int64_t>(shown);
+  report_.frame.stream_ns =
+      static_cast<int64_t>(gst_segment_to_stream_time(&frame.segment, GST_FORMAT_TIME, pts));
+  return true;
+}
+
+const FrameReport& MotionEngine::process(const PassingFrame& frame) {
+  report_.begin();
+  if (!find_time(frame) || !source_->take(frame, report_)) return report_;
+  report_.device_limit = limit_watch_.of_device(output_.snapshot());
+  if (trace_.is_open()) report_.trace_failed = !trace_.write(report_);
+  if (report_.analyzed) stats_.add(report_.frame, report_.took_ns);
+  return report_;
+}
+
+void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
+  const GstClockTime running_time =
+      segment.format == GST_FORMAT_TIME
+          ? gst_segment_to_running_time(&segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer))
+          : GST_CLOCK_TIME_NONE;
+  if (is_time(running_time)) {
+    source_->pass_gap(buffer, segment, static_cast<int64_t>(running_time));
+  } else {
+    restart();
   }
 }
 

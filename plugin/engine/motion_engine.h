@@ -3,41 +3,35 @@
 /// What the element does with frames and time, without GObject.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
 #include <gst/video/video.h>
 
-#include "core/analysis/motion_analyzer.h"
-#include "core/analysis/square_picture.h"
 #include "plugin/device/haptic_output.h"
+#include "plugin/engine/frame_touch.h"
+#include "plugin/engine/live_source.h"
 #include "plugin/engine/stream_orientation.h"
-#include "plugin/frame/frame_luma.h"
+#include "plugin/engine/track_source.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/frame/grip_pointer.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/reports/frame_trace.h"
 #include "plugin/reports/limit_watch.h"
 #include "plugin/reports/motion_stats.h"
-#include "plugin/timing/frame_pacer.h"
 #include "plugin/timing/wrench_schedule.h"
-#include "plugin/touch/relief_stream.h"
-#include "plugin/track/track_player.h"
 
 namespace spidar {
 
-/// Analysis, trace and haptic session of one element. Methods are grouped by the thread they belong
-/// to; what they share is locked here.
+/// Source of wrenches, trace and haptic session of one element. Methods are grouped by the thread
+/// they belong to; what they share is locked here.
 class MotionEngine {
  public:
   explicit MotionEngine(GstElement* element)
       : output_(element, [this] {
-          schedule_.hand_on();
-          player_.hand_on();
+          live_.hand_on();
+          track_.hand_on();
         }) {}
 
   /// The device and where playback is.
@@ -63,7 +57,7 @@ class MotionEngine {
   /// What was scheduled is forgotten at once, and so is what can be touched.
   void flush();
   /// There is nothing to touch any more: the force of the contact ends at once.
-  void stop_touching() { reliefs_.forget(); }
+  void stop_touching() { touch_.forget(); }
   /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
   /// The sink has stepped over so much of running time: it shows what follows as much earlier.
@@ -85,61 +79,44 @@ class MotionEngine {
   const PictureTurn& turn() const { return turn_; }
   /// Frames are not analysed: the samples of this track are felt. Nothing: they are again.
   void set_track(std::optional<TrackFile> track);
-  /// The pointer of `settings` is a place of the frame before it is turned.
-  FrameReport process(const GstVideoFrame& frame, const GstSegment& segment,
-                      const AnalyzerSettings& settings, const TouchProperties& touch);
+  /// Valid until the next call.
+  const FrameReport& process(const PassingFrame& frame);
   /// Whether reports have the relief of their frame from now on.
-  void want_relief(bool wanted) { reliefs_.want_copy(wanted); }
+  void want_relief(bool wanted) { touch_.want_relief(wanted); }
   /// The next frame has nothing to do with the one before.
-  void restart();
+  void restart() { live_.restart(); }
   /// Running time begins anew: after a flush.
   void restart_timing();
   /// A sink that has skipped something is in time with the segment again.
   void begin_segment();
-  /// There are no frames from this running time on, but for those that the decoder holds: the gap
-  /// event of a demuxer overtakes them, and begins too early when the last one is not the newest.
-  void begin_gap(GstClockTime running_time);
+  /// See LiveSource::begin_gap().
+  void begin_gap(GstClockTime running_time) { live_.begin_gap(running_time); }
   /// In place of a frame that has no picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);
   /// Nothing more comes.
-  void end_of_stream();
+  void end_of_stream() { live_.end_of_stream(); }
   /// Where the grip points at the picture as it is shown; nothing while no device runs.
-  std::optional<Eigen::Vector2d> grip_place() const;
+  std::optional<Eigen::Vector2d> grip_place() const { return touch_.grip_place(); }
 
  private:
-  bool follows(const GstVideoFrame& frame, const GstSegment& segment, FrameReport& report);
-  bool analyze(const GstVideoFrame& frame, const GstSegment& segment, const ImageView& luma,
-               const AnalyzerSettings& settings, const TouchProperties& touch, int64_t paced_ns,
-               FrameReport& report);
-  void play_track(GstBuffer* frame, GstClockTime default_duration, const GstSegment& segment,
-                  int64_t running_ns, FrameReport& report);
-  void write_row(FrameReport& report);
-  void end_gap(int64_t running_ns);
-  void run_out(GstClockTime running_time);
-  void touch_frame(const ImageView& luma, const TouchProperties& touch, int64_t running_ns,
-                   FrameReport& report);
+  bool find_time(const PassingFrame& frame);
 
   // These outlive the output's thread, which hands on what waits.
   WrenchSchedule schedule_;
-  TrackPlayer player_;
-  ReliefStream reliefs_;
+  LimitWatch limit_watch_;
+  PictureTurn turn_;
+  FrameTouch touch_{output_};
+  LiveSource live_{schedule_, limit_watch_, touch_, turn_};
+  TrackSource track_{output_, schedule_, limit_watch_, touch_};
   std::mutex skip_mutex_;  // what is skipped reaches schedule and output in the same order
   HapticOutput output_;
   // Streaming thread.
-  GripPointer grip_pointer_;
+  WrenchSource* source_ = &live_;
   StreamOrientation orientation_;
-  PictureTurn turn_;
-  MotionAnalyzer analyzer_;
-  FrameLuma luma_;
-  SquarePicture square_;
-  StoredPixels stored_;
   FrameTrace trace_;
-  FramePacer pacer_;
-  std::optional<int64_t> gap_ns_;  // where a gap begins, unless a frame comes there
-  double motion_share_ = 1;        // of the newest frame's wrench
+  FrameReport report_;
 
   MotionStats stats_;
-  LimitWatch limit_watch_;
 };
 
 }  // namespace spidar

@@ -5,10 +5,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
-#include <gst/gst.h>
-
-#include "core/analysis/motion_analyzer.h"
+#include "core/analysis/frame.h"
 #include "core/picture_turn.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/no_force_reason.h"
@@ -26,9 +25,6 @@ enum class FrameProblem {
   kSmallHalf,         ///< depth-layout leaves a picture of less than 16 px on a side
 };
 
-/// In words, for the log.
-const char* to_string(FrameProblem problem);
-
 /// Why a frame cannot be touched as the properties say.
 enum class TouchProblem {
   kNone,
@@ -42,9 +38,9 @@ enum class TouchProblem {
 struct FrameReport {
   FrameProblem problem = FrameProblem::kNone;
   bool analyzed = false;
-  GstClockTime running_time = GST_CLOCK_TIME_NONE;
-  GstClockTime stream_time = GST_CLOCK_TIME_NONE;
-  FrameAnalysis analysis;                             ///< its wrench is turned
+  /// In pixels of the frame as it is stored, with its times at the element, and its wrench turned.
+  /// While a haptic track is played, only times and wrench.
+  Frame frame;
   PictureTurn turn;                                   ///< of the frame before it is shown
   VisiblePart part;                                   ///< of the frame that was analysed
   int64_t took_ns = 0;                                ///< the analysis
@@ -55,6 +51,14 @@ struct FrameReport {
   TouchScene touch;
   std::optional<TouchMark> touch_mark;  ///< where the grip is when the frame passes the element
   bool trace_failed = false;            ///< the trace could not be written and was closed
+
+  /// Nothing is known of the next frame. The memory of this one stays.
+  void begin() {
+    Frame memory = std::move(frame);
+    memory.clear();
+    *this = FrameReport();
+    frame = std::move(memory);
+  }
 };
 
 }  // namespace spidar

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/frame/no_force_reason.h"
 
-#include "core/analysis/motion_analyzer.h"
 #include "core/force/felt_force.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_bounds.h"
@@ -113,7 +112,7 @@ Wording wording(NoForceReason limit) noexcept {
 }
 
 /// Whether what was chosen leaves nothing to feel.
-bool is_withheld(const FrameAnalysis& frame) {
+bool is_withheld(const Frame& frame) {
   const Chosen& choice = frame.choice;
   if (choice.is_free()) return false;
   const bool is_one = choice.is_kept || choice.rule->kind == FeelKind::kObjectAt ||
@@ -141,10 +140,10 @@ const char* sentence(NoForceReason limit) noexcept {
   return wording(limit).sentence;
 }
 
-NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion) {
-  if (frame.restarted) return NoForceReason::kNothingToCompare;
+NoForceReason limit_of(const Frame& frame, MotionKind motion) {
+  if (frame.picture == PictureKind::kFirst) return NoForceReason::kNothingToCompare;
   if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
-  if (frame.same_picture) return NoForceReason::kRepeatedFrames;
+  if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;
   if (is_withheld(frame)) return NoForceReason::kNotChosen;
   if (frame.height > 0 && speed_px_s(frame.motion, frame.height) >= kMoving_px_s) {
     return NoForceReason::kTooWeak;
@@ -157,7 +156,7 @@ NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion) {
   const bool is_unknown = frame.background && frame.background->coverage == 0 &&
                           frame.features >= static_cast<int>(kLeastVotes);
   if (leaves_out_camera && is_unknown) return NoForceReason::kCameraUnknown;
-  const bool camera_moves = frame.model && *frame.model != ModelKind::kStill;
+  const bool camera_moves = frame.background && frame.background->model.kind != ModelKind::kStill;
   return leaves_out_camera && camera_moves ? NoForceReason::kCameraOnly
                                            : NoForceReason::kNothingMoves;
 }

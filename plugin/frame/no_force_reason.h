@@ -5,12 +5,10 @@
 
 #include <cstddef>
 
-#include "core/motion/image_motion.h"
+#include "core/analysis/frame.h"
 #include "core/motion/scene_motion.h"
 
 namespace spidar {
-
-struct FrameAnalysis;
 
 /// What keeps the force below kFeltForce_N, or lowers it (kGripReleased, kVibration). The reasons
 /// up to kNotPlaying and those from kCannotTouch on are of the device, the playback or, while
@@ -50,6 +48,6 @@ const char* nick(NoForceReason limit) noexcept;
 const char* sentence(NoForceReason limit) noexcept;
 
 /// The reason in the video, for one frame that was analysed for `motion`.
-NoForceReason limit_of(const FrameAnalysis& frame, MotionKind motion);
+NoForceReason limit_of(const Frame& frame, MotionKind motion);
 
 }  // namespace spidar

@@ -85,7 +85,7 @@ void attach_object_metas(GstBuffer* buffer, const FrameReport& report, const Sce
         static_cast<guint>(box.width), static_cast<guint>(box.height));
     region->id = static_cast<gint>(object.id);
     gst_video_region_of_interest_meta_add_param(
-        region, motion_of_object(object, object.id == report.analysis.felt_object, width, height));
+        region, motion_of_object(object, object.id == report.frame.felt_object, width, height));
   }
   attach_analytics_meta(buffer, boxes);
 }

@@ -77,30 +77,30 @@ void SceneViewer::reset() {
   compares_ = false;
 }
 
-const SceneView& SceneViewer::see(const FrameAnalysis& analysis, const VisiblePart& visible,
+const SceneView& SceneViewer::see(const Frame& frame, const VisiblePart& visible,
                                   const PictureTurn& turn) {
   std::vector<SceneTrack> before = std::move(scene_.tracks);
   scene_.tracks.clear();
   scene_.lost.clear();
   scene_.objects.clear();
-  scene_.motion = analysis.motion;
-  scene_.wrench = analysis.wrench;
-  scene_.felt_object = analysis.felt_object;
-  scene_.is_free = analysis.choice.is_free();
+  scene_.motion = frame.motion;
+  scene_.wrench = frame.wrench;
+  scene_.felt_object = frame.felt_object;
+  scene_.is_free = frame.choice.is_free();
   scene_.turn = turn;
-  if (analysis.object_list) scene_.objects = *analysis.object_list;
-  if (!analysis.tracks) {
+  scene_.objects = frame.objects;
+  if (frame.picture == PictureKind::kFirst) {
     compares_ = false;
     return scene_;
   }
   const auto left_px = static_cast<float>(visible.x);
   const auto top_px = static_cast<float>(visible.y);
-  for (const Track& given : *analysis.tracks) {
+  for (const Track& given : frame.tracks) {
     SceneTrack track;
     track.id = given.id;
     track.from = given.from;
     track.to = given.to;
-    if (analysis.background) find_owner(analysis, visible, track);
+    if (frame.background) find_owner(frame, visible, track);
     for (ImagePoint* point : {&track.from, &track.to}) {
       point->x_px += left_px;
       point->y_px += top_px;
@@ -114,19 +114,18 @@ const SceneView& SceneViewer::see(const FrameAnalysis& analysis, const VisiblePa
 
 /// Assigns the track to the background if it follows it, otherwise to the object with the most
 /// similar velocity among those whose box contains the track.
-void SceneViewer::find_owner(const FrameAnalysis& analysis, const VisiblePart& visible,
-                             SceneTrack& track) {
+void SceneViewer::find_owner(const Frame& frame, const VisiblePart& visible, SceneTrack& track) {
   // Relative to the centre of the picture, as in displacements().
   const Eigen::Vector2d centre_px(0.5 * (visible.width - 1), 0.5 * (visible.height - 1));
   const Eigen::Vector2d from_px = Eigen::Vector2d(track.from.x_px, track.from.y_px) - centre_px;
   const Eigen::Vector2d to_px = Eigen::Vector2d(track.to.x_px, track.to.y_px) - centre_px;
-  const Background& background = *analysis.background;
+  const Background& background = *frame.background;
   const Eigen::Vector2d relative_px = to_px - from_px - background.model.displacement_px(from_px);
   if (relative_px.norm() <= kMovingSigmas * background.sigma_px) {
     track.owner = TrackOwner::kBackground;
     return;
   }
-  const double interval_s = 1e-9 * static_cast<double>(analysis.interval_ns);
+  const double interval_s = 1e-9 * static_cast<double>(frame.interval_ns);
   double nearest_px = 0;
   for (const MovingObject& object : scene_.objects) {
     if (object.tracks == 0 || !is_in_box(object, to_px)) continue;

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/analysis/motion_analyzer.h"
-#include "core/motion/objects.h"
+#include "core/analysis/frame.h"
+#include "core/motion/scene_motion.h"
 #include "core/picture_turn.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/touch_view.h"
@@ -59,9 +59,9 @@ ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible)
 /// Assigns tracks to the background or to objects, and tracks their appearance from frame to frame.
 class SceneViewer {
  public:
-  /// Updates the scene with the result of analyze() for the part `visible` of the frame. The
+  /// Updates the scene with a frame that was analysed in the part `visible` of the frame. The
   /// reference is valid until the next call.
-  const SceneView& see(const FrameAnalysis& analysis, const VisiblePart& visible,
+  const SceneView& see(const Frame& frame, const VisiblePart& visible,
                        const PictureTurn& turn = {});
   const SceneView& scene() const { return scene_; }
 
@@ -69,7 +69,7 @@ class SceneViewer {
   void reset();
 
  private:
-  void find_owner(const FrameAnalysis& analysis, const VisiblePart& visible, SceneTrack& track);
+  void find_owner(const Frame& frame, const VisiblePart& visible, SceneTrack& track);
   void compare(const std::vector<SceneTrack>& before);
 
   SceneView scene_;

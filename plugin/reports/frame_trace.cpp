@@ -48,9 +48,9 @@ std::string FrameTrace::open(const std::string& path) {
 }
 
 void FrameTrace::append_csv(const FrameReport& report) {
-  const FrameAnalysis& frame = report.analysis;
-  append(line_, static_cast<int64_t>(report.running_time));
-  append(line_, static_cast<int64_t>(report.stream_time));
+  const Frame& frame = report.frame;
+  append(line_, frame.running_ns);
+  append(line_, frame.stream_ns);
   append(line_, frame.features);
   append(line_, frame.motion.tracked);
   const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
@@ -67,8 +67,7 @@ void FrameTrace::append_csv(const FrameReport& report) {
 bool FrameTrace::write(const FrameReport& report) {
   line_.clear();
   if (is_json_) {
-    append_json(report.analysis, static_cast<int64_t>(report.running_time),
-                static_cast<int64_t>(report.stream_time), {}, line_);
+    append_json(report.frame, {}, line_);
   } else {
     append_csv(report);
   }

@@ -125,8 +125,8 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, const Scen
   GstSpidarFrameMotion motion{};
   motion.width = static_cast<guint>(width);
   motion.height = static_cast<guint>(height);
-  motion.running_time = report.running_time;
-  motion.interval = static_cast<guint64>(report.analysis.interval_ns);
+  motion.running_time = static_cast<guint64>(report.frame.running_ns);
+  motion.interval = static_cast<guint64>(report.frame.interval_ns);
   motion.velocity_x = felt.velocity_px_s.x();
   motion.velocity_y = felt.velocity_px_s.y();
   motion.growth = felt.growth_1_s;
@@ -145,7 +145,7 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, const Scen
   }
   GstStructure* structure = add_meta(buffer);
   set_values(structure, motion);
-  gst_structure_set(structure, "repeated", G_TYPE_BOOLEAN, report.analysis.repeated ? TRUE : FALSE,
+  gst_structure_set(structure, "repeated", G_TYPE_BOOLEAN, report.frame.goes_on() ? TRUE : FALSE,
                     nullptr);
   set_tracks(structure, tracks);
 }

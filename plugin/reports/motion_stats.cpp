@@ -22,14 +22,15 @@ void MotionStats::reset() {
   analysis_.reset();
 }
 
-void MotionStats::add(const FrameAnalysis& frame, int64_t took_ns) {
+void MotionStats::add(const Frame& frame, int64_t took_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++frames_;
-  if (frame.restarted) ++restarts_;
+  if (frame.picture == PictureKind::kFirst) ++restarts_;
   features_ = frame.features;
   tracked_ = frame.motion.tracked;
-  model_ = frame.model;
-  objects_ = frame.objects;
+  model_.reset();
+  if (frame.background) model_ = frame.background->model.kind;
+  objects_ = static_cast<int>(frame.objects.size());
   analysis_.add(took_ns);
 }
 

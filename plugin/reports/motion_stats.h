@@ -9,7 +9,7 @@
 
 #include <gst/gst.h>
 
-#include "core/analysis/motion_analyzer.h"
+#include "core/analysis/frame.h"
 #include "spidar/realtime/latency_histogram.h"
 
 namespace spidar {
@@ -18,7 +18,7 @@ namespace spidar {
 class MotionStats {
  public:
   void reset();
-  void add(const FrameAnalysis& frame, int64_t took_ns);
+  void add(const Frame& frame, int64_t took_ns);
 
   uint64_t frames() const;
 

@@ -147,7 +147,7 @@ bool ReliefStream::build(const ImageView& luma, int64_t shown_ns, const TouchPro
   return true;
 }
 
-void ReliefStream::add(const ImageView& luma, const FrameAnalysis& analysis, int64_t shown_ns,
+void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
                        const TouchProperties& properties, const Eigen::Vector2d& finger) {
   copy_.reset();
   if (!loop_) return;
@@ -173,14 +173,15 @@ void ReliefStream::add(const ImageView& luma, const FrameAnalysis& analysis, int
   frame->time_ns = shown_ns;
   frame->has_surface = true;
   frame->contact = contact_settings(properties, profile_);
-  const Eigen::Vector2d moved_px = touched_displacement_px(analysis, finger);
+  const Eigen::Vector2d moved_px = touched_displacement_px(analyzed, finger);
   const Eigen::Vector2d moved = turn_.to_shown(
-      Eigen::Vector2d(moved_px.x() / analysis.width, moved_px.y() / analysis.height));
+      Eigen::Vector2d(moved_px.x() / analyzed.width, moved_px.y() / analyzed.height));
   frame->displacement_m = {moved.x() * frame->relief.width_m(),
                            -moved.y() * frame->relief.height_m()};
   if (copy_wanted_) copy_ = std::make_shared<HeightField>(frame->relief);
   stiffness_N_m_ = frame->contact.stiffness_N_m;
-  frame->follows = touched_ && !left_out_ && generation == generation_ && !analysis.restarted;
+  frame->follows =
+      touched_ && !left_out_ && generation == generation_ && analyzed.has_motion_before();
   mailbox_->publish();
   touched_ = true;
   left_out_ = false;

@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <gst/gst.h>
 
-#include "core/analysis/motion_analyzer.h"
+#include "core/analysis/frame.h"
 #include "core/image_view.h"
 #include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
@@ -57,10 +57,10 @@ class ReliefStream {
 
   // --- streaming thread
 
-  /// Adds a frame that is shown at `shown_ns`. `luma` covers the whole frame, `analysis` the part
+  /// Adds a frame that is shown at `shown_ns`. `luma` covers the whole frame, `analyzed` the part
   /// that is picture. For `finger` see touched_displacement_px(). Throws std::invalid_argument when
   /// the device has no workspace for a picture. Allocates only when the frame size changes.
-  void add(const ImageView& luma, const FrameAnalysis& analysis, int64_t shown_ns,
+  void add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
            const TouchProperties& properties, const Eigen::Vector2d& finger);
   /// How the frames that follow are turned before they are shown; the relief is turned like them.
   void set_turn(const PictureTurn& turn) { turn_ = turn; }

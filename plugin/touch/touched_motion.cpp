@@ -19,19 +19,16 @@ const MovingObject* object_at(const std::vector<MovingObject>& objects,
 
 }  // namespace
 
-Eigen::Vector2d touched_displacement_px(const FrameAnalysis& frame, const Eigen::Vector2d& place) {
-  if (frame.restarted || frame.repeated || frame.same_picture || frame.interval_ns <= 0) {
+Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& place) {
+  if (frame.picture == PictureKind::kFirst || is_again(frame.picture) || frame.interval_ns <= 0) {
     return Eigen::Vector2d::Zero();
   }
   const double passed_s = 1e-9 * static_cast<double>(frame.interval_ns);
   const Eigen::Vector2d at_px((place.x() - 0.5) * frame.width, (place.y() - 0.5) * frame.height);
-  if (frame.object_list != nullptr) {
-    const MovingObject* const object = object_at(*frame.object_list, at_px);
-    if (object != nullptr) return passed_s * object->on_screen_px_s;
-  }
-  if (frame.background != nullptr) return frame.background->model.displacement_px(at_px);
-  return frame.model ? Eigen::Vector2d(0, 0)
-                     : Eigen::Vector2d(passed_s * frame.motion.velocity_px_s);
+  const MovingObject* const object = object_at(frame.objects, at_px);
+  if (object != nullptr) return passed_s * object->on_screen_px_s;
+  if (frame.background) return frame.background->model.displacement_px(at_px);
+  return passed_s * frame.motion.velocity_px_s;
 }
 
 }  // namespace spidar

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/analysis/motion_analyzer.h"
+#include "core/analysis/frame.h"
 
 namespace spidar {
 
@@ -15,6 +15,6 @@ namespace spidar {
 /// finger (of several, the one with the smallest area), otherwise that of the background at this
 /// point. With motion=mean, which detects neither, it is the motion of the whole picture. Zero if
 /// the motion is unknown, or if the frame repeats the previous picture.
-Eigen::Vector2d touched_displacement_px(const FrameAnalysis& frame, const Eigen::Vector2d& place);
+Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& place);
 
 }  // namespace spidar

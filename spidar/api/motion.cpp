@@ -60,14 +60,14 @@ MotionToWrench::MotionToWrench(MotionToWrench&& other) noexcept = default;
 MotionToWrench& MotionToWrench::operator=(MotionToWrench&& other) noexcept = default;
 
 MotionResult MotionToWrench::analyze(const GreyPicture& picture, std::chrono::nanoseconds time) {
-  const spidar::FrameAnalysis frame = impl_->analyzer.analyze(from_api(picture), time.count());
+  const spidar::Frame& frame = impl_->analyzer.analyze(from_api(picture), time.count());
   MotionResult result;
   result.wrench = to_api(frame.wrench);
   result.velocity_x_px_s = frame.motion.velocity_px_s.x();
   result.velocity_y_px_s = frame.motion.velocity_px_s.y();
   result.growth_1_s = frame.motion.growth_1_s;
   result.roll_rad_s = frame.motion.roll_rad_s;
-  result.has_picture_before = !frame.restarted;
+  result.has_picture_before = frame.has_motion_before();
   return result;
 }
 

@@ -116,11 +116,10 @@ RandomFilm random_film(FilmStudio& studio, Random& random) {
 }
 
 /// The largest object whose middle is on the film's.
-const MovingObject* found_object(const FrameAnalysis& found, const Film& film, int n) {
+const MovingObject* found_object(const Frame& found, const Film& film, int n) {
   const MovingObject* largest = nullptr;
-  if (!found.object_list) return nullptr;
   const test::FilmObject& truth = film.objects[0];
-  for (const MovingObject& object : *found.object_list) {
+  for (const MovingObject& object : found.objects) {
     const Vector2d on_object = truth.pose(n).inverse() * object.position_px;
     if (object.tracks == 0 || on_object.norm() > truth.radii_px.x()) continue;
     if (!largest || object.area_px2 > largest->area_px2) largest = &object;
@@ -134,8 +133,7 @@ void measure(const RandomFilm& made, const std::vector<test::Picture>& frames,
   MotionAnalyzer analyzer;
   const double to_reference = kReferenceWidth_px / film.width();
   for (int n = 0; n < kFilmFrames; ++n) {
-    const FrameAnalysis found =
-        analyzer.analyze(frames[static_cast<size_t>(n)].view(), n * kFrame_ns);
+    const Frame found = analyzer.analyze(frames[static_cast<size_t>(n)].view(), n * kFrame_ns);
     const MovingObject* object = found_object(found, film, n);
     if (!object || !film.is_in_view(n, film.objects[0])) continue;
     // Of an object that turns, the truth is that of the place that the velocity is said to be of.

@@ -65,13 +65,16 @@ void run(benchmark::State& state, ModelKind kind, int objects) {
   const std::vector<Picture> frames = draw(kind, objects);
   MotionEstimator estimator;
   ReducedFrame reduced;
+  spidar::MeasuredFrame scene;
   size_t n = 0;
   double found = 0;
   for (auto _ : state) {
     const ImageView frame = frames[n++ % frames.size()].view();
     reduced.read(frame);
-    const spidar::SceneMotion scene = estimator.estimate(frame, reduced, {}, kFrame_ns);
-    if (!scene.restarted) found += static_cast<double>(scene.object_list->size());
+    scene.forget_motion();
+    scene.interval_ns = kFrame_ns;
+    if (estimator.estimate(frame, reduced, {}, scene))
+      found += static_cast<double>(scene.objects.size());
   }
   state.counters["objects"] = found / static_cast<double>(state.iterations());
 }

@@ -28,8 +28,8 @@ std::vector<uint8_t> noise(int width, int height) {
   return pixels;
 }
 
-FrameAnalysis analysis_of(int width, int height) {
-  FrameAnalysis analysis;
+Frame analysis_of(int width, int height) {
+  Frame analysis;
   analysis.width = width;
   analysis.height = height;
   return analysis;

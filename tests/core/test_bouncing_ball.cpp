@@ -51,11 +51,11 @@ bool impact_between(const BallScene& scene, double from_s, double to_s) {
   return std::any_of(impacts.begin(), impacts.end(), [&](double t) { return t > from_s; });
 }
 
-std::vector<FrameAnalysis> analyze(const BallScene& scene,
-                                   const AnalyzerSettings& settings = paper_settings()) {
+std::vector<Frame> analyze(const BallScene& scene,
+                           const AnalyzerSettings& settings = paper_settings()) {
   Picture picture(scene.settings().width, scene.settings().height, 5);
   MotionAnalyzer analyzer(settings);
-  std::vector<FrameAnalysis> frames;
+  std::vector<Frame> frames;
   for (int n = 0; n < kFrames; ++n) {
     scene.render(time_s(n), picture.pixels.data(), picture.stride);
     frames.push_back(analyzer.analyze(picture.view(), n * kFrame_ns));
@@ -144,10 +144,10 @@ TEST(BouncingBall, TheSceneObeysItsPhysics) {
 
 TEST(BouncingBall, VelocityFollowsTheAnalyticCurve) {
   const BallScene scene(ball(false));
-  const std::vector<FrameAnalysis> frames = analyze(scene);
+  const std::vector<Frame> frames = analyze(scene);
   int impacts = 0;
   for (int n = 1; n < kFrames; ++n) {
-    ASSERT_FALSE(frames[n].restarted) << n;
+    ASSERT_TRUE(frames[n].has_motion_before()) << n;
     ASSERT_GE(frames[n].motion.tracked, 10) << n;
     const Eigen::Vector2d error = frames[n].motion.velocity_px_s - mean_velocity(scene, n);
     const bool impact = impact_between(scene, time_s(n - 1), time_s(n));
@@ -173,7 +173,7 @@ TEST(BouncingBall, VelocityFollowsTheAnalyticCurveInAReducedPicture) {
   settings.gravity_px_s2 *= 2;
   settings.horizontal_px_s *= 2;
   const BallScene scene(settings);
-  const std::vector<FrameAnalysis> frames = analyze(scene);
+  const std::vector<Frame> frames = analyze(scene);
   for (int n = 1; n < kFrames; ++n) {
     const Eigen::Vector2d error = frames[n].motion.velocity_px_s - mean_velocity(scene, n);
     EXPECT_LT(error.norm(), 3 * kVelocity_px_s) << "frame " << n << ", error " << error.transpose();
@@ -182,7 +182,7 @@ TEST(BouncingBall, VelocityFollowsTheAnalyticCurveInAReducedPicture) {
 
 TEST(BouncingBall, PositionFollowsTheAnalyticCurve) {
   const BallScene scene(ball(false));
-  const std::vector<FrameAnalysis> frames = analyze(scene);
+  const std::vector<Frame> frames = analyze(scene);
   Eigen::Vector2d position = scene.position_px(0);
   for (int n = 1; n < kFrames; ++n) {
     position += frames[n].motion.velocity_px_s * kFrame_s;
@@ -193,7 +193,7 @@ TEST(BouncingBall, PositionFollowsTheAnalyticCurve) {
 
 TEST(BouncingBall, AccelerationFollowsTheAnalyticCurve) {
   const BallScene scene(ball(false));
-  const std::vector<FrameAnalysis> frames = analyze(scene);
+  const std::vector<Frame> frames = analyze(scene);
   // Two velocities, each right to kVelocity_px_s, one frame apart: 90 of 1500 px/s².
   const double tolerance_px_s2 = 2 * kVelocity_px_s / kFrame_s;
   int flying = 0;
@@ -215,7 +215,7 @@ TEST(BouncingBall, AccelerationFollowsTheAnalyticCurve) {
 
 TEST(BouncingBall, NonlinearForceIsEquation15OfTheAnalyticVelocity) {
   const BallScene scene(ball(false));
-  const std::vector<FrameAnalysis> frames = analyze(scene);
+  const std::vector<Frame> frames = analyze(scene);
   const double to_reference = kReferenceHeight_px / scene.settings().height;
   // As a map of vectors, F(|v|) v / |v| is nowhere steeper than at 0: 2 Fmax α / π.
   const double tolerance_N = 2 * 3.0 * 0.01 / M_PI * kVelocity_px_s * to_reference;
@@ -232,7 +232,7 @@ TEST(BouncingBall, LinearForceIsEquations11To13OfTheAnalyticVelocity) {
   const BallScene scene(ball(false));
   AnalyzerSettings settings = paper_settings();
   settings.controller.kind = ControllerKind::kLinear;
-  const std::vector<FrameAnalysis> frames = analyze(scene, settings);
+  const std::vector<Frame> frames = analyze(scene, settings);
   double largest_px_s = 0;
   for (int n = 1; n < kFrames; ++n) {
     const Eigen::Vector2d v = mean_velocity(scene, n);
@@ -255,7 +255,7 @@ TEST(BouncingBall, PointsOnTheBallFollowItInFrontOfATexture) {
     scene.render(time_s(n), picture.pixels.data(), picture.stride);
     const TrackedFrame& frame = tracker.track(picture.view());
     if (n == 0) continue;
-    ASSERT_FALSE(frame.restarted) << n;
+    ASSERT_NE(frame.picture, PictureKind::kFirst) << n;
     const BallTracks sorted = sort_tracks(frame.tracks, scene, n);
     ASSERT_GT(sorted.background, 50) << n;
     EXPECT_LT(sorted.background_px.norm(), kMean_px) << n;

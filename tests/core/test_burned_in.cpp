@@ -143,13 +143,12 @@ std::vector<Picture> take(const Scene& scene) {
   return film;
 }
 
-std::vector<FrameAnalysis> analyze(const std::vector<Picture>& film,
-                                   const Caption& caption = nullptr,
-                                   MotionKind motion = MotionKind::kObject) {
+std::vector<Frame> analyze(const std::vector<Picture>& film, const Caption& caption = nullptr,
+                           MotionKind motion = MotionKind::kObject) {
   AnalyzerSettings settings;
   settings.motion = motion;
   MotionAnalyzer analyzer(settings);
-  std::vector<FrameAnalysis> found;
+  std::vector<Frame> found;
   Picture picture(kWidth, kHeight);
   for (int n = 0; n < kFrames; ++n) {
     const Picture& taken = film[static_cast<size_t>(n)];
@@ -178,7 +177,7 @@ TEST_P(BurnedIn, AddsNothingToAPan) {
   }();
   for (size_t k = 0; k < films.size(); ++k) {
     SCOPED_TRACE(testing::Message() << "pan of " << pans[k].transpose() << " px a frame");
-    const std::vector<FrameAnalysis> found = analyze(films[k], GetParam().caption);
+    const std::vector<Frame> found = analyze(films[k], GetParam().caption);
     for (int n = 0; n < kFrames; ++n) {
       const Vector2d moved_px = found[static_cast<size_t>(n)].motion.velocity_px_s * kFrame_s;
       EXPECT_EQ(moved_px, Vector2d(0, 0)) << "frame " << n;
@@ -200,7 +199,7 @@ TEST(BurnedInLines, DoNotSayHowTheCameraMoves) {
     }
     return grey;
   };
-  const std::vector<FrameAnalysis> found = analyze(film, lines, MotionKind::kCamera);
+  const std::vector<Frame> found = analyze(film, lines, MotionKind::kCamera);
   // Blocks are right to a tenth of a pixel of the field, which is 1.5 of the frame's.
   constexpr double kError_px = 0.15;
   for (int n = 1; n < kFrames; ++n) {
@@ -226,7 +225,7 @@ TEST(BurnedInFrames, AreNoSceneInWhichTheCameraRests) {
     }
     return grey;
   };
-  const std::vector<FrameAnalysis> found = analyze(film, frame, MotionKind::kCamera);
+  const std::vector<Frame> found = analyze(film, frame, MotionKind::kCamera);
   for (size_t n = 1; n < kFrames; ++n) {
     // Nothing of the scene moves by less than the furthest part, hypot(3, 1.5) px.
     EXPECT_GT(found[n].motion.velocity_px_s.norm() * kFrame_s, 1) << "frame " << n;
@@ -246,7 +245,7 @@ TEST(BurnedInSubtitles, DoNotMakeAnObjectOfANearLayer) {
   };
   const std::vector<Picture> film = take(shown);
   for (const bool with : {false, true}) {
-    const std::vector<FrameAnalysis> found = analyze(film, with ? subtitles() : nullptr);
+    const std::vector<Frame> found = analyze(film, with ? subtitles() : nullptr);
     for (size_t n = 0; n < kFrames; ++n) {
       EXPECT_EQ(found[n].motion.velocity_px_s, Vector2d(0, 0))
           << "frame " << n << (with ? " with the subtitle" : "");
@@ -256,9 +255,9 @@ TEST(BurnedInSubtitles, DoNotMakeAnObjectOfANearLayer) {
 
 /// As strong as without the caption to 10 % and in that direction to 15°, over the film; and always
 /// felt about that way.
-void expect_plain(const std::vector<Picture>& film, const std::vector<FrameAnalysis>& plain,
+void expect_plain(const std::vector<Picture>& film, const std::vector<Frame>& plain,
                   const Caption& caption) {
-  const std::vector<FrameAnalysis> found = analyze(film, caption);
+  const std::vector<Frame> found = analyze(film, caption);
   double ff = 0;
   double pp = 0;
   double fp = 0;
@@ -281,7 +280,7 @@ TEST_P(BurnedIn, LeavesAnObjectInFrontOfAPanAsItIs) {
     if ((at - middle).norm() < 55) return foreground().at(at.x() - 4.0 * n, at.y());
     return background().at(at.x() + 4.0 * n, at.y());
   });
-  static const std::vector<FrameAnalysis> plain = analyze(film);
+  static const std::vector<Frame> plain = analyze(film);
   expect_plain(film, plain, GetParam().caption);
 }
 
@@ -292,7 +291,7 @@ TEST_P(BurnedIn, LeavesWhatTheCameraFollowsAsItIs) {
     if ((at - Vector2d(330, 200)).norm() < 55) return foreground().at(at.x(), at.y());
     return background().at(at.x() + 7.0 * n, at.y() + 1.0 * n);
   });
-  static const std::vector<FrameAnalysis> plain = analyze(film);
+  static const std::vector<Frame> plain = analyze(film);
   expect_plain(film, plain, GetParam().caption);
 }
 
@@ -311,7 +310,7 @@ TEST_P(BurnedIn, LeavesAnObjectBeforeAStillCameraAsItIs) {
     if ((at - middle).norm() < 55) return foreground().at(at.x() - 6.0 * n, at.y());
     return background().at(at.x(), at.y());
   });
-  static const std::vector<FrameAnalysis> plain = analyze(film);
+  static const std::vector<Frame> plain = analyze(film);
   expect_plain(film, plain, GetParam().caption);
 }
 

@@ -13,7 +13,7 @@
 namespace spidar::test::cadence_test {
 namespace {
 
-using Shows = Cadence::Picture;
+using Shows = PictureKind;
 
 constexpr double kSpeed_px_s = 100;
 

@@ -91,7 +91,7 @@ TEST_P(CompressedDisc, IsFollowed) {
       return 16 + std::clamp(kRim_1_px * inside_px, 0.0, 219.0);
     });
     compress(GetParam(), picture);
-    const FrameAnalysis frame = analyzer.analyze(picture.view(), n * kFrame_ns);
+    const Frame frame = analyzer.analyze(picture.view(), n * kFrame_ns);
     // An object is felt from the second pair of frames in which it moves.
     if (n < 2) continue;
     const Eigen::Vector2d moved_px = frame.motion.velocity_px_s * 1e-9 * kFrame_ns;

@@ -39,9 +39,8 @@ std::vector<Frame> frames_of(Film film) {
   MotionAnalyzer analyzer;
   const FilmObject& truth = film.objects.at(0);
   for (int n = 0; n < kFilmFrames; ++n) {
-    const FrameAnalysis found = analyzer.analyze(film.draw(n), n * kFrame_ns);
-    if (!found.object_list) continue;
-    for (const MovingObject& object : *found.object_list) {
+    const Frame found = analyzer.analyze(film.draw(n), n * kFrame_ns);
+    for (const MovingObject& object : found.objects) {
       const Vector2d on_object = truth.pose(n).inverse() * object.position_px;
       if (object.tracks == 0 || on_object.norm() > truth.radii_px.x()) continue;
       const Vector2d from_px = truth.pose(n - 1) * on_object + film.middle_px();

@@ -24,12 +24,11 @@ using test::Texture;
 /// An object is felt from the second pair of frames in which it moves.
 constexpr int kFelt = 3;
 
-std::vector<FrameAnalysis> analyze(const Scene& scene, int frames,
-                                   const TrackerSettings& tracker = {}) {
+std::vector<Frame> analyze(const Scene& scene, int frames, const TrackerSettings& tracker = {}) {
   AnalyzerSettings settings;
   settings.tracker = tracker;
   MotionAnalyzer analyzer(settings);
-  std::vector<FrameAnalysis> found;
+  std::vector<Frame> found;
   for (int n = 0; n < frames; ++n) {
     const Picture picture = test::draw(scene, n);
     found.push_back(analyzer.analyze(picture.view(), n * test::kSceneFrame_ns));
@@ -37,12 +36,12 @@ std::vector<FrameAnalysis> analyze(const Scene& scene, int frames,
   return found;
 }
 
-Vector2d moved_px(const FrameAnalysis& frame) {
+Vector2d moved_px(const Frame& frame) {
   return frame.motion.velocity_px_s * test::kSceneFrame_s;
 }
 
 /// Right as in the benchmark of real films: within 30 degrees and a factor of 2.
-void expect_right(const FrameAnalysis& frame, const Vector2d& true_px, int n) {
+void expect_right(const Frame& frame, const Vector2d& true_px, int n) {
   const Vector2d found_px = moved_px(frame);
   ASSERT_GT(found_px.norm(), 0.5 * true_px.norm()) << "frame " << n;
   EXPECT_LT(found_px.norm(), 2 * true_px.norm()) << "frame " << n;
@@ -52,7 +51,7 @@ void expect_right(const FrameAnalysis& frame, const Vector2d& true_px, int n) {
 
 void expect_right(const Scene& scene, int frames, const std::function<Vector2d(int)>& true_px,
                   int first = kFelt) {
-  const std::vector<FrameAnalysis> found = analyze(scene, frames);
+  const std::vector<Frame> found = analyze(scene, frames);
   for (int n = first; n < frames; ++n) expect_right(found[static_cast<size_t>(n)], true_px(n), n);
 }
 
@@ -114,7 +113,7 @@ TEST(FilmCauses, LayersOfASceneAreNoObjectsWhileTheCameraMoves) {
   // A hedge in front of a field: the camera moves sideways, and the hedge moves faster in the
   // picture.
   for (const TrackerSettings& tracker : trackers()) {
-    const std::vector<FrameAnalysis> found = analyze(
+    const std::vector<Frame> found = analyze(
         [](int n, const Vector2d& at) {
           if (at.y() > 290) return foreground().at(at.x() + 9.0 * n, at.y());
           return background().at(at.x() + 5.0 * n, at.y());
@@ -128,7 +127,7 @@ TEST(FilmCauses, LayersOfASceneAreNoObjectsWhileTheCameraMoves) {
 
 TEST(FilmCauses, ABushThatIsALittleNearerIsNoObject) {
   // It touches no border, and goes as the background does, 18 % faster.
-  const std::vector<FrameAnalysis> found = analyze(
+  const std::vector<Frame> found = analyze(
       [](int n, const Vector2d& at) {
         if (in_disc(at, {560.0 - 9.44 * n, 200}, 60)) {
           return foreground().at(at.x() + 9.44 * n, at.y());
@@ -143,7 +142,7 @@ TEST(FilmCauses, ABushThatIsALittleNearerIsNoObject) {
 
 TEST(FilmCauses, AStoneAtTheBorderIsNoObject) {
   // The whole visible part is at the border of the picture, so its extent is unknown.
-  const std::vector<FrameAnalysis> found = analyze(
+  const std::vector<Frame> found = analyze(
       [](int n, const Vector2d& at) {
         if (at.y() > 338 && std::abs(at.x() - 560 + 13.0 * n) < 36) {
           return foreground().at(at.x() + 13.0 * n, at.y());
@@ -158,7 +157,7 @@ TEST(FilmCauses, AStoneAtTheBorderIsNoObject) {
 
 TEST(FilmCauses, WhatAFastCameraBringsIntoThePictureIsNoObject) {
   // Two blocks a frame enter at the side; a wall beside the camera moves faster than the scene.
-  const std::vector<FrameAnalysis> found = analyze(
+  const std::vector<Frame> found = analyze(
       [](int n, const Vector2d& at) {
         if (at.x() < 120) return foreground().at(at.x() - 66.0 * n, at.y());
         return background().at(at.x() - 44.0 * n, at.y());
@@ -185,7 +184,7 @@ TEST(FilmCauses, WaterThatGlittersIsNoObject) {
   // Every patch of the water moves differently in each frame, in front of a still shore.
   constexpr int kPatch_px = 40;
   for (int water = 0; water < 5; ++water) {
-    const std::vector<FrameAnalysis> found = analyze(
+    const std::vector<Frame> found = analyze(
         [&](int n, const Vector2d& at) {
           if (at.y() < 180) return background().at(at.x(), at.y());
           const int patch =
@@ -240,7 +239,7 @@ TEST(FilmCauses, WhatTheCameraFollowsMovesAgainstTheBackground) {
 
 TEST(FilmCauses, InFieldsOfTwoTimesTheMotionIsNotReversed) {
   // Interlaced: even rows are from half a frame earlier than odd ones.
-  const std::vector<FrameAnalysis> found = analyze(
+  const std::vector<Frame> found = analyze(
       [](int n, const Vector2d& at) {
         const double t = static_cast<int>(at.y()) % 2 == 0 ? n : n + 0.5;
         if (in_disc(at, {160.0 + 8 * t, 180}, 60)) {
@@ -258,7 +257,7 @@ TEST(FilmCauses, ANewShotIsFeltWithinThreeFrames) {
   // Shots of eight frames, each with a disc that moves in a different direction.
   const std::vector<Texture> walls{Texture(11, 10), Texture(12, 10), Texture(13, 10)};
   const std::vector<Vector2d> ways{{6, 0}, {0, 5}, {-6, 2}};
-  const std::vector<FrameAnalysis> found = analyze(
+  const std::vector<Frame> found = analyze(
       [&](int n, const Vector2d& at) {
         const auto shot = static_cast<size_t>(n / 8);
         const int t = n % 8;
@@ -271,7 +270,7 @@ TEST(FilmCauses, ANewShotIsFeltWithinThreeFrames) {
       },
       24);
   for (int n = 0; n < 24; ++n) {
-    const FrameAnalysis& frame = found[static_cast<size_t>(n)];
+    const Frame& frame = found[static_cast<size_t>(n)];
     if (n % 8 == 0) {
       EXPECT_EQ(moved_px(frame), Vector2d(0, 0)) << "a cut, frame " << n;
     }

@@ -41,8 +41,8 @@ TEST_P(LumaFormats, AreFeltAsTheFilmInBytes) {
       for (int n = 0; n < 4; ++n) {
         const Picture picture = frame_of(width, n);
         const WordPicture word_picture(picture, sample);
-        const FrameAnalysis a = bytes.analyze(picture.view(), n * kFrame_ns);
-        const FrameAnalysis b = words.analyze(word_picture.view(), n * kFrame_ns);
+        const Frame a = bytes.analyze(picture.view(), n * kFrame_ns);
+        const Frame b = words.analyze(word_picture.view(), n * kFrame_ns);
         EXPECT_EQ(a.features, b.features);
         EXPECT_EQ(a.motion.tracked, b.motion.tracked);
         EXPECT_EQ(a.motion.velocity_px_s, b.motion.velocity_px_s);

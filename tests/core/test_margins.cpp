@@ -48,7 +48,7 @@ std::vector<Vector2d> feel(const Scene& scene) {
   std::vector<Vector2d> felt_px;
   for (int n = 0; n < kFrames; ++n) {
     picture.fill([&](double x, double y) { return scene(n, {x, y}); });
-    const FrameAnalysis found = analyzer.analyze(picture.view(), n * kFrame_ns);
+    const Frame found = analyzer.analyze(picture.view(), n * kFrame_ns);
     felt_px.push_back(found.motion.velocity_px_s * kFrame_s);
   }
   return felt_px;

@@ -48,14 +48,14 @@ AnalyzerSettings linear() {
   return settings;
 }
 
-void expect_nothing(const FrameAnalysis& analysis) {
+void expect_nothing(const Frame& analysis) {
   EXPECT_EQ(analysis.motion.velocity_px_s, Eigen::Vector2d::Zero());
   EXPECT_EQ(analysis.motion.tracked, 0);
   EXPECT_EQ(analysis.wrench.stacked(), (Eigen::Matrix<double, 6, 1>::Zero()));
 }
 
-void expect_restarted(const FrameAnalysis& analysis) {
-  EXPECT_TRUE(analysis.restarted);
+void expect_restarted(const Frame& analysis) {
+  EXPECT_FALSE(analysis.has_motion_before());
   EXPECT_EQ(analysis.interval_ns, 0);
   expect_nothing(analysis);
 }
@@ -63,7 +63,7 @@ void expect_restarted(const FrameAnalysis& analysis) {
 TEST(MotionAnalyzer, TheFirstFrameShowsNoMotion) {
   Scene scene(640, 360, 3, 0);
   MotionAnalyzer analyzer(paper_settings());
-  const FrameAnalysis first = analyzer.analyze(scene.frame(0), 0);
+  const Frame first = analyzer.analyze(scene.frame(0), 0);
   expect_restarted(first);
   EXPECT_GT(first.features, 0);
 }
@@ -73,8 +73,8 @@ TEST(MotionAnalyzer, VelocityIsDisplacementOverRunningTime) {
   for (const int64_t interval_ns : {kFrame_ns, 2 * kFrame_ns, kFrame_ns / 4}) {
     MotionAnalyzer analyzer(paper_settings());
     analyzer.analyze(scene.frame(0), 7 * kFrame_ns);
-    const FrameAnalysis analysis = analyzer.analyze(scene.frame(1), 7 * kFrame_ns + interval_ns);
-    EXPECT_FALSE(analysis.restarted);
+    const Frame analysis = analyzer.analyze(scene.frame(1), 7 * kFrame_ns + interval_ns);
+    EXPECT_TRUE(analysis.has_motion_before());
     EXPECT_EQ(analysis.interval_ns, interval_ns);
     EXPECT_GT(analysis.motion.tracked, 50);
     const double interval_s = static_cast<double>(interval_ns) * 1e-9;
@@ -90,7 +90,7 @@ TEST(MotionAnalyzer, ADroppedFrameIsNoJump) {
   analyzer.analyze(scene.frame(0), 0);
   const double tolerance_px_s = kMeanTolerance_px / kFrame_s;
   for (const int n : {1, 2, 4, 5, 8}) {
-    const FrameAnalysis analysis = analyzer.analyze(scene.frame(n), n * kFrame_ns);
+    const Frame analysis = analyzer.analyze(scene.frame(n), n * kFrame_ns);
     EXPECT_NEAR(analysis.motion.velocity_px_s.x(), 2 / kFrame_s, tolerance_px_s) << n;
     EXPECT_NEAR(analysis.motion.velocity_px_s.y(), 1 / kFrame_s, tolerance_px_s) << n;
   }
@@ -119,7 +119,7 @@ TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
     Scene scene(size.width, size.height, dx_px, 0);
     MotionAnalyzer analyzer(paper_settings());
     analyzer.analyze(scene.frame(0), 0);
-    const FrameAnalysis analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
+    const Frame analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
     const double tolerance_px_s = kMeanTolerance_px * scene.reduction() / kFrame_s;
     EXPECT_NEAR(analysis.motion.velocity_px_s.x(), dx_px / kFrame_s, tolerance_px_s);
 
@@ -146,8 +146,8 @@ TEST(MotionAnalyzer, ARunningTimeThatDoesNotRiseRestarts) {
     analyzer.analyze(scene.frame(1), kFrame_ns);
     expect_restarted(analyzer.analyze(scene.frame(2), kFrame_ns + step_ns));
     // Continues from there.
-    const FrameAnalysis next = analyzer.analyze(scene.frame(3), 2 * kFrame_ns + step_ns);
-    EXPECT_FALSE(next.restarted);
+    const Frame next = analyzer.analyze(scene.frame(3), 2 * kFrame_ns + step_ns);
+    EXPECT_TRUE(next.has_motion_before());
     EXPECT_EQ(next.interval_ns, kFrame_ns);
     EXPECT_GT(next.motion.velocity_px_s.x(), 0);
   }
@@ -174,8 +174,8 @@ TEST(MotionAnalyzer, ACutShowsNoMotionAndKeepsTheLargestSpeed) {
   const double fastest_px_s =
       analyzer.analyze(fast.frame(1), kFrame_ns).motion.velocity_px_s.norm();
   expect_restarted(analyzer.analyze(slow.frame(2), 2 * kFrame_ns));
-  const FrameAnalysis after = analyzer.analyze(slow.frame(3), 3 * kFrame_ns);
-  EXPECT_FALSE(after.restarted);
+  const Frame after = analyzer.analyze(slow.frame(3), 3 * kFrame_ns);
+  EXPECT_TRUE(after.has_motion_before());
   EXPECT_NEAR(after.wrench.force_N.norm(), 3.0 * after.motion.velocity_px_s.norm() / fastest_px_s,
               1e-14);
 }
@@ -191,7 +191,7 @@ TEST(MotionAnalyzer, ACutKeepsWhatTheAdaptiveControllerHasLearntAndARestartDoesN
     Scene scene(640, 360, 6, 2, seed);
     expect_restarted(analyzer.analyze(scene.frame(0), time_ns += kFrame_ns));
     for (int n = 1; n < 6; ++n) {
-      const FrameAnalysis frame = analyzer.analyze(scene.frame(n), time_ns += kFrame_ns);
+      const Frame frame = analyzer.analyze(scene.frame(n), time_ns += kFrame_ns);
       const Wrench expected = render_motion(
           *controller, kReferenceHeight_px / 360 * frame.motion.velocity_px_s, kFrame_s);
       EXPECT_EQ(frame.wrench.stacked(), expected.stacked()) << "seed " << seed << ", " << n;
@@ -214,8 +214,8 @@ TEST(MotionAnalyzer, TheFilterBeginsAnewAfterACut) {
     Scene scene(640, 360, seed == 8 ? 6 : -6, 2, seed);
     for (int n = 0; n < 4; ++n) {
       time_ns += kFrame_ns * (1 + n % 2);  // uneven intervals, for velocities that differ
-      const FrameAnalysis frame = analyzer.analyze(scene.frame(n), time_ns);
-      const FrameAnalysis plain = unfiltered.analyze(scene.frame(n), time_ns);
+      const Frame frame = analyzer.analyze(scene.frame(n), time_ns);
+      const Frame plain = unfiltered.analyze(scene.frame(n), time_ns);
       EXPECT_EQ(frame.motion.velocity_px_s, plain.motion.velocity_px_s) << "what is reported";
       const double difference_N = (frame.wrench.force_N - plain.wrench.force_N).norm();
       // The first motion passes: rounding of a factor and its inverse. Later ones are filtered:
@@ -236,7 +236,7 @@ TEST(MotionAnalyzer, AnotherFrameSizeShowsNoMotion) {
   analyzer.analyze(large.frame(0), 0);
   analyzer.analyze(large.frame(1), kFrame_ns);
   expect_restarted(analyzer.analyze(small.frame(0), 2 * kFrame_ns));
-  EXPECT_FALSE(analyzer.analyze(small.frame(1), 3 * kFrame_ns).restarted);
+  EXPECT_TRUE(analyzer.analyze(small.frame(1), 3 * kFrame_ns).has_motion_before());
 }
 
 TEST(MotionAnalyzer, AFlatPictureIsNoMotionAndNoRestart) {
@@ -244,8 +244,8 @@ TEST(MotionAnalyzer, AFlatPictureIsNoMotionAndNoRestart) {
   grey.fill([](double, double) { return 100.0; });
   MotionAnalyzer analyzer(linear());
   analyzer.analyze(grey.view(), 0);
-  const FrameAnalysis analysis = analyzer.analyze(grey.view(), kFrame_ns);
-  EXPECT_FALSE(analysis.restarted);
+  const Frame analysis = analyzer.analyze(grey.view(), kFrame_ns);
+  EXPECT_TRUE(analysis.has_motion_before());
   EXPECT_EQ(analysis.interval_ns, kFrame_ns);
   EXPECT_EQ(analysis.features, 0);
   expect_nothing(analysis);
@@ -255,7 +255,7 @@ TEST(MotionAnalyzer, AStillPictureIsFollowedAndHasNoForce) {
   Scene scene(640, 360, 0, 0);
   MotionAnalyzer analyzer(paper_settings());
   analyzer.analyze(scene.frame(0), 0);
-  const FrameAnalysis analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
+  const Frame analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
   EXPECT_GT(analysis.motion.tracked, 50);
   EXPECT_EQ(analysis.motion.velocity_px_s, Eigen::Vector2d::Zero());
   EXPECT_EQ(analysis.wrench.force_N, Eigen::Vector3d::Zero());
@@ -270,7 +270,7 @@ TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
   // Half the speed over twice the time.
   settings.controller.max_force_N = 1.0;
   analyzer.configure(settings);
-  const FrameAnalysis half = analyzer.analyze(scene.frame(2), 3 * kFrame_ns);
+  const Frame half = analyzer.analyze(scene.frame(2), 3 * kFrame_ns);
   // Two speeds, each of 100 px/s with the tolerance of a mean.
   const double relative = 2 * kMeanTolerance_px / kFrame_s / 100;
   EXPECT_NEAR(half.wrench.force_N.norm(), 0.5, 0.5 * relative);
@@ -278,7 +278,7 @@ TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
   // Another kind starts anew.
   settings.controller.kind = ControllerKind::kNonlinear;
   analyzer.configure(settings);
-  const FrameAnalysis nonlinear = analyzer.analyze(scene.frame(3), 4 * kFrame_ns);
+  const Frame nonlinear = analyzer.analyze(scene.frame(3), 4 * kFrame_ns);
   NonlinearController controller(1.0, 0.01);
   EXPECT_EQ(nonlinear.wrench.stacked(),
             render_motion(controller, kReferenceHeight_px / 360 * nonlinear.motion.velocity_px_s)

@@ -256,7 +256,7 @@ TEST(StillHand, FeelsNothingOnANoisyStillPicture) {
     const ImageView view = picture.next();
     const Wrench wrench = by_default.analyze(view, n * 40'000'000).wrench;
     EXPECT_EQ(wrench.stacked(), (Eigen::Matrix<double, 6, 1>::Zero())) << n;
-    const FrameAnalysis frame = by_mean.analyze(view, n * 40'000'000);
+    const Frame frame = by_mean.analyze(view, n * 40'000'000);
     EXPECT_EQ(frame.wrench.force_N, Eigen::Vector3d(0, 0, 0)) << n;
     // The mean itself is not at rest: that is what the dead zone is for.
     if (n > 0) {

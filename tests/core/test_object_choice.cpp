@@ -70,7 +70,7 @@ class Player {
     analyzer_.configure(settings_);
   }
 
-  const FrameAnalysis& next() {
+  const Frame& next() {
     std::vector<Placement> places;
     for (const Disc& disc : discs_) places.push_back({disc.centre_px(frames_)});
     const int64_t now_ns = frames_ * kFrame_ns;
@@ -85,8 +85,8 @@ class Player {
 
   /// The number of the disc whose motion is felt alone; -1: none.
   int felt() const {
-    if (frame_.felt_object == 0 || !frame_.object_list) return -1;
-    for (const MovingObject& object : *frame_.object_list) {
+    if (frame_.felt_object == 0) return -1;
+    for (const MovingObject& object : frame_.objects) {
       if (object.id != frame_.felt_object) continue;
       int nearest = 0;
       for (int i = 1; i < static_cast<int>(discs_.size()); ++i)
@@ -117,7 +117,7 @@ class Player {
   MovingScene scene_;
   AnalyzerSettings settings_;
   MotionAnalyzer analyzer_;
-  FrameAnalysis frame_;
+  Frame frame_;
   int frames_ = 0;
 };
 
@@ -164,7 +164,7 @@ TEST(ObjectChoice, AnObjectThatRestsIsTheSameWhenItGoesOn) {
   EXPECT_GE(player.share_felt(0, 30), kMostFrames);
   double felt_N = 0;
   for (int n = 40; n < 90; ++n) {
-    const FrameAnalysis& frame = player.next();
+    const Frame& frame = player.next();
     EXPECT_NE(player.felt(), 1) << n;
     if (n >= 60) felt_N = std::max(felt_N, frame.wrench.force_N.norm());
   }
@@ -288,7 +288,7 @@ TEST(ObjectChoice, OfARegionOnlyWhatIsInIt) {
   player.set_rules("region 0.6,0 to 1,0.65");
   player.play_to(kKnown);
   for (int n = kKnown; n < 50; ++n) {
-    const FrameAnalysis& frame = player.next();
+    const Frame& frame = player.next();
     const double true_px_s = (middle().centre_px(n) - middle().centre_px(n - 1)).y() / kFrame_s;
     // The other discs go sideways, with up to 157 px/s.
     EXPECT_LT(std::fabs(frame.motion.velocity_px_s.x()), 15) << n;
@@ -304,7 +304,7 @@ TEST(ObjectChoice, OfTheCameraOrOfNothing) {
   EXPECT_LT(player.next().motion.velocity_px_s.x() * kFrame_s, -0.9 * 3);
   EXPECT_LT(player.next().wrench.force_N.x(), -0.1);
   player.play_to(29);
-  const FrameAnalysis& nothing = player.next();
+  const Frame& nothing = player.next();
   EXPECT_EQ(nothing.wrench.force_N.norm(), 0);
   player.play_to(56);
   EXPECT_GT(player.next().wrench.force_N.norm(), 0.1) << "what motion says, where no rule is";

@@ -86,9 +86,8 @@ std::vector<std::vector<Seen>> watch(const Film& film, int frames) {
   std::vector<std::vector<Seen>> seen(static_cast<size_t>(frames));
   for (int n = 0; n < frames; ++n) {
     const auto picture = test::draw([&](int k, const Vector2d& at) { return film.grey(k, at); }, n);
-    const FrameAnalysis found = analyzer.analyze(picture.view(), n * kSceneFrame_ns);
-    if (!found.object_list) continue;
-    for (const MovingObject& object : *found.object_list) {
+    const Frame found = analyzer.analyze(picture.view(), n * kSceneFrame_ns);
+    for (const MovingObject& object : found.objects) {
       if (object.tracks == 0) continue;
       const Vector2d middle_px((test::kSceneWidth - 1) / 2.0, (test::kSceneHeight - 1) / 2.0);
       seen[static_cast<size_t>(n)].push_back(

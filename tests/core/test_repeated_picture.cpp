@@ -20,7 +20,7 @@ namespace spidar::test::repeated_picture_test {
 namespace {
 
 using test::Picture;
-using Kind = RepeatedPicture::Kind;
+using Kind = PictureKind;
 
 /// Noise of `grey` levels up and down, each as likely.
 Picture moved(double dx, uint32_t noise_seed = 0, uint32_t grey = 2) {
@@ -81,9 +81,9 @@ TEST(RepeatedPicture, NoiseIsTheSamePictureOnceARhythmIsKnown) {
     const Picture now = moved(4.0 * (n / 2), n + 1);
     const Kind kind = repeated.look(before.view(), now.view());
     if (n > 6) {
-      EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kDifferent) << n;
+      EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kOther) << n;
     }
-    if (kind == Kind::kDifferent) before = now;
+    if (kind == Kind::kOther) before = now;
   }
 }
 
@@ -95,7 +95,7 @@ TEST(RepeatedPicture, AMotionThatReversesIsNoRepeat) {
     const double speed = 4 - std::abs(static_cast<double>(n % 16) - 8);  // −4 … 4 px a frame
     place += speed;
     const Picture now = moved(place, n + 1);
-    EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kDifferent) << n;
+    EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kOther) << n;
     before = now;
   }
 }
@@ -124,9 +124,9 @@ TEST(RepeatedPicture, NoiseMayBeLargerWhereARepeatIsDue) {
     }
     const Kind kind = repeated.look(before.view(), now.view());
     if (n > RepeatedPicture::kFrames) {
-      EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kDifferent) << n;
+      EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kOther) << n;
     }
-    if (kind == Kind::kDifferent) before = now;
+    if (kind == Kind::kOther) before = now;
   }
 }
 
@@ -139,7 +139,7 @@ TEST(RepeatedPicture, TheSameNoiseOutOfRhythmIsAnotherPicture) {
     const bool stands = n == 9 || n == 22 || n == 28 || n == 43;
     if (!stands) place += 4;
     const Picture now = moved(place, n + 1, 5);
-    EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kDifferent) << n;
+    EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kOther) << n;
     before = now;
   }
 }
@@ -169,9 +169,9 @@ TEST(RepeatedPicture, LittleNoiseIsTheSamePictureOutOfRhythmToo) {
     }
     const Kind kind = repeated.look(before.view(), now.view());
     if (stood > kConfirmed) {
-      EXPECT_EQ(kind, stands ? Kind::kAlike : Kind::kDifferent) << n;
+      EXPECT_EQ(kind, stands ? Kind::kAlike : Kind::kOther) << n;
     }
-    if (kind == Kind::kDifferent) before = now;
+    if (kind == Kind::kOther) before = now;
   }
 }
 

@@ -38,7 +38,7 @@ TEST(OpenCvTracker, FindsAKnownTranslationToAPartOfAPixel) {
     ASSERT_GE(looked_for, 50);
     for (int n = 1; n <= 3; ++n) {
       const TrackedFrame& frame = tracker.track(scene.frame(n));
-      ASSERT_FALSE(frame.restarted);
+      ASSERT_NE(frame.picture, PictureKind::kFirst);
       // All but those that leave: the share that leaves a frame is at most the displaced margin.
       const double margin = std::abs(p.dx_px) / p.width + std::abs(p.dy_px) / p.height;
       EXPECT_GE(static_cast<double>(frame.tracks.size()), looked_for * (0.9 - 2 * margin)) << n;
@@ -62,7 +62,7 @@ TEST(OpenCvTracker, TheFirstFrameHasNothingToCompareWith) {
   MovingTexture scene(640, 360, 1, 0);
   OpenCvTracker tracker;
   const TrackedFrame& first = tracker.track(scene.frame(0));
-  EXPECT_TRUE(first.restarted);
+  EXPECT_EQ(first.picture, PictureKind::kFirst);
   EXPECT_TRUE(first.tracks.empty());
   EXPECT_GT(first.features, 0);
 }
@@ -180,13 +180,13 @@ TEST(OpenCvTracker, ACutRestartsAndTheNextFrameIsFollowedAgain) {
   MovingTexture other(640, 360, -3, 1, 99);
   OpenCvTracker tracker;
   tracker.track(scene.frame(0));
-  EXPECT_FALSE(tracker.track(scene.frame(1)).restarted);
+  EXPECT_NE(tracker.track(scene.frame(1)).picture, PictureKind::kFirst);
   const TrackedFrame& cut = tracker.track(other.frame(2));
-  EXPECT_TRUE(cut.restarted);
+  EXPECT_EQ(cut.picture, PictureKind::kFirst);
   EXPECT_TRUE(cut.tracks.empty());
   EXPECT_GT(cut.features, 100);
   const TrackedFrame& after = tracker.track(other.frame(3));
-  EXPECT_FALSE(after.restarted);
+  EXPECT_NE(after.picture, PictureKind::kFirst);
   ASSERT_GE(after.tracks.size(), 50u);
   for (const Track& track : after.tracks) EXPECT_NEAR(dx(track), -3, kTrackTolerance_px);
 }
@@ -202,7 +202,7 @@ TEST(OpenCvTracker, ACutToAFlatPictureAndBackIsNoMotion) {
     const TrackedFrame& frame = tracker.track(black.view());
     EXPECT_TRUE(frame.tracks.empty());
     EXPECT_EQ(frame.features, 0);
-    EXPECT_EQ(frame.restarted, n == 0);
+    EXPECT_EQ(frame.picture == PictureKind::kFirst, n == 0);
   }
   EXPECT_TRUE(tracker.track(scene.frame(2)).tracks.empty());
 }
@@ -212,12 +212,12 @@ TEST(OpenCvTracker, AnotherSizeRestarts) {
   MovingTexture small(320, 180, 1, 0);
   OpenCvTracker tracker;
   tracker.track(large.frame(0));
-  EXPECT_FALSE(tracker.track(large.frame(1)).restarted);
+  EXPECT_NE(tracker.track(large.frame(1)).picture, PictureKind::kFirst);
   const TrackedFrame& frame = tracker.track(small.frame(0));
-  EXPECT_TRUE(frame.restarted);
+  EXPECT_EQ(frame.picture, PictureKind::kFirst);
   EXPECT_TRUE(frame.tracks.empty());
   const TrackedFrame& next = tracker.track(small.frame(1));
-  EXPECT_FALSE(next.restarted);
+  EXPECT_NE(next.picture, PictureKind::kFirst);
   for (const Track& track : next.tracks) EXPECT_NEAR(dx(track), 1, kTrackTolerance_px);
 }
 
@@ -227,7 +227,7 @@ TEST(OpenCvTracker, RestartForgetsTheFrameBefore) {
   tracker.track(scene.frame(0));
   tracker.restart();
   const TrackedFrame& frame = tracker.track(scene.frame(1));
-  EXPECT_TRUE(frame.restarted);
+  EXPECT_EQ(frame.picture, PictureKind::kFirst);
   EXPECT_TRUE(frame.tracks.empty());
   EXPECT_FALSE(tracker.track(scene.frame(2)).tracks.empty());
 }
@@ -289,9 +289,9 @@ TEST(OpenCvTracker, WorksFromTheSmallestFrameToTheLargest) {
       picture.fill([](double x, double y) { return std::fmod(x * y / 4096, 200); });
     }
     OpenCvTracker tracker;
-    EXPECT_TRUE(tracker.track(picture.view()).restarted);
+    EXPECT_EQ(tracker.track(picture.view()).picture, PictureKind::kFirst);
     const TrackedFrame& frame = tracker.track(picture.view());
-    EXPECT_FALSE(frame.restarted) << size.width << "x" << size.height;
+    EXPECT_NE(frame.picture, PictureKind::kFirst) << size.width << "x" << size.height;
     EXPECT_GE(frame.tracks.size(), 1u) << size.width << "x" << size.height;
     for (const Track& track : frame.tracks) {
       EXPECT_NEAR(dx(track), 0, 1e-3);

@@ -37,8 +37,9 @@ TEST(NoForceReason, TorqueCountsByItsArm) {
 }
 
 /// A frame in which nothing is felt, with points enough.
-FrameAnalysis unfelt() {
-  FrameAnalysis frame;
+Frame unfelt() {
+  Frame frame;
+  frame.picture = PictureKind::kOther;
   frame.height = 480;
   frame.interval_ns = kFrame_ns;
   frame.features = 100;
@@ -48,7 +49,7 @@ FrameAnalysis unfelt() {
 TEST(NoForceReason, OfARuleThatFeelsNothingIsTheRule) {
   FeelRule rule;
   rule.kind = FeelKind::kNothing;
-  FrameAnalysis frame = unfelt();
+  Frame frame = unfelt();
   frame.choice.rule = rule;
   EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kNotChosen);
   frame.choice.rule->kind = FeelKind::kObjectAt;
@@ -60,9 +61,8 @@ TEST(NoForceReason, OfARuleThatFeelsNothingIsTheRule) {
 TEST(NoForceReason, WhereNothingAgreesHowTheCameraMovesIsThat) {
   Background background;
   background.coverage = 0;
-  FrameAnalysis frame = unfelt();
-  frame.background = &background;
-  frame.model = background.model.kind;
+  Frame frame = unfelt();
+  frame.background = background;
   EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kCameraUnknown);
   EXPECT_EQ(limit_of(frame, MotionKind::kCamera), NoForceReason::kNothingMoves)
       << "nothing is left out";

@@ -120,7 +120,8 @@ std::array<double, 4> relief_with(const char* orientation, int width, int height
   TouchProperties touch;
   touch.kind = TouchKind::kLuma;
   h.engine().want_relief(true);
-  const FrameReport report = h.engine().process(frame, segment, AnalyzerSettings(), touch);
+  const AnalyzerSettings settings;
+  const FrameReport report = h.engine().process({frame, segment, settings, touch});
   gst_video_frame_unmap(&frame);
   gst_buffer_unref(buffer);
   const auto relief = report.touch.relief;

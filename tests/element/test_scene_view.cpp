@@ -10,9 +10,10 @@
 namespace spidar::test::scene_view_test {
 namespace {
 
-FrameAnalysis analysis_of(const std::vector<Track>& tracks) {
-  FrameAnalysis analysis;
-  analysis.tracks = &tracks;
+Frame analysis_of(const std::vector<Track>& tracks) {
+  Frame analysis;
+  analysis.picture = PictureKind::kOther;
+  analysis.tracks = tracks;
   analysis.interval_ns = 40'000'000;
   return analysis;
 }
@@ -33,7 +34,7 @@ TEST(Scene, TellsNewAndLostPoints) {
   EXPECT_EQ(scene.tracks[1].to.y_px, 20);
   ASSERT_EQ(scene.lost.size(), 1u);
   EXPECT_EQ(scene.lost[0].x_px, 16);
-  viewer.see(FrameAnalysis(), visible);  // a restart
+  viewer.see(Frame(), visible);  // a restart
   EXPECT_TRUE(viewer.see(analysis_of(first), visible).lost.empty());
 }
 
@@ -73,14 +74,13 @@ TEST(Scene, TellsTheBackgroundFromObjects) {
   left.size_px = right.size_px = {40, 40};
   left.relative_px_s = {-100, 0};  // 4 px a frame
   right.relative_px_s = {0, 100};
-  const std::vector<MovingObject> objects{left, right};
   const std::vector<Track> tracks{{1, {20, 20}, {24.2F, 20}},   // background within 3 σ
                                   {2, {160, 120}, {160, 120}},  // with the left object
                                   {3, {160, 120}, {164, 124}},  // with the right one
                                   {4, {20, 220}, {20, 220}}};   // alone
-  FrameAnalysis analysis = analysis_of(tracks);
-  analysis.background = &background;
-  analysis.object_list = &objects;
+  Frame analysis = analysis_of(tracks);
+  analysis.background = background;
+  analysis.objects = {left, right};
   SceneViewer viewer;
   const SceneView& scene = viewer.see(analysis, {0, 0, 321, 241});
   EXPECT_EQ(scene.tracks[0].owner, TrackOwner::kBackground);

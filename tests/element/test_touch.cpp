@@ -27,17 +27,17 @@ Profile profile_of_simulation() {
 }
 
 /// Of a frame of 320 × 240 that is 40 ms after the one before.
-FrameAnalysis some_analysis() {
-  FrameAnalysis analysis;
+Frame some_analysis() {
+  Frame analysis;
   analysis.width = 320;
   analysis.height = 240;
   analysis.interval_ns = static_cast<int64_t>(kFrame);
-  analysis.model = ModelKind::kTranslation;
+  analysis.picture = PictureKind::kOther;
   return analysis;
 }
 
 TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
-  FrameAnalysis analysis = some_analysis();
+  Frame analysis = some_analysis();
   Background background;
   background.model.kind = ModelKind::kSimilarity;
   background.model.shift_px = {3, 0};
@@ -55,9 +55,8 @@ TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
   MovingObject hidden = large;
   hidden.position_px = {-100, 0};
   hidden.tracks = 0;
-  const std::vector<MovingObject> objects{large, small, hidden};
-  analysis.background = &background;
-  analysis.object_list = &objects;
+  analysis.background = background;
+  analysis.objects = {large, small, hidden};
   const auto at = [&](double x_px, double y_px) {
     return touched_displacement_px(analysis, {0.5 + x_px / 320, 0.5 + y_px / 240});
   };
@@ -66,17 +65,16 @@ TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
   EXPECT_NEAR((at(70, 30) - Eigen::Vector2d(-2, 1)).norm(), 0, kRounding);
   EXPECT_NEAR((at(0, 100) - Eigen::Vector2d(3, 1)).norm(), 0, kRounding) << "beside them";
   EXPECT_NEAR((at(-100, 0) - Eigen::Vector2d(2, 0)).norm(), 0, kRounding) << "out of sight";
-  for (bool FrameAnalysis::*says_nothing :
-       {&FrameAnalysis::restarted, &FrameAnalysis::repeated, &FrameAnalysis::same_picture}) {
-    FrameAnalysis still = analysis;
-    still.*says_nothing = true;
+  for (const PictureKind says_nothing :
+       {PictureKind::kFirst, PictureKind::kWaiting, PictureKind::kSame, PictureKind::kAlike}) {
+    Frame still = analysis;
+    still.picture = says_nothing;
     EXPECT_EQ(touched_displacement_px(still, {0.5, 0.5}).norm(), 0);
   }
 }
 
 TEST(TouchedMotion, WithoutModelsItIsThatOfTheWholePicture) {
-  FrameAnalysis analysis = some_analysis();
-  analysis.model.reset();
+  Frame analysis = some_analysis();
   analysis.motion.velocity_px_s = {100, -50};
   EXPECT_NEAR((touched_displacement_px(analysis, {0.1, 0.9}) - Eigen::Vector2d(4, -2)).norm(), 0,
               1e-12);
@@ -156,8 +154,8 @@ TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
   Background background;
   background.model.kind = ModelKind::kTranslation;
   background.model.shift_px = step_px;
-  FrameAnalysis analysis = some_analysis();
-  analysis.background = &background;
+  Frame analysis = some_analysis();
+  analysis.background = background;
   // In frame n the bump is so far from the middle.
   const auto bump_px = [&](double n) { return Eigen::Vector2d((n - 8.5) * step_px); };
   std::vector<uint8_t> luma(kWidth * kHeight);

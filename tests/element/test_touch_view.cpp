@@ -31,7 +31,7 @@ TEST(TouchView, AReliefIsCopiedOnlyWhenAWindowAsks) {
   ReliefStream stream;
   stream.connect(loop.get(), profile, {0.03, 0.03});
   const std::vector<uint8_t> white(320 * 240, 255);
-  FrameAnalysis analysis;
+  Frame analysis;
   analysis.width = 320;
   analysis.height = 240;
   TouchProperties touch;

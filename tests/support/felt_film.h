@@ -36,14 +36,15 @@ inline std::vector<Eigen::Vector3d> feel(const std::vector<ShownFrame>& frames, 
   for (int64_t now_ns = 0; now_ns <= end_ns; now_ns += kTick_ns) {
     for (; next < frames.size() && frames[next].time_ns <= now_ns + ahead_ns; ++next) {
       const ShownFrame& frame = frames[next];
-      FrameAnalysis analysis;
+      Frame analysis;
       if (frame.flagged) {
-        analysis = analyzer.repeat(frame.time_ns).value_or(FrameAnalysis());
+        const Frame* const again = analyzer.repeat(frame.time_ns);
+        analysis = again ? *again : Frame();
       } else {
         analysis = analyzer.analyze(frame.picture->view(), frame.time_ns);
       }
       const int64_t since_ns = next > 0 ? frame.time_ns - frames[next - 1].time_ns : 0;
-      timeline.push({frame.time_ns, since_ns + kLate_ns, analysis.wrench, analysis.repeated});
+      timeline.push({frame.time_ns, since_ns + kLate_ns, analysis.wrench, analysis.goes_on()});
     }
     const TimelineResult result = timeline.at(now_ns);
     const bool felt = result.found != Found::kNothing && result.found != Found::kExpired;

@@ -40,7 +40,7 @@ class OpenCvFunctions : public Peer {
  public:
   const TrackedFrame& track(const ImageView& frame) override {
     result_.tracks.clear();
-    result_.restarted = fresh_;
+    result_.picture = fresh_ ? PictureKind::kFirst : PictureKind::kOther;
     follow(as_mat(frame), fresh_);
     fresh_ = false;
     return result_;

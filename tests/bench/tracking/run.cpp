@@ -22,9 +22,12 @@ Runner::Runner(const Pipeline& pipeline)
     : pipeline_(&pipeline), peer_(pipeline.make ? pipeline.make() : nullptr) {}
 
 /// motion=object of the next frame.
-SceneMotion Runner::find_objects(const ImageView& frame) {
+const MeasuredFrame& Runner::find_objects(const ImageView& frame) {
   reduced_.read(frame);
-  return motion_.estimate(frame, reduced_, pipeline_->points, kFrame_ns);
+  scene_.forget_motion();
+  scene_.interval_ns = kFrame_ns;
+  motion_.estimate(frame, reduced_, pipeline_->points, scene_);
+  return scene_;
 }
 
 void Runner::restart() {
@@ -41,16 +44,15 @@ void Runner::run(const test::Film& film, const std::vector<test::Picture>& frame
     const int frame = static_cast<int>(n);
     const ImageView view = frames[n].view();
     TrackedFrame tracked;
-    SceneMotion scene;
     const double begin_ms = thread_time_ms();
     if (peer_)
       tracked = peer_->track(view);
     else
-      scene = find_objects(view);
+      find_objects(view);
     const double ms = thread_time_ms() - begin_ms;
     if (!peer_) {
-      tracked.features = scene.features;
-      if (scene.tracks) tracked.tracks = *scene.tracks;
+      tracked.features = scene_.features;
+      tracked.tracks = scene_.tracks;
     }
     if (n > 0) score.ms.push_back(ms);
     if (n > 0 && errors) {
@@ -60,7 +62,7 @@ void Runner::run(const test::Film& film, const std::vector<test::Picture>& frame
         };
         score.add_tracks(tracked, looked_for, truth, kReferenceWidth_px / film.width());
       }
-      score.add_motion(film, frame, tracked, peer_ ? nullptr : &scene, kFrame_s);
+      score.add_motion(film, frame, tracked, peer_ ? nullptr : &scene_, kFrame_s);
     }
     looked_for = tracked.features;
   }
@@ -78,9 +80,8 @@ void Runner::run(const FlowPair& pair, Score& score) {
     return;
   }
   find_objects(pair.before.view());
-  const SceneMotion scene = find_objects(pair.after.view());
   TrackedFrame tracked;
-  if (scene.tracks) tracked.tracks = *scene.tracks;
+  tracked.tracks = find_objects(pair.after.view()).tracks;
   score.add_tracks(tracked, static_cast<int>(tracked.tracks.size()), truth, unit);
 }
 

@@ -30,13 +30,14 @@ class Runner {
   void run(const FlowPair& pair, Score& score);
 
  private:
-  SceneMotion find_objects(const ImageView& frame);
+  const MeasuredFrame& find_objects(const ImageView& frame);
   void restart();
 
   const Pipeline* pipeline_;
   std::unique_ptr<Peer> peer_;
   MotionEstimator motion_;
   ReducedFrame reduced_;
+  MeasuredFrame scene_;
 };
 
 /// All over one film, one after the other, `rounds` times, so that what disturbs hits all.

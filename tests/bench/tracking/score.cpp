@@ -61,11 +61,11 @@ void Score::add_tracks(const TrackedFrame& tracked, int were_looked_for,
 }
 
 void Score::add_motion(const test::Film& film, int frame, const TrackedFrame& tracked,
-                       const SceneMotion* scene, double interval_s) {
+                       const MeasuredFrame* scene, double interval_s) {
   const double unit = to_reference(film);
   const Vector2d mean_px = mean_displacement_px(tracked.tracks);
   largest_mean = std::max(largest_mean, mean_px.norm() * unit);
-  const MovingObject* found = scene ? scene->dominant : nullptr;
+  const MovingObject* found = scene ? scene->dominant_object() : nullptr;
   Vector2d found_px = Vector2d::Zero();
   if (found) found_px = found->relative_px_s * interval_s;
   largest_object = std::max(largest_object, found_px.norm() * unit);

@@ -48,7 +48,7 @@ struct Score {
       double unit);
   /// A of a frame with the true motion of `film`, and B, if there is a `scene` of motion=object.
   void add_motion(const test::Film& film, int frame, const TrackedFrame& tracked,
-                  const SceneMotion* scene, double interval_s);
+                  const MeasuredFrame* scene, double interval_s);
 
   void add(const Score& other);
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/track/track_player.h"
+#include "plugin/track/track_judge.h"
 
 #include <string>
 #include <utility>
@@ -47,38 +47,6 @@ void name_unused(GstElement* element, const std::string& path) {
 }
 
 }  // namespace
-
-void TrackPlayer::set_track(TrackFile track) {
-  replay_.set_track(std::move(track));
-  active_ = replay_.has_track();
-  frames_ = 0;
-}
-
-Wrench TrackPlayer::play(const FramePlace& frame) {
-  ++frames_;
-  replay_.play(frame, [this](const TrackBlock& block) { schedule_.add(block); });
-  return replay_.largest(frame);
-}
-
-std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_duration,
-                                   const GstSegment& segment, int64_t running_ns,
-                                   double rate_multiplier) {
-  const GstClockTime pts = GST_BUFFER_PTS(frame);
-  GstClockTime duration = GST_BUFFER_DURATION(frame);
-  if (!GST_CLOCK_TIME_IS_VALID(duration)) duration = default_duration;
-  guint64 from = 0, to = 0;
-  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, pts + duration, &from, &to)) {
-    return std::nullopt;
-  }
-  const bool backwards = segment.rate < 0;
-  FramePlace place;
-  place.stream_ns = static_cast<int64_t>(
-      gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, backwards ? to : from));
-  place.running_ns = running_ns;
-  place.length_ns = static_cast<int64_t>(to - from);
-  place.rate = segment.rate * rate_multiplier;
-  return place;
-}
 
 std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns) {
   if (loaded.path.empty()) return std::nullopt;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// All that is known of one frame.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/choice/chosen.h"
+#include "core/motion/image_motion.h"
+#include "core/motion/measured_frame.h"
+#include "core/wrench.h"
+
+namespace spidar {
+
+/// The steps of the analysis fill it in, one after the other, and everybody else reads it.
+struct Frame : MeasuredFrame {
+  int64_t running_ns = -1;   ///< −1: not known
+  int64_t stream_ns = -1;    ///< position in the film; −1: not known
+  Chosen choice;             ///< without `object`
+  uint32_t felt_object = 0;  ///< id of the one object that is felt; 0: none, or not one alone
+  ImageMotion motion;        ///< the one that is felt, unfiltered, in px/s of the frame
+  Wrench wrench;             ///< wanted by the controller, before any safety limit
+
+  bool has_motion_before() const { return picture != PictureKind::kFirst; }
+  /// The picture before is shown again, and its wrench goes on. Rest has nothing that could go on.
+  bool goes_on() const { return picture == PictureKind::kWaiting && !wrench.stacked().isZero(0); }
+  /// Nothing is known. The memory stays.
+  void clear() {
+    std::vector<Track> kept_tracks = std::move(tracks);
+    std::vector<MovingObject> kept_objects = std::move(objects);
+    *this = Frame();
+    tracks = std::move(kept_tracks);
+    objects = std::move(kept_objects);
+    forget_motion();
+  }
+};
+
+}  // namespace spidar

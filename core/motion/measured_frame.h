@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What is found in a frame before anything is chosen to be felt.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/motion/background.h"
+#include "core/motion/image_motion.h"
+#include "core/motion/moving_object.h"
+#include "core/tracking/picture_kind.h"
+#include "core/tracking/tracker.h"
+
+namespace spidar {
+
+/// Of a frame that waits, all but `picture` is that of the picture before.
+struct MeasuredFrame {
+  PictureKind picture = PictureKind::kFirst;
+  int width = 0;  ///< px
+  int height = 0;
+  int64_t interval_ns = 0;   ///< the time in which the motion happened, see Cadence; 0 with kFirst
+  int64_t shown_for_ns = 0;  ///< see Cadence::Step
+  int features = 0;          ///< points looked for in the next frame
+  /// Points that were followed, and the motion of blocks that have no point; empty with kFirst.
+  std::vector<Track> tracks;
+  /// With motion=mean the rest is empty, and this one is zero with all others.
+  ImageMotion mean;
+  std::optional<Background> background;  ///< how the camera moves; nothing with kFirst
+  int votes = 0;                         ///< displacements that the background was found from
+  std::vector<MovingObject> objects;     ///< that are known, visible or not, ordered by id
+  uint32_t dominant = 0;                 ///< id of the object that motion=object feels; 0: none
+
+  /// Null when there is none.
+  const MovingObject* dominant_object() const {
+    for (const MovingObject& object : objects)
+      if (object.id == dominant) return &object;
+    return nullptr;
+  }
+  /// Nothing is known to move. The memory stays.
+  void forget_motion() {
+    picture = PictureKind::kFirst;
+    interval_ns = shown_for_ns = 0;
+    tracks.clear();
+    mean = {};
+    background.reset();
+    votes = 0;
+    objects.clear();
+    dominant = 0;
+  }
+};
+
+}  // namespace spidar
