@@ -187,7 +187,7 @@ def shorter(columns):
     for column in columns:
         name = re.sub(r"^(.*(?:force|torque|position|velocity))([_-])[xyz](?=[_-]|$)", r"\1\2*", column)
         name = re.sub(r"^orientation_[wxyz]$", "orientation_*", re.sub(r"^tension_\d+_N$", "tension_*_N", name))
-        name = re.sub(r"^(.*-[mu]s)-(?:median|p\d+|max)$", r"\1-*", name)
+        name = re.sub(r"^(.*)-(?:median|p\d+|max)$", r"\1-*", name)
         if name not in names:
             names.append(name)
     return names

@@ -72,7 +72,7 @@ void BusWarnings::check_frame(const FrameReport& report) {
     case FrameProblem::kSmallHalf:
       GST_ELEMENT_WARNING(
           element_, STREAM, FORMAT,
-          ("With this depth-layout, the picture is smaller than %d x %d pixels; it is neither felt "
+          ("The half that is picture is smaller than %d x %d pixels; it is neither felt "
            "nor touched.",
            FrameLuma::kSmallestSide, FrameLuma::kSmallestSide),
           ("Half of the frame is picture and half is depth. Larger frames are felt; with "
@@ -139,7 +139,7 @@ void BusWarnings::check_pointer(const MotionEngine& engine) {
                       ("The grip of the device %s cannot point at the picture, because its "
                        "position is not measured; it points at the middle.",
                        session->grip().name().c_str()),
-                      ("With pointer=fixed, pointer-x and pointer-y choose the place, with "
+                      ("pointer=X,Y chooses the place, with "
                        "pointer=mouse the mouse does."));
 }
 

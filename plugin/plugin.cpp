@@ -16,4 +16,5 @@ static gboolean plugin_init(GstPlugin* plugin) {
 #define PACKAGE "gst-spidar"
 GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, spidar,
                   "Feel the motion of a video with a SPIDAR haptic device", plugin_init,
-                  PACKAGE_VERSION, "LGPL", "gst-spidar", "the source of gst-spidar")
+                  PACKAGE_VERSION, "LGPL", "gst-spidar",
+                  "https://journal.icter.org/index.php/ICTer/article/view/155")

@@ -24,6 +24,10 @@
  * of #spidarmotion:touch and the places of pointer and grip. What refers to pixels, velocities and
  * objects, stays in the coordinates of the frame.
  *
+ * Of files that properties name, the ending says what they are: #spidarmotion:trace writes .csv or
+ * .jsonl, #spidarmotion:track plays .flac, .mka, .wav or a film, #spidarmotion:feel reads .feel.
+ * For the two that are read, `auto` is the file beside the film that has its name with this ending.
+ *
  * The element posts a `spidar-motion` element message for each frame when
  * #spidarmotion:post-messages is set, with these fields: `timestamp`, `stream-time`,
  * `running-time`, `duration` (#GstClockTime), `features`, `tracked` (uint), `velocity-x`,
@@ -33,9 +37,9 @@
  * viewer), `torque-x`, `torque-y`, `torque-z` (newton metres), `repeated` (boolean: the frame shows
  * the picture before again), `object` (uint: the one object that is felt, by its id, 0 when it is
  * none or not one alone), `limit` (string: why nothing of this frame is to be felt, "none" when
- * something is), `device-limit` (string: the same of the device and the playback) and, unless these
- * are "none", `limit-reason` and `device-limit-reason` (strings: the same as a sentence). `stats`
- * has them for the picture on the screen.
+ * something is), `device-limit` (string: the same of the device and the playback) and
+ * `limit-reason` and `device-limit-reason` (strings: the same as a sentence, empty for "none").
+ * `stats` has them for the picture on the screen.
  *
  * ## Example launch lines
  * |[
@@ -284,7 +288,8 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
 
   gst_element_class_set_static_metadata(
       element_class, "SPIDAR motion", "Filter/Analyzer/Video/Hardware",
-      "Feel the motion of a video with a SPIDAR haptic device", "gst-spidar");
+      "Measures how things move in a video and renders it as force on a haptic device",
+      "The gst-spidar authors");
   gst_element_class_add_static_pad_template(element_class, &motion_sink_template);
   gst_element_class_add_static_pad_template(element_class, &motion_src_template);
   element_class->change_state = gst_spidar_motion_change_state;

@@ -24,16 +24,15 @@ std::string text_of(const char* format, Values... values) {
   return text;
 }
 
-double number_in(const GstStructure* stats, const char* name) {
-  double value = NAN;
-  gst_structure_get_double(stats, name, &value);
-  return value;
-}
-
 uint64_t count_in(const GstStructure* stats, const char* name) {
   guint64 value = 0;
   gst_structure_get_uint64(stats, name, &value);
   return value;
+}
+
+/// Of a time in ns.
+double ms_in(const GstStructure* stats, const char* name) {
+  return 1e-6 * static_cast<double>(count_in(stats, name));
 }
 
 std::string word_in(const GstStructure* stats, const char* name) {
@@ -75,12 +74,12 @@ std::string force_line(const Record& record) {
 }
 
 std::string time_line(const GstStructure* stats) {
-  const double median_ms = number_in(stats, "skew-ms-median");
+  const double median_ms = ms_in(stats, "skew-median");
   // Zero: no frame has reached a device.
   if (!(median_ms > 0)) return "In time: not measured, because no frame reached a device.\n";
   return text_of(
       "In time: a force comes %.2f ms after its frame in the median, %.2f ms at 99 %%.\n",
-      median_ms, number_in(stats, "skew-ms-p99"));
+      median_ms, ms_in(stats, "skew-p99"));
 }
 
 std::string analysis_line(const GstStructure* stats) {
@@ -90,7 +89,7 @@ std::string analysis_line(const GstStructure* stats) {
                    track_frames);
   }
   return text_of("Analysis: %.2f ms a frame in the median, %.2f ms at most.\n",
-                 number_in(stats, "analysis-ms-median"), number_in(stats, "analysis-ms-max"));
+                 ms_in(stats, "analysis-median"), ms_in(stats, "analysis-max"));
 }
 
 std::string device_line(const GstStructure* stats) {

@@ -2,14 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/device/session_stats.h"
 
+#include <algorithm>
+
 namespace spidar {
 namespace {
 
-double ms(int64_t ns) {
-  return static_cast<double>(ns) * 1e-6;
-}
-double us(int64_t ns) {
-  return static_cast<double>(ns) * 1e-3;
+guint64 not_negative(int64_t ns) {
+  return static_cast<guint64>(std::max<int64_t>(ns, 0));
 }
 
 }  // namespace
@@ -32,11 +31,11 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       snapshot.last.faulty_string, "grip-held", G_TYPE_BOOLEAN, snapshot.last.held ? TRUE : FALSE,
       "grip-speed", G_TYPE_DOUBLE, snapshot.last.velocity.linear_m_s.norm(), "vibration-share",
       G_TYPE_DOUBLE, snapshot.vibration.share, "vibration-left", G_TYPE_DOUBLE,
-      snapshot.vibration.left, "wakeup-us-median", G_TYPE_DOUBLE,
-      us(session.timing().lateness.quantile_ns(0.5)), "wakeup-us-p999", G_TYPE_DOUBLE,
-      us(session.timing().lateness.quantile_ns(0.999)), "skew-ms-median", G_TYPE_DOUBLE,
-      ms(loop.skew().quantile_ns(0.5)), "skew-ms-p99", G_TYPE_DOUBLE,
-      ms(loop.skew().quantile_ns(0.99)), nullptr);
+      snapshot.vibration.left, "wakeup-median", G_TYPE_UINT64,
+      not_negative(session.timing().lateness.quantile_ns(0.5)), "wakeup-p999", G_TYPE_UINT64,
+      not_negative(session.timing().lateness.quantile_ns(0.999)), "skew-median", G_TYPE_UINT64,
+      not_negative(loop.skew().quantile_ns(0.5)), "skew-p99", G_TYPE_UINT64,
+      not_negative(loop.skew().quantile_ns(0.99)), nullptr);
   const Wrench& delivered = snapshot.last.delivered;
   gst_structure_set(structure, "force-x", G_TYPE_DOUBLE, delivered.force_N.x(), "force-y",
                     G_TYPE_DOUBLE, delivered.force_N.y(), "force-z", G_TYPE_DOUBLE,
@@ -61,9 +60,9 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
   gst_structure_set(structure, "link-fault", G_TYPE_STRING, to_string(link.last_fault),
                     "link-timeouts", G_TYPE_UINT64, link.count(LinkFault::kTimeout), "link-errors",
                     G_TYPE_UINT64, link.errors(), "link-late-replies", G_TYPE_UINT64,
-                    link.late_replies, "round-trip-us-median", G_TYPE_DOUBLE,
-                    us(link.round_trip_median_ns), "round-trip-us-p99", G_TYPE_DOUBLE,
-                    us(link.round_trip_p99_ns), nullptr);
+                    link.late_replies, "round-trip-median", G_TYPE_UINT64,
+                    not_negative(link.round_trip_median_ns), "round-trip-p99", G_TYPE_UINT64,
+                    not_negative(link.round_trip_p99_ns), nullptr);
 }
 
 }  // namespace spidar

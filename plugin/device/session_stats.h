@@ -19,10 +19,10 @@ namespace spidar {
 /// hand for long), vibration-left (double: of the store of VibrationBudget, 0 … 1),
 /// touching (boolean), touch-depth-mm, touch-force (double, N), touch-stiffness-share (double: what
 /// is left of the stiffness, 1 unless the surface has shaken the grip),
-/// wakeup-us-median, wakeup-us-p999, skew-ms-median, skew-ms-p99 (double; skew: force at the device
+/// wakeup-median, wakeup-p999, skew-median, skew-p99 (uint64, ns; skew: force at the device
 /// after its frame was due on the screen), link-fault (string: the last one, see LinkFault),
-/// link-timeouts, link-errors (all other faults), link-late-replies (uint64), round-trip-us-median,
-/// round-trip-us-p99 (double; zero for a device without a link).
+/// link-timeouts, link-errors (all other faults), link-late-replies (uint64), round-trip-median,
+/// round-trip-p99 (uint64, ns; zero for a device without a link).
 void describe_session(const HapticSession& session, GstStructure* structure);
 
 }  // namespace spidar

@@ -59,10 +59,6 @@ bool describe(GstElement* element, const GParamSpec* spec, Setting& setting) {
     setting.kind = Setting::Kind::kNumber;
     setting.low = G_PARAM_SPEC_DOUBLE(spec)->minimum;
     setting.high = G_PARAM_SPEC_DOUBLE(spec)->maximum;
-  } else if (G_IS_PARAM_SPEC_UINT(spec)) {
-    setting.kind = Setting::Kind::kWhole;
-    setting.low = G_PARAM_SPEC_UINT(spec)->minimum;
-    setting.high = G_PARAM_SPEC_UINT(spec)->maximum;
   } else if (G_IS_PARAM_SPEC_INT64(spec)) {
     setting.kind = Setting::Kind::kWhole;
     setting.low = static_cast<double>(G_PARAM_SPEC_INT64(spec)->minimum);

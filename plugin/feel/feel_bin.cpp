@@ -258,7 +258,7 @@ static void gst_spidar_feel_bin_class_init(GstSpidarFeelBinClass* klass) {
   GST_ELEMENT_CLASS(klass)->change_state = gst_spidar_feel_bin_change_state;
   gst_element_class_set_static_metadata(
       GST_ELEMENT_CLASS(klass), "Felt video", "Filter/Analyzer/Video/Hardware",
-      "spidarmotion for players that offer no way to add a filter", "gst-spidar");
+      "spidarmotion for players that offer no way to add a filter", "The gst-spidar authors");
 }
 
 static void add_probe(GstSpidarFeelBin* self, const char* name, int what,

@@ -9,4 +9,4 @@
 GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, spidarfeel,
                   "Lets the videos of any GStreamer player be felt",
                   gst_spidar_feel_tracer_register, PACKAGE_VERSION, "LGPL", "gst-spidar",
-                  "the source of gst-spidar")
+                  "https://journal.icter.org/index.php/ICTer/article/view/155")

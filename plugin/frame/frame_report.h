@@ -22,7 +22,7 @@ enum class FrameProblem {
   kFallingTimestamp,  ///< before the frame before
   kTooSmall,          ///< less memory than the picture needs
   kNotShown,          ///< outside the segment, or cropped to nothing
-  kSmallHalf,         ///< depth-layout leaves a picture of less than 16 px on a side
+  kSmallHalf,         ///< depth in a half leaves a picture of less than 16 px on a side
 };
 
 /// Why a frame cannot be touched as the properties say.

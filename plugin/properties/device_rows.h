@@ -13,9 +13,8 @@ template <typename Settings>
 Property<Settings> profile_row() {
   return Property<Settings>::text(
       {"profile", "Profile",
-       "Geometry and motors of the device: the name of a shipped profile or the path of a .toml "
-       "file. A board with motors gets no force without one. Read in the change from NULL to "
-       "READY"},
+       "Geometry and motors of the device: name of a shipped profile, or a .toml file. Motors of "
+       "a real board get no force without one"},
       kReady, KEPT_IN(profile));
 }
 
@@ -24,7 +23,7 @@ template <typename Settings>
 Property<Settings> on_device_error_row() {
   return Property<Settings>::template choice<OnDeviceError>(
       {"on-device-error", "On device error", "What happens when the device fails while playing"},
-      "GstSpidarMotionOnDeviceError",
+      "GstSpidarOnDeviceError",
       {{OnDeviceError::kWarn,
         "Post a warning, continue the video, and reopen the device when it returns", "warn"},
        {OnDeviceError::kError, "Post an error, which stops the pipeline", "error"}},

@@ -23,9 +23,8 @@ std::vector<MotionRow> display_rows() {
           kPlaying, KEPT_IN(display.debug_window)),
       MotionRow::on_off(
           {"attach-meta", "Attach meta",
-           "Attach a GstSpidarMotionMeta with motion, tracks and wrench to each frame, and the "
-           "boxes of its objects as GstVideoRegionOfInterestMeta and, since GStreamer 1.24, "
-           "GstAnalyticsRelationMeta. The picture is neither copied nor changed"},
+           "Attach motion, tracks, wrench and the boxes of objects to each frame as metas. The "
+           "picture is neither copied nor changed"},
           kPlaying, KEPT_IN(display.attach_meta)),
   };
 }

@@ -87,18 +87,6 @@ struct Property {
             [=](const Settings& s, GValue* v) { g_value_set_double(v, field(s)); }};
   }
 
-  /// A number of things, kept as an int.
-  template <typename Field>
-  static Property count(PropertyNames n, guint least, guint most, GParamFlags flags, Field field) {
-    return {
-        [=](const Settings& defaults) {
-          return g_param_spec_uint(n.name, n.nick, n.blurb, least, most,
-                                   static_cast<guint>(field(defaults)), flags);
-        },
-        [=](Settings& s, const GValue* v) { field(s) = static_cast<int>(g_value_get_uint(v)); },
-        [=](const Settings& s, GValue* v) { g_value_set_uint(v, static_cast<guint>(field(s))); }};
-  }
-
   /// A time in ns that may be negative.
   template <typename Field>
   static Property offset(PropertyNames n, gint64 least, gint64 most, GParamFlags flags,

@@ -10,11 +10,10 @@
 namespace spidar {
 
 /// Where the relief comes from.
-enum class TouchKind { kOff, kLuma, kDepth };
+enum class TouchKind { kOff, kLuma, kDepth, kDepthBelow };
 
 struct TouchProperties {
   TouchKind kind = TouchKind::kOff;
-  DepthLayout depth = DepthLayout::kRight;
   double relief_mm = 8;  ///< from black to white, or from far to near
   double stiffness_N_m = 500;
   double friction = 0.3;    ///< μs; μd is 0.8 of it
@@ -23,7 +22,9 @@ struct TouchProperties {
 
   /// Where in its frames the film has depth that is touched; nothing where they are all picture.
   std::optional<DepthLayout> packed() const {
-    return kind == TouchKind::kDepth ? std::optional(depth) : std::nullopt;
+    if (kind == TouchKind::kDepth) return DepthLayout::kRight;
+    if (kind == TouchKind::kDepthBelow) return DepthLayout::kBelow;
+    return std::nullopt;
   }
 };
 

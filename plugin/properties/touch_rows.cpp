@@ -15,30 +15,25 @@ constexpr double kMostTexture = 10;
 std::vector<MotionRow> touch_rows() {
   return {
       MotionRow::choice<TouchKind>(
-          {"touch", "Touch", "Which surface the grip touches in the picture"},
-          "GstSpidarMotionTouch",
+          {"touch", "Touch", "Which surface the grip touches in the picture"}, "GstSpidarTouch",
           {{TouchKind::kOff, "No surface: the motion of the film is felt", "off"},
            {TouchKind::kLuma, "A relief of the frame's brightness: bright is near", "luma"},
-           {TouchKind::kDepth, "A relief of the depth that is half of the frame, see depth-layout",
-            "depth"}},
+           {TouchKind::kDepth,
+            "A relief of the depth in the right half of the frame, of what the left half shows: "
+            "bright is near",
+            "depth"},
+           {TouchKind::kDepthBelow, "The same, with the depth in the lower half of the frame",
+            "depth-below"}},
           kControllable, KEPT_IN(touch.kind)),
-      MotionRow::choice<DepthLayout>(
-          {"depth-layout", "Depth layout", "Where touch=depth finds the depth"},
-          "GstSpidarMotionDepthLayout",
-          {{DepthLayout::kRight,
-            "The right half of the frame is the depth of the left half; bright is near", "right"},
-           {DepthLayout::kBelow,
-            "The lower half of the frame is the depth of the upper half; bright is near", "below"}},
-          kControllable, KEPT_IN(touch.depth)),
       MotionRow::number(
           {"touch-relief", "Touch relief",
-           "Height of the relief from black to white, or from far to near, in millimetres. "
-           "Its middle is in the centre of the workspace"},
+           "Height of the relief from black to white, or from far to near, in millimetres, about "
+           "the centre of the workspace"},
           0, kMostRelief_mm, kControllable, KEPT_IN(touch.relief_mm)),
       MotionRow::number(
           {"touch-stiffness", "Touch stiffness",
-           "Stiffness of the surface, in newtons per metre. A device whose drives are slow, or "
-           "were not measured, gets less, with a warning"},
+           "Stiffness of the surface, in newtons per metre. A device with slow or unmeasured "
+           "drives gets less, with a warning"},
           kLeastStiffness_N_m, ContactSettings::kMostStiffness_N_m, kControllable,
           KEPT_IN(touch.stiffness_N_m)),
       MotionRow::number(
@@ -53,8 +48,8 @@ std::vector<MotionRow> touch_rows() {
           0, kMostTexture, kControllable, KEPT_IN(touch.texture)),
       MotionRow::number(
           {"motion-share", "Motion share",
-           "With touch, the share of the force of the film's motion that is added to the "
-           "contact force. Without touch, all of it is felt"},
+           "With touch, the share of the force of the film's motion that is felt besides. Without "
+           "touch, all of it is"},
           0, 1, kControllable, KEPT_IN(touch.motion_share)),
   };
 }

@@ -32,10 +32,6 @@ std::string why_wrong(GParamSpec* property) {
     const GParamSpecDouble* spec = G_PARAM_SPEC_DOUBLE(property);
     return range("number", spec->minimum, spec->maximum);
   }
-  if (G_IS_PARAM_SPEC_UINT(property)) {
-    const GParamSpecUInt* spec = G_PARAM_SPEC_UINT(property);
-    return range("whole number", spec->minimum, spec->maximum);
-  }
   if (G_IS_PARAM_SPEC_INT64(property)) {
     const GParamSpecInt64* spec = G_PARAM_SPEC_INT64(property);
     return range("whole number", spec->minimum, spec->maximum);
@@ -48,7 +44,7 @@ std::string why_wrong(GParamSpec* property) {
 /// Numbers have their unit in the description.
 std::string unit(GParamSpec* property) {
   const GType type = G_PARAM_SPEC_VALUE_TYPE(property);
-  const bool number = type == G_TYPE_DOUBLE || type == G_TYPE_UINT || type == G_TYPE_INT64;
+  const bool number = type == G_TYPE_DOUBLE || type == G_TYPE_INT64;
   const char* blurb = number ? g_param_spec_get_blurb(property) : nullptr;
   return blurb ? std::string(". ") + blurb : std::string();
 }

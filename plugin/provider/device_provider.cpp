@@ -175,5 +175,5 @@ static void gst_spidar_device_provider_class_init(GstSpidarDeviceProviderClass* 
   provider_class->stop = gst_spidar_device_provider_stop;
   gst_device_provider_class_set_static_metadata(
       provider_class, "SPIDAR device provider", kDeviceClass,
-      "Lists SPIDAR haptic devices and the simulated one", "gst-spidar");
+      "Lists SPIDAR haptic devices and the simulated one", "The gst-spidar authors");
 }

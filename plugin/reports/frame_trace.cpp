@@ -34,9 +34,12 @@ void append(std::string& row, Number value) {
 
 std::string FrameTrace::open(const std::string& path) {
   close();
+  is_json_ = ends_with(path, ".jsonl");
+  if (!is_json_ && !ends_with(path, ".csv")) {
+    return "its name ends neither in .csv nor in .jsonl, which says what to write";
+  }
   file_ = std::fopen(path.c_str(), "we");
   if (!file_) return std::strerror(errno);
-  is_json_ = ends_with(path, ".jsonl");
   line_ = is_json_ ? "" : kHeader;
   const SigpipeBlock no_sigpipe;
   if (!put() || std::fflush(file_) != 0) {

@@ -11,9 +11,9 @@
 
 namespace spidar {
 
-/// CSV with a header line, or where the name ends in .jsonl what append_json() writes, with objects
-/// and background; numbers are written without regard to the locale, with the digits that reading
-/// them back needs.
+/// Where the name ends in .csv, CSV with a header line; in .jsonl, what append_json() writes, with
+/// objects and background; numbers are written without regard to the locale, with the digits that
+/// reading them back needs.
 class FrameTrace {
  public:
   ~FrameTrace() { close(); }

@@ -141,14 +141,9 @@ NoForceReason LimitWatch::first(const std::optional<LoopSnapshot>& loop) const {
 }
 
 void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure) {
-  gst_structure_set(structure, "limit", G_TYPE_STRING, nick(film), "device-limit", G_TYPE_STRING,
-                    nick(device), nullptr);
-  if (film != NoForceReason::kNone) {
-    gst_structure_set(structure, "limit-reason", G_TYPE_STRING, sentence(film), nullptr);
-  }
-  if (device != NoForceReason::kNone) {
-    gst_structure_set(structure, "device-limit-reason", G_TYPE_STRING, sentence(device), nullptr);
-  }
+  gst_structure_set(structure, "limit", G_TYPE_STRING, nick(film), "limit-reason", G_TYPE_STRING,
+                    sentence(film), "device-limit", G_TYPE_STRING, nick(device),
+                    "device-limit-reason", G_TYPE_STRING, sentence(device), nullptr);
 }
 
 }  // namespace spidar

@@ -95,8 +95,8 @@ class LimitWatch {
   bool can_touch_ = true;
 };
 
-/// Adds limit and device-limit (strings, see nick()) and, for each that is not "none", limit-reason
-/// or device-limit-reason (strings: a sentence).
+/// Adds limit and device-limit (strings, see nick()), and limit-reason and device-limit-reason
+/// (strings: a sentence, empty for "none").
 void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure);
 
 }  // namespace spidar

@@ -3,14 +3,6 @@
 #include "plugin/reports/motion_stats.h"
 
 namespace spidar {
-namespace {
-
-double ms(int64_t ns) {
-  return static_cast<double>(ns) * 1e-6;
-}
-
-}  // namespace
-
 void MotionStats::reset() {
   const std::lock_guard<std::mutex> lock(mutex_);
   frames_ = 0;
@@ -45,10 +37,10 @@ void MotionStats::describe(GstStructure* structure) const {
                     restarts_, "features", G_TYPE_UINT, static_cast<guint>(features_), "tracked",
                     G_TYPE_UINT, static_cast<guint>(tracked_), "model", G_TYPE_STRING,
                     model_ ? to_string(*model_) : "none", "objects", G_TYPE_UINT,
-                    static_cast<guint>(objects_), "analysis-ms-median", G_TYPE_DOUBLE,
-                    ms(analysis_.quantile_ns(0.5)), "analysis-ms-p95", G_TYPE_DOUBLE,
-                    ms(analysis_.quantile_ns(0.95)), "analysis-ms-max", G_TYPE_DOUBLE,
-                    ms(analysis_.max_ns()), nullptr);
+                    static_cast<guint>(objects_), "analysis-median", G_TYPE_UINT64,
+                    static_cast<guint64>(analysis_.quantile_ns(0.5)), "analysis-p95", G_TYPE_UINT64,
+                    static_cast<guint64>(analysis_.quantile_ns(0.95)), "analysis-max",
+                    G_TYPE_UINT64, static_cast<guint64>(analysis_.max_ns()), nullptr);
 }
 
 }  // namespace spidar

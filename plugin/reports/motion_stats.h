@@ -24,7 +24,7 @@ class MotionStats {
 
   /// Adds frames, restarts (uint64), features, tracked (uint, of the last frame), model (string: of
   /// the background in the last frame, 'none' when the motion that is felt needs none), objects
-  /// (uint, in the last frame), analysis-ms-median, analysis-ms-p95, analysis-ms-max (double).
+  /// (uint, in the last frame), analysis-median, analysis-p95, analysis-max (uint64, ns).
   void describe(GstStructure* structure) const;
 
  private:

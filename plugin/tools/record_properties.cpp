@@ -19,10 +19,9 @@ namespace {
 
 /// What changes the force that the frames of a film give. All others are for a device, for a viewer
 /// or for a pipeline, of which there is none.
-constexpr const char* kAnalysis[] = {
-    "alpha",        "controller",    "depth-gain",   "feel",   "filter-beta", "filter-min-cutoff",
-    "max-features", "max-force",     "min-distance", "motion", "pointer-x",   "pointer-y",
-    "quality",      "quality-level", "roll-gain"};
+constexpr const char* kAnalysis[] = {"alpha",       "controller",        "depth-gain", "feel",
+                                     "filter-beta", "filter-min-cutoff", "max-force",  "motion",
+                                     "pointer",     "roll-gain"};
 
 template <size_t kCount>
 bool contains(const char* const (&names)[kCount], const std::string& name) {
@@ -41,6 +40,10 @@ std::string why_refused(const TypedProperty& property, size_t films) {
   const std::string name = property.name();
   if (name == "touch")
     return "what is touched depends on the hand, and a track is the same for all";
+  if (name == "pointer" &&
+      (property.canonical_value() == "grip" || property.canonical_value() == "mouse")) {
+    return "a track has neither a hand nor a mouse: pointer=X,Y";
+  }
   if (name == "track") return "a film is analysed for its track, and a track is not recorded again";
   if (name == "trace") {
     return films == 1 ? "" : "all films would be written to one file; record them one by one";

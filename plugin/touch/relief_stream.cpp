@@ -206,9 +206,9 @@ void ReliefStream::end(int64_t shown_ns) {
 
 void ReliefStream::describe(GstStructure* structure) const {
   gst_structure_set(structure, "reliefs", G_TYPE_UINT64, reliefs_.load(), "reliefs-left-out",
-                    G_TYPE_UINT64, reliefs_left_out_.load(), "relief-ms-median", G_TYPE_DOUBLE,
-                    1e-6 * static_cast<double>(took_.quantile_ns(0.5)), "touch-stiffness",
-                    G_TYPE_DOUBLE, stiffness_N_m_.load(), nullptr);
+                    G_TYPE_UINT64, reliefs_left_out_.load(), "relief-median", G_TYPE_UINT64,
+                    static_cast<guint64>(took_.quantile_ns(0.5)), "touch-stiffness", G_TYPE_DOUBLE,
+                    stiffness_N_m_.load(), nullptr);
 }
 
 }  // namespace spidar

@@ -246,7 +246,8 @@ static void gst_spidar_extract_class_init(GstSpidarExtractClass* klass) {
   element_class->change_state = gst_spidar_extract_change_state;
   gst_element_class_set_static_metadata(
       element_class, "SPIDAR track extractor", "Extracter/Video/Metadata",
-      "Outputs the force and torque of spidarmotion as a track of six channels", "gst-spidar");
+      "Outputs the force and torque of spidarmotion as a track of six channels",
+      "The gst-spidar authors");
   for (GstStaticPadTemplate* pad_template :
        {&track_sink_template, &track_src_template, &wrench_template}) {
     gst_element_class_add_static_pad_template(element_class, pad_template);

@@ -337,7 +337,7 @@ static void gst_spidar_sink_class_init(GstSpidarSinkClass* klass) {
   spidar::sink_properties().install(object_class);
   gst_element_class_set_static_metadata(element_class, "SPIDAR sink", "Sink/Hardware",
                                         "Feel a haptic track with a SPIDAR haptic device",
-                                        "gst-spidar");
+                                        "The gst-spidar authors");
   gst_element_class_add_static_pad_template(element_class, &haptic_sink_template);
   element_class->change_state = gst_spidar_sink_change_state;
   element_class->send_event = gst_spidar_sink_send_event;

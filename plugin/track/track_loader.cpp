@@ -108,7 +108,6 @@ void TrackLoader::begin(const std::string& wanted, const std::string& film) {
   try {
     thread_ = start_thread("spidar-track", std::move(read));
   } catch (const std::system_error& error) {
-    reading->loaded.kind = kind;
     reading->loaded.path = wanted == "auto" ? film : wanted;
     reading->loaded.problem = std::string("the system gives no thread to read it: ") + error.what();
     reading->done = true;

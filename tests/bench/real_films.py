@@ -44,8 +44,6 @@ FELT_N = 0.04
 FRAMES_A_SECOND = 24  # what FELT_PX_S is a speed of where times are not known
 SETTINGS = [
     [],
-    ["quality=fast"],
-    ["quality=fine"],
     ["motion=mean"],
     ["motion=mean", "filter-min-cutoff=0"],
 ]
@@ -53,8 +51,6 @@ NAMES = {"motion=mean filter-min-cutoff=0": "closest to the paper"}
 # Of bench_real_film, and their names in the table.
 METHODS = {
     "default": "`motion=object`",
-    "fast": "`quality=fast`",
-    "fine": "`quality=fine`",
     "paper": "closest to the paper",
     "dis": "DIS at half size, largest region",
     "vectors": "H.264 vectors, largest region",

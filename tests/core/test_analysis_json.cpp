@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/analysis_json.h"
+#include "core/analysis/motion_analyzer.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/moving_scene.h"
 

@@ -39,7 +39,7 @@ std::vector<Frame> frames_of(Film film) {
   MotionAnalyzer analyzer;
   const FilmObject& truth = film.objects.at(0);
   for (int n = 0; n < kFilmFrames; ++n) {
-    const Frame found = analyzer.analyze(film.draw(n), n * kFrame_ns);
+    const spidar::Frame found = analyzer.analyze(film.draw(n), n * kFrame_ns);
     for (const MovingObject& object : found.objects) {
       const Vector2d on_object = truth.pose(n).inverse() * object.position_px;
       if (object.tracks == 0 || on_object.norm() > truth.radii_px.x()) continue;

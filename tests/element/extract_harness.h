@@ -37,8 +37,8 @@ inline GstBuffer* bare_frame(GstClockTime pts) {
 inline GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench) {
   GstBuffer* frame = bare_frame(pts);
   FrameReport report;
-  report.running_time = pts;
-  report.analysis.interval_ns = kExtractedFrame;
+  report.frame.running_ns = static_cast<int64_t>(pts);
+  report.frame.interval_ns = kExtractedFrame;
   SceneView scene;
   scene.wrench = wrench;
   attach_motion_meta(frame, report, scene, 16, 16);

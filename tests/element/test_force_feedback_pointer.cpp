@@ -101,7 +101,7 @@ TEST_F(StickTest, TheSimulatedOnePointsAtTheCentre) {
   EXPECT_GT(felt_px_s(-130, 0), 0.51 * 50);
   EXPECT_LT(felt_px_s(0, 130), -0.51 * 50);
   // A pointer at the other disc would feel that one.
-  open("device=sim:ff pointer=fixed pointer-x=0.1");
+  open("device=sim:ff pointer=0.1,0.5");
   EXPECT_LT(felt_px_s(-130, 0), 0);
 }
 

@@ -64,8 +64,7 @@ Played play(const std::string& properties, bool right) {
 
 TEST(PackedFilm, MotionIsThatOfThePictureAndPlacesAreThoseOfTheFrame) {
   for (const bool right : {true, false}) {
-    const Played played =
-        play(std::string("touch=depth depth-layout=") + (right ? "right" : "below"), right);
+    const Played played = play(right ? "touch=depth" : "touch=depth-below", right);
     EXPECT_NEAR(played.velocity_x, 25 * kPicture_px, 25 * kTolerance_px);
     EXPECT_EQ(played.motion.width, static_cast<guint>(kWidth));
     EXPECT_EQ(played.motion.height, static_cast<guint>(kHeight));
@@ -86,7 +85,7 @@ TEST(PackedFilm, MotionIsThatOfThePictureAndPlacesAreThoseOfTheFrame) {
 }
 
 TEST(PackedFilm, WithoutTouchingDepthTheWholeFrameIsThePicture) {
-  for (const char* properties : {"touch=off depth-layout=right", "touch=luma depth-layout=right"}) {
+  for (const char* properties : {"touch=off", "touch=luma"}) {
     const Played played = play(properties, true);
     int in_depth = 0;
     for (const GstSpidarMotionTrack& track : played.tracks) in_depth += track.to_x > kWidth / 2;
@@ -95,17 +94,17 @@ TEST(PackedFilm, WithoutTouchingDepthTheWholeFrameIsThePicture) {
 }
 
 TEST(PackedFilm, AHalfThatIsTooSmallIsNotAnalysedAndWarnedAboutOnce) {
-  for (const auto& [layout, width, height] :
-       {std::tuple{"right", 30, 240}, std::tuple{"below", 240, 30}}) {
-    SCOPED_TRACE(layout);
-    ElementHarness h(std::string("device=none touch=depth depth-layout=") + layout);
+  for (const auto& [touch, width, height] :
+       {std::tuple{"depth", 30, 240}, std::tuple{"depth-below", 240, 30}}) {
+    SCOPED_TRACE(touch);
+    ElementHarness h(std::string("device=none touch=") + touch);
     h.set_caps(make_caps("GRAY8", width, height));
     for (int n = 0; n < 3; ++n) h.push_moved(n, 0, static_cast<GstClockTime>(n) * kFrame);
     EXPECT_EQ(gst_harness_buffers_received(h.harness()), 3u);
     EXPECT_TRUE(h.motions().empty());
     EXPECT_TRUE(h.errors().empty());
     ASSERT_EQ(h.warnings().size(), 1u);
-    EXPECT_NE(h.warnings()[0].find("depth-layout"), std::string::npos);
+    EXPECT_NE(h.warnings()[0].find("half"), std::string::npos);
   }
 }
 

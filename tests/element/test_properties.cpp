@@ -17,6 +17,7 @@
 #include <gst/controller/gstinterpolationcontrolsource.h>
 #include <gtest/gtest.h>
 
+#include "plugin/properties/pointer_text.h"
 #include "plugin/reports/motion_message.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
@@ -70,23 +71,20 @@ TEST(Properties, ASimulatedDeviceHasAProfileOfItsOwn) {
 TEST(Properties, DefaultsAreTheDocumentedOnes) {
   GstElement* element = make_element("");
   gchar *device, *profile;
-  gdouble max_force, alpha, quality, distance, pointer_x, pointer_y, min_cutoff, beta;
-  gint motion, pointer;
+  gchar* pointer;
+  gdouble max_force, alpha, min_cutoff, beta;
+  gint motion;
   gint64 ts_offset;
   gboolean qos;
   g_object_get(element, "device", &device, "profile", &profile, "max-force", &max_force, "alpha",
-               &alpha, "quality-level", &quality, "min-distance", &distance, "ts-offset",
-               &ts_offset, "qos", &qos, "motion", &motion, "pointer", &pointer, "pointer-x",
-               &pointer_x, "pointer-y", &pointer_y, "filter-min-cutoff", &min_cutoff, "filter-beta",
-               &beta, nullptr);
+               &alpha, "ts-offset", &ts_offset, "qos", &qos, "motion", &motion, "pointer", &pointer,
+               "filter-min-cutoff", &min_cutoff, "filter-beta", &beta, nullptr);
   EXPECT_STREQ(device, "sim");
   EXPECT_EQ(profile, nullptr);
   EXPECT_EQ(max_force, 3.0);
   EXPECT_EQ(alpha, 0.01);
   EXPECT_EQ(motion, static_cast<gint>(MotionKind::kObject));
-  EXPECT_EQ(pointer, static_cast<gint>(PointerKind::kFixed));
-  EXPECT_EQ(pointer_x, 0.5);
-  EXPECT_EQ(pointer_y, 0.5);
+  EXPECT_STREQ(pointer, "0.5,0.5");
   EXPECT_EQ(min_cutoff, 1.0);
   EXPECT_EQ(beta, 0.08);
   EXPECT_EQ(ts_offset, 0);
@@ -94,27 +92,31 @@ TEST(Properties, DefaultsAreTheDocumentedOnes) {
   EXPECT_TRUE(gst_base_transform_is_passthrough(GST_BASE_TRANSFORM(element)));
   g_free(device);
   g_free(profile);
+  g_free(pointer);
   gst_object_unref(element);
 }
 
 TEST(Properties, EverySettingReadsBackWhatWasWritten) {
   GstElement* element = make_element(
-      "device=none profile=spidar-g6c controller=adaptive motion=camera pointer=grip "
-      "pointer-x=0.25 "
-      "pointer-y=1 max-force=1.5 alpha=0.02 filter-min-cutoff=4 filter-beta=0.5 depth-gain=2.5 "
-      "roll-gain=0 max-features=50 "
-      "quality-level=0.05 min-distance=4 ts-offset=-5000000 on-device-error=error "
+      "device=none profile=spidar-g6c controller=adaptive motion=camera pointer=0.25,1 "
+      "max-force=1.5 alpha=0.02 filter-min-cutoff=4 filter-beta=0.5 depth-gain=2.5 "
+      "roll-gain=0 ts-offset=-5000000 on-device-error=error "
       "post-messages=false trace=/a haptic-trace=/b");
-  for (const auto& [name, text] : {std::pair{"device", "none"}, {"profile", "spidar-g6c"},
-                                   {"controller", "adaptive"},  {"motion", "camera"},
-                                   {"pointer", "grip"},         {"pointer-x", "0.25"},
-                                   {"pointer-y", "1"},          {"filter-min-cutoff", "4"},
-                                   {"filter-beta", "0.5"},      {"max-force", "1.5"},
-                                   {"alpha", "0.02"},           {"depth-gain", "2.5"},
-                                   {"roll-gain", "0"},          {"max-features", "50"},
-                                   {"quality-level", "0.05"},   {"min-distance", "4"},
-                                   {"ts-offset", "-5000000"},   {"on-device-error", "error"},
-                                   {"post-messages", "FALSE"},  {"trace", "/a"},
+  for (const auto& [name, text] : {std::pair{"device", "none"},
+                                   {"profile", "spidar-g6c"},
+                                   {"controller", "adaptive"},
+                                   {"motion", "camera"},
+                                   {"pointer", "0.25,1"},
+                                   {"filter-min-cutoff", "4"},
+                                   {"filter-beta", "0.5"},
+                                   {"max-force", "1.5"},
+                                   {"alpha", "0.02"},
+                                   {"depth-gain", "2.5"},
+                                   {"roll-gain", "0"},
+                                   {"ts-offset", "-5000000"},
+                                   {"on-device-error", "error"},
+                                   {"post-messages", "FALSE"},
+                                   {"trace", "/a"},
                                    {"haptic-trace", "/b"}}) {
     GValue value = G_VALUE_INIT, wanted = G_VALUE_INIT;
     g_object_get_property(G_OBJECT(element), name, &value);
@@ -125,6 +127,45 @@ TEST(Properties, EverySettingReadsBackWhatWasWritten) {
     g_value_unset(&wanted);
   }
   gst_object_unref(element);
+}
+
+/// What gst-inspect-1.0 shows of an element's own properties, those of its base classes left out.
+std::vector<GParamSpec*> own_properties(GstElement* element) {
+  guint count = 0;
+  GParamSpec** const all = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
+  std::vector<GParamSpec*> own;
+  for (guint i = 0; i < count; ++i) {
+    if (all[i]->owner_type == G_OBJECT_TYPE(element)) own.push_back(all[i]);
+  }
+  g_free(all);
+  return own;
+}
+
+TEST(Properties, AreFewAndEachIsExplainedInALine) {
+  GstElement* element = make_element("");
+  const std::vector<GParamSpec*> own = own_properties(element);
+  EXPECT_LE(own.size(), 30u);
+  for (GParamSpec* spec : own) {
+    std::istringstream blurb(g_param_spec_get_blurb(spec));
+    int words = 0;
+    for (std::string word; blurb >> word;) ++words;
+    EXPECT_LE(words, 25) << spec->name;
+    const std::string type = g_type_name(G_PARAM_SPEC_VALUE_TYPE(spec));
+    EXPECT_EQ(type.find("GstSpidarMotion"), std::string::npos) << type << " repeats the element";
+  }
+  gst_object_unref(element);
+}
+
+TEST(Properties, APointerIsAPlaceTheGripOrTheMouse) {
+  for (const char* text : {"grip", "mouse", "0,1", "0.25,0.75"}) {
+    const std::optional<Pointer> pointer = parse_pointer(text);
+    ASSERT_TRUE(pointer) << text;
+    EXPECT_EQ(text_of(*pointer), text);
+  }
+  for (const char* text :
+       {"", "fixed", "0.5", "0.5,", ",0.5", "0.5;0.5", "0.5,0.5,0.5", "1.1,0", "0,-0.1", "nan,0"}) {
+    EXPECT_FALSE(parse_pointer(text)) << text;
+  }
 }
 
 TEST(Properties, MessagesThatNobodyReadsEnd) {
@@ -234,12 +275,26 @@ TEST(Trace, AnUnwritableFileIsAWarningAndTheVideoContinues) {
 
 TEST(Trace, FullDiskIsAWarningAndTheVideoGoesOn) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
-  ElementHarness h("device=none trace=/dev/full");
+  const TemporaryFolder folder;
+  const std::string full = (folder.path / "full.csv").string();
+  std::filesystem::create_symlink("/dev/full", full);
+  ElementHarness h("device=none trace=" + full);
   h.set_caps(make_caps("GRAY8", 64, 64));
   for (int n = 0; n < 3; ++n) {
     EXPECT_EQ(h.push_moved(0, 0, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
   }
   EXPECT_EQ(h.warnings().size(), 1u);
+}
+
+TEST(Trace, AnEndingThatSaysNothingIsAWarning) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "trace.txt").string();
+  ElementHarness h("device=none trace=" + path);
+  h.set_caps(make_caps("GRAY8", 64, 64));
+  EXPECT_EQ(h.push_moved(0, 0, 0), GST_FLOW_OK);
+  ASSERT_EQ(h.warnings().size(), 1u);
+  EXPECT_NE(h.warnings()[0].find("neither in .csv nor in .jsonl"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 /// Pushes frames until the element warns, for ten seconds at most.

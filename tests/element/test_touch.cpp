@@ -214,8 +214,7 @@ double tilt(DepthLayout layout, bool picture_rises, bool depth_rises) {
   Reliefs reliefs;
   reliefs.loop->open();
   TouchProperties touch;
-  touch.kind = TouchKind::kDepth;
-  touch.depth = layout;
+  touch.kind = is_right ? TouchKind::kDepth : TouchKind::kDepthBelow;
   touch.friction = 0;
   reliefs.stream.add({luma.data(), kWidth, kHeight, kWidth}, some_analysis(), 0, touch, {0.5, 0.5});
   Pose hand;

@@ -29,18 +29,16 @@ std::vector<std::string> warnings_of(const std::string& properties) {
 TouchProperties read_back(const std::string& launch) {
   ElementHarness h(launch);
   TouchProperties read;
-  gint kind, depth;
-  g_object_get(h.element(), "touch", &kind, "depth-layout", &depth, "touch-relief", &read.relief_mm,
-               "touch-stiffness", &read.stiffness_N_m, "touch-friction", &read.friction,
-               "touch-texture", &read.texture, "motion-share", &read.motion_share, nullptr);
+  gint kind;
+  g_object_get(h.element(), "touch", &kind, "touch-relief", &read.relief_mm, "touch-stiffness",
+               &read.stiffness_N_m, "touch-friction", &read.friction, "touch-texture",
+               &read.texture, "motion-share", &read.motion_share, nullptr);
   read.kind = static_cast<TouchKind>(kind);
-  read.depth = static_cast<DepthLayout>(depth);
   return read;
 }
 
 void expect(const TouchProperties& read, const TouchProperties& wanted) {
   EXPECT_EQ(read.kind, wanted.kind);
-  EXPECT_EQ(read.depth, wanted.depth);
   EXPECT_EQ(read.relief_mm, wanted.relief_mm);
   EXPECT_EQ(read.stiffness_N_m, wanted.stiffness_N_m);
   EXPECT_EQ(read.friction, wanted.friction);
@@ -49,16 +47,15 @@ void expect(const TouchProperties& read, const TouchProperties& wanted) {
 }
 
 TEST(TouchProperties, DefaultsAreTheDocumentedOnes) {
-  expect(read_back("device=none"), {TouchKind::kOff, DepthLayout::kRight, 8, 500, 0.3, 0, 0});
+  expect(read_back("device=none"), {TouchKind::kOff, 8, 500, 0.3, 0, 0});
 }
 
 TEST(TouchProperties, ReadBackWhatWasWritten) {
   const std::string rest =
       " touch-relief=12 touch-stiffness=300 touch-friction=0.1 touch-texture=2 motion-share=0.4";
-  expect(read_back("device=none touch=luma depth-layout=right" + rest),
-         {TouchKind::kLuma, DepthLayout::kRight, 12, 300, 0.1, 2, 0.4});
-  expect(read_back("device=none touch=depth depth-layout=below" + rest),
-         {TouchKind::kDepth, DepthLayout::kBelow, 12, 300, 0.1, 2, 0.4});
+  expect(read_back("device=none touch=luma" + rest), {TouchKind::kLuma, 12, 300, 0.1, 2, 0.4});
+  expect(read_back("device=none touch=depth-below" + rest),
+         {TouchKind::kDepthBelow, 12, 300, 0.1, 2, 0.4});
 }
 
 TEST(TouchProperties, WithoutADeviceThereIsAWarningOnce) {

@@ -45,8 +45,8 @@ void add_frame(Record& record, int number, const std::string& limit = "none",
 std::string device_stats(const std::string& more = "") {
   return "stats, device=(string)sim, device-state=(string)running, force-x=(double)1, "
          "force-y=(double)0, force-z=(double)0, torque-z=(double)0, "
-         "tensions=(double)<0.5, 0.7, 0>, skew-ms-median=(double)0.4, skew-ms-p99=(double)0.9, "
-         "analysis-ms-median=(double)0.31, analysis-ms-max=(double)1.2" +
+         "tensions=(double)<0.5, 0.7, 0>, skew-median=(guint64)400000, skew-p99=(guint64)900000, "
+         "analysis-median=(guint64)310000, analysis-max=(guint64)1200000" +
          more;
 }
 

@@ -118,7 +118,7 @@ TEST(Mouse, WhatIsKeptIsLostWhenItLeavesThePicture) {
 }
 
 TEST(Mouse, EventsGoOnUpstreamWithTheirPlaceInTheFrame) {
-  for (const char* pointer : {"fixed", "mouse"}) {
+  for (const char* pointer : {"0.5,0.5", "mouse"}) {
     Film film(std::string("pointer=") + pointer, kMirroredWindow);
     film.play_to(2);
     while (GstEvent* const event = gst_harness_try_pull_upstream_event(film.harness()))

@@ -137,7 +137,6 @@ TEST_F(Feel, WrongUsageIsNamed) {
       {"max-force=1e9 -- true", 2, "max-force: \"1e9\" is not a number from 0 to 20"},
       {"max-force=nan -- true", 2, "max-force: \"nan\" is not a number from 0 to 20"},
       {"alpha=0 -- true", 2, "alpha: \"0\" is not a number from 1e-06 to 10"},
-      {"max-features=1.5 -- true", 2, "\"1.5\" is not a whole number from 1 to 10000"},
       {"ts-offset=late -- true", 2,
        "\"late\" is not a whole number from -10000000000 to 10000000000"},
       {"ts-offset=late -- true", 2, "in nanoseconds"},

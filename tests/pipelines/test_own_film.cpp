@@ -94,7 +94,7 @@ TEST_F(OwnFilm, ATrackMovesWithThePicturesIntoAnotherContainer) {
     SCOPED_TRACE(back);
     const std::string track = path(back ? "copy.ts" : "film.mp4") + ".haptic.flac";
     TrackLoader loader;
-    loader.begin(Sidecar::kTrack, track, path(back ? "film.mp4" : "copy.ts"));
+    loader.begin(track, path(back ? "film.mp4" : "copy.ts"));
     loader.await(std::chrono::hours(1));
     const std::optional<LoadedTrack> loaded = loader.take();
     ASSERT_TRUE(loaded);

@@ -33,7 +33,7 @@ double height_m(double luma) {
 TEST(Touch, DepthOfASecondStreamIsTouched) {
   Touched touched(
       "compositor name=both sink_1::xpos=320 ! video/x-raw,format=GRAY8 ! spidarmotion name=motion "
-      "touch=depth depth-layout=right ! fakesink name=sink sync=true enable-last-sample=true "
+      "touch=depth ! fakesink name=sink sync=true enable-last-sample=true "
       "videotestsrc name=source pattern=snow ! "
       "video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! queue ! both.sink_0 "
       "videotestsrc pattern=solid-color foreground-color=0xff404040 ! "

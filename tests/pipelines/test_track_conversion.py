@@ -55,11 +55,11 @@ class Conversion(track_case.TrackCase):
     def test_a_trace_has_its_axes_in_their_places(self):
         wrench = [.1 * (i + 1) * scale for i, scale in enumerate(FULL_SCALE)]
         columns = ("running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,force_x_N,"
-                   "force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit").split(",")
+                   "force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit,device_limit").split(",")
         with open(self.path("six.csv"), "w", encoding="utf-8", newline="") as file:
             rows = csv.writer(file)
             rows.writerow(columns)
-            rows.writerows([i * 40000000, i * 40000000, 9, 9, 0, 0, *wrench, "none"] for i in range(10))
+            rows.writerows([i * 40000000, i * 40000000, 9, 9, 0, 0, *wrench, "none", "none"] for i in range(10))
         with open(self.path("six.jsonl"), "w", encoding="utf-8") as file:
             for i in range(10):
                 file.write(json.dumps({"stream_time_ns": i * 40000000, "repeated": False, "restarted": False,
@@ -72,8 +72,8 @@ class Conversion(track_case.TrackCase):
 
     def test_a_trace_with_a_wild_time_is_refused(self):
         head = ("running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,force_x_N,force_y_N,"
-                "force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit\n")
-        rest = ",10,10,0,0,1,0,0,0,0,0,none\n"
+                "force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit,device_limit\n")
+        rest = ",10,10,0,0,1,0,0,0,0,0,none,none\n"
         for time, shown in (("1000000000000000", "1e+06 s"), ("1e300", "1e+291 s"), ("-40000000", "-0.04 s"),
                             ("nan", "nan s")):
             self.path("wild.csv").write_text(f"{head}0,0{rest}40000000,{time}{rest}")
