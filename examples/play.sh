@@ -29,6 +29,8 @@ build() {
     fi
     # The guardian is needed by real boards, and docs/start.md goes on with spidar-feel.
     local targets=(plugin/libgstspidar{,feel}.so plugin/spidar-feel spidar/spidar-guardian examples/play/play)
+    # The debug window is a program of its own, if there are the libraries for it.
+    ! grep -q '^build plugin/spidar-window:' "$top/build/build.ninja" || targets+=(plugin/spidar-window)
     if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then
         echo "building; the first time, this takes some minutes"
         quietly ninja -C "$top/build" "${targets[@]}"

@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 # check_play_script.sh SOURCE: examples/play.sh builds everything that it and the next step of docs/start.md use: the
-# plugins, the guardian, without which no real board is opened, and spidar-feel. Nothing but apt gets root's rights: a
-# user's sudo may ask for a password, and under sudo the script goes on as the user who called it. The script runs in a
-# copy of the tree in which ninja, sudo, apt and the player only note what they are asked for.
+# plugins, the guardian, without which no real board is opened, spidar-feel, and the program of the debug window.
+# Nothing but apt gets root's rights: a user's sudo may ask for a password, and under sudo the script goes on as the
+# user who called it. The script runs in a copy of the tree in which ninja, sudo, apt and the player only note what they
+# are asked for.
 set -euo pipefail
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 mkdir -p "$tree"/{bin,build/examples/play,examples,tests}
 cp "$1/examples/play.sh" "$tree/examples/"
 cp "$1/tests/install.sh" "$tree/tests/"
-touch "$tree/build/build.ninja" "$tree/asked"
+echo "build plugin/spidar-window: with its libraries" >"$tree/build/build.ninja"
+touch "$tree/asked"
 chmod -R a+rwX "$tree"
 note='#!/bin/bash\nprintf "%%s\\n" "$(id -u) ${0##*/} $*" >>'"$tree"'/asked\n'
 for program in bin/{ninja,sudo,apt-get,dpkg-query} build/examples/play/play; do
@@ -42,7 +44,7 @@ run_as_user() {
 
 : >"$tree/tests/debian-packages.txt" # none is missing
 run
-for target in plugin/libgstspidar{,feel}.so plugin/spidar-feel spidar/spidar-guardian examples/play/play; do
+for target in plugin/libgstspidar{,feel}.so plugin/spidar-{feel,window} spidar/spidar-guardian examples/play/play; do
     grep -qw -- "$target" "$tree/asked" || fail "does not build $target"
 done
 
