@@ -71,7 +71,7 @@ void set_properties(GstElement* motion, const RecordProperties& properties) {
 
 }  // namespace
 
-std::string decode_film(const FilmRun& run) {
+FilmOutcome decode_film(const FilmRun& run) {
   if (!std::filesystem::exists(run.film)) throw std::runtime_error("there is no such file");
   struct stat at_first {
   }, at_last{};
@@ -92,7 +92,7 @@ std::string decode_film(const FilmRun& run) {
   try {
     run_pipeline(
         "filesrc name=film ! decodebin name=decode videoconvert name=convert ! "
-        "spidarmotion name=motion device=none post-messages=false attach-meta=true ! " +
+        "spidarmotion name=motion device=none attach-meta=true ! " +
             run.rest,
         [&](GstElement* pipeline) {
           set_location(pipeline, "film", run.film);
@@ -124,7 +124,7 @@ std::string decode_film(const FilmRun& run) {
   if (end == FilmEnd::kCutOff) {
     throw std::runtime_error("its end is missing: it is damaged or cut off");
   }
-  return watch.remark();
+  return {watch.felt(), watch.remark()};
 }
 
 }  // namespace spidar

@@ -23,8 +23,12 @@ struct FilmRun {
   std::function<void(int percent)> tell;
 };
 
-/// Returns what is to be known of the film; usually nothing. Throws std::runtime_error, which says
-/// what is wrong with it.
-std::string decode_film(const FilmRun& run);
+struct FilmOutcome {
+  std::string felt;    ///< how much of the film is felt, and why the rest is not
+  std::string remark;  ///< what else is to be known of it; usually empty
+};
+
+/// Throws std::runtime_error, which says what is wrong with the film.
+FilmOutcome decode_film(const FilmRun& run);
 
 }  // namespace spidar

@@ -27,21 +27,11 @@ void tag(GstElement* pipeline, const TrackNotes& notes) {
 
 }  // namespace
 
-void take_samples(GstElement* pipeline, const std::string& track, const TrackNotes& notes) {
-  set_location(pipeline, "track", track);
-  tag(pipeline, notes);
-}
-
-std::string sampling_elements(const std::string& track) {
-  return "spidarextract name=extract extract.wrench ! " + encoder_of(track) +
-         " ! filesink name=track";
-}
-
-std::string record_film(const std::string& film, const PartFile& track,
+FilmOutcome record_film(const std::string& film, const PartFile& track,
                         const RecordProperties& properties,
                         const std::function<void(int percent)>& tell) {
   StoredSound stored;
-  const std::string remark =
+  const FilmOutcome outcome =
       decode_film({film, properties,
                    "spidarextract name=extract extract.wrench ! " + encoder_of(track.target()) +
                        " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
@@ -51,7 +41,7 @@ std::string record_film(const std::string& film, const PartFile& track,
                    },
                    tell});
   stored.check(track);
-  return remark;
+  return outcome;
 }
 
 }  // namespace spidar

@@ -3,6 +3,7 @@
 #include "plugin/tools/film_watch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "plugin/timing/instant_rate.h"
@@ -54,6 +55,12 @@ GstBusSyncReply FilmWatch::hears(GstBus*, GstMessage* message, gpointer user) {
   auto& self = *static_cast<FilmWatch*>(user);
   const std::lock_guard<std::mutex> lock(self.lock_);
   const GstStructure* const about = gst_message_get_structure(message);
+  if (about && gst_structure_has_name(about, "spidar-motion")) {
+    const char* const reason = gst_structure_get_string(about, "limit-reason");
+    ++self.reasons_[reason ? reason : ""];
+    gst_message_unref(message);
+    return GST_BUS_DROP;
+  }
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) self.failed_ = true;
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING && !self.failed_) {
     GError* warning = nullptr;
@@ -175,6 +182,25 @@ std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> 
     return result;
   }
   return frames_ < 2 ? "it is a single picture, in which nothing moves" : "";
+}
+
+std::string FilmWatch::felt() const {
+  const std::lock_guard<std::mutex> lock(lock_);
+  int frames = 0, felt = 0, most = 0;
+  std::string reason;
+  for (const auto& [sentence, count] : reasons_) {
+    frames += count;
+    if (sentence.empty()) felt = count;
+    if (sentence.empty() || count <= most) continue;
+    most = count;
+    reason = sentence;
+  }
+  if (frames == 0) return {};
+  const auto percent = [frames](int count) {
+    return std::to_string(std::lround(100.0 * count / frames)) + " %";
+  };
+  return percent(felt) + " of its frames are felt" +
+         (reason.empty() ? "" : "; " + percent(most) + ": " + reason);
 }
 
 }  // namespace spidar

@@ -31,6 +31,8 @@ class FilmWatch {
   std::string problem(const std::string& error, std::optional<int64_t> end_ns) const;
   /// What is to be known of the track of a film that is whole; usually empty.
   const std::string& remark() const { return remark_; }
+  /// What share of its frames is felt, and the commonest reason of the others, in whole sentences.
+  std::string felt() const;
 
  private:
   /// Of a stream, as the demuxer gives it.
@@ -61,6 +63,7 @@ class FilmWatch {
   gint64 duration_ns_ = 0;
   gint64 end_ns_ = 0;  // of what was demuxed
   uint64_t frames_ = 0;
+  std::map<std::string, int> reasons_;  // of measured frames, by sentence; empty: felt
 };
 
 }  // namespace spidar

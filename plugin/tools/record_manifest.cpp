@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/record_manifest.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +10,6 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/force/felt_force.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
 
@@ -21,14 +19,6 @@ namespace {
 [[noreturn]] void fail(const std::string& path) {
   throw std::runtime_error("the manifest " + path +
                            " cannot be written: " + std::system_category().message(errno));
-}
-
-double felt_share(const std::vector<TrackSample>& samples) {
-  if (samples.empty()) return 0;
-  const auto felt = std::count_if(samples.begin(), samples.end(), [](const TrackSample& sample) {
-    return to_wrench(sample).force_N.norm() >= kFeltForce_N;
-  });
-  return static_cast<double>(felt) / static_cast<double>(samples.size());
 }
 
 }  // namespace
@@ -44,8 +34,9 @@ std::string manifest_line(const RecordedFilm& film) {
     const std::vector<TrackSample> samples = load_track(film.track.string(), &condition);
     line["track"] = film.track.string();
     line["duration_s"] = static_cast<double>(samples.size()) / kTrackRate_Hz;
-    line["felt"] = felt_share(samples);
-    line["largest_force_N"] = summarise(samples).largest_force_N;
+    const TrackSummary summary = summarise(samples);
+    line["felt"] = summary.felt;
+    line["largest_force_N"] = summary.largest_force_N;
     line["fingerprint"] = to_text(condition.notes.film);
     line["settings"] = condition.notes.settings.value_or("");
   }

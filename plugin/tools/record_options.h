@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The command line of `spidartrack record`.
+/// What `spidartrack record` is to do.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,6 @@
 namespace spidar {
 
 struct RecordOptions {
-  bool help = false;
   bool force = false;
   unsigned jobs = 1;
   std::string folder;
@@ -26,7 +25,9 @@ struct RecordOptions {
   std::filesystem::path file_of(const ListedFilm& film) const;
 };
 
-/// Throws UsageError. The help text has been printed if `help` is set.
-RecordOptions parse_record_options(int argc, char** argv);
+/// Fills in films, and properties of the form PROPERTY=VALUE. `names` are of films and folders.
+/// Throws UsageError.
+void set_films(RecordOptions& options, const std::vector<std::string>& names,
+               const std::vector<std::string>& properties);
 
 }  // namespace spidar

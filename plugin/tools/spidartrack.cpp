@@ -2,13 +2,19 @@
 // Copyright 2026 the gst-spidar authors
 // Records, inspects, checks, converts and plots haptic tracks.
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <pthread.h>
+#include <string>
 #include <system_error>
 #include <vector>
 
 #include <gst/gst.h>
 
+#include "plugin/tools/processors.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/track/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
@@ -19,24 +25,198 @@ namespace {
 
 using namespace spidar;
 
-const std::vector<Command> kCommands = {
-    {"record", record_track_command}, {"info", track_info_command},
-    {"check", check_track_command},   {"convert", convert_track_command},
-    {"plot", plot_track_command},
+/// A finite number; CLI::Range takes NaN, too.
+CLI::Validator number(double least, double most, const std::string& unit = "") {
+  const std::string range = "a number from " + shown(least) + " to " + shown(most) + unit;
+  const auto check = [least, most, range](const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool good = !text.empty() && *end == '\0' && value >= least && value <= most;
+    return good ? std::string() : "\"" + text + "\" is not " + range;
+  };
+  return {check, ""};
+}
+
+/// The command line. Of each command, run() is called when it is parsed.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.set_help_flag("-h,--help", "Explain the program, or a command, and end");
+    app_.set_version_flag("--version", "spidartrack " SPIDAR_VERSION);
+    app_.require_subcommand(1);
+    app_.footer("spidartrack COMMAND --help explains a command.");
+    add_record();
+    add_info();
+    add_check();
+    add_convert();
+    add_plot();
+  }
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  /// Throws CLI::ParseError, and what a command throws.
+  int run(int argc, char** argv) {
+    char** const end = argv + argc;
+    // What follows "--" are properties, not options.
+    char** const dashes = argc > 1 && std::string(argv[1]) == "record"
+                              ? std::find(argv + 1, end, std::string("--"))
+                              : end;
+    properties_.assign(std::min(dashes + 1, end), end);
+    if (argc > 1 && argv[1][0] != '-') check_command(argv[1]);
+    app_.parse(static_cast<int>(dashes - argv), argv);
+    return status_;
+  }
+  /// Prints the help, the version, or what was wrong. Returns the exit status.
+  int explain(const CLI::ParseError& error) const {
+    return app_.exit(error) == 0 ? kDone : kWrongUsage;
+  }
+
+ private:
+  /// Throws UsageError. CLI11 says only that a command is required.
+  void check_command(const std::string& name) const {
+    std::string known;
+    for (const CLI::App* command : app_.get_subcommands({})) {
+      if (command->get_name() == name) return;
+      known += (known.empty() ? "" : ", ") + command->get_name();
+    }
+    throw UsageError(name + " is not a command; commands are " + known);
+  }
+
+  CLI::App* add(const char* name, const char* description, int (CommandLine::*command)()) {
+    CLI::App* const added = app_.add_subcommand(name, description);
+    added->callback([this, command] { status_ = (this->*command)(); });
+    return added;
+  }
+
+  void add_record() {
+    CLI::App* const app = add("record", "record the haptic tracks of films, into files beside them",
+                              &CommandLine::record);
+    record_.jobs = usable_processors();
+    app->footer(
+        "Analyses films, or all films in a folder and below, the largest first, as fast as they "
+        "can\n"
+        "be decoded, and writes the haptic track of FILM.mp4 beside it, as FILM.mp4.haptic.flac. "
+        "A\n"
+        "track that is there is left alone, so that the command goes on where it was interrupted; "
+        "if\n"
+        "it is that of another film, or was recorded with other properties, that is an error.\n"
+        "Properties of spidarmotion that change the force follow --: -- motion=camera max-force=2");
+    app->add_option("FILM", films_, "films, and folders of films")->required();
+    app->add_option("-j,--jobs", record_.jobs, "films at a time; as many as processors may be used")
+        ->check(number(1, 1024));
+    app->add_option("--folder", record_.folder,
+                    "where tracks are written, those of a folder in the same subfolders");
+    app->add_option("--format", record_.format, "flac (24 bits), mka or wav (both F32)")
+        ->check(CLI::IsMember({"flac", "mka", "wav"}));
+    app->add_option(
+        "--manifest", record_.manifest,
+        "a file that gets a line of JSON for each film: result, duration, felt share …");
+    app->add_flag("--force", record_.force, "also those that are there");
+  }
+  int record() {
+    set_films(record_, films_, properties_);
+    return record_films(record_);
+  }
+
+  void add_info() {
+    CLI::App* const app = add("info", "print the length and size of a track", &CommandLine::info);
+    app->footer(
+        "Of a film: whether a haptic track is inside it or beside it, and belongs to it; then as "
+        "of\n"
+        "the track: how long it is, and how large: largest force and torque, steepest change, "
+        "peak\n"
+        "and mean square of each channel in shares of the full scale (10 N, 1 N m), and how much "
+        "of\n"
+        "its energy is above 30 Hz.");
+    app->add_option("TRACK", info_.path, "a track, or a film")->required();
+    app->add_flag("--json", info_.json, "as JSON");
+  }
+  int info() { return print_info(info_); }
+
+  void add_check() {
+    CLI::App* const app =
+        add("check", "report what in a track cannot be felt as it is", &CommandLine::check);
+    app->footer(
+        "Whether nothing is missing at its end, all samples are numbers, none is beyond full "
+        "scale,\n"
+        "and force and torque stay below the limits and change no faster than 300 N/s; and how "
+        "much\n"
+        "of it is felt. What a device gives is within its limits in any case. A tenth of the "
+        "energy\n"
+        "of a channel above 30 Hz is no motion of a film. Exit status 1, and a line for each "
+        "thing\n"
+        "that is wrong.");
+    app->add_option("TRACK", check_.track)->required();
+    app->add_option("--max-force", check_.max_force_N, "in N; 3 as of spidarsink")
+        ->check(number(0, 20, " N"));
+    app->add_option("--max-torque", check_.max_torque_Nm, "in N m; 0.1 as of spidarsink")
+        ->check(number(0, 1, " N m"));
+  }
+  int check() { return check_track(check_); }
+
+  void add_convert() {
+    CLI::App* const app =
+        add("convert", "convert between FLAC, Matroska, WAV, HJIF, traces and funscript",
+            &CommandLine::convert);
+    app->footer(
+        "FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), a trace of\n"
+        "spidarmotion (.csv, .jsonl), or a funscript. TO is what its name ends in: .flac, .mka, "
+        ".wav,\n"
+        ".hjif, .ahap (a vibration for telephones) or .funscript; a file of this name is replaced\n"
+        "when the new one is complete. What TO cannot hold is printed.");
+    app->add_option("FROM", convert_.from)->required();
+    app->add_option("TO", convert_.to)->required();
+    app->add_option("--axis", convert_.axis, "of a funscript, and with --rate; fy")
+        ->check(CLI::IsMember({"fx", "fy", "fz", "tx", "ty", "tz"}));
+    app->add_option("--rate", convert_.save.rate_Hz,
+                    "sound with this channel alone, in Hz, as for a bass shaker: 48000")
+        ->check(number(1000, 192000, " Hz"));
+    app->add_option("--gain", convert_.gain,
+                    "of a funscript, AHAP and sound with --rate; so much that the largest value of "
+                    "the track fills the range")
+        ->check(number(1e-3, 1e6));
+    app->add_option("--tolerance", convert_.save.tolerance,
+                    "share of the full scale by which curves may differ between their points: HJIF "
+                    "0.0004, AHAP 0.02, funscript 0.01")
+        ->check(number(0, 1));
+  }
+  int convert() { return convert_track(convert_); }
+
+  void add_plot() {
+    CLI::App* const app = add("plot", "draw a picture of a track", &CommandLine::plot);
+    app->footer("Draws force and torque over time. Needs gnuplot.");
+    app->add_option("TRACK", plot_.track)->required();
+    app->add_option("PNG", plot_.png)->required();
+    app->add_option("--film", plot_.film,
+                    "draws stills of the film above, each over the moment it shows, which a dotted "
+                    "line marks");
+  }
+  int plot() { return plot_track(plot_); }
+
+  CLI::App app_{"Records, inspects, checks, converts and plots haptic tracks.", "spidartrack"};
+  RecordOptions record_;
+  std::vector<std::string> films_, properties_;
+  InfoOptions info_;
+  CheckOptions check_;
+  ConvertOptions convert_;
+  PlotOptions plot_;
+  int status_ = kDone;
 };
 
-constexpr const char* kSpidartrackHelp = R"(usage: spidartrack COMMAND
-
-  record   record the haptic tracks of films, into files beside them
-  info     print the length and size of a track
-  check    report what in a track cannot be felt as it is
-  convert  convert between FLAC, Matroska, WAV, HJIF, traces and funscript
-  plot     draw a picture of a track
-  --help
-  --version
-
-spidartrack COMMAND --help explains a command.
-)";
+int run(int argc, char** argv) {
+  CommandLine line;
+  try {
+    return line.run(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return line.explain(error);
+  } catch (const UsageError& error) {
+    std::cerr << "spidartrack: " << error.what() << "; see spidartrack --help\n";
+    return kWrongUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "spidartrack: " << error.what() << '\n';
+    return kFailed;
+  }
+}
 
 /// GStreamer reads and writes files in threads for which the 128 KiB that musl gives by default, or
 /// a low limit of the stack, are not enough.
@@ -65,5 +245,5 @@ int main(int argc, char** argv) {
     return kFailed;
   }
   gst_init(nullptr, nullptr);
-  return run_program("spidartrack", kCommands, kSpidartrackHelp, argc, argv);
+  return run(argc, argv);
 }

@@ -1,15 +1,44 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The commands of spidartrack. Each takes its own command line, in which argv[0] is its name, and
-/// returns the exit status. They throw UsageError and std::runtime_error.
+/// The commands of spidartrack. They return the exit status, and throw UsageError and
+/// std::runtime_error.
 #pragma once
+
+#include <optional>
+#include <string>
+
+#include "plugin/tools/record_options.h"
+#include "plugin/tools/track_samples.h"
 
 namespace spidar {
 
-int check_track_command(int argc, char** argv);
-int convert_track_command(int argc, char** argv);
-int plot_track_command(int argc, char** argv);
-int record_track_command(int argc, char** argv);
-int track_info_command(int argc, char** argv);
+struct InfoOptions {
+  std::string path;  ///< of a track or a film
+  bool json = false;
+};
+
+/// The limits are those of spidarsink by default.
+struct CheckOptions {
+  std::string track;
+  double max_force_N = 3, max_torque_Nm = 0.1;
+};
+
+struct ConvertOptions {
+  std::string from, to;
+  std::string axis;            ///< the channel by its name; empty: the usual one
+  std::optional<double> gain;  ///< empty: that which fills the range of `to`
+  SaveOptions save;
+};
+
+struct PlotOptions {
+  std::string track, png;
+  std::string film;  ///< whose stills are drawn; empty: none
+};
+
+int record_films(const RecordOptions& options);
+int print_info(const InfoOptions& options);
+int check_track(const CheckOptions& options);
+int convert_track(const ConvertOptions& options);
+int plot_track(const PlotOptions& options);
 
 }  // namespace spidar

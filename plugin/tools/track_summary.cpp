@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/force/felt_force.h"
+
 namespace spidar {
 namespace {
 
@@ -46,6 +48,7 @@ TrackSummary summarise(const std::vector<TrackSample>& samples) {
   std::array<HighPass, kTrackChannels> filters;
   std::array<double, kTrackChannels> energy{}, fast{};
   Wrench before;
+  size_t felt = 0;
   for (size_t i = 0; i < samples.size(); ++i) {
     const TrackSample& sample = samples[i];
     for (size_t channel = 0; channel < kTrackChannels; ++channel) {
@@ -62,7 +65,11 @@ TrackSummary summarise(const std::vector<TrackSample>& samples) {
       const double change_N_s = (wrench.force_N - before.force_N).norm() * kTrackRate_Hz;
       summary.steepest_N_s = std::max(summary.steepest_N_s, change_N_s);
     }
+    felt += wrench.force_N.norm() >= kFeltForce_N ? 1 : 0;
     before = wrench;
+  }
+  if (!samples.empty()) {
+    summary.felt = static_cast<double>(felt) / static_cast<double>(samples.size());
   }
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
     if (energy[channel] <= 0) continue;

@@ -23,6 +23,7 @@ struct TrackSummary {
   double largest_force_N = 0;
   double largest_torque_Nm = 0;
   double steepest_N_s = 0;  ///< largest rate of change of the force
+  double felt = 0;          ///< share of the time with at least kFeltForce_N
 };
 
 TrackSummary summarise(const std::vector<TrackSample>& samples);

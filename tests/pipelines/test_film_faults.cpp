@@ -141,15 +141,5 @@ TEST_F(FilmFaults, APipelineThatNeverBeginsIsNotAwaitedForEver) {
   gst_object_unref(pipeline);
 }
 
-// A limit of the size of a file stands for a full disk.
-TEST_F(FilmFaults, AnAnalysisThatCannotBeWrittenIsAnError) {
-  make_film("film.avi", "zone-plate kx2=20 ky2=20");
-  const CommandResult result = run("cd " + path("") + " && trap '' XFSZ && ulimit -f 2 && " +
-                                   SPIDARTRACK " analyze --folder out film.avi");
-  EXPECT_EQ(result.status, 1);
-  expect_contains(result.text, "failed: the analysis cannot be written; the disk may be full");
-  EXPECT_TRUE(fs::is_empty(path("out")));
-}
-
 }  // namespace
 }  // namespace spidar::test::film_faults_test

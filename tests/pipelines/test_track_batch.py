@@ -25,11 +25,14 @@ class Batch(track_case.TrackCase):
         for command in ("record", "info", "check", "convert", "plot"):
             self.assertIn(command, self.spidartrack(command, "--help"))
             self.spidartrack(command, status=2)
-        for arguments, said in ((["frobnicate"], "frobnicate"),
+        for arguments, said in ((["frobnicate"], "frobnicate is not a command; commands are record, info, check"),
                                 (["record", "x.mp4", "--format", "ogg"], "flac"),
                                 (["record", "x.mp4", "--", "motion"], "is no PROPERTY=VALUE"),
                                 (["record", "x.mp4", "motion=camera"], "spidartrack record FILM -- motion=camera"),
-                                (["record", "-j0", "x.mp4"], "0")):
+                                (["record", "-j0", "x.mp4"], '"0" is not a number from 1 to 1024'),
+                                (["check", "x.wav", "--max-force", "nan"], '"nan" is not a number from 0 to 20 N'),
+                                (["convert", "x.wav"], "TO"), (["info", "x.wav", "y.wav"], "y.wav"),
+                                (["info", "--jsom", "x.wav"], "--jsom")):
             self.assert_said(said, *arguments, status=2)
 
     def test_films_are_recorded_once(self):
@@ -97,6 +100,19 @@ class Batch(track_case.TrackCase):
         # A share that is not mounted is not written to under its name.
         self.spidartrack("record", "in", "--folder", "away", status=1)
         self.assertFalse(self.path("away").exists())
+
+    @track_case.needs("ffmpeg")
+    def test_how_much_is_felt_and_why_the_rest_is_not_is_said(self):
+        self.make_film("ball.avi", 50)
+        said = self.spidartrack("record", "ball.avi")
+        self.assertRegex(said, r"ball.avi.haptic.flac; [1-9]\d* % of its frames are felt; \d+ %: ")
+        self.assertRegex(self.spidartrack("check", "ball.avi.haptic.flac"), r"ok\n.* \d+ % of it is felt; in the rest")
+        # A camera that pans across a standing texture.
+        self.run_in_folder("ffmpeg -nostdin -v error -f lavfi -i \"color=gray:s=640x240:r=25,noise=alls=60:all_seed=1,"
+                           "gblur=2,trim=end_frame=1,loop=-1:1,setpts=N/25/TB,crop=320:240:2*n:0\" -t 2 pan.avi")
+        said = self.spidartrack("record", "pan.avi")
+        self.assertRegex(said, r"pan.avi.haptic.flac; \d % of its frames are felt; 9\d %: .*camera")
+        self.assertRegex(self.spidartrack("check", "pan.avi.haptic.flac"), r"ok\n.* \d % of it is felt; in the rest")
 
     def test_a_manifest_that_cannot_be_written_is_an_error(self):
         self.make_film("x.avi")
@@ -166,7 +182,7 @@ class Batch(track_case.TrackCase):
         for words, said in (("attach-meta=false", "attach-meta=false: changes nothing in a track; these properties do"),
                             ("device=sim", "device=sim: changes nothing"),
                             ("name=extract", "name=extract: changes nothing"),
-                            ("pointer=grip", "pointer=grip: changes nothing"),
+                            ("pointer=grip", "pointer=grip: a track has neither a hand nor a mouse"),
                             ("touch=luma", "touch=luma: what is touched depends on the hand"),
                             ("track=auto", "track=auto: a film is analysed for its track"),
                             ("max-force=0", "max-force=0: the whole track would be at rest"),
@@ -238,7 +254,7 @@ class Batch(track_case.TrackCase):
         self.assertNotIn("recorded", self.spidartrack("record", "y.avi"), "one film needs none")
         said = self.spidartrack("record", "-j1", "x.avi", "y.avi", "none.avi", "bad\nname.avi", status=1)
         self.assertIn("1 recorded, 1 there, 2 failed:\n  none.avi: there is no such file\n  bad?name.avi: ", said)
-        self.assertNotIn("%", said, "progress is for terminals, and for what takes long")
+        self.assertNotIn("done;", said, "progress is for terminals, and for what takes long")
         # A line for each film, the summary, and the two that failed once more.
         self.assertEqual(said.count("\n"), 4 + 1 + 2, said)
         terminal = self.run_in_folder(f"script -qec '{PROGRAM} record --force x.avi' /dev/null")

@@ -138,12 +138,13 @@ class FilmBatch {
     const Clock::time_point begin = Clock::now();
     const RecordProperties properties = with_rules(options_.properties, film);
     const auto tell = [&](int percent) { report_.progress(index, percent); };
-    std::string remark = record_film(film, *part, properties, tell);
+    const FilmOutcome outcome = record_film(film, *part, properties, tell);
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
-    remark = with_warning(remark, film, track);
+    const std::string remark = with_warning(outcome.remark, film, track);
     const std::chrono::duration<double> taken = Clock::now() - begin;
     manifest_.add({film, track, "recorded", remark, taken.count()});
-    report_.recorded(index, track.string() + (remark.empty() ? "" : "; " + remark));
+    report_.recorded(index,
+                     track.string() + "; " + outcome.felt + (remark.empty() ? "" : "; " + remark));
     return true;
   }
 
@@ -188,9 +189,7 @@ class FilmBatch {
 
 }  // namespace
 
-int record_track_command(int argc, char** argv) {
-  const RecordOptions options = parse_record_options(argc, argv);
-  if (options.help) return kDone;
+int record_films(const RecordOptions& options) {
   return FilmBatch(options).run() ? kDone : kFailed;
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
@@ -17,13 +16,6 @@
 
 namespace spidar {
 namespace {
-
-constexpr const char* kPlotTrackHelp = R"(usage: spidartrack plot TRACK PNG [--film FILM]
-
-Draws force and torque over time. Needs gnuplot.
-
-  --film FILM  draws stills of the film above, each over the moment it shows, which a dotted line marks
-)";
 
 constexpr const char* kStyle = R"(set encoding utf8
 set style data lines
@@ -130,31 +122,20 @@ void draw(const std::vector<TrackSample>& samples, const FilmStills& stills,
 
 }  // namespace
 
-int plot_track_command(int argc, char** argv) {
-  bool help = false;
-  std::string film;
-  const std::vector<std::string> operands =
-      parse_options(argc, argv,
-                    {{"film", true, [&](const std::string& text) { film = text; }},
-                     {"help", false, [&](const std::string&) { help = true; }}});
-  if (help) {
-    std::cout << kPlotTrackHelp;
-    return kDone;
-  }
-  if (operands.size() != 2) throw UsageError("TRACK and PNG are needed, and nothing else");
-  const std::string ending = std::filesystem::path(operands[1]).extension().string();
+int plot_track(const PlotOptions& options) {
+  const std::string ending = std::filesystem::path(options.png).extension().string();
   if (!ending.empty() && ending != ".png") {
-    throw UsageError(operands[1] + ": the picture is a PNG, and its name ends in .png");
+    throw UsageError(options.png + ": the picture is a PNG, and its name ends in .png");
   }
   TrackCondition condition;
-  const std::vector<TrackSample> samples = load_track(operands[0], &condition);
-  if (samples.empty()) throw std::runtime_error(operands[0] + ": has no samples to draw");
+  const std::vector<TrackSample> samples = load_track(options.track, &condition);
+  if (samples.empty()) throw std::runtime_error(options.track + ": has no samples to draw");
   FilmStills stills;
-  if (!film.empty()) {
-    stills = film_stills(film, static_cast<int64_t>(samples.size()) * kTrackPeriod_ns,
+  if (!options.film.empty()) {
+    stills = film_stills(options.film, static_cast<int64_t>(samples.size()) * kTrackPeriod_ns,
                          condition.notes, kStills, kStillWidth);
   }
-  draw(samples, stills, operands[1]);
+  draw(samples, stills, options.png);
   return kDone;
 }
 

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <filesystem>
+#include <iostream>
+
+#include "plugin/tools/conversion_loss.h"
+#include "plugin/tools/spidartrack_commands.h"
+#include "plugin/tools/track_samples.h"
+#include "plugin/tools/track_summary.h"
+#include "spidar/tools/command_line.h"
+#include "spidar/tools/exit_status.h"
+
+namespace spidar {
+namespace {
+
+size_t channel_of(const std::string& axis) {
+  for (size_t i = 0; i < kTrackChannels; ++i) {
+    if (axis == channel_name(i)) return i;
+  }
+  return kUsualAxis;
+}
+
+/// What TO is for is not a grip, and has a range of its own instead of newtons.
+bool has_own_range(const std::string& to, const SaveOptions& options) {
+  return options.rate_Hz > 0 || ends_with(to, ".ahap") || ends_with(to, ".funscript");
+}
+
+/// The gain with which the largest value fills the range of TO; 1 when there is none.
+double filling_gain(const std::string& to, const TrackSummary& summary,
+                    const SaveOptions& options) {
+  // Of sound, a resampled peak may lie between two samples, and be higher than both.
+  constexpr double kSoundPeak = 0.9;
+  const double peak = ends_with(to, ".ahap") ? summary.largest_force_N / kTrackForceScale_N
+                                             : summary.channels[options.axis].peak;
+  const double range = options.rate_Hz > 0 ? kSoundPeak : 1;
+  return peak > 0 ? range / peak : 1;
+}
+
+std::vector<TrackSample> amplified(std::vector<TrackSample> samples, double gain) {
+  for (TrackSample& sample : samples) {
+    for (float& value : sample) value = static_cast<float>(gain * value);
+  }
+  return samples;
+}
+
+/// Throws UsageError when an option changes nothing.
+void check_use(const ConvertOptions& options) {
+  const std::string& to = options.to;
+  const bool is_script = ends_with(to, ".funscript");
+  if (options.save.rate_Hz > 0 && encoder_of(to).empty()) {
+    throw UsageError("--rate is for sound (.flac, .mka, .wav), not for " + to);
+  }
+  if (options.save.tolerance && !is_script && !ends_with(to, ".hjif") && !ends_with(to, ".ahap")) {
+    throw UsageError("--tolerance is for .hjif, .ahap and .funscript, not for " + to);
+  }
+  if (options.gain && !has_own_range(to, options.save)) {
+    throw UsageError("--gain is for .funscript, .ahap and sound with --rate, not for " + to +
+                     ", whose samples are newtons");
+  }
+  if (!options.axis.empty() && options.save.rate_Hz == 0 && !is_script &&
+      !ends_with(options.from, ".funscript")) {
+    throw UsageError("--axis is for .funscript, and for sound with --rate, not for " + to);
+  }
+}
+
+}  // namespace
+
+int convert_track(const ConvertOptions& options) {
+  const std::string& to = options.to;
+  std::error_code none;
+  if (std::filesystem::equivalent(options.from, to, none)) {
+    throw UsageError(to + ": is to be another file than " + options.from);
+  }
+  check_use(options);
+  SaveOptions save = options.save;
+  save.axis = channel_of(options.axis);
+  TrackCondition condition;
+  const std::vector<TrackSample> samples = load_track(options.from, &condition, save.axis);
+  save.notes = condition.notes;
+  const TrackSummary summary = summarise(samples);
+  if (has_own_range(to, save)) {
+    save.gain = options.gain.value_or(filling_gain(to, summary, save));
+    std::cout << "gain " << rounded(save.gain)
+              << (options.gain ? ""
+                               : ": the largest value fills the range; --gain 1 keeps it as it is")
+              << '\n';
+  }
+  save_track(to, amplified(samples, save.gain), save);
+  std::cout << lost_in(to, summary, save);
+  return kDone;
+}
+
+}  // namespace spidar
