@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Six constants, different on each channel, on the ways of docs/haptic-track.md from a file to the
-// hand; test_track_conversion.py has those from one file to another. Those of the containers are in
-// test_tracks.cpp, and those over a network in test_track_network.cpp.
+// hand; test_track_conversion.py has those from one file to another and through containers, and
+// test_track_network.cpp those over a network.
 #include <algorithm>
 #include <cstring>
 #include <string>

@@ -51,6 +51,31 @@ class Conversion(track_case.TrackCase):
                 traced, extracted = self.samples(trace), self.samples("film.wav")
                 self.assertEqual(len(traced), len(extracted))
                 self.assertLessEqual(difference(traced, extracted), 1e-6)
+        rows = list(csv.DictReader(self.path("film.csv").read_text().splitlines()))
+        self.assertEqual(len(rows), 25)
+        columns = ("force_x_N", "force_y_N", "force_z_N", "torque_x_Nm", "torque_y_Nm", "torque_z_Nm")
+        for row in rows:
+            sample = extracted[int(row["stream_time_ns"]) // 1000000]
+            self.assertLessEqual(difference([[float(row[name]) / scale for name, scale in zip(columns, FULL_SCALE)]],
+                                            [sample]), 1e-6)
+
+    def test_containers_give_back_what_was_extracted(self):
+        extract = ("videotestsrc num-buffers=50 pattern=ball ! video/x-raw,width=320,height=240,framerate=25/1 ! "
+                   "spidarmotion device=none attach-meta=true ! spidarextract name=x x.wrench ! ")
+        exact = "audioconvert dithering=none noise-shaping=none ! "
+        self.gst(extract + "wavenc ! filesink location=live.wav")
+        live = self.samples("live.wav")
+        self.assertEqual(len(live), 2000)
+        self.assertGreater(max(abs(sample[0]) for sample in live), .1)
+        for name, writer, error in (
+                ("f32.mka", "matroskamux", 0), ("s24.flac", exact + "flacenc blocksize=40", HALF_STEP),
+                ("flac.mka", exact + "flacenc blocksize=40 ! matroskamux", HALF_STEP),
+                ("s24.mov", f"audio/x-raw,channel-mask=(bitmask)0 ! {exact} audio/x-raw,format=S24LE ! qtmux",
+                 HALF_STEP)):
+            self.gst(f"{extract} {writer} ! filesink location={name}")
+            read = self.samples(name)
+            self.assertEqual(len(read), len(live))
+            self.assertLessEqual(difference(read, live), error, name)
 
     def test_a_trace_has_its_axes_in_their_places(self):
         wrench = [.1 * (i + 1) * scale for i, scale in enumerate(FULL_SCALE)]

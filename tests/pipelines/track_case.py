@@ -20,7 +20,7 @@ FULL_SCALE = (10, 10, 10, 1, 1, 1)  # N, N m
 def wave(ms):
     """A sample of six different channels, as shares of the full scale."""
     share = .15 * math.sin(.01 * ms)
-    return (share, -share / 2, share / 3, share / 100, 0, -share / 50)
+    return (share, -share / 2, share / 3, share / 100, share / 70, -share / 50)
 
 
 def write_wav(path, samples, rate=1000):
