@@ -4,13 +4,13 @@
 // a decoder; for moving frames, repeated frames, still frames and gaps.
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <map>
 #include <string>
 #include <vector>
 
 #include <gst/gst.h>
 
+#include "tests/bench/benchmarks.h"
 #include "tests/bench/call_timer.h"
 #include "tests/bench/cost/decoding.h"
 #include "tests/bench/cost/paced_push.h"
@@ -106,29 +106,24 @@ void print_decoded(const Size& size, const std::vector<Picture>& film, const std
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  gst_init(&argc, &argv);
-  try {
-    const spidar::test::TemporaryFolder folder;
-    const std::vector<Size> sizes = {{1920, 1080}, {3840, 2160}};
-    std::vector<std::vector<Picture>> films;
-    for (const Size& size : sizes) {
-      films.push_back(film_of(size));
-      print_pushed(size, films.back());
-    }
-    std::printf("\n### Beside avdec_h264, one thread\n\n");
-    const std::string missing = missing_for_decoding();
-    if (!missing.empty()) {
-      std::printf("left out: %s\n", missing.c_str());
-      return 0;
-    }
-    std::printf("film written by %s\n\n", h264_encoder().c_str());
-    std::printf("| size | decoding, ms | element, ms | %% of decoding |\n|---|---|---|---|\n");
-    for (size_t i = 0; i < sizes.size(); ++i) {
-      print_decoded(sizes[i], films[i], folder.path / (std::to_string(i) + ".mp4"));
-    }
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "error: %s\n", e.what());
-    return 1;
+int spidar::bench::cost(int, char**) {
+  const spidar::test::TemporaryFolder folder;
+  const std::vector<Size> sizes = {{1920, 1080}, {3840, 2160}};
+  std::vector<std::vector<Picture>> films;
+  for (const Size& size : sizes) {
+    films.push_back(film_of(size));
+    print_pushed(size, films.back());
   }
+  std::printf("\n### Beside avdec_h264, one thread\n\n");
+  const std::string missing = missing_for_decoding();
+  if (!missing.empty()) {
+    std::printf("left out: %s\n", missing.c_str());
+    return 0;
+  }
+  std::printf("film written by %s\n\n", h264_encoder().c_str());
+  std::printf("| size | decoding, ms | element, ms | %% of decoding |\n|---|---|---|---|\n");
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    print_decoded(sizes[i], films[i], folder.path / (std::to_string(i) + ".mp4"));
+  }
+  return 0;
 }

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
+#include "tests/bench/benchmarks.h"
 
 namespace {
 
@@ -56,18 +58,13 @@ void run(const Profile& profile, bool real_time, double seconds) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int spidar::bench::loop(int argc, char** argv) {
   const double seconds = argc > 1 ? std::atof(argv[1]) : 5;
   if (!(seconds > 0)) {
-    std::fprintf(stderr, "bench_loop: \"%s\" is not a number of seconds above 0\n", argv[1]);
-    return 2;
+    throw std::invalid_argument(std::string(argv[1]) + " is not a number of seconds above 0");
   }
-  try {
-    const Profile profile = load_profile(kDefaultProfile);
-    run(profile, true, seconds);
-    run(profile, false, seconds);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_loop: %s\n", error.what());
-    return 1;
-  }
+  const Profile profile = load_profile(kDefaultProfile);
+  run(profile, true, seconds);
+  run(profile, false, seconds);
+  return 0;
 }

@@ -14,8 +14,9 @@
 #include <ceres/tiny_solver.h>
 #include <ceres/tiny_solver_autodiff_function.h>
 
-#include "call_timer.h"
 #include "core/grip/pose_solver.h"
+#include "tests/bench/benchmarks.h"
+#include "tests/bench/call_timer.h"
 #include "tests/support/string_samples.h"
 
 namespace {
@@ -254,7 +255,7 @@ void worst_case() {
 
 }  // namespace
 
-int main() {
+int spidar::bench::pose(int, char**) {
   pin_to_one_core();
   Peers peers;
   peers.push_back(std::make_unique<Ours>());
@@ -268,4 +269,5 @@ int main() {
                             {"95 % of the box, 60-80 deg", box_m, 60 * kDegree, 80 * kDegree}};
   for (const Region& region : regions) cold_start(region, peers, 1000);
   worst_case();
+  return 0;
 }

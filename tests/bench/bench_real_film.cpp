@@ -3,9 +3,9 @@
 /// Measures how one method of finding motion does on one film. Prints a line `frame,x,y,ms,height`
 /// for each frame: its motion in px since the previous frame, the processor time for it without
 /// decoding, and the height of the picture.
-///   bench_real_film METHOD FILM
+///   spidar-bench real_film METHOD FILM
 /// METHOD is one of the element's settings or one of two flows:
-///   default, fast, fine, mean, paper
+///   default, paper
 ///   dis       dense flow (DIS, preset medium) at half size
 ///   vectors   motion vectors of the coded film, which must be H.264 without B frames
 /// For the two flows, a homography is fitted robustly at every 16th pixel, and the object is the
@@ -15,7 +15,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -31,6 +30,7 @@ extern "C" {
 
 #include "core/analysis/motion_analyzer.h"
 #include "core/motion/robust_fit.h"
+#include "tests/bench/benchmarks.h"
 
 namespace {
 
@@ -224,17 +224,9 @@ class Vectors final : public Method {
 std::unique_ptr<Method> make_method(const std::string& name) {
   if (name == "dis") return std::make_unique<Dis>();
   if (name == "vectors") return std::make_unique<Vectors>();
-  AnalyzerSettings settings;
-  if (name == "fast") settings.tracker.quality = spidar::TrackerQuality::kFast;
-  if (name == "fine") settings.tracker.quality = spidar::TrackerQuality::kFine;
-  if (name == "mean") settings.motion = spidar::MotionKind::kMean;
-  if (name == "paper") settings = spidar::paper_settings();
-  const std::vector<std::string> known{"default", "fast", "fine", "mean", "paper"};
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
-    throw std::runtime_error("no method '" + name + "'; there are default, fast, fine, " +
-                             "mean, paper, dis and vectors");
-  }
-  return std::make_unique<Element>(settings);
+  if (name == "default") return std::make_unique<Element>(AnalyzerSettings());
+  if (name == "paper") return std::make_unique<Element>(spidar::paper_settings());
+  throw std::invalid_argument("no method '" + name + "'; there are default, paper, dis, vectors");
 }
 
 /// Frames of the first video of a file, with motion vectors where the format has them.
@@ -295,8 +287,8 @@ class Film {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  if (argc != 3) throw std::runtime_error("usage: bench_real_film METHOD FILM");
+int spidar::bench::real_film(int argc, char** argv) {
+  if (argc != 3) throw std::invalid_argument("usage: spidar-bench real_film METHOD FILM");
   cv::setNumThreads(1);
   const auto method = make_method(argv[1]);
   int n = 0;
@@ -307,7 +299,4 @@ int main(int argc, char** argv) try {
                 1e-6 * static_cast<double>(cpu_ns() - begin_ns), frame.height);
   });
   return 0;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "bench_real_film: %s\n", error.what());
-  return 1;
 }

@@ -17,6 +17,7 @@
 #include "spidar/grip/tension_command.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
+#include "tests/bench/benchmarks.h"
 #include "tests/support/tampered_device.h"
 
 namespace {
@@ -268,14 +269,10 @@ void print_playing() {
 
 }  // namespace
 
-int main() {
-  try {
-    for (const std::string profile : {"spidar-gcc", "spidar-g6x3-v2-r", "spidar-g6c"})
-      print_stops(profile);
-    print_rest();
-    print_playing();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_safety: %s\n", error.what());
-    return 1;
-  }
+int spidar::bench::safety(int, char**) {
+  for (const std::string profile : {"spidar-gcc", "spidar-g6x3-v2-r", "spidar-g6c"})
+    print_stops(profile);
+  print_rest();
+  print_playing();
+  return 0;
 }

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 // Time from a picture to its force at the device, in real pipelines in real time, with the plugin
 // as GStreamer loads it and the simulated device.
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 
 #include <gst/gst.h>
 
+#include "tests/bench/benchmarks.h"
 #include "tests/bench/skew/busy_cores.h"
 #include "tests/bench/skew/clip.h"
 #include "tests/bench/skew/measure.h"
@@ -23,63 +23,6 @@
 namespace {
 
 using namespace spidar::bench;
-
-constexpr const char* kUsage =
-    "usage: bench_skew [OPTION...]\n"
-    "  --seconds N        of each playback, default 6\n"
-    "  --scenario NAME    only this one; may be given again\n"
-    "  --free, --busy     only with free cores, or only with a busy thread on every one\n"
-    "  --list             names of the scenarios\n";
-
-struct Options {
-  int seconds = 6;
-  std::vector<Scenario> chosen;  ///< empty: all
-  bool free_cores = true;
-  bool busy_cores = true;
-  bool list = false;
-};
-
-/// Throws std::invalid_argument.
-Scenario find(const std::string& name) {
-  for (const Scenario& scenario : scenarios()) {
-    if (name == scenario.name) return scenario;
-  }
-  throw std::invalid_argument("there is no scenario '" + name + "'; see --list");
-}
-
-/// Throws std::invalid_argument.
-int number_of_seconds(const std::string& text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size() && value >= 1 && value <= 600) {
-    return value;
-  }
-  throw std::invalid_argument("--seconds: '" + text + "' is not a number from 1 to 600");
-}
-
-/// Throws std::invalid_argument.
-Options parse(const std::vector<std::string>& arguments) {
-  Options options;
-  for (size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& argument = arguments[i];
-    if (argument == "--free") {
-      options.busy_cores = false;
-    } else if (argument == "--busy") {
-      options.free_cores = false;
-    } else if (argument == "--list") {
-      options.list = true;
-    } else if (argument == "--seconds" && i + 1 < arguments.size()) {
-      options.seconds = number_of_seconds(arguments[++i]);
-    } else if (argument == "--scenario" && i + 1 < arguments.size()) {
-      options.chosen.push_back(find(arguments[++i]));
-    } else {
-      throw std::invalid_argument("unknown or incomplete option " + argument + "\n" + kUsage);
-    }
-  }
-  if (options.chosen.empty()) options.chosen = scenarios();
-  if (!options.free_cores && !options.busy_cores) options.free_cores = options.busy_cores = true;
-  return options;
-}
 
 /// With lines between the columns, as documents have them.
 void print_head() {
@@ -127,50 +70,31 @@ bool report(const Scenario& scenario, const char* cores, const std::string& clip
   }
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int spidar::bench::skew(int argc, char** argv) {
+  const int seconds = argc > 1 ? std::atoi(argv[1]) : 6;
+  if (seconds < 1) {
+    throw std::invalid_argument(std::string(argv[1]) + " is not a number of seconds above 0");
+  }
+  const std::string missing = missing_element();
+  if (!missing.empty()) {
+    std::printf("skipped: GStreamer element %s is not installed\n", missing.c_str());
+    return 77;  // meson: skipped
+  }
   print_head();
   const spidar::test::TemporaryFolder folder;
   const std::string clip = folder.path / "clip.avi";
   // At twice the rate, and with what is played before and after the measurement.
-  make_clip(clip, 2 * options.seconds + 4);
-  make_track(track_of(clip), 2 * options.seconds + 4);
+  make_clip(clip, 2 * seconds + 4);
+  make_track(track_of(clip), 2 * seconds + 4);
   bool all_good = true;
   std::string scheduling;
-  for (const Scenario& scenario : options.chosen) {
-    if (options.free_cores) all_good &= report(scenario, "free", clip, options.seconds, scheduling);
-    if (options.busy_cores) {
-      const BusyCores load(std::thread::hardware_concurrency());
-      all_good &= report(scenario, "busy", clip, options.seconds, scheduling);
-    }
+  for (const Scenario& scenario : scenarios()) {
+    all_good &= report(scenario, "free", clip, seconds, scheduling);
+    const BusyCores load(std::thread::hardware_concurrency());
+    all_good &= report(scenario, "busy", clip, seconds, scheduling);
   }
   std::printf("\nhaptic thread: %s\n", scheduling.c_str());
   return all_good ? 0 : 1;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  gst_init(&argc, &argv);
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  try {
-    const Options options = parse({argv + 1, argv + argc});
-    if (options.list) {
-      for (const Scenario& scenario : scenarios()) {
-        std::printf("%-12s %s\n", scenario.name, scenario.what);
-      }
-      return 0;
-    }
-    const std::string missing = missing_element();
-    if (!missing.empty()) {
-      std::printf("skipped: GStreamer element %s is not installed\n", missing.c_str());
-      return 77;  // meson: skipped
-    }
-    return run(options);
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return 1;
-  }
 }

@@ -12,9 +12,10 @@
 #include <memory>
 #include <vector>
 
-#include "call_timer.h"
 #include "core/grip/tension_solver.h"
-#include "tension_peers.h"
+#include "tests/bench/benchmarks.h"
+#include "tests/bench/call_timer.h"
+#include "tests/bench/tension_peers.h"
 #include "tests/core/tension_reference.h"
 #include "tests/support/tension_cases.h"
 
@@ -112,7 +113,7 @@ void published_weights() {
 
 }  // namespace
 
-int main() {
+int spidar::bench::tension(int, char**) {
   pin_to_one_core();
   std::vector<std::unique_ptr<Peer>> peers;
   peers.push_back(std::make_unique<Ours>(false));
@@ -132,4 +133,5 @@ int main() {
     compare(test::name(static_cast<TensionCase>(c)), problems, peers);
   }
   published_weights();
+  return 0;
 }

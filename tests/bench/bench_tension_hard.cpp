@@ -6,16 +6,16 @@
 //
 // A case fails when its relative KKT residual, in long double, is above 1e-12, a bound is exceeded,
 // or more than 24 rounds are needed.
-// at all, or more than 24 rounds were needed.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
-#include "call_timer.h"
 #include "core/grip/tension_solver.h"
 #include "spidar/profiles/profile.h"
+#include "tests/bench/benchmarks.h"
+#include "tests/bench/call_timer.h"
 #include "tests/core/tension_reference.h"
 #include "tests/spidar/profile_tension_cases.h"
 #include "tests/support/tension_cases.h"
@@ -77,7 +77,7 @@ void run_family(const std::string& name, int count, Totals& totals, Draw draw) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int spidar::bench::tension_hard(int argc, char** argv) {
   const int count = std::max(argc > 1 ? std::atoi(argv[1]) : 30000, 1);
   pin_to_one_core();
   std::printf(

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "spidar/loop/stiffness_limit.h"
+#include "tests/bench/benchmarks.h"
 #include "tests/support/touched_strings.h"
 
 namespace {
@@ -111,7 +112,7 @@ void explore_lags(long ticks) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int spidar::bench::touch_strings(int argc, char** argv) {
   const long ticks = argc > 1 ? std::atol(argv[1]) : 1'000'000;
   const std::string only = argc > 2 ? argv[2] : "";
   if (only == "lag") return explore_lags(ticks), 0;
@@ -119,4 +120,5 @@ int main(int argc, char** argv) {
   for (const Case& c : kCases) {
     if (only.empty() || only == c.name) explore(c, ticks);
   }
+  return 0;
 }

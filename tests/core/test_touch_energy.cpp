@@ -13,7 +13,7 @@
 namespace spidar::test::touch_energy_test {
 namespace {
 
-/// For each scene and hand; bench_touch runs a million.
+/// For each scene and hand.
 constexpr long kTicks = 30'000;
 
 ContactEnergy explore_all(const ContactSettings& settings, bool with_texture) {

@@ -277,9 +277,3 @@ TEST_F(Feel, GstDiscovererOpensNoDevice) {
 
 }  // namespace
 }  // namespace spidar::test
-
-int main(int argc, char** argv) {
-  const spidar::test::SharedBus shared;
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -230,9 +230,3 @@ TEST_F(FeelDecoders, OfATimelineAreLeftAlone) {
 
 }  // namespace
 }  // namespace spidar::test
-
-int main(int argc, char** argv) {
-  const spidar::test::SharedBus shared;
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

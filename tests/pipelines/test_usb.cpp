@@ -354,10 +354,3 @@ TEST_P(UsbPipeline, GstLaunchRestsTheMotorsHoweverItEnds) {
 
 }  // namespace
 }  // namespace spidar::test
-
-int main(int argc, char** argv) {
-  const spidar::test::SharedBus shared;
-  gst_init(nullptr, nullptr);
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

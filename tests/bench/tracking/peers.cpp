@@ -27,12 +27,11 @@ ImagePoint point(const cv::Point2f& p) {
 
 class Paper final : public Peer {
  public:
-  explicit Paper(const TrackerSettings& settings) : tracker_(settings) {}
   const TrackedFrame& track(const ImageView& frame) override { return tracker_.track(frame); }
   void restart() override { tracker_.restart(); }
 
  private:
-  OpenCvTracker tracker_;
+  OpenCvTracker tracker_{TrackerSettings()};
 };
 
 /// What the others have in common: frames of one size, and none before the first.
@@ -84,20 +83,20 @@ class Naive final : public OpenCvFunctions {
   std::vector<float> error_;
 };
 
-/// At a width of 480 px, with tracks on a grid.
-class Reduced : public OpenCvFunctions {
-  void follow(const cv::Mat& luma, bool first) final {
+/// Dense flow at a width of 480 px, with tracks on a grid.
+class Dis final : public OpenCvFunctions {
+  void follow(const cv::Mat& luma, bool first) override {
     std::swap(before_, now_);
     const double factor = std::max(1.0, luma.cols / static_cast<double>(kWidth_px));
     const cv::Size size(static_cast<int>(luma.cols / factor), static_cast<int>(luma.rows / factor));
     cv::resize(luma, now_, size, 0, 0, cv::INTER_AREA);
     result_.features = (size.width / kGrid_px) * (size.height / kGrid_px);
     if (first) return;
-    find(before_, now_);
+    dis_->calc(before_, now_, flow_);
     const auto scale = static_cast<float>(factor);
     for (int y = kGrid_px / 2; y + kGrid_px / 2 <= size.height; y += kGrid_px) {
       for (int x = kGrid_px / 2; x + kGrid_px / 2 <= size.width; x += kGrid_px) {
-        const cv::Point2f moved = moved_px(x, y) * scale;
+        const cv::Point2f moved = flow_.at<cv::Point2f>(y, x) * scale;
         // Pixels count from the centre of the first one.
         const cv::Point2f from = (cv::Point2f(cv::Point(x, y)) + cv::Point2f(0.5f, 0.5f)) * scale -
                                  cv::Point2f(0.5f, 0.5f);
@@ -108,63 +107,21 @@ class Reduced : public OpenCvFunctions {
 
   cv::Mat before_;
   cv::Mat now_;
-
- protected:
-  virtual void find(const cv::Mat& before, const cv::Mat& now) = 0;
-  virtual cv::Point2f moved_px(int x, int y) const = 0;
-};
-
-class Dense : public Reduced {
- protected:
-  cv::Point2f moved_px(int x, int y) const override { return flow_.at<cv::Point2f>(y, x); }
   cv::Mat flow_;
-};
-
-class Dis final : public Dense {
-  void find(const cv::Mat& before, const cv::Mat& now) override { dis_->calc(before, now, flow_); }
   cv::Ptr<cv::DISOpticalFlow> dis_ =
       cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
 };
 
-class Farneback final : public Dense {
-  void find(const cv::Mat& before, const cv::Mat& now) override {
-    cv::calcOpticalFlowFarneback(before, now, flow_, 0.5, 3, 15, 3, 5, 1.2, 0);
-  }
-};
-
-class PhaseCorrelation final : public Reduced {
-  void find(const cv::Mat& before, const cv::Mat& now) override {
-    if (window_.size() != now.size()) cv::createHanningWindow(window_, now.size(), CV_32F);
-    before.convertTo(before_32f_, CV_32F);
-    now.convertTo(now_32f_, CV_32F);
-    moved_ = cv::phaseCorrelate(before_32f_, now_32f_, window_);
-  }
-  cv::Point2f moved_px(int, int) const override { return moved_; }
-
-  cv::Mat window_;
-  cv::Mat before_32f_;
-  cv::Mat now_32f_;
-  cv::Point2f moved_;
-};
-
 }  // namespace
 
-std::unique_ptr<Peer> make_paper(double min_distance_px) {
-  TrackerSettings settings;
-  settings.min_distance_px = min_distance_px;
-  return std::make_unique<Paper>(settings);
+std::unique_ptr<Peer> make_paper() {
+  return std::make_unique<Paper>();
 }
 std::unique_ptr<Peer> make_naive() {
   return std::make_unique<Naive>();
 }
 std::unique_ptr<Peer> make_dis_ultrafast() {
   return std::make_unique<Dis>();
-}
-std::unique_ptr<Peer> make_farneback() {
-  return std::make_unique<Farneback>();
-}
-std::unique_ptr<Peer> make_phase_correlation() {
-  return std::make_unique<PhaseCorrelation>();
 }
 
 }  // namespace spidar::bench

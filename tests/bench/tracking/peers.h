@@ -23,7 +23,7 @@ class Peer {
 };
 
 /// The tracker of motion=mean.
-std::unique_ptr<Peer> make_paper(double min_distance_px);
+std::unique_ptr<Peer> make_paper();
 
 /// The obvious wiring: a frame converted from BGR, 200 Shi–Tomasi points of it, Lucas–Kanade with
 /// windows of 21×21 px and 3 levels at full size.
@@ -31,9 +31,5 @@ std::unique_ptr<Peer> make_naive();
 
 /// Flow of every pixel at a width of 480 px, taken at every 16th of them.
 std::unique_ptr<Peer> make_dis_ultrafast();
-std::unique_ptr<Peer> make_farneback();
-
-/// One displacement for the whole frame, by phase correlation at a width of 480 px.
-std::unique_ptr<Peer> make_phase_correlation();
 
 }  // namespace spidar::bench

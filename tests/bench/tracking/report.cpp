@@ -93,28 +93,4 @@ void print_silent(const std::vector<Pipeline>& pipelines, const CaseScores& case
   }
 }
 
-void print_pairs(const std::vector<Pipeline>& pipelines, const std::vector<Score>& scores) {
-  std::puts("\n### Middlebury\n");
-  std::puts("| pipeline | EPE median | mean | 95 % | lost % | tracks |\n|---|---|---|---|---|---|");
-  for (size_t k = 0; k < scores.size(); ++k) {
-    const Figures f = figures(scores[k]);
-    std::printf("| %-28s | %.3f | %.3f | %.2f | %.1f | %zu |\n", pipelines[k].description.c_str(),
-                f.epe_median, f.epe_mean, f.epe_p95, f.lost, scores[k].epe_px.size());
-  }
-}
-
-void write_csv(std::FILE* file, int width, int height, const std::string& name,
-               const std::vector<Pipeline>& pipelines, const std::vector<Score>& scores) {
-  for (size_t k = 0; k < scores.size(); ++k) {
-    const Figures f = figures(scores[k]);
-    std::fprintf(file,
-                 "%d,%d,%s,%s,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,"
-                 "%.4g\n",
-                 width, height, name.c_str(), pipelines[k].name.c_str(), f.ms_median, f.ms_p99,
-                 f.epe_median, f.epe_mean, f.epe_p95, f.lost, f.wrong, f.mean_error,
-                 f.object_median, f.object_p95, f.missed, f.ghosts, scores[k].largest_mean,
-                 scores[k].largest_object);
-  }
-}
-
 }  // namespace spidar::bench

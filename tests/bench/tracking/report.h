@@ -34,13 +34,5 @@ void print_usual(const std::string& size, const std::vector<Pipeline>& pipelines
 void print_hard(const std::vector<Pipeline>& pipelines, const CaseScores& cases);
 /// The largest motion where there is none.
 void print_silent(const std::vector<Pipeline>& pipelines, const CaseScores& cases);
-void print_pairs(const std::vector<Pipeline>& pipelines, const std::vector<Score>& scores);
-
-constexpr const char* kCsvHeader =
-    "width,height,case,pipeline,ms_median,ms_p99,epe_median_px,epe_mean_px,epe_p95_px,lost_percent,"
-    "wrong_percent,mean_error_px,object_median_px,object_p95_px,missed_percent,ghosts_percent,"
-    "largest_mean_px,largest_object_px\n";
-void write_csv(std::FILE* file, int width, int height, const std::string& name,
-               const std::vector<Pipeline>& pipelines, const std::vector<Score>& scores);
 
 }  // namespace spidar::bench

@@ -36,8 +36,7 @@ void Runner::restart() {
   reduced_.restart();
 }
 
-void Runner::run(const test::Film& film, const std::vector<test::Picture>& frames, bool errors,
-                 Score& score) {
+void Runner::run(const test::Film& film, const std::vector<test::Picture>& frames, Score& score) {
   restart();
   int looked_for = 0;
   for (size_t n = 0; n < frames.size(); ++n) {
@@ -55,7 +54,7 @@ void Runner::run(const test::Film& film, const std::vector<test::Picture>& frame
       tracked.tracks = scene_.tracks;
     }
     if (n > 0) score.ms.push_back(ms);
-    if (n > 0 && errors) {
+    if (n > 0) {
       if (film.is_comparable(frame)) {
         const auto truth = [&](const Eigen::Vector2d& from_px) -> std::optional<Eigen::Vector2d> {
           return film.displacement_px(frame, from_px);
@@ -68,31 +67,10 @@ void Runner::run(const test::Film& film, const std::vector<test::Picture>& frame
   }
 }
 
-void Runner::run(const FlowPair& pair, Score& score) {
-  const auto truth = [&](const Eigen::Vector2d& from_px) {
-    return pair.truth.at(from_px.x(), from_px.y());
-  };
-  const double unit = kReferenceWidth_px / pair.before.width;
-  restart();
-  if (peer_) {
-    const int looked_for = peer_->track(pair.before.view()).features;
-    score.add_tracks(peer_->track(pair.after.view()), looked_for, truth, unit);
-    return;
-  }
-  find_objects(pair.before.view());
-  TrackedFrame tracked;
-  tracked.tracks = find_objects(pair.after.view()).tracks;
-  score.add_tracks(tracked, static_cast<int>(tracked.tracks.size()), truth, unit);
-}
-
 std::vector<Score> run_all(std::deque<Runner>& runners, const test::Film& film,
-                           const std::vector<test::Picture>& frames, int rounds) {
+                           const std::vector<test::Picture>& frames) {
   std::vector<Score> scores(runners.size());
-  for (int round = 0; round < rounds; ++round) {
-    for (size_t k = 0; k < runners.size(); ++k) {
-      runners[k].run(film, frames, round == 0, scores[k]);
-    }
-  }
+  for (size_t k = 0; k < runners.size(); ++k) runners[k].run(film, frames, scores[k]);
   return scores;
 }
 

@@ -6,7 +6,6 @@
 #include <deque>
 #include <vector>
 
-#include "tests/bench/tracking/middlebury.h"
 #include "tests/bench/tracking/pipelines.h"
 #include "tests/bench/tracking/score.h"
 #include "tests/support/known_motion.h"
@@ -22,12 +21,8 @@ class Runner {
   const Pipeline& pipeline() const { return *pipeline_; }
 
   /// One film. The time is that of the thread: of the tracks, or of all of motion=object; the first
-  /// frame is not in it. `errors` false: only the time is added.
-  void run(const test::Film& film, const std::vector<test::Picture>& frames, bool errors,
-           Score& score);
-
-  /// A pair of frames with the displacement of every pixel.
-  void run(const FlowPair& pair, Score& score);
+  /// frame is not in it.
+  void run(const test::Film& film, const std::vector<test::Picture>& frames, Score& score);
 
  private:
   const MeasuredFrame& find_objects(const ImageView& frame);
@@ -40,9 +35,9 @@ class Runner {
   MeasuredFrame scene_;
 };
 
-/// All over one film, one after the other, `rounds` times, so that what disturbs hits all.
+/// All over one film, one after the other, so that what disturbs hits all.
 /// A score for each.
 std::vector<Score> run_all(std::deque<Runner>& runners, const test::Film& film,
-                           const std::vector<test::Picture>& frames, int rounds);
+                           const std::vector<test::Picture>& frames);
 
 }  // namespace spidar::bench

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// spidar-bench NAME [ARGUMENT...]: one benchmark. Without a name, says which there are.
+#include <cstdio>
+#include <cstring>
+#include <exception>
+
+#include <gst/gst.h>
+
+#include "tests/bench/benchmarks.h"
+
+namespace {
+
+struct Benchmark {
+  const char* name;
+  int (*run)(int argc, char** argv);
+  const char* what;
+};
+
+using namespace spidar::bench;
+
+const Benchmark kBenchmarks[] = {
+    {"cost", cost, "                the element in a pipeline, and beside a decoder"},
+    {"loop", loop, "[SECONDS]       how late the 1 kHz loop wakes, and how long a tick takes"},
+    {"pose", pose, "                the pose solver beside others"},
+#ifdef HAS_REAL_FILM
+    {"real_film", real_film, "METHOD FILM     the motion in a film; real_films.sh makes the table"},
+#endif
+    {"regression", regression, "                a figure a topic; regression.py compares them"},
+    {"safety", safety, "                the figures of docs/safety.md"},
+    {"skew", skew, "[SECONDS]       time from a picture to its force"},
+    {"tension", tension, "                the tension solver beside others"},
+    {"tension_hard", tension_hard,
+     "[COUNT]         the tension solver on COUNT problems of each hard family"},
+    {"touch_strings", touch_strings,
+     "[TICKS [lag]]   energy that contacts give out, also with drives that lag"},
+    {"tracking", tracking, "[WIDTHxHEIGHT…] speed and error on films of known motion"},
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a row when it is known, into files too
+  for (const Benchmark& each : kBenchmarks) {
+    if (argc < 2 || std::strcmp(argv[1], each.name) != 0) continue;
+    gst_init(nullptr, nullptr);
+    try {
+      return each.run(argc - 1, argv + 1);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "spidar-bench %s: %s\n", each.name, error.what());
+      return 1;
+    }
+  }
+  std::puts("usage: spidar-bench NAME [ARGUMENT...]");
+  for (const Benchmark& each : kBenchmarks) std::printf("  %-13s %s\n", each.name, each.what);
+  return 2;
+}
