@@ -34,8 +34,8 @@ class GripBrake {
   static constexpr double kFastest_m_s = 1.5;
   /// The damping force rises with kDamping_N_s_m from here on. A damper that acts with a delay T on
   /// a mass m is stable up to π/2 · m / T: 8 N s/m for 50 g and 10 ms.
-  static constexpr double kDampedFrom_m_s = 0.65;
-  static constexpr double kDamping_N_s_m = 6;
+  static constexpr double kDampedFrom_m_s = 0.6;
+  static constexpr double kDamping_N_s_m = 7;
   /// Mass of a bare grip. It may be a third as heavy, and a fifth heavier.
   static constexpr double kBareGrip_kg = 0.1;
   static constexpr double kRest_s = 1.0;

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/force_feedback_board.h"
+#include "spidar/boards/stick_effects.h"
 #include "spidar/session/board_list.h"
 #include "tests/kernel/uinput_device.h"
 #include "tests/support/child_process.h"
@@ -45,7 +46,9 @@ TEST(KernelEvdev, WheelsAndPadsGetTheEffectsThatTheySupport) {
     UinputDevice wheel(UinputKind::kWheel, "uinput wheel");
     const FeltPlayer player(listed("uinput wheel"));
     player.push(-1, 1);
-    wait_for([&] { return is_level(wheel.right(), -1, 1) && wheel.up() == 0; });
+    // It has no gain to set, so the levels are smaller.
+    constexpr double kForce_N = StickEffects::kDefaultGain;
+    wait_for([&] { return is_level(wheel.right(), -kForce_N, kForce_N) && wheel.up() == 0; });
   }
   UinputDevice pad(UinputKind::kPad, "uinput pad");
   const FeltPlayer player(listed("uinput pad"));
