@@ -101,11 +101,18 @@ uint32_t ObjectTracker::create(const Region& region) {
   return life.key;
 }
 
+/// Whether most of an object's usual blocks are where they were, none of which clearly moves.
+bool ObjectTracker::remains_there(const Life& life, const Remains& remains) {
+  return remains.blocks >= kMost * life.usual_blocks;
+}
+
 /// Whether a region is enough to show an object, `life` if that is not null. A single block is only
-/// enough for what is left of a known object, and for a new one if it lasts.
-bool ObjectTracker::is_enough(const Region& region, const Life* life) {
+/// enough for what is left of a known object, and for a new one if it lasts. Where most of a known
+/// object stands still beside it, it comes to rest: the block is its rim.
+bool ObjectTracker::is_enough(const Region& region, const Life* life) const {
   if (region.blocks >= kLeastBlocks) return true;
-  return life && life->is_born() ? !life->is_layer : region.lasts;
+  if (!life || !life->is_born()) return region.lasts;
+  return !life->is_layer && !remains_there(*life, remains_of(*life));
 }
 
 /// Assigns each region to an object. Of several regions of an object, the largest one counts.
@@ -263,7 +270,7 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   if (life.unseen_s == 0 && life.resting_s == 0) object.has_left = has_left(life, frame);
   const Remains remains = remains_of(life);
   object.tracks = background_->is_known ? remains.textured : 0;
-  if (object.tracks > 0 && remains.blocks >= kMost * life.usual_blocks) {
+  if (object.tracks > 0 && remains_there(life, remains)) {
     stay(life, remains, frame);
   } else {
     object.tracks = 0;

@@ -105,7 +105,8 @@ class ObjectTracker {
   Life* owner_of(int16_t region);
   Life* expected_at(const Region& region, const FieldInFrame& frame);
   bool is_same_motion(const Life& life, const Region& region, const FieldInFrame& frame) const;
-  static bool is_enough(const Region& region, const Life* life);
+  static bool remains_there(const Life& life, const Remains& remains);
+  bool is_enough(const Region& region, const Life* life) const;
   uint32_t create(const Region& region);
   void observe(Life& life, const FieldInFrame& frame);
   Remains remains_of(const Life& life) const;
