@@ -14,25 +14,12 @@
 #include "core/tracking/opencv_tracker.h"
 
 namespace spidar {
-namespace {
-
-/// Number of points in addition to the field of blocks, by quality.
-constexpr int kFewPoints = 64;
-constexpr int kManyPoints = 200;
-
-}  // namespace
 
 struct MotionAnalyzer::Impl {
   explicit Impl(const AnalyzerSettings& given)
       : settings(given), tracker(given.tracker), renderer(given) {}
 
   bool by_points() const { return settings.motion == MotionKind::kMean; }
-  FieldPoints::Settings field_points() const {
-    const TrackerQuality quality = settings.tracker.quality;
-    return {std::min(settings.tracker.max_features,
-                     quality == TrackerQuality::kFine ? kManyPoints : kFewPoints),
-            quality != TrackerQuality::kFast};
-  }
   void take(const Cadence::Step& step) {
     frame.interval_ns = std::max(step.interval_ns, kLeastInterval_ns);
     frame.shown_for_ns = step.shown_for_ns;
@@ -84,7 +71,7 @@ bool MotionAnalyzer::Impl::measure(const ImageView& image, int64_t running_ns) {
   frame.height = image.height;
   take(step);
   const bool is_compared =
-      tracked ? find_mean(*tracked) : motion.estimate(image, reduced, field_points(), frame);
+      tracked ? find_mean(*tracked) : motion.estimate(image, reduced, frame);
   if (is_comparable && is_compared) {
     frame.picture = picture;
   } else {

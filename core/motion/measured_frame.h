@@ -23,7 +23,7 @@ struct MeasuredFrame {
   int64_t interval_ns = 0;   ///< the time in which the motion happened, see Cadence; 0 with kFirst
   int64_t shown_for_ns = 0;  ///< see Cadence::Step
   int features = 0;          ///< points looked for in the next frame
-  /// Points that were followed, and the motion of blocks that have no point; empty with kFirst.
+  /// Blocks that show how they move, or with motion=mean the points; empty with kFirst.
   std::vector<Track> tracks;
   /// With motion=mean the rest is empty, and this one is zero with all others.
   ImageMotion mean;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tracking/corner.h"
-
 namespace spidar {
 namespace {
 
@@ -19,9 +17,6 @@ constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
 
-/// Blocks in the list of tracks have ids from this one on.
-constexpr uint32_t kFirstBlockId = 1u << 31;
-
 /// Mean of ρ over the votes, see point_cost().
 double mean_cost(const MotionModel& model, const BackgroundVotes& votes, double sigma_px) {
   double sum = 0;
@@ -33,12 +28,14 @@ double mean_cost(const MotionModel& model, const BackgroundVotes& votes, double 
   return all > 0 ? sum / all : 0;
 }
 
-/// The centre of the field's picture relative to the centre of the frame. They differ because both
-/// leave out columns and rows at the right and at the bottom that do not fill a pixel.
-Eigen::Vector2d field_offset_px(const PaddedImage& picture, const ReducedFrame& frame,
-                                double scale) {
-  return {(picture.width() * scale - frame.width()) / 2,
-          (picture.height() * scale - frame.height()) / 2};
+/// Reductions leave out columns and rows at the right and at the bottom that do not fill a pixel:
+/// the picture of the field begins where the frame does, and may end before it.
+FieldPlace place_of(const BlockField& field, const ReducedFrame& reduced) {
+  FieldPlace place;
+  place.scale = reduced.factor() * field.scale();
+  place.centre_px = {(place.scale * field.picture().width() - 1) / 2,
+                     (place.scale * field.picture().height() - 1) / 2};
+  return place;
 }
 
 }  // namespace
@@ -50,7 +47,6 @@ MotionEstimator::MotionEstimator() {
   votes_.sources.reserve(kMostDisplacements);
   evidence_.points.reserve(kMostDisplacements);
   evidence_.weights.reserve(kMostDisplacements);
-  placed_.reserve(kMostDisplacements);
 }
 
 /// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
@@ -101,46 +97,30 @@ bool MotionEstimator::collect_votes(Voters voters) {
       together.yy += block.yy / all_texture;
     }
   }
-  const float across = together.weakest_texture();
-  return across > kLeastRoundness * (together.xx + together.yy - across);
+  const auto across = static_cast<double>(together.weakest_texture());
+  const auto both = static_cast<double>(together.xx + together.yy);
+  return across > kLeastRoundness * (both - across);
 }
 
-/// The points in px of the field's picture.
-void MotionEstimator::collect_points(const ReducedFrame& reduced,
-                                     const std::vector<Track>& tracks) {
-  const double scale = reduced.factor() * field_.scale();
-  const Eigen::Vector2d offset_px = field_offset_px(field_.picture(), reduced, scale);
-  const Eigen::Vector2d centre_px((reduced.width() - 1) / 2.0, (reduced.height() - 1) / 2.0);
-  placed_.clear();
-  for (const Track& track : tracks) {
-    if (placed_.size() >= kMostDisplacements) return;
-    const Eigen::Vector2d from_px =
-        Eigen::Vector2f(track.from.x_px, track.from.y_px).cast<double>();
-    const Eigen::Vector2d to_px = Eigen::Vector2f(track.to.x_px, track.to.y_px).cast<double>();
-    placed_.push_back(
-        {FieldPoints::block_at(reduced, field_, track.to),
-         {track.id, (from_px - centre_px - offset_px) / scale, (to_px - from_px) / scale}});
-  }
-}
-
-/// Refines the model with the points that agree with it: blocks are accurate to a tenth of a pixel,
-/// points to a few hundredths of a pixel of the frame.
-void MotionEstimator::refine_background(Background& background) {
+/// Refines the model with the windows that agree with it: blocks are accurate to a tenth of a
+/// pixel, windows to a few hundredths of a pixel of the frame.
+void MotionEstimator::refine_background(Background& background,
+                                        const std::vector<FineMotion>& fine) {
   const ModelKind kind = background.model.kind;
   if (kind == ModelKind::kStill) return;
   evidence_.points.clear();
   const double reach_px = 2 * background.sigma_px;
-  for (const PlacedPoint& point : placed_) {
-    const Eigen::Vector2d expected_px = background.model.displacement_px(point.moved.at_px);
-    if ((point.moved.moved_px - expected_px).norm() < reach_px) {
-      evidence_.points.push_back(point.moved);
+  for (const FineMotion& window : fine) {
+    const Eigen::Vector2d expected_px = background.model.displacement_px(window.from_px);
+    if ((window.moved_px - expected_px).norm() < reach_px) {
+      evidence_.points.push_back({0, window.from_px, window.moved_px});
     }
   }
   evidence_.weights.assign(evidence_.points.size(), 1.0);
   evidence_.sigma_px = kUsualNoise_px;
   const auto refined = fitter_.refine(kind, background.model, evidence_);
   if (!refined) return;
-  // Far from the points the refined model must agree with the old one.
+  // Far from the windows the refined model must agree with the old one.
   const double x_px = field_.picture().width() / 2.0;
   const double y_px = field_.picture().height() / 2.0;
   for (const Eigen::Vector2d& corner_px :
@@ -150,91 +130,81 @@ void MotionEstimator::refine_background(Background& background) {
         refined->displacement_px(corner_px) - background.model.displacement_px(corner_px);
     if (change_px.norm() > reach_px) return;
   }
-  // It must also agree where the blocks are: many points may lie on a single layer of a scene with
-  // depth.
+  // It must also agree where the blocks are: many windows may lie on a single layer of a scene
+  // with depth.
   const double dearer =
       mean_cost(*refined, votes_, reach_px / 2) - mean_cost(background.model, votes_, reach_px / 2);
   if (dearer > 0) return;
   background.model = *refined;
 }
 
-void MotionEstimator::choose_points(const ImageView& frame, const ReducedFrame& reduced,
-                                    const FieldPoints::Settings& points) {
+void MotionEstimator::keep_windows(const ImageView& frame, const FieldPlace& place) {
   const std::vector<uint32_t>& owners = objects_.owners();
   const bool camera_moves = estimator_.background().model.kind != ModelKind::kStill;
   wishes_.resize(field_.blocks().size());
   for (size_t i = 0; i < wishes_.size(); ++i) {
     const bool shows_background = camera_moves && !objects_.is_burned_in(i);
-    wishes_[i] = i < owners.size() && owners[i] != 0 ? PointWish::kMany
-                 : shows_background                  ? PointWish::kSome
-                                                     : PointWish::kNone;
+    wishes_[i] = i < owners.size() && owners[i] != 0 ? FineWish::kEach
+                 : shows_background                  ? FineWish::kSome
+                                                     : FineWish::kNone;
   }
-  points_.choose(frame, reduced, field_, wishes_, points);
+  windows_.keep(frame, field_, place, wishes_);
 }
 
-/// Lists the tracks: the points, and the blocks that have no point.
-void MotionEstimator::report_tracks(const ReducedFrame& reduced, std::vector<Track>& tracks) {
-  tracks.assign(points_.tracks().begin(), points_.tracks().end());
-  const auto scale = static_cast<float>(reduced.factor() * field_.scale());
-  const Eigen::Vector2d offset_px =
-      field_offset_px(field_.picture(), reduced, static_cast<double>(scale));
-  const float middle_x =
-      static_cast<float>(offset_px.x()) + (static_cast<float>(reduced.width()) - 1) / 2;
-  const float middle_y =
-      static_cast<float>(offset_px.y()) + (static_cast<float>(reduced.height()) - 1) / 2;
-  has_point_.assign(field_.blocks().size(), 0);
-  for (const PlacedPoint& point : placed_) has_point_[point.block] = 1;
+/// Lists the blocks that show how they move as tracks; their number is the id.
+void MotionEstimator::report_tracks(const FieldPlace& place, std::vector<Track>& tracks) const {
+  tracks.clear();
+  const auto scale = static_cast<float>(place.scale);
+  const Eigen::Vector2f centre_px = place.centre_px.cast<float>();
   for (size_t i = 0; i < field_.blocks().size(); ++i) {
     const MotionBlock& block = field_.blocks()[i];
     const bool shows_motion = objects_.is_measured(i) ||
                               static_cast<double>(block.weakest_texture()) >= kLeastVoteTexture;
-    if (has_point_[i] != 0 || !shows_motion) continue;
-    const ImagePoint to{middle_x + scale * block.x_px, middle_y + scale * block.y_px};
+    if (!shows_motion) continue;
+    const ImagePoint to{centre_px.x() + scale * block.x_px, centre_px.y() + scale * block.y_px};
     const ImagePoint from{to.x_px - scale * block.moved_x_px, to.y_px - scale * block.moved_y_px};
-    tracks.push_back({kFirstBlockId + static_cast<uint32_t>(i), from, to});
+    tracks.push_back({static_cast<uint32_t>(i), from, to});
   }
 }
 
 bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduced,
-                               const FieldPoints::Settings& points, MeasuredFrame& frame) {
+                               MeasuredFrame& frame) {
   if (reduced.picture() == PictureKind::kSame && field_.has_picture()) {
     field_.stand_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {
     estimator_.reset();
     objects_.reset();
     dominant_.reset();
-    points_.reset();
-    choose_points(image, reduced, points);
+    windows_.reset();
     frame.features = 0;
     return false;
   }
   const double interval_s = static_cast<double>(frame.interval_ns) * 1e-9;
-  points_.follow(image, reduced, field_);
-  collect_points(reduced, points_.tracks());
+  const FieldPlace place = place_of(field_, reduced);
+  const std::vector<FineMotion>& fine = windows_.find(image, field_, place);
   collect_votes(Voters::kTextured);
   if (votes_.are_few() && !collect_votes(Voters::kEdgesToo)) collect_votes(Voters::kTextured);
   Background background = estimator_.estimate(votes_);
-  refine_background(background);
-  const double scale = reduced.factor() * field_.scale();
-  frame.background = in_pixels_of(background, scale);
+  refine_background(background, fine);
+  frame.background = in_pixels_of(background, place.scale);
   frame.votes = static_cast<int>(votes_.points.size());
   // The camera's motion needs them, too: blocks that move by themselves or are burned in have less
   // of a vote, or none.
-  const FieldInFrame in_frame{field_, scale, field_offset_px(field_.picture(), reduced, scale),
-                              interval_s, placed_};
+  const Eigen::Vector2d middle_px((reduced.width() - 1) / 2.0, (reduced.height() - 1) / 2.0);
+  const FieldInFrame in_frame{field_, place.scale, place.centre_px - middle_px, interval_s, fine};
   const std::vector<MovingObject>& objects = objects_.update(in_frame, background);
   estimator_.learn_noise(votes_, [this](size_t block) { return objects_.moves(block); });
   frame.objects = objects;
   const MovingObject* const dominant = dominant_.choose(objects, interval_s);
   frame.dominant = dominant ? dominant->id : 0;
-  report_tracks(reduced, frame.tracks);
-  choose_points(image, reduced, points);
+  report_tracks(place, frame.tracks);
+  keep_windows(image, place);
   frame.features = static_cast<int>(frame.tracks.size());
   return true;
 }
 
 void MotionEstimator::reset() {
-  points_.reset();
+  windows_.reset();
   field_.restart();
   estimator_.reset();
   objects_.reset();

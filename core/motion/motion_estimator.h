@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/field/block_field.h"
-#include "core/field/field_points.h"
+#include "core/field/fine_windows.h"
 #include "core/field/reduced_frame.h"
 #include "core/motion/background.h"
 #include "core/motion/dominant_object.h"
@@ -24,10 +24,9 @@ class MotionEstimator {
   MotionEstimator();
 
   /// Takes a picture, both as it is and as `reduced`, and fills in what moves in `frame`, whose
-  /// `interval_ns` > 0 is since the one before. `points` are followed for sub-pixel accuracy. False
-  /// when there is nothing to compare with: the first picture, another size, or a cut.
-  bool estimate(const ImageView& image, const ReducedFrame& reduced,
-                const FieldPoints::Settings& points, MeasuredFrame& frame);
+  /// `interval_ns` > 0 is since the one before. False when there is nothing to compare with: the
+  /// first picture, another size, or a cut.
+  bool estimate(const ImageView& image, const ReducedFrame& reduced, MeasuredFrame& frame);
 
   /// After a cut or a seek: the next frame is not compared with the one before.
   void reset();
@@ -36,23 +35,19 @@ class MotionEstimator {
   enum class Voters { kTextured, kEdgesToo };
 
   bool collect_votes(Voters voters);
-  void collect_points(const ReducedFrame& reduced, const std::vector<Track>& tracks);
-  void refine_background(Background& background);
-  void choose_points(const ImageView& frame, const ReducedFrame& reduced,
-                     const FieldPoints::Settings& points);
-  void report_tracks(const ReducedFrame& reduced, std::vector<Track>& tracks);
+  void refine_background(Background& background, const std::vector<FineMotion>& fine);
+  void keep_windows(const ImageView& frame, const FieldPlace& place);
+  void report_tracks(const FieldPlace& place, std::vector<Track>& tracks) const;
 
   BlockField field_;
   BackgroundVotes votes_;
   BackgroundEstimator estimator_;
   ObjectTracker objects_;
   DominantObject dominant_;
-  FieldPoints points_;
+  FineWindows windows_;
   RobustFitter fitter_;
   WeightedDisplacements evidence_;
-  std::vector<PlacedPoint> placed_;
-  std::vector<PointWish> wishes_;
-  std::vector<uint8_t> has_point_;  ///< for each block
+  std::vector<FineWish> wishes_;
 };
 
 }  // namespace spidar

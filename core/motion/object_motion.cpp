@@ -8,10 +8,10 @@
 namespace spidar {
 namespace {
 
-/// Points are used instead of the blocks if there are this many, and half as many as blocks: fewer
-/// are of a part of the object that moves by itself.
-constexpr size_t kLeastPoints = 4;
-/// The object is rigid when the mean ρ of its points is below this; the ρ of an outlier is 4.
+/// Windows are used instead of the blocks if there are this many that move as the blocks do: two
+/// more than determine a similarity.
+constexpr size_t kLeastWindows = 4;
+/// The object is rigid when the mean ρ of its windows is below this; the ρ of an outlier is 4.
 constexpr double kRigid = 1;
 
 }  // namespace
@@ -37,14 +37,14 @@ void ObjectMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
   collected_.sigma_px = 2 * evidence.background.sigma_px;
 }
 
-/// Collects the points on the object whose motion is close to `motion`. Returns false when they are
-/// too few.
-bool ObjectMeter::collect_points(uint32_t key, size_t blocks, const MotionModel& motion,
-                                 const ObjectEvidence& evidence) {
+/// Collects the windows on the object whose motion is close to `motion`. Returns false when they
+/// are too few.
+bool ObjectMeter::collect_windows(uint32_t key, const MotionModel& motion,
+                                  const ObjectEvidence& evidence) {
   collected_.points.clear();
-  for (const PlacedPoint& point : evidence.points) {
-    if (evidence.owners[point.block] != key) continue;
-    Displacement relative = point.moved;
+  for (const FineMotion& window : evidence.fine) {
+    if (evidence.owners[window.block] != key) continue;
+    Displacement relative{0, window.from_px, window.moved_px};
     relative.moved_px -= evidence.background.model.displacement_px(relative.at_px);
     const Eigen::Vector2d expected_px = motion.displacement_px(relative.at_px);
     const double apart_px = (relative.moved_px - expected_px).norm();
@@ -52,7 +52,7 @@ bool ObjectMeter::collect_points(uint32_t key, size_t blocks, const MotionModel&
   }
   collected_.weights.assign(collected_.points.size(), 1.0);
   collected_.sigma_px = kUsualNoise_px;
-  return collected_.points.size() >= std::max<size_t>(kLeastPoints, blocks / 2);
+  return collected_.points.size() >= kLeastWindows;
 }
 
 /// Chooses a similarity if it is better than a translation by its price in the GRIC, and again by
@@ -76,7 +76,7 @@ ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
   collect_blocks(key, evidence);
   climb(found.model);
   found.tracks = static_cast<int>(collected_.points.size());
-  if (collect_points(key, static_cast<size_t>(region.blocks), found.model, evidence)) {
+  if (collect_windows(key, found.model, evidence)) {
     const auto refined = fitter_.refine(found.model.kind, found.model, collected_);
     if (refined) found.model = *refined;
     climb(found.model);

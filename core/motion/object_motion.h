@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Measures the motion of one object from its blocks and the points on it.
+/// Measures the motion of one object from its blocks and the windows on it.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/field/block_field.h"
+#include "core/field/fine_windows.h"
 #include "core/motion/background.h"
 #include "core/motion/motion_models.h"
 #include "core/motion/moving_blocks.h"
@@ -17,18 +18,12 @@
 
 namespace spidar {
 
-/// A point that was followed, in px of the field's picture from its centre.
-struct PlacedPoint {
-  size_t block = 0;  ///< the block in which it is now
-  Displacement moved;
-};
-
 /// Everything from which an object's motion is measured. Lengths are in px of the field's picture.
 struct ObjectEvidence {
   const BlockField& field;
   const std::vector<RelativeBlock>& relative;  ///< for each block
   const std::vector<uint32_t>& owners;         ///< for each block, the key of its object; 0: none
-  const std::vector<PlacedPoint>& points;
+  const std::vector<FineMotion>& fine;
   const Background& background;
 };
 
@@ -36,11 +31,11 @@ struct ObjectEvidence {
 struct ObjectMotion {
   MotionModel model;            ///< translation or similarity
   Eigen::Vector2d relative_px;  ///< of the middle of the object
-  int tracks = 0;               ///< number of points or blocks that were used
-  bool is_rigid = false;        ///< all its points agree with one motion
+  int tracks = 0;               ///< number of windows or blocks that were used
+  bool is_rigid = false;        ///< all its windows agree with one motion
 };
 
-/// Blocks give the motion of an object; the points on it, where there are enough, give it to a
+/// Blocks give the motion of an object; the windows on it, where there are enough, give it to a
 /// fraction of a pixel. Rotation and growth are used when the GRIC prefers them.
 class ObjectMeter {
  public:
@@ -51,8 +46,7 @@ class ObjectMeter {
 
  private:
   void collect_blocks(uint32_t key, const ObjectEvidence& evidence);
-  bool collect_points(uint32_t key, size_t blocks, const MotionModel& motion,
-                      const ObjectEvidence& evidence);
+  bool collect_windows(uint32_t key, const MotionModel& motion, const ObjectEvidence& evidence);
   void climb(MotionModel& motion);
 
   RobustFitter fitter_;

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/field/block_field.h"
+#include "core/field/fine_windows.h"
 #include "core/motion/background.h"
 #include "core/motion/error_bound.h"
 #include "core/motion/layer_evidence.h"
@@ -28,7 +29,7 @@ struct FieldInFrame {
   /// Centre of the field relative to the centre of the frame, px of the frame.
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
   double interval_s = 0;  ///< since the previous frame, > 0
-  const std::vector<PlacedPoint>& points;
+  const std::vector<FineMotion>& fine;
 };
 
 /// Follows objects from frame to frame. A region that moves by itself becomes an object in the
@@ -88,7 +89,7 @@ class ObjectTracker {
     double unseen_s = 0;
     double resting_s = 0;
     bool claimed = false;   ///< by a region of this frame
-    bool is_rigid = false;  ///< its points agree with one motion
+    bool is_rigid = false;  ///< its windows agree with one motion
     bool is_layer = false;  ///< looks more like a part of the scene than like an object
 
     bool is_born() const;
@@ -116,7 +117,7 @@ class ObjectTracker {
   void expect(Life& life, const FieldInFrame& frame) const;
   void go_on_unseen(Life& life, const FieldInFrame& frame) const;
   ObjectEvidence evidence_in(const FieldInFrame& frame) const {
-    return {frame.field, *relative_, owners_, frame.points, *background_};
+    return {frame.field, *relative_, owners_, frame.fine, *background_};
   }
   ObjectMotion measure(Life& life, const FieldInFrame& frame);
   void place(Life& life, const FieldInFrame& frame) const;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tracking/corner.h"
 #include "core/tracking/shares.h"
 
 namespace spidar {
@@ -34,7 +33,7 @@ bool stands_out(const Region& region, const CameraMotion& camera) {
 
 double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
                 bool was_followed) {
-  if (region.roundness < static_cast<double>(kLeastRoundness)) return 0;
+  if (region.roundness < kLeastRoundness) return 0;
   const double speed_px = region.relative_px.norm();
   if (speed_px == 0) return 0;
   const double touching = region.border_blocks / std::sqrt(static_cast<double>(region.blocks));

@@ -16,6 +16,9 @@
 namespace spidar {
 namespace {
 
+/// Points followed at once, as in the usual examples of Lucas–Kanade.
+constexpr int kMostFeatures = 200;
+
 /// New points are selected when fewer than this share of those selected last are left …
 constexpr double kThinnedOut = 0.7;
 /// … and after this many frames in any case, because something may have entered.
@@ -133,7 +136,7 @@ bool OpenCvTracker::Impl::selection_is_due() const {
 
 void OpenCvTracker::Impl::select(int factor) {
   SelectionSettings selection;
-  selection.max_features = settings.max_features;
+  selection.max_features = kMostFeatures;
   selection.quality_level = settings.quality_level;
   selection.min_distance_px = settings.min_distance_px * height / kReferenceHeight_px / factor;
   selection.border_px = follow_border_px(now[0]);

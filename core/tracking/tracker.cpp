@@ -9,11 +9,6 @@
 namespace spidar {
 
 void validate(const TrackerSettings& settings) {
-  constexpr int kMostFeatures = 10000;
-  if (settings.max_features < 1 || settings.max_features > kMostFeatures) {
-    throw std::invalid_argument("max_features must be 1 to " + std::to_string(kMostFeatures) +
-                                ", got " + std::to_string(settings.max_features));
-  }
   if (!(settings.quality_level >= 0 && settings.quality_level <= 1)) {
     throw std::invalid_argument("quality_level must be 0 to 1, got " +
                                 std::to_string(settings.quality_level));

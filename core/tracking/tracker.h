@@ -15,25 +15,14 @@ namespace spidar {
 /// a setting has the same effect at 360p and at 2160p.
 constexpr double kReferenceHeight_px = 480.0;
 
-/// Trade-off between time per frame and accuracy of the points in the field of blocks.
-enum class TrackerQuality {
-  kFast,      ///< in the reduced picture only
-  kBalanced,  ///< refined in the frame where it helps
-  kFine,      ///< as kBalanced, with more points
-};
-
+/// Of OpenCvTracker (Shi–Tomasi).
 struct TrackerSettings {
-  int max_features = 200;  ///< 1 … 10000 points followed at once
-  /// OpenCvTracker (Shi–Tomasi): share of the strongest corner's eigenvalue, 0 … 1.
-  double quality_level = 0.01;
-  /// OpenCvTracker: minimum distance between selected features, in pixels of the reference frame;
-  /// finite and ≥ 0.
+  double quality_level = 0.01;  ///< share of the strongest corner's eigenvalue, 0 … 1
+  /// Minimum distance between selected features, in pixels of the reference frame; finite and ≥ 0.
   double min_distance_px = 10.0;
-  TrackerQuality quality = TrackerQuality::kBalanced;  ///< FieldPoints
 
   bool operator==(const TrackerSettings& o) const {
-    return max_features == o.max_features && quality_level == o.quality_level &&
-           min_distance_px == o.min_distance_px && quality == o.quality;
+    return quality_level == o.quality_level && min_distance_px == o.min_distance_px;
   }
   bool operator!=(const TrackerSettings& o) const { return !(*this == o); }
 };

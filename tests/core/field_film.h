@@ -30,7 +30,7 @@ inline std::vector<std::vector<MovingObject>> objects_in(const Scene& scene, int
                                                          const Background& background) {
   BlockField field;
   ObjectTracker tracker;
-  const std::vector<PlacedPoint> no_points;
+  const std::vector<FineMotion> no_windows;
   std::vector<std::vector<MovingObject>> found;
   for (int n = 0; n < frames; ++n) {
     Picture picture(kFieldWidth, kFieldHeight);
@@ -39,7 +39,7 @@ inline std::vector<std::vector<MovingObject>> objects_in(const Scene& scene, int
     reduce_blocks(picture.view(), 1, padded);
     padded.repeat_border();
     if (field.update(padded) != BlockField::Result::kMoved) continue;
-    found.push_back(tracker.update({field, 1, {0, 0}, kSceneFrame_s, no_points}, background));
+    found.push_back(tracker.update({field, 1, {0, 0}, kSceneFrame_s, no_windows}, background));
   }
   return found;
 }

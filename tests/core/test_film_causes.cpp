@@ -24,10 +24,8 @@ using test::Texture;
 /// An object is felt from the second pair of frames in which it moves.
 constexpr int kFelt = 3;
 
-std::vector<Frame> analyze(const Scene& scene, int frames, const TrackerSettings& tracker = {}) {
-  AnalyzerSettings settings;
-  settings.tracker = tracker;
-  MotionAnalyzer analyzer(settings);
+std::vector<Frame> analyze(const Scene& scene, int frames) {
+  MotionAnalyzer analyzer;
   std::vector<Frame> found;
   for (int n = 0; n < frames; ++n) {
     const Picture picture = test::draw(scene, n);
@@ -101,27 +99,17 @@ TEST(FilmCauses, ABodyThatSlowsDownIsFollowed) {
       24, [&](int n) { return Vector2d(trunk_px(n) - trunk_px(n - 1), 0); });
 }
 
-/// Every quality; the result must not depend on it.
-std::vector<TrackerSettings> trackers() {
-  std::vector<TrackerSettings> all(3);
-  all[1].quality = TrackerQuality::kFast;
-  all[2].quality = TrackerQuality::kFine;
-  return all;
-}
-
 TEST(FilmCauses, LayersOfASceneAreNoObjectsWhileTheCameraMoves) {
   // A hedge in front of a field: the camera moves sideways, and the hedge moves faster in the
   // picture.
-  for (const TrackerSettings& tracker : trackers()) {
-    const std::vector<Frame> found = analyze(
-        [](int n, const Vector2d& at) {
-          if (at.y() > 290) return foreground().at(at.x() + 9.0 * n, at.y());
-          return background().at(at.x() + 5.0 * n, at.y());
-        },
-        20, tracker);
-    for (size_t n = kFelt; n < 20; ++n) {
-      EXPECT_EQ(moved_px(found[n]), Vector2d(0, 0)) << "frame " << n;
-    }
+  const std::vector<Frame> found = analyze(
+      [](int n, const Vector2d& at) {
+        if (at.y() > 290) return foreground().at(at.x() + 9.0 * n, at.y());
+        return background().at(at.x() + 5.0 * n, at.y());
+      },
+      20);
+  for (size_t n = kFelt; n < 20; ++n) {
+    EXPECT_EQ(moved_px(found[n]), Vector2d(0, 0)) << "frame " << n;
   }
 }
 

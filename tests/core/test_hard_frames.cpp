@@ -31,7 +31,7 @@ void expect_nothing(const std::string& name) {
       reduced.read(frame);
       MeasuredFrame scene;
       scene.interval_ns = kFrame_ns;
-      const bool is_compared = estimator.estimate(frame, reduced, {}, scene);
+      const bool is_compared = estimator.estimate(frame, reduced, scene);
       if (tracked.picture == PictureKind::kFirst) {
         EXPECT_TRUE(tracked.tracks.empty()) << "frame " << n;
       }

@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tracking/luma_neighbourhood.h"
 #include "core/tracking/luma_row.h"
 #include "core/tracking/padded_image.h"
 #include "tests/support/picture.h"
@@ -79,52 +78,6 @@ TEST(LumaWords, BlocksAreThoseOfBytes) {
       }
     }
   }
-}
-
-TEST(LumaWords, AWindowIsReadAndFoundWhereBytesAre) {
-  constexpr int kWidth = 90, kHeight = 70;
-  constexpr int kWindow = LumaNeighbourhood::kWindow_px;
-  const auto film = [](double dx, double dy) {
-    Picture picture(kWidth, kHeight);
-    picture.fill([&](double x, double y) {
-      return 128 + 60 * std::sin(0.31 * (x - dx)) +
-             60 * std::cos(0.27 * (y - dy) + 0.05 * (x - dx));
-    });
-    return picture;
-  };
-  const Picture before = film(0, 0), now = film(2.4, -1.7);
-  LumaNeighbourhood bytes, words;
-  std::mt19937 random(3);
-  int found = 0;
-  for (const LumaSample& sample : kWordSamples) {
-    const WordPicture words_before(before, sample), words_now(now, sample);
-    for (int n = 0; n < 200; ++n) {
-      // Also beside the frame, where neither must read anything.
-      const ImagePoint at{static_cast<float>(random() % 1200) / 10 - 15,
-                          static_cast<float>(random() % 1000) / 10 - 15};
-      SCOPED_TRACE(test::name_of(sample) + " at " + std::to_string(at.x_px) + ", " +
-                   std::to_string(at.y_px));
-      WindowTemplate<kWindow> a, b;
-      const bool has = a.read(bytes.around(before.view(), at, 0), at);
-      ASSERT_EQ(b.read(words.around(words_before.view(), at, 0), at), has);
-      if (!has) continue;
-      EXPECT_EQ(a.strength(), b.strength());
-      MatchSettings settings;
-      settings.reach_px = LumaNeighbourhood::kMostReach_px;
-      WindowMatch match_a, match_b;
-      match_a.centre = match_b.centre = at;
-      const bool is_there =
-          a.find(bytes.around(now.view(), at, settings.reach_px), settings, match_a);
-      ASSERT_EQ(b.find(words.around(words_now.view(), at, settings.reach_px), settings, match_b),
-                is_there);
-      if (!is_there) continue;
-      ++found;
-      EXPECT_EQ(match_a.centre.x_px, match_b.centre.x_px);
-      EXPECT_EQ(match_a.centre.y_px, match_b.centre.y_px);
-      EXPECT_EQ(match_a.residual, match_b.residual);
-    }
-  }
-  EXPECT_GT(found, 200);
 }
 
 }  // namespace

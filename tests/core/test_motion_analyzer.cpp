@@ -290,7 +290,7 @@ TEST(MotionAnalyzer, BadSettingsAreRefusedAndChangeNothing) {
   MotionAnalyzer analyzer(paper_settings());
   analyzer.analyze(scene.frame(0), 0);
   AnalyzerSettings bad;
-  bad.tracker.max_features = 5;
+  bad.tracker.min_distance_px = 1e3;
   bad.controller.max_force_N = -1;
   EXPECT_THROW(analyzer.configure(bad), std::invalid_argument);
   EXPECT_THROW(MotionAnalyzer{bad}, std::invalid_argument);

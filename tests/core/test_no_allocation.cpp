@@ -82,7 +82,7 @@ TEST(NoAllocation, Motion) {
     reduced.read(picture);
     found.forget_motion();
     found.interval_ns = 40'000'000;
-    const bool is_compared = estimator.estimate(picture, reduced, {}, found);
+    const bool is_compared = estimator.estimate(picture, reduced, found);
     if (n >= kTurn) {
       ASSERT_EQ(allocations, before) << "frame " << n;
     }

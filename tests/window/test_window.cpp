@@ -27,7 +27,7 @@ TEST_F(WindowTest, KeysChangeSettingsAndQClosesTheWindow) {
                     {"max-force", "", Setting::Kind::kNumber, 2, 0, 20, {}},
                     {"arrow-scale", "", Setting::Kind::kNumber, 4, 0.1, 100, {}},
                     {"controller", "", Setting::Kind::kChoice, 1, 0, 0, {{0, "a"}, {1, "b"}}},
-                    {"max-features", "", Setting::Kind::kWhole, 200, 1, 10000, {}},
+                    {"budget", "", Setting::Kind::kWhole, 0, 0, 1000000, {}},
                     {"ts-offset", "", Setting::Kind::kWhole, 0, -1e10, 1e10, {}}};
   auto source = std::make_shared<FakeSource>(state);
   Window window(source);

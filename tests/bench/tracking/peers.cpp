@@ -67,8 +67,9 @@ class Naive final : public OpenCvFunctions {
         if (found_[i]) result_.tracks.push_back({0, point(from_[i]), point(to_[i])});
       }
     }
+    constexpr int kMostPoints = 200;
     const TrackerSettings settings;
-    cv::goodFeaturesToTrack(luma, from_, settings.max_features, settings.quality_level,
+    cv::goodFeaturesToTrack(luma, from_, kMostPoints, settings.quality_level,
                             settings.min_distance_px * luma.rows / kReferenceHeight_px);
     result_.features = static_cast<int>(from_.size());
     before_ = luma;  // the caller keeps its frames

@@ -8,7 +8,7 @@ const std::vector<Pipeline>& pipelines() {
   static const std::vector<Pipeline> all = {
       {"naive", "naive wiring of OpenCV", make_naive},
       {"paper", "motion=mean", make_paper},
-      {"object", "motion=object", nullptr, FieldPoints::Settings{64, true}},
+      {"object", "motion=object", nullptr},
       {"dis", "DIS ultrafast at 480 px", make_dis_ultrafast},
   };
   return all;

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/field/field_points.h"
 #include "tests/bench/tracking/peers.h"
 
 namespace spidar::bench {
@@ -18,9 +17,6 @@ struct Pipeline {
   std::string description;  ///< as in the table
   /// Follows points, from which only the mean motion is computed; empty for the field of blocks.
   std::function<std::unique_ptr<Peer>()> make;
-  /// Points beside the field of blocks. The tracks are then those points and the blocks that have
-  /// none.
-  FieldPoints::Settings points = {};
 };
 
 const std::vector<Pipeline>& pipelines();

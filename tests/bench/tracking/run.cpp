@@ -26,7 +26,7 @@ const MeasuredFrame& Runner::find_objects(const ImageView& frame) {
   reduced_.read(frame);
   scene_.forget_motion();
   scene_.interval_ns = kFrame_ns;
-  motion_.estimate(frame, reduced_, pipeline_->points, scene_);
+  motion_.estimate(frame, reduced_, scene_);
   return scene_;
 }
 

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/field/fine_windows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tracking/luma_row.h"
+
+namespace spidar {
+namespace {
+
+/// Two steps: the second one takes away what the first one leaves of a whole pixel.
+constexpr int kSteps = 2;
+/// Of the background, one block in so many of each row and column.
+constexpr int kBackgroundBlocks = 3;
+/// Smaller eigenvalue of a window's structure tensor, (grey / px)². With less, noise of two grey
+/// levels moves the window by more than a fifth of a pixel.
+constexpr float kLeastTexture = 0.2f;
+/// Largest mean squared difference with which a window shows the same thing, as a share of its
+/// variance: a window on the rim of an object shows the background, too, and is left out.
+constexpr float kMostResidual = 0.05f;
+
+/// Reads a square of the frame whose upper left pixel is (`left`, `top`). False where it is not
+/// inside the frame.
+bool read_square(const ImageView& frame, int left, int top, int side, std::vector<uint8_t>& row,
+                 float* to) {
+  if (left < 0 || top < 0 || left + side > frame.width || top + side > frame.height) return false;
+  row.resize(static_cast<size_t>(side));
+  for (int y = 0; y < side; ++y) {
+    copy_row(frame, left, top + y, side, row.data());
+    for (int x = 0; x < side; ++x) *to++ = row[static_cast<size_t>(x)];
+  }
+  return true;
+}
+
+/// The block at a place of the field's picture, or the nearest one.
+size_t block_at(const BlockField& field, const Eigen::Vector2d& at_px) {
+  const BlockGrid& grid = field.grid();
+  const auto index = [](double px, int begin_px, int count) {
+    return std::clamp(static_cast<int>(std::floor((px - begin_px) / kBlock_px)), 0, count - 1);
+  };
+  const int column = index(at_px.x() + field.picture().width() / 2.0, grid.left_px, grid.columns);
+  const int row = index(at_px.y() + field.picture().height() / 2.0, grid.top_px, grid.rows);
+  return static_cast<size_t>(row * grid.columns + column);
+}
+
+Eigen::Vector2d motion_of(const BlockField& field, size_t block) {
+  const MotionBlock& moved = field.blocks()[block];
+  return Eigen::Vector2f(moved.moved_x_px, moved.moved_y_px).cast<double>();
+}
+
+}  // namespace
+
+FineWindows::FineWindows() {
+  windows_.reserve(kMostOnObjects + kMostOnBackground);
+  found_.reserve(kMostOnObjects + kMostOnBackground);
+}
+
+/// Reads the pixels of a window whose place is set. False where it does not fit or shows too
+/// little.
+bool FineWindows::read(const ImageView& frame, Window& window) {
+  constexpr int kAround = kSide_px + 2;
+  if (!read_square(frame, window.left_px - 1, window.top_px - 1, kAround, row_, patch_.data())) {
+    return false;
+  }
+  float sum = 0, squares = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (int j = 0; j < kSide_px; ++j) {
+    const float* pixel = patch_.data() + (j + 1) * kAround + 1;
+    const auto row = static_cast<size_t>(j * kSide_px);
+    for (int i = 0; i < kSide_px; ++i, ++pixel) {
+      const size_t k = row + static_cast<size_t>(i);
+      const float gx = (pixel[1] - pixel[-1]) / 2;
+      const float gy = (pixel[kAround] - pixel[-kAround]) / 2;
+      window.grey[k] = *pixel;
+      window.x_slope[k] = gx;
+      window.y_slope[k] = gy;
+      sum += *pixel;
+      squares += *pixel * *pixel;
+      x += gx;
+      y += gy;
+      xx += gx * gx;
+      xy += gx * gy;
+      yy += gy * gy;
+    }
+  }
+  // A brightness common to all pixels is not motion: without the means, it has no effect.
+  constexpr auto n = static_cast<float>(kPixels);
+  for (float& grey : window.grey) grey -= sum / n;
+  for (float& slope : window.x_slope) slope -= x / n;
+  for (float& slope : window.y_slope) slope -= y / n;
+  window.xx = xx - x * x / n;
+  window.xy = xy - x * y / n;
+  window.yy = yy - y * y / n;
+  window.variance = squares / n - sum / n * sum / n;
+  const float weakest =
+      (window.xx + window.yy - std::hypot(window.xx - window.yy, 2 * window.xy)) / 2;
+  return weakest > kLeastTexture * n;
+}
+
+void FineWindows::keep_one(const ImageView& frame, const BlockField& field, const FieldPlace& place,
+                           size_t block) {
+  const MotionBlock& middle = field.blocks()[block];
+  const Eigen::Vector2d at_px =
+      place.centre_px + place.scale * Eigen::Vector2f(middle.x_px, middle.y_px).cast<double>();
+  windows_.emplace_back();
+  Window& window = windows_.back();
+  window.block = block;
+  window.left_px = static_cast<int>(std::lround(at_px.x())) - kSide_px / 2;
+  window.top_px = static_cast<int>(std::lround(at_px.y())) - kSide_px / 2;
+  if (!read(frame, window)) windows_.pop_back();
+}
+
+void FineWindows::keep(const ImageView& frame, const BlockField& field, const FieldPlace& place,
+                       const std::vector<FineWish>& wishes) {
+  windows_.clear();
+  const auto columns = static_cast<size_t>(field.grid().columns);
+  const auto on_objects =
+      static_cast<size_t>(std::count(wishes.begin(), wishes.end(), FineWish::kEach));
+  // Of many, every second one, and so on.
+  const size_t every = 1 + on_objects / (kMostOnObjects + 1);
+  size_t seen = 0;
+  for (size_t i = 0; i < wishes.size() && windows_.size() < kMostOnObjects; ++i) {
+    if (wishes[i] == FineWish::kEach && seen++ % every == 0) keep_one(frame, field, place, i);
+  }
+  const size_t most = windows_.size() + kMostOnBackground;
+  for (size_t i = 0; i < wishes.size() && windows_.size() < most; ++i) {
+    const bool is_one =
+        i % columns % kBackgroundBlocks == 1 && i / columns % kBackgroundBlocks == 1;
+    if (wishes[i] == FineWish::kSome && is_one) keep_one(frame, field, place, i);
+  }
+}
+
+/// One step of a window that is `offset_px` beside the middle of patch_. False where that is out of
+/// reach.
+bool FineWindows::step(const Window& window, const Eigen::Vector2f& offset_px,
+                       Eigen::Vector2f& step_px, float& residual) const {
+  if (!(offset_px.cwiseAbs().maxCoeff() <= kReach_px)) return false;
+  const Eigen::Vector2f from = offset_px + Eigen::Vector2f::Constant(kReach_px);
+  const auto left = static_cast<int>(from.x());
+  const auto top = static_cast<int>(from.y());
+  const float fx = from.x() - static_cast<float>(left);
+  const float fy = from.y() - static_cast<float>(top);
+  float sum = 0, squares = 0, x = 0, y = 0;
+  for (int j = 0; j < kSide_px; ++j) {
+    const float* a = patch_.data() + (top + j) * kPatch_px + left;
+    const float* b = a + kPatch_px;
+    const auto row = static_cast<size_t>(j * kSide_px);
+    for (int i = 0; i < kSide_px; ++i) {
+      const size_t k = row + static_cast<size_t>(i);
+      const float upper = a[i] + fx * (a[i + 1] - a[i]);
+      const float lower = b[i] + fx * (b[i + 1] - b[i]);
+      const float d = upper + fy * (lower - upper) - window.grey[k];
+      sum += d;
+      squares += d * d;
+      x += d * window.x_slope[k];
+      y += d * window.y_slope[k];
+    }
+  }
+  constexpr auto n = static_cast<float>(kPixels);
+  residual = squares / n - sum / n * sum / n;
+  const float determinant = window.xx * window.yy - window.xy * window.xy;
+  step_px =
+      -Eigen::Vector2f(window.yy * x - window.xy * y, window.xx * y - window.xy * x) / determinant;
+  return true;
+}
+
+/// Finds a window in `frame`. `moved_px`: where its block went, then where it went itself, px of
+/// the frame. False where it is lost.
+bool FineWindows::match(const ImageView& frame, const Window& window, Eigen::Vector2d& moved_px) {
+  const Eigen::Vector2d whole_px(std::round(moved_px.x()), std::round(moved_px.y()));
+  // Not finite, or outside of any frame.
+  if (!(whole_px.cwiseAbs().maxCoeff() < frame.width + frame.height)) return false;
+  const int left = window.left_px + static_cast<int>(whole_px.x()) - kReach_px;
+  const int top = window.top_px + static_cast<int>(whole_px.y()) - kReach_px;
+  if (!read_square(frame, left, top, kPatch_px, row_, patch_.data())) return false;
+  Eigen::Vector2f offset_px = (moved_px - whole_px).cast<float>();
+  float residual = 0;
+  for (int n = 0; n < kSteps; ++n) {
+    Eigen::Vector2f step_px;
+    if (!step(window, offset_px, step_px, residual)) return false;
+    offset_px += step_px;
+  }
+  if (!(offset_px.cwiseAbs().maxCoeff() <= kReach_px)) return false;
+  moved_px = whole_px + offset_px.cast<double>();
+  return residual < kMostResidual * window.variance;
+}
+
+const std::vector<FineMotion>& FineWindows::find(const ImageView& frame, const BlockField& field,
+                                                 const FieldPlace& place) {
+  found_.clear();
+  for (const Window& window : windows_) {
+    // The middle of the window in the picture before, and the block that is there now: it gives a
+    // first estimate of the new place, and the block at that place gives the motion.
+    const Eigen::Vector2d corner_px(window.left_px, window.top_px);
+    const Eigen::Vector2d middle_px = corner_px + Eigen::Vector2d::Constant((kSide_px - 1) / 2.0);
+    const Eigen::Vector2d from_px = (middle_px - place.centre_px) / place.scale;
+    const size_t there = block_at(field, from_px + motion_of(field, block_at(field, from_px)));
+    Eigen::Vector2d moved_px = place.scale * motion_of(field, there);
+    if (!match(frame, window, moved_px)) continue;
+    moved_px /= place.scale;
+    found_.push_back({block_at(field, from_px + moved_px), from_px, moved_px});
+  }
+  return found_;
+}
+
+}  // namespace spidar

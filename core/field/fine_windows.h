@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Measures in the frame itself how parts of some blocks move.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/field/block_field.h"
+#include "core/image_view.h"
+
+namespace spidar {
+
+/// How exactly the motion of a block is wanted.
+enum class FineWish : uint8_t {
+  kNone,
+  kSome,  ///< of one block for several: the background, which moves as a whole
+  kEach,  ///< of each block: an object
+};
+
+/// Where the picture of a BlockField is in its frame.
+struct FieldPlace {
+  double scale = 1;  ///< px of the frame to one px of the field's picture
+  /// Centre of the field's picture in the frame, px, where (0, 0) is the centre of the first pixel.
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+};
+
+/// A window in the middle of a block, and how it moved, px of the field's picture from its centre.
+struct FineMotion {
+  size_t block = 0;  ///< in which it is now
+  Eigen::Vector2d from_px;
+  Eigen::Vector2d moved_px;
+};
+
+/// Keeps a small window of the frame for some blocks, and finds it in the next frame by
+/// Gauss–Newton steps from where its block went (inverse compositional: Baker and Matthews:
+/// Lucas–Kanade 20 years on, IJCV 2004). Blocks are right to a tenth of a pixel of the reduced
+/// picture; in the frame there are more pixels, and a second step takes away what the first one
+/// leaves. Does not allocate once the frames have a size.
+class FineWindows {
+ public:
+  FineWindows();
+
+  /// Keeps windows of `frame` for the blocks of `field`; one wish for each block.
+  void keep(const ImageView& frame, const BlockField& field, const FieldPlace& place,
+            const std::vector<FineWish>& wishes);
+
+  /// Finds them in the next frame, with which `field` has just been updated. Those that are lost
+  /// are left out. Valid until the next call.
+  const std::vector<FineMotion>& find(const ImageView& frame, const BlockField& field,
+                                      const FieldPlace& place);
+
+  /// Forgets all windows.
+  void reset() { windows_.clear(); }
+
+  /// The largest number of windows on objects, and on the background.
+  static constexpr size_t kMostOnObjects = 48;
+  static constexpr size_t kMostOnBackground = 24;
+
+ private:
+  /// Side of a window, px of the frame: of a small frame it is the block, of a large one a part of it.
+  static constexpr int kSide_px = kBlock_px;
+  /// How far a step may lead away from where the block went, px of the frame.
+  static constexpr int kReach_px = 2;
+  static constexpr int kPixels = kSide_px * kSide_px;
+
+  struct Window {
+    size_t block = 0;
+    int left_px = 0;
+    int top_px = 0;
+    std::array<float, kPixels> grey;
+    std::array<float, kPixels> x_slope;  ///< grey levels a pixel
+    std::array<float, kPixels> y_slope;
+    float xx = 0;  ///< Σ of the products of the slopes without their means
+    float xy = 0;
+    float yy = 0;
+    float variance = 0;  ///< of the grey levels
+  };
+
+  bool read(const ImageView& frame, Window& window);
+  void keep_one(const ImageView& frame, const BlockField& field, const FieldPlace& place,
+                size_t block);
+  bool step(const Window& window, const Eigen::Vector2f& offset_px, Eigen::Vector2f& step_px,
+            float& residual) const;
+  bool match(const ImageView& frame, const Window& window, Eigen::Vector2d& moved_px);
+
+  /// A window with kReach_px, and one for the interpolation, around it.
+  static constexpr int kPatch_px = kSide_px + 2 * kReach_px + 2;
+  std::vector<Window> windows_;
+  std::vector<FineMotion> found_;
+  std::vector<uint8_t> row_;
+  std::array<float, kPatch_px * kPatch_px> patch_;
+};
+
+}  // namespace spidar
