@@ -112,7 +112,9 @@ bool ObjectTracker::remains_there(const Life& life, const Remains& remains) {
 bool ObjectTracker::is_enough(const Region& region, const Life* life) const {
   if (region.blocks >= kLeastBlocks) return true;
   if (!life || !life->is_born()) return region.lasts;
-  return !life->is_layer && !remains_there(*life, remains_of(*life));
+  const bool is_rim =
+      region.blocks < kMost * life->usual_blocks && remains_there(*life, remains_of(*life));
+  return !life->is_layer && !is_rim;
 }
 
 /// Assigns each region to an object. Of several regions of an object, the largest one counts.
