@@ -70,8 +70,7 @@ bool MotionAnalyzer::Impl::measure(const ImageView& image, int64_t running_ns) {
   frame.width = image.width;
   frame.height = image.height;
   take(step);
-  const bool is_compared =
-      tracked ? find_mean(*tracked) : motion.estimate(image, reduced, frame);
+  const bool is_compared = tracked ? find_mean(*tracked) : motion.estimate(image, reduced, frame);
   if (is_comparable && is_compared) {
     frame.picture = picture;
   } else {

@@ -62,7 +62,8 @@ class FineWindows {
   static constexpr size_t kMostOnBackground = 24;
 
  private:
-  /// Side of a window, px of the frame: of a small frame it is the block, of a large one a part of it.
+  /// Side of a window, px of the frame: of a small frame it is the block, of a large one a part of
+  /// it.
   static constexpr int kSide_px = kBlock_px;
   /// How far a step may lead away from where the block went, px of the frame.
   static constexpr int kReach_px = 2;

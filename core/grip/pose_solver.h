@@ -53,7 +53,8 @@ class PoseSolver {
   explicit PoseSolver(const StringGeometry& geometry, double max_residual_m = kMaxResidual_m);
 
   /// For every tick: track(), and locate() when tracking fails, or when it starts from a guess and
-  /// leads away from it. The slowest case is lengths that fit no pose; `spidar-bench pose` measures it.
+  /// leads away from it. The slowest case is lengths that fit no pose; `spidar-bench pose` measures
+  /// it.
   PoseResult solve(const StringVector& lengths_m) noexcept;
 
   /// The pose near the last one, by Gauss–Newton from the last pose moved on by the last motion.
