@@ -78,7 +78,7 @@ fi
 say "on a bare Debian 12: examples/play.sh --ball"
 in_root examples/play.sh --ball --output /tmp && [[ -s $root/tmp/spidar-play.png ]] || status=1
 say "on a bare Debian 12: figures beside those of tests/bench/regression.json"
-in_root sh -c 'meson configure build -Dbenchmarks=enabled && ninja -C build spidar-bench plugin/libgstspidar.so &&
+in_root sh -c 'meson configure build -Dbenchmarks=enabled && ninja -C build tests/bench/spidar-bench plugin/libgstspidar.so &&
     meson test -C build --no-rebuild --benchmark --verbose regression' || status=1
 # Those of this run: what it did not need is out of date.
 rm -rf "$packages"

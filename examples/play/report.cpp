@@ -56,7 +56,7 @@ std::vector<double> forces_N(const std::vector<Row>& rows) {
 }
 
 /// Number of frames by the word of their reason.
-std::map<std::string, size_t> reasons_of(const Record& record) {
+std::map<std::string, size_t> counted_reasons(const Record& record) {
   std::map<std::string, size_t> reasons;
   for (const FrameRow& frame : record.frames()) ++reasons[frame.reason];
   return reasons;
@@ -118,7 +118,7 @@ std::string device_line(const GstStructure* stats) {
 
 /// In how many of the frames nothing was felt and why, the most frequent reason first.
 std::string unfelt_text(const Record& record) {
-  const auto counted = reasons_of(record);
+  const auto counted = counted_reasons(record);
   const size_t all = record.frames().size();
   std::vector<std::pair<std::string, size_t>> reasons(counted.begin(), counted.end());
   std::stable_sort(reasons.begin(), reasons.end(),

@@ -28,7 +28,7 @@ inline int64_t read_time(void* time) {
 }
 
 /// Grey levels of a frame: by column, row and number of the frame.
-using Picture = std::function<int(int, int, int)>;
+using GreyLevels = std::function<int(int, int, int)>;
 
 class ForceLimitTest : public testing::Test {
  protected:
@@ -67,7 +67,7 @@ class ForceLimitTest : public testing::Test {
   void show_moved(int count, double px_a_frame) {
     show(count, [&](int n) { return make_frame(h->info(), px_a_frame * n, 0); });
   }
-  void show_picture(const Picture& grey, int interval_ms = kFrame_ms) {
+  void show_picture(const GreyLevels& grey, int interval_ms = kFrame_ms) {
     const auto frame = [&](int n) {
       GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
       GstMapInfo map;

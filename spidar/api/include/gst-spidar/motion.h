@@ -31,19 +31,23 @@ enum class FeltMotion {
 
 /// What is felt, and how strongly. At first as the GStreamer element has it.
 struct MotionSettings {
-  Controller controller = Controller::kNonlinear;
-  FeltMotion motion = FeltMotion::kObject;
-  double max_force_N = 3;  ///< the largest force, finite and not negative
+  Controller controller = Controller::kNonlinear;  ///< how speed becomes force
+  FeltMotion motion = FeltMotion::kObject;         ///< whose motion is felt
+  double max_force_N = 3;                          ///< the largest force, finite and not negative
   /// How quickly force rises with speed, except with kLinear: half of the largest force is reached
   /// at 1 / `alpha_s_px` px/s in a picture of 480 rows. Finite and not negative.
   double alpha_s_px = 0.01;
-  /// Where kObjects is felt most, as shares of the picture's width and height: (0, 0) is its top
-  /// left corner, (1, 1) its bottom right one. Finite.
-  double pointer_x = 0.5, pointer_y = 0.5;
-  /// How strongly growth is felt as force towards the viewer, and roll as torque about that axis.
-  /// With 1, they count as the speed that they cause at half the picture's height from its centre;
-  /// 0 turns one off. Finite and not negative.
-  double depth_gain = 1, roll_gain = 1;
+  /// Where kObjects is felt most, as a share of the picture's width: 0 is its left edge, 1 its
+  /// right one. Finite.
+  double pointer_x = 0.5;
+  /// The same, as a share of the height: 0 is the top of the picture, 1 its bottom.
+  double pointer_y = 0.5;
+  /// How strongly growth is felt as force towards the viewer. With 1, growth counts as the speed
+  /// that it causes at half the picture's height from its centre; 0 turns it off. Finite, not
+  /// negative.
+  double depth_gain = 1;
+  /// How strongly roll is felt as torque about the view axis, in the same way.
+  double roll_gain = 1;
 };
 
 /// What was found in one picture.
