@@ -19,7 +19,6 @@
 #include "core/track/hjif.h"
 #include "core/track/track_format.h"
 #include "plugin/tools/track_samples.h"
-#include "tests/pipelines/track_command.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::test::mpeg_test {
@@ -45,6 +44,16 @@ std::string program(const std::string& name) {
 std::string read(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+double largest_difference(const std::vector<TrackSample>& a, const std::vector<TrackSample>& b) {
+  double largest = 0;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    for (size_t k = 0; k < kTrackChannels; ++k) {
+      largest = std::max(largest, std::fabs(static_cast<double>(a[i][k]) - b[i][k]));
+    }
+  }
+  return largest;
 }
 
 double difference(const std::vector<TrackSample>& a, const std::vector<TrackSample>& b) {

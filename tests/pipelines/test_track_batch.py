@@ -199,11 +199,13 @@ class Batch(track_case.TrackCase):
 
     def test_a_track_knows_its_film_and_its_properties(self):
         self.make_film("x.avi", 50)
-        self.spidartrack("record", "x.avi", "--", "max-force=2", "motion=camera")
+        for name in ("wav", "mka", "flac"):
+            self.spidartrack("record", "x.avi", "--format", name, "--", "max-force=2", "motion=camera")
+            self.assert_said("was recorded with max-force=2 motion=camera, and not with the defaults", "record", "x.avi",
+                             "--format", name)
         # The last one of a name counts, and 0.01 is the default.
         self.assertIn("is there", self.spidartrack("record", "x.avi", "--", "motion=mean", "motion=camera",
                                                    "max_force=2.0", "alpha=0.01"))
-        self.assert_said("was recorded with max-force=2 motion=camera, and not with the defaults", "record", "x.avi")
         self.assert_said("and not with alpha=0.02", "record", "x.avi", "--", "alpha=0.02")
         self.spidartrack("record", "--force", "x.avi")
         self.assertIn("is there", self.spidartrack("record", "x.avi"))
@@ -211,6 +213,15 @@ class Batch(track_case.TrackCase):
         self.assert_said("is the track of another film", "record", "x.avi")
         self.path("x.avi.haptic.flac").write_bytes(b"")
         self.assert_said("--force records it again", "record", "x.avi")
+
+    def test_a_clock_that_jumps_changes_nothing(self):
+        self.make_film("x.avi")
+        years = 10 * 365 * 24 * 3600
+        os.utime(self.path("x.avi"), (time.time() + years,) * 2)
+        self.spidartrack("record", "x.avi")
+        for later in (-years, years, 2 * years):
+            os.utime(self.path("x.avi.haptic.flac"), (time.time() + later,) * 2)
+            self.assertIn("is there", self.spidartrack("record", "x.avi"))
 
     def test_a_track_that_is_not_played_is_named(self):
         self.make_film("a.avi")

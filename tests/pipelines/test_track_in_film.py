@@ -30,6 +30,7 @@ def line_of(program):
     return lines[0]
 
 
+@track_case.needs_plugin
 @track_case.needs("ffmpeg", "ffprobe")
 class InFilm(track_case.TrackCase):
     def setUp(self):
@@ -86,7 +87,7 @@ class InFilm(track_case.TrackCase):
         self.assertGreater(max(map(abs, forces)), .1, "the track of this film pulls")
         whole = self.samples("film.haptic.flac")
         self.path("film.haptic.flac").unlink()
-        self.run_in_folder(track_case.PROGRAM + line_of("spidartrack").removeprefix("spidartrack"))
+        self.spidartrack("convert", "both.mkv", "film.haptic.flac")
         self.assertEqual(self.samples("film.haptic.flac")[:len(whole)], whole)
 
     @track_case.needs("mkvmerge")

@@ -1,0 +1,378 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""Haptic tracks on all ways of docs/haptic-track.md from a file to the hand, also over the loopback interface, and tracks
+that are faulty. In real time; nothing depends on how long anything takes: ticks that come late leave samples out, and
+none is wrong. test_track_played.py SDP_FILE"""
+
+import math
+import os
+import pathlib
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import gst_case
+import track_case
+from gst_case import Gst
+
+SDP_FILE = pathlib.Path(sys.argv.pop(1))
+# Whole steps of 24 bits, different on each axis: 0.6 N and 40 mN m.
+CONSTANT = (.0625, -.03125, .046875, .03125, -.015625, .0234375)
+FULL_N = math.hypot(*(value * 10 for value in CONSTANT[:3]))
+FRAMES = 10
+MS = 400  # as long as the film at 25 frames/s
+VIDEO = f"videotestsrc pattern=ball num-buffers={FRAMES} ! video/x-raw,width=64,height=48,framerate=25/1 ! "
+RTP = ("application/x-rtp,media=application,clock-rate=90000,encoding-name=X-GST,payload=96")
+
+
+def write_masked_wav(path, mask):
+    """A track whose header says where its channels are. A mask of Windows: 0x60f is 0xc0f of GStreamer."""
+    track_case.write_wav(path, [CONSTANT] * MS)
+    data = path.read_bytes()[36:]
+    floats = bytes.fromhex("0300000000001000800000aa00389b71")
+    path.write_bytes(b"RIFF" + struct.pack("<I", 60 + len(data)) + b"WAVEfmt " + struct.pack(
+        "<IHHIIHHHHI", 40, 0xfffe, 6, 1000, 24000, 24, 32, 22, 32, mask) + floats + data)
+
+
+class TrackPlayedCase(gst_case.GstCase):
+    def felt(self, path):
+        """The force of each tick, N. Where samples of the constant were felt, each channel was in its place."""
+        rows = gst_case.read_ticks(path)
+        self.check_ticks(rows)
+        for row in rows:
+            if row["found"] in ("exact", "interpolated"):
+                wanted = gst_case.vector(row, "wanted_force") + gst_case.vector(row, "wanted_torque", "Nm")
+                for value, share, scale in zip(wanted, CONSTANT, track_case.FULL_SCALE):
+                    self.assertAlmostEqual(value, share * scale, delta=1e-6)
+        return [math.hypot(*gst_case.vector(row, "commanded_force")) for row in rows]
+
+    def expect_felt(self, line):
+        """All ticks that felt something felt the constant, and some did."""
+        with self.subTest(line):
+            pipeline = self.parse(line)
+            outcome = self.play(pipeline)
+            self.assertEqual((outcome.error, outcome.warnings), ("", []))
+            self.felt(pipeline.watched[-1])
+            self.assertTrue(any(row["found"] in ("exact", "interpolated")
+                                for row in gst_case.read_ticks(pipeline.watched[-1])))
+
+
+class Channels(TrackPlayedCase):
+    """Six constants, different on each channel."""
+    TRACKS = ("track.wav", "track.flac", "f32.mka", "flac.mka", "s24.mov", "f64be.mov", "alac.mov")
+
+    def setUp(self):
+        super().setUp()
+        self.make_track("track.wav", MS, lambda _: CONSTANT)
+        for name in ("track.flac", "f32.mka"):
+            self.spidartrack("convert", "track.wav", name)
+        self.gst("filesrc location=track.flac ! flacparse ! matroskamux ! filesink location=flac.mka")
+        self.gst("filesrc location=track.flac ! flacparse ! flacdec ! capssetter",
+                 "caps=audio/x-raw,channel-mask=(bitmask)0x0 ! audioconvert dithering=none noise-shaping=none !",
+                 "audio/x-raw,format=S24LE ! qtmux ! filesink location=s24.mov")
+        # The decoder of ALAC gives channel after channel, and the other file has numbers whose first byte is the largest.
+        for codec, name in (("alac", "alac.mov"), ("pcm_f64be", "f64be.mov")):
+            self.run_in_folder(f"ffmpeg -nostdin -v error -i track.flac -c:a {codec} {name}")
+
+    @track_case.needs("ffmpeg")
+    def test_every_container_into_the_sink_and_in_place_of_analysis(self):
+        for name in self.TRACKS:
+            track = self.path(name)
+            self.expect_felt(f"filesrc location={track} ! decodebin ! spidarsink")
+            self.expect_felt(f"{VIDEO} spidarmotion track={track} ! fakesink sync=true")
+
+    @track_case.needs("ffmpeg")
+    def test_the_track_beside_the_film_and_the_one_in_it(self):
+        self.gst("avimux name=mux ! filesink location=sound.avi", VIDEO, "jpegenc ! mux. audiotestsrc num-buffers=20",
+                 "samplesperbuffer=960 ! audio/x-raw,format=S16LE,rate=48000,channels=2 ! mux.")
+        play = "! jpegdec ! videoconvert ! spidarmotion track={} ! fakesink sync=true"
+        for end in (".flac", ".mka", ".wav"):
+            beside = self.path("sound.haptic" + end)
+            self.spidartrack("convert", "track.wav", beside.name)
+            self.expect_felt(f"filesrc location={self.path('sound.avi')} ! avidemux {play.format('auto')}")
+            beside.unlink()
+        self.run_in_folder("ffmpeg -nostdin -v error -i sound.avi -i alac.mov -map 0 -map 1 -c copy felt.mov")
+        both = self.path("felt.mov")
+        self.expect_felt(f"{VIDEO} spidarmotion track={both} ! fakesink sync=true")
+        self.expect_felt(f"filesrc location={both} ! qtdemux {play.format('auto')}")
+
+
+class BadTracks(TrackPlayedCase):
+    # The words that name what is wrong, channels, rate in Hz, and mask.
+    CASES = (("5 channels", 5, 1000, 0x37), ("8 channels", 8, 1000, 0xc3f), ("not 48000", 6, 48000, 0x3f),
+             ("not 96", 6, 96, 0x3f), ("channel-mask 0xc0f", 6, 1000, 0xc0f))
+
+    def film(self, track):
+        return self.play(f"{VIDEO} spidarmotion track={track} ! queue ! fakesink sync=true")
+
+    def expect_analysed(self, outcome, word):
+        self.assertTrue(outcome.eos, outcome.error)
+        self.assertIn(word, outcome.warnings[0])
+        self.assertEqual(len(outcome.forces), FRAMES)
+
+    def test_for_a_film_they_are_named_and_it_is_analysed_and_in_the_sink_they_are_an_error(self):
+        track = self.path("bad.wav")
+        for word, channels, rate, mask in self.CASES:
+            with self.subTest(word):
+                if mask == 0xc0f:
+                    write_masked_wav(track, 0x60f)
+                else:
+                    track_case.write_wav(track, [(.1,) * channels] * (rate * MS // 1000), rate)
+                self.expect_analysed(self.film(track), word)
+                outcome = self.play(f"filesrc location={track} ! wavparse ! spidarsink")
+                self.assertIn(word, outcome.error)
+
+    def test_the_sink_has_only_caps_in_its_template_that_it_accepts(self):
+        template, = Gst.ElementFactory.find("spidarsink").get_static_pad_templates()
+
+        def is_accepted(channels, rate, mask):
+            return template.get_caps().can_intersect(Gst.Caps.from_string(
+                f"audio/x-raw,format=F32LE,layout=interleaved,rate={rate},channels={channels},"
+                f"channel-mask=(bitmask){mask:#x}"))
+
+        self.assertFalse([case for case in self.CASES if is_accepted(*case[1:])])
+        self.assertTrue(all(is_accepted(6, rate, mask) for rate in (200, 1000, 8000) for mask in (0, 0x3f)))
+
+    def test_samples_that_are_no_numbers_are_rest_and_huge_ones_limited(self):
+        samples = [list(CONSTANT) for _ in range(MS)]
+        samples[200][0], samples[250][5] = math.nan, -math.inf
+        for sample in samples[300:350]:
+            sample[1] = 1e30
+        track = self.path("bad.wav")
+        track_case.write_wav(track, samples)
+        film, sink = self.film(track), self.play(f"filesrc location={track} ! wavparse ! spidarsink")
+        for outcome, first, second in ((film, "2 samples", "50 samples"), (sink, "samples", "samples")):
+            self.assertTrue(outcome.eos, outcome.error)
+            self.assertEqual(len(outcome.warnings), 2)
+            self.assertIn(first + " that are not numbers", outcome.warnings[0])
+            self.assertIn(second + " beyond full scale", outcome.warnings[1])
+
+    def test_a_truncated_flac_is_named_for_a_film_and_goes_to_rest_in_the_sink(self):
+        self.make_track()
+        self.spidartrack("convert", "a.wav", "cut.flac")
+        track = self.path("cut.flac")
+        os.truncate(track, track.stat().st_size * 2 // 3)
+        self.expect_analysed(self.film(track), "it is cut off")
+        # The check of the ticks looks for rest after the last sample.
+        self.play(f"filesrc location={track} ! flacparse ! flacdec ! spidarsink")
+
+    def test_what_may_never_end_is_not_read(self):
+        """Reading would block for ever, and stopping with it."""
+        fifo = self.path("film.avi.haptic.flac")
+        os.mkfifo(fifo)
+        self.expect_analysed(self.film(fifo), "not a regular file")
+        self.make_film("film.avi", FRAMES)
+        line = (f"filesrc location={self.path('film.avi')} ! avidemux ! jpegdec ! videoconvert ! "
+                "spidarmotion track=auto ! fakesink sync=true")
+        for state in (Gst.State.PAUSED, Gst.State.PLAYING):
+            pipeline = self.parse(line)
+            pipeline.set_state(state)
+            self.stop(pipeline)
+        self.expect_analysed(self.play(line), "not a regular file")
+
+    def test_the_track_of_another_film_may_differ_by_a_frame_and_no_more(self):
+        for ms in (MS - 60, MS - 40, MS, MS + 40, MS + 60):
+            with self.subTest(ms):
+                self.make_track("a.wav", ms)
+                outcome = self.film(self.path("a.wav"))
+                if abs(ms - MS) <= 40:
+                    self.assertEqual((outcome.warnings, outcome.forces), ([], []))
+                else:
+                    self.expect_analysed(outcome, f"the film {MS / 1000:.3f} s")
+
+    def test_messages_are_logged_under_the_name_of_the_element(self):
+        lines = {"spidarsink": "audiotestsrc num-buffers=2 ! audio/x-raw,rate=1000,channels=6,channel-mask=(bitmask)0x3f ! "
+                               "spidarsink {}",
+                 "spidarmotion": "videotestsrc num-buffers=2 ! spidarmotion {} ! fakesink"}
+        for element, line in lines.items():
+            for prop, said in (("device=no-such-device", "error: unknown device"),
+                               ("haptic-trace=/dev/full", "warning: The haptic trace can no longer be written")):
+                run = subprocess.run(["gst-launch-1.0", *line.format(prop).split()], capture_output=True, text=True,
+                                     env=dict(os.environ, GST_DEBUG="2", GST_DEBUG_NO_COLOR="1"), check=False)
+                self.assertRegex(run.stderr, f" {element} .*{said}")
+
+
+class NetworkCase(TrackPlayedCase):
+    """A track of three seconds, sent as on the page."""
+
+    def setUp(self):
+        super().setUp()
+        self.make_track(count=3000, sample=lambda _: CONSTANT)
+        self.spidartrack("convert", "a.wav", "film.flac")
+        self.track = f"filesrc location={self.path('film.flac')} ! flacparse ! "
+
+    def receiver(self, source, options=""):
+        receiver = self.parse(f"{source} ! spidarsink name=sink {options}")
+        receiver.set_state(Gst.State.PLAYING)
+        return receiver
+
+    @staticmethod
+    def samples_of(receiver):
+        return receiver.get_by_name("sink").get_property("stats").get_value("samples")
+
+    def await_samples(self, receiver, count):
+        while self.samples_of(receiver) < count:
+            time.sleep(.01)
+
+    def await_silence(self, receiver):
+        before, now = 0, self.samples_of(receiver)
+        while now == 0 or now != before:
+            before = now
+            time.sleep(1)  # more than what waits in the buffers
+            now = self.samples_of(receiver)
+
+    def send_all(self, sender, receiver):
+        """Plays `sender` to its end, and ends `receiver` when nothing comes any more. The forces that were felt, N."""
+        outcome = self.play(sender)
+        self.assertTrue(outcome.eos, outcome.error)
+        self.await_silence(receiver)
+        self.stop(receiver)
+        return self.felt(receiver.watched[-1])
+
+    def expect_rest_between(self, forces):
+        """All of the force was felt, then there was rest, then all of it again."""
+        full = [n for n, force in enumerate(forces) if force > .99 * FULL_N]
+        self.assertTrue(any(force == 0 for force in forces[full[0]:full[-1]]), "felt, at rest, and felt again")
+
+    @staticmethod
+    def free_port():
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+            free.bind(("127.0.0.1", 0))
+            return free.getsockname()[1]
+
+
+class Network(NetworkCase):
+    def udp_sender(self, port):
+        return self.parse(f"{self.track} flacdec ! rtpgstpay name=pay config-interval=1 ! udpsink host=127.0.0.1 "
+                          f"port={port}")
+
+    def test_lost_packets_are_a_ramp_to_rest_and_back(self):
+        receiver = self.parse(f"udpsrc name=source address=127.0.0.1 port=0 caps=\"{RTP}\" ! rtpjitterbuffer latency=200 ! "
+                              "rtpgstdepay ! spidarsink name=sink")
+        receiver.get_by_name("source").set_state(Gst.State.READY)
+        receiver.set_state(Gst.State.PLAYING)
+        sender = self.udp_sender(receiver.get_by_name("source").get_property("port"))
+        packets = []
+
+        def lose(_pad, _info):
+            """A second of packets arrives but for three, then none for 0.8 s, then all."""
+            packets.append(None)
+            n = len(packets) - 1
+            return Gst.PadProbeReturn.DROP if n in (10, 15, 16) or 25 <= n < 45 else Gst.PadProbeReturn.OK
+
+        # The payloader pushes each packet as a list of one.
+        sender.get_by_name("pay").get_static_pad("src").add_probe(
+            Gst.PadProbeType.BUFFER | Gst.PadProbeType.BUFFER_LIST, lose)
+        self.expect_rest_between(self.send_all(sender, receiver))
+        self.assertGreaterEqual(len(packets), 75, "one for each 40 ms")
+
+    @unittest.skipUnless(Gst.ElementFactory.find("sdpdemux"), "needs gstreamer1.0-plugins-bad")
+    def test_an_sdp_file_leads_to_the_track(self):
+        port = self.free_port()
+        of_page = " 5004 "
+        text = SDP_FILE.read_text(encoding="ascii")
+        self.assertIn(of_page, text)
+        self.path("haptic.sdp").write_text(text.replace(of_page, f" {port} "))
+        receiver = self.receiver(f"filesrc location={self.path('haptic.sdp')} ! sdpdemux latency=200 ! rtpgstdepay")
+        self.assertAlmostEqual(max(self.send_all(self.udp_sender(port), receiver)), FULL_N, delta=1e-6)
+
+    def test_matroska_over_tcp(self):
+        sender = self.parse(f"{self.track} matroskamux streamable=true min-cluster-duration=0 "
+                            "max-cluster-duration=100000000 ! tcpserversink name=server host=127.0.0.1 port=0 sync=true "
+                            "sync-method=next-keyframe")
+        sender.set_state(Gst.State.PAUSED)
+        sender.get_state(Gst.CLOCK_TIME_NONE)
+        server = sender.get_by_name("server")
+        receiver = self.receiver(f"tcpclientsrc host=127.0.0.1 port={server.get_property('current-port')} ! matroskademux ! "
+                                 "flacparse ! flacdec", "ts-offset=200000000")
+        # So that all of the track is there to be received, however slow this is.
+        while server.get_property("num-handles") == 0:
+            time.sleep(.01)
+        self.play(sender)
+        self.assertTrue(self.play(receiver).eos)
+        self.assertAlmostEqual(max(self.felt(receiver.watched[-1])), FULL_N, delta=1e-6)
+
+
+class CutLink(threading.Thread):
+    """Passes packets between a port of the loopback interface and another one; while it is cut, they are lost."""
+
+    def __init__(self, to_port):
+        super().__init__()
+        self.near, self.far = (socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2))
+        self.near.bind(("127.0.0.1", 0))
+        self.port = self.near.getsockname()[1]
+        self.far.connect(("127.0.0.1", to_port))
+        self.is_cut = self.ends = False
+        self.caller = None
+        self.start()
+
+    def run(self):
+        for one in (self.near, self.far):
+            one.settimeout(.005)
+        while not self.ends:
+            for one in (self.near, self.far):
+                try:
+                    packet, sender = one.recvfrom(65536)
+                    if one is self.near:
+                        self.caller = sender
+                    if not self.is_cut and one is self.near:
+                        self.far.send(packet)
+                    elif not self.is_cut:
+                        self.near.sendto(packet, self.caller)
+                except OSError:  # nothing has come, or the other side's port is closed
+                    pass
+        self.near.close()
+        self.far.close()
+
+
+@unittest.skipUnless(Gst.ElementFactory.find("srtsrc"), "needs gstreamer1.0-plugins-bad")
+class Srt(NetworkCase):
+    def sender(self, port):
+        sender = self.parse(f"{self.track} flacdec ! rtpgstpay config-interval=1 mtu=1316 ! "
+                            f"srtsink uri=\"srt://127.0.0.1:{port}?mode=listener\"")
+        sender.set_state(Gst.State.PLAYING)
+        return sender
+
+    def srt_receiver(self, port):
+        return self.receiver(f"srtsrc latency=200 uri=srt://127.0.0.1:{port} ! {RTP} ! rtpjitterbuffer latency=50 ! "
+                             "rtpgstdepay")
+
+    def expect_felt_again(self, receiver):
+        self.await_silence(receiver)
+        self.stop(receiver)
+        self.expect_rest_between(self.felt(receiver.watched[-1]))
+
+    def test_a_link_that_is_cut_is_a_ramp_to_rest_and_back(self):
+        port = self.free_port()
+        link = CutLink(port)
+        sender = self.sender(port)
+        receiver = self.srt_receiver(link.port)
+        self.await_samples(receiver, 400)
+        link.is_cut = True
+        time.sleep(1)
+        link.is_cut = False
+        self.expect_felt_again(receiver)
+        self.stop(sender)
+        link.ends = True
+        link.join()
+
+    def test_a_sender_that_is_started_again_is_felt_again(self):
+        port = self.free_port()
+        first = self.sender(port)
+        receiver = self.srt_receiver(port)
+        self.await_samples(receiver, 400)
+        self.stop(first)
+        time.sleep(.3)  # at rest by then
+        before = self.samples_of(receiver)
+        second = self.sender(port)
+        self.await_samples(receiver, before + 400)
+        self.expect_felt_again(receiver)
+        self.stop(second)
+
+
+if __name__ == "__main__":
+    unittest.main()
