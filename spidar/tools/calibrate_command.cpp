@@ -11,6 +11,7 @@
 
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/count_recorder.h"
+#include "spidar/conformance/wiring_test.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
@@ -24,7 +25,6 @@
 #include "spidar/tools/selftest_report.h"
 #include "spidar/tools/sim_wiring.h"
 #include "spidar/tools/terminal.h"
-#include "spidar/wiring/wiring_test.h"
 
 namespace spidar {
 namespace {

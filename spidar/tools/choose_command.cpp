@@ -5,13 +5,13 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "spidar/conformance/encoder_signs.h"
+#include "spidar/conformance/string_hold.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/terminal.h"
-#include "spidar/wiring/encoder_signs.h"
-#include "spidar/wiring/string_hold.h"
 
 namespace spidar {
 namespace {

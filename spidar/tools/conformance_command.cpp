@@ -9,7 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "spidar/delay/delay_test.h"
+#include "spidar/conformance/delay_test.h"
+#include "spidar/conformance/force_hold.h"
+#include "spidar/conformance/wiring_test.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
@@ -21,8 +23,6 @@
 #include "spidar/tools/selftest_report.h"
 #include "spidar/tools/sim_wiring.h"
 #include "spidar/tools/terminal.h"
-#include "spidar/wiring/force_hold.h"
-#include "spidar/wiring/wiring_test.h"
 
 namespace spidar {
 namespace {

@@ -9,7 +9,7 @@
 #include <sys/utsname.h>
 
 #include "spidar/boards/board_device.h"
-#include "spidar/delay/lag_verdict.h"
+#include "spidar/conformance/lag_verdict.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/tools/delay_report.h"
 #include "spidar/tools/selftest_report.h"

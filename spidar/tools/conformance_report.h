@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
-#include "spidar/delay/delay_test.h"
+#include "spidar/conformance/delay_test.h"
+#include "spidar/conformance/wiring_answers.h"
+#include "spidar/conformance/wiring_report.h"
 #include "spidar/session/board_list.h"
 #include "spidar/tools/observed_device.h"
-#include "spidar/wiring/wiring_answers.h"
-#include "spidar/wiring/wiring_report.h"
 
 namespace spidar {
 

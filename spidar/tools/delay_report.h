@@ -6,8 +6,8 @@
 #include <iosfwd>
 #include <string>
 
-#include "spidar/delay/delay_test.h"
-#include "spidar/delay/lag_verdict.h"
+#include "spidar/conformance/delay_test.h"
+#include "spidar/conformance/lag_verdict.h"
 
 namespace spidar {
 

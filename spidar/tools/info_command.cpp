@@ -5,12 +5,12 @@
 #include <iostream>
 #include <limits>
 
+#include "spidar/conformance/force_hold.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/json_text.h"
 #include "spidar/tools/terminal.h"
-#include "spidar/wiring/force_hold.h"
 
 namespace spidar {
 namespace {

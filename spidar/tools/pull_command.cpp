@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <iostream>
 
+#include "spidar/conformance/wiring_answers.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/json_text.h"
 #include "spidar/tools/readout.h"
 #include "spidar/tools/terminal.h"
-#include "spidar/wiring/wiring_answers.h"
 
 namespace spidar {
 namespace {

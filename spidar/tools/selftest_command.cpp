@@ -4,6 +4,8 @@
 #include <iostream>
 #include <string>
 
+#include "spidar/conformance/stick_test.h"
+#include "spidar/conformance/wiring_test.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/tools/chosen_device.h"
@@ -11,8 +13,6 @@
 #include "spidar/tools/selftest_report.h"
 #include "spidar/tools/sim_wiring.h"
 #include "spidar/tools/terminal.h"
-#include "spidar/wiring/stick_test.h"
-#include "spidar/wiring/wiring_test.h"
 
 namespace spidar {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "spidar/conformance/wiring_test.h"
 #include "spidar/tools/json_text.h"
-#include "spidar/wiring/wiring_test.h"
 
 namespace spidar {
 namespace {

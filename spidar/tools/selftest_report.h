@@ -5,7 +5,7 @@
 
 #include <iosfwd>
 
-#include "spidar/wiring/wiring_report.h"
+#include "spidar/conformance/wiring_report.h"
 
 namespace spidar {
 

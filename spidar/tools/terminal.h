@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "spidar/wiring/string_hold.h"
+#include "spidar/conformance/string_hold.h"
 
 namespace spidar {
 

@@ -2,10 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include <iostream>
 
+#include "spidar/conformance/force_hold.h"
 #include "spidar/tools/chosen_device.h"
 #include "spidar/tools/commands.h"
 #include "spidar/tools/terminal.h"
-#include "spidar/wiring/force_hold.h"
 
 namespace spidar {
 namespace {

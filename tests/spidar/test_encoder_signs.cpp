@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "spidar/wiring/encoder_signs.h"
+#include "spidar/conformance/encoder_signs.h"
 
 namespace spidar::test::encoder_signs_test {
 namespace {

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/conformance/encoder_signs.h"
 #include "spidar/session/profile_choice.h"
-#include "spidar/wiring/encoder_signs.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
 #include "tests/support/shell.h"

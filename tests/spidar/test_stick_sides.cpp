@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/conformance/stick_test.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/wiring/stick_test.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
 

@@ -11,11 +11,11 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/conformance/wiring_answers.h"
+#include "spidar/conformance/wiring_report.h"
 #include "spidar/grip/tension_limits.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/miswired_device.h"
-#include "spidar/wiring/wiring_answers.h"
-#include "spidar/wiring/wiring_report.h"
 
 namespace spidar::test::wiring_test {
 namespace {

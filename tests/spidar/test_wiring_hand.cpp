@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/conformance/wiring_test.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/miswired_device.h"
-#include "spidar/wiring/wiring_test.h"
 
 namespace spidar::test::wiring_hand_test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/delay/response_lines.h"
+#include "spidar/conformance/response_lines.h"
 
 namespace spidar {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/delay/lag_verdict.h"
+#include "spidar/conformance/lag_verdict.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,10 +6,10 @@
 #include <functional>
 #include <string>
 
+#include "spidar/conformance/wiring_answers.h"
+#include "spidar/conformance/wiring_report.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/wiring/wiring_answers.h"
-#include "spidar/wiring/wiring_report.h"
 
 namespace spidar {
 

@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "core/delay/lag_fit.h"
+#include "spidar/conformance/lag_fit.h"
+#include "spidar/conformance/string_hold.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/wiring/string_hold.h"
 
 namespace spidar {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/wiring/encoder_signs.h"
+#include "spidar/conformance/encoder_signs.h"
 
 #include <algorithm>
 

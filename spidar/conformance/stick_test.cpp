@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/wiring/stick_test.h"
+#include "spidar/conformance/stick_test.h"
 
+#include "spidar/conformance/force_hold.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/wiring/force_hold.h"
 
 namespace spidar {
 namespace {

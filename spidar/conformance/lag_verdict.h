@@ -3,7 +3,7 @@
 /// The consequences of a measured lag for a profile and for surfaces.
 #pragma once
 
-#include "core/delay/lag_fit.h"
+#include "spidar/conformance/lag_fit.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/wiring/force_hold.h"
+#include "spidar/conformance/force_hold.h"
 
 #include <algorithm>
 #include <cmath>

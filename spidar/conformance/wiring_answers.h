@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
+#include "spidar/conformance/string_hold.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/wiring/string_hold.h"
 
 namespace spidar {
 

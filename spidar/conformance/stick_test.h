@@ -5,8 +5,8 @@
 
 #include <array>
 
+#include "spidar/conformance/string_hold.h"
 #include "spidar/grip/grip.h"
-#include "spidar/wiring/string_hold.h"
 
 namespace spidar {
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/delay/lag_fit.h"
+#include "spidar/conformance/lag_fit.h"
 
 namespace spidar::test::lag_fit_test {
 namespace {

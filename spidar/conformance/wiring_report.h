@@ -6,8 +6,8 @@
 #include <array>
 #include <string>
 
+#include "spidar/conformance/wiring_answers.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/wiring/wiring_answers.h"
 
 namespace spidar {
 

@@ -7,7 +7,7 @@
 #include <complex>
 #include <vector>
 
-#include "core/delay/multisine.h"
+#include "spidar/conformance/multisine.h"
 
 namespace spidar {
 

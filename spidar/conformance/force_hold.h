@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "spidar/conformance/string_hold.h"
 #include "spidar/grip/grip.h"
-#include "spidar/wiring/string_hold.h"
 
 namespace spidar {
 
