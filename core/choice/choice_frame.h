@@ -9,8 +9,8 @@
 
 #include "core/choice/chosen.h"
 #include "core/choice/picture_box.h"
-#include "core/motion/background.h"
-#include "core/motion/moving_object.h"
+#include "core/motion/camera/background.h"
+#include "core/motion/objects/moving_object.h"
 
 namespace spidar {
 

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/choice/feel_rules.h"
-#include "core/motion/moving_object.h"
+#include "core/motion/objects/moving_object.h"
 #include "core/picture_turn.h"
 
 namespace spidar {

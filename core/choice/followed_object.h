@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
-#include "core/motion/background.h"
-#include "core/motion/moving_object.h"
+#include "core/motion/camera/background.h"
+#include "core/motion/objects/moving_object.h"
 
 namespace spidar {
 

@@ -11,7 +11,7 @@
 #include "core/choice/chosen.h"
 #include "core/choice/feel_rules.h"
 #include "core/choice/followed_object.h"
-#include "core/motion/moving_object.h"
+#include "core/motion/objects/moving_object.h"
 
 namespace spidar {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/motion/background.h"
+#include "core/motion/camera/background.h"
 #include "core/motion/image_motion.h"
-#include "core/motion/moving_object.h"
+#include "core/motion/objects/moving_object.h"
 #include "core/tracking/picture_kind.h"
 #include "core/tracking/tracker.h"
 

@@ -9,10 +9,10 @@
 #include "core/field/block_field.h"
 #include "core/field/fine_windows.h"
 #include "core/field/reduced_frame.h"
-#include "core/motion/background.h"
-#include "core/motion/dominant_object.h"
+#include "core/motion/camera/background.h"
 #include "core/motion/measured_frame.h"
-#include "core/motion/objects.h"
+#include "core/motion/objects/dominant_object.h"
+#include "core/motion/objects/object_tracker.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {

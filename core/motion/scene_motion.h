@@ -7,10 +7,10 @@
 
 #include <Eigen/Core>
 
-#include "core/motion/background.h"
+#include "core/motion/camera/background.h"
+#include "core/motion/camera/motion_models.h"
 #include "core/motion/image_motion.h"
-#include "core/motion/motion_models.h"
-#include "core/motion/moving_object.h"
+#include "core/motion/objects/moving_object.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {

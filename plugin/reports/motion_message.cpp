@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/reports/motion_message.h"
 
-#include "core/motion/moving_object.h"
+#include "core/motion/objects/moving_object.h"
 #include "plugin/reports/limit_watch.h"
 
 namespace spidar {

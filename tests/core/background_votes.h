@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/motion/background.h"
+#include "core/motion/camera/background.h"
 #include "track_samples.h"
 
 namespace spidar::test::background_votes {

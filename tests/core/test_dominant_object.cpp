@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion/dominant_object.h"
+#include "core/motion/objects/dominant_object.h"
 
 namespace spidar::test::dominant_object_test {
 namespace {

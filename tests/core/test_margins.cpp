@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/motion/margins.h"
+#include "core/motion/layers/margins.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 

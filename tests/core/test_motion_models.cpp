@@ -7,8 +7,8 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "core/motion/motion_models.h"
-#include "core/motion/robust_fit.h"
+#include "core/motion/camera/motion_models.h"
+#include "core/motion/camera/robust_fit.h"
 #include "track_samples.h"
 
 namespace spidar::test::motion_models_test {

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/motion/objects.h"
+#include "core/motion/objects/object_tracker.h"
 #include "tests/core/field_film.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene_film.h"

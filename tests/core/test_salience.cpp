@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion/layer_evidence.h"
-#include "core/motion/salience.h"
+#include "core/motion/layers/layer_evidence.h"
+#include "core/motion/layers/salience.h"
 
 namespace spidar::test::salience_test {
 namespace {

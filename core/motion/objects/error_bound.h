@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "core/motion/object_motion.h"
-#include "core/motion/regions.h"
+#include "core/motion/layers/regions.h"
+#include "core/motion/objects/object_motion.h"
 
 namespace spidar {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/motion/moving_object.h"
+#include "core/motion/objects/moving_object.h"
 
 namespace spidar {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/field/block_field.h"
-#include "core/motion/background.h"
-#include "core/motion/burned_in.h"
+#include "core/motion/camera/background.h"
+#include "core/motion/layers/burned_in.h"
 
 namespace spidar {
 

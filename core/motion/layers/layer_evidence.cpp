@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/motion/layer_evidence.h"
+#include "core/motion/layers/layer_evidence.h"
 
 #include <algorithm>
 #include <initializer_list>

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/field/block_field.h"
-#include "core/motion/moving_blocks.h"
+#include "core/motion/layers/moving_blocks.h"
 #include "core/tracking/shares.h"
 
 namespace spidar {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/motion/burned_in.h"
+#include "core/motion/layers/burned_in.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/robust_fit.h"
+#include "core/motion/camera/robust_fit.h"
 #include "core/tracking/shares.h"
 
 namespace spidar {

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "core/motion/motion_models.h"
-#include "core/motion/robust_fit.h"
+#include "core/motion/camera/motion_models.h"
+#include "core/motion/camera/robust_fit.h"
 
 namespace spidar {
 

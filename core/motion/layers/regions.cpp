@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/motion/regions.h"
+#include "core/motion/layers/regions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include "core/motion/robust_fit.h"
+#include "core/motion/camera/robust_fit.h"
 #include "core/quantile.h"
 
 namespace spidar {

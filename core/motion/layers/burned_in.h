@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/field/block_field.h"
-#include "core/motion/margins.h"
+#include "core/motion/layers/margins.h"
 
 namespace spidar {
 

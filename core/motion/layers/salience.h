@@ -3,8 +3,8 @@
 /// Scores how much a region looks like an object rather than a layer of the scene.
 #pragma once
 
-#include "core/motion/layer_evidence.h"
-#include "core/motion/regions.h"
+#include "core/motion/layers/layer_evidence.h"
+#include "core/motion/layers/regions.h"
 
 namespace spidar {
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "core/motion/motion_models.h"
+#include "core/motion/camera/motion_models.h"
 
 namespace spidar {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/motion/motion_models.h"
+#include "core/motion/camera/motion_models.h"
 
 #include <cmath>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/motion/objects.h"
+#include "core/motion/objects/object_tracker.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/margins.h"
-#include "core/motion/salience.h"
+#include "core/motion/layers/margins.h"
+#include "core/motion/layers/salience.h"
 #include "core/quantile.h"
 #include "core/tracking/shares.h"
 

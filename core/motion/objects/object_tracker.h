@@ -10,15 +10,15 @@
 
 #include "core/field/block_field.h"
 #include "core/field/fine_windows.h"
-#include "core/motion/background.h"
-#include "core/motion/error_bound.h"
-#include "core/motion/layer_evidence.h"
-#include "core/motion/motion_models.h"
-#include "core/motion/moving_blocks.h"
-#include "core/motion/moving_object.h"
-#include "core/motion/object_motion.h"
-#include "core/motion/regions.h"
-#include "core/motion/salience.h"
+#include "core/motion/camera/background.h"
+#include "core/motion/camera/motion_models.h"
+#include "core/motion/layers/layer_evidence.h"
+#include "core/motion/layers/moving_blocks.h"
+#include "core/motion/layers/regions.h"
+#include "core/motion/layers/salience.h"
+#include "core/motion/objects/error_bound.h"
+#include "core/motion/objects/moving_object.h"
+#include "core/motion/objects/object_motion.h"
 
 namespace spidar {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/motion/dominant_object.h"
+#include "core/motion/objects/dominant_object.h"
 
 #include <algorithm>
 #include <utility>

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/motion/motion_models.h"
+#include "core/motion/camera/motion_models.h"
 
 namespace spidar {
 

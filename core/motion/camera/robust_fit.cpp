@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/motion/robust_fit.h"
+#include "core/motion/camera/robust_fit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,11 +10,11 @@
 
 #include "core/field/block_field.h"
 #include "core/field/fine_windows.h"
-#include "core/motion/background.h"
-#include "core/motion/motion_models.h"
-#include "core/motion/moving_blocks.h"
-#include "core/motion/regions.h"
-#include "core/motion/robust_fit.h"
+#include "core/motion/camera/background.h"
+#include "core/motion/camera/motion_models.h"
+#include "core/motion/camera/robust_fit.h"
+#include "core/motion/layers/moving_blocks.h"
+#include "core/motion/layers/regions.h"
 
 namespace spidar {
 

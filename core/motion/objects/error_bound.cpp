@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/motion/error_bound.h"
+#include "core/motion/objects/error_bound.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/moving_object.h"
+#include "core/motion/objects/moving_object.h"
 #include "core/quantile.h"
 
 namespace spidar {
